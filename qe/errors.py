@@ -1,0 +1,55 @@
+"""The error tree: bad input, inability and rejection are three different things, by type."""
+
+from __future__ import annotations
+
+
+class QEError(Exception):
+    """Base class of every error this package raises on purpose."""
+
+
+class InputError(QEError):
+    """The caller's input cannot be understood; the message is one line saying what was expected."""
+
+
+class ParseError(InputError):
+    """A formula text cannot be read.
+
+    ``line`` and ``column`` count from 1; ``expected`` says what would have been accepted there.
+    """
+
+    def __init__(self, message: str, *, source: str = "<text>", line: int = 1, column: int = 1, expected: str = "") -> None:
+        self.message, self.source, self.line, self.column, self.expected = message, source, line, column, expected
+        tail = f" (expected {expected})" if expected else ""
+        super().__init__(f"{source}:{line}:{column}: {message}{tail}")
+
+
+class Unable(QEError):
+    """No answer could be given; never raised to hide a wrong one. Carries what is known so far."""
+
+
+class DegreeTooHigh(Unable):
+    """Virtual substitution met a degree in the quantified variable that it has no test points for."""
+
+
+class NotWellOriented(Unable):
+    """A projection factor vanishes identically over a cell of positive dimension (McCallum 1998)."""
+
+
+class BudgetExceeded(Unable):
+    """A limit on time, memory or cells was reached; ``limit`` names it."""
+
+    def __init__(self, message: str, *, limit: str = "time") -> None:
+        self.limit = limit
+        super().__init__(message)
+
+
+class CertificateRejected(QEError):
+    """A certificate does not prove what it claims; ``step`` names the failing entry."""
+
+    def __init__(self, step: str, reason: str) -> None:
+        self.step, self.reason = step, reason
+        super().__init__(f"{step}: {reason}")
+
+
+class InternalError(QEError):
+    """A broken invariant: a bug in this package."""

@@ -1,0 +1,69 @@
+"""The cell table: a (partial) cylindrical algebraic decomposition as pure data.
+
+Levels count from 0: variable ``order[k]`` is the main variable of level ``k``. A ``Cell`` at depth k
+lies in R^k; the root has depth 0. ``Cell.stack`` decomposes the cylinder over it by the real roots of
+the factors of level k. A stack with m sections has 2m+1 cells: sectors at even positions 0, 2, …, 2m
+and sections at odd positions 1, 3, … (position p is index p+1 in the usual 1-based convention, so odd
+index is a sector and even index a section). Sector samples are rational and separate the sections:
+section i lies strictly between sector samples i and i+1, and every factor listed for it has exactly
+one real root over the cell's sample between those two numbers.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+
+from qe.exact.ring import Poly
+from qe.formula.syntax import Formula
+from qe.options import Projection
+
+
+@dataclass(frozen=True, slots=True)
+class Stack:
+    """The decomposition of the cylinder over one cell.
+
+    ``used``: indices into the level's factor list of the factors isolated here. Below the last level it
+    is always the whole list; at the last level it may leave out factors that no longer matter there.
+    ``sectors``: m+1 ascending rational sample values. ``sections``: for each of the m sections the
+    indices (ascending) of the used factors that vanish on it. ``cells``: 2m+1 cells.
+    """
+
+    used: tuple[int, ...]
+    sectors: tuple[Fraction, ...]
+    sections: tuple[tuple[int, ...], ...]
+    cells: tuple[Cell, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Cell:
+    """One cell.
+
+    ``signs``: for the cell at depth k+1, one character of ``+-0`` per factor of level k that its parent's
+    stack used, in the order of ``Stack.used`` (empty for the root). A factor that is nullified over the
+    parent's sample has sign 0 on the whole stack. ``truth``: the truth value of the formula (with its
+    quantified variables above this depth) on the cell; None only for a cell that was not needed because
+    its quantifier was already decided by a sibling, or for a cell over free variables that was decomposed.
+    ``stack`` is None for a leaf.
+    """
+
+    signs: str
+    truth: bool | None
+    stack: Stack | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class CellTable:
+    """A certificate that ``formula`` (prenex) has the stated truth value on every cell.
+
+    ``order``: all variables, free ones first. ``quantifiers``: for each level "" (free), "E" or "A".
+    ``matrix``: the quantifier-free part, over a ring whose names are ``order``. ``factors[k]``: the
+    irreducible polynomials of level k. ``projection``: the operator under which the lists are closed.
+    """
+
+    order: tuple[str, ...]
+    quantifiers: tuple[str, ...]
+    matrix: Formula
+    projection: Projection
+    factors: tuple[tuple[Poly, ...], ...]
+    root: Cell

@@ -1,0 +1,1 @@
+"""Exact layer: integer polynomials, real algebraic numbers and sample points, on FLINT."""

@@ -1,0 +1,112 @@
+"""Smart constructors: the only way formulas are built, so that the invariants of ``syntax`` hold."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from qe.exact.ring import Poly, Ring
+from qe.formula.syntax import FALSE, TRUE, And, Atom, Constant, Exists, ForAll, Formula, Not, Or, Relation, RootAtom
+
+
+def atom(poly: Poly, relation: Relation) -> Formula:
+    """``poly relation 0`` with the polynomial normalised; TRUE or FALSE for a constant polynomial."""
+    if poly.is_constant:
+        value = poly.constant_value()
+        return TRUE if relation.holds((value > 0) - (value < 0)) else FALSE
+    unit, primitive = poly.normal()
+    return Atom(primitive, relation if unit > 0 else relation.flipped)
+
+
+def conj(args: Iterable[Formula]) -> Formula:
+    """Conjunction, flattened, without duplicates; FALSE absorbs; of nothing: TRUE."""
+    seen: dict[Formula, None] = {}
+    for arg in args:
+        if isinstance(arg, Constant):
+            if not arg.value:
+                return FALSE
+        elif isinstance(arg, And):
+            seen.update(dict.fromkeys(arg.args))
+        else:
+            seen[arg] = None
+    return TRUE if not seen else next(iter(seen)) if len(seen) == 1 else And(tuple(seen))
+
+
+def disj(args: Iterable[Formula]) -> Formula:
+    """Disjunction, flattened, without duplicates; TRUE absorbs; of nothing: FALSE."""
+    seen: dict[Formula, None] = {}
+    for arg in args:
+        if isinstance(arg, Constant):
+            if arg.value:
+                return TRUE
+        elif isinstance(arg, Or):
+            seen.update(dict.fromkeys(arg.args))
+        else:
+            seen[arg] = None
+    return FALSE if not seen else next(iter(seen)) if len(seen) == 1 else Or(tuple(seen))
+
+
+def neg(arg: Formula) -> Formula:
+    """Negation: constants, atoms and double negations are resolved at once."""
+    match arg:
+        case Constant(value):
+            return FALSE if value else TRUE
+        case Atom(poly, relation):
+            return Atom(poly, relation.negated)
+        case Not(inner):
+            return inner
+    return Not(arg)
+
+
+def implies(left: Formula, right: Formula) -> Formula:
+    """left -> right, as (not left) or right."""
+    return disj((neg(left), right))
+
+
+def iff(left: Formula, right: Formula) -> Formula:
+    """left <-> right, as two implications."""
+    return conj((implies(left, right), implies(right, left)))
+
+
+def exists(variables: Iterable[str], body: Formula) -> Formula:
+    """Existential closure over ``variables``; adjacent blocks are joined."""
+    names = tuple(dict.fromkeys(variables))
+    if not names or isinstance(body, Constant):
+        return body
+    if isinstance(body, Exists):
+        return Exists(tuple(v for v in names if v not in body.variables) + body.variables, body.body)
+    return Exists(names, body)
+
+
+def forall(variables: Iterable[str], body: Formula) -> Formula:
+    """Universal closure over ``variables``; adjacent blocks are joined."""
+    names = tuple(dict.fromkeys(variables))
+    if not names or isinstance(body, Constant):
+        return body
+    if isinstance(body, ForAll):
+        return ForAll(tuple(v for v in names if v not in body.variables) + body.variables, body.body)
+    return ForAll(names, body)
+
+
+def root_atom(variable: str, relation: Relation, poly: Poly, k: int) -> Formula:
+    """``variable relation root_k(poly)``, with the polynomial normalised."""
+    return RootAtom(variable, relation, poly.normal()[1], k)
+
+
+def convert(formula: Formula, ring: Ring) -> Formula:
+    """The same formula with its polynomials in another ring (by variable name)."""
+    match formula:
+        case Atom(poly, relation):
+            return atom(poly.convert(ring), relation)
+        case RootAtom(variable, relation, poly, k):
+            return root_atom(variable, relation, poly.convert(ring), k)
+        case And(args):
+            return conj(convert(a, ring) for a in args)
+        case Or(args):
+            return disj(convert(a, ring) for a in args)
+        case Not(arg):
+            return neg(convert(arg, ring))
+        case Exists(variables, body):
+            return exists(variables, convert(body, ring))
+        case ForAll(variables, body):
+            return forall(variables, convert(body, ring))
+    return formula

@@ -1,0 +1,87 @@
+"""The traversals of a formula that everything else is written with."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+
+from qe.exact.ring import Poly, Ring
+from qe.formula.build import conj, disj, exists, forall, neg
+from qe.formula.syntax import And, Atom, Exists, ForAll, Formula, Not, Or, RootAtom
+
+
+def children(formula: Formula) -> tuple[Formula, ...]:
+    """The direct subformulas."""
+    match formula:
+        case And(args) | Or(args):
+            return args
+        case Not(arg):
+            return (arg,)
+        case Exists(_, body) | ForAll(_, body):
+            return (body,)
+    return ()
+
+
+def atoms(formula: Formula) -> Iterator[Atom | RootAtom]:
+    """Every atom occurrence, left to right."""
+    if isinstance(formula, Atom | RootAtom):
+        yield formula
+    for child in children(formula):
+        yield from atoms(child)
+
+
+def map_atoms(formula: Formula, change: Callable[[Atom | RootAtom], Formula]) -> Formula:
+    """Replace every atom by a formula and rebuild with the smart constructors."""
+    match formula:
+        case Atom() | RootAtom():
+            return change(formula)
+        case And(args):
+            return conj(map_atoms(a, change) for a in args)
+        case Or(args):
+            return disj(map_atoms(a, change) for a in args)
+        case Not(arg):
+            return neg(map_atoms(arg, change))
+        case Exists(variables, body):
+            return exists(variables, map_atoms(body, change))
+        case ForAll(variables, body):
+            return forall(variables, map_atoms(body, change))
+    return formula
+
+
+def polynomials(formula: Formula) -> list[Poly]:
+    """The distinct polynomials of the atoms, in order of first occurrence."""
+    return list(dict.fromkeys(a.poly for a in atoms(formula)))
+
+
+def ring_of(formula: Formula) -> Ring | None:
+    """The common ring of the atoms, or None for a formula without atoms."""
+    for found in atoms(formula):
+        return found.poly.ring
+    return None
+
+
+def free_variables(formula: Formula) -> tuple[str, ...]:
+    """The names that occur free, in ring order."""
+    ring = ring_of(formula)
+    if ring is None:
+        return ()
+    names = _free(formula)
+    return tuple(name for name in ring.names if name in names)
+
+
+def _free(formula: Formula) -> set[str]:
+    match formula:
+        case Atom(poly, _):
+            return {poly.ring.names[i] for i in poly.variables}
+        case RootAtom(variable, _, poly, _):
+            return {poly.ring.names[i] for i in poly.variables} | {variable}
+        case Exists(variables, body) | ForAll(variables, body):
+            return _free(body) - set(variables)
+    found: set[str] = set()
+    for child in children(formula):
+        found |= _free(child)
+    return found
+
+
+def is_quantifier_free(formula: Formula) -> bool:
+    """Whether no quantifier occurs."""
+    return not isinstance(formula, Exists | ForAll) and all(is_quantifier_free(c) for c in children(formula))
