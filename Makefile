@@ -1,0 +1,51 @@
+# Everything needs only make and Python 3.11 or newer with venv and pip; no root, no system package.
+SHELL := /bin/bash
+VENV := .venv
+BIN := $(VENV)/bin
+OUT ?= out
+WORKERS ?= 2
+export PIP_CONSTRAINT := $(CURDIR)/constraints.txt
+export PIP_BUILD_CONSTRAINT := $(CURDIR)/constraints.txt
+PIP := $(BIN)/python -m pip --disable-pip-version-check -qq
+PYTHON ?= $(shell for p in python3 python3.14 python3.13 python3.12 python3.11; do \
+	$$p -c 'import sys, venv, ensurepip; raise SystemExit(sys.version_info < (3, 11))' 2>/dev/null && echo $$p && break; done)
+
+CORE := $(VENV)/.core-installed
+DEV := $(VENV)/.dev-installed
+
+.PHONY: help setup plan test deep lint bench clean
+.DEFAULT_GOAL := help
+
+help: ## list the targets
+	@awk -F':.*## ' '/^[a-z]+:.*## /{printf "  make %-7s %s\n", $$1, $$2}' Makefile
+
+$(CORE): pyproject.toml constraints.txt
+	@test -n "$(PYTHON)" || { echo "Python 3.11 or newer with venv and pip is needed" >&2; exit 1; }
+	@test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
+	$(PIP) install --editable .
+	@touch $@
+
+$(DEV): $(CORE)
+	$(PIP) install --editable '.[dev,solvers]'
+	@touch $@
+
+setup: $(DEV) ## create .venv with every dependency
+
+plan: $(CORE) ## plan the example path; the report is out/report.html
+	$(BIN)/bezier plan examples/three_balls.toml --out $(OUT)
+
+test: $(DEV) ## all tests but the long ones
+	$(BIN)/python -m pytest -n $(WORKERS) -q
+
+deep: $(DEV) ## the long randomised tests
+	HYPOTHESIS_PROFILE=explore $(BIN)/python -m pytest -n $(WORKERS) -q -m deep
+
+lint: $(DEV) ## ruff, and mypy --strict on qe
+	$(BIN)/ruff check .
+	$(BIN)/mypy
+
+bench: $(DEV) ## the benchmark: figures asked beside figures reached
+	$(BIN)/python -m experiments.bench
+
+clean: ## remove .venv and the outputs
+	rm -rf $(VENV) $(OUT) build dist *.egg-info .mypy_cache .ruff_cache .pytest_cache .hypothesis
