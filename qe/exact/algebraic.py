@@ -1,0 +1,405 @@
+"""Real algebraic numbers: the k-th real root of an irreducible integer polynomial.
+
+A number is its minimal polynomial (irreducible in Z[x], primitive, positive leading coefficient) and
+the index of the root among the polynomial's real roots, ascending from 0; two numbers are equal iff both
+agree. Rational numbers are the degree 1 case. The isolating interval and its refinements are a cache.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from fractions import Fraction
+from functools import total_ordering
+
+from flint import arb, fmpq, fmpq_poly, fmpz, fmpz_mpoly_ctx, fmpz_poly
+
+from qe.errors import InputError
+from qe.exact.balls import FIRST_PRECISION, ball_sign, hull, lower_end, precision, upper_end
+from qe.exact.isolate import Interval, isolate, sign_at
+
+Rational = int | Fraction
+
+
+@total_ordering
+class RealAlgebraic:
+    """A real algebraic number. Supports + - * / with its kind and with rationals, ==, <, hash, float."""
+
+    __slots__ = ("_ball", "_bits", "_hi", "_lo", "index", "poly")
+
+    def __init__(self, poly: fmpz_poly, index: int, interval: Interval) -> None:
+        self.poly, self.index = poly, index
+        self._lo, self._hi = interval
+        self._ball: arb | None = None
+        self._bits = 0
+
+    # --- construction ----------------------------------------------------------------------
+    @staticmethod
+    def rational(value: Rational | fmpq) -> RealAlgebraic:
+        """A rational number."""
+        q = value if isinstance(value, fmpq) else fmpq(Fraction(value).numerator, Fraction(value).denominator)
+        return RealAlgebraic(fmpz_poly([-q.p, q.q]), 0, (q, q))
+
+    @staticmethod
+    def from_root(coefficients: Iterable[int], lo: Rational, hi: Rational) -> RealAlgebraic:
+        """The only root of the polynomial (coefficients from degree 0 up) in the closed interval [lo, hi].
+
+        Raises ``InputError`` unless there is exactly one (distinct) root there.
+        """
+        p = fmpz_poly([int(c) for c in coefficients])
+        low, high = RealAlgebraic.rational(lo), RealAlgebraic.rational(hi)
+        inside = [r for r in real_roots(p) if low <= r <= high]
+        if len(inside) != 1:
+            raise InputError(f"{len(inside)} roots of the polynomial in [{lo}, {hi}], one expected")
+        return inside[0]
+
+    # --- access ----------------------------------------------------------------------------
+    @property
+    def degree(self) -> int:
+        return self.poly.degree()
+
+    @property
+    def is_rational(self) -> bool:
+        return self.poly.degree() == 1
+
+    def as_fmpq(self) -> fmpq:
+        """The value of a rational number."""
+        return fmpq(-self.poly[0], self.poly[1])
+
+    def as_fraction(self) -> Fraction:
+        """The value of a rational number; ``InputError`` otherwise."""
+        if not self.is_rational:
+            raise InputError(f"{self} is irrational")
+        return Fraction(-int(self.poly[0]), int(self.poly[1]))
+
+    @property
+    def minimal_polynomial(self) -> tuple[int, ...]:
+        """Integer coefficients from degree 0 up."""
+        return tuple(int(c) for c in self.poly.coeffs())
+
+    def interval(self, bits: int = 0) -> tuple[Fraction, Fraction]:
+        """Rational numbers lo <= self <= hi, with hi - lo small when ``bits`` are asked for."""
+        if bits:
+            x = self.ball(bits)
+            lo, hi = lower_end(x), upper_end(x)
+        else:
+            lo, hi = self._lo, self._hi
+        return Fraction(int(lo.p), int(lo.q)), Fraction(int(hi.p), int(hi.q))
+
+    def ball(self, bits: int = FIRST_PRECISION) -> arb:
+        """A ball around the number with about ``bits`` bits of relative accuracy."""
+        if self._ball is None or self._bits < bits:
+            with precision(bits + 16):
+                self._ball, self._bits = self._refined(bits), bits
+        return self._ball
+
+    def _refined(self, bits: int) -> arb:
+        degree = self.poly.degree()
+        if degree == 1:
+            return arb(self.as_fmpq())
+        if degree == 2:
+            return _quadratic_root(self.poly, self.index)
+        x = self._newton(bits)
+        self._lo, self._hi = max(self._lo, lower_end(x)), min(self._hi, upper_end(x))
+        return x
+
+    def _newton(self, bits: int) -> arb:
+        """Interval Newton with bisection as its safeguard; ends stay exact."""
+        derivative = self.poly.derivative()
+        lo, hi = self._lo, self._hi
+        low_sign = sign_at(self.poly, lo)
+        x = hull(lo, hi)
+        while x.rel_accuracy_bits() < bits:
+            slope = derivative(x)
+            if not slope.contains(0):
+                middle = x.mid()
+                step = middle - self.poly(middle) / slope
+                narrowed = x.intersection(step)
+                if narrowed.rel_accuracy_bits() >= x.rel_accuracy_bits() + 4:
+                    x = narrowed
+                    continue
+                if x.rel_accuracy_bits() > 8:  # stalled by rounding: more working precision
+                    with precision(4 * bits + int(self.poly.height_bits()) + 64):
+                        middle = x.mid()
+                        narrowed = x.intersection(middle - self.poly(middle) / derivative(x))
+                    if narrowed.rel_accuracy_bits() >= x.rel_accuracy_bits() + 1:
+                        x = narrowed
+                        continue
+            lo, hi = max(lo, lower_end(x)), min(hi, upper_end(x))
+            middle_q = (lo + hi) / 2
+            sign = sign_at(self.poly, middle_q)
+            if sign == low_sign:
+                lo = middle_q
+            else:
+                hi = middle_q
+            x = hull(lo, hi)
+        return x
+
+    # --- order -----------------------------------------------------------------------------
+    def compare_rational(self, q: fmpq) -> int:
+        """The sign of self - q, exactly."""
+        if self.poly.degree() == 1:
+            own = self.as_fmpq()
+            return (own > q) - (own < q)
+        x = self.ball() - arb(q)
+        sign = ball_sign(x)
+        if sign is not None:
+            return sign
+        if q <= self._lo:
+            return 1
+        if q >= self._hi:
+            return -1
+        return 1 if sign_at(self.poly, q) == sign_at(self.poly, self._lo) else -1
+
+    def sign(self) -> int:
+        """-1, 0 or 1."""
+        return self.compare_rational(fmpq(0))
+
+    def compare(self, other: RealAlgebraic) -> int:
+        """The sign of self - other, exactly."""
+        if self.poly == other.poly:
+            return (self.index > other.index) - (self.index < other.index)
+        bits = FIRST_PRECISION
+        while True:
+            with precision(bits + 16):
+                sign = ball_sign(self.ball(bits) - other.ball(bits))
+            if sign:  # different irreducible polynomials have no common root, so this ends
+                return sign
+            bits *= 2
+
+    def _coerce(self, other: object) -> RealAlgebraic | None:
+        if isinstance(other, RealAlgebraic):
+            return other
+        if isinstance(other, int | Fraction):
+            return RealAlgebraic.rational(other)
+        return None
+
+    def __eq__(self, other: object) -> bool:
+        value = self._coerce(other)
+        return value is not None and self.index == value.index and self.poly == value.poly
+
+    def __lt__(self, other: object) -> bool:
+        value = self._coerce(other)
+        if value is None:
+            return NotImplemented
+        return self.compare(value) < 0
+
+    def __hash__(self) -> int:
+        return hash(self.as_fraction()) if self.is_rational else hash((self.minimal_polynomial, self.index))
+
+    def __float__(self) -> float:
+        return float(self.ball(64).mid())
+
+    # --- arithmetic ------------------------------------------------------------------------
+    def __neg__(self) -> RealAlgebraic:
+        return _image(self, lambda p: p(fmpz_poly([0, -1])), lambda x: -x)
+
+    def __add__(self, other: object) -> RealAlgebraic:
+        return _combine(self, self._coerce(other), "+")
+
+    __radd__ = __add__
+
+    def __sub__(self, other: object) -> RealAlgebraic:
+        return _combine(self, self._coerce(other), "-")
+
+    def __rsub__(self, other: object) -> RealAlgebraic:
+        return -self + other
+
+    def __mul__(self, other: object) -> RealAlgebraic:
+        return _combine(self, self._coerce(other), "*")
+
+    __rmul__ = __mul__
+
+    def inverse(self) -> RealAlgebraic:
+        """1/self; ``ZeroDivisionError`` for zero."""
+        if self.sign() == 0:
+            raise ZeroDivisionError("inverse of zero")
+        return _image(self, lambda p: fmpz_poly(p.coeffs()[::-1]), lambda x: 1 / x)
+
+    def __truediv__(self, other: object) -> RealAlgebraic:
+        value = self._coerce(other)
+        if value is None:
+            return NotImplemented
+        return self * value.inverse()
+
+    def __rtruediv__(self, other: object) -> RealAlgebraic:
+        return self.inverse() * other
+
+    def __pow__(self, exponent: int) -> RealAlgebraic:
+        base = self if exponent >= 0 else self.inverse()
+        result = RealAlgebraic.rational(1)
+        for _ in range(abs(exponent)):
+            result = result * base
+        return result
+
+    def __reduce__(self) -> tuple[object, tuple[object, ...]]:
+        return _restore, (self.minimal_polynomial, self.index)
+
+    def __str__(self) -> str:
+        return format_algebraic(self)
+
+    def __repr__(self) -> str:
+        return f"RealAlgebraic({self} ≈ {float(self):.6g})"
+
+
+def _restore(coefficients: tuple[int, ...], index: int) -> RealAlgebraic:
+    return irreducible_roots(fmpz_poly(list(coefficients)))[index]
+
+
+def _quadratic_root(p: fmpz_poly, index: int) -> arb:
+    """Root 0 (smaller) or 1 (larger) of a*x^2+b*x+c, a > 0, without cancellation."""
+    c, b, a = p[0], p[1], p[2]
+    root = arb(b * b - 4 * a * c).sqrt()
+    large = -(root + b) if b >= 0 else root - b  # the numerator in which nothing cancels
+    if (index == 0) == (b >= 0):
+        return large / (2 * a)
+    return 2 * c / large
+
+
+def irreducible_roots(p: fmpz_poly) -> list[RealAlgebraic]:
+    """The real roots, ascending, of an irreducible primitive polynomial with positive leading coefficient."""
+    if p.degree() == 2:
+        c, b, a = p[0], p[1], p[2]
+        if b * b < 4 * a * c:
+            return []
+        # a rational strictly between the two roots, and root bounds outside
+        middle, bound = fmpq(-b, 2 * a), 1 + fmpq(max(abs(b), abs(c)), a)
+        return [RealAlgebraic(p, 0, (-bound, middle)), RealAlgebraic(p, 1, (middle, bound))]
+    return [RealAlgebraic(p, i, interval) for i, interval in enumerate(isolate(p))]
+
+
+def irreducible_factors(p: fmpz_poly) -> list[tuple[fmpz_poly, int]]:
+    """(irreducible factor with positive leading coefficient, multiplicity); quadratics without factoring."""
+    degree = p.degree()
+    if degree <= 0:
+        return []
+    if degree <= 2:
+        content = p.content()
+        q = p / content if content != 1 else p
+        if q.leading_coefficient() < 0:
+            q = -q
+        if degree == 1:
+            return [(q, 1)]
+        c, b, a = q[0], q[1], q[2]
+        discriminant = b * b - 4 * a * c
+        if discriminant < 0 or discriminant.isqrt() ** 2 != discriminant:
+            return [(q, 1)]
+    _, factors = p.factor()
+    return [(f if f.leading_coefficient() > 0 else -f, int(e)) for f, e in factors]
+
+
+def real_roots(p: fmpz_poly) -> list[RealAlgebraic]:
+    """The distinct real roots of a nonzero integer polynomial, ascending."""
+    return sorted(r for f, _ in irreducible_factors(p) for r in irreducible_roots(f))
+
+
+def select_root(p: fmpz_poly, enclosure: Callable[[int], arb]) -> RealAlgebraic:
+    """The real root of ``p`` that is enclosed by ``enclosure(bits)`` at every precision.
+
+    The caller guarantees that the enclosed number is a root of p.
+    """
+    candidates = [r for f, _ in irreducible_factors(p) for r in irreducible_roots(f)]
+    bits = FIRST_PRECISION
+    while True:
+        x = enclosure(bits)
+        candidates = [r for r in candidates if r.ball(bits).overlaps(x)]
+        if len(candidates) == 1:
+            return candidates[0]
+        bits *= 2
+
+
+def _image(a: RealAlgebraic, transform: Callable[[fmpz_poly], fmpz_poly], value: Callable[[arb], arb]) -> RealAlgebraic:
+    """The number value(a), a root of the transformed (again irreducible) polynomial."""
+
+    def enclosure(bits: int) -> arb:
+        with precision(bits + 16):
+            return value(a.ball(bits))
+
+    return select_root(transform(a.poly), enclosure)
+
+
+_PAIR = fmpz_mpoly_ctx.get(("y", "z"), "lex")
+
+
+def _combine(a: RealAlgebraic, b: RealAlgebraic | None, operation: str) -> RealAlgebraic:
+    """a+b, a-b or a*b: a root of the resultant of the two minimal polynomials, picked by enclosure."""
+    if b is None:
+        return NotImplemented  # type: ignore[return-value]
+    if a.is_rational and b.is_rational:
+        x, y = a.as_fmpq(), b.as_fmpq()
+        return RealAlgebraic.rational(x + y if operation == "+" else x - y if operation == "-" else x * y)
+    if operation == "*" and (a.sign() == 0 or b.sign() == 0):
+        return RealAlgebraic.rational(0)
+
+    def enclosure(bits: int) -> arb:
+        with precision(bits + 16):
+            x, y = a.ball(bits), b.ball(bits)
+            return x + y if operation == "+" else x - y if operation == "-" else x * y
+
+    return select_root(_combined_polynomial(a.poly, b.poly, operation), enclosure)
+
+
+def _combined_polynomial(p: fmpz_poly, q: fmpz_poly, operation: str) -> fmpz_poly:
+    """A polynomial in z with root x∘y for all roots x of p, y of q: Res_y(q(y), p(z ∓ y)) or Res_y(q, y^n p(z/y))."""
+    y, z = _PAIR.gens()
+    second = _PAIR.constant(0)
+    for i, c in enumerate(q.coeffs()):
+        second += c * y**i
+    first = _PAIR.constant(0)
+    n = p.degree()
+    base = z - y if operation == "+" else z + y
+    for i, c in enumerate(p.coeffs()):
+        if c:
+            first += c * (base**i if operation != "*" else z**i * y ** (n - i))
+    resultant = first.resultant(second, 0)
+    out = [fmpz(0)] * (int(resultant.degrees()[1]) + 1)
+    for exponents, c in resultant.terms():
+        out[int(exponents[1])] = c
+    return fmpz_poly(out)
+
+
+def format_algebraic(a: RealAlgebraic) -> str:
+    """Exact text: a fraction, ``(p + q*sqrt(d))/r`` for degree 2, otherwise ``root(k, polynomial)`` with k from 1."""
+    if a.is_rational:
+        return str(a.as_fraction())
+    if a.degree == 2:
+        return _format_quadratic(a)
+    terms = []
+    for i, c in reversed(list(enumerate(a.minimal_polynomial))):
+        if c:
+            power = "" if i == 0 else "x" if i == 1 else f"x^{i}"
+            body = power if abs(c) == 1 and power else f"{abs(c)}*{power}" if power else str(abs(c))
+            terms.append(("- " if c < 0 else "+ ") + body)
+    text = " ".join(terms)
+    text = text[2:] if text.startswith("+") else "-" + text[2:]
+    return f"root({a.index + 1}, {text})"
+
+
+def _format_quadratic(a: RealAlgebraic) -> str:
+    c, b, lead = (int(k) for k in a.minimal_polynomial)
+    discriminant, outside = b * b - 4 * lead * c, 1
+    for prime, power in fmpz(discriminant).factor():
+        outside *= int(prime) ** (int(power) // 2)
+    inside = discriminant // outside**2
+    negative = a.index == 0
+    common = Fraction(-b, 2 * lead)
+    radical = Fraction(outside, 2 * lead)
+    denominator = (common.denominator * radical.denominator) // _gcd(common.denominator, radical.denominator)
+    whole, factor = int(common * denominator), int(radical * denominator)
+    root = f"sqrt({inside})" if factor == 1 else f"{factor}*sqrt({inside})"
+    if whole:
+        text = f"{whole} {'-' if negative else '+'} {root}"
+        return text if denominator == 1 else f"({text})/{denominator}"
+    text = f"-{root}" if negative else root
+    return text if denominator == 1 else f"{text}/{denominator}"
+
+
+def _gcd(a: int, b: int) -> int:
+    while b:
+        a, b = b, a % b
+    return a
+
+
+def to_fmpq_poly(p: fmpz_poly) -> fmpq_poly:
+    """The monic associate over Q."""
+    q = fmpq_poly(p)
+    return q / p.leading_coefficient()

@@ -1,0 +1,46 @@
+"""Ball arithmetic helpers: working precision, exact ends, comparison that says only what is certain."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+from flint import arb, ctx, fmpq
+
+FIRST_PRECISION = 64
+EXACT_FROM = 128  # bits from which a ball that still contains zero is worth an exact zero test
+
+
+@contextmanager
+def precision(bits: int) -> Iterator[None]:
+    """Run the body at this working precision (FLINT's is process-wide, so it is always restored)."""
+    saved = ctx.prec
+    ctx.prec = bits
+    try:
+        yield
+    finally:
+        ctx.prec = saved
+
+
+def ball_sign(x: arb) -> int | None:
+    """-1, 1, or 0 (only for an exact zero); None when the ball does not tell."""
+    if x > 0:
+        return 1
+    if x < 0:
+        return -1
+    return 0 if x.is_zero() else None
+
+
+def lower_end(x: arb) -> fmpq:
+    """An exact rational lower bound of the ball."""
+    return x.lower().fmpq()
+
+
+def upper_end(x: arb) -> fmpq:
+    """An exact rational upper bound of the ball."""
+    return x.upper().fmpq()
+
+
+def hull(lo: fmpq, hi: fmpq) -> arb:
+    """A ball that contains the interval [lo, hi]."""
+    return arb(lo).union(arb(hi))

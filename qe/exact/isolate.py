@@ -1,0 +1,160 @@
+"""Real root isolation of integer polynomials by Descartes' rule (Vincent–Collins–Akritas bisection).
+
+Input is squarefree; output are disjoint intervals with dyadic ends, each with exactly one root, either
+a point (lo = hi: the root itself) or an open interval whose ends are not roots.
+"""
+
+from __future__ import annotations
+
+from flint import fmpq, fmpz, fmpz_poly
+
+Interval = tuple[fmpq, fmpq]
+
+_SHIFT = fmpz_poly([1, 1])
+_HALF = fmpq(1, 2)
+
+
+def sign_at(p: fmpz_poly, value: fmpq) -> int:
+    """The sign of p at a rational number."""
+    result = p(value)
+    return (result > 0) - (result < 0)
+
+
+def _variations(p: fmpz_poly) -> int:
+    count, last = 0, 0
+    for c in p.coeffs():
+        if c:
+            sign = 1 if c > 0 else -1
+            if last and sign != last:
+                count += 1
+            last = sign
+    return count
+
+
+def _roots_in_unit_bound(p: fmpz_poly) -> int:
+    """Sign variations of (x+1)^n p(1/(x+1)): an upper bound, exact at 0 and 1, for roots in (0, 1)."""
+    return _variations(fmpz_poly(p.coeffs()[::-1])(_SHIFT))
+
+
+def _log2_root_bound(p: fmpz_poly) -> int:
+    """k such that every real root has absolute value < 2^k (Fujiwara's bound, rounded up)."""
+    coefficients = p.coeffs()
+    n = len(coefficients) - 1
+    lead = abs(int(coefficients[-1])).bit_length() - 1
+    best = -(10**9)
+    for i, c in enumerate(coefficients[:-1]):
+        if c:
+            best = max(best, -((lead - abs(int(c)).bit_length()) // (n - i)))
+    return best + 2
+
+
+def _scaled(p: fmpz_poly, k: int) -> fmpz_poly:
+    """A positive multiple of p(2^k x)."""
+    coefficients = p.coeffs()
+    if k >= 0:
+        return fmpz_poly([c * fmpz(2) ** (k * i) for i, c in enumerate(coefficients)])
+    n = len(coefficients) - 1
+    return fmpz_poly([c * fmpz(2) ** (-k * (n - i)) for i, c in enumerate(coefficients)])
+
+
+def _halved(p: fmpz_poly) -> fmpz_poly:
+    n = p.degree()
+    return fmpz_poly([c << (n - i) for i, c in enumerate(p.coeffs())])
+
+
+def _positive_roots(p: fmpz_poly) -> list[Interval]:
+    """Isolating intervals of the positive roots; p(0) != 0."""
+    if _variations(p) == 0:
+        return []
+    k = _log2_root_bound(p)
+    scale = fmpq(2) ** k
+    found: list[Interval] = []
+    # entries: q whose roots in (0,1) are those of p in scale*(c/2^d, (c+1)/2^d)
+    pending = [(_scaled(p, k), fmpz(0), 0)]
+    while pending:
+        q, c, depth = pending.pop()
+        bound = _roots_in_unit_bound(q)
+        width = scale / fmpz(2) ** depth
+        if bound == 0:
+            continue
+        if bound == 1:
+            found.append((width * c, width * (c + 1)))
+            continue
+        left = _halved(q)
+        right = left(_SHIFT)
+        if right[0] == 0:
+            middle = width * (2 * c + 1) * _HALF
+            found.append((middle, middle))
+            right = fmpz_poly(right.coeffs()[1:])
+            left = left / fmpz_poly([-1, 1])
+        pending.append((right, 2 * c + 1, depth + 1))
+        pending.append((left, 2 * c, depth + 1))
+    return found
+
+
+def isolate(p: fmpz_poly) -> list[Interval]:
+    """The real roots of a squarefree polynomial of positive degree, ascending.
+
+    Open intervals have nonzero values of opposite sign at their ends. (An end can be a root found as a point,
+    in which case it is pulled in.)
+    """
+    if p.degree() == 1:
+        root = fmpq(-p[0], p[1])
+        return [(root, root)]
+    roots: list[Interval] = []
+    if p[0] == 0:
+        roots.append((fmpq(0), fmpq(0)))
+        p = fmpz_poly(p.coeffs()[1:])
+        if p.degree() == 0:
+            return roots
+    mirrored = fmpz_poly([-c if i % 2 else c for i, c in enumerate(p.coeffs())])
+    roots += [(-hi, -lo) for lo, hi in _positive_roots(mirrored)]
+    roots += _positive_roots(p)
+    roots.sort(key=lambda pair: pair[0] + pair[1])
+    return [_open_ends(p, pair) for pair in roots]
+
+
+def _open_ends(p: fmpz_poly, pair: Interval) -> Interval:
+    """Shrink an open interval until neither end is a root (an end may be a neighbouring dyadic root)."""
+    lo, hi = pair
+    if lo == hi:
+        return pair
+    if sign_at(p, lo) == 0:
+        inner = (lo + hi) * _HALF
+        while sign_at(p, inner) * sign_at(p, hi) > 0:
+            hi = inner
+            inner = (lo + hi) * _HALF
+        if sign_at(p, inner) == 0:
+            return inner, inner
+        lo = inner
+    if sign_at(p, hi) == 0:
+        inner = (lo + hi) * _HALF
+        while sign_at(p, inner) * sign_at(p, lo) > 0:
+            lo = inner
+            inner = (lo + hi) * _HALF
+        if sign_at(p, inner) == 0:
+            return inner, inner
+        hi = inner
+    return lo, hi
+
+
+def simplest_between(lo: fmpq, hi: fmpq) -> fmpq:
+    """The rational of smallest denominator, then smallest magnitude, in the open interval (lo, hi)."""
+    if lo < 0 < hi:
+        return fmpq(0)
+    if hi <= 0:
+        return -_simplest_positive(-hi, -lo)
+    return _simplest_positive(lo, hi)
+
+
+def _simplest_positive(lo: fmpq, hi: fmpq) -> fmpq:
+    whole = lo.floor()
+    if whole + 1 < hi:
+        return fmpq(whole + 1)
+    # whole <= lo < hi <= whole + 1: the fractional part is searched through its reciprocal
+    top = hi - whole
+    bottom = lo - whole
+    if bottom == 0:
+        # smallest n with 1/n < top
+        return whole + fmpq(1, (1 / top).floor() + 1)
+    return whole + 1 / _simplest_positive(1 / top, 1 / bottom)
