@@ -1,0 +1,97 @@
+"""Coordinates: rational numbers, or elements of one real number field.
+
+Every computation on curves is generic over these two. A coordinate is a ``Fraction`` (or ``int``), or an
+object with exact field arithmetic, ``sign()`` in {-1, 0, 1} and ``float()``, such as
+``qe.exact.field.FieldElement``; values of one curve come from one field. Signs are exact; decimals are for
+the reader only and decide nothing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from fractions import Fraction
+from typing import Any, Protocol
+
+Vector = tuple["Scalar", ...]
+
+
+class Scalar(Protocol):
+    """An element of an ordered field. Mixed arithmetic with ``int`` and ``Fraction`` is exact."""
+
+    def __add__(self, other: Any, /) -> Any: ...
+    def __radd__(self, other: Any, /) -> Any: ...
+    def __sub__(self, other: Any, /) -> Any: ...
+    def __rsub__(self, other: Any, /) -> Any: ...
+    def __mul__(self, other: Any, /) -> Any: ...
+    def __rmul__(self, other: Any, /) -> Any: ...
+    def __truediv__(self, other: Any, /) -> Any: ...
+    def __neg__(self) -> Any: ...
+    def __float__(self) -> float: ...
+
+
+def sign(value: Any) -> int:
+    """The exact sign: -1, 0 or 1."""
+    if isinstance(value, (int, Fraction)):
+        return (value > 0) - (value < 0)
+    return int(value.sign())
+
+
+def is_zero(value: Any) -> bool:
+    """Whether the value is exactly zero."""
+    return sign(value) == 0
+
+
+def vector(values: Iterable[Any]) -> Vector:
+    """A tuple of coordinates; integers become ``Fraction`` so that division stays exact."""
+    return tuple(Fraction(v) if isinstance(v, int) else v for v in values)
+
+
+def add(a: Sequence[Any], b: Sequence[Any]) -> Vector:
+    """a + b, coordinate by coordinate."""
+    return tuple(x + y for x, y in zip(a, b, strict=True))
+
+
+def subtract(a: Sequence[Any], b: Sequence[Any]) -> Vector:
+    """a - b, coordinate by coordinate."""
+    return tuple(x - y for x, y in zip(a, b, strict=True))
+
+
+def scale(factor: Any, a: Sequence[Any]) -> Vector:
+    """factor * a."""
+    return tuple(factor * x for x in a)
+
+
+def dot(a: Sequence[Any], b: Sequence[Any]) -> Any:
+    """The inner product."""
+    return sum((x * y for x, y in zip(a, b, strict=True)), Fraction(0))
+
+
+def same(a: Sequence[Any], b: Sequence[Any]) -> bool:
+    """Exact equality of two vectors."""
+    return all(is_zero(x - y) for x, y in zip(a, b, strict=True))
+
+
+def rational(value: Any) -> Fraction | None:
+    """The value as a ``Fraction`` if it is known to be rational, otherwise None."""
+    if isinstance(value, (int, Fraction)):
+        return Fraction(value)
+    convert = getattr(value, "rational", None)
+    found = convert() if callable(convert) else convert
+    return Fraction(found) if isinstance(found, (int, Fraction)) else None
+
+
+def exact_text(value: Any) -> str:
+    """Exact text: ``-3/4`` for a rational number, the field's own notation otherwise."""
+    number = rational(value)
+    return str(value) if number is None else str(number)
+
+
+def decimal_text(value: Any, digits: int = 12) -> str:
+    """A decimal with at most ``digits`` significant digits, for people and plotting programs."""
+    number = rational(value)
+    return f"{float(value if number is None else number):.{digits}g}"
+
+
+def described(value: Any) -> dict[str, str]:
+    """``{"exact": ..., "decimal": ...}``, the form in which numbers leave the program."""
+    return {"exact": exact_text(value), "decimal": decimal_text(value)}

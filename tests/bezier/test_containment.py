@@ -1,0 +1,152 @@
+"""Whole-curve proofs: against dense exact sampling, exact contact, and the three tests in their order."""
+
+from fractions import Fraction
+
+from hypothesis import given
+from hypothesis import strategies as st
+
+from bezier import bernstein as bs
+from bezier.containment import Argument, Inside, Leaves, examine, examine_closely
+from bezier.curve import Bezier
+from bezier.nonnegative import Negative, Nonnegative, decide, isolate, refine
+from bezier.scalar import sign
+from bezier.workspace import Ball, HalfSpace, Workspace, WorkspaceKind, root_text
+from tests.bezier.numbers import Root2, control_points, small, surds
+
+ORIGIN = (Fraction(0),) * 3
+GRID = [Fraction(k, 48) for k in range(49)]
+
+
+def check_proof(b, proof: Nonnegative):
+    """What a checker has to multiply out: p = t^a (1-t)^b s^2 q and nonnegative coefficients on a cover."""
+    product = bs.power_multiply(bs.power_multiply(bs.to_power(proof.square), bs.to_power(proof.square)), bs.to_power(proof.rest))
+    for _ in range(proof.at_start):
+        product = bs.power_multiply(product, (0, 1))
+    for _ in range(proof.at_end):
+        product = bs.power_multiply(product, (1, -1))
+    difference = bs.add(b, bs.negate(bs.from_power(product)))
+    assert all(sign(c) == 0 for c in difference)
+    assert proof.boxes[0][0] == 0 and proof.boxes[-1][1] == 1
+    assert all(x[1] == y[0] for x, y in zip(proof.boxes, proof.boxes[1:], strict=False))
+    for low, high in proof.boxes:
+        assert all(sign(c) >= 0 for c in bs.restrict(proof.rest, low, high))
+
+
+@given(st.lists(small, min_size=1, max_size=7))
+def test_decision_agrees_with_sampling_and_proves_itself(b):
+    outcome = decide(b)
+    if isinstance(outcome, Negative):
+        assert 0 <= outcome.t <= 1 and bs.value(b, outcome.t) == outcome.value < 0
+    else:
+        check_proof(b, outcome)
+        assert all(bs.value(b, t) >= 0 for t in GRID)
+
+
+@given(st.lists(surds, min_size=1, max_size=4), st.lists(surds, min_size=1, max_size=2), st.booleans())
+def test_squares_times_something_over_a_number_field(square, factor, flip):
+    p = bs.multiply(bs.multiply(square, square), factor)
+    p = bs.negate(p) if flip else p
+    outcome = decide(p)
+    if isinstance(outcome, Negative):
+        assert sign(bs.value(p, outcome.t)) < 0
+    else:
+        check_proof(p, outcome)
+
+
+@given(st.lists(st.fractions(min_value=-1, max_value=2, max_denominator=9), min_size=1, max_size=5))
+def test_isolation_finds_the_roots_inside(roots):
+    power = (Fraction(1),)
+    for root in roots:
+        power = bs.power_multiply(power, (-root, Fraction(1)))
+    expected = sorted({r for r in roots if 0 < r < 1})
+    found = isolate(bs.from_power(power))
+    assert len(found) == len(expected)
+    for (low, high), root in zip(found, expected, strict=True):
+        assert low == root == high or low < root < high
+
+
+def test_refine():
+    b = bs.from_power((Fraction(-1), Fraction(0), Fraction(2)))  # 2 t^2 - 1
+    low, high = refine(b, isolate(b)[0], Fraction(1, 10**12))
+    assert low**2 < Fraction(1, 2) < high**2 and high - low <= Fraction(1, 10**12)
+
+
+@given(control_points(1, 4, dimension=2), st.fractions(min_value=1, max_value=20, max_denominator=4))
+def test_ball_against_dense_sampling(control, r2):
+    curve, ball = Bezier.of(control), Ball((Fraction(0),) * 2, r2)
+    outcome = examine(curve, ball)
+    sampled = [ball.margin(curve.point(t)) for t in GRID]
+    if isinstance(outcome, Leaves):
+        assert ball.margin(curve.point(outcome.t)) == outcome.margin < 0
+    else:
+        assert min(sampled) >= 0
+        if outcome.proof:
+            check_proof(ball.margin_along(curve), outcome.proof)
+
+
+@given(control_points(1, 4, coordinate=surds), st.integers(0, 2))
+def test_elevation_leaves_the_answer(control, more):
+    curve, ball = Bezier.of(control), Ball(ORIGIN, Fraction(9))
+    assert type(examine(curve, ball)) is type(examine(curve.elevate(curve.degree + more), ball))
+
+
+def test_the_three_arguments():
+    ball = Ball((Fraction(0),) * 2, Fraction(1))
+    inside = examine(Bezier.of([(0, 0), (1, 0), (0, 1)]), ball)
+    assert isinstance(inside, Inside) and inside.test is Argument.POLYGON
+    # one control point outside, the curve inside: only the finer test sees it
+    finer = examine(Bezier.of([(0, 0), (0, Fraction(11, 10)), (Fraction(1, 2), 0)]), ball)
+    assert isinstance(finer, Inside) and finer.test is Argument.BERNSTEIN
+    # the parabola y = 1 - x^2/2 about its vertex touches the unit circle from outside at (0, 1)
+    touching = Bezier.of([(-1, Fraction(1, 2)), (0, Fraction(3, 2)), (1, Fraction(1, 2))])
+    assert touching.point(Fraction(1, 2)) == (0, 1)
+    assert isinstance(examine(touching, ball), Leaves)
+    # y = 1 - x^2 on |x| <= 1/2: x^2 + y^2 = 1 - x^2 + x^4 touches the circle from inside at t = 1/2
+    contact = Bezier.of([(Fraction(-1, 2), Fraction(3, 4)), (0, Fraction(5, 4)), (Fraction(1, 2), Fraction(3, 4))])
+    outcome = examine(contact, ball)
+    assert isinstance(outcome, Inside) and outcome.touches == ((Fraction(1, 2), Fraction(1, 2)),)
+
+
+def test_tangency_at_a_parameter_that_is_not_dyadic():
+    # height 9 (t - 1/3)^2 touches the floor at t = 1/3, where no bisection point falls
+    floor = Workspace(WorkspaceKind.HEMISPHERE, Fraction(100)).floor
+    heights = bs.from_power((Fraction(1), Fraction(-6), Fraction(9)))
+    curve = Bezier.of([(k, 0, z) for k, z in enumerate(heights)])
+    outcome = examine(curve, floor)
+    assert isinstance(outcome, Inside) and outcome.test is Argument.ROOTS
+    low, high = outcome.touches[0]
+    assert len(outcome.touches) == 1 and low <= Fraction(1, 3) <= high
+    lowered = Bezier.of([(k, 0, z - Fraction(1, 10**30)) for k, z in enumerate(heights)])
+    leaves = examine(lowered, floor)
+    assert isinstance(leaves, Leaves) and leaves.margin < 0 and abs(leaves.t - Fraction(1, 3)) < Fraction(1, 10**14)
+
+
+def test_tangency_at_an_irrational_parameter():
+    # (t - (sqrt2 - 1))^2 over Q(sqrt 2)
+    a = Root2(Fraction(-1), Fraction(1))
+    heights = bs.from_power((a * a, -2 * a, Root2.of(1)))
+    curve = Bezier.of([(Root2.of(k), Root2.of(0), z) for k, z in enumerate(heights)])
+    outcome = examine(curve, HalfSpace((Fraction(0), Fraction(0), Fraction(1)), Fraction(0)))
+    assert isinstance(outcome, Inside) and outcome.test is Argument.ROOTS
+    assert [float(low) <= 2**0.5 - 1 <= float(high) for low, high in outcome.touches] == [True]
+
+
+def test_degenerate_curves():
+    ball = Ball(ORIGIN, Fraction(1))
+    point = examine(Bezier.of([(1, 0, 0)]), ball)
+    assert isinstance(point, Inside)
+    on_sphere = examine_closely(Bezier.of([(1, 0, 0)] * 3), ball)
+    assert isinstance(on_sphere, Inside) and on_sphere.touches == ((0, 1),)
+    assert isinstance(examine(Bezier.of([(2, 0, 0)] * 3), ball), Leaves)
+
+
+def test_workspaces():
+    hemisphere = Workspace(WorkspaceKind.HEMISPHERE, Fraction(27))
+    assert hemisphere.contains((5, 1, 1)) and not hemisphere.contains((5, 1, -1)) and not hemisphere.contains((5, 1, 2))
+    assert Workspace(WorkspaceKind.BALL, Fraction(27)).contains((5, 1, -1))
+
+
+def test_root_text():
+    cases = {Fraction(27): "3*sqrt(3)", Fraction(9, 4): "3/2", Fraction(2, 9): "sqrt(2)/3", Fraction(1, 2): "sqrt(2)/2"}
+    cases |= {Fraction(0): "0", Fraction(7): "sqrt(7)", Fraction(27, 4): "3*sqrt(3)/2"}
+    assert {q: root_text(q) for q in cases} == cases
