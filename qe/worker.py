@@ -1,0 +1,313 @@
+"""Hard limits: run a callable in a forked process that is killed when a limit is reached.
+
+FLINT calls hold the interpreter lock, cannot be interrupted, and abort the whole process when memory
+runs out. Soft limits (``qe.options.Budget``) are checked between such calls; a limit that must hold is
+enforced here, from outside. The worker streams progress events and partial results back, so that a
+killed worker still leaves behind what was known when it ended.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import ctypes
+import faulthandler
+import os
+import pickle
+import resource
+import select
+import signal
+import struct
+import time
+import traceback
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from types import TracebackType
+from typing import Generic, NoReturn, TypeVar
+
+from qe.errors import BudgetExceeded, InternalError, QEError, Unable
+from qe.progress import Event, Listener, silent
+
+T = TypeVar("T")
+
+GRACE = 0.25
+"""Seconds past the time limit before the kill, so that a soft limit in the worker can answer first."""
+
+_HEADER = struct.Struct("!I")
+
+
+@dataclass(slots=True)
+class Known:
+    """What is known so far about a run: seconds used, phases met (last event each), partial results."""
+
+    seconds: float = 0.0
+    phases: dict[str, Event] = field(default_factory=dict)
+    facts: dict[str, object] = field(default_factory=dict)
+
+    def add(self, event: Event) -> None:
+        """Note an event; phases keep the order in which they were last active."""
+        self.phases.pop(event.phase, None)
+        self.phases[event.phase] = event
+
+    def __str__(self) -> str:
+        """One line for people."""
+        parts = [f"{key}: {value}" for key, value in self.facts.items()] + [_in_words(e) for e in self.phases.values()]
+        return f"after {self.seconds:.1f} s: " + ("; ".join(parts) if parts else "nothing yet")
+
+
+def _in_words(event: Event) -> str:
+    count = f" {event.done}" if event.done else ""
+    total = f" of {event.total}" if event.total is not None else ""
+    note = f" ({event.note})" if event.note else ""
+    return f"{event.phase}{count}{total}{note}"
+
+
+class WorkerStopped(BudgetExceeded):
+    """A limit ended the worker; ``limit`` is "time" or "memory", ``known`` is what it had told by then."""
+
+    def __init__(self, message: str, *, limit: str, known: Known) -> None:
+        self.known = known
+        super().__init__(message, limit=limit)
+
+
+class WorkerDied(Unable):
+    """The worker process ended by a signal that no limit explains; ``known`` is what it had told by then."""
+
+    def __init__(self, message: str, *, signal_number: int, known: Known) -> None:
+        self.signal_number, self.known = signal_number, known
+        super().__init__(message)
+
+
+class Channel:
+    """The worker's end: what the work may tell the parent before it is done."""
+
+    def __init__(self, descriptor: int) -> None:
+        self._descriptor = descriptor
+
+    def event(self, event: Event) -> None:
+        """A progress listener."""
+        self._send(("event", event))
+
+    def fact(self, name: str, value: object) -> None:
+        """A partial result worth keeping should the worker be killed; ``value`` is picklable."""
+        self._send(("fact", (name, value)))
+
+    def _send(self, message: tuple[str, object]) -> None:
+        data = memoryview(b"".join(_framed(pickle.dumps(message))))
+        while data:
+            data = data[os.write(self._descriptor, data) :]
+
+
+def _framed(data: bytes) -> tuple[bytes, bytes]:
+    return _HEADER.pack(len(data)), data
+
+
+class _Delivery(Generic[T]):
+    """Runs in the worker: whatever leaves the block is sent home, and the process ends there.
+
+    ``os._exit`` leaves buffers, exit handlers and test frameworks of the parent untouched.
+    """
+
+    def __init__(self, channel: Channel) -> None:
+        self._channel = channel
+
+    def __enter__(self) -> _Delivery[T]:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> NoReturn:
+        status = 0
+        try:
+            if error is not None:
+                self._channel._send(("error", _portable(error)))
+        except BrokenPipeError:  # the parent is gone: nobody is left to tell
+            status = 1
+        finally:
+            os._exit(status)
+
+    def done(self, value: T) -> None:
+        """Hand over the result."""
+        self._channel._send(("result", value))
+
+
+_Parts = tuple[type[QEError], tuple[object, ...], dict[str, object]]
+
+
+def _portable(error: BaseException) -> _Parts:
+    """An error as class, arguments and attributes; a foreign exception becomes an ``InternalError``.
+
+    Pickling an exception calls its constructor again, which formats some of our messages twice.
+    """
+    if isinstance(error, MemoryError):
+        return BudgetExceeded, ("memory limit reached",), {"limit": "memory"}
+    if isinstance(error, RecursionError):
+        return Unable, ("the formula is nested too deeply",), {}
+    if not isinstance(error, QEError):
+        frames = traceback.extract_tb(error.__traceback__)
+        place = f" at {'/'.join(frames[-1].filename.split('/')[-2:])}:{frames[-1].lineno}" if frames else ""
+        text = f"{type(error).__name__}{place}: {error}".splitlines()[0]
+        return InternalError, (text,), {"trace": "".join(traceback.format_exception(error))}
+    return type(error), (str(error),), {k: v for k, v in vars(error).items() if _picklable(v)}
+
+
+def _rebuilt(parts: _Parts) -> QEError:
+    kind, arguments, attributes = parts
+    error = kind.__new__(kind, *arguments)
+    vars(error).update(attributes)
+    return error
+
+
+def _picklable(value: object) -> bool:
+    try:
+        pickle.dumps(value)
+    except (TypeError, AttributeError, pickle.PicklingError):
+        return False
+    return True
+
+
+def run(
+    work: Callable[[Channel], T],
+    *,
+    timeout: float | None = None,
+    memory: int | None = None,
+    progress: Listener = silent,
+    known: Known | None = None,
+    grace: float = GRACE,
+) -> T:
+    """``work(channel)``, computed in a forked worker under hard limits.
+
+    ``timeout``: wall-clock seconds; the worker is killed ``grace`` seconds after it. ``memory``: MiB of
+    address space of the worker, the interpreter included. ``progress`` is called here, in the parent, with every
+    event the worker sends; ``known`` is filled as the work goes on. The result must be picklable. No process is
+    left behind, whatever happens.
+
+    Raises ``WorkerStopped`` at a limit, ``WorkerDied`` when a signal ended the worker otherwise, and every
+    ``QEError`` that the work itself raised; any other exception there arrives as ``InternalError``.
+    """
+    start = time.monotonic()
+    reading, writing = os.pipe()
+    pid = os.fork()
+    if pid == 0:
+        os.close(reading)
+        channel = Channel(writing)
+        with _Delivery[T](channel) as delivery:
+            _confine(timeout, memory, grace)
+            delivery.done(work(channel))
+    os.close(writing)
+    inbox = _Inbox(reading)
+    known = Known() if known is None else known
+    status: int | None = None
+    try:
+        outcome = _follow(inbox, known, progress, None if timeout is None else start + timeout + grace)
+        if outcome is None and inbox.closed:
+            _, status = os.waitpid(pid, 0)
+    finally:
+        known.seconds = time.monotonic() - start
+        os.close(reading)
+        if status is None:
+            os.kill(pid, signal.SIGKILL)
+            os.waitpid(pid, 0)
+    if outcome is None:
+        raise _ended(status, known, timeout, memory)
+    kind, value = outcome
+    if kind == "result":
+        return value  # type: ignore[return-value]
+    error = _rebuilt(value)  # type: ignore[arg-type]
+    if type(error) is BudgetExceeded:  # a soft limit: the same story, told with what is known
+        raise WorkerStopped(str(error), limit=error.limit, known=known)
+    raise error
+
+
+def _confine(timeout: float | None, memory: int | None, grace: float) -> None:
+    """In the worker: set the limits, die with the parent, keep the abort messages of C libraries to itself."""
+    quiet = os.open(os.devnull, os.O_WRONLY)
+    os.dup2(quiet, 2)
+    os.close(quiet)
+    faulthandler.disable()
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+    if memory is not None:
+        _lower(resource.RLIMIT_AS, memory << 20)
+    if timeout is not None:  # should the parent be gone, processor time ends the worker
+        used = resource.getrusage(resource.RUSAGE_SELF)
+        _lower(resource.RLIMIT_CPU, int(used.ru_utime + used.ru_stime + timeout + grace) + 2)
+    with contextlib.suppress(OSError, AttributeError):
+        ctypes.CDLL(None).prctl(1, signal.SIGKILL)  # PR_SET_PDEATHSIG, where the system is Linux
+
+
+def _lower(which: int, value: int) -> None:
+    soft, hard = resource.getrlimit(which)
+    bounds = [v for v in (value, soft, hard) if v != resource.RLIM_INFINITY]
+    resource.setrlimit(which, (min(bounds), hard))
+
+
+class _Inbox:
+    """The parent's end of the pipe: whole messages out of a stream of bytes."""
+
+    def __init__(self, descriptor: int) -> None:
+        self.descriptor, self.closed, self._data = descriptor, False, bytearray()
+        os.set_blocking(descriptor, False)
+        self._poll = select.poll()
+        self._poll.register(descriptor, select.POLLIN | select.POLLHUP)
+
+    def wait(self, seconds: float | None) -> None:
+        """Read what is there, waiting for it at most this long."""
+        if not self._poll.poll(None if seconds is None else max(0.0, seconds * 1000)):
+            return
+        try:
+            chunk = os.read(self.descriptor, 1 << 20)
+        except BlockingIOError:
+            return
+        self.closed = not chunk
+        self._data += chunk
+
+    def messages(self) -> list[tuple[str, object]]:
+        """The messages that have arrived whole, taken out of the box."""
+        out: list[tuple[str, object]] = []
+        position = 0
+        while len(self._data) - position >= _HEADER.size:
+            (length,) = _HEADER.unpack_from(self._data, position)
+            end = position + _HEADER.size + length
+            if end > len(self._data):
+                break
+            out.append(pickle.loads(self._data[position + _HEADER.size : end]))
+            position = end
+        del self._data[:position]
+        return out
+
+
+def _follow(inbox: _Inbox, known: Known, progress: Listener, deadline: float | None) -> tuple[str, object] | None:
+    """Take messages until the outcome, the end of the stream, or the deadline (None for the last two)."""
+    while not inbox.closed:
+        left = None if deadline is None else deadline - time.monotonic()
+        if left is not None and left <= 0:
+            return None
+        inbox.wait(left)
+        for kind, value in inbox.messages():
+            if kind == "event" and isinstance(value, Event):
+                known.add(value)
+                progress(value)
+            elif kind == "fact" and isinstance(value, tuple):
+                known.facts[value[0]] = value[1]
+            else:
+                return kind, value
+    return None
+
+
+def _ended(status: int | None, known: Known, timeout: float | None, memory: int | None) -> Unable:
+    """The error for a worker that ended without an outcome; ``status`` is None when the deadline passed."""
+    if status is None:
+        return WorkerStopped(f"time limit of {timeout:g} s reached", limit="time", known=known)
+    number = os.WTERMSIG(status) if os.WIFSIGNALED(status) else 0
+    if number == signal.SIGXCPU:
+        return WorkerStopped(f"time limit of {timeout or 0:g} s reached", limit="time", known=known)
+    if memory is not None and number in (signal.SIGABRT, signal.SIGSEGV, signal.SIGBUS, signal.SIGKILL):
+        return WorkerStopped(f"memory limit of {memory} MiB reached", limit="memory", known=known)
+    how = f"signal {number} ({signal.strsignal(number)})" if number else f"status {os.WEXITSTATUS(status)}"
+    hint = "; out of memory is the likely cause" if number in (signal.SIGABRT, signal.SIGKILL) else ""
+    return WorkerDied(f"the worker process ended by {how}{hint}", signal_number=number, known=known)
+
+
+def facts(known: Known) -> Mapping[str, object]:
+    """The partial results as plain data, for machines."""
+    return {**known.facts, "seconds": round(known.seconds, 3), "phases": [_in_words(e) for e in known.phases.values()]}
