@@ -1,0 +1,199 @@
+"""Quadratic polynomials over Q and exact linear algebra over any ordered field with an exact sign.
+
+Everything here is generic in the number type: ``Fraction`` and ``qe.exact.field.FieldElement`` both work.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import Enum
+from fractions import Fraction
+from typing import Any
+
+from qe.exact.ring import Poly
+
+# A number with + - * / and comparison with 0: Fraction or FieldElement.
+Number = Any
+Vector = Sequence[Number]
+Matrix = Sequence[Sequence[Number]]
+
+
+class Definiteness(Enum):
+    """What LDL^T proves about a symmetric matrix."""
+
+    POSITIVE_DEFINITE = "positive definite"
+    POSITIVE_SEMIDEFINITE = "positive semidefinite"
+    NOT_SEMIDEFINITE = "not positive semidefinite"
+
+
+@dataclass(frozen=True, slots=True)
+class Quadratic:
+    """q(x) = x^T H x / 2 + b.x + c over Q. Invariant: ``hessian`` is symmetric, of the size of ``gradient``."""
+
+    hessian: tuple[tuple[Fraction, ...], ...]
+    gradient: tuple[Fraction, ...]
+    constant: Fraction
+
+    @property
+    def size(self) -> int:
+        return len(self.gradient)
+
+    @property
+    def is_linear(self) -> bool:
+        return not any(any(row) for row in self.hessian)
+
+    def value(self, x: Vector) -> Number:
+        """q(x), exactly."""
+        total: Number = self.constant
+        for i, row in enumerate(self.hessian):
+            inner: Number = self.gradient[i]
+            if row[i]:
+                inner = inner + x[i] * (row[i] / 2)
+            for j in range(i + 1, len(row)):
+                if row[j]:
+                    inner = inner + x[j] * row[j]
+            if not isinstance(inner, Fraction) or inner:
+                total = total + x[i] * inner
+        return total
+
+    def slope(self, x: Vector) -> list[Number]:
+        """The gradient H x + b at x."""
+        return [_dot(row, x, start) for row, start in zip(self.hessian, self.gradient, strict=True)]
+
+    def restrict(self, origin: Sequence[Fraction], basis: Sequence[Sequence[Fraction]]) -> Quadratic:
+        """z -> q(origin + sum z_k basis_k): again a quadratic polynomial."""
+        images = [[_dot(row, v) for row in self.hessian] for v in basis]
+        slope = self.slope(origin)
+        hessian = tuple(tuple(_dot(u, image) for u in basis) for image in images)
+        gradient = tuple(_dot(slope, v) for v in basis)
+        return Quadratic(hessian, gradient, Fraction(self.value(origin)))
+
+
+def combine(weights: Sequence[Fraction], parts: Sequence[Quadratic]) -> Quadratic:
+    """The linear combination of quadratic polynomials of one size (at least one part)."""
+    n = parts[0].size
+    pairs = [(w, q) for w, q in zip(weights, parts, strict=True) if w]
+    zero = Fraction(0)
+    hessian = tuple(tuple(sum((w * q.hessian[i][j] for w, q in pairs), zero) for j in range(n)) for i in range(n))
+    gradient = tuple(sum((w * q.gradient[i] for w, q in pairs), zero) for i in range(n))
+    return Quadratic(hessian, gradient, sum((w * q.constant for w, q in pairs), zero))
+
+
+def quadratic(poly: Poly, variables: Sequence[int]) -> Quadratic | None:
+    """The polynomial as a quadratic one in these ring variables (which must be all that occur); None above degree 2."""
+    if poly.total_degree > 2:
+        return None
+    place = {v: k for k, v in enumerate(variables)}
+    n = len(variables)
+    hessian = [[Fraction(0)] * n for _ in range(n)]
+    gradient, constant = [Fraction(0)] * n, Fraction(0)
+    for exponents, coefficient in poly.terms():
+        occurring = [place[v] for v, e in enumerate(exponents) for _ in range(e)]
+        if not occurring:
+            constant += coefficient
+        elif len(occurring) == 1:
+            gradient[occurring[0]] += coefficient
+        else:
+            i, j = occurring
+            hessian[i][j] += coefficient
+            hessian[j][i] += coefficient
+    return Quadratic(tuple(map(tuple, hessian)), tuple(gradient), constant)
+
+
+def _dot(u: Vector, v: Vector, start: Number = Fraction(0)) -> Number:
+    total = start
+    for a, b in zip(u, v, strict=True):
+        if a and b:
+            total = total + a * b
+    return total
+
+
+def definiteness(matrix: Matrix) -> Definiteness:
+    """Decide semidefiniteness by LDL^T with symmetric pivoting.
+
+    A symmetric matrix is positive semidefinite iff elimination with pivots from the diagonal meets no negative
+    pivot and, once all remaining diagonal entries are zero, the remaining block is zero (Golub–Van Loan, 4.2.8).
+    """
+    m = [list(row) for row in matrix]
+    left = list(range(len(m)))
+    while left:
+        if any(m[i][i] < 0 for i in left):
+            return Definiteness.NOT_SEMIDEFINITE
+        pivot = next((i for i in left if m[i][i] > 0), None)
+        if pivot is None:
+            if any(m[i][j] != 0 for i in left for j in left):
+                return Definiteness.NOT_SEMIDEFINITE
+            return Definiteness.POSITIVE_SEMIDEFINITE
+        left.remove(pivot)
+        for i in left:
+            if m[i][pivot]:
+                factor = m[i][pivot] / m[pivot][pivot]
+                for j in left:
+                    m[i][j] = m[i][j] - factor * m[pivot][j]
+    return Definiteness.POSITIVE_DEFINITE
+
+
+@dataclass(frozen=True, slots=True)
+class Solution:
+    """All solutions of a linear system: ``particular`` + span(``kernel``); ``free`` are the non-pivot columns."""
+
+    particular: tuple[Number, ...]
+    kernel: tuple[tuple[Number, ...], ...]
+    free: tuple[int, ...]
+
+
+def solve_linear(rows: Matrix, rhs: Vector, width: int) -> Solution | None:
+    """All x with rows.x = rhs (``width`` unknowns); None when there is none. Gauss–Jordan, exact.
+
+    Free unknowns are zero in ``particular``. Pivots are taken from the leftmost columns.
+    """
+    work = [[*row, b] for row, b in zip(rows, rhs, strict=True)]
+    pivots: list[int] = []
+    top = 0
+    for column in range(width):
+        found = next((r for r in range(top, len(work)) if work[r][column]), None)
+        if found is None:
+            continue
+        work[top], work[found] = work[found], work[top]
+        scale = 1 / work[top][column]
+        work[top] = [entry * scale if entry else entry for entry in work[top]]
+        for r, row in enumerate(work):
+            if r != top and row[column]:
+                factor = row[column]
+                work[r] = [a - factor * b if b else a for a, b in zip(row, work[top], strict=True)]
+        pivots.append(column)
+        top += 1
+    if any(row[width] for row in work[top:]):
+        return None
+    zero, one = Fraction(0), Fraction(1)
+    particular: list[Number] = [zero] * width
+    for r, column in enumerate(pivots):
+        particular[column] = work[r][width]
+    free = tuple(c for c in range(width) if c not in pivots)
+    kernel = []
+    for c in free:
+        vector: list[Number] = [zero] * width
+        vector[c] = one
+        for r, column in enumerate(pivots):
+            vector[column] = -work[r][c]
+        kernel.append(tuple(vector))
+    return Solution(tuple(particular), tuple(kernel), free)
+
+
+def independent_rows(rows: Matrix) -> tuple[int, ...]:
+    """Indices of a maximal linearly independent subset of the rows, the earliest ones."""
+    basis: list[tuple[int, list[Number]]] = []
+    chosen: list[int] = []
+    for index, row in enumerate(rows):
+        rest = list(row)
+        for column, vector in basis:
+            if rest[column]:
+                factor = rest[column]
+                rest = [a - factor * b for a, b in zip(rest, vector, strict=True)]
+        lead = next((c for c, entry in enumerate(rest) if entry), None)
+        if lead is not None:
+            scale = 1 / rest[lead]
+            basis.append((lead, [entry * scale for entry in rest]))
+            chosen.append(index)
+    return tuple(chosen)

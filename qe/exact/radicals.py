@@ -1,0 +1,96 @@
+"""Exact text of a real algebraic number, as radicals where degree 2 or a biquadratic polynomial allows."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from math import gcd, isqrt
+
+from flint import fmpq, fmpz, fmpz_poly
+
+from qe.exact.algebraic import RealAlgebraic, format_algebraic, irreducible_roots
+
+
+def format_number(a: RealAlgebraic) -> str:
+    """A fraction, ``(p + q*sqrt(d))/r``, a nested radical, or ``root(k, polynomial)`` (k from 1, ascending).
+
+    A quartic with minimal polynomial c4*y^4 + c2*y^2 + c0 in y = x - s (s the mean of the roots) is
+    s ± sqrt(u) with u a root of c4*u^2 + c2*u + c0; u = (p + q*sqrt(d))/r is itself written out, and
+    denested into sqrt(v) ± sqrt(w) when p^2 - q^2*d is a rational square.
+    """
+    if a.degree == 4:
+        text = _biquadratic(a)
+        if text is not None:
+            return text
+    return format_algebraic(a)
+
+
+def _biquadratic(a: RealAlgebraic) -> str | None:
+    c0, c1, c2, c3, c4 = a.minimal_polynomial
+    shift = Fraction(-c3, 4 * c4)
+    numerator, denominator = shift.numerator, shift.denominator
+    # denominator^4 * p(y/denominator + shift): integral, with roots denominator*(x - shift)
+    p = fmpz_poly([c0 * denominator**4, c1 * denominator**3, c2 * denominator**2, c3 * denominator, c4])
+    moved = p(fmpz_poly([numerator, 1]))
+    if moved[1] != 0 or moved[3] != 0:
+        return None
+    content = int(moved.content())
+    k0, k2, k4 = (int(moved[i]) // content for i in (0, 2, 4))
+    positive = a.compare_rational(fmpq(numerator, denominator)) > 0
+    squares = irreducible_roots(fmpz_poly([k0, k2, k4] if k4 > 0 else [-k0, -k2, -k4]))
+    if len(squares) != 2 or squares[1].sign() <= 0:
+        return None
+    largest_magnitude = a.index in (0, _real_count(squares) - 1)
+    u = squares[1] if largest_magnitude else squares[0]
+    body = _square_root_text(u, positive)
+    return _combine(shift, body, denominator)
+
+
+def _real_count(squares: list[RealAlgebraic]) -> int:
+    return 2 * sum(1 for u in squares if u.sign() > 0)
+
+
+def _square_root_text(u: RealAlgebraic, positive: bool) -> str:
+    """Text of ±sqrt(u) for a positive quadratic irrationality u."""
+    c, b, lead = u.minimal_polynomial
+    middle, inner = Fraction(-b, 2 * lead), Fraction(b * b - 4 * lead * c, 4 * lead * lead)
+    norm = middle * middle - inner  # u * conjugate of u
+    root = _rational_root(norm)
+    if root is not None:
+        # sqrt(m ± sqrt(e)) = sqrt((m + n)/2) ± sqrt((m - n)/2) with n = sqrt(m^2 - e)
+        first, second = _root_text((middle + root) / 2), _root_text((middle - root) / 2)
+        plus = u.index == 1
+        if positive:
+            return f"{first} {'+' if plus else '-'} {second}"
+        return f"-{first} {'-' if plus else '+'} {second}"
+    return f"{'' if positive else '-'}sqrt({format_algebraic(u)})"
+
+
+def _rational_root(value: Fraction) -> Fraction | None:
+    if value < 0:
+        return None
+    n, d = isqrt(value.numerator), isqrt(value.denominator)
+    return Fraction(n, d) if n * n == value.numerator and d * d == value.denominator else None
+
+
+def _root_text(value: Fraction) -> str:
+    """sqrt of a positive rational, with square factors taken out."""
+    inside, outside = value.numerator * value.denominator, 1
+    for prime, power in fmpz(inside).factor():
+        outside *= int(prime) ** (int(power) // 2)
+    inside //= outside**2
+    common = gcd(outside, value.denominator)
+    outside, below = outside // common, value.denominator // common
+    if inside == 1:
+        return str(Fraction(outside, below))
+    text = f"sqrt({inside})" if outside == 1 else f"{outside}*sqrt({inside})"
+    return text if below == 1 else f"{text}/{below}"
+
+
+def _combine(shift: Fraction, body: str, denominator: int) -> str:
+    """shift + body/denominator, the body being ± one or two square roots."""
+    if denominator == 1:
+        if not shift:
+            return body
+        return f"{shift} - {body[1:]}" if body.startswith("-") else f"{shift} + {body}"
+    joined = f"{shift.numerator} - {body[1:]}" if body.startswith("-") else f"{shift.numerator} + {body}"
+    return f"({joined})/{denominator}"
