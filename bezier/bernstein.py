@@ -8,6 +8,7 @@ of (b_k) bounds the number of roots in (0, 1) and differs from it by an even num
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Sequence
 from fractions import Fraction
 from math import comb
@@ -23,7 +24,7 @@ def value(b: Sequence[Any], t: Any) -> Any:
     """p(t) by de Casteljau's algorithm."""
     row = list(b)
     while len(row) > 1:
-        row = [x + t * (y - x) for x, y in zip(row, row[1:], strict=False)]
+        row = [x + t * (y - x) for x, y in itertools.pairwise(row)]
     return row[0]
 
 
@@ -31,7 +32,7 @@ def split(b: Sequence[Any], t: Any = HALF) -> tuple[Coefficients, Coefficients]:
     """The Bernstein coefficients on [0, t] and on [t, 1], each mapped to [0, 1]."""
     row, left, right = list(b), [b[0]], [b[-1]]
     while len(row) > 1:
-        row = [x + t * (y - x) for x, y in zip(row, row[1:], strict=False)]
+        row = [x + t * (y - x) for x, y in itertools.pairwise(row)]
         left.append(row[0])
         right.append(row[-1])
     return tuple(left), tuple(reversed(right))
@@ -71,7 +72,7 @@ def multiply(a: Sequence[Any], b: Sequence[Any]) -> Coefficients:
 def derivative(b: Sequence[Any]) -> Coefficients:
     """The derivative: n (b_{k+1} - b_k)."""
     n = len(b) - 1
-    return tuple(n * (y - x) for x, y in zip(b, b[1:], strict=False)) or (Fraction(0),)
+    return tuple(n * (y - x) for x, y in itertools.pairwise(b)) or (Fraction(0),)
 
 
 def to_power(b: Sequence[Any]) -> Coefficients:
@@ -102,7 +103,7 @@ def restrict(b: Sequence[Any], low: Fraction, high: Fraction) -> Coefficients:
 def sign_changes(b: Sequence[Any]) -> int:
     """Sign changes of the coefficients, zeros left out: at least the number of roots in (0, 1)."""
     signs = [s for s in map(sign, b) if s]
-    return sum(x != y for x, y in zip(signs, signs[1:], strict=False))
+    return sum(x != y for x, y in itertools.pairwise(signs))
 
 
 # --- polynomials by their coefficients of 1, t, t^2, ... -----------------------------------------

@@ -55,7 +55,8 @@ class Bezier:
         """The derivative P'(t) as a Bézier curve of degree n-1."""
         if self.degree == 0:
             return Bezier((scale(Fraction(0), self.points[0]),))
-        return Bezier(tuple(scale(self.degree, subtract(q, p)) for p, q in zip(self.points, self.points[1:], strict=False)))
+        steps = zip(self.points, self.points[1:], strict=False)
+        return Bezier(tuple(scale(self.degree, subtract(q, p)) for p, q in steps))
 
     def derivative(self, order: int, t: Any) -> Vector:
         """The derivative of this order at t."""

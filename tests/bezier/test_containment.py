@@ -19,7 +19,8 @@ GRID = [Fraction(k, 48) for k in range(49)]
 
 def check_proof(b, proof: Nonnegative):
     """What a checker has to multiply out: p = t^a (1-t)^b s^2 q and nonnegative coefficients on a cover."""
-    product = bs.power_multiply(bs.power_multiply(bs.to_power(proof.square), bs.to_power(proof.square)), bs.to_power(proof.rest))
+    square = bs.to_power(proof.square)
+    product = bs.power_multiply(bs.power_multiply(square, square), bs.to_power(proof.rest))
     for _ in range(proof.at_start):
         product = bs.power_multiply(product, (0, 1))
     for _ in range(proof.at_end):

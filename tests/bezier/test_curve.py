@@ -20,7 +20,8 @@ def by_definition(control, t):
     """P(t) by the sum of the definition."""
     n = len(control) - 1
     weights = [comb(n, k) * t**k * (1 - t) ** (n - k) for k in range(n + 1)]
-    return tuple(sum((w * p[i] for w, p in zip(weights, control, strict=True)), Fraction(0)) for i in range(len(control[0])))
+    terms = [[w * x for x in p] for w, p in zip(weights, control, strict=True)]
+    return tuple(sum(column, Fraction(0)) for column in zip(*terms, strict=True))
 
 
 @given(control_points(), unit)

@@ -1,0 +1,164 @@
+"""Problem files: exact reading, and one clear line for every bad input."""
+
+from fractions import Fraction
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from bezier.numbers import NotANumber, parse
+from bezier.problem import PlanMethod, load_problem, read_problem
+from bezier.workspace import WorkspaceKind
+from qe.errors import InputError
+
+BASE = {
+    "method": '"quadratic"',
+    "workspace": '"ball"',
+    "start": "[-4, 1, 1]",
+    "via": "[[-1, 3, 3], [1, 3, 3]]",
+    "goal": '["9/2", 1, 1]',
+    "radius": '"auto"',
+}
+
+
+def text(**changes):
+    table = {**BASE, **changes}
+    return "".join(f"{key} = {value}\n" for key, value in table.items() if value is not None)
+
+
+def test_the_main_example(root):
+    problem = load_problem(root / "examples" / "three_balls.toml")
+    assert problem.method is PlanMethod.QUADRATIC and problem.workspace.kind is WorkspaceKind.BALL
+    assert problem.goal == (Fraction(9, 2), 1, 1)
+    assert problem.workspace.radius_squared == Fraction(89, 4) and problem.radius_is_auto
+    assert problem.notes == ()
+
+
+@pytest.mark.parametrize("name", ["three_balls", "hemisphere_gap", "no_control_point"])
+def test_examples_are_readable(root, name):
+    assert load_problem(root / "examples" / f"{name}.toml").source.endswith(f"{name}.toml")
+
+
+def test_decimals_are_exact():
+    problem = read_problem(text(start="[-0.1, 1e-1, '0.30']", radius="5.5"))
+    assert problem.start == (Fraction(-1, 10), Fraction(1, 10), Fraction(3, 10))
+    assert problem.workspace.radius_squared == Fraction(121, 4)
+
+
+def test_radius_as_a_root():
+    problem = read_problem(text(radius='"sqrt(27)"'))
+    assert problem.workspace.radius_squared == 27 and problem.workspace.radius_text == "3*sqrt(3)"
+
+
+def test_defaults():
+    problem = read_problem(text(method=None, workspace=None, radius=None))
+    assert problem.method is PlanMethod.QUADRATIC and problem.radius_is_auto
+
+
+def test_notes():
+    notes = read_problem(text(via="[[-1, 3, 3], [1, 2, 3]]", start="[0, 0, 0]")).notes
+    assert len(notes) == 2 and "differ in y" in notes[0] and "origin" in notes[1]
+
+
+BAD = {
+    'start = [1,2]': ("start", "3 numbers", "2 values"),
+    'start = [1,2,"x"]': ("start[2]", "fraction", '"x"'),
+    "start = [1,2,nan]": ("start[2]", "decimal", "nan"),
+    "start = [1,2,-inf]": ("start[2]", "decimal", "-inf"),
+    "start = [1,2,true]": ("start[2]", "integer", "true"),
+    "start = [1,2,[3]]": ("start[2]", "integer", "array"),
+    'start = ["1/0",1,1]': ("start[0]", "integer", "divides by zero"),
+    'start = ["sqrt(2)",1,1]': ("start[0]", "integer", "sqrt(2)"),
+    "start = [1e999999999,1,1]": ("start[0]", "decimal", "exponent"),
+    "start = 3": ("start", "point", "3"),
+    "start = 1979-05-27": ("start", "point", "date"),
+    'colour = "red"': ("colour", "one of the keys", "unknown key"),
+    'radius = "1/2"': ("radius", "at least", "1/2"),
+    "radius = -9": ("radius", "positive", "negative"),
+    "radius = 0": ("radius", "positive", "zero"),
+    'radius = "sqrt(-1)"': ("radius", "positive", "negative"),
+    'radius = "big"': ("radius", "positive", "big"),
+    "radius = true": ("radius", "positive", "true"),
+    'method = "octic"': ("method", '"quadratic"', '"octic"'),
+    "method = 8": ("method", '"quadratic"', "8"),
+    'workspace = "torus"': ("workspace", '"hemisphere"', '"torus"'),
+    "via = [[1,1,1]]": ("via", "two points", "1 value"),
+    "via = [1, 2]": ("via", "two points", "2 values"),
+    "via = [[1,1,1],[1,1]]": ("via[1]", "3 numbers", "2 values"),
+    "via = [[1,1,1],[1,1,1]]": ("via[1]", "other than via[0]", "same point"),
+    "via = [[-4,1,1],[1,1,1]]": ("via[0]", "other than start", "same point"),
+    "goal = [1, 3, 3]": ("goal", "other than via[1]", "same point"),
+}
+
+
+@pytest.mark.parametrize("line", BAD)
+def test_bad_values_get_one_line_with_key_expected_and_found(line):
+    key, value = (part.strip() for part in line.split("=", 1))
+    with pytest.raises(InputError) as caught:
+        read_problem(text(**{key: value}), "p.toml")
+    message = str(caught.value)
+    name, expected, found = BAD[line]
+    assert "\n" not in message and message.startswith("p.toml:") and f": {name}: expected " in message
+    assert expected in message.split(", found ")[0] and found in message.split(", found ", 1)[1]
+
+
+def test_the_line_of_the_key_is_named():
+    with pytest.raises(InputError, match=r"^p\.toml:5: goal\[1\]: "):
+        read_problem(text(goal='[1, "?", 1]'), "p.toml")
+
+
+@pytest.mark.parametrize("key", ["start", "via", "goal"])
+def test_missing_points(key):
+    with pytest.raises(InputError, match=rf"^p\.toml: {key}: expected .* found no such key$"):
+        read_problem(text(**{key: None}), "p.toml")
+
+
+@pytest.mark.parametrize("body", ["start = [1, 2", "= 3", "a = 1\na = 2", "[x", "x = '''", "\x00", "via = [[1,,2]]"])
+def test_broken_toml(body):
+    with pytest.raises(InputError, match=r"^p\.toml:\d+.*expected a TOML file, found") as caught:
+        read_problem(body, "p.toml")
+    assert "\n" not in str(caught.value)
+
+
+def test_huge_integer_is_refused():
+    with pytest.raises(InputError):
+        read_problem(text(radius="1" * 5000), "p.toml")
+    with pytest.raises(InputError):
+        read_problem(text(radius="1" * 1000), "p.toml")
+
+
+def test_below_the_table():
+    with pytest.raises(InputError, match=r"goal: expected a point with z >= 0"):
+        read_problem(text(goal="[4, 1, -1]", workspace='"hemisphere"'))
+
+
+def test_unreadable_files(tmp_path: Path):
+    with pytest.raises(InputError, match="expected a readable file"):
+        load_problem(tmp_path / "none.toml")
+    with pytest.raises(InputError, match="expected a readable file"):
+        load_problem(tmp_path)
+    (tmp_path / "latin.toml").write_bytes(b"# \xe9\xff\n")
+    with pytest.raises(InputError, match="expected UTF-8"):
+        load_problem(tmp_path / "latin.toml")
+    (tmp_path / "big.toml").write_bytes(b"#" * 1_000_001)
+    with pytest.raises(InputError, match="at most"):
+        load_problem(tmp_path / "big.toml")
+
+
+@given(st.fractions(max_denominator=10**6))
+def test_fractions_are_read_back(value):
+    assert parse(str(value)) == value
+
+
+@given(st.decimals(allow_nan=False, allow_infinity=False, min_value=-(10**9), max_value=10**9))
+def test_decimals_are_read_exactly(value):
+    assert parse(str(value)) == Fraction(value)
+
+
+@given(st.text(max_size=12))
+def test_any_text_is_a_number_or_refused(raw):
+    try:
+        parse(raw)
+    except NotANumber as error:
+        assert "\n" not in str(error)
