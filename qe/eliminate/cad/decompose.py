@@ -1,0 +1,68 @@
+"""A prenex formula to a cell table: order, projection, lifting; Lazard where Brown–McCallum does not apply."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from qe.eliminate.cad.lift import Lifter
+from qe.eliminate.cad.matrix import compile_matrix, strengthened
+from qe.eliminate.cad.projection import factor_lists
+from qe.errors import NotWellOriented
+from qe.evidence.cells import CellTable
+from qe.exact.ring import Ring
+from qe.exact.sample import Point
+from qe.formula.build import convert
+from qe.formula.syntax import Formula
+from qe.formula.traverse import polynomials
+from qe.options import Budget, Projection
+
+
+@dataclass(frozen=True, slots=True)
+class Decomposition:
+    """The table and what it cost."""
+
+    table: CellTable
+    cells: int
+    stacks: int
+    factors: int
+    nullified: bool
+
+
+def decompose(
+    matrix: Formula,
+    order: tuple[str, ...],
+    quantifiers: tuple[str, ...],
+    *,
+    budget: Budget,
+    projection: Projection = Projection.BROWN_MCCALLUM,
+) -> Decomposition:
+    """The cell table of Q_k x_k … Q_n x_n. matrix over the variables ``order`` (free ones first).
+
+    Where the projection asked for meets a nullified factor that its theorem does not allow, the work is redone
+    with Lazard projection and Lazard evaluation together. Raises ``BudgetExceeded``.
+    """
+    ring = Ring.of(order)
+    matrix = convert(matrix, ring)
+    try:
+        return _attempt(matrix, order, quantifiers, budget, projection, ring, nullified=False)
+    except NotWellOriented:
+        return _attempt(matrix, order, quantifiers, budget, Projection.LAZARD, ring, nullified=True)
+
+
+def _attempt(
+    matrix: Formula,
+    order: tuple[str, ...],
+    quantifiers: tuple[str, ...],
+    budget: Budget,
+    projection: Projection,
+    ring: Ring,
+    *,
+    nullified: bool,
+) -> Decomposition:
+    strong = strengthened(matrix)
+    levels = factor_lists(polynomials(strong), len(order), projection, budget)
+    places = {f: (k, j) for k, level in enumerate(levels) for j, f in enumerate(level)}
+    lifter = Lifter(levels, quantifiers, projection, budget)
+    root = lifter.run(Point(ring), compile_matrix(strong, places))
+    table = CellTable(order, quantifiers, matrix, projection, levels, root)
+    return Decomposition(table, lifter.cells, lifter.stacks, sum(map(len, levels)), nullified)

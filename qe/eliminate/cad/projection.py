@@ -1,0 +1,55 @@
+"""Projection operators of cylindrical algebraic decomposition, and the closure of a factor set under one.
+
+``brown-mccallum`` (Brown 2001, Theorem 3.1, after McCallum 1998): leading coefficients, discriminants and
+pairwise resultants. Valid where no factor is nullified over a cell of positive dimension; lifting checks that.
+``lazard`` (Lazard 1994; McCallum, Parusiński, Păunescu 2019): additionally the trailing coefficients; valid
+for every input, provided that lifting uses Lazard evaluation.
+Both expect irreducible, pairwise coprime polynomials of positive degree in the projected variable.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from itertools import combinations
+
+from qe.exact.ring import Poly
+from qe.options import Budget, Projection
+
+Levels = tuple[tuple[Poly, ...], ...]
+
+
+def project(polys: Iterable[Poly], variable: int, operator: Projection) -> Iterator[Poly]:
+    """The (unfactored) projection of a set of irreducible polynomials with main variable ``variable``."""
+    listing = list(polys)
+    for f in listing:
+        coefficients = f.coefficients(variable)
+        yield coefficients[-1]
+        if operator is Projection.LAZARD:
+            yield coefficients[0]
+        if f.degree(variable) >= 2:
+            yield f.discriminant(variable)
+    for f, g in combinations(listing, 2):
+        yield f.resultant(g, variable)
+
+
+def factor_lists(polys: Iterable[Poly], size: int, operator: Projection, budget: Budget) -> Levels:
+    """The irreducible factors of ``polys``, closed under projection down to level 0, one list per level."""
+    levels: list[dict[Poly, None]] = [{} for _ in range(size)]
+
+    def insert(p: Poly) -> None:
+        if p:
+            for f, _ in p.factors()[1]:
+                levels[f.level][f] = None
+
+    for p in polys:
+        insert(p)
+    for k in range(size - 1, 0, -1):
+        for p in project(levels[k], k, operator):
+            budget.check("project", size - k, size)
+            insert(p)
+    return tuple(tuple(sorted(level, key=_simplicity)) for level in levels)
+
+
+def _simplicity(p: Poly) -> tuple[object, ...]:
+    """A deterministic order: low degree first, then few terms, then by terms."""
+    return p.degrees[::-1], p.term_count(), p.terms()

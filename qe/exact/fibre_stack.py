@@ -1,0 +1,226 @@
+"""All real roots of several polynomials over one sample point, in order and with exact coincidences.
+
+This is the root finding of cylindrical algebraic decomposition: over the point, each polynomial of the next
+level becomes univariate; equal roots of different polynomials are recognised exactly (by a common irreducible
+factor over Q, or by a greatest common divisor over the tower), never by tolerance.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from flint import arb, fmpq, fmpz_poly
+
+from qe.exact.algebraic import RealAlgebraic, irreducible_factors, irreducible_roots
+from qe.exact.balls import EXACT_FROM, FIRST_PRECISION, ball_sign, lower_end, precision, upper_end
+from qe.exact.isolate import simplest_between
+from qe.exact.lazard import lazard_evaluation
+from qe.exact.ring import Poly, from_univariate
+from qe.exact.sample import Fibre, FibreRoot, Point, common_fibre
+
+_ONE = fmpq(1)
+
+
+@dataclass(slots=True)
+class Section:
+    """A root: its value and the indices of the polynomials that vanish there."""
+
+    value: fmpq | RealAlgebraic | FibreRoot
+    members: list[int]
+    bits: int = FIRST_PRECISION
+
+    def ball(self) -> arb:
+        value = self.value
+        return arb(value) if isinstance(value, fmpq) else value.ball(self.bits)
+
+
+@dataclass(frozen=True, slots=True)
+class Isolation:
+    """m sections, m+1 rational sector samples between and around them, and the polynomials that are nullified.
+
+    ``signs[j][s]`` is the sign of polynomial j at sector sample s (0 throughout for a nullified one).
+    """
+
+    sections: tuple[Section, ...]
+    sectors: tuple[fmpq, ...]
+    signs: tuple[tuple[int, ...], ...]
+    nullified: tuple[int, ...] = field(default=())
+
+
+def isolate_over(point: Point, polys: tuple[Poly, ...], *, lazard: bool = False) -> Isolation:
+    """The stack of ``polys`` (in variables up to ``point.depth``) over the point.
+
+    With ``lazard`` a polynomial that vanishes identically over the point contributes the roots of its Lazard
+    evaluation (McCallum, Parusiński, Păunescu 2019); its sign is 0 all the same.
+    """
+    var = point.depth
+    shapes: list[fmpz_poly | Fibre | None] = []
+    nullified: list[int] = []
+    sections: dict[tuple[object, int], Section] = {}
+    loose: list[Section] = []
+    for j, f in enumerate(polys):
+        shape = _specialise(point, f, var)
+        shapes.append(shape)
+        if shape is None:
+            nullified.append(j)
+            if lazard:
+                residual = lazard_evaluation(point, f)
+                _collect(point, var, j, _specialise(point, residual, var), sections, loose)
+        else:
+            _collect(point, var, j, shape, sections, loose)
+    ordered = _separate(point, [*sections.values(), *loose])
+    sectors = _sector_samples(ordered)
+    signs = tuple(_signs(shape, sectors) for shape in shapes)
+    return Isolation(tuple(ordered), tuple(sectors), signs, tuple(nullified))
+
+
+def _specialise(point: Point, f: Poly, var: int) -> fmpz_poly | Fibre | None:
+    """f over the point: integer univariate, a fibre with algebraic coefficients, or None if nullified."""
+    g = point.reduce(f)
+    if not g:
+        return None
+    variables = g.variables
+    if not variables or variables == (var,):
+        return g.to_univariate(var)
+    fibre = Fibre(point, var, g.coefficients(var))
+    with precision(EXACT_FROM + 16):
+        certain = any(not point.enclose(c, EXACT_FROM).contains(0) for c in fibre.coefficients)
+    return fibre if certain or fibre.strip() else None
+
+
+def _collect(
+    point: Point,
+    var: int,
+    j: int,
+    shape: fmpz_poly | Fibre | None,
+    sections: dict[tuple[object, int], Section],
+    loose: list[Section],
+) -> None:
+    if shape is None:
+        return
+    if isinstance(shape, Fibre):
+        loose += [Section(FibreRoot(shape, i), [j]) for i in range(len(shape.roots()))]
+        return
+    for q, _ in irreducible_factors(shape):
+        for root in irreducible_roots(q):
+            key = (tuple(q.coeffs()), root.index)
+            known = sections.get(key)
+            if known is not None:
+                if j not in known.members:
+                    known.members.append(j)
+            else:
+                sections[key] = Section(root.as_fmpq() if root.is_rational else root, [j])
+
+
+def _separate(point: Point, sections: list[Section]) -> list[Section]:
+    """Sort, refining until neighbours are certainly apart, or merging where they are provably equal."""
+    if len(sections) < 2:
+        return sections
+    apart: set[tuple[int, int]] = set()  # pairs proved different: only refine
+    while True:
+        with precision(max(s.bits for s in sections) + 16):
+            balls = {id(s): s.ball() for s in sections}
+            sections.sort(key=lambda s: float(balls[id(s)].mid()))
+            clash = next(((a, b) for a, b in zip(sections, sections[1:], strict=False) if not balls[id(a)] < balls[id(b)]), None)
+        if clash is None:
+            return sections
+        a, b = clash
+        key = (id(a), id(b)) if id(a) < id(b) else (id(b), id(a))
+        if min(a.bits, b.bits) >= EXACT_FROM and key not in apart:
+            if _equal(point, a, b):
+                sections.remove(b if _weight(a) <= _weight(b) else a)
+                kept = a if _weight(a) <= _weight(b) else b
+                kept.members = sorted({*a.members, *b.members})
+                continue
+            apart.add(key)
+        a.bits = b.bits = 2 * max(a.bits, b.bits)
+
+
+def _weight(s: Section) -> int:
+    """Cost of computing with the section's value: the degree of its defining polynomial, rational ones first."""
+    if isinstance(s.value, fmpq):
+        return 0
+    if isinstance(s.value, RealAlgebraic):
+        return s.value.degree
+    return 1000 * (len(s.value.fibre.coefficients) - 1)
+
+
+def _equal(point: Point, a: Section, b: Section) -> bool:
+    """Whether two sections over the point are the same number."""
+    if not isinstance(a.value, FibreRoot) and not isinstance(b.value, FibreRoot):
+        return False  # roots of different irreducible integer polynomials, or different roots of one
+    left, right = _as_fibre_root(point, a.value), _as_fibre_root(point, b.value)
+    if left.fibre is right.fibre:
+        return left.index == right.index
+    common = common_fibre(left.fibre, right.fibre)
+    if common is None:
+        return False
+    bits = EXACT_FROM
+    while True:
+        matches = _matches(common.roots(bits), left.fibre.roots(bits), right.fibre.roots(bits))
+        if matches is not None:
+            return (left.index, right.index) in matches
+        bits *= 2
+
+
+def _matches(common: list[arb], left: list[arb], right: list[arb]) -> set[tuple[int, int]] | None:
+    """For each common root the pair of indices it equals, once every overlap is unique."""
+    result: set[tuple[int, int]] = set()
+    for x in common:
+        i = [k for k, y in enumerate(left) if y.overlaps(x)]
+        j = [k for k, y in enumerate(right) if y.overlaps(x)]
+        if len(i) != 1 or len(j) != 1:
+            return None
+        result.add((i[0], j[0]))
+    return result
+
+
+def _as_fibre_root(point: Point, value: fmpq | RealAlgebraic | FibreRoot) -> FibreRoot:
+    if isinstance(value, FibreRoot):
+        return value
+    number = RealAlgebraic.rational(value) if isinstance(value, fmpq) else value
+    f = from_univariate(point.ring, point.depth, number.poly)
+    fibre = Fibre(point, point.depth, f.coefficients(point.depth))
+    fibre.exact = True
+    return FibreRoot(fibre, number.index)
+
+
+def _sector_samples(sections: list[Section]) -> list[fmpq]:
+    if not sections:
+        return [fmpq(0)]
+    ends: list[tuple[fmpq, fmpq]] = []
+    for s in sections:
+        if isinstance(s.value, fmpq):
+            ends.append((s.value, s.value))
+        else:
+            with precision(s.bits + 16):
+                x = s.ball()
+            ends.append((lower_end(x), upper_end(x)))
+    first, last = ends[0][0], ends[-1][1]
+    samples = [fmpq(0) if first > 0 else fmpq(first.ceil() - 1)]
+    samples += [simplest_between(a[1], b[0]) for a, b in zip(ends, ends[1:], strict=False)]
+    samples.append(fmpq(0) if last < 0 else fmpq(last.floor() + 1))
+    return samples
+
+
+def _signs(shape: fmpz_poly | Fibre | None, sectors: list[fmpq]) -> tuple[int, ...]:
+    if shape is None:
+        return (0,) * len(sectors)
+    if isinstance(shape, fmpz_poly):
+        values = [shape(q) for q in sectors]
+        return tuple((v > 0) - (v < 0) for v in values)
+    return tuple(_fibre_sign(shape, q) for q in sectors)
+
+
+def _fibre_sign(fibre: Fibre, q: fmpq) -> int:
+    """The sign of the *original* polynomial's fibre at a rational number that is not a root of it."""
+    bits = FIRST_PRECISION
+    while True:
+        with precision(bits + 16):
+            x, total = arb(q), arb(0)
+            for c in reversed(fibre.source):
+                total = total * x + fibre.point.enclose(c, bits)
+            sign = ball_sign(total)
+        if sign is not None:
+            return sign
+        bits *= 2

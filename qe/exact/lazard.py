@@ -1,0 +1,52 @@
+"""Lazard evaluation (Lazard 1994; McCallum, Parusiński, Păunescu, JSC 2019, arXiv 1607.00264, Def. 4).
+
+For f of level k and a point (a_0, …, a_{k-1}): for i = 0, 1, …, divide f by the highest power v_i of
+(x_i - a_i) that divides it and put x_i = a_i. Up to the nonzero factor 1/v_i! the quotient at a_i is the
+v_i-th partial derivative there, where v_i is the least order for which that derivative, restricted to the
+coordinates so far, is not identically zero in the later variables.
+"""
+
+from __future__ import annotations
+
+from flint import fmpq
+
+from qe.exact.ring import Poly
+from qe.exact.sample import Point
+
+
+def lazard_evaluation(point: Point, f: Poly) -> Poly:
+    """A polynomial whose substitution at the point is a nonzero multiple of the Lazard evaluation of f.
+
+    Variables 0..depth-1 that are rational are substituted; algebraic ones stay, to be evaluated.
+    """
+    current = f
+    for i in range(point.depth):
+        prefix = point.ancestor(i + 1)
+        candidate = current
+        while _identically_zero(prefix, candidate):
+            candidate = candidate.derivative(i)
+        value = prefix.value
+        current = prefix.reduce(candidate) if isinstance(value, fmpq) else candidate
+    return current
+
+
+def _identically_zero(prefix: Point, f: Poly) -> bool:
+    """Whether f, restricted to the prefix, is the zero polynomial in the later variables."""
+    g = prefix.reduce(f)
+    if not g:
+        return True
+    if not prefix.algebraic:
+        return False
+    return all(prefix.vanishes(c) for c in _coefficients_above(g, prefix.depth))
+
+
+def _coefficients_above(g: Poly, depth: int) -> list[Poly]:
+    """The coefficients of g as a polynomial in the variables with index >= depth."""
+    pending, out = [g], []
+    while pending:
+        p = pending.pop()
+        if p.level >= depth:
+            pending += [c for c in p.coefficients(p.level) if c]
+        else:
+            out.append(p)
+    return out

@@ -1,0 +1,335 @@
+"""Sample points with real algebraic coordinates: signs of polynomials at them, real roots above them.
+
+A ``Point`` of depth k fixes variables 0..k-1 of a ring, each to a rational number, to a ``RealAlgebraic``
+or to a ``FibreRoot`` (a root of a polynomial over the earlier coordinates). Rational coordinates are
+substituted; signs come from ball arithmetic, and only where a ball cannot exclude zero does the exact
+tower of fields (built lazily) prove the zero. No primitive elements.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from fractions import Fraction
+
+from flint import acb_poly, arb, arb_poly, fmpq, fmpq_mpoly
+
+from qe.exact.algebraic import RealAlgebraic, select_root
+from qe.exact.balls import EXACT_FROM, FIRST_PRECISION, ball_sign, precision
+from qe.exact.ring import Poly, Ring, from_univariate
+from qe.exact.tower import Tower, clear_denominators, degree_in
+
+Coordinate = "fmpq | RealAlgebraic | FibreRoot"
+
+
+class Point:
+    """A point of R^depth; immutable apart from caches."""
+
+    __slots__ = ("_balls", "_reduced", "_tower", "algebraic", "depth", "parent", "ring", "value")
+
+    def __init__(self, ring: Ring, parent: Point | None = None, value: fmpq | RealAlgebraic | FibreRoot | None = None) -> None:
+        self.ring, self.parent = ring, parent
+        if isinstance(value, RealAlgebraic) and value.is_rational:
+            value = value.as_fmpq()
+        self.value = value
+        self.depth: int = 0 if parent is None else parent.depth + 1
+        inherited: tuple[int, ...] = () if parent is None else parent.algebraic
+        rational = parent is None or isinstance(value, fmpq)
+        self.algebraic = inherited if rational else (*inherited, self.depth - 1)
+        self._reduced: dict[Poly, Poly] = {}
+        self._tower: Tower | None = None
+        self._balls: dict[tuple[int, int], arb] = {}
+
+    @staticmethod
+    def of(ring: Ring, values: Iterable[Fraction | int | RealAlgebraic]) -> Point:
+        """The point with the given coordinates for variables 0, 1, …"""
+        point = Point(ring)
+        for value in values:
+            point = point.extend(value if isinstance(value, RealAlgebraic) else RealAlgebraic.rational(value))
+        return point
+
+    def extend(self, value: fmpq | RealAlgebraic | FibreRoot) -> Point:
+        """The point one coordinate longer."""
+        return Point(self.ring, self, value)
+
+    def ancestor(self, depth: int) -> Point:
+        """The projection to the first ``depth`` coordinates."""
+        point = self
+        while point.depth > depth:
+            assert point.parent is not None
+            point = point.parent
+        return point
+
+    def coordinate(self, i: int) -> fmpq | RealAlgebraic | FibreRoot:
+        """The stored value of variable i."""
+        value = self.ancestor(i + 1).value
+        assert value is not None
+        return value
+
+    def number(self, i: int) -> Fraction | RealAlgebraic:
+        """The value of variable i as a rational or a real algebraic number with its own minimal polynomial."""
+        value = self.coordinate(i)
+        if isinstance(value, fmpq):
+            return Fraction(int(value.p), int(value.q))
+        number = value if isinstance(value, RealAlgebraic) else value.number()
+        return number.as_fraction() if number.is_rational else number
+
+    # --- evaluation --------------------------------------------------------------------------
+    def reduce(self, f: Poly) -> Poly:
+        """A positive multiple of f with the rational coordinates substituted; cached."""
+        if self.parent is None:
+            return f
+        stored = self._reduced.get(f)
+        if stored is None:
+            stored = self.parent.reduce(f)
+            i = self.depth - 1
+            if isinstance(self.value, fmpq) and stored.degree(i):
+                stored = stored.at_rational(i, Fraction(int(self.value.p), int(self.value.q)))
+            self._reduced[f] = stored
+        return stored
+
+    def ball(self, i: int, bits: int) -> arb:
+        """A ball around coordinate i (algebraic)."""
+        point = self.ancestor(i + 1)
+        key = (i, bits)
+        stored = point._balls.get(key)
+        if stored is None:
+            value = point.value
+            assert isinstance(value, RealAlgebraic | FibreRoot)
+            stored = point._balls[key] = value.ball(bits)
+        return stored
+
+    def enclose(self, f: Poly, bits: int) -> arb:
+        """A ball around f, whose variables are algebraic coordinates only, at this working precision."""
+        variables = f.variables
+        if not variables:
+            return arb(f.constant_value())
+        i = variables[-1]
+        x = self.ball(i, bits)
+        if len(variables) == 1:
+            univariate = f.__dict__.get("univariate")
+            if univariate is None:
+                univariate = f.__dict__["univariate"] = f.to_univariate(i)
+            return univariate(x)
+        total = arb(0)
+        for c in reversed(f.coefficients(i)):
+            total = total * x + self.enclose(c, bits)
+        return total
+
+    def sign(self, f: Poly) -> int:
+        """The sign of f (in variables below the depth) at the point, exactly."""
+        return self.sign_reduced(self.reduce(f))
+
+    def sign_reduced(self, g: Poly) -> int:
+        """The sign of a polynomial in the algebraic coordinates only."""
+        if g.is_constant:
+            value = g.constant_value()
+            return (value > 0) - (value < 0)
+        bits, proved = FIRST_PRECISION, False
+        while True:
+            with precision(bits + 16):
+                sign = ball_sign(self.enclose(g, bits))
+            if sign is not None:
+                return sign
+            if bits >= EXACT_FROM and not proved:
+                if self.is_zero(g):
+                    return 0
+                proved = True
+            bits *= 2
+
+    def is_zero(self, g: Poly) -> bool:
+        """Whether a polynomial in the algebraic coordinates vanishes, by its normal form."""
+        return self.tower.is_zero(g)
+
+    def vanishes(self, g: Poly) -> bool:
+        """Whether a polynomial in the algebraic coordinates vanishes: balls first, then the normal form."""
+        if g.is_constant:
+            return not g
+        with precision(EXACT_FROM + 16):
+            if not self.enclose(g, EXACT_FROM).contains(0):
+                return False
+        return self.is_zero(g)
+
+    @property
+    def tower(self) -> Tower:
+        """The field of the algebraic coordinates."""
+        if self._tower is None:
+            if self.parent is None:
+                self._tower = Tower(self.ring)
+            elif isinstance(self.value, fmpq):
+                self._tower = self.parent.tower
+            else:
+                self._tower = self._extended_tower()
+        return self._tower
+
+    def _extended_tower(self) -> Tower:
+        assert self.parent is not None
+        below, i = self.parent.tower, self.depth - 1
+        value = self.value
+        assert isinstance(value, RealAlgebraic | FibreRoot)
+        if isinstance(value, RealAlgebraic):
+            f = from_univariate(self.ring, i, value.poly)
+        else:
+            f = value.fibre.polynomial()
+        element = below.embed(f)
+        if below.variables or isinstance(value, FibreRoot):
+            element = below.squarefree_part(element, i)
+            modulus = below.irreducible_factor(element, i, value.ball, self.parent.ball)
+        else:
+            modulus = below.monic(element, i)
+        return below.extended(i, modulus)
+
+    def __repr__(self) -> str:
+        return "Point(" + ", ".join(str(self.number(i)) for i in range(self.depth)) + ")"
+
+
+class Fibre:
+    """A polynomial in variable ``var`` over an algebraic point: coefficients low to high, in algebraic coordinates."""
+
+    __slots__ = ("_bits", "_roots", "coefficients", "exact", "point", "source", "var")
+
+    def __init__(self, point: Point, var: int, coefficients: tuple[Poly, ...]) -> None:
+        self.point, self.var, self.coefficients = point, var, coefficients
+        self.source = coefficients  # as given; ``coefficients`` may become the squarefree part
+        self.exact = False  # whether the leading coefficient and squarefreeness have been proved
+        self._roots: list[arb] | None = None
+        self._bits = 0
+
+    def polynomial(self) -> Poly:
+        """The polynomial itself."""
+        total, x = self.point.ring.constant(0), self.point.ring.gen(self.var)
+        for c in reversed(self.coefficients):
+            total = total * x + c
+        return total
+
+    def strip(self) -> bool:
+        """Remove leading coefficients that vanish at the point; False if nothing is left."""
+        kept = list(self.coefficients)
+        while kept and self.point.vanishes(kept[-1]):
+            kept.pop()
+        self.coefficients = tuple(kept)
+        return bool(kept)
+
+    def roots(self, bits: int = FIRST_PRECISION) -> list[arb]:
+        """Disjoint balls around the distinct real roots, ascending; the polynomial is not zero at the point."""
+        if self._roots is not None and self._bits >= bits:
+            return self._roots
+        while True:
+            with precision(bits + 16):
+                found = self._attempt(bits)
+            if found is not None:
+                self._roots, self._bits = found, bits
+                return found
+            if bits >= EXACT_FROM and not self.exact:
+                self._make_exact()
+            else:
+                bits *= 2
+
+    def _attempt(self, bits: int) -> list[arb] | None:
+        c = [self.point.enclose(a, bits) for a in self.coefficients]
+        if c[-1].contains(0):
+            return None
+        if len(c) <= 2:
+            return [] if len(c) == 1 else [-c[0] / c[1]]
+        if len(c) == 3:
+            return _quadratic(c)
+        return _certified_roots(c)
+
+    def _make_exact(self) -> None:
+        """Prove the degree, and replace the polynomial by its squarefree part over the tower."""
+        self.strip()
+        self.exact = True
+        if len(self.coefficients) <= 2:
+            return
+        if len(self.coefficients) == 3:
+            c0, c1, c2 = self.coefficients
+            if self.point.vanishes(c1 * c1 - 4 * (c2 * c0)):
+                self.coefficients = (c1, 2 * c2)
+            return
+        tower = self.point.tower
+        part = tower.squarefree_part(tower.embed(self.polynomial()), self.var)
+        self.coefficients = clear_denominators(self.point.ring, part).coefficients(self.var)
+
+    def element(self) -> fmpq_mpoly:
+        """The polynomial over the point's tower, reduced, with a provably nonzero leading coefficient."""
+        if not self.exact:
+            self.strip()
+        return self.point.tower.embed(self.polynomial())
+
+
+class FibreRoot:
+    """The index-th real root (from 0) of a fibre."""
+
+    __slots__ = ("_number", "fibre", "index")
+
+    def __init__(self, fibre: Fibre, index: int) -> None:
+        self.fibre, self.index = fibre, index
+        self._number: RealAlgebraic | None = None
+
+    def ball(self, bits: int = FIRST_PRECISION) -> arb:
+        """A ball around the root whose relative or absolute error is about 2^-bits."""
+        working = bits
+        while True:
+            x = self.fibre.roots(working)[self.index]
+            if x.rel_accuracy_bits() >= bits or x.rad() < arb(2) ** -bits:
+                return x
+            working *= 2
+
+    def number(self) -> RealAlgebraic:
+        """The root with its minimal polynomial over Q, through the norm."""
+        if self._number is None:
+            fibre, tower = self.fibre, self.fibre.point.tower
+            element = tower.squarefree_part(fibre.element(), fibre.var)
+            factor = tower.irreducible_factor(element, fibre.var, self.ball, fibre.point.ball)
+            self._number = select_root(tower.norm(factor, fibre.var), self.ball)
+        return self._number
+
+
+def _quadratic(c: list[arb]) -> list[arb] | None:
+    discriminant = c[1] * c[1] - 4 * c[2] * c[0]
+    sign = ball_sign(discriminant)
+    if not sign:
+        return None
+    if sign < 0:
+        return []
+    root = discriminant.sqrt()
+    if c[1] > 0:
+        low = -(c[1] + root)
+        pair = [low / (2 * c[2]), 2 * c[0] / low]
+    else:
+        high = root - c[1]
+        if high.contains(0):
+            return None
+        pair = [2 * c[0] / high, high / (2 * c[2])]
+    if c[2] < 0:
+        pair.reverse()
+    return pair if pair[0] < pair[1] else None
+
+
+def _certified_roots(c: list[arb]) -> list[arb] | None:
+    """Real roots from isolating complex balls: a ball that meets its conjugate and no other holds a real root."""
+    try:
+        found = acb_poly(arb_poly(c)).roots()
+    except ValueError:
+        return None
+    real: list[arb] = []
+    for i, z in enumerate(found):
+        if z.imag.contains(0):
+            mirror = z.conjugate()
+            if any(mirror.overlaps(other) for j, other in enumerate(found) if j != i):
+                return None
+            real.append(z.real)
+    real.sort(key=lambda x: float(x.mid()))
+    return real if all(a < b for a, b in zip(real, real[1:], strict=False)) else None
+
+
+def common_fibre(f: Fibre, g: Fibre) -> Fibre | None:
+    """The greatest common divisor of two fibres over one point, or None if it is constant."""
+    point, var = f.point, f.var
+    tower = point.tower
+    common = tower.gcd(f.element(), g.element(), var)
+    if degree_in(point.ring, common, var) == 0:
+        return None
+    common = tower.squarefree_part(common, var)
+    fibre = Fibre(point, var, clear_denominators(point.ring, common).coefficients(var))
+    fibre.exact = True
+    return fibre
