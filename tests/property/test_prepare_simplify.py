@@ -1,0 +1,83 @@
+"""simplify: facts -> (formula <-> result), never larger, idempotent, negations in the atoms."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from functools import reduce
+
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from qe.formula.build import conj, exists, neg
+from qe.formula.syntax import And, Exists, Formula, Not, Relation
+from qe.formula.traverse import children
+from qe.prepare.ranges import EMPTY, EVERYTHING, add, compare, meet, multiply, power, scale
+from qe.prepare.simplify import simplify
+
+from .prepare_support import RING, formulas, holds, literals, named, points, rationals, weight
+
+ranges = st.lists(st.builds(compare, st.sampled_from(Relation), rationals), max_size=3)
+
+
+def has_negation(formula: Formula) -> bool:
+    return isinstance(formula, Not) or any(has_negation(c) for c in children(formula))
+
+
+@settings(max_examples=300, deadline=None)
+@given(formulas(), st.lists(points, min_size=1, max_size=12))
+def test_equivalent_smaller_and_idempotent(formula: Formula, where: list[tuple[Fraction, ...]]) -> None:
+    result = simplify(formula)
+    for values in where:
+        point = named(RING, values)
+        assert holds(formula, point) == holds(result, point)
+    assert weight(result) <= weight(formula)
+    assert not has_negation(result)
+    assert simplify(result) == result
+
+
+@settings(max_examples=150, deadline=None)
+@given(formulas(), st.lists(literals(), min_size=1, max_size=3), st.lists(points, min_size=1, max_size=20))
+def test_assumptions_may_be_used_but_only_where_they_hold(
+    formula: Formula, assumed: list[Formula], where: list[tuple[Fraction, ...]]
+) -> None:
+    assumptions = conj(assumed)
+    result = simplify(formula, assumptions)
+    for values in where:
+        point = named(RING, values)
+        if holds(assumptions, point):
+            assert holds(formula, point) == holds(result, point)
+
+
+@settings(max_examples=100, deadline=None)
+@given(formulas(), points)
+def test_negation_commutes(formula: Formula, values: tuple[Fraction, ...]) -> None:
+    point = named(RING, values)
+    assert holds(simplify(neg(formula)), point) != holds(simplify(formula), point)
+
+
+@settings(max_examples=60, deadline=None)
+@given(formulas(), st.lists(points, min_size=1, max_size=8))
+def test_bound_variables_are_not_confused_with_free_ones(
+    formula: Formula, where: list[tuple[Fraction, ...]]
+) -> None:
+    """``f and ex x. f`` is f: what f says about the free x must not leak into the quantifier, nor back."""
+    result = simplify(conj((formula, exists(("x",), formula))))
+    parts = result.args if isinstance(result, And) else (result,)
+    for values in where:
+        point = named(RING, values)
+        if holds(formula, point):
+            for part in parts:
+                assert holds(part.body, point | {"x": values[2]}) if isinstance(part, Exists) else holds(part, point)
+
+
+@given(ranges, ranges, rationals, rationals, st.integers(1, 4))
+def test_range_arithmetic_encloses(first, second, u, v, exponent) -> None:  # type: ignore[no-untyped-def]
+    a, b = reduce(meet, first, EVERYTHING), reduce(meet, second, EVERYTHING)
+    both = meet(a, b)
+    assert both.admits(u) == (a.admits(u) and b.admits(u)) if both != EMPTY else not (a.admits(u) and b.admits(u))
+    if not (a.admits(u) and b.admits(v)):
+        return
+    assert add(a, b).admits(u + v)
+    assert multiply(a, b).admits(u * v)
+    assert power(a, exponent).admits(u**exponent)
+    assert scale(a, Fraction(-3, 2)).admits(u * Fraction(-3, 2))
