@@ -1,0 +1,143 @@
+"""The border between commands and the shell: exit status, one-line errors, progress, files.
+
+Exit status: 0 answered, 2 bad input, 3 unable within the limits, 4 certificate rejected, 1 a bug.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+import tempfile
+import time
+from collections.abc import Callable, Sequence
+from contextlib import suppress
+from pathlib import Path
+from types import TracebackType
+from typing import Any, TypeVar
+
+import typer
+from typer.main import get_command
+
+from qe.errors import CertificateRejected, InputError, InternalError, Unable
+from qe.progress import Event
+from qe.worker import Channel, Known, WorkerDied, WorkerStopped, run
+
+T = TypeVar("T")
+
+OK, BUG, BAD_INPUT, UNABLE, REJECTED, INTERRUPTED = 0, 1, 2, 3, 4, 130
+
+DISPLAY_AFTER = 0.4
+"""Seconds before a progress display appears: quick answers stay quiet."""
+
+
+def enter(app: typer.Typer, argv: Sequence[str] | None, *, name: str) -> int:
+    """Run a command line; the exit status. Errors become exactly one line on stderr."""
+    sys.excepthook = _one_line_hook(name)
+    command: Any = get_command(app)
+    try:
+        code = command.main(args=None if argv is None else list(argv), prog_name=name, standalone_mode=False)
+        sys.stdout.flush()
+        return int(code or OK)
+    except typer.TyperException as error:
+        message = error.format_message().replace("Value error, ", "").rstrip(".")
+        return fail(name, f"{message} (see {name} --help)", BAD_INPUT)
+    except InputError as error:
+        return fail(name, str(error), BAD_INPUT)
+    except (WorkerStopped, WorkerDied) as error:
+        return fail(name, f"unable: {error}; known {error.known}", UNABLE)
+    except Unable as error:
+        return fail(name, f"unable: {error}", UNABLE)
+    except CertificateRejected as error:
+        return fail(name, f"certificate rejected: {error}", REJECTED)
+    except InternalError as error:
+        return fail(name, f"internal error, please report: {error}", BUG)
+    except (KeyboardInterrupt, typer.Abort):
+        return fail(name, "interrupted", INTERRUPTED)
+    except BrokenPipeError:  # the reader of our output left early, as head does
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return OK
+
+
+def fail(name: str, message: str, code: int) -> int:
+    """Print one line on stderr; the exit status ``code``."""
+    with suppress(BrokenPipeError):
+        print(f"{name}: {' '.join(message.split())}", file=sys.stderr, flush=True)
+    return code
+
+
+def _one_line_hook(name: str) -> Callable[[type[BaseException], BaseException, TracebackType | None], None]:
+    """What the interpreter does with an exception nobody expected: one line with its place; exit status 1."""
+
+    def hook(kind: type[BaseException], error: BaseException, trace: TracebackType | None) -> None:
+        while trace is not None and trace.tb_next is not None:
+            trace = trace.tb_next
+        place = "" if trace is None else f" at {Path(trace.tb_frame.f_code.co_filename).name}:{trace.tb_lineno}"
+        fail(name, f"internal error, please report: {kind.__name__}{place}: {error}", BUG)
+
+    return hook
+
+
+class Display:
+    """A progress line on stderr; silent where stderr is not a terminal."""
+
+    def __init__(self, *, wanted: bool = True) -> None:
+        self._wanted = wanted and sys.stderr.isatty()
+        self._start = time.monotonic()
+        self._status: Any = None
+
+    def __enter__(self) -> Display:
+        return self
+
+    def __exit__(self, *exc: object) -> None:
+        if self._status is not None:
+            self._status.stop()
+
+    def __call__(self, event: Event) -> None:
+        """A progress listener."""
+        elapsed = time.monotonic() - self._start
+        if not self._wanted or elapsed < DISPLAY_AFTER:
+            return
+        if self._status is None:
+            from rich.console import Console
+
+            self._status = Console(stderr=True).status("")
+            self._status.start()
+        total = f"/{event.total}" if event.total is not None else ""
+        count = f" {event.done}{total}" if event.done or event.total else ""
+        self._status.update(f"{event.phase}{count} {event.note} [dim]{elapsed:.0f} s[/dim]")
+
+
+def limited(
+    work: Callable[[Channel], T], *, timeout: float | None, memory: int | None, plain: bool, known: Known | None = None
+) -> T:
+    """Do the work in a worker under hard limits, with a progress display."""
+    with Display(wanted=not plain) as display:
+        return run(work, timeout=timeout, memory=memory, progress=display, known=known)
+
+
+def check_writable(path: Path | None) -> None:
+    """Raise ``InputError`` early when a file could not be written later."""
+    if path is None:
+        return
+    folder = path.parent
+    if path.is_dir():
+        raise InputError(f"{path}: a file name expected, a folder found")
+    if not folder.is_dir():
+        raise InputError(f"{path}: the folder {folder} does not exist")
+    if not os.access(folder, os.W_OK):
+        raise InputError(f"{path}: the folder {folder} is not writable")
+
+
+def write_file(path: Path, content: str | bytes) -> None:
+    """Write a whole file or nothing: into a temporary file beside it, then renamed."""
+    data = content.encode() if isinstance(content, str) else content
+    try:
+        descriptor, temporary = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
+        with os.fdopen(descriptor, "wb") as handle:
+            handle.write(data)
+        umask = os.umask(0)
+        os.umask(umask)
+        os.chmod(temporary, 0o666 & ~umask)
+        os.replace(temporary, path)
+    except OSError as error:
+        raise InputError(f"{path}: cannot be written: {error.strerror}") from None

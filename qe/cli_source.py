@@ -1,0 +1,93 @@
+"""Where a command's formula comes from: the argument itself, a file, or standard input."""
+
+from __future__ import annotations
+
+import re
+import sys
+from dataclasses import dataclass
+from enum import Enum
+from pathlib import Path
+
+from qe.errors import InputError
+
+
+class InputFormat(Enum):
+    """Formats that ``qe.io.formats`` reads."""
+
+    TEXT = "text"
+    SMTLIB = "smtlib"
+    QEPCAD = "qepcad"
+    REDLOG = "redlog"
+    JSON = "json"
+
+
+class OutputFormat(Enum):
+    """Formats that ``qe.io.formats`` writes."""
+
+    TEXT = "text"
+    SMTLIB = "smtlib"
+    QEPCAD = "qepcad"
+    REDLOG = "redlog"
+    LATEX = "latex"
+    MATHML = "mathml"
+    JSON = "json"
+
+
+_BY_ENDING = {
+    ".smt2": InputFormat.SMTLIB,
+    ".smt": InputFormat.SMTLIB,
+    ".json": InputFormat.JSON,
+    ".qepcad": InputFormat.QEPCAD,
+    ".red": InputFormat.REDLOG,
+    ".qe": InputFormat.TEXT,
+    ".txt": InputFormat.TEXT,
+}
+_FILE_LIKE = re.compile(r"[^\s<>=]+\.(smt2|smt|json|qepcad|red|qe|txt)")
+
+
+@dataclass(frozen=True, slots=True)
+class Source:
+    """A text to read, its format, and the name to give in messages."""
+
+    text: str
+    format: InputFormat
+    name: str
+
+
+def read_source(argument: str, wanted: InputFormat | None) -> Source:
+    """The text behind a command-line argument: ``-`` is standard input, an existing file is read, else the text.
+
+    Without a wanted format a file's ending decides; otherwise the format is ``text``. Raises ``InputError``
+    for a file that cannot be read or is not UTF-8 text.
+    """
+    if argument == "-":
+        try:
+            return Source(sys.stdin.read(), wanted or InputFormat.TEXT, "<stdin>")
+        except UnicodeDecodeError:
+            raise InputError("<stdin>: UTF-8 text expected, other bytes found") from None
+    if argument.startswith("--"):
+        raise InputError(f"no such option: {argument.split('=')[0]}")
+    path = Path(argument)
+    if is_file(path):
+        return Source(read_text(path), wanted or _BY_ENDING.get(path.suffix.lower(), InputFormat.TEXT), argument)
+    if _FILE_LIKE.fullmatch(argument.strip()):
+        raise InputError(f"{argument}: no such file")
+    return Source(argument, wanted or InputFormat.TEXT, "<argument>")
+
+
+def is_file(path: Path) -> bool:
+    """Whether the path names something to read; text that is no possible path is not one."""
+    try:
+        return path.exists() and not path.is_dir()
+    except (OSError, ValueError):
+        return False
+
+
+def read_text(path: Path) -> str:
+    """The content of a UTF-8 file, or ``InputError``."""
+    try:
+        return path.read_text(encoding="utf-8")
+    except OSError as error:
+        raise InputError(f"{path}: cannot be read: {error.strerror}") from None
+    except UnicodeDecodeError:
+        raise InputError(f"{path}: UTF-8 text expected, other bytes found") from None
