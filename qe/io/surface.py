@@ -1,0 +1,282 @@
+"""What readers build before names are resolved: terms and formulas as written, with positions.
+
+``lower`` turns such a tree into a ``Formula``: it collects the names (free ones in order of appearance,
+then bound ones in order of quantification) into one ring, does the exact arithmetic, and moves every
+relation to the form ``poly relation 0``. Scoping stays where it was written: a name may be bound twice or
+be free and bound; ``qe.formula.normal.rename_apart`` resolves that when it matters.
+
+``at`` is an offset into the text (-1: unknown). Lists are filled while parsing and not changed later.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from fractions import Fraction
+from typing import NamedTuple, TypeAlias
+
+from qe.errors import InputError
+from qe.exact.ring import Ring
+from qe.formula.build import conj, disj, exists, forall, iff, implies, neg, root_atom
+from qe.formula.syntax import FALSE, TRUE, Formula, Relation
+from qe.io import terms
+from qe.io.terms import TermError, Value
+
+MAX_DEPTH = 120
+"""Nesting of brackets, operators and quantifiers that readers accept; all later code may recurse on it."""
+
+Fail: TypeAlias = Callable[[str, int], InputError]
+
+
+class Number(NamedTuple):
+    value: Fraction | int
+
+
+class Name(NamedTuple):
+    name: str
+    at: int
+
+
+class Sum(NamedTuple):
+    parts: list[Term]
+
+
+class Product(NamedTuple):
+    left: Term
+    right: Term
+    at: int
+
+
+class Quotient(NamedTuple):
+    left: Term
+    right: Term
+    at: int
+
+
+class Power(NamedTuple):
+    base: Term
+    exponent: Term
+    at: int
+
+
+class Minus(NamedTuple):
+    part: Term
+
+
+class Root(NamedTuple):
+    """The ``number``-th root of ``poly`` in ``variable`` (None: the other side of the comparison)."""
+
+    number: Term
+    poly: Term
+    variable: str | None
+    at: int
+
+
+class Comparison(NamedTuple):
+    """``sides[0] relations[0] sides[1] relations[1] sides[2] …``, read as a conjunction."""
+
+    sides: list[Term]
+    relations: list[Relation]
+    at: int
+
+
+class Truth(NamedTuple):
+    value: bool
+
+
+class Every(NamedTuple):
+    parts: list[Node]
+
+
+class Some(NamedTuple):
+    parts: list[Node]
+
+
+class Negation(NamedTuple):
+    part: Node
+
+
+class Implication(NamedTuple):
+    left: Node
+    right: Node
+
+
+class Equivalence(NamedTuple):
+    left: Node
+    right: Node
+
+
+class Quantification(NamedTuple):
+    universal: bool
+    names: list[str]
+    body: Node
+
+
+Term: TypeAlias = Number | Name | Sum | Product | Quotient | Power | Minus | Root
+Node: TypeAlias = Comparison | Truth | Every | Some | Negation | Implication | Equivalence | Quantification
+
+
+def lower(node: Node, fail: Fail) -> Formula:
+    """The formula that ``node`` means; ``fail(message, at)`` makes the error for a position."""
+    names = _Names(fail)
+    names.node(node, frozenset(), 0)
+    return _Lowering(names.ring(), fail).node(node)
+
+
+def _chain(term: Term) -> tuple[Term, list[Product | Quotient]]:
+    """``a*b/c*…`` as a and the steps that follow it: the chain may be long, so nothing recurses along it."""
+    links: list[Product | Quotient] = []
+    while isinstance(term, Product | Quotient):
+        links.append(term)
+        term = term.left
+    return term, links[::-1]
+
+
+class _Names:
+    """Collects the names of a tree, free before bound, and refuses trees that are nested too deeply."""
+
+    def __init__(self, fail: Fail) -> None:
+        self.fail = fail
+        self.free: dict[str, None] = {}
+        self.bound: dict[str, None] = {}
+
+    def ring(self) -> Ring:
+        return Ring.of([*self.free, *(name for name in self.bound if name not in self.free)])
+
+    def node(self, node: Node, scope: frozenset[str], depth: int) -> None:
+        if depth > MAX_DEPTH:
+            raise self.fail(f"nested more than {MAX_DEPTH} levels deep", -1)
+        match node:
+            case Comparison():
+                for side in node.sides:
+                    self.term(side, scope, depth + 1)
+            case Every(parts) | Some(parts):
+                for part in parts:
+                    self.node(part, scope, depth + 1)
+            case Negation(part):
+                self.node(part, scope, depth + 1)
+            case Implication(left, right) | Equivalence(left, right):
+                self.node(left, scope, depth + 1)
+                self.node(right, scope, depth + 1)
+            case Quantification(_, names, body):
+                self.bound.update(dict.fromkeys(names))
+                self.node(body, scope.union(names), depth + 1)
+
+    def term(self, term: Term, scope: frozenset[str], depth: int) -> None:
+        if depth > MAX_DEPTH:
+            raise self.fail(f"nested more than {MAX_DEPTH} levels deep", -1)
+        match term:
+            case Name(name, _):
+                if name not in scope:
+                    self.free[name] = None
+            case Sum(parts):
+                for part in parts:
+                    self.term(part, scope, depth + 1)
+            case Product() | Quotient():
+                first, links = _chain(term)
+                self.term(first, scope, depth + 1)
+                for link in links:
+                    self.term(link.right, scope, depth + 1)
+            case Power(base, exponent, _):
+                self.term(base, scope, depth + 1)
+                self.term(exponent, scope, depth + 1)
+            case Minus(part):
+                self.term(part, scope, depth + 1)
+            case Root(_, poly, variable, at):
+                self.term(poly, scope, depth + 1)
+                if variable is not None:
+                    self.term(Name(variable, at), scope, depth + 1)
+
+
+class _Lowering:
+    def __init__(self, ring: Ring, fail: Fail) -> None:
+        self.ring, self.fail = ring, fail
+
+    def node(self, node: Node) -> Formula:
+        match node:
+            case Comparison():
+                return self.comparison(node)
+            case Every(parts):
+                return conj([self.node(part) for part in parts])
+            case Some(parts):
+                return disj([self.node(part) for part in parts])
+            case Negation(part):
+                return neg(self.node(part))
+            case Implication(left, right):
+                return implies(self.node(left), self.node(right))
+            case Equivalence(left, right):
+                return iff(self.node(left), self.node(right))
+            case Quantification(universal, names, body):
+                return (forall if universal else exists)(names, self.node(body))
+            case Truth(value):
+                return TRUE if value else FALSE
+
+    def comparison(self, node: Comparison) -> Formula:
+        links: list[Formula] = []
+        values: list[Value | Root] = [s if isinstance(s, Root) else self.term(s) for s in node.sides]
+        for k, relation in enumerate(node.relations):
+            left, right = values[k], values[k + 1]
+            try:
+                if isinstance(right, Root):
+                    links.append(self.root_comparison(node.sides[k], relation, right))
+                elif isinstance(left, Root):
+                    links.append(self.root_comparison(node.sides[k + 1], relation.flipped, left))
+                else:
+                    links.append(terms.compare(left, relation, right))
+            except TermError as error:
+                raise self.fail(str(error), node.at) from None
+        return conj(links)
+
+    def root_comparison(self, side: Term, relation: Relation, root: Root) -> Formula:
+        if not isinstance(side, Name):
+            raise self.fail("root(…) can only be compared with a variable", root.at)
+        if root.variable is not None and root.variable != side.name:
+            raise self.fail(f"a root in {root.variable} cannot be compared with {side.name}", root.at)
+        k = self.constant(root.number, "the first argument of root must be an integer", root.at)
+        poly = self.term(root.poly).poly
+        if k == 0 or not poly.degree(self.ring.index[side.name]):
+            reason = "roots are counted from 1 or -1" if k == 0 else f"the polynomial does not contain {side.name}"
+            raise self.fail(f"no such root: {reason}", root.at)
+        return root_atom(side.name, relation, poly, k)
+
+    def term(self, term: Term) -> Value:
+        """The polynomial that a term means."""
+        try:
+            match term:
+                case Number(value):
+                    return terms.number(self.ring, value)
+                case Name(name, _):
+                    return terms.variable(self.ring, name)
+                case Sum(parts):
+                    return terms.total([self.term(part) for part in parts])
+                case Minus(part):
+                    return terms.negative(self.term(part))
+                case Power(base, exponent, at):
+                    power = self.constant(exponent, "an exponent must be a natural number", at)
+                    return terms.power(self.term(base), power)
+                case Product() | Quotient():
+                    return self.product(term)
+                case Root():
+                    raise self.fail("root(…) can only be compared with a variable", term.at)
+        except TermError as error:
+            raise self.fail(str(error), getattr(term, "at", -1)) from None
+
+    def product(self, term: Product | Quotient) -> Value:
+        first, links = _chain(term)
+        value = self.term(first)
+        for link in links:
+            right = self.term(link.right)
+            try:
+                value = (terms.product if isinstance(link, Product) else terms.quotient)(value, right)
+            except TermError as error:
+                raise self.fail(str(error), link.at) from None
+        return value
+
+    def constant(self, term: Term, message: str, at: int) -> int:
+        if isinstance(term, Number) and term.value.denominator == 1:
+            return int(term.value)
+        value = self.term(term)
+        number = Fraction(value.poly.constant_value(), value.den) if value.poly.is_constant else None
+        if number is None or number.denominator != 1:
+            raise self.fail(message, at)
+        return int(number)
+

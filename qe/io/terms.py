@@ -1,0 +1,175 @@
+"""Exact arithmetic on the terms that readers meet: polynomials over Q, guarded against blow-up.
+
+A reader must never hand FLINT an expansion that does not fit into memory (FLINT would end the process),
+so every product and power is bounded before it is computed. The functions raise ``TermError`` without a
+position; readers that know one turn it into a ``ParseError``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+from math import lcm
+from typing import NamedTuple
+
+from qe.errors import InputError
+from qe.exact.ring import Poly, Ring
+from qe.formula.build import atom
+from qe.formula.syntax import Formula, Relation
+
+MAX_EXPONENT = 10_000
+MAX_DEGREE = 10_000
+MAX_TERMS = 1_000_000
+MAX_BITS = 200_000_000
+MAX_DIGITS = 1_000_000
+_CHUNK = 4_000
+
+
+class TermError(InputError):
+    """A term has no meaning here or would grow past a limit; carries no position."""
+
+
+class Value(NamedTuple):
+    """The polynomial ``poly / den`` over Q, ``den`` > 0; no coefficient of ``poly`` has more than ``bits`` bits."""
+
+    poly: Poly
+    den: int
+    bits: int
+
+
+def integer(text: str) -> int:
+    """The value of a string of ASCII digits of any length up to ``MAX_DIGITS``."""
+    if len(text) <= _CHUNK:
+        return int(text)
+    if len(text) > MAX_DIGITS:
+        raise TermError(f"a number with {len(text)} digits is too long")
+    value = 0
+    head = len(text) % _CHUNK
+    for start in range(head - _CHUNK if head else 0, len(text), _CHUNK):
+        piece = text[max(0, start) : start + _CHUNK]
+        value = value * 10 ** len(piece) + int(piece)
+    return value
+
+
+def decimal(text: str) -> Fraction:
+    """The exact value of ``12``, ``1.25`` or ``1.5e-3``."""
+    mantissa, _, exponent = text.replace("E", "e").partition("e")
+    whole, _, decimals = mantissa.partition(".")
+    value = Fraction(integer(whole + decimals), 10 ** len(decimals))
+    if not exponent:
+        return value
+    power = int(exponent) if len(exponent) < 8 else MAX_EXPONENT + 1
+    if abs(power) > MAX_EXPONENT:
+        raise TermError(f"the exponent of the number {text[:40]} is too large")
+    return value * Fraction(10) ** power
+
+
+def number(ring: Ring, value: Fraction | int) -> Value:
+    """A rational constant."""
+    numerator = value.numerator
+    return Value(ring.constant(numerator), value.denominator, numerator.bit_length())
+
+
+def variable(ring: Ring, name: str) -> Value:
+    """The variable called ``name``."""
+    return Value(ring.var(name), 1, 1)
+
+
+def negative(value: Value) -> Value:
+    """``-value``."""
+    return Value(-value.poly, value.den, value.bits)
+
+
+def total(values: Sequence[Value]) -> Value:
+    """The sum of at least one value."""
+    den = lcm(*(v.den for v in values))
+    poly: Poly | None = None
+    bits = 0
+    for value in values:
+        part = value.poly
+        width = value.bits
+        if value.den != den:
+            part = part * (den // value.den)
+            width += den.bit_length()
+        poly = part if poly is None else poly + part
+        bits = max(bits, width)
+    assert poly is not None
+    _bounded(poly.term_count(), bits)
+    return Value(poly, den, bits + len(values).bit_length())
+
+
+def product(left: Value, right: Value) -> Value:
+    """``left * right``."""
+    a, b = left.poly, right.poly
+    count = a.term_count() * b.term_count()
+    bits = left.bits + right.bits + min(a.term_count(), b.term_count()).bit_length()
+    if count > 64 or bits > 4096:
+        degrees = [m + n for m, n in zip(a.degrees, b.degrees, strict=True)]
+        if count > 100 * MAX_TERMS:
+            raise TermError("the expanded product would have too many terms")
+        _bounded(min(count, _dense(degrees)), bits)
+    result = a * b
+    if result.total_degree > MAX_DEGREE:
+        raise TermError(f"the degree {result.total_degree} is above the limit of {MAX_DEGREE}")
+    return Value(result, left.den * right.den, bits)
+
+
+def quotient(left: Value, right: Value) -> Value:
+    """``left / right`` for a constant ``right`` other than zero."""
+    if not right.poly.is_constant:
+        raise TermError("division by a term that contains a variable; multiply both sides out instead")
+    divisor = Fraction(right.poly.constant_value(), right.den)
+    if not divisor:
+        raise TermError("division by zero")
+    return product(left, number(left.poly.ring, 1 / divisor))
+
+
+def power(base: Value, exponent: int) -> Value:
+    """``base ** exponent`` for a small natural ``exponent``; the zeroth power of anything is 1."""
+    if exponent < 0:
+        raise TermError("negative exponent; write a quotient by a constant instead")
+    if exponent > MAX_EXPONENT:
+        shown = f"exponent {exponent}" if exponent < 10**20 else "an exponent"
+        raise TermError(f"{shown} is above the limit of {MAX_EXPONENT}")
+    if exponent <= 1:
+        return base if exponent else number(base.poly.ring, 1)
+    poly, count = base.poly, base.poly.term_count()
+    if poly.total_degree * exponent > MAX_DEGREE:
+        raise TermError(f"the degree {poly.total_degree * exponent} is above the limit of {MAX_DEGREE}")
+    bits = exponent * (base.bits + (count - 1).bit_length())
+    _bounded(min(_multinomial(exponent, count), _dense([d * exponent for d in poly.degrees])), bits)
+    if base.den.bit_length() * exponent > MAX_BITS:
+        raise TermError("the power is too large")
+    return Value(poly**exponent, base.den**exponent, bits)
+
+
+def compare(left: Value, relation: Relation, right: Value) -> Formula:
+    """The atom ``left relation right``."""
+    return atom(total((left, negative(right))).poly, relation)
+
+
+def _dense(degrees: Sequence[int]) -> int:
+    """The number of monomials within these degrees, or anything above the limit."""
+    count = 1
+    for degree in degrees:
+        count *= degree + 1
+        if count > MAX_TERMS:
+            break
+    return count
+
+
+def _multinomial(exponent: int, count: int) -> int:
+    """binomial(exponent + count - 1, exponent), or anything above the limit."""
+    result = 1
+    for k in range(1, count):
+        result = result * (exponent + k) // k
+        if result > MAX_TERMS:
+            break
+    return result
+
+
+def _bounded(count: int, bits: int) -> None:
+    if count > MAX_TERMS:
+        raise TermError("the expanded term would have more than a million monomials")
+    if count * bits > MAX_BITS:
+        raise TermError("the expanded term would need too much memory")
