@@ -109,13 +109,17 @@ def _dot(u: Vector, v: Vector, start: Number = Fraction(0)) -> Number:
     return total
 
 
+def _exact(entry: Number) -> Number:
+    return Fraction(entry) if isinstance(entry, int) else entry
+
+
 def definiteness(matrix: Matrix) -> Definiteness:
     """Decide semidefiniteness by LDL^T with symmetric pivoting.
 
     A symmetric matrix is positive semidefinite iff elimination with pivots from the diagonal meets no negative
     pivot and, once all remaining diagonal entries are zero, the remaining block is zero (Golub–Van Loan, 4.2.8).
     """
-    m = [list(row) for row in matrix]
+    m = [[_exact(entry) for entry in row] for row in matrix]
     left = list(range(len(m)))
     while left:
         if any(m[i][i] < 0 for i in left):
@@ -148,7 +152,7 @@ def solve_linear(rows: Matrix, rhs: Vector, width: int) -> Solution | None:
 
     Free unknowns are zero in ``particular``. Pivots are taken from the leftmost columns.
     """
-    work = [[*row, b] for row, b in zip(rows, rhs, strict=True)]
+    work = [[*map(_exact, row), _exact(b)] for row, b in zip(rows, rhs, strict=True)]
     pivots: list[int] = []
     top = 0
     for column in range(width):
@@ -186,7 +190,7 @@ def independent_rows(rows: Matrix) -> tuple[int, ...]:
     basis: list[tuple[int, list[Number]]] = []
     chosen: list[int] = []
     for index, row in enumerate(rows):
-        rest = list(row)
+        rest = [_exact(entry) for entry in row]
         for column, vector in basis:
             if rest[column]:
                 factor = rest[column]

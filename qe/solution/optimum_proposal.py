@@ -1,0 +1,201 @@
+"""Numerical proposals for convex quadratic problems: a primal-dual interior point method in floats.
+
+Nothing computed here is ever believed: the numbers only say which exact system to solve and where its
+solution lies; what comes out is proved or discarded. Plain Python on purpose: the problems have at most a
+few dozen unknowns, and importing a numerical library costs more than solving them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from qe.exact.quadratic_form import Quadratic
+
+Row = list[float]
+
+
+@dataclass(frozen=True, slots=True)
+class FloatQuadratic:
+    """x^T H x / 2 + b.x + c in floats, with the non-zero entries of H as (i, j, value)."""
+
+    hessian: tuple[tuple[int, int, float], ...]
+    gradient: tuple[float, ...]
+    constant: float
+
+    def value_and_slope(self, x: Sequence[float]) -> tuple[float, Row]:
+        """The value and the gradient at x."""
+        slope = [0.0] * len(x)
+        for i, j, h in self.hessian:
+            slope[i] += h * x[j]
+        value = self.constant
+        for i, xi in enumerate(x):
+            value += xi * (slope[i] / 2 + self.gradient[i])
+            slope[i] += self.gradient[i]
+        return value, slope
+
+
+def to_float(q: Quadratic, scale: float = 1.0) -> FloatQuadratic:
+    """The quadratic polynomial times ``scale``, rounded to floats."""
+    entries = tuple((i, j, float(h) * scale) for i, row in enumerate(q.hessian) for j, h in enumerate(row) if h)
+    return FloatQuadratic(entries, tuple(float(b) * scale for b in q.gradient), float(q.constant) * scale)
+
+
+def natural_scale(q: Quadratic) -> float:
+    """The reciprocal of the largest coefficient, so that constraints of different units compare."""
+    largest = max([abs(b) for b in q.gradient] + [abs(h) for row in q.hessian for h in row] + [0])
+    return 1 / float(largest) if largest else 1.0
+
+
+@dataclass(frozen=True, slots=True)
+class Proposal:
+    """A point, multipliers and slacks; ``residual`` is how far the optimality conditions are from holding."""
+
+    point: tuple[float, ...]
+    multipliers: tuple[float, ...]
+    slacks: tuple[float, ...]
+    residual: float
+
+
+def solve_floats(rows: Sequence[Row], rhs: Sequence[float]) -> Row | None:
+    """Gaussian elimination with row pivoting; None when a pivot vanishes."""
+    work = [[*row, b] for row, b in zip(rows, rhs, strict=True)]
+    n = len(work)
+    for k in range(n):
+        best = max(range(k, n), key=lambda r: abs(work[r][k]))
+        if abs(work[best][k]) < 1e-300:
+            return None
+        work[k], work[best] = work[best], work[k]
+        lead = work[k]
+        for r in range(k + 1, n):
+            row = work[r]
+            factor = row[k] / lead[k]
+            if factor:
+                for j in range(k + 1, n + 1):
+                    row[j] -= factor * lead[j]
+    x = [0.0] * n
+    for k in range(n - 1, -1, -1):
+        row = work[k]
+        x[k] = (row[n] - sum(row[j] * x[j] for j in range(k + 1, n))) / row[k]
+    return x
+
+
+def interior_point(objective: Quadratic, constraints: Sequence[Quadratic], start: Sequence[float]) -> Proposal:
+    """Minimise a convex quadratic polynomial subject to convex quadratic polynomials <= 0 (approximately).
+
+    Infeasible-start primal-dual Newton steps with Mehrotra's predictor for the centring (Mehrotra 1992;
+    Boyd–Vandenberghe, section 11.7). Multipliers are those of the constraints as given (unscaled).
+    """
+    scales = [natural_scale(g) for g in constraints]
+    unit = natural_scale(objective)
+    f = to_float(objective, unit)
+    g = [to_float(q, s) for q, s in zip(constraints, scales, strict=True)]
+    x = list(start)
+    values = [q.value_and_slope(x)[0] for q in g]
+    slack = [max(1.0, -2 * v) if v > -0.5 else -v for v in values]
+    dual = [1.0] * len(g)
+    best, stalled = _state(f, g, x, slack, dual)[-1], 0
+    kept = (x, dual, slack, best)
+    for _ in range(80):
+        step = _newton_step(f, g, x, slack, dual)
+        if step is None:
+            break
+        x, slack, dual = step
+        residual = _state(f, g, x, slack, dual)[-1]
+        if residual < 0.9 * best:
+            best, stalled, kept = residual, 0, (x, dual, slack, residual)
+        else:
+            stalled += 1
+        if best < 1e-14 or stalled > 6:
+            break
+    x, dual, slack, residual = kept
+    scaled = tuple(u * s / unit for u, s in zip(dual, scales, strict=True))
+    return Proposal(tuple(x), scaled, tuple(s / k for s, k in zip(slack, scales, strict=True)), residual)
+
+
+_State = tuple[Row, list[Row], Row, float]
+
+
+def _state(f: FloatQuadratic, g: Sequence[FloatQuadratic], x: Row, slack: Row, dual: Row) -> _State:
+    """(dual residual, constraint gradients, primal residual, a norm of all residuals)."""
+    _, residual = f.value_and_slope(x)
+    residual = list(residual)
+    size = 1.0 + max((abs(r) for r in residual), default=0.0)
+    jacobian, primal = [], []
+    for q, s, u in zip(g, slack, dual, strict=True):
+        value, slope = q.value_and_slope(x)
+        jacobian.append(slope)
+        primal.append(value + s)
+        if u:
+            for j, d in enumerate(slope):
+                residual[j] += u * d
+    gap = max((u * s for u, s in zip(dual, slack, strict=True)), default=0.0)
+    norm = max([abs(r) for r in residual] + [abs(r) for r in primal] + [gap]) / size
+    return residual, jacobian, primal, norm
+
+
+def _newton_step(
+    f: FloatQuadratic, g: Sequence[FloatQuadratic], x: Row, slack: Row, dual: Row
+) -> tuple[Row, Row, Row] | None:
+    n, m = len(x), len(g)
+    residual, jacobian, primal, _ = _state(f, g, x, slack, dual)
+    matrix = [[0.0] * n for _ in range(n)]
+    for i, j, h in f.hessian:
+        matrix[i][j] += h
+    for q, slope, s, u in zip(g, jacobian, slack, dual, strict=True):
+        for i, j, h in q.hessian:
+            matrix[i][j] += u * h
+        weight = u / s
+        for i, a in enumerate(slope):
+            if a:
+                row, factor = matrix[i], weight * a
+                for j, b in enumerate(slope):
+                    row[j] += factor * b
+    bump = 1e-13 * max((matrix[i][i] for i in range(n)), default=1.0) + 1e-300
+    for i in range(n):
+        matrix[i][i] += bump
+    mean = sum(u * s for u, s in zip(dual, slack, strict=True)) / m if m else 0.0
+
+    def direction(centre: Sequence[float]) -> tuple[Row, Row, Row] | None:
+        rhs = [-r for r in residual]
+        extra = [(u * p - c) / s for u, p, c, s in zip(dual, primal, centre, slack, strict=True)]
+        for slope, e in zip(jacobian, extra, strict=True):
+            for i, a in enumerate(slope):
+                rhs[i] -= a * e
+        dx = solve_floats(matrix, rhs)
+        if dx is None or not all(abs(d) < 1e300 for d in dx):
+            return None
+        moved = [sum(a * d for a, d in zip(slope, dx, strict=True)) for slope in jacobian]
+        ds = [-p - t for p, t in zip(primal, moved, strict=True)]
+        du = [e + u * t / s for e, u, t, s in zip(extra, dual, moved, slack, strict=True)]
+        return dx, ds, du
+
+    plain = direction([u * s for u, s in zip(dual, slack, strict=True)])
+    if plain is None:
+        return None
+    if m:
+        _, ds, du = plain
+        a, b = _longest(slack, ds, 1.0), _longest(dual, du, 1.0)
+        reached = sum((u + b * e) * (s + a * d) for u, e, s, d in zip(dual, du, slack, ds, strict=True)) / m
+        sigma = min(1.0, max(0.0, reached / mean)) ** 3 if mean else 0.0
+        centred = direction([u * s + p * q - sigma * mean for u, s, p, q in zip(dual, slack, ds, du, strict=True)])
+        if centred is not None:
+            plain = centred
+    dx, ds, du = plain
+    t = min(_longest(slack, ds, 0.99), _longest(dual, du, 0.99))
+    return (
+        [v + t * d for v, d in zip(x, dx, strict=True)],
+        [v + t * d for v, d in zip(slack, ds, strict=True)],
+        [v + t * d for v, d in zip(dual, du, strict=True)],
+    )
+
+
+def _longest(values: Sequence[float], steps: Sequence[float], fraction: float) -> float:
+    """The largest step <= 1 that keeps values + step positive, times ``fraction`` at the boundary."""
+    best = 1.0
+    for v, d in zip(values, steps, strict=True):
+        if d < 0 and v + best * d <= 0:
+            best = -fraction * v / d
+        elif d < 0 and fraction < 1 and v + best * d < (1 - fraction) * v:
+            best = min(best, -fraction * v / d)
+    return best
