@@ -106,6 +106,61 @@ def decide(
     return deliver(reply, {"certificate": certificate}, explain=explain)
 
 
+@app.command(context_settings=_LENIENT)
+def region(
+    formula: Formula,
+    format: Format = None,
+    order: Order = None,
+    plot: Annotated[Path | None, typer.Option("--plot", help="Draw the region to this file (.png, .pdf, .svg).")] = None,
+    timeout: Timeout = None,
+    memory: Memory = None,
+    certificate: CertificateFile = None,
+    json: Json = False,
+    plain: Plain = False,
+) -> int:
+    """Describe the set of real points that satisfy FORMULA, cell by cell."""
+    from qe import cli_region
+
+    check_limits(timeout, memory)
+    check_writable(certificate)
+    check_writable(plot)
+    request = Request(
+        source=read_source(formula, format),
+        order=names(order),
+        timeout=timeout,
+        certificate=certificate is not None,
+        json=json,
+    )
+    work = partial(cli_region.region, request=request, picture=None if plot is None else plot.suffix or ".png")
+    reply = limited(work, timeout=timeout, memory=memory, plain=plain)
+    return deliver(reply, {"certificate": certificate, "plot": plot})
+
+
+@app.command(context_settings=_LENIENT)
+def minimize(
+    objective: Annotated[str, typer.Argument(metavar="OBJECTIVE", show_default=False)],
+    constraints: Annotated[str, typer.Argument(metavar="CONSTRAINTS|FILE|-", show_default=False)] = "true",
+    format: Format = None,
+    maximize: Annotated[bool, typer.Option("--maximize", help="Find the greatest value instead.")] = False,
+    timeout: Timeout = None,
+    memory: Memory = None,
+    certificate: CertificateFile = None,
+    json: Json = False,
+    plain: Plain = False,
+) -> int:
+    """Print the exact least value of a polynomial under CONSTRAINTS, and where it is attained."""
+    from qe import cli_region
+
+    check_limits(timeout, memory)
+    check_writable(certificate)
+    request = Request(
+        source=read_source(constraints, format), timeout=timeout, certificate=certificate is not None, json=json
+    )
+    work = partial(cli_region.optimize, request=request, objective=objective, maximize=maximize)
+    reply = limited(work, timeout=timeout, memory=memory, plain=plain)
+    return deliver(reply, {"certificate": certificate})
+
+
 @app.command()
 def check(
     certificate: Annotated[str, typer.Argument(metavar="CERTIFICATE|-", show_default=False)],

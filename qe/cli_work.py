@@ -72,7 +72,7 @@ def eliminate(channel: Channel, request: Request, output: OutputFormat) -> Reply
     seconds = time.perf_counter() - start
     if answer.formula is None:
         raise Unable(answer.reason or "no answer")
-    files = {"certificate": _certificate_text(answer)} if request.certificate else {}
+    files = {"certificate": certificate_text(answer)} if request.certificate else {}
     if request.json:
         data = {
             "status": answer.status.name.lower(),
@@ -104,7 +104,7 @@ def decide(channel: Channel, request: Request) -> Reply:
     if answer.truth is None:
         raise Unable(answer.reason or "no answer")
     text = ("sat" if answer.truth else "unsat") if script else ("true" if answer.truth else "false")
-    files = {"certificate": _certificate_text(answer)} if request.certificate else {}
+    files = {"certificate": certificate_text(answer)} if request.certificate else {}
     if request.json:
         data = {
             "truth": answer.truth,
@@ -136,7 +136,8 @@ def check(channel: Channel, text: str, name: str) -> Reply:
     return Reply(f"accepted ({time.perf_counter() - start:.3f} s)")
 
 
-def _certificate_text(answer: object) -> str:
+def certificate_text(answer: object) -> str:
+    """The JSON of an answer's certificate; ``Unable`` where there is none."""
     certificate = getattr(answer, "certificate", None)
     if certificate is None:
         raise Unable("there is no certificate for this kind of answer")

@@ -1,0 +1,230 @@
+"""The command ``qe`` as a user runs it: through a shell, judged by output, message and exit status."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+QE = str(Path(sys.executable).parent / "qe")
+HARD = "ex a, b, c. all x, y. a*x^4*y + b*x*y^3 + c*x^2*y^2 + d*x + e*y + f > a^2*x^3 + b^2*y^5"
+BALLS = "x^2 + y^2 <= 4 and (x - 1)^2 + y^2 <= 4"
+
+
+def run(*arguments: str, stdin: str | None = None, cwd: Path | None = None) -> subprocess.CompletedProcess[str]:
+    return subprocess.run([QE, *arguments], input=stdin, capture_output=True, text=True, timeout=60, cwd=cwd)
+
+
+def refused(process: subprocess.CompletedProcess[str], code: int, *words: str) -> None:
+    """One line on stderr, nothing on stdout, the exit status asked for."""
+    assert process.returncode == code, (process.stdout, process.stderr)
+    assert process.stdout == ""
+    assert len(process.stderr.splitlines()) == 1, process.stderr
+    assert "Traceback" not in process.stderr
+    for word in words:
+        assert word in process.stderr
+
+
+def test_eliminate() -> None:
+    process = run("eliminate", "ex x. x^2 + b*x + c = 0")
+    assert (process.returncode, process.stderr) == (0, "")
+    assert process.stdout == "b^2 - 4*c >= 0\n"
+
+
+def test_eliminate_a_sentence() -> None:
+    assert run("eliminate", "all x. x^2 >= 0").stdout == "true\n"
+    assert run("eliminate", "ex x. x^2 < 0").stdout == "false\n"
+
+
+def test_a_formula_may_begin_with_a_minus_sign() -> None:
+    assert run("eliminate", "-x^2 > 1").stdout == "false\n"
+
+
+def test_stdin_and_files(tmp_path: Path) -> None:
+    formula = "ex x. x^2 + b*x + c = 0"
+    expected = run("eliminate", formula).stdout
+    assert run("eliminate", "-", stdin=formula).stdout == expected
+    path = tmp_path / "quadratic.txt"
+    path.write_text(formula + "\n")
+    assert run("eliminate", str(path)).stdout == expected
+
+
+def test_smtlib_output_is_a_whole_script() -> None:
+    out = run("eliminate", "ex x. x^2 + b*x + c = 0", "--output", "smtlib").stdout
+    assert "(set-logic" in out
+    assert out.count("(declare-") == 2
+    assert out.count("(assert") == 1
+    back = run("eliminate", "-", "--format", "smtlib", stdin=out)
+    assert back.stdout == "b^2 - 4*c >= 0\n"
+
+
+@pytest.mark.parametrize(("script", "answer"), [("(< (* x x) 0.0)", "unsat"), ("(= (* x x) 2.0)", "sat")])
+def test_decide_smtlib(tmp_path: Path, script: str, answer: str) -> None:
+    path = tmp_path / "problem.smt2"
+    path.write_text(f"(set-logic QF_NRA)\n(declare-const x Real)\n(assert {script})\n(check-sat)\n")
+    process = run("decide", str(path))
+    assert (process.returncode, process.stdout) == (0, answer + "\n")
+
+
+def test_decide_text() -> None:
+    assert run("decide", "all x. ex y. y^3 = x").stdout == "true\n"
+    assert run("decide", "all x. ex y. y^2 = x").stdout == "false\n"
+    refused(run("decide", "ex y. y^2 = x"), 2, "sentence", "x")
+
+
+def test_json() -> None:
+    data = json.loads(run("eliminate", "ex x. x^2 = 2", "--json").stdout)
+    assert data["status"] == "solved"
+    assert data["truth"] is True
+    assert data["formula"] == "true"
+
+
+def test_explain_goes_to_stderr() -> None:
+    process = run("eliminate", "ex x. x^2 + b*x + c = 0", "--explain")
+    assert process.stdout == "b^2 - 4*c >= 0\n"
+    assert len(process.stderr.splitlines()) >= 2
+
+
+@pytest.mark.parametrize("output", ["text", "smtlib", "qepcad", "redlog", "latex", "json"])
+def test_convert(output: str) -> None:
+    process = run("convert", "ex y. x^2 + y^2 < 3/2", "--output", output)
+    assert process.returncode == 0, process.stderr
+    if output != "latex":
+        back = run("convert", "-", "--format", output, stdin=process.stdout)
+        assert back.stdout == "ex y. 2*x^2 + 2*y^2 - 3 < 0\n"
+
+
+def test_region_with_certificate_and_picture(tmp_path: Path) -> None:
+    process = run("region", BALLS, "--certificate", "c.json", "--plot", "r.png", cwd=tmp_path)
+    assert process.returncode == 0, process.stderr
+    assert (tmp_path / "r.png").read_bytes().startswith(b"\x89PNG")
+    accepted = run("check", "c.json", cwd=tmp_path)
+    assert accepted.returncode == 0
+    assert accepted.stdout.startswith("accepted")
+
+
+def test_a_false_certificate_is_rejected(tmp_path: Path) -> None:
+    assert run("region", BALLS, "--certificate", "c.json", cwd=tmp_path).returncode == 0
+    path = tmp_path / "c.json"
+    text = path.read_text()
+    signs = text.index('"signs"')
+    place = next(i for i in range(signs + 8, len(text)) if text[i] in "+-")
+    path.write_text(text[:place] + ("-" if text[place] == "+" else "+") + text[place + 1 :])
+    refused(run("check", "c.json", cwd=tmp_path), 4, "rejected")
+
+
+def test_empty_region() -> None:
+    assert "empty" in run("region", "x^2 + y^2 < 0").stdout
+
+
+def test_minimize() -> None:
+    process = run("minimize", "(x - 3)^2 + y^2", "x^2 + y^2 <= 1", "--json")
+    assert process.returncode == 0, process.stderr
+    assert json.loads(process.stdout)["value"]["exact"] == "4"
+    assert "4" in run("minimize", "(x - 3)^2 + y^2", "x^2 + y^2 <= 1").stdout
+
+
+def test_minimize_infeasible() -> None:
+    refused(run("minimize", "x", "x^2 <= 1 and x >= 2"), 3, "infeasible")
+
+
+BAD_FORMULAS = [
+    "ex x. x^2 +",
+    "x ** ** 2 = 0",
+    "x^2 < ",
+    "ex . x = 0",
+    "2x = 1",
+    "x/y < 1",
+    "x^99999999 = 0",
+    "x = 1/0",
+    "(x = 1",
+    "x = 1)",
+    "x === 1",
+    "ex x, x = 0",
+    "sin(x) = 0",
+    "",
+    "x^(1/2) = 1",
+    "x^y = 1",
+    "x > nan",
+    "x\x01 > 0",
+]
+
+
+@pytest.mark.parametrize("text", BAD_FORMULAS)
+def test_bad_formulas(text: str) -> None:
+    refused(run("eliminate", text), 2, "qe: ")
+
+
+def test_bad_file_names_the_place(tmp_path: Path) -> None:
+    path = tmp_path / "bad.txt"
+    path.write_text("ex x.\n  x^2 + + > 0")
+    refused(run("eliminate", "bad.txt", cwd=tmp_path), 2, "bad.txt:2:")
+
+
+def test_unreadable_files(tmp_path: Path) -> None:
+    refused(run("eliminate", "missing.smt2", cwd=tmp_path), 2, "missing.smt2", "no such file")
+    (tmp_path / "binary.txt").write_bytes(b"\xff\xfe\x00\x80")
+    refused(run("eliminate", "binary.txt", cwd=tmp_path), 2, "UTF-8")
+    refused(run("check", "missing.json", cwd=tmp_path), 2, "no such file")
+    (tmp_path / "list.json").write_text("[1, 2]")
+    assert run("check", "list.json", cwd=tmp_path).returncode in (2, 4)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "word"),
+    [
+        (["eliminate", "x > 0", "--timeout", "-1"], "--timeout"),
+        (["eliminate", "x > 0", "--timeout", "nan"], "--timeout"),
+        (["eliminate", "x > 0", "--timeout", "soon"], "--timeout"),
+        (["eliminate", "x > 0", "--memory", "0"], "--memory"),
+        (["eliminate", "x > 0", "--output", "word"], "--output"),
+        (["eliminate", "x > 0", "--method", "magic"], "--method"),
+        (["eliminate", "x > 0", "--order", "x,x"], "--order"),
+        (["eliminate", "x > 0", "--certificate", "no/such/folder/c.json"], "folder"),
+        (["eliminate", "--colour=red"], "--colour"),
+        (["eliminate"], "FORMULA"),
+        (["elliminate", "x > 0"], "elliminate"),
+        ([], "command"),
+    ],
+)
+def test_bad_options(arguments: list[str], word: str) -> None:
+    refused(run(*arguments), 2, word)
+
+
+def test_the_time_limit_holds_and_tells_what_is_known() -> None:
+    start = time.monotonic()
+    process = run("eliminate", HARD, "--timeout", "1")
+    assert time.monotonic() - start < 10  # 2 s are asked (the benchmark measures it); the tests' machine may be busy
+    refused(process, 3, "unable", "known after")
+
+
+def test_the_memory_limit_holds() -> None:
+    process = run("eliminate", HARD, "--memory", "150", "--timeout", "20")
+    refused(process, 3, "unable")
+
+
+def test_no_worker_stays_behind() -> None:
+    command = [QE, "eliminate", HARD, "--timeout", "30"]
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    children = Path(f"/proc/{process.pid}/task/{process.pid}/children")
+    deadline = time.monotonic() + 20
+    while not (workers := children.read_text().split()) and time.monotonic() < deadline:
+        time.sleep(0.02)
+    assert workers
+    time.sleep(0.3)  # until the worker has tied its life to its parent's
+    process.kill()
+    process.communicate()
+    deadline = time.monotonic() + 10
+    while os.path.exists(f"/proc/{workers[0]}") and time.monotonic() < deadline:
+        time.sleep(0.02)
+    assert not os.path.exists(f"/proc/{workers[0]}")
+
+
+def test_help() -> None:
+    out = run("--help").stdout
+    assert all(name in out for name in ("eliminate", "decide", "region", "minimize", "check", "convert"))
