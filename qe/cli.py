@@ -36,6 +36,7 @@ Order = Annotated[str | None, typer.Option("--order", help="Variable order, as i
 Timeout = Annotated[float | None, typer.Option("--timeout", help="Seconds; enforced.")]
 Memory = Annotated[int | None, typer.Option("--memory", help="MiB of address space; enforced.")]
 CertificateFile = Annotated[Path | None, typer.Option("--certificate", help="Write the certificate to this file.")]
+PictureFile = Annotated[Path | None, typer.Option("--plot", help="Draw the region to this file (.png, .pdf, .svg).")]
 Plain = Annotated[bool, typer.Option("--plain", help="No progress display and no notes.")]
 Json = Annotated[bool, typer.Option("--json", help="One JSON object on stdout.")]
 Explain = Annotated[bool, typer.Option("--explain", help="Tell on stderr how the answer was found.")]
@@ -111,7 +112,7 @@ def region(
     formula: Formula,
     format: Format = None,
     order: Order = None,
-    plot: Annotated[Path | None, typer.Option("--plot", help="Draw the region to this file (.png, .pdf, .svg).")] = None,
+    plot: PictureFile = None,
     timeout: Timeout = None,
     memory: Memory = None,
     certificate: CertificateFile = None,
