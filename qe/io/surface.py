@@ -28,37 +28,51 @@ Fail: TypeAlias = Callable[[str, int], InputError]
 
 
 class Number(NamedTuple):
+    """An exact rational number."""
+
     value: Fraction | int
 
 
 class Name(NamedTuple):
+    """A variable."""
+
     name: str
     at: int
 
 
 class Sum(NamedTuple):
+    """A sum of at least two parts."""
+
     parts: list[Term]
 
 
 class Product(NamedTuple):
+    """``left * right``."""
+
     left: Term
     right: Term
     at: int
 
 
 class Quotient(NamedTuple):
+    """``left / right``."""
+
     left: Term
     right: Term
     at: int
 
 
 class Power(NamedTuple):
+    """``base ^ exponent``."""
+
     base: Term
     exponent: Term
     at: int
 
 
 class Minus(NamedTuple):
+    """``-part``."""
+
     part: Term
 
 
@@ -80,32 +94,46 @@ class Comparison(NamedTuple):
 
 
 class Truth(NamedTuple):
+    """``true`` or ``false``."""
+
     value: bool
 
 
 class Every(NamedTuple):
+    """A conjunction."""
+
     parts: list[Node]
 
 
 class Some(NamedTuple):
+    """A disjunction."""
+
     parts: list[Node]
 
 
 class Negation(NamedTuple):
+    """``not part``."""
+
     part: Node
 
 
 class Implication(NamedTuple):
+    """``left -> right``."""
+
     left: Node
     right: Node
 
 
 class Equivalence(NamedTuple):
+    """``left <-> right``."""
+
     left: Node
     right: Node
 
 
 class Quantification(NamedTuple):
+    """``all names. body`` or ``ex names. body``."""
+
     universal: bool
     names: list[str]
     body: Node

@@ -187,7 +187,7 @@ class _Builder:
         return s.Every([c[0], c[2]])
 
     def negation(self, c: list[Any]) -> s.Node:
-        return c[1].part if isinstance(c[1], s.Negation) else s.Negation(c[1])  # type: ignore[no-any-return]
+        return c[1].part if isinstance(c[1], s.Negation) else s.Negation(c[1])
 
     def true(self, c: list[Any]) -> s.Node:
         return s.Truth(True)
@@ -222,7 +222,7 @@ class _Builder:
         return s.Quotient(c[0], c[2], c[1].start_pos)
 
     def negative(self, c: list[Any]) -> s.Term:
-        return c[1].part if isinstance(c[1], s.Minus) else s.Minus(c[1])  # type: ignore[no-any-return]
+        return c[1].part if isinstance(c[1], s.Minus) else s.Minus(c[1])
 
     def positive(self, c: list[Any]) -> Any:
         return c[1]

@@ -1,0 +1,79 @@
+"""Truth of formulas: exactly at a rational point, and three-valued from a sign oracle."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from fractions import Fraction
+
+from qe.errors import InputError
+from qe.exact.algebraic import RealAlgebraic, real_roots
+from qe.exact.ring import Poly
+from qe.formula.syntax import And, Atom, Constant, Formula, Not, Or, RootAtom
+from qe.formula.traverse import free_variables, ring_of
+from qe.truth import Truth, conjunction, disjunction, negation
+
+SignOracle = Callable[[Poly], int | None]
+RootOracle = Callable[[RootAtom], Truth]
+
+
+def holds_at(formula: Formula, point: Mapping[str, Fraction | int]) -> bool:
+    """Whether a quantifier-free formula holds at a rational point, decided in exact arithmetic.
+
+    ``point`` gives a value for every variable that occurs; more are allowed. Raises ``InputError`` for a
+    missing variable and for a quantified formula.
+    """
+    ring = ring_of(formula)
+    missing = [name for name in free_variables(formula) if name not in point]
+    if missing:
+        raise InputError(f"no value for {', '.join(missing)}")
+    values = [Fraction(point.get(name, 0)) for name in ring.names] if ring is not None else []
+
+    def sign(poly: Poly) -> int:
+        value = poly.evaluate(values)
+        return (value > 0) - (value < 0)
+
+    truth = truth_under(formula, sign, lambda atom: _root_holds(atom, values))
+    if truth is None:
+        raise InputError("only a quantifier-free formula has a truth value at a point")
+    return truth
+
+
+def truth_under(formula: Formula, sign: SignOracle, root: RootOracle | None = None) -> Truth:
+    """The truth value that follows from the known signs (Kleene's strong logic), None if it does not follow.
+
+    ``sign(poly)`` is -1, 0, 1, or None where it is not known; ``root(atom)`` is the truth of a root atom.
+    Quantified parts are unknown. A result other than None is the truth value under every completion.
+    """
+    match formula:
+        case Atom(poly, relation):
+            known = sign(poly)
+            return None if known is None else relation.holds(known)
+        case RootAtom():
+            return None if root is None else root(formula)
+        case And(args):
+            return conjunction(truth_under(arg, sign, root) for arg in args)
+        case Or(args):
+            return disjunction(truth_under(arg, sign, root) for arg in args)
+        case Not(arg):
+            return negation(truth_under(arg, sign, root))
+        case Constant(value):
+            return value
+    return None
+
+
+def _root_holds(atom: RootAtom, values: Sequence[Fraction]) -> bool:
+    """``x relation root_k(poly)`` at a rational point: false where there is no k-th root, or poly vanishes in x."""
+    ring = atom.poly.ring
+    main = ring.index[atom.variable]
+    poly = atom.poly
+    for i in poly.variables:
+        if i != main:
+            poly = poly.at_rational(i, values[i])
+    if not poly.degree(main):
+        return False
+    roots = real_roots(poly.to_univariate(main))
+    if abs(atom.k) > len(roots):
+        return False
+    root = roots[atom.k - 1] if atom.k > 0 else roots[atom.k]
+    value = RealAlgebraic.rational(values[main])
+    return atom.relation.holds((value > root) - (value < root))
