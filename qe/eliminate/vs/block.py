@@ -4,18 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 
-from qe.eliminate.vs.candidates import points_cost
+from qe.eliminate.vs.candidates import in_order
 from qe.eliminate.vs.known import Signs
+from qe.eliminate.vs.openness import is_open, thinned
 from qe.eliminate.vs.plan import Plan, choose, occurring, split_equation
 from qe.eliminate.vs.points import TestPoint
 from qe.eliminate.vs.result import All, Any, BlockResult, Choice, Chosen, Done, Open, Tree
 from qe.eliminate.vs.substitute import Substitution
 from qe.exact.ring import Ring
 from qe.formula.build import conj, disj
-from qe.formula.syntax import FALSE, TRUE, And, Exists, Formula, Or
+from qe.formula.normal import nnf
+from qe.formula.syntax import FALSE, TRUE, And, Atom, Exists, Formula, Or
 from qe.formula.traverse import ring_of
 from qe.options import Budget
-from qe.prepare.negation import positive
 
 Simplifier = Callable[[Formula], Formula]
 
@@ -30,7 +31,7 @@ def eliminate_block(
     solved apart, and the variable with the cheapest elimination set goes first; nothing is expanded.
     ``simplify`` must return an equivalent formula. Raises ``BudgetExceeded``.
     """
-    formula = simplify(positive(matrix))
+    formula = simplify(nnf(matrix))
     ring = ring_of(formula)
     if ring is None:
         return BlockResult(formula, (), Done(formula))
@@ -103,38 +104,42 @@ class _Run:
     def _step(self, formula: Formula, part: Formula, block: frozenset[int]) -> Solved:
         """Eliminate one variable of ``part`` (``formula`` is ``part`` with its context), then the others."""
         inside = occurring(part) & block
-        plan = choose(formula, inside)
+        strict = is_open(part, inside)
+        plan = choose(formula, inside, strict=strict)
         if plan is not None:
-            return self._any(self._alternatives(plan, formula, inside))
+            return self._any(self._alternatives(plan, formula, inside, strict))
         cases = split_equation(formula, inside)
         if cases is not None:
             return self._any(self.solve(self.simplify(case), inside) for case in cases)
         left = Exists(tuple(self.ring.names[i] for i in sorted(inside)), part)
         return left, Open(left)
 
-    def _alternatives(self, plan: Plan, before: Formula, block: frozenset[int]) -> Iterator[Solved]:
+    def _alternatives(self, plan: Plan, before: Formula, block: frozenset[int], strict: bool) -> Iterator[Solved]:
         """The subproblems of a plan, solved one after the other, cheap test points first."""
+        rest = block - {plan.x}
+
+        def attempt(point: TestPoint, guard: Formula, formula: Formula, settled: frozenset[Atom]) -> Solved:
+            known = Signs.of(_free_of(formula, plan.x)).given(guard)
+            result = conj((guard, Substitution(plan.x, point, known, settled)(formula)))
+            choice = Choice(self.ring.names[plan.x], point, plan.exponent, before)
+            return self._substituted(choice, thinned(result, rest) if strict else result, rest)
+
         if plan.infinity is not None:
-            yield self._substituted(plan, plan.infinity, plan.infinity_guard or TRUE, plan.formula, before, block)
-        for candidate in sorted(plan.candidates, key=lambda c: points_cost((c,))):
-            yield self._substituted(plan, candidate.point, candidate.guard, candidate.formula, before, block)
+            yield attempt(plan.infinity, plan.infinity_guard or TRUE, plan.formula, frozenset())
+        for candidate, settled in in_order(plan.candidates):
+            yield attempt(candidate.point, candidate.guard, candidate.formula, settled)
         if plan.degenerate != FALSE:
             yield self.solve(self.simplify(plan.degenerate), block)
 
-    def _substituted(
-        self, plan: Plan, point: TestPoint, guard: Formula, formula: Formula, before: Formula, block: frozenset[int]
-    ) -> Solved:
-        """The subproblem ``guard and formula[point/x]``, solved."""
+    def _substituted(self, choice: Choice, result: Formula, rest: frozenset[int]) -> Solved:
+        """The subproblem that a choice leaves, solved."""
         self.budget.check("virtual substitution", self.stats["test points"])
         self.stats["test points"] += 1
-        known = Signs.of(_free_of(formula, plan.x)).given(guard)
-        result = self.simplify(conj((guard, Substitution(plan.x, point, known)(formula))))
-        if result == FALSE:
+        simple = self.simplify(result)
+        if simple == FALSE:
             return FALSE, Done(FALSE)
-        answer, tree = self.solve(result, block - {plan.x})
-        if answer == FALSE:
-            return FALSE, tree
-        return answer, Chosen(Choice(self.ring.names[plan.x], point, plan.exponent, before), tree)
+        answer, tree = self.solve(simple, rest)
+        return answer, Chosen(choice, tree)
 
     def _any(self, alternatives: Iterable[Solved]) -> Solved:
         """The disjunction; stops at the first alternative that is TRUE."""

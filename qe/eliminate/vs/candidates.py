@@ -14,8 +14,8 @@ Loos & Weispfenning 1993, sections 3-4; Weispfenning 1997; Kosta 2016, chapters 
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
 from itertools import chain
 
 from qe.eliminate.vs.known import Signs
@@ -30,11 +30,15 @@ _UPWARD = (GT, GE)
 
 @dataclass(frozen=True, slots=True)
 class Candidate:
-    """Try ``formula`` at ``point`` where ``guard`` holds. ``formula`` implies the formula it was taken from."""
+    """Try ``formula`` at ``point`` where ``guard`` holds. ``formula`` implies the formula it was taken from.
+
+    ``source`` is the atom that turns true at the point.
+    """
 
     point: LinearRoot | QuadraticRoot
     guard: Formula
     formula: Formula
+    source: Atom
 
 
 @dataclass(frozen=True, slots=True)
@@ -108,6 +112,26 @@ def points_cost(candidates: Iterable[Candidate]) -> float:
     return total
 
 
+def in_order(candidates: Iterable[Candidate]) -> Iterator[tuple[Candidate, frozenset[Atom]]]:
+    """The distinct candidates, atom by atom, cheap atoms first; each with the atoms *settled* for it.
+
+    THEOREM. Let all candidates of the strict inequality p < 0 have been tried already, and let p < 0 be a conjunct
+    of the formula F of a candidate e + epsilon. Then only the case p(e) /= 0 is left to try. Proof: if F is true
+    just right of e and p(e) = 0, then p < 0 turns true at e, so e + epsilon was a candidate of p < 0, with a formula
+    that F implies.
+    """
+    by_source: dict[Atom, list[Candidate]] = {}
+    for candidate in dict.fromkeys(candidates):
+        by_source.setdefault(candidate.source, []).append(candidate)
+    tried: set[Atom] = set()
+    for source, group in sorted(by_source.items(), key=lambda item: points_cost(item[1])):
+        for candidate in group:
+            args = candidate.formula.args if isinstance(candidate.formula, And) else ()
+            yield candidate, frozenset(a for a in args if a in tried) if candidate.point.epsilon else frozenset()
+        if source.relation.is_strict and source.relation is not NE:
+            tried.add(source)
+
+
 def vanishing(f: Poly, x: int, signs: Signs) -> Formula:
     """The condition that f vanishes identically in x: a factor without x does, or all coefficients of another."""
     _, parts = f.factors()
@@ -133,7 +157,7 @@ def _with_gauss(
     )
     if others is None:
         return None
-    return (*inner, *(Candidate(c.point, conj((gauss.degenerate, c.guard)), c.formula) for c in others))
+    return (*inner, *(replace(c, guard=conj((gauss.degenerate, c.guard))) for c in others))
 
 
 def _within(
@@ -144,7 +168,7 @@ def _within(
         return None
     rest = (*args[:k], *args[k + 1 :])
     return tuple(
-        Candidate(c.point, c.guard, whole if c.formula is args[k] else conj((c.formula, *rest))) for c in found
+        replace(c, formula=whole if c.formula is args[k] else conj((c.formula, *rest))) for c in found
     )
 
 
@@ -185,7 +209,7 @@ def _linear(
     b, a = f.coefficients(x)
     guard = signs.atom(a, NE) if content is None else signs.atom(content * a, GT if direction > 0 else LT)
     if guard != FALSE:
-        yield Candidate(LinearRoot(a, b, epsilon), guard, given)
+        yield Candidate(LinearRoot(a, b, epsilon), guard, given, given)
 
 
 def _quadratic(
@@ -200,11 +224,11 @@ def _quadratic(
             if content is not None:
                 guard = conj((proper, signs.atom(content, GT if branch == direction else LT)))
             if guard != FALSE:
-                yield Candidate(QuadraticRoot(a, b, c, branch, epsilon), guard, given)
+                yield Candidate(QuadraticRoot(a, b, c, branch, epsilon), guard, given, given)
     flat = signs.atom(a, EQ)
     if flat != FALSE and b:
         for candidate in _linear(given, _affine(f, b, c, x), x, epsilon, content, direction, signs):
-            yield Candidate(candidate.point, conj((flat, candidate.guard)), given)
+            yield replace(candidate, guard=conj((flat, candidate.guard)))
 
 
 def _affine(model: Poly, b: Poly, c: Poly, x: int) -> Poly:

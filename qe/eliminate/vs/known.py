@@ -94,9 +94,21 @@ class Signs:
         signs = self.possible(poly)
         if signs <= relation.signs:
             return TRUE
-        if not signs & relation.signs:
+        allowed = signs & relation.signs
+        if not allowed:
             return FALSE
+        if allowed == {0}:
+            squares = _sum_of_squares(poly)
+            return conj(atom(m, Relation.EQ) for m in squares) if squares else atom(poly, Relation.EQ)
         return atom(poly, relation)
+
+
+def _sum_of_squares(poly: Poly) -> list[Poly]:
+    """[m1, m2, ...] if poly is a sum of terms c*mi^(2k) with all c of one sign, at least two; else []."""
+    terms = poly.terms()
+    if len(terms) < 2 or any(k % 2 for e, _ in terms for k in e) or len({c > 0 for _, c in terms}) > 1:
+        return []
+    return [poly.ring.from_terms({tuple(min(k, 1) for k in e): 1}) for e, _ in terms]
 
 
 def _parts(primitive: Poly) -> tuple[int, tuple[tuple[Poly, int], ...]]:

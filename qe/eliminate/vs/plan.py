@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from qe.eliminate.vs.candidates import (
     Candidate,
@@ -54,12 +54,15 @@ def occurring(formula: Formula) -> frozenset[int]:
     return found
 
 
-def choose(formula: Formula, block: frozenset[int]) -> Plan | None:
-    """The cheapest plan over the variables of the block, all occurring; None if every degree is too high."""
+def choose(formula: Formula, block: frozenset[int], *, strict: bool) -> Plan | None:
+    """The cheapest plan over the variables of the block, all occurring; None if every degree is too high.
+
+    ``strict``: the solution set in the block is open (see ``openness``).
+    """
     signs = Signs.of(formula)
     best: Plan | None = None
     for x in sorted(block):
-        plan = _plan(formula, x, block - {x}, signs)
+        plan = _plan(formula, x, block - {x}, signs, strict)
         if plan is not None and (best is None or plan.cost < best.cost):
             best = plan
             if best.cost <= 1.0:
@@ -67,13 +70,13 @@ def choose(formula: Formula, block: frozenset[int]) -> Plan | None:
     return best
 
 
-def _plan(formula: Formula, x: int, others: frozenset[int], signs: Signs) -> Plan | None:
+def _plan(formula: Formula, x: int, others: frozenset[int], signs: Signs, strict: bool) -> Plan | None:
     if any(isinstance(a, RootAtom) and x in occurring(a) for a in atoms(formula)):
         return None
     exponent = common_exponent(formula, x)
     originals = args = formula.args if isinstance(formula, And) else (formula,)
     if exponent > 1:
-        args = shifted(args, x, exponent)
+        args = shifted(args, x, exponent, strict=strict)
         formula = conj(args)
         table = {p: s for p, s in signs.table.items() if not p.degree(x)}
         signs = Signs(table).given(formula)
@@ -107,7 +110,7 @@ def _with_gauss(
     """Only the points of the Gauss constituent; where it vanishes identically, the problem without it."""
     rest = (*args[:k], *args[k + 1 :])
     candidates = tuple(
-        Candidate(c.point, c.guard, formula if c.formula is args[k] else conj((c.formula, *rest)))
+        replace(c, formula=formula if c.formula is args[k] else conj((c.formula, *rest)))
         for c in gauss.candidates
     )
     cost = gauss_cost(gauss) * size if size > 1 or gauss.degenerate != FALSE else points_cost(candidates) * 0.5
@@ -119,7 +122,7 @@ def _with_gauss(
     plain = _with_bounds(formula, x, exponent, size, signs)
     if plain is None or plain.infinity is None:
         return None
-    others = tuple(Candidate(c.point, conj((gauss.degenerate, c.guard)), c.formula) for c in plain.candidates)
+    others = tuple(replace(c, guard=conj((gauss.degenerate, c.guard))) for c in plain.candidates)
     return Plan(x, exponent, formula, candidates + others, plain.infinity, gauss.degenerate, FALSE, cost + plain.cost)
 
 

@@ -25,11 +25,12 @@ def common_exponent(formula: Formula, x: int) -> int:
     return k
 
 
-def shifted(conjuncts: tuple[Formula, ...], x: int, k: int) -> tuple[Formula, ...]:
+def shifted(conjuncts: tuple[Formula, ...], x: int, k: int, *, strict: bool) -> tuple[Formula, ...]:
     """The conjuncts with x^k renamed to x, in the same order, and x >= 0 added at the end if k is even.
 
     THEOREM. (exists x. F(x^k)) iff (exists x. F(x) and x >= 0) for even k, iff (exists x. F(x)) for odd k; a
     solution y of the right side lifts to the real k-th root of y (Dolzmann, Sturm & Weispfenning 1998, section 4).
+    ``strict``: the solutions in x form an open set; then x = 0 is never the only one, and x > 0 is added instead.
     """
     ring = next(atoms(conj(conjuncts))).poly.ring
 
@@ -39,7 +40,7 @@ def shifted(conjuncts: tuple[Formula, ...], x: int, k: int) -> tuple[Formula, ..
         return atom(_deflated(found.poly, x, k), found.relation)
 
     changed = tuple(map_atoms(part, lower) for part in conjuncts)
-    return changed if k % 2 else (*changed, Atom(ring.gen(x), Relation.GE))
+    return changed if k % 2 else (*changed, Atom(ring.gen(x), Relation.GT if strict else Relation.GE))
 
 
 def _deflated(p: Poly, x: int, k: int) -> Poly:

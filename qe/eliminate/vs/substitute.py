@@ -20,12 +20,15 @@ _UPWARD = (Relation.GT, Relation.GE)
 
 
 class Substitution:
-    """``x`` (an index into the ring) replaced by ``point``, in places where ``signs`` hold. Caches per atom."""
+    """``x`` (an index into the ring) replaced by ``point``, in places where ``signs`` hold. Caches per atom.
 
-    __slots__ = ("_done", "point", "signs", "x")
+    The strict inequalities in ``settled`` are known not to vanish at the root that a point is beside.
+    """
 
-    def __init__(self, x: int, point: TestPoint, signs: Signs) -> None:
-        self.x, self.point, self.signs = x, point, signs
+    __slots__ = ("_done", "point", "settled", "signs", "x")
+
+    def __init__(self, x: int, point: TestPoint, signs: Signs, settled: frozenset[Atom] = frozenset()) -> None:
+        self.x, self.point, self.signs, self.settled = x, point, signs, settled
         self._done: dict[Atom, Formula] = {}
 
     def __call__(self, formula: Formula) -> Formula:
@@ -37,7 +40,9 @@ class Substitution:
             return leaf
         found = self._done.get(leaf)
         if found is None:
-            found = self._done[leaf] = self.atom(leaf.poly, leaf.relation)
+            plain = leaf in self.settled and not isinstance(self.point, Infinity)
+            evaluate = self._exactly if plain else self.atom
+            found = self._done[leaf] = evaluate(leaf.poly, leaf.relation)
         return found
 
     def atom(self, f: Poly, relation: Relation) -> Formula:
