@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import partial
 
 from flint import arb, arb_mat, fmpq
 
@@ -116,7 +117,8 @@ class _Newton:
         for hessian, gradient, constant in self.parts:
             products = [sum((h * x[j] for j, h in row), arb(0)) for row in hessian]
             slopes.append([p + arb(b) for p, b in zip(products, gradient, strict=True)])
-            values.append(sum((xi * (p / 2 + arb(b)) for xi, p, b in zip(x, products, gradient, strict=True)), arb(constant)))
+            halves = [xi * (p / 2 + arb(b)) for xi, p, b in zip(x, products, gradient, strict=True)]
+            values.append(sum(halves, arb(constant)))
         size = n + k
         jacobian = [[arb(0)] * size for _ in range(size)]
         for w, (hessian, _, _) in zip(weights, self.parts, strict=True):
@@ -231,10 +233,14 @@ def _recognise(
         nu = _elements(field, [combination(unit[i]) for i in range(n, total)])
         if nu is None:
             continue
-        z = _stationary(f, rest, nu, lambda i, k=field: element_candidate(k, combination(unit[i])))
+        z = _stationary(f, rest, nu, partial(_guess, field, [combination(row) for row in unit[:n]]))
         if z is not None:
             return field, z
     return None
+
+
+def _guess(field: NumberField, unknowns: Sequence[Digits], index: int) -> FieldElement | None:
+    return element_candidate(field, unknowns[index])
 
 
 def _elements(field: NumberField, unknowns: Sequence[Digits]) -> list[FieldElement] | None:

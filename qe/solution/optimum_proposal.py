@@ -83,21 +83,35 @@ def solve_floats(rows: Sequence[Row], rhs: Sequence[float]) -> Row | None:
 def interior_point(objective: Quadratic, constraints: Sequence[Quadratic], start: Sequence[float]) -> Proposal:
     """Minimise a convex quadratic polynomial subject to convex quadratic polynomials <= 0 (approximately).
 
-    Infeasible-start primal-dual Newton steps with Mehrotra's predictor for the centring (Mehrotra 1992;
-    Boyd–Vandenberghe, section 11.7). Multipliers are those of the constraints as given (unscaled).
+    Infeasible-start primal-dual Newton steps (Boyd–Vandenberghe, section 11.7), first with Mehrotra's choice of the
+    centring (Mehrotra 1992), which is fast; if that does not converge, again with fixed centring and a line search on
+    the residuals, which is robust. Multipliers are those of the constraints as given (unscaled).
     """
     scales = [natural_scale(g) for g in constraints]
     unit = natural_scale(objective)
     f = to_float(objective, unit)
     g = [to_float(q, s) for q, s in zip(constraints, scales, strict=True)]
+    x, dual, slack, residual = _iterate(f, g, start, False)
+    if residual > 1e-8:
+        again = _iterate(f, g, start, True)
+        if again[-1] < residual:
+            x, dual, slack, residual = again
+    scaled = tuple(u * s / unit for u, s in zip(dual, scales, strict=True))
+    return Proposal(tuple(x), scaled, tuple(s / k for s, k in zip(slack, scales, strict=True)), residual)
+
+
+def _iterate(
+    f: FloatQuadratic, g: Sequence[FloatQuadratic], start: Sequence[float], damped: bool
+) -> tuple[Row, Row, Row, float]:
+    """(point, multipliers, slacks, residual) of the best iterate."""
     x = list(start)
     values = [q.value_and_slope(x)[0] for q in g]
     slack = [max(1.0, -2 * v) if v > -0.5 else -v for v in values]
     dual = [1.0] * len(g)
     best, stalled = _state(f, g, x, slack, dual)[-1], 0
     kept = (x, dual, slack, best)
-    for _ in range(80):
-        step = _newton_step(f, g, x, slack, dual)
+    for _ in range(120 if damped else 50):
+        step = _newton_step(f, g, x, slack, dual, damped)
         if step is None:
             break
         x, slack, dual = step
@@ -106,11 +120,9 @@ def interior_point(objective: Quadratic, constraints: Sequence[Quadratic], start
             best, stalled, kept = residual, 0, (x, dual, slack, residual)
         else:
             stalled += 1
-        if best < 1e-14 or stalled > 6:
+        if best < 1e-14 or stalled > (20 if damped else 6):
             break
-    x, dual, slack, residual = kept
-    scaled = tuple(u * s / unit for u, s in zip(dual, scales, strict=True))
-    return Proposal(tuple(x), scaled, tuple(s / k for s, k in zip(slack, scales, strict=True)), residual)
+    return kept
 
 
 _State = tuple[Row, list[Row], Row, float]
@@ -135,7 +147,7 @@ def _state(f: FloatQuadratic, g: Sequence[FloatQuadratic], x: Row, slack: Row, d
 
 
 def _newton_step(
-    f: FloatQuadratic, g: Sequence[FloatQuadratic], x: Row, slack: Row, dual: Row
+    f: FloatQuadratic, g: Sequence[FloatQuadratic], x: Row, slack: Row, dual: Row, damped: bool
 ) -> tuple[Row, Row, Row] | None:
     n, m = len(x), len(g)
     residual, jacobian, primal, _ = _state(f, g, x, slack, dual)
@@ -170,24 +182,44 @@ def _newton_step(
         du = [e + u * t / s for e, u, t, s in zip(extra, dual, moved, slack, strict=True)]
         return dx, ds, du
 
-    plain = direction([u * s for u, s in zip(dual, slack, strict=True)])
-    if plain is None:
-        return None
-    if m:
+    if not m:
+        straight = direction([])
+        return None if straight is None else ([v + d for v, d in zip(x, straight[0], strict=True)], [], [])
+    products = [u * s for u, s in zip(dual, slack, strict=True)]
+    if damped:
+        sigma = 0.2
+        chosen = direction([p - sigma * mean for p in products])
+    else:
+        plain = direction(products)
+        if plain is None:
+            return None
         _, ds, du = plain
         a, b = _longest(slack, ds, 1.0), _longest(dual, du, 1.0)
         reached = sum((u + b * e) * (s + a * d) for u, e, s, d in zip(dual, du, slack, ds, strict=True)) / m
         sigma = min(1.0, max(0.0, reached / mean)) ** 3 if mean else 0.0
-        centred = direction([u * s + p * q - sigma * mean for u, s, p, q in zip(dual, slack, ds, du, strict=True)])
-        if centred is not None:
-            plain = centred
-    dx, ds, du = plain
+        chosen = direction([p + c * e - sigma * mean for p, c, e in zip(products, ds, du, strict=True)]) or plain
+    if chosen is None:
+        return None
+    dx, ds, du = chosen
     t = min(_longest(slack, ds, 0.99), _longest(dual, du, 0.99))
-    return (
-        [v + t * d for v, d in zip(x, dx, strict=True)],
-        [v + t * d for v, d in zip(slack, ds, strict=True)],
-        [v + t * d for v, d in zip(dual, du, strict=True)],
-    )
+    here = _merit(f, g, (x, slack, dual), sigma * mean)
+    while True:
+        moved_to = (_moved(x, dx, t), _moved(slack, ds, t), _moved(dual, du, t))
+        if not damped or t < 1e-6 or _merit(f, g, moved_to, sigma * mean) <= (1 - 0.01 * t) * here:
+            return moved_to
+        t *= 0.6
+
+
+def _moved(values: Row, steps: Row, t: float) -> Row:
+    return [v + t * d for v, d in zip(values, steps, strict=True)]
+
+
+def _merit(f: FloatQuadratic, g: Sequence[FloatQuadratic], at: tuple[Row, Row, Row], centre: float) -> float:
+    """Euclidean norm of all residuals of the perturbed optimality conditions, products aimed at ``centre``."""
+    x, slack, dual = at
+    residual, _, primal, _ = _state(f, g, x, slack, dual)
+    gaps = [u * s - centre for u, s in zip(dual, slack, strict=True)]
+    return float(sum(v * v for part in (residual, primal, gaps) for v in part) ** 0.5)
 
 
 def _longest(values: Sequence[float], steps: Sequence[float], fraction: float) -> float:

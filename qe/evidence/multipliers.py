@@ -1,0 +1,177 @@
+"""Evidence about a convex optimisation problem, as pure data: what a certificate of kind "optimum" holds.
+
+The problem: minimise f(x) subject to forms p_i(x) <= 0, p_i(x) < 0 or p_i(x) = 0 (then linear), f and p_i convex
+quadratic polynomials over Q. The statements that the data proves are those of ``qe.certify.optimum``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import Enum
+from fractions import Fraction
+
+from qe.exact.field import FieldElement, NumberField
+from qe.exact.quadratic_form import Quadratic
+
+Number = Fraction | FieldElement
+Point = tuple[Number, ...]
+
+
+class OptimumStatus(Enum):
+    """What is known about a minimisation problem."""
+
+    OPTIMAL = "optimal"
+    INFEASIBLE = "infeasible"
+    UNBOUNDED = "unbounded"
+
+
+class FormRelation(Enum):
+    """How a constraint form compares with zero."""
+
+    LE = "<="
+    LT = "<"
+    EQ = "="
+
+
+@dataclass(frozen=True, slots=True)
+class Face:
+    """One step of facial reduction (Borwein–Wolkowicz 1981), over Q.
+
+    With L = sum weights_i p_i + sum derived_k e_k (e_k the equations derived by earlier faces), ``point`` is
+    stationary for L and L(point) >= 0, weights >= 0 on inequalities. Then every feasible x has L(x) = L(point) = 0,
+    so for each inequality with weight > 0: H_i (x - point) = 0 and p_i(point) + grad p_i(point).(x - point) = 0.
+    These linear equations (n + 1 per such inequality, in this order) are what the face derives.
+    """
+
+    weights: tuple[Fraction, ...]
+    derived: tuple[Fraction, ...]
+    point: tuple[Fraction, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class LinearEquation:
+    """row . x = rhs over Q."""
+
+    row: tuple[Fraction, ...]
+    rhs: Fraction
+
+
+def derived_equations(face: Face, forms: Sequence[Quadratic], relations: Sequence[FormRelation]) -> list[LinearEquation]:
+    """The linear equations that a face derives, in their fixed order."""
+    found: list[LinearEquation] = []
+    for weight, form, relation in zip(face.weights, forms, relations, strict=True):
+        if relation is FormRelation.EQ or weight <= 0:
+            continue
+        for row in form.hessian:
+            found.append(LinearEquation(row, _dot(row, face.point)))
+        slope = tuple(Fraction(s) for s in form.slope(face.point))
+        found.append(LinearEquation(slope, _dot(slope, face.point) - Fraction(form.value(face.point))))
+    return found
+
+
+def _dot(u: Sequence[Fraction], v: Sequence[Fraction]) -> Fraction:
+    return sum((a * b for a, b in zip(u, v, strict=True)), Fraction(0))
+
+
+@dataclass(frozen=True, slots=True)
+class OptimumEvidence:
+    """The data behind one answer. ``multipliers`` has one number per constraint, ``derived`` one per derived equation.
+
+    OPTIMAL: ``point`` is feasible (strict constraints perhaps only with equality) and stationary for
+    f + sum multipliers_i p_i + sum derived_k e_k. INFEASIBLE: stationary for that sum without f, whose value there is
+    > 0, or >= 0 with a strict constraint of positive multiplier. UNBOUNDED: ``point`` is feasible and f decreases
+    forever along ``direction``. ``attained`` is False when strict constraints exclude the point; then
+    ``inner_point`` (over ``inner_field``) satisfies all constraints.
+    """
+
+    names: tuple[str, ...]
+    objective: Quadratic
+    forms: tuple[Quadratic, ...]
+    relations: tuple[FormRelation, ...]
+    status: OptimumStatus
+    field: NumberField
+    faces: tuple[Face, ...]
+    point: Point
+    multipliers: Point = ()
+    derived: Point = ()
+    direction: tuple[Fraction, ...] = ()
+    attained: bool | None = None
+    unique: bool | None = None
+    inner_field: NumberField | None = None
+    inner_point: Point = ()
+
+
+# --- plain data ------------------------------------------------------------------------------------------------
+
+
+def _terms(form: Quadratic) -> list[list[object]]:
+    """[coefficient, exponents] of each term, constant first, then linear, then quadratic ones."""
+    n = form.size
+    out: list[list[object]] = []
+    if form.constant:
+        out.append([str(form.constant), [0] * n])
+    for i, b in enumerate(form.gradient):
+        if b:
+            out.append([str(b), [int(k == i) for k in range(n)]])
+    for i in range(n):
+        for j in range(i, n):
+            h = form.hessian[i][j]
+            if h:
+                out.append([str(h / 2 if i == j else h), [int(k == i) + int(k == j) for k in range(n)]])
+    return out
+
+
+def _number(value: Number) -> list[str]:
+    """Coefficients of 1, theta, theta^2, …, without trailing zeros."""
+    coefficients = list(value.coefficients) if isinstance(value, FieldElement) else [Fraction(value)]
+    while len(coefficients) > 1 and not coefficients[-1]:
+        coefficients.pop()
+    return [str(c) for c in coefficients]
+
+
+def _field(field: NumberField) -> dict[str, object]:
+    lo, hi = field.theta.interval(96)
+    return {"minimal_polynomial": [str(c) for c in field.minimal_polynomial], "interval": [str(lo), str(hi)]}
+
+
+def to_payload(evidence: OptimumEvidence) -> dict[str, object]:
+    """Plain JSON data: strings for numbers, lists and dictionaries with string keys."""
+    point, value = evidence.point, evidence.objective.value
+    payload: dict[str, object] = {
+        "problem": {
+            "variables": list(evidence.names),
+            "minimise": _terms(evidence.objective),
+            "constraints": [
+                {"terms": _terms(form), "relation": relation.value}
+                for form, relation in zip(evidence.forms, evidence.relations, strict=True)
+            ],
+        },
+        "status": evidence.status.value,
+        "field": _field(evidence.field),
+        "faces": [
+            {
+                "weights": [str(w) for w in face.weights],
+                "derived": [str(w) for w in face.derived],
+                "point": [str(c) for c in face.point],
+            }
+            for face in evidence.faces
+        ],
+        "point": [_number(c) for c in point],
+    }
+    if evidence.status is OptimumStatus.UNBOUNDED:
+        payload["direction"] = [str(d) for d in evidence.direction]
+        return payload
+    payload["multipliers"] = [_number(m) for m in evidence.multipliers]
+    payload["derived"] = [_number(m) for m in evidence.derived]
+    payload["values"] = [_number(form.value(point)) for form in evidence.forms]
+    if evidence.status is OptimumStatus.OPTIMAL:
+        payload["value"] = _number(value(point))
+        payload["attained"] = bool(evidence.attained)
+        payload["unique"] = bool(evidence.unique)
+        if evidence.inner_field is not None:
+            payload["inner"] = {
+                "field": _field(evidence.inner_field),
+                "point": [_number(c) for c in evidence.inner_point],
+            }
+    return payload
