@@ -1,0 +1,141 @@
+"""The theorem of virtual substitution, transcribed: the result is equivalent, and its answers are solutions."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from qe.eliminate.vs import eliminate_block, witness
+from qe.errors import BudgetExceeded
+from qe.exact.ring import Ring
+from qe.exact.sample import Point
+from qe.formula.build import conj, convert, disj
+from qe.formula.evaluate import holds_at, truth_under
+from qe.formula.syntax import Formula
+from qe.formula.traverse import polynomials
+from qe.options import Budget
+from qe.prepare.simplify import simplify
+from tests.strategies import atoms, rationals
+from tests.unit.vs.line import satisfiable, specialise
+
+RING = Ring.of(("a", "b", "x"))
+PARAMETERS = st.fixed_dictionaries({"a": rationals(3, 2), "b": rationals(3, 2)})
+
+
+def budget() -> Budget:
+    return Budget(20)
+
+
+def identity(formula: Formula) -> Formula:
+    return formula
+
+
+@st.composite
+def matrices(draw: st.DrawFn, ring: Ring = RING, depth: int = 2, degree: int = 2) -> Formula:
+    if depth == 0 or draw(st.integers(0, 3)) == 0:
+        return draw(atoms(ring, max_degree=degree))
+    parts = [draw(matrices(ring, depth - 1, degree)) for _ in range(draw(st.integers(2, 3)))]
+    return conj(parts) if draw(st.booleans()) else disj(parts)
+
+
+@given(matrices(), st.lists(PARAMETERS, min_size=4, max_size=4), st.sampled_from((simplify, identity)))
+@settings(max_examples=150)
+def test_one_variable(matrix: Formula, points: list[dict[str, Fraction]], tidy) -> None:  # type: ignore[no-untyped-def]
+    """(exists x. F) iff the result, at random rational parameter values, with and without a simplifier."""
+    result = eliminate_block(("x",), matrix, budget=budget(), simplify=tidy)
+    assert not result.remaining
+    answers = list(result.answers)
+    for values in points:
+        expected = satisfiable(specialise(matrix, values), 2)
+        assert holds_at(result.formula, values) == expected
+        guarded = [a for a in answers if holds_at(a.guard, values)]
+        assert bool(guarded) == expected
+        for answer in guarded[:2]:
+            check_witness(matrix, values, witness(answer, values, budget=budget()))
+
+
+def check_witness(matrix: Formula, values: dict[str, Fraction], found: dict) -> None:  # type: ignore[type-arg]
+    """Exact evaluation of the matrix at the parameters and the values found."""
+    everything = {**values, **found}
+    if not polynomials(matrix):
+        return
+    names = polynomials(matrix)[0].ring.names
+    order = sorted(names, key=lambda n: not isinstance(everything.get(n, 0), Fraction))
+    ring = Ring.of(order)
+    point = Point.of(ring, [everything.get(n, Fraction(0)) for n in order])
+    assert truth_under(convert(matrix, ring), point.sign) is True
+
+
+TWO = Ring.of(("a", "x", "y"))
+
+
+@given(matrices(TWO, 2, 2), st.lists(rationals(3, 2), min_size=3, max_size=3))
+@settings(max_examples=80)
+def test_two_variables(matrix: Formula, points: list[Fraction]) -> None:
+    """exists x, y: answers are solutions; and eliminating one after the other gives the same truth."""
+    result = eliminate_block(("x", "y"), matrix, budget=budget(), simplify=simplify)
+    first = eliminate_block(("y",), matrix, budget=budget(), simplify=identity)
+    for value in points:
+        values = {"a": value}
+        if not first.remaining and not result.remaining:
+            assert holds_at(result.formula, values) == satisfiable(specialise(first.formula, values), 1)
+        for answer in list(result.answers)[:3]:
+            if holds_at(answer.guard, values):
+                check_witness(matrix, values, witness(answer, values, budget=budget()))
+
+
+@given(matrices(Ring.of(("x", "y", "z")), 2, 2))
+@settings(max_examples=100)
+def test_sentences_against_z3(matrix: Formula) -> None:
+    z3 = pytest.importorskip("z3")
+    from qe.io.smtlib import write
+
+    result = eliminate_block(("x", "y", "z"), matrix, budget=budget(), simplify=simplify)
+    if result.remaining:
+        return
+    solver = z3.Solver()
+    solver.set("timeout", 3000)
+    solver.from_string(write(matrix))
+    verdict = solver.check()
+    if verdict == z3.unknown:
+        return
+    assert (str(result.formula) == "true") == (verdict == z3.sat)
+    if verdict == z3.sat:
+        check_witness(matrix, {}, witness(next(result.answers), budget=budget()))
+
+
+@given(matrices(RING, 2, 4), st.lists(PARAMETERS, min_size=3, max_size=3))
+@settings(max_examples=80)
+def test_what_stays_too_high_is_still_equivalent(matrix: Formula, points: list[dict[str, Fraction]]) -> None:
+    """Degree up to 4: leftover existential parts are kept, and the whole is equivalent."""
+    result = eliminate_block(("x",), matrix, budget=budget(), simplify=simplify)
+    for values in points:
+        expected = satisfiable(specialise(matrix, values), 2)
+        assert evaluate(result.formula, values) == expected
+
+
+def evaluate(formula: Formula, values: dict[str, Fraction]) -> bool:
+    """Truth of a positive formula with leftover existential quantifiers over x."""
+    from qe.formula.syntax import And, Exists, Or
+
+    match formula:
+        case Exists(("x",), body):
+            return satisfiable(specialise(body, values), 2)
+        case And(args):
+            return all(evaluate(a, values) for a in args)
+        case Or(args):
+            return any(evaluate(a, values) for a in args)
+    return holds_at(formula, values)
+
+
+def test_budget_is_kept() -> None:
+    late = Budget(-1.0)
+    x, y = RING.gen(2), RING.gen(1)
+    from qe.formula.build import atom
+    from qe.formula.syntax import Relation
+
+    with pytest.raises(BudgetExceeded):
+        eliminate_block(("x",), atom(x**2 - y, Relation.LT), budget=late, simplify=simplify)
