@@ -1,0 +1,160 @@
+"""Checking a cell table from scratch.
+
+THEOREM. Let the factor lists be closed under the projection (``closure``), and let every stack list exactly the
+real roots of its factors over the sample of its cell (``stacks``). Then every listed factor is sign-invariant on
+every cell on which it was decomposed (Lazard: McCallum, Parusinski, Paunescu 2019; Brown-McCallum: Brown 2001
+where no factor is nullified on a cell of positive dimension). So a formula that three-valued evaluation decides
+from these signs has that truth value on the whole cell, and a quantifier over a decomposed cell ranges exactly
+over its stack (Collins, Hong 1991): the truth values, and the answer formula compared with them, hold for all
+points and not for the samples only.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+
+from qe.certify.closure import check_closure
+from qe.certify.matrix import Situation, Test, compiled, strengthened
+from qe.certify.products import FactorLists, check_lists
+from qe.certify.stacks import Checked, Fail, Sample, StackChecker
+from qe.errors import CertificateRejected
+from qe.evidence.cells import Cell, CellTable
+from qe.evidence.cells_json import CellEvidence
+from qe.exact.ring import Poly, Ring
+from qe.exact.triangular import ORIGIN, Coordinate
+from qe.truth import Truth, conjunction, disjunction
+
+Path = tuple["Path", str] | str
+
+
+def check_cells(evidence: CellEvidence) -> None:
+    """``CertificateRejected`` naming the first entry that fails; returns if the table proves what it says."""
+    table = evidence.table
+    ring = Ring.of(table.order)
+    free = _check_header(table)
+    check_lists(ring, table.factors)
+    lists = FactorLists(ring, table.factors)
+    matrix = strengthened(table.matrix, lists, "payload.matrix")
+    answer = None if evidence.answer is None else compiled(evidence.answer, lists, "payload.answer")
+    checker = StackChecker(lists, check_closure(lists, table.projection), table.projection)
+    walk = _Walk(table, free, checker, matrix, answer)
+    sample = Sample(ORIGIN, {}, lists.lists, [], (0,))
+    if table.root.signs:
+        raise CertificateRejected("payload.root.signs", "the whole space has no signs")
+    walk.cell(table.root, sample, Situation([], [], [], []), "payload.root")
+
+
+def _check_header(table: CellTable) -> int:
+    """The number of free variables, which come first."""
+    if len(table.quantifiers) != len(table.order):
+        raise CertificateRejected("payload.quantifiers", "expected one entry per variable")
+    free = 0
+    for k, quantifier in enumerate(table.quantifiers):
+        if quantifier not in ("", "E", "A"):
+            raise CertificateRejected(f"payload.quantifiers[{k}]", 'expected "", "E" or "A"')
+        if quantifier == "":
+            if free < k:
+                raise CertificateRejected(f"payload.quantifiers[{k}]", "a free variable after a quantified one")
+            free = k + 1
+    return free
+
+
+@dataclass(frozen=True, slots=True)
+class _Walk:
+    """The recursion over the cells, with what does not change on the way."""
+
+    table: CellTable
+    free: int
+    checker: StackChecker
+    matrix: Test
+    answer: Test | None
+
+    def cell(self, cell: Cell, sample: Sample | None, situation: Situation, path: Path) -> None:
+        """Check everything said about a cell; ``sample`` is None for a leaf."""
+        depth = len(situation.signs)
+        if cell.stack is None or sample is None:
+            value = self.matrix(situation)
+            if cell.truth is not None and value is not cell.truth:
+                said = "does not follow from the signs" if value is None else f"is {value} by the signs"
+                raise CertificateRejected(_text((path, ".truth")), f"said to be {cell.truth}, {said}")
+        else:
+            value = self._decomposed(cell, sample, situation, path)
+        if depth <= self.free:
+            self._check_free(cell, depth, situation, path)
+
+    def _check_free(self, cell: Cell, depth: int, situation: Situation, path: Path) -> None:
+        """Cells over free variables: undecomposed ones have a truth value, and the answer agrees with it."""
+        if depth < self.free and cell.stack is not None:
+            return
+        if cell.truth is None:
+            raise CertificateRejected(_text((path, ".truth")), "no truth value for a cell over the free variables")
+        if self.answer is not None and self.answer(situation) is not cell.truth:
+            raise CertificateRejected("payload.answer", f"differs from the truth value {cell.truth} of {_text(path)}")
+
+    def _decomposed(self, cell: Cell, sample: Sample, situation: Situation, path: Path) -> Truth:
+        stack = cell.stack
+        assert stack is not None
+        here: Path = (path, ".stack")
+
+        def fail(entry: str, reason: str) -> CertificateRejected:
+            return CertificateRejected(_text((here, f".{entry}")), reason)
+
+        if sample.depth >= len(self.table.order):
+            raise fail("cells", "a stack above the last variable")
+        checked = self.checker.check(stack, sample, fail)
+        for position, child in enumerate(stack.cells):
+            row = checked.signs[position]
+            if child.signs != "".join(_CHARACTERS[row[i]] for i in stack.used):
+                expected = "".join(_CHARACTERS[row[i]] for i in stack.used)
+                raise fail(f"cells[{position}].signs", f"said to be {child.signs!r}, found {expected!r}")
+            below = Situation(
+                [*situation.signs, row],
+                [*situation.sections, stack.sections],
+                [*situation.nullified, checked.nullified],
+                [*situation.positions, position],
+            )
+            deeper = None if child.stack is None else self._child(sample, checked, cell, position, fail)
+            self.cell(child, deeper, below, (here, f".cells[{position}]"))
+        value = self._aggregate(cell, sample.depth)
+        if cell.truth is not value:
+            raise CertificateRejected(_text((path, ".truth")), f"said to be {cell.truth}, follows to be {value}")
+        return value
+
+    def _aggregate(self, cell: Cell, level: int) -> Truth:
+        assert cell.stack is not None
+        match self.table.quantifiers[level]:
+            case "E":
+                return disjunction(c.truth for c in cell.stack.cells)
+            case "A":
+                return conjunction(c.truth for c in cell.stack.cells)
+        return None
+
+    def _child(self, sample: Sample, checked: Checked, cell: Cell, position: int, fail: Fail) -> Sample:
+        stack, k = cell.stack, sample.depth
+        assert stack is not None
+        number: Fraction | Coordinate
+        if position % 2 == 0:
+            number = stack.sectors[position // 2]
+        else:
+            number = self.checker.section_coordinate(checked, stack, position // 2, fail)
+        dimensions = (*sample.dimensions, sample.dimensions[-1] + (position % 2 == 0))
+        signs = [*sample.signs, checked.signs[position]]
+        if isinstance(number, Coordinate):
+            return Sample(sample.point.extended(number), sample.rationals, sample.polys, signs, dimensions)
+        polys = tuple(
+            tuple(_substituted(f, k, number) for f in level) if at > k else level
+            for at, level in enumerate(sample.polys)
+        )
+        return Sample(sample.point, {**sample.rationals, k: number}, polys, signs, dimensions)
+
+
+_CHARACTERS = {1: "+", -1: "-", 0: "0", None: "?"}
+
+
+def _substituted(f: Poly, k: int, number: Fraction) -> Poly:
+    return f.at_rational(k, number) if f.degree(k) else f
+
+
+def _text(path: Path) -> str:
+    return path if isinstance(path, str) else _text(path[0]) + path[1]

@@ -1,0 +1,106 @@
+"""Closure of the factor lists under projection, recomputed.
+
+Lazard (1994; validity: McCallum, Parusinski, Paunescu 2019, theorem 5.1): leading coefficients, trailing
+coefficients, discriminants, pairwise resultants. Brown-McCallum (Brown 2001, theorem 3.1): leading coefficients,
+discriminants, pairwise resultants, with a condition on every cell that ``stacks`` checks. Both need the listed
+polynomials of a level to be squarefree and pairwise coprime, which nonzero discriminants and resultants prove.
+Level 0 needs nothing: its stack is checked root by root.
+
+Each resultant and discriminant is compared with a Sylvester determinant at an integer point, a second route to
+the same value.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from qe.certify.products import FactorLists, Product
+from qe.errors import CertificateRejected
+from qe.exact.ring import Poly, format_poly
+from qe.exact.sturm import coefficients_at, sylvester_determinant, value_at_integers
+from qe.options import Projection
+
+
+@dataclass(frozen=True, slots=True)
+class Closure:
+    """For each level: leading coefficients and discriminants of its factors, and resultants of pairs i < j.
+
+    ``discriminants[0]`` and ``resultants[0]`` are empty: they are constants, and are not needed.
+    """
+
+    leading: tuple[tuple[Product, ...], ...]
+    discriminants: tuple[tuple[Product, ...], ...]
+    resultants: tuple[dict[tuple[int, int], Product], ...]
+
+
+def check_closure(lists: FactorLists, projection: Projection) -> Closure:
+    """The products, or ``CertificateRejected`` naming the factor whose projection is not covered."""
+    if projection not in (Projection.LAZARD, Projection.BROWN_MCCALLUM):
+        raise CertificateRejected("payload.projection", "an operator that this checker has no theorem for")
+    leading, discriminants, resultants = [], [], []
+    for k, level in enumerate(lists.lists):
+        leading.append(tuple(_covered(lists, f.leading(k), k, i, "leading coefficient") for i, f in enumerate(level)))
+        found: list[Product] = []
+        pairs: dict[tuple[int, int], Product] = {}
+        if k > 0:
+            for i, f in enumerate(level):
+                if projection is Projection.LAZARD:
+                    _trailing(lists, f, k, i)
+                found.append(_covered(lists, _discriminant(lists, f, k, i), k, i, "discriminant"))
+                for j in range(i):
+                    what = f"resultant with payload.factors[{k}][{j}]"
+                    pairs[j, i] = _covered(lists, _resultant(lists, level[j], f, k, i), k, i, what)
+        discriminants.append(tuple(found))
+        resultants.append(pairs)
+    return Closure(tuple(leading), tuple(discriminants), tuple(resultants))
+
+
+def _covered(lists: FactorLists, p: Poly, k: int, i: int, what: str) -> Product:
+    step = f"payload.factors[{k}][{i}]"
+    if not p:
+        raise CertificateRejected(step, f"its {what} is zero: the list is not squarefree and coprime")
+    product = lists.decompose(p)
+    if product is None:
+        text = format_poly(p)
+        shown = text if len(text) < 200 else f"of {p.term_count()} terms"
+        raise CertificateRejected(step, f"its {what} {shown} is not a product of listed factors")
+    return product
+
+
+def _trailing(lists: FactorLists, f: Poly, k: int, i: int) -> None:
+    trailing = f.coefficients(k)[0]
+    if trailing or f != lists.ring.gen(k):  # the variable itself is the only irreducible factor without one
+        _covered(lists, trailing, k, i, "trailing coefficient")
+
+
+def _discriminant(lists: FactorLists, f: Poly, k: int, i: int) -> Poly:
+    n = f.degree(k)
+    if n == 1:
+        return lists.ring.constant(1)
+    discriminant = f.discriminant(k)
+    lead = value_at_integers(f.leading(k), lists.point)
+    sign = -1 if n * (n - 1) // 2 % 2 else 1
+    derivative = coefficients_at(f.derivative(k), k, lists.point)
+    other = sign * sylvester_determinant(coefficients_at(f, k, lists.point), derivative)
+    if value_at_integers(discriminant, lists.point) * lead != other:
+        raise CertificateRejected(f"payload.factors[{k}][{i}]", "two ways to its discriminant disagree")
+    return discriminant
+
+
+def _resultant(lists: FactorLists, f: Poly, g: Poly, k: int, i: int) -> Poly:
+    resultant = f.resultant(g, k)
+    other = sylvester_determinant(coefficients_at(f, k, lists.point), coefficients_at(g, k, lists.point))
+    if value_at_integers(resultant, lists.point) != other:
+        raise CertificateRejected(f"payload.factors[{k}][{i}]", "two ways to a resultant of it disagree")
+    return resultant
+
+
+def nullification_witnesses(f: Poly, k: int) -> list[Poly]:
+    """Polynomials in the ideal of the coefficients of f in variable k: where one is nonzero, f is not nullified."""
+    coefficients = [c for c in f.coefficients(k) if c]
+    found = list(coefficients)
+    for i, c in enumerate(coefficients):
+        for d in coefficients[:i]:
+            shared = set(c.variables) & set(d.variables)
+            found += [c.resultant(d, v) for v in sorted(shared, reverse=True)[:1]]
+    return found

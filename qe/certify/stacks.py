@@ -1,0 +1,266 @@
+"""One stack: it lists exactly the real roots of its factors over the cell's sample, in order, with their signs.
+
+The counting differs from the producers': a sign change between neighbouring sector samples proves at least one
+root, and the total number of distinct real roots comes from the sign of the discriminant (already proved on the
+cell) or from Sturm's theorem. If every listed section shows a sign change and the total equals the number of
+listed sections, each holds exactly one root and there are no others. A root of even order shows no sign change;
+it does in the squarefree part.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from fractions import Fraction
+
+from qe.certify.closure import Closure, nullification_witnesses
+from qe.certify.products import FactorLists, Signs, sign
+from qe.errors import CertificateRejected
+from qe.evidence.cells import Stack
+from qe.exact.fibre import Fibre, RationalFibre, Values, fibre, lazard_evaluation, lift_up, values
+from qe.exact.ring import Poly
+from qe.exact.triangular import Coordinate, Point
+from qe.options import Projection
+
+Fail = Callable[[str, str], CertificateRejected]
+
+
+@dataclass(frozen=True, slots=True)
+class Sample:
+    """A sample point and what is known on its cell.
+
+    ``point``: the algebraic coordinates; ``rationals``: the rational ones by level. ``polys[k]``: the factors of
+    level k with the rational coordinates substituted. ``signs``: the proved signs. ``dimensions[d]``: the
+    dimension of the cell's projection to the first d variables.
+    """
+
+    point: Point
+    rationals: dict[int, Fraction]
+    polys: tuple[tuple[Poly, ...], ...]
+    signs: Signs
+    dimensions: tuple[int, ...]
+
+    @property
+    def depth(self) -> int:
+        return len(self.dimensions) - 1
+
+
+@dataclass(slots=True)
+class Branch:
+    """One used factor over the sample: ``simple`` has the same real roots, all simple (None: not worked out)."""
+
+    index: int
+    fibre: Fibre
+    signs: list[int]
+    nullified: bool
+    simple: Fibre | None
+
+
+@dataclass(frozen=True, slots=True)
+class Checked:
+    """A stack found correct: the signs on every cell (per factor of the level), and its branches."""
+
+    signs: list[list[int | None]]
+    branches: dict[int, Branch]
+    nullified: frozenset[int]
+
+
+class StackChecker:
+    """Checks stacks of one table; holds only what the closure check proved."""
+
+    def __init__(self, lists: FactorLists, closure: Closure, projection: Projection) -> None:
+        self.lists, self.closure, self.projection = lists, closure, projection
+        self._witnesses: dict[tuple[int, int], list[Poly]] = {}
+
+    def check(self, stack: Stack, sample: Sample, fail: Fail) -> Checked:
+        """The proved content of the stack, or an error made by ``fail(entry, reason)``."""
+        k = sample.depth
+        _check_shape(stack, len(self.lists.lists[k]), k == len(self.lists.lists) - 1, fail)
+        at = values(stack.sectors)
+        listed: dict[int, list[int]] = {i: [] for i in stack.used}
+        for j, section in enumerate(stack.sections):
+            for i in section:
+                listed[i].append(j)
+        branches = {i: self._branch(i, sample, at, listed[i], fail) for i in stack.used}
+        for j, section in enumerate(stack.sections):
+            for other in section[1:]:
+                if not self._share(branches[section[0]], branches[other], sample, at[j : j + 2]):
+                    raise fail(f"sections[{j}]", f"factors {section[0]} and {other} have no common root there")
+        nullified = frozenset(i for i, b in branches.items() if b.nullified)
+        return Checked(_sign_rows(stack, branches, len(self.lists.lists[k])), branches, nullified)
+
+    # --- one factor ------------------------------------------------------------------------
+    def _branch(self, i: int, sample: Sample, at: Values, listed: list[int], fail: Fail) -> Branch:
+        k = sample.depth
+        poly = sample.polys[k][i]
+        lead = sign(self.closure.leading[k][i], sample.signs)
+        f = fibre(sample.point, poly, k, leading_nonzero=bool(lead))
+        nullified = f.degree < 0
+        if nullified:
+            self._allow_nullified(i, sample, fail)
+            if self.projection is Projection.LAZARD:
+                original = self.lists.lists[k][i]
+                f = fibre(sample.point, lazard_evaluation(original, sample.point, sample.rationals, k), k)
+            elif listed:
+                raise fail(f"sections[{listed[0]}]", f"factor {i} vanishes identically over the sample")
+            else:
+                return Branch(i, f, [0] * len(at), True, None)
+        elif not lead and self.projection is Projection.BROWN_MCCALLUM:
+            self._check_nowhere_nullified(i, sample, fail)
+        signs = f.signs(at)
+        if 0 in signs:
+            raise fail(f"sectors[{signs.index(0)}]", f"factor {i} is zero at this sector sample")
+        discriminant = sign(self.closure.discriminants[k][i], sample.signs) if k > 0 and not nullified else None
+        simple = _check_roots(f, signs, at, listed, discriminant, lambda e, r: fail(e, f"factor {i}: {r}"))
+        return Branch(i, f, signs, nullified, simple)
+
+    def _allow_nullified(self, i: int, sample: Sample, fail: Fail) -> None:
+        if self.projection is Projection.LAZARD:
+            return
+        if sample.dimensions[-1] == 0 and sample.depth == len(self.lists.lists) - 1:
+            return  # the cell is one point and the factor is zero on the whole line over it
+        raise fail("used", f"factor {i} vanishes identically over the sample: not well-oriented (Brown 2001)")
+
+    def _check_nowhere_nullified(self, i: int, sample: Sample, fail: Fail) -> None:
+        """Brown-McCallum: no point of the cell nullifies the factor. A nonzero leading coefficient, which is
+        sign-invariant on the cell, proves it; so does any element of the ideal of the coefficients that is
+        sign-invariant on the cell and nonzero at the sample.
+        """
+        k = sample.depth
+        if sample.dimensions[-1] == 0 or k == 1:
+            # At one point the sample decides. On level 1 the leading coefficient is nonzero on any interval.
+            return
+        if (k, i) not in self._witnesses:
+            self._witnesses[k, i] = nullification_witnesses(self.lists.lists[k][i], k)
+        for witness in self._witnesses[k, i]:
+            if witness.is_constant:
+                if witness:
+                    return
+                continue
+            product = self.lists.decompose(witness)
+            if product is not None:
+                if sign(product, sample.signs):
+                    return
+            elif sample.dimensions[witness.level + 1] == 0 and self._sign_at(witness, sample):
+                return
+        raise fail("used", f"factor {i} may vanish identically at a point of the cell (Brown 2001, theorem 3.1)")
+
+    @staticmethod
+    def _sign_at(p: Poly, sample: Sample) -> int:
+        for level, value in sample.rationals.items():
+            p = p.at_rational(level, value)
+        return sample.point.sign(p)
+
+    # --- coincident roots ------------------------------------------------------------------
+    def _share(self, a: Branch, b: Branch, sample: Sample, ends: Values) -> bool:
+        """Whether the only roots of a and b between two neighbouring sector samples are equal."""
+        f, g = a.fibre, b.fibre
+        if isinstance(f, RationalFibre) != isinstance(g, RationalFibre):
+            f, g = lift_up(f, sample.point), lift_up(g, sample.point)
+        if not isinstance(f, RationalFibre) and min(f.degree, g.degree) == 1 and self._resultant_zero(a, b, sample):
+            return True  # a common root exists, and the polynomial of degree 1 has only this one
+        common = f.gcd(g)
+        if common.degree < 1:
+            return False
+        low, high = common.signs(ends)
+        if low * high >= 0:
+            low, high = common.squarefree().signs(ends)
+        return low * high < 0
+
+    def _resultant_zero(self, a: Branch, b: Branch, sample: Sample) -> bool:
+        """Whether the resultant is zero on the cell for a reason other than two vanishing leading coefficients."""
+        k = sample.depth
+        if k == 0 or a.nullified or b.nullified:
+            return False
+        i, j = sorted((a.index, b.index))
+        leading = self.closure.leading[k]
+        if not (sign(leading[i], sample.signs) or sign(leading[j], sample.signs)):
+            return False
+        return sign(self.closure.resultants[k][i, j], sample.signs) == 0
+
+    # --- coordinates -----------------------------------------------------------------------
+    def section_coordinate(self, checked: Checked, stack: Stack, j: int, fail: Fail) -> Fraction | Coordinate:
+        """The number that section j of a checked stack stands for."""
+        low, high = stack.sectors[j], stack.sectors[j + 1]
+        for branch in sorted((checked.branches[i] for i in stack.sections[j]), key=lambda b: b.fibre.degree):
+            if branch.simple is None:
+                branch.simple = branch.fibre.squarefree()
+            found = branch.simple.coordinate(low, high)
+            if found is not None:
+                return found
+        raise fail(f"sections[{j}]", "its root could not be represented")
+
+
+def _check_shape(stack: Stack, factors: int, last: bool, fail: Fail) -> None:
+    used = stack.used
+    if any(a >= b for a, b in zip(used, used[1:], strict=False)) or (used and not 0 <= used[0] <= used[-1] < factors):
+        raise fail("used", "not an ascending list of factors of this level")
+    if not last and len(used) != factors:
+        raise fail("used", "a factor of this level is missing")
+    if not stack.sectors:
+        raise fail("sectors", "no sector")
+    for j, (a, b) in enumerate(zip(stack.sectors, stack.sectors[1:], strict=False)):
+        if a >= b:
+            raise fail(f"sectors[{j + 1}]", "the sector samples do not ascend")
+    if len(stack.sections) != len(stack.sectors) - 1:
+        raise fail("sections", f"{len(stack.sections)} sections between {len(stack.sectors)} sectors")
+    if len(stack.cells) != 2 * len(stack.sections) + 1:
+        raise fail("cells", f"{len(stack.cells)} cells where {2 * len(stack.sections) + 1} are needed")
+    known = set(used)
+    for j, section in enumerate(stack.sections):
+        if not section or any(a >= b for a, b in zip(section, section[1:], strict=False)) or set(section) - known:
+            raise fail(f"sections[{j}]", "not a nonempty ascending list of used factors")
+
+
+def _check_roots(
+    f: Fibre, signs: list[int], at: Values, listed: list[int], discriminant: int | None, fail: Fail
+) -> Fibre | None:
+    """The listed sections hold exactly one root of f each and there are no others.
+
+    Returns f or a polynomial with the same roots, all simple (None if that was not worked out).
+    """
+    changes = [j for j in range(len(signs) - 1) if signs[j] != signs[j + 1]]
+    for j in changes:
+        if j not in listed:
+            raise fail(f"sections[{j}]", "it has a root here that is not listed")
+    if f.degree <= 1 or len(changes) == f.degree:
+        if listed != changes:
+            raise fail(f"sections[{next(j for j in listed if j not in changes)}]", "it has no root here")
+        if len(changes) != f.degree:
+            raise fail("sections", "a root of it is missing")
+        return f
+    if changes == listed:
+        missing = _distinct_roots(f, len(changes), discriminant) - len(changes)
+        if missing:
+            raise fail("sections", f"{missing} root(s) of it missing")
+        return f if discriminant or isinstance(f, RationalFibre) else None
+    if discriminant:
+        raise fail(f"sections[{next(j for j in listed if j not in changes)}]", "it has no root here")
+    simple: Fibre = f.derivative() if f.degree == 2 and discriminant == 0 else f.squarefree()
+    if simple.degree == f.degree:
+        raise fail(f"sections[{next(j for j in listed if j not in changes)}]", "it has no root here")
+    return _check_roots(simple, simple.signs(at), at, listed, None, fail) or simple
+
+
+def _distinct_roots(f: Fibre, seen: int, discriminant: int | None) -> int:
+    """The number of distinct real roots, of which ``seen`` simple ones are known.
+
+    The sign of the discriminant is (-1)^c with c the number of pairs of conjugate nonreal roots (Basu, Pollack,
+    Roy, proposition 4.5), also with a formal degree one too high; so the number of real roots is known mod 4.
+    """
+    if discriminant and f.degree - seen < 4:
+        pairs = (f.degree - seen) // 2
+        expected = -1 if pairs % 2 else 1
+        return seen if expected == discriminant else seen + 2
+    return f.count()
+
+
+def _sign_rows(stack: Stack, branches: dict[int, Branch], factors: int) -> list[list[int | None]]:
+    rows: list[list[int | None]] = []
+    for position in range(len(stack.cells)):
+        row: list[int | None] = [None] * factors
+        zero = stack.sections[position // 2] if position % 2 else ()
+        for i, branch in branches.items():
+            row[i] = 0 if branch.nullified or i in zero else branch.signs[position // 2]
+        rows.append(row)
+    return rows

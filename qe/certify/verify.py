@@ -1,0 +1,49 @@
+"""``verify``: the one entrance to the checkers."""
+
+from __future__ import annotations
+
+from qe.certify.cells import check_cells
+from qe.certify.verdict import Verdict
+from qe.errors import CertificateRejected, InputError
+from qe.evidence.cells_json import CellEvidence
+from qe.evidence.certificate import Certificate, Kind
+
+
+def verify(certificate: Certificate) -> Verdict:
+    """Whether the certificate proves what it says, checked from scratch by code that produces no answers.
+
+    Every entry is checked for its meaning; the digest of a certificate read from text comes last.
+    """
+    try:
+        _check(certificate)
+        if certificate.digests is not None and certificate.digests[0] != certificate.digests[1]:
+            raise CertificateRejected("digest", "the content is not the one that was signed with this digest")
+    except CertificateRejected as error:
+        return Verdict(False, error.step, error.reason)
+    return Verdict(True)
+
+
+def verify_json(text: str) -> Verdict:
+    """``verify`` for a certificate as text; unreadable text is rejected too."""
+    try:
+        certificate = Certificate.from_json(text)
+    except CertificateRejected as error:
+        return Verdict(False, error.step, error.reason)
+    except InputError as error:
+        return Verdict(False, "certificate", str(error))
+    return verify(certificate)
+
+
+def _check(certificate: Certificate) -> None:
+    payload = certificate.payload
+    if isinstance(payload, CellEvidence) and certificate.kind is Kind.CELLS:
+        check_cells(payload)
+    elif isinstance(payload, tuple) and certificate.kind is Kind.BUNDLE:
+        for position, member in enumerate(payload):
+            try:
+                _check(member.certificate)
+            except CertificateRejected as error:
+                step = f"certificates[{position}].{error.step}"
+                raise CertificateRejected(step, f"{member.label}: {error.reason}") from None
+    else:
+        raise CertificateRejected("kind", f"no checker for {certificate.kind.value} with this payload")

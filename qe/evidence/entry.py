@@ -1,0 +1,174 @@
+"""Reading JSON strictly: every value knows where it stands, so that a wrong one is named.
+
+Readers raise ``CertificateRejected`` with the path of the entry and what was expected there.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+
+from qe.errors import CertificateRejected
+from qe.exact.ring import Poly, Ring, format_poly
+from qe.formula.syntax import FALSE, TRUE, And, Atom, Constant, Exists, ForAll, Formula, Not, Or, Relation, RootAtom
+
+Json = None | bool | int | str | list["Json"] | dict[str, "Json"]
+
+MAX_EXPONENT = 10_000
+MAX_NESTING = 200
+_RATIONAL = re.compile(r"-?(0|[1-9][0-9]*)(/[1-9][0-9]*)?", re.ASCII)
+_TERM = re.compile(r"([1-9][0-9]*)?\*?((?:[^\W\d]\w*'*)(?:\^[1-9][0-9]*)?(?:\*[^\W\d]\w*'*(?:\^[1-9][0-9]*)?)*)?")
+
+
+@dataclass(frozen=True, slots=True)
+class Entry:
+    """A JSON value and its path, such as ``root.stack.cells[3].truth``."""
+
+    value: Json
+    path: str
+
+    def fail(self, reason: str) -> CertificateRejected:
+        """The error that names this entry."""
+        return CertificateRejected(self.path or "certificate", reason)
+
+    def fields(self, *names: str, optional: tuple[str, ...] = ()) -> list[Entry]:
+        """The members of an object that must have exactly these names, in the order given; optional ones last."""
+        if not isinstance(self.value, dict):
+            raise self.fail("expected an object")
+        for name in names:
+            if name not in self.value:
+                raise self.fail(f'missing "{name}"')
+        unknown = sorted(set(self.value) - set(names) - set(optional))
+        if unknown:
+            raise self.fail(f'unknown "{unknown[0]}"')
+        prefix = f"{self.path}." if self.path else ""
+        return [Entry(self.value.get(name), prefix + name) for name in (*names, *optional)]
+
+    def items(self) -> Iterator[Entry]:
+        """The elements of a list."""
+        if not isinstance(self.value, list):
+            raise self.fail("expected a list")
+        for i, value in enumerate(self.value):
+            yield Entry(value, f"{self.path}[{i}]")
+
+    def text(self) -> str:
+        if not isinstance(self.value, str):
+            raise self.fail("expected a string")
+        return self.value
+
+    def integer(self, least: int = 0) -> int:
+        if not isinstance(self.value, int) or isinstance(self.value, bool) or self.value < least:
+            raise self.fail(f"expected an integer of at least {least}")
+        return self.value
+
+    def rational(self) -> Fraction:
+        """A rational number written in lowest terms, such as ``-3/4``."""
+        text = self.text()
+        if not _RATIONAL.fullmatch(text):
+            raise self.fail(f"expected a rational number such as -3/4, found {text[:40]!r}")
+        try:
+            number = Fraction(text)
+        except ValueError:
+            raise self.fail("number too long") from None
+        if str(number) != text:
+            raise self.fail(f"expected lowest terms, {number} and not {text}")
+        return number
+
+    def truth(self) -> bool | None:
+        if self.value is not None and not isinstance(self.value, bool):
+            raise self.fail("expected true, false or null")
+        return self.value
+
+    def polynomial(self, ring: Ring) -> Poly:
+        """A polynomial in the text form of ``format_poly``, in exactly that form."""
+        text = self.text()
+        try:
+            poly = parse_poly(text, ring)
+        except (ValueError, KeyError):
+            raise self.fail(f"expected a polynomial in {', '.join(ring.names)}") from None
+        if format_poly(poly) != text:
+            raise self.fail("the polynomial is not in normal form")
+        return poly
+
+
+def parse_poly(text: str, ring: Ring) -> Poly:
+    """The polynomial that ``format_poly`` prints as ``text``; ``ValueError`` or ``KeyError`` if there is none."""
+    terms: dict[tuple[int, ...], int] = {}
+    pieces = text.replace(" - ", " + -").split(" + ")
+    for piece in pieces if text != "0" else []:
+        body = piece.removeprefix("-")
+        matched = _TERM.fullmatch(body)
+        if not body or matched is None:
+            raise ValueError(piece)
+        number, monomial = matched.groups()
+        exponents = [0] * ring.size
+        for power in (monomial or "").split("*") if monomial else ():
+            name, _, exponent = power.partition("^")
+            if len(exponent) > 5 or int(exponent or 1) > MAX_EXPONENT:
+                raise ValueError(piece)
+            exponents[ring.index[name]] += int(exponent or 1)
+        value = int(number or 1)
+        terms[tuple(exponents)] = -value if piece.startswith("-") else value
+    return ring.from_terms(terms)
+
+
+def formula_to_json(formula: Formula) -> Json:
+    """Quantifier-free formulas as JSON: ``true``, ``["and", ...]``, ``["atom", poly, relation]``, ..."""
+    match formula:
+        case Constant(value):
+            return value
+        case Atom(poly, relation):
+            return ["atom", format_poly(poly), relation.value]
+        case RootAtom(variable, relation, poly, k):
+            return ["root", variable, relation.value, format_poly(poly), k]
+        case And(args):
+            return ["and", *(formula_to_json(a) for a in args)]
+        case Or(args):
+            return ["or", *(formula_to_json(a) for a in args)]
+        case Not(arg):
+            return ["not", formula_to_json(arg)]
+        case Exists() | ForAll():
+            raise CertificateRejected("matrix", "a quantifier where a quantifier-free formula is needed")
+    raise CertificateRejected("matrix", f"unknown kind of formula {type(formula).__name__}")
+
+
+def formula_from_json(entry: Entry, ring: Ring, depth: int = 0) -> Formula:
+    """The formula written by ``formula_to_json``, exactly as it stands (nothing is simplified)."""
+    if isinstance(entry.value, bool):
+        return TRUE if entry.value else FALSE
+    parts = list(entry.items())
+    if not parts or depth > MAX_NESTING:
+        raise entry.fail("expected a formula")
+    kind, rest = parts[0].text(), parts[1:]
+    if kind in ("and", "or") and len(rest) >= 2:
+        args = tuple(formula_from_json(r, ring, depth + 1) for r in rest)
+        return And(args) if kind == "and" else Or(args)
+    if kind == "not" and len(rest) == 1:
+        return Not(formula_from_json(rest[0], ring, depth + 1))
+    if kind == "atom" and len(rest) == 2:
+        return Atom(_normal(rest[0], ring), relation_from_json(rest[1]))
+    if kind == "root" and len(rest) == 4:
+        variable, k = rest[0].text(), rest[3].value
+        if variable not in ring.index:
+            raise rest[0].fail("unknown variable")
+        if not isinstance(k, int) or isinstance(k, bool) or k == 0:
+            raise rest[3].fail("expected a root number, not 0")
+        return RootAtom(variable, relation_from_json(rest[1]), _normal(rest[2], ring), k)
+    raise entry.fail('expected ["and", ...], ["or", ...], ["not", f], ["atom", p, rel] or ["root", x, rel, p, k]')
+
+
+def _normal(entry: Entry, ring: Ring) -> Poly:
+    poly = entry.polynomial(ring)
+    if poly.is_constant or poly.normal()[0] != 1:
+        raise entry.fail("expected a primitive polynomial with positive leading coefficient")
+    return poly
+
+
+def relation_from_json(entry: Entry) -> Relation:
+    """One of the six relations."""
+    try:
+        return Relation(entry.text())
+    except ValueError:
+        raise entry.fail("expected one of = /= < <= > >=") from None

@@ -1,0 +1,196 @@
+"""Univariate polynomials over a triangular point: what a polynomial of the next level is on a cell's fibre.
+
+``fibre`` gives a ``RationalFibre`` (integer coefficients) or an ``AlgebraicFibre`` (coefficients are polynomials
+at the point); both know their true degree, signs at rational numbers, the count of distinct real roots by Sturm's
+theorem, greatest common divisors and squarefree parts. Every answer is exact.
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import Any
+
+from flint import arb, ctx, fmpz_poly
+
+from qe.exact.ring import Poly, from_univariate
+from qe.exact.sturm import count_real_roots, exact, irreducible_factor_at, rational_root, sign_of, variations
+from qe.exact.triangular import (
+    FIRST_BITS,
+    Coordinate,
+    Point,
+    fibre_balls,
+    gcd,
+    pseudo_remainder,
+    quotient,
+    reduce,
+    trim,
+)
+
+Values = list[tuple[Fraction, Any, Any]]
+
+
+def values(numbers: tuple[Fraction, ...]) -> Values:
+    """Rational numbers prepared for ``signs``: with their exact FLINT form and a ball."""
+    saved = ctx.prec
+    ctx.prec = FIRST_BITS
+    try:
+        return [(x, exact(x), arb(exact(x))) for x in numbers]
+    finally:
+        ctx.prec = saved
+
+
+class RationalFibre:
+    """A polynomial in one variable with integer coefficients. ``degree`` is -1 for zero."""
+
+    __slots__ = ("degree", "index", "p", "ring")
+
+    def __init__(self, ring: Any, index: int, p: fmpz_poly) -> None:
+        self.ring, self.index, self.p, self.degree = ring, index, p, int(p.degree())
+
+    def signs(self, at: Values) -> list[int]:
+        """The exact signs at rational numbers."""
+        p = self.p
+        return [sign_of(p(x)) for _, x, _ in at]
+
+    def derivative(self) -> RationalFibre:
+        return RationalFibre(self.ring, self.index, self.p.derivative())
+
+    def gcd(self, other: Fibre) -> RationalFibre:
+        assert isinstance(other, RationalFibre)
+        return RationalFibre(self.ring, self.index, self.p.gcd(other.p))
+
+    def squarefree(self) -> RationalFibre:
+        """The product of the distinct irreducible factors."""
+        return RationalFibre(self.ring, self.index, self.p / self.p.gcd(self.p.derivative()))
+
+    def count(self) -> int:
+        """The number of distinct real roots."""
+        return count_real_roots(self.p)
+
+    def coordinate(self, low: Fraction, high: Fraction) -> Fraction | Coordinate | None:
+        """The root between low and high, if exactly one irreducible factor changes sign there and only once."""
+        found = irreducible_factor_at(self.p, exact(low), exact(high))
+        if found is None:
+            return None
+        if found.degree() == 1:
+            return rational_root(found)
+        poly = from_univariate(self.ring, self.index, found)
+        return Coordinate(self.index, poly, low, high, sign_of(found(exact(high))))
+
+
+class AlgebraicFibre:
+    """A polynomial in variable ``index`` over a point: ``poly`` is trimmed, its leading coefficient is nonzero there."""
+
+    __slots__ = ("_balls", "degree", "index", "point", "poly")
+
+    def __init__(self, point: Point, index: int, poly: Poly) -> None:
+        self.point, self.index, self.poly = point, index, poly
+        self.degree = poly.degree(index) if poly else -1
+        self._balls: Any = None
+
+    def signs(self, at: Values) -> list[int]:
+        """The exact signs at rational numbers."""
+        saved = ctx.prec
+        ctx.prec = FIRST_BITS
+        try:
+            if self._balls is None:
+                self._balls = fibre_balls(self.point, self.poly, self.index, FIRST_BITS)
+            q, found = self._balls, []
+            for number, _, x in at:
+                value = q(x)
+                s = 1 if value > 0 else -1 if value < 0 else self.point.sign(self.poly.at_rational(self.index, number))
+                found.append(s)
+            return found
+        finally:
+            ctx.prec = saved
+
+    def derivative(self) -> AlgebraicFibre:
+        return AlgebraicFibre(self.point, self.index, self.poly.derivative(self.index))
+
+    def gcd(self, other: Fibre) -> AlgebraicFibre:
+        assert isinstance(other, AlgebraicFibre)
+        a, b = (self, other) if self.degree >= other.degree else (other, self)
+        return AlgebraicFibre(self.point, self.index, gcd(self.point, a.poly, b.poly, self.index))
+
+    def squarefree(self) -> AlgebraicFibre:
+        """The polynomial divided by its common divisor with its derivative."""
+        if self.degree < 2:
+            return self
+        shared = gcd(self.point, self.poly, self.poly.derivative(self.index), self.index)
+        if shared.degree(self.index) == 0:
+            return self
+        return AlgebraicFibre(self.point, self.index, quotient(self.point, self.poly, shared, self.index))
+
+    def count(self) -> int:
+        """The number of distinct real roots, by the signed remainder sequence over the point's field."""
+        i, point = self.index, self.point
+        a, b = self.poly, self.poly.derivative(i)
+        leads = [(point.sign(a.leading(i)), a.degree(i))]
+        while b:
+            leads.append((point.sign(b.leading(i)), b.degree(i)))
+            if b.degree(i) == 0:
+                break
+            remainder, s = pseudo_remainder(point, a, b, i)
+            remainder, t = reduce(point, remainder)
+            a, b = b, trim(point, remainder * (-s * t), i)
+        return variations([s if d % 2 == 0 else -s for s, d in leads]) - variations([s for s, _ in leads])
+
+    def coordinate(self, low: Fraction, high: Fraction) -> Fraction | Coordinate | None:
+        """The root between low and high of a squarefree polynomial that has exactly one there, or None."""
+        ends = self.signs(values((low, high)))
+        if ends[0] * ends[1] >= 0:
+            return None
+        return Coordinate(self.index, self.poly, low, high, ends[1])
+
+
+Fibre = RationalFibre | AlgebraicFibre
+
+
+def fibre(point: Point, poly: Poly, index: int, *, leading_nonzero: bool = False) -> Fibre:
+    """``poly`` over the point as a polynomial in variable ``index``; rational coordinates already substituted.
+
+    ``leading_nonzero`` says that the leading coefficient is already proved nonzero at the point.
+    """
+    if not point.indices or all(i == index for i in poly.variables):
+        return RationalFibre(poly.ring, index, poly.to_univariate(index))
+    if leading_nonzero:
+        return AlgebraicFibre(point, index, poly)
+    poly = trim(point, poly, index)
+    if all(i == index for i in poly.variables):
+        return RationalFibre(poly.ring, index, poly.to_univariate(index))
+    return AlgebraicFibre(point, index, poly)
+
+
+def lift_up(f: Fibre, point: Point) -> AlgebraicFibre:
+    """The same polynomial as one over the point, so that both operands of a gcd are of one kind."""
+    if isinstance(f, AlgebraicFibre):
+        return f
+    return AlgebraicFibre(point, f.index, from_univariate(f.ring, f.index, f.p))
+
+
+def lazard_evaluation(f: Poly, point: Point, rationals: dict[int, Fraction], index: int) -> Poly:
+    """The Lazard evaluation of f in the variables below ``index``, as a polynomial at the point in that variable.
+
+    For each variable in turn, f is divided by the highest power of (x_i - a_i) that divides it and x_i is set to
+    a_i (Lazard 1994; McCallum, Parusinski, Paunescu 2019, section 2). Up to a positive factor the result is the
+    partial derivative of that order at a_i.
+    """
+    for i in range(index):
+        while True:
+            restricted = f.at_rational(i, rationals[i]) if i in rationals else f
+            if not _identically_zero(restricted, point, i):
+                f = restricted
+                break
+            f = f.derivative(i)
+    return f
+
+
+def _identically_zero(p: Poly, point: Point, i: int) -> bool:
+    """Whether p vanishes at the point's coordinates up to variable i for all values of the later variables."""
+    if not p:
+        return True
+    later = [p]
+    for v in range(i + 1, p.ring.size):
+        later = [c for q in later for c in q.coefficients(v) if c]
+    here = point.below(i + 1)
+    return all(here.sign(c) == 0 for c in later)
