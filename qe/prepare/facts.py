@@ -9,7 +9,7 @@ implicit theory, here with ranges instead of pairwise rules).
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import lru_cache
@@ -115,16 +115,14 @@ class Facts:
         signs = self.known(key).signs(Fraction(-constant, scale_by))
         return signs if unit > 0 else frozenset(-s for s in signs)
 
-    def fixed(self) -> dict[int, Fraction]:
-        """The variables (by index) with a known rational value."""
-        out = {}
-        for key, known in self.ranges.items():
-            value = known.point
-            if value is not None:
-                index = variable_of(key)
-                if index is not None:
-                    out[index] = value
-        return out
+    def extended(self, atoms: Iterable[Formula]) -> Facts:
+        """These facts and the given atoms."""
+        ranges = dict(self.ranges)
+        for given in atoms:
+            if isinstance(given, Atom):
+                key, wanted = constraint(given)
+                ranges[key] = meet(ranges.get(key, EVERYTHING), wanted)
+        return Facts(ranges, self.literals)
 
     def without(self, names: tuple[str, ...]) -> Facts:
         """The facts that do not mention these variables (they get bound)."""

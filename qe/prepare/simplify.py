@@ -32,13 +32,10 @@ def simplify(formula: Formula, assumptions: Formula = TRUE) -> Formula:
     """
     facts = NOTHING
     if assumptions != TRUE:
-        ring = ring_of(formula)
         known = simplify(assumptions)
         if known == FALSE:
             return TRUE
-        if ring is not None:
-            facts = _assumed(known, ring.names)
-            facts = Facts({k.convert(ring): r for k, r in facts.ranges.items()}, {})
+        facts = facts_of(known, formula)
     current = positive(formula)
     for _ in range(_ROUNDS):
         previous, current = current, _node(current, facts)
@@ -47,10 +44,17 @@ def simplify(formula: Formula, assumptions: Formula = TRUE) -> Formula:
     return current
 
 
-def _assumed(known: Formula, names: tuple[str, ...]) -> Facts:
-    parts = known.args if isinstance(known, And) else (known,)
-    usable = [a for a in parts if isinstance(a, Atom) and all(a.poly.ring.names[i] in names for i in a.poly.variables)]
-    return _extended(NOTHING, usable, (), True)
+def facts_of(known: Formula, formula: Formula) -> Facts:
+    """The conjoined atoms of ``known`` as facts about the variables of ``formula``'s ring."""
+    ring = ring_of(formula)
+    if ring is None:
+        return NOTHING
+    usable = [
+        Atom(a.poly.convert(ring), a.relation)
+        for a in (known.args if isinstance(known, And) else (known,))
+        if isinstance(a, Atom) and all(a.poly.ring.names[i] in ring.index for i in a.poly.variables)
+    ]
+    return NOTHING.extended(atom(a.poly, a.relation) for a in usable)
 
 
 def _node(formula: Formula, facts: Facts) -> Formula:
@@ -133,18 +137,15 @@ def _literals(literals: list[Formula], facts: Facts, conjunctive: bool) -> list[
 
 
 def _extended(facts: Facts, atoms: Iterable[Atom], literals: Iterable[Formula], conjunctive: bool) -> Facts:
-    """The facts, with these atoms (or, in a disjunction, their negations) added."""
-    ranges = dict(facts.ranges)
-    for given in atoms:
-        key, wanted = constraint(given if conjunctive else Atom(given.poly, given.relation.negated))
-        ranges[key] = meet(ranges.get(key, EVERYTHING), wanted)
-    known = dict(facts.literals)
+    """The facts, with these atoms and root atoms (or, in a disjunction, their negations) added."""
+    known = facts.extended(a if conjunctive else Atom(a.poly, a.relation.negated) for a in atoms)
+    values = dict(facts.literals)
     for literal in literals:
         if isinstance(literal, Not):
-            known[literal.arg] = not conjunctive
+            values[literal.arg] = not conjunctive
         else:
-            known[literal] = conjunctive
-    return Facts(ranges, known)
+            values[literal] = conjunctive
+    return Facts(known.ranges, values)
 
 
 class _Board:

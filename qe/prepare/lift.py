@@ -1,0 +1,130 @@
+"""The way back: values of eliminated variables from values of the variables that remain.
+
+A ``Lift`` turns an assignment that satisfies what a step left behind into one that satisfies what the
+step started from, by giving the eliminated variable a value. Values are exact.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+
+from qe.errors import Unable
+from qe.exact.algebraic import RealAlgebraic, real_roots
+from qe.exact.ring import Poly, Ring
+from qe.exact.sample import Point
+from qe.formula.syntax import And, Atom, Constant, Formula, Not, Or
+
+Value = Fraction | RealAlgebraic
+Assignment = Mapping[str, Value]
+
+
+def value_at(poly: Poly, assignment: Assignment) -> Value:
+    """The exact value of a polynomial; variables without a value count as 0."""
+    names = [poly.ring.names[i] for i in poly.variables]
+    values = {name: assignment.get(name, Fraction(0)) for name in names}
+    if all(isinstance(v, Fraction) for v in values.values()):
+        return poly.evaluate([values.get(name, Fraction(0)) for name in poly.ring.names])  # type: ignore[misc]
+    total: Value = Fraction(0)
+    for exponents, coefficient in poly.terms():
+        term: Value = Fraction(coefficient)
+        for i in poly.variables:
+            if exponents[i]:
+                term = values[poly.ring.names[i]] ** exponents[i] * term
+        total = term + total
+    return simplest(total)
+
+
+def sign_at(poly: Poly, assignment: Assignment) -> int:
+    """The exact sign of a polynomial; variables without a value count as 0."""
+    ring = poly.ring
+    values = [assignment.get(name, Fraction(0)) if poly.degree(i) else Fraction(0) for i, name in enumerate(ring.names)]
+    if all(isinstance(v, Fraction) for v in values):
+        result = poly.evaluate(values)  # type: ignore[arg-type]
+        return (result > 0) - (result < 0)
+    return Point.of(ring, values).sign(poly)
+
+
+def holds_at(formula: Formula, assignment: Assignment) -> bool:
+    """The truth of a quantifier-free formula without root atoms. Raises ``Unable`` for others."""
+    match formula:
+        case Constant(value):
+            return value
+        case Atom(poly, relation):
+            return relation.holds(sign_at(poly, assignment))
+        case And(args):
+            return all(holds_at(a, assignment) for a in args)
+        case Or(args):
+            return any(holds_at(a, assignment) for a in args)
+        case Not(arg):
+            return not holds_at(arg, assignment)
+    raise Unable("a branch that still has quantifiers or root atoms cannot be told from its siblings at a point")
+
+
+def simplest(value: Value) -> Value:
+    """A rational number as a Fraction, whatever its representation."""
+    if isinstance(value, RealAlgebraic) and value.is_rational:
+        return value.as_fraction()
+    return value
+
+
+@dataclass(frozen=True, slots=True)
+class Solve:
+    """variable = numerator / denominator; ``fallback`` where the denominator is 0 (None: it never is)."""
+
+    variable: str
+    numerator: Poly
+    denominator: Poly
+    fallback: Fraction | None = None
+
+    def value(self, assignment: Assignment) -> Value:
+        """The value of the variable. Raises ``Unable`` where it is undefined."""
+        bottom = value_at(self.denominator, assignment)
+        if bottom == 0:
+            if self.fallback is None:
+                raise Unable(f"the value of {self.variable} is undefined at this point")
+            return self.fallback
+        return simplest(value_at(self.numerator, assignment) / bottom)
+
+
+@dataclass(frozen=True, slots=True)
+class RootOf:
+    """variable = the real ``degree``-th root (the non-negative one for even degree) of its present value."""
+
+    variable: str
+    degree: int
+
+    def value(self, assignment: Assignment) -> Value:
+        """The value of the variable. Raises ``Unable`` for an even root of a negative number."""
+        return root(assignment.get(self.variable, Fraction(0)), self.degree)
+
+
+@dataclass(frozen=True, slots=True)
+class Multiply:
+    """variable = its present value times ``factor`` (a variable scaled or divided out)."""
+
+    variable: str
+    factor: Poly
+
+    def value(self, assignment: Assignment) -> Value:
+        """The value of the variable."""
+        return simplest(value_at(self.factor, assignment) * assignment.get(self.variable, Fraction(0)))
+
+
+Lift = Solve | RootOf | Multiply
+
+
+def root(value: Value, degree: int) -> Value:
+    """The exact real root of a number."""
+    if value == 0 or degree == 1:
+        return value
+    if value < 0:
+        if degree % 2 == 0:
+            raise Unable("an even root of a negative number was asked for")
+        return -root(-value, degree)
+    minimal = (-value.numerator, value.denominator) if isinstance(value, Fraction) else value.minimal_polynomial
+    line = Ring.of(("t",))
+    spread = line.from_terms({(degree * k,): int(c) for k, c in enumerate(minimal)})
+    candidates = real_roots(spread.to_univariate(0))
+    return simplest(next(r for r in candidates if r.sign() > 0 and r**degree == value))

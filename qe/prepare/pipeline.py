@@ -1,0 +1,99 @@
+"""``prepare``: every quantifier block of a formula brought to its real dimension, innermost first."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from dataclasses import dataclass
+from fractions import Fraction
+
+from qe.formula.build import conj, disj
+from qe.formula.syntax import TRUE, And, Atom, Exists, ForAll, Formula, Or
+from qe.options import Budget
+from qe.prepare.block import Workshop, reduce_block
+from qe.prepare.lift import Assignment, Value
+from qe.prepare.negation import positive
+from qe.prepare.simplify import simplify
+from qe.prepare.step import ALL_STEPS, Step, StepKind
+from qe.prepare.tree import Node
+
+
+@dataclass(frozen=True, slots=True)
+class Prepared:
+    """``formula`` is equivalent to the input over R. ``steps``: what was done, in order.
+
+    ``tree``: what became of the outermost quantifier block (None if the input does not start with one);
+    ``universal``: that block is universal, and the tree is that of its negation.
+    """
+
+    formula: Formula
+    steps: tuple[Step, ...]
+    tree: Node | None = None
+    universal: bool = False
+    variables: tuple[str, ...] = ()
+
+    def lift(self, assignment: Assignment) -> dict[str, Value]:
+        """Values for the whole outermost block from values of those of its variables that are left.
+
+        For an existential block: from a witness of ``formula`` to one of the input; for a universal block: from
+        a counterexample to a counterexample. Free variables keep their values. A variable that no longer occurs and has no
+        rule gets 0: its value does not matter. Raises ``Unable`` when the assignment satisfies no branch.
+        """
+        values = dict(assignment) if self.tree is None else self.tree.lift(assignment)
+        for name in self.variables:
+            values.setdefault(name, Fraction(0))
+        return values
+
+
+def prepare(formula: Formula, *, budget: Budget | None = None, enabled: Collection[StepKind] = ALL_STEPS) -> Prepared:
+    """An equivalent formula with fewer and lower-degree quantified variables.
+
+    ``enabled`` switches single steps (for measurements). Raises ``BudgetExceeded``.
+    """
+    steps: list[Step] = []
+    shop = Workshop(budget or Budget(), frozenset(enabled), TRUE, steps=steps)
+    current = positive(formula)
+    if StepKind.SIMPLIFY in shop.enabled:
+        current = simplify(current)
+    if not isinstance(current, Exists | ForAll):
+        return Prepared(_finish(_inside(current, shop), shop), tuple(steps))
+    universal = isinstance(current, ForAll)
+    body = _inside(positive(current.body, universal), shop)
+    tree = reduce_block(current.variables, body, shop)
+    result = _finish(positive(tree.formula, universal), shop)
+    outer = formula.variables if isinstance(formula, Exists | ForAll) else current.variables
+    return Prepared(result, tuple(steps), tree, universal, outer)
+
+
+def _finish(formula: Formula, shop: Workshop) -> Formula:
+    return simplify(formula) if StepKind.SIMPLIFY in shop.enabled else formula
+
+
+def _inside(formula: Formula, shop: Workshop) -> Formula:
+    """Prepare the quantifier blocks inside a formula, innermost first, under their sibling atoms."""
+    match formula:
+        case And(args):
+            known = conj((shop.assumptions, *(a for a in args if isinstance(a, Atom))))
+            inner = Workshop(shop.budget, shop.enabled, known, steps=shop.steps)
+            return conj(_inside(a, inner) for a in args)
+        case Or(args):
+            return disj(_inside(a, Workshop(shop.budget, shop.enabled, shop.assumptions, steps=shop.steps)) for a in args)
+        case Exists(variables, body):
+            return _block(variables, body, shop, False)
+        case ForAll(variables, body):
+            return _block(variables, body, shop, True)
+    return formula
+
+
+def _block(variables: tuple[str, ...], body: Formula, shop: Workshop, universal: bool) -> Formula:
+    fresh = Workshop(shop.budget, shop.enabled, _outside(shop.assumptions, variables), steps=shop.steps)
+    inner = _inside(body, fresh)
+    tree = reduce_block(variables, positive(inner, universal), fresh)
+    return positive(tree.formula, universal)
+
+
+def _outside(assumptions: Formula, variables: tuple[str, ...]) -> Formula:
+    """The assumptions that do not mention the variables that get bound."""
+    parts = assumptions.args if isinstance(assumptions, And) else (assumptions,)
+    return conj(
+        p for p in parts if isinstance(p, Atom) and not any(p.poly.ring.names[i] in variables for i in p.poly.variables)
+    )

@@ -1,0 +1,32 @@
+"""The steps that preparation can take, each of which can be switched off, and the record of those taken."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+
+
+class StepKind(Enum):
+    """Equivalence-preserving steps, cheapest first."""
+
+    SIMPLIFY = "standard simplification"
+    MINISCOPE = "independent parts and miniscoping"
+    LINEAR = "linear equation solved"
+    GUARDED_LINEAR = "linear equation solved under a guard"
+    DEGREE_SHIFT = "degree shift"
+    SCALING = "homogeneous scaling"
+    GROEBNER = "Groebner basis of the equations"
+    FACTOR_SPLIT = "case split on factors"
+    SUM_OF_SQUARES = "vanishing sum of squares split"
+
+
+ALL_STEPS = frozenset(StepKind)
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """One step taken: what was done, to which variable or equation, and in how many cases it ended."""
+
+    kind: StepKind
+    detail: str
+    cases: int = 1
