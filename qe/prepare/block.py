@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 
 from qe.exact.ring import format_poly
@@ -13,8 +13,8 @@ from qe.formula.traverse import free_variables
 from qe.options import Budget
 from qe.prepare.facts import NOTHING, Facts
 from qe.prepare.lift import Solve
-from qe.prepare.linear import Pivot, choose_pivot, conjuncts, replace
-from qe.prepare.simplify import facts_of, simplify
+from qe.prepare.linear import Pivot, choose_pivot, conjuncts, substitute
+from qe.prepare.simplify import simplify_under
 from qe.prepare.step import Step, StepKind
 from qe.prepare.tree import NEVER, All, Any, Leaf, Lifted, Node
 
@@ -27,7 +27,7 @@ class Workshop:
 
     budget: Budget
     enabled: frozenset[StepKind]
-    assumptions: Formula = TRUE
+    facts: Facts = NOTHING
     splits: int = _SPLITS
     steps: list[Step] = field(default_factory=list)
 
@@ -47,10 +47,10 @@ Rule = Callable[[tuple[str, ...], Formula, Workshop], Node | None]
 
 
 def reduce_block(variables: Sequence[str], body: Formula, shop: Workshop) -> Node:
-    """A tree whose formula is equivalent to ``exists variables. body`` where the assumptions hold."""
+    """A tree whose formula is equivalent to ``exists variables. body`` where the facts hold."""
     shop.budget.check("prepare")
     if StepKind.SIMPLIFY in shop.enabled:
-        body = simplify(body, shop.assumptions)
+        body = simplify_under(body, shop.facts)
     if body == FALSE:
         return NEVER
     occurring = free_variables(body)
@@ -95,7 +95,7 @@ def independent_parts(variables: tuple[str, ...], body: Formula, shop: Workshop)
     children: list[Node] = [Leaf((), conj(outside))] if outside else []
     for names, members in groups:
         if names:
-            inside = Workshop(shop.budget, shop.enabled, conj((shop.assumptions, *outside)), shop.splits, shop.steps)
+            inside = replace(shop, facts=shop.facts.extended(outside))
             child = reduce_block(tuple(v for v in variables if v in names), conj(members), inside)
             shop.splits = inside.splits
             if child.formula == FALSE:
@@ -138,10 +138,9 @@ def guarded_linear_equation(variables: tuple[str, ...], body: Formula, shop: Wor
 
 def _solve(variables: tuple[str, ...], body: Formula, shop: Workshop, guarded: bool) -> Node | None:
     parts = conjuncts(body)
-    outer = facts_of(shop.assumptions, body) if shop.assumptions != TRUE else NOTHING
 
     def facts(position: int) -> Facts:
-        return outer.extended(p for k, p in enumerate(parts) if k != position and isinstance(p, Atom))
+        return shop.facts.extended(p for k, p in enumerate(parts) if k != position and isinstance(p, Atom))
 
     pivot = choose_pivot(parts, variables, facts)
     if pivot is None or pivot.guarded != guarded:
@@ -155,7 +154,7 @@ def _solve(variables: tuple[str, ...], body: Formula, shop: Workshop, guarded: b
         solvable = TRUE if pivot.sign is not None else disj((_nonzero(pivot), atom(pivot.rest, Relation.EQ)))
         child = reduce_block(remaining, conj((solvable, others)), shop)
         return Lifted(Solve(name, -pivot.rest, pivot.lead, Fraction(0)), child)
-    replaced = replace(others, pivot)
+    replaced = substitute(others, pivot)
     if replaced is None or (guarded and not shop.may_split(StepKind.GUARDED_LINEAR, 2)):
         return None
     kind = StepKind.GUARDED_LINEAR if guarded else StepKind.LINEAR

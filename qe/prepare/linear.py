@@ -86,10 +86,10 @@ def _sign(lead: Poly, position: int, facts: Callable[[int], Facts]) -> int | Non
     signs = facts(position).signs(lead)
     if 0 in signs:
         return None
-    return signs and next(iter(signs)) if len(signs) == 1 else 0
+    return next(iter(signs)) if len(signs) == 1 else 0
 
 
-def replace(formula: Formula, pivot: Pivot) -> Formula | None:
+def substitute(formula: Formula, pivot: Pivot) -> Formula | None:
     """The formula with x = -rest/lead, or None where that is not possible.
 
     Not possible: a quantifier inside binds a variable of the equation, x is in a root atom, or the result is huge.

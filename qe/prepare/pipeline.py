@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Collection
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from qe.formula.build import conj, disj
-from qe.formula.syntax import TRUE, And, Atom, Exists, ForAll, Formula, Or
+from qe.formula.syntax import And, Exists, ForAll, Formula, Or
 from qe.options import Budget
 from qe.prepare.block import Workshop, reduce_block
 from qe.prepare.lift import Assignment, Value
@@ -35,8 +35,8 @@ class Prepared:
         """Values for the whole outermost block from values of those of its variables that are left.
 
         For an existential block: from a witness of ``formula`` to one of the input; for a universal block: from
-        a counterexample to a counterexample. Free variables keep their values. A variable that no longer occurs and has no
-        rule gets 0: its value does not matter. Raises ``Unable`` when the assignment satisfies no branch.
+        a counterexample to a counterexample. Free variables keep their values. A variable that no
+        longer occurs and has no rule gets 0: its value does not matter. Raises ``Unable`` when the assignment satisfies no branch.
         """
         values = dict(assignment) if self.tree is None else self.tree.lift(assignment)
         for name in self.variables:
@@ -50,7 +50,7 @@ def prepare(formula: Formula, *, budget: Budget | None = None, enabled: Collecti
     ``enabled`` switches single steps (for measurements). Raises ``BudgetExceeded``.
     """
     steps: list[Step] = []
-    shop = Workshop(budget or Budget(), frozenset(enabled), TRUE, steps=steps)
+    shop = Workshop(budget or Budget(), frozenset(enabled), steps=steps)
     current = positive(formula)
     if StepKind.SIMPLIFY in shop.enabled:
         current = simplify(current)
@@ -72,28 +72,13 @@ def _inside(formula: Formula, shop: Workshop) -> Formula:
     """Prepare the quantifier blocks inside a formula, innermost first, under their sibling atoms."""
     match formula:
         case And(args):
-            known = conj((shop.assumptions, *(a for a in args if isinstance(a, Atom))))
-            inner = Workshop(shop.budget, shop.enabled, known, steps=shop.steps)
+            inner = replace(shop, facts=shop.facts.extended(args))
             return conj(_inside(a, inner) for a in args)
         case Or(args):
-            return disj(_inside(a, Workshop(shop.budget, shop.enabled, shop.assumptions, steps=shop.steps)) for a in args)
-        case Exists(variables, body):
-            return _block(variables, body, shop, False)
-        case ForAll(variables, body):
-            return _block(variables, body, shop, True)
+            return disj(_inside(a, shop) for a in args)
+        case Exists(variables, body) | ForAll(variables, body):
+            universal = isinstance(formula, ForAll)
+            fresh = replace(shop, facts=shop.facts.without(variables))
+            tree = reduce_block(variables, positive(_inside(body, fresh), universal), replace(fresh))
+            return positive(tree.formula, universal)
     return formula
-
-
-def _block(variables: tuple[str, ...], body: Formula, shop: Workshop, universal: bool) -> Formula:
-    fresh = Workshop(shop.budget, shop.enabled, _outside(shop.assumptions, variables), steps=shop.steps)
-    inner = _inside(body, fresh)
-    tree = reduce_block(variables, positive(inner, universal), fresh)
-    return positive(tree.formula, universal)
-
-
-def _outside(assumptions: Formula, variables: tuple[str, ...]) -> Formula:
-    """The assumptions that do not mention the variables that get bound."""
-    parts = assumptions.args if isinstance(assumptions, And) else (assumptions,)
-    return conj(
-        p for p in parts if isinstance(p, Atom) and not any(p.poly.ring.names[i] in variables for i in p.poly.variables)
-    )

@@ -36,6 +36,11 @@ def simplify(formula: Formula, assumptions: Formula = TRUE) -> Formula:
         if known == FALSE:
             return TRUE
         facts = facts_of(known, formula)
+    return simplify_under(formula, facts)
+
+
+def simplify_under(formula: Formula, facts: Facts) -> Formula:
+    """As ``simplify``, with the assumptions given as facts."""
     current = positive(formula)
     for _ in range(_ROUNDS):
         previous, current = current, _node(current, facts)
