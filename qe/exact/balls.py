@@ -2,24 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import contextmanager
-
 from flint import arb, ctx, fmpq
 
 FIRST_PRECISION = 64
 EXACT_FROM = 128  # bits from which a ball that still contains zero is worth an exact zero test
 
 
-@contextmanager
-def precision(bits: int) -> Iterator[None]:
+class precision:  # noqa: N801 - used like a keyword
     """Run the body at this working precision (FLINT's is process-wide, so it is always restored)."""
-    saved = ctx.prec
-    ctx.prec = bits
-    try:
-        yield
-    finally:
-        ctx.prec = saved
+
+    __slots__ = ("bits", "saved")
+
+    def __init__(self, bits: int) -> None:
+        self.bits = bits
+
+    def __enter__(self) -> None:
+        self.saved = ctx.prec
+        ctx.prec = self.bits
+
+    def __exit__(self, *exception: object) -> None:
+        ctx.prec = self.saved
 
 
 def ball_sign(x: arb) -> int | None:

@@ -12,13 +12,11 @@ from dataclasses import dataclass, field
 from flint import arb, fmpq, fmpz_poly
 
 from qe.exact.algebraic import RealAlgebraic, irreducible_factors, irreducible_roots
-from qe.exact.balls import EXACT_FROM, FIRST_PRECISION, ball_sign, lower_end, precision, upper_end
+from qe.exact.balls import EXACT_FROM, FIRST_PRECISION, lower_end, precision, upper_end
 from qe.exact.isolate import simplest_between
 from qe.exact.lazard import lazard_evaluation
 from qe.exact.ring import Poly, from_univariate
 from qe.exact.sample import Fibre, FibreRoot, Point, common_fibre
-
-_ONE = fmpq(1)
 
 
 @dataclass(slots=True)
@@ -209,18 +207,4 @@ def _signs(shape: fmpz_poly | Fibre | None, sectors: list[fmpq]) -> tuple[int, .
     if isinstance(shape, fmpz_poly):
         values = [shape(q) for q in sectors]
         return tuple((v > 0) - (v < 0) for v in values)
-    return tuple(_fibre_sign(shape, q) for q in sectors)
-
-
-def _fibre_sign(fibre: Fibre, q: fmpq) -> int:
-    """The sign of the *original* polynomial's fibre at a rational number that is not a root of it."""
-    bits = FIRST_PRECISION
-    while True:
-        with precision(bits + 16):
-            x, total = arb(q), arb(0)
-            for c in reversed(fibre.source):
-                total = total * x + fibre.point.enclose(c, bits)
-            sign = ball_sign(total)
-        if sign is not None:
-            return sign
-        bits *= 2
+    return tuple(shape.value_sign(q) for q in sectors)

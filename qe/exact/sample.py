@@ -185,7 +185,7 @@ class Point:
 class Fibre:
     """A polynomial in variable ``var`` over an algebraic point: coefficients low to high, in algebraic coordinates."""
 
-    __slots__ = ("_bits", "_roots", "coefficients", "exact", "point", "source", "var")
+    __slots__ = ("_bits", "_roots", "_values", "coefficients", "exact", "point", "source", "var")
 
     def __init__(self, point: Point, var: int, coefficients: tuple[Poly, ...]) -> None:
         self.point, self.var, self.coefficients = point, var, coefficients
@@ -193,6 +193,20 @@ class Fibre:
         self.exact = False  # whether the leading coefficient and squarefreeness have been proved
         self._roots: list[arb] | None = None
         self._bits = 0
+        self._values: dict[int, arb_poly] = {}
+
+    def value_sign(self, q: fmpq) -> int:
+        """The sign of the polynomial as given (``source``) at a rational number that is not a root of it."""
+        bits = FIRST_PRECISION
+        while True:
+            with precision(bits + 16):
+                values = self._values.get(bits)
+                if values is None:
+                    values = self._values[bits] = arb_poly([self.point.enclose(c, bits) for c in self.source])
+                sign = ball_sign(values(arb(q)))
+            if sign is not None:
+                return sign
+            bits *= 2
 
     def polynomial(self) -> Poly:
         """The polynomial itself."""
@@ -226,13 +240,15 @@ class Fibre:
 
     def _attempt(self, bits: int) -> list[arb] | None:
         c = [self.point.enclose(a, bits) for a in self.coefficients]
+        if self.coefficients is self.source:
+            self._values[bits] = arb_poly(c)
         if c[-1].contains(0):
             return None
         if len(c) <= 2:
             return [] if len(c) == 1 else [-c[0] / c[1]]
         if len(c) == 3:
             return _quadratic(c)
-        return _certified_roots(c)
+        return _certified_roots(c, bits)
 
     def _make_exact(self) -> None:
         """Prove the degree, and replace the polynomial by its squarefree part over the tower."""
@@ -305,10 +321,10 @@ def _quadratic(c: list[arb]) -> list[arb] | None:
     return pair if pair[0] < pair[1] else None
 
 
-def _certified_roots(c: list[arb]) -> list[arb] | None:
+def _certified_roots(c: list[arb], bits: int) -> list[arb] | None:
     """Real roots from isolating complex balls: a ball that meets its conjugate and no other holds a real root."""
     try:
-        found = acb_poly(arb_poly(c)).roots()
+        found = acb_poly(arb_poly(c)).roots(tol=arb(2) ** -bits)
     except ValueError:
         return None
     real: list[arb] = []
