@@ -269,9 +269,7 @@ def _check_contradiction(
         raise CertificateRejected("payload.multipliers", "the weighted sum does not contradict the constraints")
 
 
-def _check_feasible(
-    problem: _Problem, field: RootField, point: list[Residue], entry: Entry, *, strictly: bool
-) -> None:
+def _check_feasible(problem: _Problem, field: RootField, point: list[Residue], entry: Entry, *, strictly: bool) -> None:
     for i, (form, relation) in enumerate(zip(problem.forms, problem.relations, strict=True)):
         sign = field.sign(_value(form, point, field))
         if (relation == "=" and sign) or sign > 0 or (strictly and relation == "<" and sign == 0):
@@ -315,7 +313,7 @@ def _check_unique(
     derived: list[_Linear],
     entry: Entry,
 ) -> None:
-    """Another minimum x* + d would have H_f d = 0, equations d = 0 and, where m_i > 0, H_i d = 0, grad p_i(x*).d = 0."""
+    """Another minimum x* + d has H_f d = 0, keeps equations and, where m_i > 0, has H_i d = 0, grad p_i(x*).d = 0."""
     if entry.value is False:
         return
     if entry.value is not True:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from qe.certify.cells import check_cells
+from qe.certify.optimum import check_optimum
 from qe.certify.verdict import Verdict
 from qe.errors import CertificateRejected, InputError
 from qe.evidence.cells_json import CellEvidence
@@ -38,6 +39,8 @@ def _check(certificate: Certificate) -> None:
     payload = certificate.payload
     if isinstance(payload, CellEvidence) and certificate.kind is Kind.CELLS:
         check_cells(payload)
+    elif isinstance(payload, dict) and certificate.kind is Kind.OPTIMUM:
+        check_optimum(payload)
     elif isinstance(payload, tuple) and certificate.kind is Kind.BUNDLE:
         for position, member in enumerate(payload):
             try:

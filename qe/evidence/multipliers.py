@@ -57,7 +57,9 @@ class LinearEquation:
     rhs: Fraction
 
 
-def derived_equations(face: Face, forms: Sequence[Quadratic], relations: Sequence[FormRelation]) -> list[LinearEquation]:
+def derived_equations(
+    face: Face, forms: Sequence[Quadratic], relations: Sequence[FormRelation]
+) -> list[LinearEquation]:
     """The linear equations that a face derives, in their fixed order."""
     found: list[LinearEquation] = []
     for weight, form, relation in zip(face.weights, forms, relations, strict=True):

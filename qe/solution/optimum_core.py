@@ -26,7 +26,6 @@ from qe.exact.quadratic_form import Number, Quadratic, solve_linear
 from qe.exact.system import Flat, Point
 from qe.options import Budget
 from qe.solution.optimum_kkt import Kkt, kkt_point, sign
-from qe.solution.optimum_proposal import natural_scale
 
 _ZERO, _ONE = Fraction(0), Fraction(1)
 
@@ -87,7 +86,9 @@ def _on_flat(task: Task, state: _State, budget: Budget) -> OptimumEvidence | _St
     forms = {i: task.forms[i].restrict(flat.origin, flat.basis) for i in inequalities}
     constant = [i for i, q in forms.items() if q.is_linear and not any(q.gradient)]
     for i in constant:
-        if forms[i].constant > 0:
+        # closed or not, 0 < 0 cannot be satisfied
+        strict = task.relations[i] is FormRelation.LT
+        if forms[i].constant > 0 or (strict and forms[i].constant == 0):
             return _close(task, state, NumberField.rationals(), flat.origin, {i: _ONE}, infeasible=True)
         del forms[i]
     keys = list(forms)
@@ -118,17 +119,25 @@ def _without_multipliers(
     return _recede(task, state, found.field, point, budget)
 
 
+def violation_form(form: Quadratic) -> tuple[Quadratic, Fraction]:
+    """(scale * form - t with t a further, last coordinate; scale > 0 rational, one over the largest coefficient).
+
+    Quadratic coefficients decide where there are any, so that balls stay balls of one kind and the least violation
+    of balls is a rational problem.
+    """
+    size = form.size
+    largest = max((abs(h) for row in form.hessian for h in row), default=_ZERO)
+    scale = 1 / (largest or max((abs(b) for b in form.gradient), default=_ZERO) or _ONE)
+    hessian = (*((*(h * scale for h in row), _ZERO) for row in form.hessian), (_ZERO,) * (size + 1))
+    return Quadratic(hessian, (*(b * scale for b in form.gradient), -_ONE), form.constant * scale), scale
+
+
 def _violation_forms(forms: Sequence[Quadratic], size: int) -> tuple[list[Quadratic], list[Fraction]]:
-    """scale_i * form_i - t <= 0 for each form, and -1 - t <= 0 so that t is bounded; t is the last coordinate."""
-    extended, scales = [], []
-    for form in forms:
-        scale = Fraction(natural_scale(form)).limit_denominator(10**6) or _ONE
-        hessian = tuple((*(h * scale for h in row), _ZERO) for row in form.hessian) + ((_ZERO,) * (size + 1),)
-        extended.append(Quadratic(hessian, (*(b * scale for b in form.gradient), -_ONE), form.constant * scale))
-        scales.append(scale)
-    flat_hessian = ((_ZERO,) * (size + 1),) * (size + 1)
-    extended.append(Quadratic(flat_hessian, (_ZERO,) * size + (-_ONE,), -_ONE))
-    return extended, scales
+    """Each form's violation form <= 0, and -1 - t <= 0 so that t is bounded below."""
+    pairs = [violation_form(form) for form in forms]
+    nothing = ((_ZERO,) * (size + 1),) * (size + 1)
+    bound = Quadratic(nothing, (_ZERO,) * size + (-_ONE,), -_ONE)
+    return [*(form for form, _ in pairs), bound], [scale for _, scale in pairs]
 
 
 def _rational(values: Sequence[Number]) -> tuple[Fraction, ...] | None:
@@ -142,9 +151,7 @@ def _rational(values: Sequence[Number]) -> tuple[Fraction, ...] | None:
     return tuple(out)
 
 
-def _face(
-    task: Task, state: _State, found: Kkt, point: Point, weights: dict[int, Number]
-) -> _State:
+def _face(task: Task, state: _State, found: Kkt, point: Point, weights: dict[int, Number]) -> _State:
     """The smaller flat that holds the feasible set when the least possible violation is zero."""
     chosen, place = _rational(list(weights.values())), _rational(point)
     if chosen is None or place is None:
@@ -265,9 +272,7 @@ def _recede(task: Task, state: _State, field: NumberField, point: Point, budget:
     slope = sum((a * b for a, b in zip(task.objective.gradient, towards or (), strict=False)), _ZERO)
     if best.status is not OptimumStatus.OPTIMAL or towards is None or slope >= 0:
         raise Unable("neither optimality conditions nor a direction of descent could be proved")
-    return task.start(
-        status=OptimumStatus.UNBOUNDED, field=field, faces=state.faces, point=point, direction=towards
-    )
+    return task.start(status=OptimumStatus.UNBOUNDED, field=field, faces=state.faces, point=point, direction=towards)
 
 
 def _linear_part(form: Quadratic) -> Quadratic:

@@ -105,7 +105,7 @@ def sign(value: Number) -> int:
     """The sign of a Fraction or a field element."""
     if isinstance(value, FieldElement):
         return value.sign()
-    return (value > 0) - (value < 0)
+    return int(value > 0) - int(value < 0)
 
 
 def _prove(

@@ -106,4 +106,3 @@ def _constraint(index: int, atom: Atom, variables: list[int]) -> Constraint:
     if definiteness(form.hessian) is Definiteness.NOT_SEMIDEFINITE:
         raise NotConvex(f"constraint {index + 1} does not describe a convex set")
     return Constraint(index, atom, form, atom.relation.is_strict, False)
-
