@@ -72,12 +72,10 @@ def same(a: Sequence[Any], b: Sequence[Any]) -> bool:
 
 
 def rational(value: Any) -> Fraction | None:
-    """The value as a ``Fraction`` if it is known to be rational, otherwise None."""
+    """The value as a ``Fraction`` if it is rational, otherwise None."""
     if isinstance(value, (int, Fraction)):
         return Fraction(value)
-    convert = getattr(value, "rational", None)
-    found = convert() if callable(convert) else convert
-    return Fraction(found) if isinstance(found, (int, Fraction)) else None
+    return Fraction(value.as_fraction()) if value.is_rational else None
 
 
 def exact_text(value: Any) -> str:

@@ -1,0 +1,82 @@
+"""The command ``bezier``: plan, check, compare.
+
+Exit status: 0 answered, 2 bad input, 3 unable or no solution, 4 certificate rejected, 1 a bug. An error is one
+line on stderr.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import partial
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from qe.cli import check_limits
+from qe.cli_shell import OK, enter, limited
+from qe.errors import Unable
+
+app = typer.Typer(
+    add_completion=False,
+    pretty_exceptions_enable=False,
+    rich_markup_mode=None,
+    help="Certified paths of Bézier curves, planned by exact quantifier elimination.",
+)
+
+ProblemFile = Annotated[Path, typer.Argument(metavar="PROBLEM.toml", help="The planning problem.", show_default=False)]
+Out = Annotated[Path, typer.Option("--out", help="Folder for the report and all other files.")]
+Json = Annotated[bool, typer.Option("--json", help="One JSON object on stdout.")]
+NoPlots = Annotated[bool, typer.Option("--no-plots", help="No pictures.")]
+Timeout = Annotated[float | None, typer.Option("--timeout", help="Seconds; enforced.")]
+Memory = Annotated[int | None, typer.Option("--memory", help="MiB of address space; enforced.")]
+
+
+@app.command()
+def plan(
+    problem: ProblemFile,
+    out: Out,
+    json: Json = False,
+    no_plots: NoPlots = False,
+    timeout: Timeout = None,
+    memory: Memory = None,
+) -> int:
+    """Plan a path; write report.html, region, path and certificate files into a folder, all or none."""
+    from bezier.outputs import all_or_none
+    from bezier.problem import load_problem
+
+    check_limits(timeout, memory)
+    read = load_problem(problem)
+    with all_or_none(out) as folder:
+        from bezier import command
+
+        request = command.Request(
+            problem=read, folder=folder, target=out, plots=not no_plots, json=json, timeout=timeout
+        )
+        reply = limited(partial(command.plan, request=request), timeout=timeout, memory=memory, plain=json)
+    print(reply.text)
+    return reply.code
+
+
+@app.command()
+def check(folder: Annotated[Path, typer.Argument(metavar="DIR", show_default=False)]) -> int:
+    """Verify the certificates in a folder written by plan, and prove its path again."""
+    from bezier.recheck import recheck
+
+    for line in limited(partial(recheck, folder=folder), timeout=None, memory=None, plain=True):
+        print(line)
+    return OK
+
+
+@app.command()
+def compare(problem: ProblemFile) -> int:
+    """Quadratic and cubic side by side (not there yet)."""
+    from bezier.problem import load_problem
+
+    load_problem(problem)
+    raise Unable("compare is not there yet; plan is")
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """The entry point of the console script."""
+    return enter(app, argv, name="bezier")

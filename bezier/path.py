@@ -1,0 +1,80 @@
+"""A path of several curves with what is proved about it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Any
+
+from bezier.containment import Inside, Leaves, Outcome, examine_all
+from bezier.curve import Bezier, Join, Smoothness, join
+from bezier.scalar import Vector
+from bezier.workspace import Condition, Workspace
+
+
+@dataclass(frozen=True, slots=True)
+class ProvedJoin:
+    """Where two named curves of the path meet."""
+
+    first: str
+    second: str
+    join: Join
+
+
+@dataclass(frozen=True, slots=True)
+class Proof:
+    """What was found out about one curve and one condition of the workspace."""
+
+    curve: str
+    outcome: Outcome
+
+    @property
+    def condition(self) -> Condition:
+        """The condition examined."""
+        return self.outcome.condition
+
+
+@dataclass(frozen=True, slots=True)
+class Path:
+    """The curves in order, the control points by name, the joins, and the containment proofs."""
+
+    curves: Mapping[str, Bezier]
+    points: Mapping[str, Vector]
+    joins: tuple[ProvedJoin, ...]
+    proofs: tuple[Proof, ...]
+
+    @property
+    def is_inside(self) -> bool:
+        """Whether every whole curve is proved to lie in the workspace."""
+        return all(isinstance(proof.outcome, Inside) for proof in self.proofs)
+
+    @property
+    def violations(self) -> tuple[Proof, ...]:
+        """The proofs that failed, each with a parameter outside."""
+        return tuple(proof for proof in self.proofs if isinstance(proof.outcome, Leaves))
+
+    @property
+    def smoothness(self) -> Smoothness:
+        """The smoothness that every join has (spans of equal duration)."""
+        return min((j.join.smoothness for j in self.joins), default=Smoothness.C2)
+
+
+def assemble(curves: Mapping[str, Bezier], points: Mapping[str, Vector], workspace: Workspace) -> Path:
+    """Examine joins and containment of the curves, exactly."""
+    joins = tuple(ProvedJoin(a, b, join(curves[a], curves[b])) for a, b in pairwise(curves))
+    return Path(dict(curves), dict(points), joins, prove(curves, workspace.conditions))
+
+
+def prove(curves: Mapping[str, Bezier], conditions: tuple[Condition, ...]) -> tuple[Proof, ...]:
+    """The containment of each curve in each condition."""
+    return tuple(Proof(name, outcome) for name, curve in curves.items() for outcome in examine_all(curve, conditions))
+
+
+def speed_at_joins(path: Path) -> dict[str, Vector]:
+    """The common velocity P'(1) = Q'(0) at each join that is at least C1, by the name of the join."""
+    found: dict[str, Any] = {}
+    for item in path.joins:
+        if item.join.smoothness >= Smoothness.C1:
+            found[f"{item.first}-{item.second}"] = path.curves[item.second].derivative(1, 0)
+    return found

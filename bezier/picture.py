@@ -1,0 +1,88 @@
+"""What the pictures show, as plain floating-point data: one value shared by the PNG files and the web page."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from bezier.curve import Bezier
+from bezier.mesh import Array, RegionMesh, region_mesh, sampled
+from bezier.workspace import Condition
+
+COLOURS = {"P": "#2364aa", "Q": "#d1495b", "R": "#2e9e6b"}
+"""One colour per curve, used for its control points and for the region's boundary that keeps them in."""
+INK, PALE, FLOOR = "#22303c", "#9aa7b1", "#b08d57"
+
+
+@dataclass(frozen=True, slots=True)
+class CurvePicture:
+    """A curve: its points and its control polygon."""
+
+    name: str
+    points: Array
+    polygon: Array
+
+    @property
+    def colour(self) -> str:
+        """The curve's colour."""
+        return COLOURS.get(self.name, INK)
+
+
+@dataclass(frozen=True, slots=True)
+class RegionPicture:
+    """A region with one label and colour per boundary surface, and the chosen point in it."""
+
+    mesh: RegionMesh
+    labels: tuple[str, ...]
+    chosen: Array | None = None
+
+    def colour(self, index: int) -> str:
+        """The colour of a boundary surface."""
+        label = self.labels[index]
+        return FLOOR if label.endswith(".z") else COLOURS.get(label[:1], PALE)
+
+
+@dataclass(frozen=True, slots=True)
+class PathPicture:
+    """The path in its workspace. ``marks``: named points."""
+
+    radius: float
+    has_floor: bool
+    curves: tuple[CurvePicture, ...]
+    marks: Mapping[str, Array]
+    region: RegionPicture | None = None
+    extra: Mapping[str, RegionPicture] = field(default_factory=dict)
+
+
+def curve_pictures(curves: Mapping[str, Bezier], count: int = 61) -> tuple[CurvePicture, ...]:
+    """Sampled curves with their control polygons."""
+    return tuple(CurvePicture(name, sampled(c.points, count), numbers(c.points)) for name, c in curves.items())
+
+
+def region_picture(
+    conditions: Sequence[Condition], named: Sequence[Condition], chosen: Sequence[Any] | None, level: int = 4
+) -> RegionPicture | None:
+    """The region bounded by ``conditions``; labels are the names of the equal conditions among ``named``."""
+    mesh = region_mesh(conditions, level)
+    if mesh is None:
+        return None
+    labels = tuple(_label(condition, named) for condition in conditions)
+    return RegionPicture(mesh, labels, None if chosen is None else numbers([chosen])[0])
+
+
+def _label(condition: Condition, named: Sequence[Condition]) -> str:
+    probes = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
+    for other in named:
+        if type(other) is type(condition):
+            pairs = [(condition.margin(p), other.margin(p)) for p in probes]
+            if all(a * pairs[0][1] == b * pairs[0][0] for a, b in pairs) and any(a for a, _ in pairs):
+                return other.name
+    return "boundary"
+
+
+def numbers(points: Sequence[Sequence[Any]]) -> Array:
+    """Exact points as floating-point rows."""
+    return np.array([[float(c) for c in p] for p in points])

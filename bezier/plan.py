@@ -1,0 +1,180 @@
+"""Planning, step by step: problem, formula, answer, region, optimum, curves, proofs.
+
+The engine answers every question about existence; this module only asks, and checks the exact numbers that
+come back by putting them into the conditions.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from enum import Enum
+from typing import Any
+
+import qe
+from bezier import quadratic
+from bezier.path import Path, Proof, assemble, prove
+from bezier.problem import PlanMethod, Problem
+from bezier.scalar import Vector, sign
+from bezier.workspace import Workspace, WorkspaceKind
+from qe.errors import BudgetExceeded, InternalError, Unable
+from qe.progress import Event, Listener, silent
+
+Note = Callable[[str, object], None]
+
+
+class Outcome(Enum):
+    """What planning ended with."""
+
+    SOLVED = "solved"
+    INFEASIBLE = "infeasible"
+
+
+@dataclass(frozen=True, slots=True)
+class Gap:
+    """Whether control points that the printed formula (8) allows can lie below the table {z = 0}.
+
+    ``example``: control points that the formula allows, one of them below the table, or None when there are none.
+    ``region``: the region with z >= 0 added for all control points, where there is a gap. ``chosen``: what was
+    found out about z >= 0 along the curves of the chosen path.
+    """
+
+    example: Mapping[str, Vector] | None
+    region: Any | None
+    chosen: tuple[Proof, ...]
+
+    @property
+    def can_leave(self) -> bool:
+        """Whether some allowed control point lies below the table."""
+        return self.example is not None
+
+
+@dataclass(frozen=True, slots=True)
+class Plan:
+    """Everything a report needs. ``optimum`` is None exactly when the problem is infeasible."""
+
+    problem: Problem
+    outcome: Outcome
+    formula: str
+    answer: Any
+    region: Any
+    optimum: Any | None
+    infeasibility: Any | None
+    path: Path | None
+    active: tuple[str, ...]
+    balls: quadratic.ThreeBalls
+    gap: Gap
+    checks: Mapping[str, Any]
+    seconds: Mapping[str, float]
+
+    @property
+    def certified(self) -> bool:
+        """Whether the checker accepted every certificate and the whole path is proved inside."""
+        accepted = all(verdict.accepted for verdict in self.checks.values())
+        return accepted and (self.path is None or self.path.is_inside)
+
+
+@dataclass(slots=True)
+class Clock:
+    """The steps of a plan: their times, the time left, and who is told."""
+
+    limit: float | None = None
+    listener: Listener = silent
+    note: Note = field(default=lambda name, value: None)
+    seconds: dict[str, float] = field(default_factory=dict)
+    start: float = field(default_factory=time.perf_counter)
+
+    @contextmanager
+    def step(self, name: str) -> Iterator[None]:
+        """Time one step; refuses to begin after the limit."""
+        self.listener(Event(name, len(self.seconds), None))
+        self.remaining(name)
+        begin = time.perf_counter()
+        yield
+        self.seconds[name] = time.perf_counter() - begin
+
+    def remaining(self, name: str = "planning") -> float | None:
+        """Seconds left, or None without a limit."""
+        if self.limit is None:
+            return None
+        left = self.limit - (time.perf_counter() - self.start)
+        if left <= 0:
+            raise BudgetExceeded(f"time limit of {self.limit:g} s reached before: {name}")
+        return left
+
+
+def make_plan(problem: Problem, clock: Clock | None = None) -> Plan:
+    """Plan a path. Raises ``Unable`` for methods that are not there yet and at limits."""
+    if problem.method is not PlanMethod.QUADRATIC:
+        raise Unable(f'method "{problem.method.value}" is not there yet; method "quadratic" is')
+    return _quadratic_plan(problem, clock or Clock())
+
+
+def _quadratic_plan(problem: Problem, clock: Clock) -> Plan:
+    text = quadratic.formula(problem)
+    with clock.step("elimination"):
+        answer = qe.eliminate(text, timeout=clock.remaining())
+    clock.note("quantifier-free answer", str(answer.formula))
+    with clock.step("region"):
+        region = qe.region(answer.formula, order=quadratic.FREE, timeout=clock.remaining())
+    clock.note("region", "empty" if region.is_empty else f"{len(region.cells)} cells")
+    with clock.step("optimum"):
+        optimum = qe.minimize(quadratic.objective(problem), answer.formula, timeout=clock.remaining())
+    found = None if region.is_empty else tuple(optimum.point[name] for name in quadratic.FREE)
+    if (found is None) != (optimum.value is None):
+        raise InternalError("the region and the optimum disagree about the existence of a control point")
+    path, active = None, ()
+    with clock.step("curves and proofs"):
+        if found is not None:
+            path, active = _path(problem, found)
+    with clock.step("hemisphere question"):
+        gap = _gap(problem, path, clock)
+    with clock.step("verification"):
+        checks = {"region": qe.verify(region.certificate), "optimum": qe.verify(optimum.certificate)}
+    solved = found is not None
+    return Plan(
+        problem=problem,
+        outcome=Outcome.SOLVED if solved else Outcome.INFEASIBLE,
+        formula=text,
+        answer=answer,
+        region=region,
+        optimum=optimum if solved else None,
+        infeasibility=None if solved else optimum,
+        path=path,
+        active=active,
+        balls=quadratic.three_balls(problem),
+        gap=gap,
+        checks=checks,
+        seconds=clock.seconds,
+    )
+
+
+def _path(problem: Problem, q1: Vector) -> tuple[Path, tuple[str, ...]]:
+    """The path for this Q1, after checking exactly that the engine's point satisfies every condition."""
+    points = quadratic.control_points(problem, q1)
+    for item in quadratic.point_conditions(problem.workspace):
+        if sign(item.condition.margin(points[item.point])) < 0:
+            raise InternalError(f"the optimum violates the condition on {item.label}")
+    return assemble(quadratic.curves(problem, q1), points, problem.workspace), quadratic.active(problem, q1)
+
+
+def _gap(problem: Problem, path: Path | None, clock: Clock) -> Gap:
+    """Ask the engine whether the printed formula lets a control point fall below the table."""
+    asked = qe.eliminate(quadratic.leaving_formula(problem), timeout=clock.remaining())
+    floor = Workspace(WorkspaceKind.HEMISPHERE, problem.workspace.radius_squared).floor
+    chosen = prove(path.curves, (floor,)) if path else ()
+    if asked.truth is False:
+        return Gap(None, None, chosen)
+    if asked.truth is not True or asked.witness is None:
+        raise InternalError("the hemisphere question got neither a witness nor a refutation")
+    q1 = tuple(asked.witness[name] for name in quadratic.FREE)
+    example = {name: quadratic.control_points(problem, q1)[name] for name in quadratic.INNER}
+    ball = problem.workspace.ball
+    allowed = all(sign(ball.margin(point)) >= 0 for point in example.values())
+    if not allowed or all(sign(point[2]) >= 0 for point in example.values()):
+        raise InternalError("the engine's example does not show what it should")
+    corrected = qe.eliminate(quadratic.corrected_formula(problem), timeout=clock.remaining())
+    region = qe.region(corrected.formula, order=quadratic.FREE, timeout=clock.remaining())
+    return Gap(example, region, chosen)

@@ -1,0 +1,236 @@
+"""Still pictures with matplotlib: the region, and the path with its three coordinate views."""
+
+from __future__ import annotations
+
+import io
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from bezier.mesh import Array, RegionMesh, hull
+from bezier.picture import FLOOR, INK, PALE, PathPicture, RegionPicture
+
+VIEWS = (("top view", 0, 1), ("front view", 0, 2), ("side view", 1, 2))
+AXES = ("x", "y", "z")
+
+
+def save_region(picture: PathPicture, path: Path) -> None:
+    """``region.png``: the possible places of Q1 in space, and its three coordinate views."""
+    pyplot = _pyplot()
+    figure = pyplot.figure(figsize=(11, 8), layout="constrained")
+    figure.suptitle(r"Where $\hat{Q}_1$ may be: the region of formula (8)", fontsize=14, color=INK)
+    above, below = figure.subfigures(2, 1, height_ratios=(1.9, 1))
+    region = picture.region
+    if region is None:
+        axis = above.add_subplot()
+        _say(axis, "the region has no interior, so there is nothing to draw:\nsee the report for its exact description")
+    else:
+        elevation, turn = _best_view(region.mesh)
+        for column, (up, around) in enumerate(((elevation, turn), (10.0, turn + 180))):
+            axis = above.add_subplot(1, 2, column + 1, projection="3d")
+            _draw_region(axis, region, alpha=1.0)
+            _frame(axis, region.mesh.vertices, pad=0.06, view=(up, around))
+            if region.chosen is not None:
+                axis.plot(*region.chosen[:, None], "o", color=INK, markersize=7, zorder=10)
+            if column == 0:
+                _legend(axis, region)
+            else:
+                axis.text2D(0.5, 0.98, "from the other side", transform=axis.transAxes, ha="center", fontsize=9)
+        for axis, (title, a, b) in zip(below.subplots(1, 3), VIEWS, strict=True):
+            _region_view(axis, region, title, a, b)
+    figure.savefig(path, dpi=130)
+    pyplot.close(figure)
+
+
+def save_path(picture: PathPicture, path: Path) -> None:
+    """``path.png``: the three curves with control polygons in the workspace, and the coordinate views."""
+    pyplot = _pyplot()
+    figure = pyplot.figure(figsize=(10, 9), layout="constrained")
+    grid = figure.add_gridspec(2, 3, height_ratios=(2.2, 1))
+    axis = figure.add_subplot(grid[0, :], projection="3d")
+    _draw_workspace(axis, picture)
+    for curve in picture.curves:
+        axis.plot(*curve.polygon.T, "--o", color=curve.colour, linewidth=1, markersize=4, alpha=0.75)
+        axis.plot(*curve.points.T, color=curve.colour, linewidth=3, label=f"$\\hat{{{curve.name}}}(t)$")
+    if picture.region is not None:
+        _draw_region(axis, picture.region, alpha=0.25)
+    for name, point in picture.marks.items():
+        axis.text(*(point * 1.04), mathematical(name), fontsize=10, color=INK)
+    axis.legend(loc="upper left", frameon=False)
+    reach = picture.radius
+    low = 0.0 if picture.has_floor else -reach
+    _frame(axis, np.array([[-reach, -reach, low], [reach, reach, reach]]), pad=0.0)
+    for column, (title, i, j) in enumerate(VIEWS):
+        _path_view(figure.add_subplot(grid[1, column]), picture, title, i, j)
+    figure.savefig(path, dpi=130)
+    pyplot.close(figure)
+
+
+def views_svg(picture: PathPicture) -> str:
+    """The three coordinate views as one SVG element for the report."""
+    pyplot = _pyplot()
+    figure, axes = pyplot.subplots(1, 3, figsize=(12, 4.3), layout="constrained")
+    for axis, (title, i, j) in zip(axes, VIEWS, strict=True):
+        _path_view(axis, picture, title, i, j)
+    buffer = io.StringIO()
+    figure.savefig(buffer, format="svg", metadata={"Date": None, "Creator": None})
+    pyplot.close(figure)
+    text = buffer.getvalue()
+    return text[text.index("<svg") :]
+
+
+def mathematical(name: str) -> str:
+    """A point's name in mathematical letters: ``Q1`` becomes Q with a hat and an index."""
+    return f"$\\hat{{{name[0]}}}_{{{name[1:]}}}$" if name[:1] in "PQR" and name[1:].isdigit() else name
+
+
+def _pyplot() -> Any:
+    import matplotlib
+
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as pyplot
+
+    pyplot.rcParams.update({"font.size": 10, "axes.edgecolor": PALE, "axes.labelcolor": INK, "text.color": INK})
+    pyplot.rcParams.update({"xtick.color": PALE, "ytick.color": PALE, "svg.hashsalt": "bezier"})
+    return pyplot
+
+
+def _draw_region(axis: Any, region: RegionPicture, alpha: float) -> None:
+    from matplotlib.colors import to_rgb
+    from mpl_toolkits.mplot3d.art3d import Poly3DCollection
+
+    mesh = region.mesh
+    triangles = mesh.vertices[mesh.faces]
+    normals = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
+    normals /= np.linalg.norm(normals, axis=1, keepdims=True) + 1e-30
+    outward = triangles.mean(axis=1) - mesh.vertices.mean(axis=0)
+    normals *= np.sign((normals * outward).sum(axis=1, keepdims=True))
+    light = np.array([-0.35, -0.65, 0.68])
+    shade = 0.80 + 0.20 * (normals @ light)
+    base = np.array([to_rgb(region.colour(k)) for k in range(len(region.labels))])[mesh.owner]
+    colours = 1 - (1 - base) * 0.62
+    faces = np.clip(colours * shade[:, None], 0, 1)
+    rgba = np.concatenate([faces, np.full((len(faces), 1), alpha)], axis=1)
+    lines = 0.2 if alpha == 1 else 0.0
+    axis.add_collection3d(Poly3DCollection(triangles, facecolors=rgba, edgecolors=rgba, linewidths=lines))
+    for edge in mesh.edges:
+        axis.plot(*edge.T, color=INK, linewidth=1.2, alpha=min(1.0, alpha + 0.3))
+
+
+def _draw_workspace(axis: Any, picture: PathPicture) -> None:
+    angle = np.linspace(0, 2 * np.pi, 121)
+    heights = np.radians([0, 30, 60] if picture.has_floor else [-60, -30, 0, 30, 60])
+    rings = [np.stack([np.cos(h) * np.cos(angle), np.cos(h) * np.sin(angle), 0 * angle + np.sin(h)]) for h in heights]
+    arc = np.linspace(0 if picture.has_floor else -np.pi / 2, np.pi / 2, 46)
+    for turn in np.radians(np.arange(0, 360, 30)):
+        rings.append(np.stack([np.cos(arc) * np.cos(turn), np.cos(arc) * np.sin(turn), np.sin(arc)]))
+    for ring in rings:
+        axis.plot(*(ring * picture.radius), color=PALE, linewidth=0.5, alpha=0.6)
+    axis.plot([0], [0], [0], marker="+", color=INK)
+
+
+def _best_view(mesh: RegionMesh) -> tuple[float, float]:
+    """Elevation and azimuth in degrees from which the boundary surfaces are all seen as well as possible."""
+    corners = mesh.vertices[mesh.faces]
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    owners = sorted(set(mesh.owner.tolist()))
+    whole = np.linalg.norm(normals, axis=1).sum()
+    best, score = (20.0, -62.0), -np.inf
+    for elevation in (15.0, 25.0, 35.0):
+        for turn in range(-170, 190, 15):
+            up, around = np.radians(elevation), np.radians(turn)
+            eye = np.array([np.cos(up) * np.cos(around), np.cos(up) * np.sin(around), np.sin(up)])
+            seen = np.clip(normals @ eye, 0, None)
+            value = sum(float(np.sqrt(seen[mesh.owner == k].sum() / whole)) for k in owners)
+            if value > score:
+                best, score = (elevation, float(turn)), value
+    return best
+
+
+def _frame(axis: Any, points: Array, pad: float, view: tuple[float, float] = (20.0, -62.0)) -> None:
+    from matplotlib.ticker import MaxNLocator
+
+    low, high = points.min(axis=0), points.max(axis=0)
+    extra = (high - low) * pad
+    for name, a, b in zip(AXES, low - extra, high + extra, strict=True):
+        getattr(axis, f"set_{name}lim")(a, b)
+        getattr(axis, f"set_{name}label")(name)
+        getattr(axis, f"{name}axis").set_major_locator(MaxNLocator(5))
+    axis.set_box_aspect((high - low) + 1e-12, zoom=1.15)
+    axis.view_init(elev=view[0], azim=view[1])
+    for pane in (axis.xaxis, axis.yaxis, axis.zaxis):
+        pane.pane.set_facecolor("#f6f8fa")
+        pane.pane.set_edgecolor("#dfe5ea")
+        pane._axinfo["grid"]["color"] = "#e3e8ec"
+
+
+def _legend(axis: Any, region: RegionPicture) -> None:
+    from matplotlib.patches import Patch
+
+    shown = sorted(set(region.mesh.owner.tolist()))
+    handles = [Patch(color=region.colour(k), alpha=0.75, label=boundary_name(region.labels[k])) for k in shown]
+    axis.legend(handles=handles, loc="upper left", frameon=False, fontsize=9, bbox_to_anchor=(-0.05, 1.05))
+
+
+def boundary_name(label: str) -> str:
+    """A boundary surface in mathematical letters."""
+    if label.endswith(".z"):
+        return f"{mathematical(label[:2])} on the table"
+    return rf"$\|${mathematical(label)}$\| = r$" if label[:1] in "PQR" else label
+
+
+def _region_view(axis: Any, region: RegionPicture, title: str, i: int, j: int) -> None:
+    outline = hull(region.mesh.vertices[:, [i, j]])
+    axis.fill(*outline.T, color="#e9edf1", zorder=0)
+    axis.plot(*outline.T, color=INK, linewidth=1)
+    for edge in region.mesh.edges:
+        axis.plot(edge[:, i], edge[:, j], color=PALE, linewidth=0.8)
+    if region.chosen is not None:
+        axis.plot(region.chosen[i], region.chosen[j], "o", color=INK, markersize=5)
+    _flat(axis, title, i, j)
+
+
+def _path_view(axis: Any, picture: PathPicture, title: str, i: int, j: int) -> None:
+    angle = np.linspace(0, np.pi if picture.has_floor and j == 2 else 2 * np.pi, 181)
+    axis.plot(picture.radius * np.cos(angle), picture.radius * np.sin(angle), color=PALE, linewidth=1)
+    if picture.has_floor and j == 2:
+        axis.plot([-picture.radius, picture.radius], [0, 0], color=FLOOR, linewidth=1.5)
+    if picture.region is not None:
+        outline = hull(picture.region.mesh.vertices[:, [i, j]])
+        axis.fill(*outline.T, color="#e9edf1", zorder=0)
+    for curve in picture.curves:
+        style = {"color": curve.colour}
+        axis.plot(curve.polygon[:, i], curve.polygon[:, j], "--o", linewidth=0.8, markersize=3, alpha=0.8, **style)
+        axis.plot(curve.points[:, i], curve.points[:, j], linewidth=2.2, **style)
+    for text, point in _grouped(picture, i, j):
+        label = axis.annotate(text, point, xytext=(3, 6), textcoords="offset points")
+        label.set_fontsize(8)
+    _flat(axis, title, i, j)
+
+
+def _grouped(picture: PathPicture, i: int, j: int) -> list[tuple[str, tuple[float, float]]]:
+    """One label per place: names of points that coincide in this view are put together."""
+    groups: list[tuple[list[str], tuple[float, float]]] = []
+    for name, point in picture.marks.items():
+        here = (float(point[i]), float(point[j]))
+        near = [g for g in groups if np.hypot(g[1][0] - here[0], g[1][1] - here[1]) < 0.04 * picture.radius]
+        if near:
+            near[0][0].append(name)
+        else:
+            groups.append(([name], here))
+    return [(" ".join(map(mathematical, names)), place) for names, place in groups]
+
+
+def _flat(axis: Any, title: str, i: int, j: int) -> None:
+    axis.set_aspect("equal", adjustable="datalim")
+    axis.set_title(f"{title} ({AXES[i]}{AXES[j]})", fontsize=10, color=INK)
+    axis.set_xlabel(AXES[i])
+    axis.set_ylabel(AXES[j])
+    axis.grid(color="#e3e8ec", linewidth=0.6)
+    axis.set_axisbelow(True)
+
+
+def _say(axis: Any, text: str) -> None:
+    axis.set_axis_off()
+    axis.text2D(0.5, 0.5, text, transform=axis.transAxes, ha="center")
