@@ -54,8 +54,8 @@ def positive(poly: Poly) -> list[Monomial]:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Notation:
-    """The tokens of a line format. ``quantifier(universal, names)`` gives a prefix; ``closed`` says that the
-    body of a quantifier is always bracketed; ``root`` prints a root atom (None: the format has none)."""
+    """The tokens of a line format. ``quantifier(universal, names)`` gives a prefix; ``root`` prints a
+    root atom. ``closed``: what follows a quantifier or a negation is bracketed, and so is ``or`` beside ``and``."""
 
     name: Callable[[str], str]
     relation: Callable[[Relation], str]
@@ -67,7 +67,7 @@ class Notation:
     true: str
     false: str
     times: str = "*"
-    power: str = "^"
+    power: Callable[[str, int], str] = "{}^{}".format
     brackets: tuple[str, str] = ("(", ")")
     closed: bool = False
 
@@ -76,7 +76,7 @@ def polynomial(parts: list[Monomial], notation: Notation) -> str:
     """Text such as ``x^2 - 2*x*y + 1``."""
     pieces: list[str] = []
     for coefficient, powers in parts:
-        factors = [notation.name(n) + (f"{notation.power}{k}" if k > 1 else "") for n, k in powers]
+        factors = [notation.power(notation.name(n), k) if k > 1 else notation.name(n) for n, k in powers]
         magnitude = abs(coefficient)
         if magnitude != 1 or not factors:
             factors.insert(0, digits(magnitude))
@@ -105,8 +105,8 @@ def _write(formula: Formula, level: Level, last: bool, notation: Notation) -> st
         case Or(args):
             return _chain(args, notation.disjunction, Level.OR, level, last, notation)
         case Not(arg):
-            if isinstance(arg, RootAtom) and notation.brackets == ("(", ")"):
-                return f"{notation.negation}({notation.root(arg)})"
+            if isinstance(arg, RootAtom) or notation.closed:
+                return notation.negation + _bracketed(arg, notation)
             return notation.negation + _write(arg, Level.NOT, last, notation)
         case Exists(variables, body) | ForAll(variables, body):
             prefix = notation.quantifier(isinstance(formula, ForAll), variables)

@@ -10,7 +10,7 @@ be free and bound; ``qe.formula.normal.rename_apart`` resolves that when it matt
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Container, Iterable, Sequence
 from fractions import Fraction
 from typing import NamedTuple, TypeAlias
 
@@ -140,20 +140,35 @@ class Quantification(NamedTuple):
 
 
 Term: TypeAlias = Number | Name | Sum | Product | Quotient | Power | Minus | Root
-Node: TypeAlias = Comparison | Truth | Every | Some | Negation | Implication | Equivalence | Quantification
+Node: TypeAlias = (
+    Comparison | Truth | Every | Some | Negation | Implication | Equivalence | Quantification
+)
+Part: TypeAlias = Term | Node
 
 
-def lower(node: Node, fail: Fail) -> Formula:
-    """The formula that ``node`` means; ``fail(message, at)`` makes the error for a position."""
-    names = _Names(fail)
-    names.node(node, frozenset(), 0)
-    return _Lowering(names.ring(), fail).node(node)
+def lower(node: Node, fail: Fail, *, names: Iterable[str] | None = None, shared: Sequence[Part] = ()) -> Formula:
+    """The formula that ``node`` means; ``fail(message, at)`` makes the error for a position.
+
+    With ``names`` (all names, for the ring) the tree may be a graph whose parts are shared; ``shared`` lists parts
+    in an order in which each comes after those it uses, so that chains of definitions of any length are fine.
+    """
+    if names is None:
+        found = _Names(fail)
+        found.node(node, frozenset(), 0)
+        return _Lowering(found.ring(), fail).node(node)
+    lowering = _Lowering(Ring.of(names), fail)
+    for part in shared:
+        lowering.remember(part)
+    return lowering.node(node)
 
 
-def _chain(term: Term) -> tuple[Term, list[Product | Quotient]]:
-    """``a*b/c*…`` as a and the steps that follow it: the chain may be long, so nothing recurses along it."""
+def _chain(term: Term, known: Container[int] = ()) -> tuple[Term, list[Product | Quotient]]:
+    """``a*b/c*…`` as a and the steps that follow it: the chain may be long, so nothing recurses along it.
+
+    It starts at a part whose identity is ``known``, if there is one.
+    """
     links: list[Product | Quotient] = []
-    while isinstance(term, Product | Quotient):
+    while isinstance(term, Product | Quotient) and id(term) not in known:
         links.append(term)
         term = term.left
     return term, links[::-1]
@@ -218,8 +233,19 @@ class _Names:
 class _Lowering:
     def __init__(self, ring: Ring, fail: Fail) -> None:
         self.ring, self.fail = ring, fail
+        self.terms: dict[int, Value] = {}
+        self.nodes: dict[int, Formula] = {}
+
+    def remember(self, part: Part) -> None:
+        """Lower a part that others share; the caller keeps it alive, so its identity is a key."""
+        if isinstance(part, Node):
+            self.nodes[id(part)] = self.node(part)
+        elif not isinstance(part, Root):
+            self.terms[id(part)] = self.term(part)
 
     def node(self, node: Node) -> Formula:
+        if (known := self.nodes.get(id(node))) is not None:
+            return known
         match node:
             case Comparison():
                 return self.comparison(node)
@@ -268,6 +294,8 @@ class _Lowering:
 
     def term(self, term: Term) -> Value:
         """The polynomial that a term means."""
+        if (known := self.terms.get(id(term))) is not None:
+            return known
         try:
             match term:
                 case Number(value):
@@ -289,7 +317,7 @@ class _Lowering:
             raise self.fail(str(error), getattr(term, "at", -1)) from None
 
     def product(self, term: Product | Quotient) -> Value:
-        first, links = _chain(term)
+        first, links = _chain(term, self.terms)
         value = self.term(first)
         for link in links:
             right = self.term(link.right)

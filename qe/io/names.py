@@ -1,0 +1,60 @@
+"""Variable names across formats: which are possible at all, and injective renaming where a format keeps some."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+
+from qe.errors import InputError
+from qe.formula.syntax import Exists, ForAll, Formula, RootAtom
+from qe.formula.traverse import atoms, children, ring_of
+
+_FORBIDDEN = re.compile(r"[|\\\n\r]")
+
+
+def check_name(name: object) -> str:
+    """The name, if every format can carry it: not empty, one line, no bar and no backslash; else ``InputError``."""
+    if not isinstance(name, str) or not name or _FORBIDDEN.search(name):
+        raise InputError(f"{name!r} cannot be the name of a variable (a bar, a backslash or a line break, or empty)")
+    return name
+
+
+class Renaming:
+    """An injective map from the names of a formula to names that a format allows.
+
+    A name that ``keeps`` accepts stays. Any other is rewritten by ``spell`` and then given underscores until
+    it is allowed and new, so two different variables never become one.
+    """
+
+    __slots__ = ("_map",)
+
+    def __init__(
+        self, formula: Formula, *, keeps: Callable[[str], bool], spell: Callable[[str], str] = lambda name: name
+    ) -> None:
+        names = names_in(formula)
+        self._map = {name: name for name in names if keeps(name)}
+        used = set(self._map)
+        for name in names:
+            if name not in self._map:
+                new = spell(name) + "_"
+                while not keeps(new) or new in used:
+                    new += "_"
+                self._map[name] = new
+                used.add(new)
+
+    def __getitem__(self, name: str) -> str:
+        return self._map[name]
+
+
+def names_in(formula: Formula) -> list[str]:
+    """Every name of a formula: those of its ring, and those that only quantifiers and root atoms mention."""
+    ring = ring_of(formula)
+    found = dict.fromkeys(ring.names if ring is not None else ())
+    found.update(dict.fromkeys(a.variable for a in atoms(formula) if isinstance(a, RootAtom)))
+    found.update(dict.fromkeys(_bound(formula)))
+    return list(found)
+
+
+def _bound(formula: Formula) -> list[str]:
+    own = list(formula.variables) if isinstance(formula, Exists | ForAll) else []
+    return own + [name for child in children(formula) for name in _bound(child)]

@@ -1,0 +1,107 @@
+"""SMT-LIB 2 scripts of the logics QF_NRA and NRA.
+
+Reading: ``declare-const``, ``declare-fun`` (without arguments), ``define-const``, ``define-fun``, ``assert`` (all of
+them joined), ``let``, ``exists``, ``forall``, ``ite`` on both sorts, the core connectives, ``+ - * /`` with division
+by constants, the comparisons and ``distinct``. Commands that only ask for output are passed over, ``exit`` ends the
+script, and what would change the assertions later (``push``, ``pop``, an ``assert`` after ``check-sat``) is refused.
+A Boolean constant p becomes a real variable p with the atom ``p > 0``: p is true where it is positive, which is
+equisatisfiable, also under quantifiers, because both cases of p have a real value.
+
+Writing: a whole script with ``set-logic``, one declaration per free variable, and one ``assert``.
+"""
+
+from __future__ import annotations
+
+import re
+
+from qe.errors import InputError, ParseError
+from qe.formula.syntax import And, Atom, Constant, Exists, ForAll, Formula, Not, Or, Relation
+from qe.formula.traverse import children, free_variables, is_quantifier_free
+from qe.io.infix import Monomial, digits, oriented
+from qe.io.names import Renaming
+from qe.io.smtlib_parser import parse
+from qe.io.smtlib_script import Script
+from qe.io.surface import MAX_DEPTH, lower
+from qe.io.text_parser import position
+
+_SIMPLE = re.compile(r"[A-Za-z~!@$%^&*_+=<>.?/-][A-Za-z0-9~!@$%^&*_+=<>.?/-]*")
+_RESERVED = re.compile(
+    r"and|or|not|xor|true|false|ite|distinct|let|exists|forall|match|par|as|assert|declare-.*|define-.*|check-sat.*|"
+    r"exit|echo|push|pop|reset.*|get-.*|set-.*|Real|Int|Bool|Array|String|RegLan|BINARY|DECIMAL|HEXADECIMAL|NUMERAL|"
+    r"STRING|abs|mod|div|rem|is|is_int|to_int|to_real|pi|e|exp|sin|cos|tan|sec|csc|cot|a?sin|a?cos|a?tan|arc.*|sqrt|"
+    r"sinh|cosh|tanh|asinh|acosh|atanh|if|implies|iff|int|real|bool|select|store|const|[.@].*|_|!|[-+*/^=<>]|[<>]=|=>"
+)
+_OPERATORS = {Relation.EQ: "=", Relation.LT: "<", Relation.LE: "<=", Relation.GT: ">", Relation.GE: ">="}
+
+
+def read(text: str, *, source: str = "<text>") -> Formula:
+    """The conjunction of the assertions of a script. Raises ``ParseError`` with line and column."""
+
+    def fail(message: str, at: int) -> ParseError:
+        line, column = position(text, max(at, 0))
+        return ParseError(message, source=source, line=line, column=column)
+
+    try:
+        script = Script(fail)
+        node = script.run(parse(text, fail))
+        formula = lower(node, fail, names=script.names, shared=script.shared)
+        depth = _depth(formula)
+    except RecursionError:
+        raise fail("the script is nested too deeply", -1) from None
+    if depth > MAX_DEPTH:
+        raise fail(f"the formula is nested more than {MAX_DEPTH} levels deep", -1)
+    return formula
+
+
+def _depth(formula: Formula) -> int:
+    return 1 + max((_depth(child) for child in children(formula)), default=0)
+
+
+def write(formula: Formula) -> str:
+    """A script that asserts ``formula``.
+
+    Names that SMT-LIB keeps for itself get an underscore; others are quoted where needed. Raises ``InputError``
+    for a root atom, which SMT-LIB cannot express.
+    """
+    names = Renaming(formula, keeps=lambda name: not _RESERVED.fullmatch(name))
+    lines = [f"(set-logic {'QF_NRA' if is_quantifier_free(formula) else 'NRA'})"]
+    lines += [f"(declare-const {_symbol(names[name])} Real)" for name in free_variables(formula)]
+    lines.append(f"(assert {_term(formula, names)})")
+    return "\n".join(lines) + "\n"
+
+
+def _symbol(name: str) -> str:
+    return name if _SIMPLE.fullmatch(name) else f"|{name}|"
+
+
+def _term(formula: Formula, names: Renaming) -> str:
+    match formula:
+        case Constant(value):
+            return "true" if value else "false"
+        case Atom():
+            parts, relation = oriented(formula)
+            if relation is Relation.NE:
+                return f"(not (= {_polynomial(parts, names)} 0))"
+            return f"({_OPERATORS[relation]} {_polynomial(parts, names)} 0)"
+        case And(args):
+            return f"(and {' '.join(_term(arg, names) for arg in args)})"
+        case Or(args):
+            return f"(or {' '.join(_term(arg, names) for arg in args)})"
+        case Not(arg):
+            return f"(not {_term(arg, names)})"
+        case Exists(variables, body) | ForAll(variables, body):
+            bound = " ".join(f"({_symbol(names[name])} Real)" for name in variables)
+            return f"({'exists' if isinstance(formula, Exists) else 'forall'} ({bound}) {_term(body, names)})"
+    raise InputError("root(…) cannot be written in SMT-LIB")
+
+
+def _polynomial(parts: list[Monomial], names: Renaming) -> str:
+    texts = [_monomial(coefficient, powers, names) for coefficient, powers in parts]
+    return texts[0] if len(texts) == 1 else f"(+ {' '.join(texts)})"
+
+
+def _monomial(coefficient: int, powers: tuple[tuple[str, int], ...], names: Renaming) -> str:
+    factors = [symbol for name, k in powers for symbol in [_symbol(names[name])] * k]
+    if coefficient != 1 or not factors:
+        factors.insert(0, digits(coefficient) if coefficient >= 0 else f"(- {digits(-coefficient)})")
+    return factors[0] if len(factors) == 1 else f"(* {' '.join(factors)})"

@@ -1,0 +1,135 @@
+"""S-expressions with positions: the concrete syntax of SMT-LIB 2.6, section 3.1."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator
+from functools import cache
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
+
+from qe.io.surface import Fail
+
+if TYPE_CHECKING:
+    from lark import Lark, Token
+
+_TOKEN = re.compile(
+    r"(?P<SPACE>\s+|;[^\n]*)"
+    r"|(?P<OPEN>\()|(?P<CLOSE>\))"
+    r"|(?P<NUMBER>[0-9]+(?:\.[0-9]+)?(?![A-Za-z0-9~!@$%^&*_+=<>.?/-]))"
+    r"|(?P<SYMBOL>[A-Za-z~!@$%^&*_+=<>.?/-][A-Za-z0-9~!@$%^&*_+=<>.?/-]*)"
+    r"|(?P<QUOTED>\|[^|\\]*\|)"
+    r"|(?P<KEYWORD>:[A-Za-z0-9~!@$%^&*_+=<>.?/-]+)"
+    r'|(?P<STRING>"(?:[^"]|"")*")'
+    r"|(?P<BITS>\#x[0-9a-fA-F]+|\#b[01]+)"
+)
+_GRAMMAR = """
+%declare OPEN CLOSE NUMBER SYMBOL QUOTED KEYWORD STRING BITS
+start: expression*
+?expression: SYMBOL             -> symbol
+     | QUOTED                   -> quoted
+     | NUMBER                   -> number
+     | (KEYWORD | STRING | BITS) -> other
+     | OPEN expression* CLOSE   -> listing
+"""
+
+
+class Word(NamedTuple):
+    """A symbol (without its bars) or, by ``kind``, a number, keyword, string or bit vector."""
+
+    kind: str
+    text: str
+    at: int
+
+
+class Listing(NamedTuple):
+    """A bracketed list."""
+
+    items: list[Expression]
+    at: int
+
+
+Expression: TypeAlias = Word | Listing
+
+
+class _Bad(Exception):
+    def __init__(self, message: str, at: int) -> None:
+        self.message, self.at = message, at
+
+
+def parse(text: str, fail: Fail) -> list[Expression]:
+    """The expressions of a script; raises what ``fail`` makes."""
+    from lark.exceptions import UnexpectedToken
+
+    try:
+        return _parser().parse(text)  # type: ignore[return-value]
+    except UnexpectedToken as error:
+        if error.token.type == "$END":
+            raise fail("unbalanced brackets: this '(' is never closed", _last_open(text)) from None
+        raise fail("unbalanced brackets: this ')' has no partner", error.token.start_pos or 0) from None
+    except _Bad as error:
+        raise fail(error.message, error.at) from None
+
+
+@cache
+def _parser() -> Lark:
+    from lark import Lark, Token
+    from lark.lexer import Lexer
+
+    class ScriptLexer(Lexer):
+        """One compiled pattern for all tokens."""
+
+        def __init__(self, lexer_conf: Any) -> None:
+            pass
+
+        def lex(self, text: str) -> Iterator[Token]:  # type: ignore[override]
+            return _tokens(text, Token)
+
+    return Lark(_GRAMMAR, parser="lalr", lexer=ScriptLexer, transformer=_Builder(), maybe_placeholders=False)
+
+
+def _tokens(text: str, token: Callable[..., Token]) -> Iterator[Token]:
+    at, end, match = 0, len(text), _TOKEN.match
+    while at < end:
+        found = match(text, at)
+        if found is None:
+            if text[at] in '|"':
+                raise _Bad(f"this {text[at]} is never closed", at)
+            if text[at].isdigit():
+                raise _Bad("malformed number", at)
+            raise _Bad(f"unknown character {text[at]!r}", at)
+        if found.lastgroup != "SPACE":
+            yield token(found.lastgroup, found.group(), at)
+        at = found.end()
+
+
+def _last_open(text: str) -> int:
+    """The innermost bracket still open at the end of the text."""
+    open_at: list[int] = []
+    for found in _TOKEN.finditer(text):
+        if found.lastgroup == "OPEN":
+            open_at.append(found.start())
+        elif found.lastgroup == "CLOSE" and open_at:
+            open_at.pop()
+    return open_at[-1] if open_at else 0
+
+
+class _Builder:
+    """The actions of the grammar."""
+
+    def start(self, c: list[Any]) -> list[Expression]:
+        return c
+
+    def symbol(self, c: list[Any]) -> Word:
+        return Word("SYMBOL", str(c[0]), c[0].start_pos)
+
+    def quoted(self, c: list[Any]) -> Word:
+        return Word("SYMBOL", str(c[0])[1:-1], c[0].start_pos)
+
+    def number(self, c: list[Any]) -> Word:
+        return Word("NUMBER", str(c[0]), c[0].start_pos)
+
+    def other(self, c: list[Any]) -> Word:
+        return Word(c[0].type, str(c[0]), c[0].start_pos)
+
+    def listing(self, c: list[Any]) -> Listing:
+        return Listing(c[1:-1], c[0].start_pos)
