@@ -110,7 +110,11 @@ class StackChecker:
         signs = f.signs(at)
         if 0 in signs:
             raise fail(f"sectors[{signs.index(0)}]", f"factor {i} is zero at this sector sample")
-        discriminant = sign(self.closure.discriminants[k][i], sample.signs) if k > 0 and not nullified else None
+        discriminant = None
+        if k > 0 and not nullified:
+            discriminant = sign(self.closure.discriminants[k][i], sample.signs)
+            if not discriminant and f.degree != poly.degree(k):
+                discriminant = None  # it is zero because the degree drops, which says nothing about multiple roots
         simple = _check_roots(f, signs, at, listed, discriminant, lambda e, r: fail(e, f"factor {i}: {r}"))
         return Branch(i, f, signs, nullified, simple)
 
@@ -243,11 +247,13 @@ def _check_roots(
 
 
 def _distinct_roots(f: Fibre, seen: int, discriminant: int | None) -> int:
-    """The number of distinct real roots, of which ``seen`` simple ones are known.
+    """The number of distinct real roots (at least, if more than ``seen``), of which ``seen`` are known.
 
     The sign of the discriminant is (-1)^c with c the number of pairs of conjugate nonreal roots (Basu, Pollack,
     Roy, proposition 4.5), also with a formal degree one too high; so the number of real roots is known mod 4.
     """
+    if (f.degree - seen) % 2:
+        return seen + 1  # nonreal roots come in pairs, so at least one real root was not seen
     if discriminant and f.degree - seen < 4:
         pairs = (f.degree - seen) // 2
         expected = -1 if pairs % 2 else 1

@@ -85,6 +85,8 @@ class Point:
         """The exact sign of p at the point; p may contain no other variable."""
         if p.is_constant:
             return sign_of(p.constant_value())
+        if any(i not in self.indices for i in p.variables):
+            raise InternalError("a variable without a value at the point")
         bits, saved = FIRST_BITS, ctx.prec
         try:
             while bits <= LAST_BITS:

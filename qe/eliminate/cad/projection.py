@@ -1,7 +1,8 @@
 """Projection operators of cylindrical algebraic decomposition, and the closure of a factor set under one.
 
 ``brown-mccallum`` (Brown 2001, Theorem 3.1, after McCallum 1998): leading coefficients, discriminants and
-pairwise resultants. Valid where no factor is nullified over a cell of positive dimension; lifting checks that.
+pairwise resultants; also the other coefficients where they could vanish together at isolated points (McCallum
+1998). Valid where no factor is nullified over a cell of positive dimension; lifting checks that.
 ``lazard`` (Lazard 1994; McCallum, Parusiński, Păunescu 2019): additionally the trailing coefficients; valid
 for every input, provided that lifting uses Lazard evaluation.
 Both expect irreducible, pairwise coprime polynomials of positive degree in the projected variable.
@@ -26,6 +27,10 @@ def project(polys: Iterable[Poly], variable: int, operator: Projection) -> Itera
         yield coefficients[-1]
         if operator is Projection.LAZARD:
             yield coefficients[0]
+        elif variable >= 2 and not any(c.is_constant and c for c in coefficients):
+            # The coefficients may vanish together at a point inside a cell whose sample does not show it (x*z+y-1
+            # over x = 0); with all of them in the list, a factor nullified anywhere on a cell is so at its sample.
+            yield from coefficients[:-1]
         if f.degree(variable) >= 2:
             yield f.discriminant(variable)
     for f, g in combinations(listing, 2):
