@@ -32,28 +32,86 @@ SENTENCES = [
     ("every number a cube", forall(["x"], exists(["y"], rel(y**3 - x, "="))), True),
     ("every nonnegative number a square", forall(["x"], disj([rel(x, "<"), exists(["y"], rel(y * y - x, "="))])), True),
     ("no largest", exists(["x"], forall(["y"], rel(x - y, ">="))), False),
-    ("density", forall(["x", "y"], disj([
-        rel(x - y, ">="), exists(["z"], conj([rel(x - z, "<"), rel(z - y, "<")]))])), True),
+    (
+        "density",
+        forall(["x", "y"], disj([rel(x - y, ">="), exists(["z"], conj([rel(x - z, "<"), rel(z - y, "<")]))])),
+        True,
+    ),
     ("double root only", exists(["x"], conj([rel((x - 1) ** 2, "<="), rel(x - 1, "/=")])), False),
     ("circle meets line", exists(["x", "y"], conj([rel(x * x + y * y - 1, "="), rel(x + y - 1, ">")])), True),
     ("circle tangent to line", exists(["x", "y"], conj([rel(x * x + y * y - 1, "="), rel(y - 1, ">")])), False),
-    ("tangent ball and plane", exists(["x", "y", "z"], conj([
-        rel(x * x + y * y + z * z - 1, "<="), rel(z - 1, ">=")])), True),
-    ("Davenport-Heintz, with its answer x^2 = 1", forall(["x"], iff(exists(["c"], forall(["b", "a"], disj([
-        neg(disj([conj([rel(a - x, "="), rel(b - c, "=")]), conj([rel(a - c, "="), rel(b - 1, "=")])])),
-        rel(a * a - b, "=")]))), rel(x * x - 1, "="))), True),
-    ("Cauchy's inequality", forall(["a", "b", "x", "y"], rel(
-        (a * a + b * b) * (x * x + y * y) - (a * x + b * y) ** 2, ">=")), True),
-    ("discriminant", forall(["a", "b", "c"], iff(
-        exists(["x"], conj([rel(a * x * x + b * x + c, "="), rel(a, "/=")])),
-        conj([rel(a, "/="), rel(b * b - 4 * a * c, ">=")]))), True),
-    ("discriminant, degenerate case forgotten", forall(["a", "b", "c"], iff(
-        exists(["x"], rel(a * x * x + b * x + c, "=")), rel(b * b - 4 * a * c, ">="))), False),
-    ("three real roots of a cubic", exists(["x", "y", "z"], conj([
-        rel(x - y, "<"), rel(y - z, "<"), *(rel(v**3 - 3 * v + 1, "=") for v in (x, y, z))])), True),
-    ("four real roots of a cubic", exists(["a", "x", "y", "z"], conj([
-        rel(a - x, "<"), rel(x - y, "<"), rel(y - z, "<"),
-        *(rel(v**3 - 3 * v + 1, "=") for v in (a, x, y, z))])), False),
+    (
+        "tangent ball and plane",
+        exists(["x", "y", "z"], conj([rel(x * x + y * y + z * z - 1, "<="), rel(z - 1, ">=")])),
+        True,
+    ),
+    (
+        "Davenport-Heintz, with its answer x^2 = 1",
+        forall(
+            ["x"],
+            iff(
+                exists(
+                    ["c"],
+                    forall(
+                        ["b", "a"],
+                        disj(
+                            [
+                                neg(
+                                    disj(
+                                        [
+                                            conj([rel(a - x, "="), rel(b - c, "=")]),
+                                            conj([rel(a - c, "="), rel(b - 1, "=")]),
+                                        ]
+                                    )
+                                ),
+                                rel(a * a - b, "="),
+                            ]
+                        ),
+                    ),
+                ),
+                rel(x * x - 1, "="),
+            ),
+        ),
+        True,
+    ),
+    (
+        "Cauchy's inequality",
+        forall(["a", "b", "x", "y"], rel((a * a + b * b) * (x * x + y * y) - (a * x + b * y) ** 2, ">=")),
+        True,
+    ),
+    (
+        "discriminant",
+        forall(
+            ["a", "b", "c"],
+            iff(
+                exists(["x"], conj([rel(a * x * x + b * x + c, "="), rel(a, "/=")])),
+                conj([rel(a, "/="), rel(b * b - 4 * a * c, ">=")]),
+            ),
+        ),
+        True,
+    ),
+    (
+        "discriminant, degenerate case forgotten",
+        forall(["a", "b", "c"], iff(exists(["x"], rel(a * x * x + b * x + c, "=")), rel(b * b - 4 * a * c, ">="))),
+        False,
+    ),
+    (
+        "three real roots of a cubic",
+        exists(
+            ["x", "y", "z"], conj([rel(x - y, "<"), rel(y - z, "<"), *(rel(v**3 - 3 * v + 1, "=") for v in (x, y, z))])
+        ),
+        True,
+    ),
+    (
+        "four real roots of a cubic",
+        exists(
+            ["a", "x", "y", "z"],
+            conj(
+                [rel(a - x, "<"), rel(x - y, "<"), rel(y - z, "<"), *(rel(v**3 - 3 * v + 1, "=") for v in (a, x, y, z))]
+            ),
+        ),
+        False,
+    ),
     ("shadowed name", exists(["x"], conj([rel(x - 1, "="), Exists(("x",), rel(x - 2, "="))])), True),
     ("unused variable", Exists(("z",), ForAll(("y",), exists(["x"], rel(x, "=")))), True),
 ]
@@ -154,10 +212,22 @@ def test_input_errors() -> None:
 
 
 def test_time_limit_holds() -> None:
-    hard = Exists(("a",), ForAll(("b",), Exists(("x", "y"), conj([
-        rel(x**4 + a * x * x * y + b * y**3 - x, "="),
-        rel(a * y**4 + b * x**3 + x * y - 1, "<"),
-        rel(x * y - a * b, ">")]))))
+    hard = Exists(
+        ("a",),
+        ForAll(
+            ("b",),
+            Exists(
+                ("x", "y"),
+                conj(
+                    [
+                        rel(x**4 + a * x * x * y + b * y**3 - x, "="),
+                        rel(a * y**4 + b * x**3 + x * y - 1, "<"),
+                        rel(x * y - a * b, ">"),
+                    ]
+                ),
+            ),
+        ),
+    )
     with pytest.raises(BudgetExceeded):
         reference.decide(hard, budget=Budget(0.3))
 

@@ -1,0 +1,1 @@
+"""The project's problem corpus: see README.md."""

@@ -1,0 +1,89 @@
+"""The corpus is well formed, and its expected answers agree with oracles that are not the engine."""
+
+from __future__ import annotations
+
+import random
+from fractions import Fraction
+
+import pytest
+
+from qe import reference
+from qe.formula.evaluate import holds_at
+from qe.formula.syntax import FALSE, TRUE
+from qe.formula.traverse import free_variables, is_quantifier_free
+from qe.io.text import read
+from qe.options import Budget
+from tests.corpus.catalogue import KEYS, Problem, problems, records
+from tests.differential.generate import at_point
+
+TAGS = {"timing", "regression", "shape", "geometry", "published", "slow"}
+
+# Out of the reach of the reference elimination within the time it is given here; z3 checks what it can of them.
+BEYOND_REFERENCE = frozenset(
+    {
+        "catastrophe-and-sphere",
+        "chebyshev-3",
+        "coverings-nullified-cubic",
+        "cyclic-4",
+        "missed-feasible-point",
+        "roots-over-two-square-roots",
+        "solid-cylinder-misses-ball",
+        "third-root-of-a-reducible-quintic",
+        "three-balls-meet",
+        "variable-elimination-before-coverings",
+    }
+)
+
+
+def test_records_are_well_formed() -> None:
+    seen = set()
+    for file, record in records():
+        name = record["id"]
+        assert set(record) - {"assume"} == KEYS, (file, name)
+        assert name not in seen, name
+        seen.add(name)
+        assert record["citation"] and record["why"] and record["tags"], name
+        assert set(record["tags"]) <= TAGS, name  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("problem", problems(), ids=lambda p: p.id)
+def test_texts_are_readable(problem: Problem) -> None:
+    formula, expected = read(problem.formula), read(problem.expected)
+    assert is_quantifier_free(expected)
+    assert set(free_variables(expected)) <= set(free_variables(formula))
+    if not free_variables(formula):
+        assert expected in (TRUE, FALSE)
+
+
+def points(problem: Problem, count: int) -> list[dict[str, Fraction]]:
+    """Rational points for the free variables: the origin, small integers, fractions."""
+    rng = random.Random(problem.id)
+    names = free_variables(read(problem.formula))
+    values = [
+        *map(Fraction, (0, 0, 1, 1, -1, 2, -2, 3, 5)),
+        Fraction(1, 2),
+        Fraction(-2, 3),
+        Fraction(11, 10),
+        Fraction(7, 4),
+    ]
+    return [{n: Fraction(0) for n in names}, *({n: rng.choice(values) for n in names} for _ in range(count - 1))]
+
+
+@pytest.mark.parametrize("problem", [p for p in problems() if p.id not in BEYOND_REFERENCE], ids=lambda p: p.id)
+def test_expected_answer_holds_at_points_by_the_reference(problem: Problem) -> None:
+    formula, expected = read(problem.formula), read(problem.expected)
+    budget = Budget(3.0)
+    for point in points(problem, 12 if free_variables(formula) else 1):
+        claimed = holds_at(expected, point) if free_variables(expected) else expected == TRUE
+        assert reference.decide(at_point(formula, point), budget=budget) is claimed, point
+
+
+@pytest.mark.parametrize("problem", [p for p in problems() if p.id in BEYOND_REFERENCE], ids=lambda p: p.id)
+def test_expected_answer_holds_at_points_by_z3(problem: Problem) -> None:
+    pytest.importorskip("z3")
+    from experiments.z3_oracle import decide
+
+    formula, expected = read(problem.formula), read(problem.expected)
+    for point in points(problem, 5 if free_variables(formula) else 1):
+        claimed = holds_at(expected, point) if free_variables(expected) else expected == TRUE
+        assert decide(at_point(formula, point), seconds=4) is claimed, point
