@@ -89,7 +89,7 @@ class All:
     def lift(self, at: Assignment) -> dict[str, Value]:
         values = dict(at)
         for child in self.children:
-            values.update(child.lift(at))
+            values = child.lift(values)
         return values
 
 
