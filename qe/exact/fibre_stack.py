@@ -8,9 +8,11 @@ factor over Q, or by a greatest common divisor over the tower), never by toleran
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from fractions import Fraction
 
 from flint import arb, fmpq, fmpz_poly
 
+from qe.errors import InternalError
 from qe.exact.algebraic import RealAlgebraic, irreducible_factors, irreducible_roots
 from qe.exact.balls import EXACT_FROM, FIRST_PRECISION, lower_end, precision, upper_end
 from qe.exact.isolate import simplest_between
@@ -208,3 +210,30 @@ def _signs(shape: fmpz_poly | Fibre | None, sectors: list[fmpq]) -> tuple[int, .
         values = [shape(q) for q in sectors]
         return tuple((v > 0) - (v < 0) for v in values)
     return tuple(shape.value_sign(q) for q in sectors)
+
+
+def root_between(point: Point, f: Poly, lo: Fraction, hi: Fraction) -> fmpq | RealAlgebraic | FibreRoot:
+    """The only root of f over the point that lies strictly between two rational numbers (Lazard evaluation if nullified)."""
+    shape = _specialise(point, f, point.depth)
+    if shape is None:
+        shape = _specialise(point, lazard_evaluation(point, f), point.depth)
+    low, high = fmpq(lo.numerator, lo.denominator), fmpq(hi.numerator, hi.denominator)
+    sections: dict[tuple[object, int], Section] = {}
+    loose: list[Section] = []
+    _collect(point, point.depth, 0, shape, sections, loose)
+    for s in (*sections.values(), *loose):
+        if _inside(s, low, high):
+            return s.value
+    raise InternalError("no root of the factor between the sector samples")
+
+
+def _inside(s: Section, low: fmpq, high: fmpq) -> bool:
+    """Whether the section lies in (low, high), neither end being the root."""
+    while True:
+        with precision(s.bits + 16):
+            x = s.ball()
+            if x > arb(low) and x < arb(high):
+                return True
+            if x < arb(low) or x > arb(high) or isinstance(s.value, fmpq):
+                return False
+        s.bits *= 2

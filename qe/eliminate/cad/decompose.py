@@ -35,18 +35,19 @@ def decompose(
     *,
     budget: Budget,
     projection: Projection = Projection.BROWN_MCCALLUM,
+    separated: frozenset[int] = frozenset(),
 ) -> Decomposition:
     """The cell table of Q_k x_k … Q_n x_n. matrix over the variables ``order`` (free ones first).
 
     Where the projection asked for meets a nullified factor that its theorem does not allow, the work is redone
-    with Lazard projection and Lazard evaluation together. Raises ``BudgetExceeded``.
+    with Lazard projection and Lazard evaluation together. ``separated``: see ``factor_lists``. Raises ``BudgetExceeded``.
     """
     ring = Ring.of(order)
     matrix = convert(matrix, ring)
     try:
-        return _attempt(matrix, order, quantifiers, budget, projection, ring, nullified=False)
+        return _attempt(matrix, order, quantifiers, budget, projection, ring, separated, nullified=False)
     except NotWellOriented:
-        return _attempt(matrix, order, quantifiers, budget, Projection.LAZARD, ring, nullified=True)
+        return _attempt(matrix, order, quantifiers, budget, Projection.LAZARD, ring, separated, nullified=True)
 
 
 def _attempt(
@@ -56,11 +57,12 @@ def _attempt(
     budget: Budget,
     projection: Projection,
     ring: Ring,
+    separated: frozenset[int],
     *,
     nullified: bool,
 ) -> Decomposition:
     strong = strengthened(matrix)
-    levels = factor_lists(polynomials(strong), len(order), projection, budget)
+    levels = factor_lists(polynomials(strong), len(order), projection, budget, separated)
     places = {f: (k, j) for k, level in enumerate(levels) for j, f in enumerate(level)}
     lifter = Lifter(levels, quantifiers, projection, budget)
     root = lifter.run(Point(ring), compile_matrix(strong, places))

@@ -37,8 +37,13 @@ def project(polys: Iterable[Poly], variable: int, operator: Projection) -> Itera
         yield f.resultant(g, variable)
 
 
-def factor_lists(polys: Iterable[Poly], size: int, operator: Projection, budget: Budget) -> Levels:
-    """The irreducible factors of ``polys``, closed under projection down to level 0, one list per level."""
+def factor_lists(
+    polys: Iterable[Poly], size: int, operator: Projection, budget: Budget, separated: frozenset[int] = frozenset()
+) -> Levels:
+    """The irreducible factors of ``polys``, closed under projection down to level 0, one list per level.
+
+    At the levels in ``separated`` all derivatives of the factors with respect to the main variable join.
+    """
     levels: list[dict[Poly, None]] = [{} for _ in range(size)]
 
     def insert(p: Poly) -> None:
@@ -48,7 +53,14 @@ def factor_lists(polys: Iterable[Poly], size: int, operator: Projection, budget:
 
     for p in polys:
         insert(p)
-    for k in range(size - 1, 0, -1):
+    for k in range(size - 1, -1, -1):
+        if k in separated:
+            for f in list(levels[k]):
+                for _ in range(f.degree(k) - 1):
+                    f = f.derivative(k)
+                    insert(f)
+        if k == 0:
+            break
         for p in project(levels[k], k, operator):
             budget.check("project", size - k, size)
             insert(p)
