@@ -1,0 +1,211 @@
+"""Groebner bases over Q of integer polynomials, within limits.
+
+The engine is FLINT's Buchberger algorithm in a degree reverse lexicographic context. Other orders come
+from exponent inflation: giving variable x_i the weight w_i by substituting x_i^(w_i) turns degrevlex
+into the order "weighted degree first", which is a monomial order for every choice of weights. With
+heavy weights on a block it is an elimination order for that block; this is checked on the result.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from enum import Enum
+
+from flint import fmpz_mpoly, fmpz_mpoly_ctx, fmpz_mpoly_vec
+
+from qe.errors import InternalError
+from qe.exact.ring import Poly, Ring
+
+_HEAVY = (1009, 1213, 1471, 1723, 1999, 2293, 2557, 2819, 3089, 3359)
+
+
+class MonomialOrder(Enum):
+    """Degree reverse lexicographic or lexicographic; the first listed variable is the largest."""
+
+    DEGREVLEX = "degrevlex"
+    LEX = "lex"
+
+
+@dataclass(frozen=True, slots=True)
+class Limits:
+    """When to give up: number of basis elements, terms and coefficient bits of one of them.
+
+    A C call cannot be interrupted, so these are the only protection from a runaway computation.
+    """
+
+    elements: int = 120
+    terms: int = 600
+    bits: int = 1500
+
+
+DEFAULT_LIMITS = Limits()
+
+
+class Basis:
+    """The reduced Groebner basis of an ideal of Q[names], with integer primitive elements.
+
+    ``polys``: ascending by leading monomial; () for the zero ideal, (1,) for the unit ideal.
+    ``variables``: the ring's variables in the basis' own order, largest first.
+    """
+
+    __slots__ = ("_context", "_internal", "_weights", "order", "polys", "ring", "variables")
+
+    def __init__(
+        self,
+        ring: Ring,
+        variables: tuple[int, ...],
+        order: MonomialOrder,
+        weights: tuple[int, ...] | None,
+        internal: Sequence[fmpz_mpoly],
+        context: fmpz_mpoly_ctx,
+    ) -> None:
+        self.ring, self.variables, self.order = ring, variables, order
+        self._weights, self._internal, self._context = weights, tuple(internal), context
+        self.polys = tuple(self._outside(g).normal()[1] for g in internal)
+
+    @property
+    def is_unit(self) -> bool:
+        """Whether 1 is in the ideal: the equations have no common complex zero (Hilbert's Nullstellensatz)."""
+        return len(self.polys) == 1 and self.polys[0].is_constant
+
+    def leading_exponents(self) -> list[tuple[int, ...]]:
+        """The exponent vectors (in the order of ``variables``) of the leading monomials."""
+        return [self._exponents(g) for g in self._internal]
+
+    def _exponents(self, g: fmpz_mpoly) -> tuple[int, ...]:
+        raw = tuple(int(k) for k in g.monomial(0))[: len(self.variables)]
+        return raw if self._weights is None else tuple(k // w for k, w in zip(raw, self._weights, strict=True))
+
+    def reduce(self, poly: Poly) -> tuple[int, Poly]:
+        """(s, r) with s /= 0 an integer and s*poly - r in the ideal, r the (scaled) normal form.
+
+        At every common zero of the ideal poly and r/s have the same value.
+        """
+        if not self._internal or not poly:
+            return 1, poly
+        tag = self._context.gens()[len(self.variables)]
+        inside = _inside(poly, self.variables, self._weights, self._context)
+        reduced = (inside + tag).reduction_primitive_part(fmpz_mpoly_vec(self._internal, self._context))
+        position = len(self.variables)
+        scale = 0
+        for exponents, coefficient in reduced.terms():
+            if exponents[position]:
+                scale = int(coefficient)
+        if not scale:
+            raise InternalError("the tag variable vanished in a normal form")
+        return scale, self._outside(reduced - scale * tag)
+
+    def contains(self, poly: Poly) -> bool:
+        """Whether the polynomial is in the ideal (exact)."""
+        return not self.reduce(poly)[1]
+
+    def free_of(self, variables: Iterable[int]) -> tuple[Poly, ...]:
+        """The basis elements without these variables."""
+        gone = set(variables)
+        return tuple(p for p in self.polys if not gone & set(p.variables))
+
+    def is_zero_dimensional(self, variables: Iterable[int]) -> bool:
+        """Whether for each of these variables some leading monomial is a pure power of it.
+
+        If these are all the variables of the basis, then there are finitely many complex zeros.
+        """
+        pure = set()
+        for exponents in self.leading_exponents():
+            support = [i for i, k in enumerate(exponents) if k]
+            if len(support) == 1:
+                pure.add(self.variables[support[0]])
+        return set(variables) <= pure
+
+    def _outside(self, g: fmpz_mpoly) -> Poly:
+        size = self.ring.size
+        weights = self._weights or (1,) * len(self.variables)
+        terms = {}
+        for exponents, coefficient in g.terms():
+            moved = [0] * size
+            for k, i in enumerate(self.variables):
+                moved[i] = int(exponents[k]) // weights[k]
+            terms[tuple(moved)] = int(coefficient)
+        return self.ring.from_terms(terms)
+
+
+def groebner_basis(
+    polys: Iterable[Poly],
+    *,
+    variables: Sequence[int] | None = None,
+    order: MonomialOrder = MonomialOrder.DEGREVLEX,
+    heavy: int = 0,
+    limits: Limits = DEFAULT_LIMITS,
+) -> Basis | None:
+    """The reduced Groebner basis of the ideal generated by ``polys``, or None when a limit is reached.
+
+    ``variables``: indices, largest first (default: those that occur, highest index first). ``heavy``: make the first
+    so many of them an elimination block (degrevlex only); None is returned too when the weights tried do not give one.
+    """
+    given = [p for p in polys if p]
+    if not given:
+        raise InternalError("a Groebner basis needs at least one nonzero polynomial")
+    ring = given[0].ring
+    used = sorted({i for p in given for i in p.variables}, reverse=True)
+    chosen = tuple(used if variables is None else variables)
+    if not set(used) <= set(chosen):
+        raise InternalError("a variable of the ideal is missing from the variable order")
+    weights = _weights(heavy, len(chosen)) if heavy else None
+    names = (*(f"v{k}" for k in range(len(chosen))), "tag")
+    context = fmpz_mpoly_ctx.get(names, order.value)
+    internal = [_inside(p, chosen, weights, context) for p in given]
+    found, complete = fmpz_mpoly_vec(internal, context).buchberger_naive(
+        limits=(limits.elements, limits.terms, limits.bits)
+    )
+    if not complete:
+        return None
+    basis = Basis(ring, chosen, order, weights, _interreduced(list(found), context), context)
+    return basis if not heavy or _is_block(basis, heavy) else None
+
+
+def _weights(heavy: int, size: int) -> tuple[int, ...]:
+    return tuple(_HEAVY[k % len(_HEAVY)] + 2 * (k // len(_HEAVY)) for k in range(heavy)) + (1,) * (size - heavy)
+
+
+def _is_block(basis: Basis, heavy: int) -> bool:
+    """In every element every other monomial of the heavy block weighs strictly less than the leading one.
+
+    Then initial forms agree with those of "block weight first, then the rest", an elimination order.
+    """
+    weights = (basis._weights or ())[:heavy]
+    for g in basis._internal:
+        tops: dict[tuple[int, ...], int] = {}
+        for exponents in g.monoms():
+            block = tuple(int(k) for k in exponents[:heavy])
+            tops[block] = sum(block)
+        lead = tuple(int(k) for k in g.monomial(0)[:heavy])
+        if any(weight >= tops[lead] for block, weight in tops.items() if block != lead):
+            return False
+    return bool(weights)
+
+
+def _inside(
+    poly: Poly, variables: Sequence[int], weights: tuple[int, ...] | None, context: fmpz_mpoly_ctx
+) -> fmpz_mpoly:
+    factors = weights or (1,) * len(variables)
+    return context.from_dict(
+        {(*(e[i] * w for i, w in zip(variables, factors, strict=True)), 0): c for e, c in poly.terms()}
+    )
+
+
+def _interreduced(found: list[fmpz_mpoly], context: fmpz_mpoly_ctx) -> list[fmpz_mpoly]:
+    """The reduced basis: redundant leading monomials dropped, then every element reduced by the others."""
+    elements = [g for g in found if g]
+    if any(g.total_degree() == 0 for g in elements):
+        return [context.constant(1)]
+    leads = [tuple(int(k) for k in g.monomial(0)) for g in elements]
+    kept: list[int] = []
+    for i in sorted(range(len(elements)), key=lambda k: (sum(leads[k]), leads[k])):
+        if not any(all(a <= b for a, b in zip(leads[j], leads[i], strict=True)) for j in kept):
+            kept.append(i)
+    minimal = [elements[i] for i in kept]
+    for position, g in enumerate(minimal):
+        others = [h for k, h in enumerate(minimal) if k != position]
+        if others:
+            minimal[position] = g.reduction_primitive_part(fmpz_mpoly_vec(others, context))
+    return minimal
