@@ -233,4 +233,4 @@ def _flat(axis: Any, title: str, i: int, j: int) -> None:
 
 def _say(axis: Any, text: str) -> None:
     axis.set_axis_off()
-    axis.text2D(0.5, 0.5, text, transform=axis.transAxes, ha="center")
+    axis.text(0.5, 0.5, text, transform=axis.transAxes, ha="center", fontsize=12, color=INK)

@@ -17,8 +17,9 @@ from bezier.curve import Bezier, Smoothness
 from bezier.numbers import NotANumber, parse
 from bezier.path import Path, assemble
 from bezier.problem import PlanMethod, Problem
-from bezier.scalar import Vector, dot, same, sign
-from bezier.workspace import Ball, Condition, HalfSpace, Workspace, WorkspaceKind
+from bezier.scalar import Vector, same, sign
+from bezier.terms import condition_terms, multiple_of, objective_terms, terms_of
+from bezier.workspace import Workspace, WorkspaceKind
 from qe.errors import CertificateRejected, InputError
 from qe.worker import Channel
 
@@ -140,58 +141,13 @@ def _check_optimum(problem: Problem, payload: Mapping[str, Any]) -> None:
     stated = payload["problem"]
     if tuple(stated["variables"]) != quadratic.FREE:
         raise CertificateRejected("optimum.problem.variables", f"expected {', '.join(quadratic.FREE)}")
-    if _terms(stated["minimise"]) != _objective_terms(problem):
+    if terms_of(stated["minimise"]) != objective_terms(problem):
         raise CertificateRejected("optimum.problem.minimise", "not the objective of this problem")
-    allowed = [_condition_terms(item.condition) for item in quadratic.as_conditions_on_q1(problem)]
+    allowed = [condition_terms(item.condition) for item in quadratic.as_conditions_on_q1(problem)]
     for i, constraint in enumerate(stated["constraints"]):
-        terms = _terms(constraint["terms"])
-        if constraint["relation"] != "<=" or not any(_positive_multiple(terms, other) for other in allowed):
+        terms = terms_of(constraint["terms"])
+        if constraint["relation"] != "<=" or all(multiple_of(terms, other) is None for other in allowed):
             raise CertificateRejected(f"optimum.problem.constraints[{i}]", "not a condition of this problem")
-
-
-Terms = dict[tuple[int, ...], Fraction]
-
-
-def _terms(listed: Sequence[Any]) -> Terms:
-    return {tuple(exponents): Fraction(coefficient) for coefficient, exponents in listed}
-
-
-def _clean(terms: Mapping[tuple[int, ...], Any]) -> Terms:
-    return {e: Fraction(c) for e, c in terms.items() if c}
-
-
-def _objective_terms(problem: Problem) -> Terms:
-    q0, r0 = problem.via
-    found: dict[tuple[int, ...], Any] = {(0, 0, 0): dot(q0, q0) + dot(r0, r0)}
-    for i in range(3):
-        found[_power(i, 1)] = -2 * (q0[i] + r0[i])
-        found[_power(i, 2)] = 2
-    return _clean(found)
-
-
-def _condition_terms(condition: Condition) -> Terms:
-    """The polynomial p with p <= 0 exactly on the condition."""
-    if isinstance(condition, Ball):
-        constant = dot(condition.centre, condition.centre) - condition.radius_squared
-        found: dict[tuple[int, ...], Any] = {(0, 0, 0): constant}
-        for i, c in enumerate(condition.centre):
-            found |= {_power(i, 1): -2 * c, _power(i, 2): 1}
-        return _clean(found)
-    if isinstance(condition, HalfSpace):
-        return _clean({(0, 0, 0): -condition.offset, **{_power(i, 1): -n for i, n in enumerate(condition.normal)}})
-    raise InputError(f"unknown condition {condition.name}")
-
-
-def _power(i: int, exponent: int) -> tuple[int, ...]:
-    return tuple(exponent if k == i else 0 for k in range(3))
-
-
-def _positive_multiple(a: Terms, b: Terms) -> bool:
-    if a.keys() != b.keys() or not a:
-        return a == b
-    key = next(iter(a))
-    ratio = a[key] / b[key]
-    return ratio > 0 and all(a[e] == ratio * b[e] for e in a)
 
 
 def _numbers(rows: Sequence[Any], field: Mapping[str, Any] | None, place: str) -> Vector:

@@ -15,10 +15,15 @@ from bezier.outputs import reason
 from bezier.path import Proof, speed_at_joins
 from bezier.plan import Outcome, Plan
 from bezier.scalar import decimal_text, dot, is_zero, rational
+from bezier.terms import named_multipliers
 from bezier.workspace import Ball, Condition, WorkspaceKind, root_text
 
 Row = dict[str, Any]
 PAPER_NAMES = {"start": "P0", "via[0]": "Q0", "via[1]": "R0", "goal": "R2"}
+CONTRADICTION = (
+    "Write each condition as g ≤ 0, with g = ‖·‖² − r² or g = −z as a function of Q1. The sum of these functions with"
+    " the multipliers below is positive everywhere, so the conditions cannot hold together."
+)
 CONDITIONS = {"ball": "‖·‖ ≤ r", "floor": "z ≥ 0"}
 
 
@@ -167,7 +172,18 @@ def infeasibility(plan: Plan) -> Row | None:
     )
     if balls.meet:
         text = "The three balls of radius r about O, 2 Q0 and 2 R0 meet, but not above the table."
-    return {"reason": reason(plan)[0].upper() + reason(plan)[1:], "explanation": text, "ball_rows": rows}
+    return {"reason": reason(plan)[0].upper() + reason(plan)[1:], "explanation": text, "ball_rows": rows} | {
+        "multipliers": multipliers(plan, plan.infeasibility),
+        "multiplier_text": CONTRADICTION,
+    }
+
+
+def multipliers(plan: Plan, optimum: Any) -> list[Row]:
+    """The non-zero multipliers with the conditions they belong to."""
+    return [
+        {"label": _condition_text(label), "value": exact(value), "decimal": decimal_text(value, 8)}
+        for label, value in named_multipliers(plan.problem, optimum)
+    ]
 
 
 def objective_formula() -> Markup:
@@ -202,6 +218,7 @@ def optimum(plan: Plan) -> Row | None:
         "decimal": decimal_text(plan.optimum.value),
         "points": points,
         "active": active,
+        "multipliers": multipliers(plan, plan.optimum),
         "field": field_text(plan),
     }
 
@@ -371,3 +388,8 @@ def timings(seconds: Mapping[str, float]) -> list[Row]:
         {"name": name, "text": f"{s * 1e3:.1f} ms" if s < 1 else f"{s:.2f} s", "percent": round(100 * s / longest, 1)}
         for name, s in seconds.items()
     ]
+
+
+def cells(region: Any) -> list[list[str]]:
+    """The cells of the region, as lines."""
+    return [str(cell).splitlines() for cell in region.cells]
