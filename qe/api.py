@@ -1,0 +1,235 @@
+"""The public functions. Formulas may be given as text, as ``Formula``, or as SymPy (``qe.Exists``/``qe.ForAll``)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from fractions import Fraction
+from typing import Any
+
+from qe import pipeline
+from qe.certify.verdict import Verdict
+from qe.certify.verify import verify as _verify
+from qe.errors import InputError, Unable
+from qe.evidence.answer import Answer, Guarantee, Status
+from qe.evidence.certificate import Certificate
+from qe.evidence.elimination import Assignment
+from qe.exact.ring import Poly
+from qe.formula.build import conj, convert, exists, iff
+from qe.formula.syntax import Constant, Formula
+from qe.formula.traverse import free_variables, is_quantifier_free, polynomials, ring_of
+from qe.options import Budget, Method, Options
+from qe.progress import Event, silent
+from qe.solution.optimum import Optimum
+from qe.solution.region import Region
+
+Progress = Callable[[Event], None]
+AnyFormula = Any
+"""A ``Formula``, text, or a SymPy object."""
+
+
+def read_formula(given: AnyFormula, format: str = "text") -> Formula:
+    """The formula given in any of the accepted shapes; ``InputError`` otherwise."""
+    if isinstance(given, Formula):
+        return given
+    if isinstance(given, Answer):
+        if given.formula is None:
+            raise InputError("an answer without a formula was given")
+        return given.formula
+    if isinstance(given, str):
+        from qe.io import formats
+
+        return formats.read(given, format)
+    from qe.io.sympy import from_sympy
+
+    return from_sympy(given)
+
+
+def _options(method: str | Method, order: Iterable[str] | None, root_atoms: bool, explain: bool, progress: Progress) -> Options:
+    try:
+        chosen = method if isinstance(method, Method) else Method(method)
+    except ValueError:
+        names = ", ".join(m.value for m in Method)
+        raise InputError(f"method: one of {names} expected, {method!r} found") from None
+    return Options(
+        method=chosen,
+        order=None if order is None else tuple(order),
+        root_atoms=root_atoms,
+        explain=explain,
+        progress=progress,
+    )
+
+
+def eliminate(
+    formula: AnyFormula,
+    *,
+    format: str = "text",
+    timeout: float | None = None,
+    memory: int | None = None,
+    method: str | Method = Method.AUTO,
+    order: Iterable[str] | None = None,
+    progress: Progress = silent,
+    root_atoms: bool = False,
+    explain: bool = False,
+) -> Answer:
+    """Quantifier elimination over the reals: an equivalent quantifier-free formula.
+
+    ``timeout`` in seconds and ``memory`` in MB: with ``memory`` the work runs in a worker process that is killed at a
+    limit; with ``timeout`` alone the limit is checked between steps. The answer has status UNABLE, with the
+    reason, when a limit was reached; it is never partial. Raises ``InputError`` for input that cannot be read.
+    """
+    given = read_formula(formula, format)
+    options = _options(method, order, root_atoms, explain, progress)
+    if memory is not None:
+        from qe.worker import run_limited
+
+        return run_limited(lambda: _answer(given, options, timeout), seconds=timeout, megabytes=memory)
+    return _answer(given, options, timeout)
+
+
+def _answer(formula: Formula, options: Options, timeout: float | None) -> Answer:
+    budget = Budget(timeout, listener=options.progress)
+    try:
+        found = pipeline.solve(formula, options, budget)
+    except Unable as error:
+        return Answer(Status.UNABLE, None, reason=str(error), stats={"cells": budget.used_cells})
+    certificate = found.evidence if isinstance(found.evidence, Certificate) else None
+    return Answer(Status.SOLVED, found.formula, found.witness, certificate, Guarantee.DERIVED, stats=found.stats)
+
+
+def decide(formula: AnyFormula, **keywords: Any) -> bool:
+    """The truth of a sentence. Raises ``InputError`` for free variables and ``Unable`` at a limit."""
+    given = read_formula(formula, keywords.pop("format", "text"))
+    free = free_variables(given)
+    if free:
+        raise InputError(f"a sentence expected; free: {', '.join(free)}")
+    answer = eliminate(given, **keywords)
+    if answer.truth is None:
+        raise Unable(answer.reason or "no decision was reached")
+    return answer.truth
+
+
+def find_instance(formula: AnyFormula, **keywords: Any) -> Assignment | None:
+    """Exact values of the free variables that satisfy the formula, or None if there are none."""
+    given = read_formula(formula, keywords.pop("format", "text"))
+    free = free_variables(given)
+    if not free:
+        return {} if decide(given, **keywords) else None
+    answer = eliminate(exists(free, given), **keywords)
+    if answer.truth is None:
+        raise Unable(answer.reason or "no decision was reached")
+    if answer.truth is False:
+        return None
+    if answer.witness is None:
+        raise Unable("the formula is satisfiable, but no witness was found")
+    return {name: answer.witness.get(name, Fraction(0)) for name in free}
+
+
+def equivalent(left: AnyFormula, right: AnyFormula, **keywords: Any) -> bool:
+    """Whether two formulas have the same solutions in all their free variables together."""
+    from qe.exact.ring import Ring
+
+    f, g = read_formula(left), read_formula(right)
+    rings = [r for r in (ring_of(f), ring_of(g)) if r is not None]
+    ring = Ring.of(dict.fromkeys(name for r in rings for name in r.names))
+    f, g = convert(f, ring), convert(g, ring)
+    free = dict.fromkeys((*free_variables(f), *free_variables(g)))
+    from qe.formula.build import forall
+
+    return decide(forall(free, iff(f, g)), **keywords)
+
+
+def region(
+    formula: AnyFormula,
+    order: Iterable[str] | None = None,
+    *,
+    format: str = "text",
+    timeout: float | None = None,
+    progress: Progress = silent,
+) -> Region:
+    """The solution set as a cylindrical description with a certificate; quantifiers are eliminated first."""
+    given = read_formula(formula, format)
+    budget = Budget(timeout, listener=progress)
+    if not is_quantifier_free(given):
+        given = pipeline.solve(given, Options(), budget).formula
+    return Region.of(given, None if order is None else tuple(order), budget=budget)
+
+
+def minimize(
+    objective: AnyFormula, constraints: AnyFormula = "true", *, timeout: float | None = None, progress: Progress = silent
+) -> Optimum:
+    """The exact minimum of a convex quadratic (or linear) polynomial under convex quadratic or linear constraints.
+
+    ``objective``: text, ``Poly``, or a SymPy expression; ``constraints``: a formula or a list of formulas (conjunction).
+    Raises ``Unable`` outside that class.
+    """
+    from qe.solution.optimum import minimize as solve
+
+    poly, scale = _objective(objective)
+    return solve(poly, _constraints(constraints), scale=scale, budget=Budget(timeout, listener=progress))
+
+
+def maximize(
+    objective: AnyFormula, constraints: AnyFormula = "true", *, timeout: float | None = None, progress: Progress = silent
+) -> Optimum:
+    """The exact maximum; see ``minimize``."""
+    from qe.solution.optimum import maximize as solve
+
+    poly, scale = _objective(objective)
+    return solve(poly, _constraints(constraints), scale=scale, budget=Budget(timeout, listener=progress))
+
+
+def _constraints(given: AnyFormula) -> Formula:
+    if isinstance(given, list | tuple):
+        from qe.exact.ring import Ring
+
+        parts = [read_formula(g) for g in given]
+        names = dict.fromkeys(n for p in parts if (r := ring_of(p)) is not None for n in r.names)
+        ring = Ring.of(names)
+        return conj(convert(p, ring) for p in parts)
+    return read_formula(given)
+
+
+def _objective(given: AnyFormula) -> tuple[Poly, Fraction]:
+    """The objective as a polynomial p and a rational s: it is s*p. A slack name makes the sign readable."""
+    if isinstance(given, Poly):
+        return given, Fraction(1)
+    slack = "objective_value"
+    if isinstance(given, str):
+        relation = read_formula(f"{slack} = {given}")
+    else:
+        import sympy
+
+        relation = read_formula(sympy.Eq(sympy.Symbol(slack), given, evaluate=False))
+    if isinstance(relation, Constant) or len(polynomials(relation)) != 1:
+        raise InputError("objective: a polynomial expected")
+    (equation,) = polynomials(relation)
+    i = equation.ring.index[slack]
+    rest, coefficient = equation.coefficients(i)
+    if not coefficient.is_constant or len(equation.coefficients(i)) != 2:
+        raise InputError("objective: a polynomial expected")
+    return rest, Fraction(-1, coefficient.constant_value())
+
+
+def verify(certificate: Certificate) -> Verdict:
+    """Whether separate code accepts the certificate; see ``qe.certify``."""
+    return _verify(certificate)
+
+
+__all__ = [
+    "Answer",
+    "Certificate",
+    "Guarantee",
+    "Optimum",
+    "Region",
+    "Status",
+    "Verdict",
+    "decide",
+    "eliminate",
+    "equivalent",
+    "find_instance",
+    "maximize",
+    "minimize",
+    "read_formula",
+    "region",
+    "verify",
+]

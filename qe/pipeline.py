@@ -1,0 +1,309 @@
+"""The line from a formula to an answer: rename, prepare, choose, eliminate, construct, answer.
+
+Innermost quantifiers go first. A block that substitution cannot finish is handed to decomposition, alone when its
+body is quantifier-free, together with the quantifiers inside it otherwise. This is the only place that catches
+``Unable`` and goes on with another method; every switch is recorded in the statistics.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
+
+from qe.eliminate.cad.decompose import Decomposition, decompose
+from qe.eliminate.vs import eliminate_block, witness
+from qe.errors import Unable
+from qe.evidence.certificate import Certificate
+from qe.evidence.elimination import Elimination
+from qe.exact.algebraic import RealAlgebraic
+from qe.exact.ring import Ring
+from qe.formula.build import conj, convert, disj, exists, forall, neg
+from qe.formula.normal import nnf, prenex, rename_apart
+from qe.formula.syntax import FALSE, TRUE, And, Constant, Exists, ForAll, Formula, Not, Or
+from qe.formula.traverse import atoms, free_variables, is_quantifier_free, polynomials
+from qe.options import Budget, Method, Options
+from qe.plan.choice import Choice, choose
+from qe.plan.order import brown_order
+from qe.prepare import prepare
+from qe.prepare.simplify import simplify
+from qe.solution.construct import construct
+from qe.solution.walk import deciding_point
+
+Values = dict[str, Fraction | RealAlgebraic]
+
+FIRST_SHARE = 0.5
+"""The share of the remaining time that the first method gets while another one could take over."""
+
+SHORTEN_ABOVE = 8
+"""Answers of substitution with more atoms than this are shortened by decomposition of parameter space."""
+
+SHORTEN_VARIABLES = 3
+SHORTEN_SHARE = 0.25
+SHORTEN_SECONDS = 3.0
+
+
+def solve(formula: Formula, options: Options, budget: Budget) -> Elimination:
+    """A quantifier-free formula equivalent to ``formula`` over R, with what is known beside it.
+
+    Raises ``Unable`` (``BudgetExceeded`` at a limit) when no method finished.
+    """
+    run = _Run(options, budget)
+    result, values = run.sentence_or_formula(rename_apart(formula))
+    run.stats["seconds"] = round(time.perf_counter() - run.started, 6)
+    return Elimination(result, values, run.certificate, run.stats)
+
+
+@dataclass(slots=True)
+class _Run:
+    options: Options
+    budget: Budget
+    started: float = field(default_factory=time.perf_counter)
+    stats: dict[str, object] = field(default_factory=dict)
+    certificate: Certificate | None = None
+    whole: Formula | None = None
+
+    def note(self, kind: str, detail: object) -> None:
+        """Add a line to the story that ``stats`` tells."""
+        story = self.stats.setdefault(kind, [])
+        assert isinstance(story, list)
+        story.append(detail)
+
+    # --- the outermost shape -----------------------------------------------------------------
+    def sentence_or_formula(self, formula: Formula) -> tuple[Formula, Values | None]:
+        """The answer; for sentences that begin with a quantifier also a witness or counterexample."""
+        if isinstance(formula, ForAll) and not free_variables(formula):
+            answer, values = self.existential(Exists(formula.variables, nnf(formula.body, negate=True)))
+            return neg(answer), values
+        if isinstance(formula, Exists) and not free_variables(formula):
+            return self.existential(formula)
+        self.whole = formula
+        return self.eliminate(self.prepared(formula)), None
+
+    def existential(self, formula: Exists) -> tuple[Formula, Values | None]:
+        """An existential sentence, with values for its variables if it is true."""
+        self.whole = formula
+        ready = prepare(formula, budget=self.budget)
+        self.note("preparation", [f"{s.kind.value}: {s.detail}" for s in ready.steps])
+        answer, values = self.with_values(ready.formula)
+        if answer != TRUE or values is None:
+            return answer, None
+        try:
+            lifted = ready.lift(values)
+        except Unable as error:
+            self.note("switches", f"no witness: {error}")
+            return answer, None
+        return answer, {name: lifted.get(name, Fraction(0)) for name in formula.variables}
+
+    def with_values(self, formula: Formula) -> tuple[Formula, Values | None]:
+        """A sentence of existential blocks under conjunction and disjunction, with values when true."""
+        match formula:
+            case Constant(value):
+                return formula, {} if value else None
+            case Exists(variables, body) if is_quantifier_free(body):
+                return self.block(variables, body)
+            case And(args):
+                values: Values = {}
+                for arg in args:
+                    truth, found = self.with_values(arg)
+                    if truth == FALSE:
+                        return FALSE, None
+                    values |= found or {}
+                return TRUE, values
+            case Or(args):
+                for arg in args:
+                    truth, found = self.with_values(arg)
+                    if truth == TRUE:
+                        return TRUE, found
+                return FALSE, None
+            case Exists(variables, body):
+                inner = self.eliminate(body, substitution_only=True)
+                if is_quantifier_free(inner):
+                    return self.block(variables, inner)
+                return self.decomposed(exists(variables, inner))
+        return self.eliminate(formula), None
+
+    # --- inner formulas ------------------------------------------------------------------------
+    def prepared(self, formula: Formula) -> Formula:
+        ready = prepare(formula, budget=self.budget)
+        if ready.steps:
+            self.note("preparation", [f"{s.kind.value}: {s.detail}" for s in ready.steps])
+        return ready.formula
+
+    def eliminate(self, formula: Formula, *, substitution_only: bool = False) -> Formula:
+        """All quantifiers removed, innermost first; with ``substitution_only`` those that substitution can remove."""
+        if is_quantifier_free(formula):
+            return formula
+        match formula:
+            case And(args):
+                return simplify(conj(self.eliminate(a, substitution_only=substitution_only) for a in args))
+            case Or(args):
+                return simplify(disj(self.eliminate(a, substitution_only=substitution_only) for a in args))
+            case Not(arg):
+                return neg(self.eliminate(arg, substitution_only=substitution_only))
+            case Exists(variables, body):
+                return self._quantified(variables, body, universal=False, substitution_only=substitution_only)
+            case ForAll(variables, body):
+                return self._quantified(variables, body, universal=True, substitution_only=substitution_only)
+        return formula
+
+    def _quantified(self, variables: Sequence[str], body: Formula, *, universal: bool, substitution_only: bool) -> Formula:
+        inner = self.eliminate(body, substitution_only=True)
+        rebuilt = (forall if universal else exists)(variables, inner)
+        if not is_quantifier_free(inner):
+            return rebuilt if substitution_only else self.decomposed(rebuilt)[0]
+        positive = simplify(nnf(inner, negate=universal))
+        answer: Formula
+        if substitution_only:
+            result = self._substituted(variables, positive, self.budget) if self._allows(Method.VS) else None
+            if result is None or not is_quantifier_free(result[0]):
+                return rebuilt
+            answer = result[0]
+        else:
+            answer = self.block(variables, positive)[0]
+        return simplify(nnf(answer, negate=universal))
+
+    # --- one existential block over a quantifier-free body ----------------------------------------
+    def block(self, variables: Sequence[str], body: Formula) -> tuple[Formula, Values | None]:
+        """``exists variables. body`` by the methods that the planner proposes, in their order."""
+        plan = self._plan(variables, body)
+        self.note("plan", f"{plan.methods[0].value} first for {', '.join(variables)}: {plan.reason}")
+        for position, method in enumerate(plan.methods):
+            last = position == len(plan.methods) - 1
+            share = self.budget if last else self.budget.share(FIRST_SHARE)
+            try:
+                if method is Method.VS:
+                    return self._by_substitution(variables, body, share)
+                return self._decomposed(exists(variables, body), share)
+            except Unable as error:
+                if last:
+                    raise
+                self.budget.check("switch")
+                self.note("switches", f"{method.value}: {error}")
+        raise Unable("no method applies")
+
+    def _plan(self, variables: Sequence[str], body: Formula) -> Choice:
+        asked = self.options.method
+        if asked is Method.VS:
+            return Choice((Method.VS,), "asked for")
+        if asked is Method.CAD:
+            return Choice((Method.CAD,), "asked for")
+        if asked is not Method.AUTO:
+            raise Unable(f"the method {asked.value} is not available for this formula")
+        return choose(variables, body)
+
+    def _allows(self, method: Method) -> bool:
+        return self.options.method in (Method.AUTO, method)
+
+    def _substituted(
+        self, variables: Sequence[str], body: Formula, budget: Budget
+    ) -> tuple[Formula, Values | None] | None:
+        start = time.perf_counter()
+        result = eliminate_block(variables, body, budget=budget, simplify=simplify)
+        self.note("vs", {"variables": list(variables), **result.stats, "seconds": round(time.perf_counter() - start, 6)})
+        if result.remaining:
+            return result.formula, None
+        values: Values | None = None
+        if result.formula == TRUE:
+            for found in result.answers:
+                if simplify(found.guard) == TRUE:
+                    values = witness(found, budget=budget)
+                    break
+        return result.formula, values
+
+    def _by_substitution(self, variables: Sequence[str], body: Formula, budget: Budget) -> tuple[Formula, Values | None]:
+        result = self._substituted(variables, body, budget)
+        assert result is not None
+        formula, values = result
+        if not is_quantifier_free(formula):
+            if not free_variables(exists(variables, body)):
+                return self._decomposed(exists(variables, body), budget)
+            formula = self._finish(formula, budget)
+        return self._shortened(formula), values
+
+    def _finish(self, formula: Formula, budget: Budget) -> Formula:
+        """Decompose the existential parts that substitution left."""
+        match formula:
+            case And(args):
+                return simplify(conj(self._finish(a, budget) for a in args))
+            case Or(args):
+                return simplify(disj(self._finish(a, budget) for a in args))
+            case Exists():
+                return self._decomposed(formula, budget)[0]
+        return formula
+
+    def _shortened(self, formula: Formula) -> Formula:
+        """A shorter equivalent of a long quantifier-free answer, read off a decomposition, if that is quick."""
+        names = free_variables(formula)
+        count = sum(1 for _ in atoms(formula))
+        if count <= SHORTEN_ABOVE or not names or len(names) > SHORTEN_VARIABLES or not self._allows(Method.CAD):
+            return formula
+        left = self.budget.remaining()
+        part = Budget(SHORTEN_SECONDS if left is None else min(SHORTEN_SECONDS, SHORTEN_SHARE * left))
+        try:
+            shorter, _ = self._decomposed(formula, part)
+        except Unable:
+            return formula
+        return shorter if sum(1 for _ in atoms(shorter)) < count else formula
+
+    # --- decomposition -----------------------------------------------------------------------------
+    def decomposed(self, formula: Formula) -> tuple[Formula, Values | None]:
+        """Any formula, as a whole, by cylindrical algebraic decomposition."""
+        if not self._allows(Method.CAD):
+            raise Unable("virtual substitution alone does not eliminate all quantifiers of this formula")
+        return self._decomposed(formula, self.budget)
+
+    def _decomposed(self, formula: Formula, budget: Budget) -> tuple[Formula, Values | None]:
+        start = time.perf_counter()
+        prefix, matrix = prenex(formula)
+        matrix = nnf(matrix)
+        if isinstance(matrix, Constant):
+            return matrix, {} if matrix.value else None
+        free = free_variables(formula)
+        polys = polynomials(matrix)
+        order, quantifiers = self._order(prefix, free, polys)
+
+        def table(separated: frozenset[int] = frozenset()) -> Decomposition:
+            return decompose(
+                matrix, order, quantifiers, budget=budget, projection=self.options.projection, separated=separated
+            )
+
+        first = table()
+        values: Values | None = None
+        if free:
+            answer, proof = construct(first.table, lambda levels: table(levels).table)
+            answer = simplify(convert(answer, Ring.of(free)))
+        else:
+            truth, proof = first.table.root.truth is True, first.table
+            answer = TRUE if truth else FALSE
+            if truth is (quantifiers[0] == "E"):
+                values = deciding_point(proof, truth)
+        self.note(
+            "cad",
+            {
+                "order": list(order),
+                "projection": first.table.projection.value,
+                "factors": first.factors,
+                "cells": first.cells,
+                "stacks": first.stacks,
+                "nullified": first.nullified,
+                "seconds": round(time.perf_counter() - start, 6),
+            },
+        )
+        if self.certificate is None and formula == self.whole:
+            self.certificate = Certificate.cells(proof, answer)
+        return answer, values
+
+    def _order(self, prefix: Sequence[tuple[object, tuple[str, ...]]], free: Sequence[str], polys: Sequence[object]) -> tuple[tuple[str, ...], tuple[str, ...]]:
+        asked = self.options.order or ()
+        order: list[str] = []
+        quantifiers: list[str] = []
+        for kind, names in (("", tuple(free)), *((str(getattr(k, "value", k)), names) for k, names in prefix)):
+            wished = [v for v in asked if v in names]
+            chosen = wished if len(wished) == len(names) else list(brown_order(polys, names))  # type: ignore[arg-type]
+            order += chosen
+            quantifiers += [kind] * len(chosen)
+        return tuple(order), tuple(quantifiers)
+
+
