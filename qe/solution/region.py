@@ -1,0 +1,200 @@
+"""Regions: the solution set of a quantifier-free formula, described cylindrically, with a certificate."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from pathlib import Path
+
+from qe.eliminate.cad.decompose import decompose
+from qe.errors import InputError
+from qe.evidence.cells import Cell, CellTable
+from qe.evidence.certificate import Certificate
+from qe.exact.algebraic import RealAlgebraic
+from qe.exact.ring import Ring
+from qe.exact.sample import Point
+from qe.formula.build import convert
+from qe.formula.evaluate import truth_under
+from qe.formula.normal import nnf
+from qe.formula.syntax import Formula
+from qe.formula.traverse import free_variables
+from qe.options import Budget
+from qe.solution.pieces import Piece, merge
+from qe.solution.walk import coordinates, leaves
+
+Number = Fraction | RealAlgebraic
+Coordinate = int | Fraction | str | RealAlgebraic
+
+
+@dataclass(frozen=True, slots=True)
+class Interval:
+    """Exact bounds of a variable: ``lower``/``upper`` are None when unbounded; ``*_closed``: attained."""
+
+    lower: Number | None
+    upper: Number | None
+    lower_closed: bool
+    upper_closed: bool
+
+    def __iter__(self) -> Iterator[Number | None]:
+        yield self.lower
+        yield self.upper
+
+
+class Region:
+    """The set of real points that satisfy ``formula``; ``table`` proves where it is true."""
+
+    __slots__ = ("_bounds", "_pieces", "formula", "order", "table")
+
+    def __init__(self, formula: Formula, table: CellTable) -> None:
+        self.formula, self.table, self.order = formula, table, table.order
+        self._pieces: list[Piece] | None = None
+        self._bounds: dict[str, Interval] = {}
+
+    @staticmethod
+    def of(formula: Formula, order: tuple[str, ...] | None = None, *, budget: Budget | None = None) -> Region:
+        """Decompose the space of the free variables (or of ``order``, which may name more).
+
+        Raises ``InputError`` when ``order`` misses a free variable.
+        """
+        free = free_variables(formula)
+        chosen = free if order is None else order
+        missing = [v for v in free if v not in chosen]
+        if missing or len(set(chosen)) != len(chosen):
+            raise InputError(f"order: each of {', '.join(free)} once expected, {', '.join(chosen)} found")
+        matrix = nnf(convert(formula, Ring.of(chosen)))
+        done = decompose(matrix, chosen, ("",) * len(chosen), budget=budget or Budget())
+        return Region(matrix, done.table)
+
+    # --- what it is --------------------------------------------------------------------------
+    @property
+    def is_empty(self) -> bool:
+        return not _any_true(self.table.root)
+
+    @property
+    def cells(self) -> list[Piece]:
+        """The cylindrical pieces, merged from the true cells."""
+        if self._pieces is None:
+            self._pieces = merge(self.table)
+        return self._pieces
+
+    @property
+    def dimension(self) -> int:
+        """The dimension of the set, -1 if it is empty."""
+        size = len(self.order)
+        return max((p.dimension + size - p.depth for p in leaves(self.table, _is_true)), default=-1)
+
+    def contains(self, point: Mapping[str, Coordinate]) -> bool:
+        """Exact membership. Coordinates: int, Fraction, decimal or fraction text, RealAlgebraic."""
+        values = []
+        for name in self.order:
+            if name not in point:
+                raise InputError(f"point: a value for {name} expected")
+            values.append(_number(point[name], name))
+        place = Point.of(Ring.of(self.order), values)
+        truth = truth_under(self.formula, place.sign)
+        assert truth is not None
+        return truth
+
+    def sample_points(self) -> list[dict[str, Number]]:
+        """One exact point in every true cell of the decomposition."""
+        return [coordinates(self.table, place) for place in leaves(self.table, _is_true)]
+
+    def bounds(self, variable: str) -> Interval:
+        """The exact infimum and supremum of a variable over the region, and whether they are attained."""
+        if variable not in self.order:
+            raise InputError(f"variable: one of {', '.join(self.order)} expected, {variable} found")
+        if self.is_empty:
+            raise InputError("an empty region has no bounds")
+        if variable not in self._bounds:
+            self._bounds[variable] = self._projected(variable)
+        return self._bounds[variable]
+
+    def _projected(self, variable: str) -> Interval:
+        order = (variable, *(v for v in reversed(self.order) if v != variable))
+        quantifiers = ("", *("E" for _ in order[1:]))
+        table = decompose(self.formula, order, quantifiers, budget=Budget()).table
+        pieces = merge(_shadow(table))
+        first, last = pieces[0].ranges[0], pieces[-1].ranges[0]
+        lower = None if first.lower is None else _value(first.lower.value)
+        upper = None if last.upper is None else _value(last.upper.value)
+        return Interval(lower, upper, first.lower_closed, last.upper_closed)
+
+    def volume(self, rel_error: float = 0.01) -> tuple[Fraction, Fraction]:
+        """Rational numbers lo <= volume <= hi with hi - lo <= rel_error * hi (area in 2-D, length in 1-D).
+
+        Raises ``Unable`` for unbounded regions.
+        """
+        from qe.solution.volume import enclose
+
+        return enclose(self, rel_error)
+
+    def to_formula(self) -> Formula:
+        """The defining quantifier-free formula."""
+        return self.formula
+
+    # --- evidence and files ----------------------------------------------------------------------
+    @property
+    def certificate(self) -> Certificate:
+        """What ``qe.verify`` accepts: the whole cell table."""
+        return Certificate.cells(self.table)
+
+    def to_json(self) -> str:
+        """The certificate's JSON, from which ``from_json`` restores the region."""
+        return self.certificate.to_json()
+
+    @staticmethod
+    def from_json(text: str) -> Region:
+        """The region of a JSON text. Nothing is verified; use ``qe.verify`` on ``certificate`` for that."""
+        from qe.evidence.cells_json import CellEvidence
+
+        payload = Certificate.from_json(text).payload
+        if not isinstance(payload, CellEvidence) or any(payload.table.quantifiers):
+            raise InputError("a region in JSON expected")
+        return Region(payload.table.matrix, payload.table)
+
+    def plot(self, path: str | Path) -> None:
+        """Write a picture (PNG, SVG or PDF by the ending) of a region in one to three variables."""
+        from qe.report.picture import draw
+
+        draw(self, Path(path))
+
+    def __repr__(self) -> str:
+        return f"Region({', '.join(self.order)}: {self.formula})"
+
+
+def _is_true(cell: Cell) -> bool:
+    return cell.stack is None and cell.truth is True
+
+
+def _any_true(cell: Cell) -> bool:
+    if cell.stack is None:
+        return cell.truth is True
+    return any(_any_true(c) for c in cell.stack.cells)
+
+
+def _value(number: RealAlgebraic | None) -> Number | None:
+    if number is None:
+        return None
+    return number.as_fraction() if number.is_rational else number
+
+
+def _shadow(table: CellTable) -> CellTable:
+    """The table cut off above its first level: truth values of the projection to the first variable."""
+    root = table.root
+    if root.stack is None:
+        return CellTable(table.order[:1], ("",), table.matrix, table.projection, table.factors[:1], root)
+    cells = tuple(Cell(c.signs, c.truth) for c in root.stack.cells)
+    from dataclasses import replace
+
+    cut = replace(root, truth=None, stack=replace(root.stack, cells=cells))
+    return CellTable(table.order[:1], ("",), table.matrix, table.projection, table.factors[:1], cut)
+
+
+def _number(value: Coordinate, name: str) -> Fraction | RealAlgebraic:
+    if isinstance(value, RealAlgebraic):
+        return value
+    try:
+        return Fraction(value)
+    except (ValueError, ZeroDivisionError, TypeError):
+        raise InputError(f"point: an exact number for {name} expected, {value!r} found") from None
