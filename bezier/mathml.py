@@ -101,9 +101,8 @@ def vector(values: Iterable[Any]) -> str:
 
 def polynomial(poly: Poly) -> str:
     """A polynomial, highest degree first."""
-    terms = sorted(poly.terms(), key=lambda term: (sum(term[0]), term[0]), reverse=True)
     pieces = []
-    for position, (exponents, coefficient) in enumerate(terms):
+    for position, (exponents, coefficient) in enumerate(_ordered(poly)):
         powers = [
             name(n) if k == 1 else f"<msup>{name(n)}<mn>{k}</mn></msup>"
             for n, k in zip(poly.ring.names, exponents, strict=True)
@@ -115,12 +114,18 @@ def polynomial(poly: Poly) -> str:
     return "<mrow>" + "".join(pieces or ["<mn>0</mn>"]) + "</mrow>"
 
 
+def _ordered(poly: Poly) -> list[tuple[tuple[int, ...], int]]:
+    return sorted(poly.terms(), key=lambda term: (sum(term[0]), term[0]), reverse=True)
+
+
 def formula(node: Formula) -> str:
     """A quantifier-free formula on one line."""
     match node:
         case Constant(value):
             return f"<mtext>{'true' if value else 'false'}</mtext>"
         case Atom(poly, relation):
+            if _ordered(poly)[0][1] < 0:
+                poly, relation = -poly, relation.flipped
             return f"<mrow>{polynomial(poly)}<mo>{_RELATIONS[relation]}</mo><mn>0</mn></mrow>"
         case And(args):
             return "<mo>∧</mo>".join(_bracketed(arg) for arg in args)
