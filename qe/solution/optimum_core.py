@@ -22,12 +22,14 @@ from qe.evidence.multipliers import (
     derived_equations,
 )
 from qe.exact.field import NumberField
-from qe.exact.quadratic_form import Number, Quadratic, solve_linear
-from qe.exact.system import Flat, Point
+from qe.exact.quadratic_form import Number, Quadratic, combine, solve_linear
+from qe.exact.system import MAX_DEGREE, Flat, HighDegree, Point
 from qe.options import Budget
 from qe.solution.optimum_kkt import Kkt, kkt_point, sign
+from qe.solution.optimum_proposal import interior_point
 
 _ZERO, _ONE = Fraction(0), Fraction(1)
+_SIMPLE_DEGREE = 4  # of the least violation: beyond, rounded multipliers are tried before an exact answer
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,7 +108,13 @@ def _without_multipliers(
     size = len(state.flat.basis)
     extended, scales = _violation_forms(list(forms.values()), size)
     height = Quadratic(((_ZERO,) * (size + 1),) * (size + 1), (_ZERO,) * size + (_ONE,), _ZERO)
-    found = kkt_point(height, extended, budget=budget)
+    found = _least(height, extended, budget, _SIMPLE_DEGREE)
+    if found is None:
+        contradiction = _rounded_contradiction(forms, height, extended, scales)
+        if contradiction is not None:
+            point, rational = contradiction
+            return _close(task, state, NumberField.rationals(), state.flat.lift(point), rational, infeasible=True)
+        found = _least(height, extended, budget, MAX_DEGREE)
     if found is None:
         raise Unable("the largest violation of the constraints could not be minimised exactly")
     violation, keys = sign(found.point[-1]), list(forms)
@@ -117,6 +125,36 @@ def _without_multipliers(
     if violation == 0:
         return _face(task, state, found, point, weights)
     return _recede(task, state, found.field, point, budget)
+
+
+def _least(height: Quadratic, extended: Sequence[Quadratic], budget: Budget, max_degree: int) -> Kkt | None:
+    try:
+        return kkt_point(height, extended, budget=budget, max_degree=max_degree)
+    except HighDegree:
+        return None
+
+
+def _rounded_contradiction(
+    forms: dict[int, Quadratic], height: Quadratic, extended: Sequence[Quadratic], scales: Sequence[Fraction]
+) -> tuple[Point, dict[int, Number]] | None:
+    """Rational weights w >= 0 with sum w_i p_i > 0 everywhere, and the point where that sum is least.
+
+    Being infeasible with room to spare is an open condition: the multipliers of the least violation may be rounded.
+    """
+    proposal = interior_point(height, extended, [0.0] * height.size)
+    if not proposal.residual < 1e-3 or not proposal.point[-1] > 0:
+        return None
+    keys = list(forms)
+    for denominator in (10, 10**3, 10**6):
+        rounded = [Fraction(m).limit_denominator(denominator) for m in proposal.multipliers[: len(keys)]]
+        weights: list[Fraction] = [m * s for m, s in zip(rounded, scales, strict=True)]
+        if not any(weights):
+            continue
+        total = combine(weights, [forms[i] for i in keys])
+        solution = solve_linear(total.hessian, [-b for b in total.gradient], total.size)
+        if solution is not None and total.value(solution.particular) > 0:
+            return solution.particular, {i: w for i, w in zip(keys, weights, strict=True) if w}
+    return None
 
 
 def violation_form(form: Quadratic) -> tuple[Quadratic, Fraction]:

@@ -14,13 +14,14 @@ from itertools import combinations
 
 from qe.exact.field import FieldElement, NumberField
 from qe.exact.quadratic_form import Number, Quadratic, independent_rows, solve_linear
-from qe.exact.system import Point, critical_point
+from qe.exact.system import MAX_DEGREE, Point, critical_point
 from qe.options import Budget
 from qe.solution.optimum_numeric import caratheodory, free_columns
 from qe.solution.optimum_proposal import Proposal, interior_point, natural_scale, to_float
 
 _CONVERGED = 1e-5
 _NEAR = 1e-4
+_ALMOST = 1e-9
 _PIN_DENOMINATORS = (1, 16, 10**3, 10**6, 10**9)
 _MAX_SUBSETS = 300
 
@@ -35,20 +36,28 @@ class Kkt:
     unique: bool | None
 
 
-def kkt_point(objective: Quadratic, forms: Sequence[Quadratic], *, budget: Budget) -> Kkt | None:
+def kkt_point(
+    objective: Quadratic, forms: Sequence[Quadratic], *, budget: Budget, max_degree: int = MAX_DEGREE
+) -> Kkt | None:
     """A proved minimum of a convex quadratic polynomial subject to convex quadratic polynomials <= 0.
 
     None when no proposal could be proved: the problem may be infeasible, unbounded, or without multipliers.
-    When there are many minima, one with simple free coordinates is returned.
+    When there are many minima, one with simple free coordinates is returned. Raises ``HighDegree`` when the minimum
+    is there numerically but its number field exceeds ``max_degree``.
     """
     proposal = interior_point(objective, forms, [0.0] * objective.size)
     budget.check("optimum: proposal")
     if not proposal.residual < _CONVERGED:
         return None
+    scaled = [to_float(g, natural_scale(g)) for g in forms]
+
+    def feasible(point: Sequence[float]) -> bool:
+        return all(g.value_and_slope(point)[0] < _ALMOST * (1 + max(map(abs, point))) for g in scaled)
+
     for support in _supports(objective, forms, proposal):
         for equations in _pinned(objective, forms, proposal, support):
             budget.check("optimum: exact system")
-            candidate = critical_point(objective, equations, proposal.point)
+            candidate = critical_point(objective, equations, proposal.point, accept=feasible, max_degree=max_degree)
             if candidate is not None:
                 proved = _prove(objective, forms, support, *candidate)
                 if proved is not None:

@@ -110,7 +110,7 @@ def _iterate(
     dual = [1.0] * len(g)
     best, stalled = _state(f, g, x, slack, dual)[-1], 0
     kept = (x, dual, slack, best)
-    for _ in range(120 if damped else 50):
+    for _ in range(150 if damped else 60):
         step = _newton_step(f, g, x, slack, dual, damped)
         if step is None:
             break
@@ -120,7 +120,7 @@ def _iterate(
             best, stalled, kept = residual, 0, (x, dual, slack, residual)
         else:
             stalled += 1
-        if best < 1e-14 or stalled > (20 if damped else 6):
+        if best < 1e-14 or stalled > 25:
             break
     return kept
 
@@ -201,10 +201,11 @@ def _newton_step(
     if chosen is None:
         return None
     dx, ds, du = chosen
-    t = min(_longest(slack, ds, 0.99), _longest(dual, du, 0.99))
+    near = 0.7 if damped else min(0.99, max(0.8, 1.0 - mean))
+    t = min(_longest(slack, ds, near), _longest(dual, du, near))
     here = _merit(f, g, (x, slack, dual), sigma * mean)
     while True:
-        moved_to = (_moved(x, dx, t), _moved(slack, ds, t), _moved(dual, du, t))
+        moved_to = (_moved(x, dx, t), _positive(_moved(slack, ds, t)), _positive(_moved(dual, du, t)))
         if not damped or t < 1e-6 or _merit(f, g, moved_to, sigma * mean) <= (1 - 0.01 * t) * here:
             return moved_to
         t *= 0.6
@@ -212,6 +213,10 @@ def _newton_step(
 
 def _moved(values: Row, steps: Row, t: float) -> Row:
     return [v + t * d for v, d in zip(values, steps, strict=True)]
+
+
+def _positive(values: Row) -> Row:
+    return [max(v, 1e-40) for v in values]
 
 
 def _merit(f: FloatQuadratic, g: Sequence[FloatQuadratic], at: tuple[Row, Row, Row], centre: float) -> float:
