@@ -6,16 +6,17 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 
 from qe.eliminate.vs.candidates import in_order
 from qe.eliminate.vs.known import Signs
+from qe.eliminate.vs.line import solution
 from qe.eliminate.vs.openness import is_open, thinned
 from qe.eliminate.vs.plan import Plan, choose, occurring, split_equation
-from qe.eliminate.vs.points import TestPoint
+from qe.eliminate.vs.points import SymbolicPoint, Value
 from qe.eliminate.vs.result import All, Any, BlockResult, Choice, Chosen, Done, Open, Tree
 from qe.eliminate.vs.substitute import Substitution
 from qe.exact.ring import Ring
 from qe.formula.build import conj, disj
 from qe.formula.normal import nnf
-from qe.formula.syntax import FALSE, TRUE, And, Atom, Exists, Formula, Or
-from qe.formula.traverse import ring_of
+from qe.formula.syntax import FALSE, TRUE, And, Atom, Exists, Formula, Or, RootAtom
+from qe.formula.traverse import atoms, ring_of
 from qe.options import Budget
 
 Simplifier = Callable[[Formula], Formula]
@@ -103,7 +104,10 @@ class _Run:
 
     def _step(self, formula: Formula, part: Formula, block: frozenset[int]) -> Solved:
         """Eliminate one variable of ``part`` (``formula`` is ``part`` with its context), then the others."""
-        inside = occurring(part) & block
+        everything = occurring(part)
+        inside = everything & block
+        if len(everything) == 1 and not any(isinstance(a, RootAtom) for a in atoms(part)):
+            return self._decide(part, self.ring.names[next(iter(inside))])
         strict = is_open(part, inside)
         plan = choose(formula, inside, strict=strict)
         if plan is not None:
@@ -114,11 +118,19 @@ class _Run:
         left = Exists(tuple(self.ring.names[i] for i in sorted(inside)), part)
         return left, Open(left)
 
+    def _decide(self, formula: Formula, variable: str) -> Solved:
+        """A formula in one variable alone, of any degree."""
+        self.budget.check("real roots")
+        found = solution(formula, variable, {})
+        if found is None:
+            return FALSE, Done(FALSE)
+        return TRUE, Chosen(Choice(variable, Value(found), 1, formula), Done(TRUE))
+
     def _alternatives(self, plan: Plan, before: Formula, block: frozenset[int], strict: bool) -> Iterator[Solved]:
         """The subproblems of a plan, solved one after the other, cheap test points first."""
         rest = block - {plan.x}
 
-        def attempt(point: TestPoint, guard: Formula, formula: Formula, settled: frozenset[Atom]) -> Solved:
+        def attempt(point: SymbolicPoint, guard: Formula, formula: Formula, settled: frozenset[Atom]) -> Solved:
             known = Signs.of(_free_of(formula, plan.x)).given(guard)
             result = conj((guard, Substitution(plan.x, point, known, settled)(formula)))
             choice = Choice(self.ring.names[plan.x], point, plan.exponent, before)

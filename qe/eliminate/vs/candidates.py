@@ -115,10 +115,10 @@ def points_cost(candidates: Iterable[Candidate]) -> float:
 def in_order(candidates: Iterable[Candidate]) -> Iterator[tuple[Candidate, frozenset[Atom]]]:
     """The distinct candidates, atom by atom, cheap atoms first; each with the atoms *settled* for it.
 
-    THEOREM. Let all candidates of the strict inequality p < 0 have been tried already, and let p < 0 be a conjunct
-    of the formula F of a candidate e + epsilon. Then only the case p(e) /= 0 is left to try. Proof: if F is true
-    just right of e and p(e) = 0, then p < 0 turns true at e, so e + epsilon was a candidate of p < 0, with a formula
-    that F implies.
+    THEOREM. Let all candidates of the strict atom p < 0 (or p > 0, p /= 0) have been tried already, and let it be a
+    conjunct of the formula F of a candidate e + epsilon. Then only the case p(e) /= 0 is left to try. Proof: if F
+    is true just right of e and p(e) = 0, then the atom turns true at e, so e + epsilon was one of its candidates,
+    with a formula that F implies.
     """
     by_source: dict[Atom, list[Candidate]] = {}
     for candidate in dict.fromkeys(candidates):
@@ -128,7 +128,7 @@ def in_order(candidates: Iterable[Candidate]) -> Iterator[tuple[Candidate, froze
         for candidate in group:
             args = candidate.formula.args if isinstance(candidate.formula, And) else ()
             yield candidate, frozenset(a for a in args if a in tried) if candidate.point.epsilon else frozenset()
-        if source.relation.is_strict and source.relation is not NE:
+        if source.relation.is_strict:
             tried.add(source)
 
 

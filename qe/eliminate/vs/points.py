@@ -7,7 +7,9 @@ All coefficients are free of the eliminated variable. A point makes sense where 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from fractions import Fraction
 
+from qe.exact.algebraic import RealAlgebraic
 from qe.exact.ring import Poly, format_poly
 
 
@@ -65,7 +67,18 @@ class QuadraticRoot:
         return f"({top})/{_bracket(bottom)}" + _suffix(self.epsilon)
 
 
-TestPoint = Infinity | LinearRoot | QuadraticRoot
+@dataclass(frozen=True, slots=True)
+class Value:
+    """A number, found by sampling where no other variable occurred."""
+
+    number: Fraction | RealAlgebraic
+
+    def __str__(self) -> str:
+        return str(self.number)
+
+
+SymbolicPoint = Infinity | LinearRoot | QuadraticRoot
+TestPoint = SymbolicPoint | Value
 
 
 def _suffix(epsilon: int) -> str:

@@ -8,7 +8,7 @@ minus every sufficiently small positive number, or at every sufficiently large (
 from __future__ import annotations
 
 from qe.eliminate.vs.known import Signs
-from qe.eliminate.vs.points import Infinity, LinearRoot, QuadraticRoot, TestPoint
+from qe.eliminate.vs.points import Infinity, LinearRoot, QuadraticRoot, SymbolicPoint
 from qe.eliminate.vs.tables import root_condition
 from qe.exact.ring import Poly
 from qe.formula.build import conj, disj
@@ -22,12 +22,12 @@ _UPWARD = (Relation.GT, Relation.GE)
 class Substitution:
     """``x`` (an index into the ring) replaced by ``point``, in places where ``signs`` hold. Caches per atom.
 
-    The strict inequalities in ``settled`` are known not to vanish at the root that a point is beside.
+    The strict atoms in ``settled`` are known not to vanish at the root that a point is beside.
     """
 
     __slots__ = ("_done", "point", "settled", "signs", "x")
 
-    def __init__(self, x: int, point: TestPoint, signs: Signs, settled: frozenset[Atom] = frozenset()) -> None:
+    def __init__(self, x: int, point: SymbolicPoint, signs: Signs, settled: frozenset[Atom] = frozenset()) -> None:
         self.x, self.point, self.signs, self.settled = x, point, signs, settled
         self._done: dict[Atom, Formula] = {}
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from itertools import pairwise
 
 from qe.exact.algebraic import RealAlgebraic, real_roots
 from qe.exact.ring import Poly, Ring
@@ -30,7 +31,7 @@ def samples(polys: list[Poly], x: int) -> list[RealAlgebraic]:
     if not roots:
         return [RealAlgebraic.rational(0)]
     out = [roots[0] - 1]
-    for a, b in zip(roots, roots[1:], strict=False):
+    for a, b in pairwise(roots):
         out += [a, RealAlgebraic.rational(between(a, b))]
     return [*out, roots[-1], roots[-1] + 1]
 
