@@ -90,12 +90,13 @@ def _root_atom(formula: RootAtom, lists: FactorLists, step: str) -> Test:
     lower = [(at, index) for at, index, _ in product.powers if at < level]
     if formula.poly.level != level:
         raise CertificateRejected(step, "a root of a polynomial whose main variable is another one")
+    most = _most_roots([lists.lists[level][index] for index in sorted(here)], level, lists)
 
     def run(situation: Situation) -> Truth:
         if any(situation.signs[at][index] == 0 for at, index in lower if at < len(situation.signs)):
             return False
         if level >= len(situation.positions):
-            return None
+            return False if abs(formula.k) > most(situation) else None
         if any(situation.signs[level][index] is None for index in here):
             return None
         sections, position = situation.sections[level], situation.positions[level]
@@ -106,6 +107,24 @@ def _root_atom(formula: RootAtom, lists: FactorLists, step: str) -> Test:
         if not 0 <= k < len(roots):
             return False
         return formula.relation.holds((position > roots[k]) - (position < roots[k]))
+
+    return run
+
+
+def _most_roots(factors: list[Poly], level: int, lists: FactorLists) -> Callable[[Situation], int]:
+    """An upper bound on the number of distinct real roots, from lower signs: the degrees, but for degree 2 none
+    where the discriminant is negative and one where it is zero and the leading coefficient is not."""
+    known = [(f.degree(level), lists.decompose(f.leading(level))) for f in factors]
+    discriminants = [lists.decompose(f.discriminant(level)) if f.degree(level) == 2 else None for f in factors]
+
+    def run(situation: Situation) -> int:
+        total = 0
+        for (degree, lead), discriminant in zip(known, discriminants, strict=True):
+            s = sign(discriminant, situation.signs) if discriminant else None
+            if s == 0 and lead and sign(lead, situation.signs):
+                degree = 1
+            total += 0 if s == -1 else degree
+        return total
 
     return run
 

@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
+from itertools import pairwise
 
 from qe.certify.closure import Closure, nullification_witnesses
 from qe.certify.products import FactorLists, Signs, sign
@@ -197,13 +198,13 @@ class StackChecker:
 
 def _check_shape(stack: Stack, factors: int, last: bool, fail: Fail) -> None:
     used = stack.used
-    if any(a >= b for a, b in zip(used, used[1:], strict=False)) or (used and not 0 <= used[0] <= used[-1] < factors):
+    if any(a >= b for a, b in pairwise(used)) or (used and not 0 <= used[0] <= used[-1] < factors):
         raise fail("used", "not an ascending list of factors of this level")
     if not last and len(used) != factors:
         raise fail("used", "a factor of this level is missing")
     if not stack.sectors:
         raise fail("sectors", "no sector")
-    for j, (a, b) in enumerate(zip(stack.sectors, stack.sectors[1:], strict=False)):
+    for j, (a, b) in enumerate(pairwise(stack.sectors)):
         if a >= b:
             raise fail(f"sectors[{j + 1}]", "the sector samples do not ascend")
     if len(stack.sections) != len(stack.sectors) - 1:
@@ -212,7 +213,7 @@ def _check_shape(stack: Stack, factors: int, last: bool, fail: Fail) -> None:
         raise fail("cells", f"{len(stack.cells)} cells where {2 * len(stack.sections) + 1} are needed")
     known = set(used)
     for j, section in enumerate(stack.sections):
-        if not section or any(a >= b for a, b in zip(section, section[1:], strict=False)) or set(section) - known:
+        if not section or any(a >= b for a, b in pairwise(section)) or set(section) - known:
             raise fail(f"sections[{j}]", "not a nonempty ascending list of used factors")
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class Verdict:
-    """``accepted``; otherwise ``step`` names the entry that fails (a path into the JSON form) and ``reason`` says why."""
+    """``accepted``; otherwise ``step`` names the entry that fails, a path into the JSON form, and ``reason`` why."""
 
     accepted: bool
     step: str = ""

@@ -79,7 +79,7 @@ class RationalFibre:
 
 
 class AlgebraicFibre:
-    """A polynomial in variable ``index`` over a point: ``poly`` is trimmed, its leading coefficient is nonzero there."""
+    """A polynomial in variable ``index`` over a point; ``poly`` is trimmed: its leading coefficient is not 0 there."""
 
     __slots__ = ("_balls", "degree", "index", "point", "poly")
 

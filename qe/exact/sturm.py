@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from fractions import Fraction
 from functools import lru_cache
+from itertools import pairwise
 
 from flint import acb_poly, arb, fmpq, fmpz, fmpz_mat, fmpz_poly
 
@@ -31,7 +32,7 @@ def sign_of(value: object) -> int:
 def variations(signs: Sequence[int]) -> int:
     """The number of sign changes in the sequence, zeros left out."""
     present = [s for s in signs if s]
-    return sum(a != b for a, b in zip(present, present[1:], strict=False))
+    return sum(a != b for a, b in pairwise(present))
 
 
 def sturm_sequence(p: fmpz_poly) -> list[fmpz_poly]:

@@ -135,10 +135,10 @@ def at(p: Poly, i: int, value: fmpq) -> Poly:
 
 def nested(p: Poly, indices: tuple[int, ...]) -> Any:
     """p as fmpz_poly in the lowest of the variables, then lists of coefficients for each higher one; cached."""
-    key = ("nested", indices)
+    key = f"nested {indices}"
     found = p.__dict__.get(key)
     if found is None:
-        found = p.__dict__[key] = _nest(p, indices)  # type: ignore[index]
+        found = p.__dict__[key] = _nest(p, indices)
     return found
 
 

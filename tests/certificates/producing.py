@@ -1,0 +1,23 @@
+"""Certificates to test with, made by the engine's own decomposition."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+from qe.eliminate.cad.decompose import decompose
+from qe.evidence.certificate import Certificate
+from qe.io.text import read
+from qe.options import Budget, Projection
+
+BOTH = (Projection.BROWN_MCCALLUM, Projection.LAZARD)
+
+
+@lru_cache(maxsize=64)
+def cell_table(
+    text: str, order: str, quantifiers: str = "", projection: Projection = Projection.BROWN_MCCALLUM
+) -> Certificate:
+    """The certificate of a quantifier-free matrix; ``quantifiers`` has one of ``.EA`` per variable in ``order``."""
+    names = tuple(order.split())
+    prefix = tuple(q.replace(".", "") for q in (quantifiers or "." * len(names)))
+    found = decompose(read(text), names, prefix, budget=Budget(60), projection=projection)
+    return Certificate.cells(found.table)

@@ -1,0 +1,153 @@
+"""Altered certificates are rejected with the entry named, even when their digest is computed anew."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+import pytest
+
+from qe.certify.verify import verify_json
+from qe.errors import InputError
+from qe.evidence.certificate import Certificate
+from tests.certificates.mutation import Path, leaves, lists, other_numbers, other_signs, replaced, without
+from tests.certificates.producing import cell_table
+
+LENS = ("x^2 + y^2 <= 4 and (x - 1)^2 + y^2 <= 4", "x y")
+SOLID = ("x^2 + y^2 + z^2 <= 4", "x y z")
+CUSP = ("x^2 - y^3 = 0 and y < 2", "x y")
+QUADRATIC = ("x^2 + b*x + c = 0", "b c x", "..E")
+SENTENCE = ("x^2 + y^2 < 4 -> y < 2", "x y", "AA")
+CASES = {"lens": LENS, "solid": SOLID, "cusp": CUSP, "quadratic": QUADRATIC, "sentence": SENTENCE}
+
+
+def _whole(case: tuple[str, ...]) -> Any:
+    return json.loads(cell_table(*case).to_json())
+
+
+def _alternatives(path: Path, value: Any) -> list[Any]:
+    """Values that make the entry wrong (not merely different)."""
+    key = path[-1] if isinstance(path[-1], str) else path[-2]
+    if key == "signs":
+        return list(other_signs(value))
+    if key == "sectors":
+        return list(other_numbers(value))
+    if isinstance(value, bool):
+        return [not value]
+    if isinstance(value, int):
+        return [value + 1, value - 1, 10**9]
+    if value is None:
+        return [True, False, "null", 0]
+    return [f"{value}1", value[:-1], value[1:], ""]
+
+
+def _harmless(whole: Any, path: Path, value: Any) -> bool:
+    """Whether the altered certificate is still a true one.
+
+    The outermost sector samples may be anything beyond the outermost sections; the name of the operator may
+    change where the lists are closed under both; a cell that its siblings make superfluous may have any truth
+    value that its own signs give it.
+    """
+    if path[-2:-1] == ("sectors",):
+        node = whole
+        for key in path[:-1]:
+            node = node[key]
+        first, last = path[-1] == 0, path[-1] == len(node) - 1
+        return (first and str(value).startswith("-")) or (last and not str(value).startswith("-"))
+    if path[-1] == "truth":
+        old: Any = whole
+        for key in path:
+            old = old[key]
+        return old is None and isinstance(value, bool) and whole["payload"]["quantifiers"][-1] != ""
+    if path[-1] == "answer":
+        return value is whole["payload"]["root"]["truth"]
+    return path[-1] == "projection"
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_every_altered_entry_is_rejected(name: str) -> None:
+    whole = _whole(CASES[name])
+    tried = 0
+    for path, value in leaves(whole):
+        if path[0] == "digest":
+            continue
+        for other in _alternatives(path, value):
+            if other == value and type(other) is type(value):
+                continue
+            verdict = verify_json(replaced(whole, path, other))
+            if _harmless(whole, path, other):
+                continue
+            assert not verdict.accepted, (path, value, other)
+            assert verdict.step, (path, value, other)
+            assert verdict.step != "digest", (path, value, other)
+            tried += 1
+    assert tried > 50
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_every_dropped_entry_is_rejected(name: str) -> None:
+    whole = _whole(CASES[name])
+    for path, content in lists(whole):
+        for index in range(len(content)):
+            verdict = verify_json(without(whole, path, index))
+            assert not verdict.accepted, (path, index)
+            assert verdict.step not in ("", "digest")
+
+
+def test_with_the_old_digest_nothing_passes() -> None:
+    whole = _whole(LENS)
+    for path, value in leaves(whole):
+        for other in _alternatives(path, value):
+            if other != value:
+                assert not verify_json(replaced(whole, path, other, signed=False)).accepted, (path, other)
+    digest = replaced(whole, ("digest",), "0" * 64, signed=False)
+    assert verify_json(digest).step == "digest"
+
+
+def test_a_harmless_change_is_caught_by_the_digest_alone() -> None:
+    whole = _whole(("x^2 <= 2", "x"))
+    path: Path = ("payload", "root", "stack", "sectors", 0)
+    assert verify_json(replaced(whole, path, "-1000")).accepted
+    assert verify_json(replaced(whole, path, "-1000", signed=False)).step == "digest"
+
+
+ENTRIES = {
+    ("payload", "matrix", 1, 1): "x^2 + y^2 - 5",
+    ("payload", "matrix", 1, 2): "<",
+    ("payload", "factors", 0, 0): "x - 1",
+    ("payload", "factors", 1, 0): "x^2 + y^2 - 5",
+    ("payload", "quantifiers", 0): "E",
+    ("payload", "order", 0): "t",
+    ("payload", "projection"): "collins",
+    ("payload", "answer"): ["atom", "x", ">"],
+}
+
+
+@pytest.mark.parametrize("path", ENTRIES, ids=str)
+def test_well_formed_but_wrong_entries(path: Path) -> None:
+    verdict = verify_json(replaced(_whole(LENS), path, ENTRIES[path]))
+    assert not verdict.accepted
+    assert verdict.step.startswith("payload")
+
+
+def test_the_entry_is_named() -> None:
+    whole = _whole(LENS)
+    path: Path = ("payload", "root", "stack", "cells", 2, "signs")
+    verdict = verify_json(replaced(whole, path, "?"))
+    assert verdict.step == "payload.root.stack.cells[2].signs"
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["", "{", "[]", "3", '{"format": "other"}', '{"a": 1, "a": 2}', '{"x": 1.5}', '{"x": NaN}', "[" * 100_000],
+)
+def test_text_that_is_no_certificate(text: str) -> None:
+    with pytest.raises(InputError):
+        Certificate.from_json(text)
+    assert not verify_json(text).accepted
+
+
+def test_another_version_is_refused() -> None:
+    text = replaced(_whole(LENS), ("version",), 2)
+    with pytest.raises(InputError, match="version 2"):
+        Certificate.from_json(text)
