@@ -80,8 +80,11 @@ class Basis:
     def reduce(self, poly: Poly) -> tuple[int, Poly]:
         """(s, r) with s /= 0 an integer and s*poly - r in the ideal, r the (scaled) normal form.
 
-        At every common zero of the ideal poly and r/s have the same value.
+        At every common zero of the ideal poly and r/s have the same value. The polynomial's variables must
+        be among those of the basis.
         """
+        if not set(poly.variables) <= set(self.variables):
+            raise InternalError("a polynomial to be reduced has a variable that the basis does not know")
         if not self._internal or not poly:
             return 1, poly
         tag = self._context.gens()[len(self.variables)]

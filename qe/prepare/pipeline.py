@@ -9,12 +9,13 @@ from fractions import Fraction
 from qe.formula.build import conj, disj
 from qe.formula.syntax import And, Exists, ForAll, Formula, Or
 from qe.options import Budget
-from qe.prepare.block import Workshop, reduce_block
+from qe.prepare.block import reduce_block
 from qe.prepare.lift import Assignment, Value
 from qe.prepare.negation import positive
 from qe.prepare.simplify import simplify
 from qe.prepare.step import ALL_STEPS, Step, StepKind
 from qe.prepare.tree import Node
+from qe.prepare.workshop import Workshop
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,7 +37,8 @@ class Prepared:
 
         For an existential block: from a witness of ``formula`` to one of the input; for a universal block: from
         a counterexample to a counterexample. Free variables keep their values. A variable that no
-        longer occurs and has no rule gets 0: its value does not matter. Raises ``Unable`` when the assignment satisfies no branch.
+        longer occurs and has no rule gets 0:
+        its value does not matter. Raises ``Unable`` when the assignment satisfies no branch.
         """
         values = dict(assignment) if self.tree is None else self.tree.lift(assignment)
         for name in self.variables:
