@@ -58,7 +58,7 @@ def _expression(node: ast.expr) -> str:
         case ast.Constant(value):
             return f"<mn>{value}</mn>"
         case ast.Name(id):
-            return f"<mi>{escape(id)}</mi>"
+            return name(id)
         case ast.UnaryOp(ast.USub(), operand):
             return f"<mrow><mo>−</mo>{_wrapped(operand, ast.BinOp)}</mrow>"
         case ast.BinOp(left, ast.Div(), right):

@@ -11,6 +11,7 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from enum import Enum
+from fractions import Fraction
 from typing import Any
 
 import qe
@@ -20,6 +21,7 @@ from bezier.problem import PlanMethod, Problem
 from bezier.scalar import Vector, sign
 from bezier.workspace import Workspace, WorkspaceKind
 from qe.errors import BudgetExceeded, InternalError, Unable
+from qe.formula.syntax import FALSE
 from qe.progress import Event, Listener, silent
 
 Note = Callable[[str, object], None]
@@ -115,22 +117,24 @@ def make_plan(problem: Problem, clock: Clock | None = None) -> Plan:
 def _quadratic_plan(problem: Problem, clock: Clock) -> Plan:
     text = quadratic.formula(problem)
     with clock.step("elimination"):
-        answer = qe.eliminate(text, timeout=clock.remaining())
+        answer = _answered(qe.eliminate(text, timeout=clock.remaining()))
     clock.note("quantifier-free answer", str(answer.formula))
     with clock.step("region"):
         region = qe.region(answer.formula, order=quadratic.FREE, timeout=clock.remaining())
     clock.note("region", "empty" if region.is_empty else f"{len(region.cells)} cells")
     with clock.step("optimum"):
-        optimum = qe.minimize(quadratic.objective(problem), answer.formula, timeout=clock.remaining())
+        # an answer "false" holds no conditions to combine to a contradiction: then the given ones are taken
+        conditions = quadratic.conditions_text(problem) if answer.formula == FALSE else answer.formula
+        optimum = qe.minimize(quadratic.objective(problem), conditions, timeout=clock.remaining())
     found = None if region.is_empty else tuple(optimum.point[name] for name in quadratic.FREE)
-    if (found is None) != (optimum.value is None):
+    if (found is None) == optimum.is_optimal:
         raise InternalError("the region and the optimum disagree about the existence of a control point")
     path, active = None, ()
     with clock.step("curves and proofs"):
         if found is not None:
             path, active = _path(problem, found)
     with clock.step("hemisphere question"):
-        gap = _gap(problem, path, clock)
+        gap = _gap(problem, region, path, clock)
     with clock.step("verification"):
         checks = {"region": qe.verify(region.certificate), "optimum": qe.verify(optimum.certificate)}
     solved = found is not None
@@ -160,21 +164,32 @@ def _path(problem: Problem, q1: Vector) -> tuple[Path, tuple[str, ...]]:
     return assemble(quadratic.curves(problem, q1), points, problem.workspace), quadratic.active(problem, q1)
 
 
-def _gap(problem: Problem, path: Path | None, clock: Clock) -> Gap:
-    """Ask the engine whether the printed formula lets a control point fall below the table."""
-    asked = qe.eliminate(quadratic.leaving_formula(problem), timeout=clock.remaining())
+def _answered(answer: Any) -> Any:
+    """The answer, if it is one."""
+    if answer.formula is None:
+        raise Unable(answer.reason or "no answer was reached")
+    return answer
+
+
+def _gap(problem: Problem, region: Any, path: Path | None, clock: Clock) -> Gap:
+    """Ask the engine whether the printed formula lets a control point fall below the table.
+
+    ``region``: the problem's own region, which is the corrected one for a hemisphere.
+    """
+    asked = _answered(qe.eliminate(quadratic.leaving_formula(problem), timeout=clock.remaining()))
     floor = Workspace(WorkspaceKind.HEMISPHERE, problem.workspace.radius_squared).floor
     chosen = prove(path.curves, (floor,)) if path else ()
     if asked.truth is False:
         return Gap(None, None, chosen)
     if asked.truth is not True or asked.witness is None:
         raise InternalError("the hemisphere question got neither a witness nor a refutation")
-    q1 = tuple(asked.witness[name] for name in quadratic.FREE)
+    q1 = tuple(asked.witness.get(name, Fraction(0)) for name in quadratic.FREE)
     example = {name: quadratic.control_points(problem, q1)[name] for name in quadratic.INNER}
     ball = problem.workspace.ball
     allowed = all(sign(ball.margin(point)) >= 0 for point in example.values())
     if not allowed or all(sign(point[2]) >= 0 for point in example.values()):
         raise InternalError("the engine's example does not show what it should")
-    corrected = qe.eliminate(quadratic.corrected_formula(problem), timeout=clock.remaining())
-    region = qe.region(corrected.formula, order=quadratic.FREE, timeout=clock.remaining())
-    return Gap(example, region, chosen)
+    if problem.workspace.kind is WorkspaceKind.HEMISPHERE:
+        return Gap(example, region, chosen)
+    corrected = _answered(qe.eliminate(quadratic.corrected_formula(problem), timeout=clock.remaining()))
+    return Gap(example, qe.region(corrected.formula, order=quadratic.FREE, timeout=clock.remaining()), chosen)

@@ -142,6 +142,21 @@ def point_conditions(workspace: Workspace) -> tuple[OnPoint, ...]:
     return tuple(OnPoint(point, condition) for condition in workspace.conditions for point in INNER)
 
 
+def conditions_text(problem: Problem) -> str:
+    """The conditions of the formula with P1 and R1 put in terms of Q1, as text."""
+    via = {"P1": problem.via[0], "R1": problem.via[1]}
+    points = {name: [f"(2*{_number(c)} - {q})" for c, q in zip(p, FREE, strict=True)] for name, p in via.items()}
+    points["Q1"] = list(FREE)
+    parts = []
+    for item in point_conditions(problem.workspace):
+        at = points[item.point]
+        if isinstance(item.condition, Ball):
+            parts.append(" + ".join(f"{c}^2" for c in at) + f" <= {_number(problem.workspace.radius_squared)}")
+        else:
+            parts.append(f"{at[2]} >= 0")
+    return " and ".join(parts)
+
+
 def active(problem: Problem, q1: Vector) -> tuple[str, ...]:
     """Labels of the conditions that hold with equality at Q1, exactly: ``P1`` for |P1| = r, ``P1.z`` for z = 0."""
     points = control_points(problem, q1)

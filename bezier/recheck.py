@@ -18,7 +18,7 @@ from bezier.numbers import NotANumber, parse
 from bezier.path import Path, assemble
 from bezier.problem import PlanMethod, Problem
 from bezier.scalar import Vector, same, sign
-from bezier.terms import condition_terms, multiple_of, objective_terms, terms_of
+from bezier.terms import Terms, condition_terms, multiple_of, objective_terms, terms_of
 from bezier.workspace import Workspace, WorkspaceKind
 from qe.errors import CertificateRejected, InputError
 from qe.worker import Channel
@@ -144,9 +144,15 @@ def _check_optimum(problem: Problem, payload: Mapping[str, Any]) -> None:
     if terms_of(stated["minimise"]) != objective_terms(problem):
         raise CertificateRejected("optimum.problem.minimise", "not the objective of this problem")
     allowed = [condition_terms(item.condition) for item in quadratic.as_conditions_on_q1(problem)]
+
+    def known(terms: Terms) -> bool:
+        return any(multiple_of(terms, other) is not None for other in allowed)
+
     for i, constraint in enumerate(stated["constraints"]):
         terms = terms_of(constraint["terms"])
-        if constraint["relation"] != "<=" or all(multiple_of(terms, other) is None for other in allowed):
+        opposite = {exponents: -coefficient for exponents, coefficient in terms.items()}
+        needed = {"<=": (terms,), "=": (terms, opposite)}.get(constraint["relation"], ())
+        if not needed or not all(map(known, needed)):
             raise CertificateRejected(f"optimum.problem.constraints[{i}]", "not a condition of this problem")
 
 

@@ -8,7 +8,7 @@ from typing import Any
 
 from markupsafe import Markup
 
-from bezier import mathml, quadratic
+from bezier import mathml, mathml_cells, quadratic
 from bezier.containment import Argument, Inside, Leaves
 from bezier.curve import Smoothness
 from bezier.outputs import reason
@@ -55,9 +55,9 @@ def cards(plan: Plan, seconds: float) -> list[Row]:
     """The figures at the top of the page."""
     solved = plan.outcome is Outcome.SOLVED
     found = [card("result", "path found" if solved else "no control point exists", "good" if solved else "bad")]
-    found.append(card("radius", f"≈ {float(plan.problem.workspace.radius_squared) ** 0.5:.6g} mm"))
+    found.append(card("radius", f"{float(plan.problem.workspace.radius_squared) ** 0.5:.6g} mm"))
     if plan.optimum:
-        found.append(card("objective", f"≈ {decimal_text(plan.optimum.value, 8)} mm²"))
+        found.append(card("objective", f"{decimal_text(plan.optimum.value, 8)} mm²"))
         found.append(card("active conditions", ", ".join(plan.active) or "none"))
     tone = "good" if plan.certified else "bad"
     found.append(card("certified", "yes" if plan.certified else "not everything", tone))
@@ -390,6 +390,6 @@ def timings(seconds: Mapping[str, float]) -> list[Row]:
     ]
 
 
-def cells(region: Any) -> list[list[str]]:
-    """The cells of the region, as lines."""
-    return [str(cell).splitlines() for cell in region.cells]
+def cells(region: Any) -> list[list[Markup]]:
+    """The cells of the region, one line per variable."""
+    return [[Markup(line) for line in mathml_cells.cell(piece)] for piece in region.cells]
