@@ -148,13 +148,18 @@ def simplest_between(lo: fmpq, hi: fmpq) -> fmpq:
 
 
 def _simplest_positive(lo: fmpq, hi: fmpq) -> fmpq:
-    whole = lo.floor()
-    if whole + 1 < hi:
-        return fmpq(whole + 1)
-    # whole <= lo < hi <= whole + 1: the fractional part is searched through its reciprocal
-    top = hi - whole
-    bottom = lo - whole
-    if bottom == 0:
-        # smallest n with 1/n < top
-        return whole + fmpq(1, (1 / top).floor() + 1)
-    return whole + 1 / _simplest_positive(1 / top, 1 / bottom)
+    """The simplest rational in (lo, hi), 0 <= lo < hi, along the continued fraction both ends share."""
+    a, b, c, d = int(lo.p), int(lo.q), int(hi.p), int(hi.q)
+    # the convergent (p1/q1 after p0/q0) accumulates the common partial quotients
+    p0, q0, p1, q1 = 0, 1, 1, 0
+    while True:
+        whole = a // b
+        if (whole + 1) * d < c:
+            step = whole + 1
+            break
+        p0, q0, p1, q1 = p1, q1, p1 * whole + p0, q1 * whole + q0
+        a, b, c, d = d, c - whole * d, b, a - whole * b  # reciprocals of the remainders, ends exchanged
+        if d == 0:  # the upper end is infinite: the smallest integer above a/b
+            step = a // b + 1
+            break
+    return fmpq(p1 * step + p0, q1 * step + q0)

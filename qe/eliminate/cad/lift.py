@@ -9,8 +9,6 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from fractions import Fraction
 
-from flint import fmpq
-
 from qe.eliminate.cad.matrix import Node, mentioned, specialise
 from qe.eliminate.cad.projection import Levels
 from qe.errors import NotWellOriented
@@ -20,6 +18,7 @@ from qe.exact.sample import Point
 from qe.options import Budget, Projection
 
 _CHARACTER = {1: "+", -1: "-", 0: "0"}
+_VALUE = {"+": 1, "-": -1, "0": 0}
 
 
 @dataclass(slots=True)
@@ -32,7 +31,9 @@ class Lifter:
     budget: Budget
     cells: int = 0
     stacks: int = 0
-    _shared: dict[tuple[int, int, tuple[int, ...], str], Node] = field(default_factory=dict)
+    _shared: dict[tuple[int, int, str], Node] = field(default_factory=dict)
+    _relevant: dict[tuple[int, int], tuple[int, ...]] = field(default_factory=dict)
+    _interned: dict[Node, Node] = field(default_factory=dict)
     _alive: list[Node] = field(default_factory=list)
 
     def run(self, point: Point, node: Node) -> Cell:
@@ -71,7 +72,7 @@ class Lifter:
         level = point.depth
         quantifier = self.quantifiers[level]
         size = 2 * len(isolation.sections) + 1
-        texts = [_sign_text(isolation, position) for position in range(size)]
+        texts = _sign_texts(isolation)
         cells: list[Cell | None] = [None] * size
         truth: bool | None = None
         if quantifier:
@@ -104,22 +105,34 @@ class Lifter:
         return self._cell(point.extend(value), child, text, dimension + (position % 2 == 0))
 
     def _specialised(self, node: Node, level: int, used: tuple[int, ...], text: str) -> Node:
-        key = (id(node), level, used, text)
+        """``specialise`` by the signs in ``text``; equal nodes are one object, and equal questions are asked once."""
+        relevant = self._relevant.get((id(node), level))
+        if relevant is None:
+            self._alive.append(node)  # ids stay unique while the node lives
+            relevant = self._relevant[id(node), level] = tuple(sorted(mentioned(node, level)))
+        spoken = text if len(relevant) == len(used) else "".join([text[j] for j in relevant])
+        key = (id(node), level, spoken)
         stored = self._shared.get(key)
         if stored is None:
-            signs = {j: 1 if c == "+" else -1 if c == "-" else 0 for j, c in zip(used, text, strict=True)}
-            stored = specialise(node, level, signs)
-            self._alive.append(node)  # ids stay unique while the node lives
-            self._shared[key] = stored
+            signs = {j: _VALUE[c] for j, c in zip(relevant, spoken, strict=True)}
+            found = specialise(node, level, signs)
+            stored = self._shared[key] = self._interned.setdefault(found, found)
         return stored
 
 
-def _sign_text(isolation: Isolation, position: int) -> str:
-    sector = position // 2
-    if position % 2 == 0:
-        return "".join(_CHARACTER[row[sector]] for row in isolation.signs)
-    members = isolation.sections[sector].members
-    return "".join("0" if j in members else _CHARACTER[row[sector]] for j, row in enumerate(isolation.signs))
+def _sign_texts(isolation: Isolation) -> list[str]:
+    """The signs of the used factors on every cell of the stack, one character per factor."""
+    rows = [[_CHARACTER[sign] for sign in row] for row in isolation.signs]
+    columns = list(zip(*rows, strict=True)) if rows else [()] * len(isolation.sectors)
+    texts: list[str] = []
+    for sector, column in enumerate(columns):
+        texts.append("".join(column))
+        if sector < len(isolation.sections):
+            own = list(column)
+            for j in isolation.sections[sector].members:
+                own[j] = "0"
+            texts.append("".join(own))
+    return texts
 
 
 def _visiting_order(size: int) -> list[int]:
@@ -127,7 +140,3 @@ def _visiting_order(size: int) -> list[int]:
     middle = size // 2
     return sorted(range(size), key=lambda p: (p % 2, abs(p - middle)))
 
-
-def sample_value(isolation: Isolation, position: int) -> fmpq:
-    """The sample of a sector position."""
-    return isolation.sectors[position // 2]
