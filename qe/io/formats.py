@@ -1,27 +1,57 @@
-"""The formats a formula can be read from and written to, by name."""
+"""All formats by name: ``read(text, "smtlib")``, ``write(formula, "latex")``. Modules are loaded when first used."""
 
 from __future__ import annotations
 
+from enum import Enum
 from importlib import import_module
+from typing import Any
 
 from qe.errors import InputError
 from qe.formula.syntax import Formula
 
-READABLE = ("text", "smtlib", "qepcad", "redlog", "json")
-WRITABLE = ("text", "smtlib", "qepcad", "redlog", "latex", "json")
+
+class Format(Enum):
+    """The formats; ``value`` is the name used on the command line and the name of the module."""
+
+    TEXT = "text"
+    SMTLIB = "smtlib"
+    QEPCAD = "qepcad"
+    REDLOG = "redlog"
+    JSON = "json"
+    LATEX = "latex"
+    MATHML = "mathml"
+
+    @property
+    def readable(self) -> bool:
+        """Whether there is a reader; a writer there is for all."""
+        return self not in (Format.LATEX, Format.MATHML)
 
 
-def read(text: str, format: str = "text", *, source: str = "<text>") -> Formula:
-    """The formula that ``text`` states in this format; ``InputError`` with line and column otherwise."""
-    if format not in READABLE:
-        raise InputError(f"format: one of {', '.join(READABLE)} expected, {format!r} found")
-    formula: Formula = import_module(f"qe.io.{format}").read(text, source=source)
+READABLE = tuple(f.value for f in Format if f.readable)
+WRITABLE = tuple(f.value for f in Format)
+
+
+def read(text: str, format: str | Format = Format.TEXT, *, source: str = "<text>") -> Formula:
+    """The formula that ``text`` means. Raises ``InputError`` (with line and column where the text is wrong)."""
+    chosen = _format(format)
+    if not chosen.readable:
+        raise InputError(f"the format {chosen.value} can only be written; readable: {', '.join(READABLE)}")
+    formula: Formula = _module(chosen).read(text, source=source)
     return formula
 
 
-def write(formula: Formula, format: str = "text") -> str:
-    """The formula in this format."""
-    if format not in WRITABLE:
-        raise InputError(f"format: one of {', '.join(WRITABLE)} expected, {format!r} found")
-    text: str = import_module(f"qe.io.{format}").write(formula)
+def write(formula: Formula, format: str | Format = Format.TEXT) -> str:
+    """The text of ``formula``. Raises ``InputError`` where the format cannot express it (root atoms)."""
+    text: str = _module(_format(format)).write(formula)
     return text
+
+
+def _format(name: str | Format) -> Format:
+    try:
+        return Format(name)
+    except ValueError:
+        raise InputError(f"unknown format {name!r}; known: {', '.join(WRITABLE)}") from None
+
+
+def _module(chosen: Format) -> Any:
+    return import_module(f"qe.io.{chosen.value}")

@@ -55,7 +55,8 @@ def positive(poly: Poly) -> list[Monomial]:
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Notation:
     """The tokens of a line format. ``quantifier(universal, names)`` gives a prefix; ``root`` prints a
-    root atom. ``closed``: what follows a quantifier or a negation is bracketed, and so is ``or`` beside ``and``."""
+    root atom. ``scope``: brackets around the body of a quantifier (None: the body runs on to the right).
+    ``strict``: what follows a negation is bracketed, and so is ``and`` inside ``or``."""
 
     name: Callable[[str], str]
     relation: Callable[[Relation], str]
@@ -69,7 +70,8 @@ class Notation:
     times: str = "*"
     power: Callable[[str, int], str] = "{}^{}".format
     brackets: tuple[str, str] = ("(", ")")
-    closed: bool = False
+    scope: tuple[str, str] | None = None
+    strict: bool = False
 
 
 def polynomial(parts: list[Monomial], notation: Notation) -> str:
@@ -105,26 +107,27 @@ def _write(formula: Formula, level: Level, last: bool, notation: Notation) -> st
         case Or(args):
             return _chain(args, notation.disjunction, Level.OR, level, last, notation)
         case Not(arg):
-            if isinstance(arg, RootAtom) or notation.closed:
-                return notation.negation + _bracketed(arg, notation)
+            if isinstance(arg, RootAtom) or notation.strict:
+                return notation.negation + _bracketed(arg, notation.brackets, notation)
             return notation.negation + _write(arg, Level.NOT, last, notation)
         case Exists(variables, body) | ForAll(variables, body):
             prefix = notation.quantifier(isinstance(formula, ForAll), variables)
-            if notation.closed:
-                return prefix + _bracketed(body, notation)
-            text = prefix + _write(body, Level.OPEN, True, notation)
-            return text if last else notation.brackets[0] + text + notation.brackets[1]
+            if notation.scope is not None:
+                return prefix + _bracketed(body, notation.scope, notation)
+            if not last:
+                return _bracketed(formula, notation.brackets, notation)
+            return prefix + _write(body, Level.OPEN, True, notation)
     raise TypeError(f"not a formula: {formula!r}")
 
 
-def _bracketed(formula: Formula, notation: Notation) -> str:
-    return notation.brackets[0] + _write(formula, Level.OPEN, True, notation) + notation.brackets[1]
+def _bracketed(formula: Formula, brackets: tuple[str, str], notation: Notation) -> str:
+    return brackets[0] + _write(formula, Level.OPEN, True, notation) + brackets[1]
 
 
 def _chain(
     args: tuple[Formula, ...], operator: str, own: Level, around: Level, last: bool, notation: Notation
 ) -> str:
-    if around >= own and around is not Level.OPEN:
+    if around >= own or (notation.strict and around is not Level.OPEN):
         return notation.brackets[0] + _chain(args, operator, own, Level.OPEN, True, notation) + notation.brackets[1]
     ends = [last and i == len(args) - 1 for i in range(len(args))]
     return operator.join(_write(arg, own, end, notation) for arg, end in zip(args, ends, strict=True))

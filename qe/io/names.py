@@ -22,23 +22,28 @@ def check_name(name: object) -> str:
 class Renaming:
     """An injective map from the names of a formula to names that a format allows.
 
-    A name that ``keeps`` accepts stays. Any other is rewritten by ``spell`` and then given underscores until
-    it is allowed and new, so two different variables never become one.
+    A name that ``keeps`` accepts stays. Any other is rewritten by ``spell`` and then given as many ``filler`` letters
+    as it takes to be allowed and new, so two different variables never become one.
     """
 
     __slots__ = ("_map",)
 
     def __init__(
-        self, formula: Formula, *, keeps: Callable[[str], bool], spell: Callable[[str], str] = lambda name: name
+        self,
+        formula: Formula,
+        *,
+        keeps: Callable[[str], bool],
+        spell: Callable[[str], str] = lambda name: name,
+        filler: str = "_",
     ) -> None:
         names = names_in(formula)
         self._map = {name: name for name in names if keeps(name)}
         used = set(self._map)
         for name in names:
             if name not in self._map:
-                new = spell(name) + "_"
+                new = spell(name)
                 while not keeps(new) or new in used:
-                    new += "_"
+                    new += filler
                 self._map[name] = new
                 used.add(new)
 

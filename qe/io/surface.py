@@ -152,11 +152,10 @@ def lower(node: Node, fail: Fail, *, names: Iterable[str] | None = None, shared:
     With ``names`` (all names, for the ring) the tree may be a graph whose parts are shared; ``shared`` lists parts
     in an order in which each comes after those it uses, so that chains of definitions of any length are fine.
     """
-    if names is None:
-        found = _Names(fail)
+    found = _Names(fail)
+    if not shared:
         found.node(node, frozenset(), 0)
-        return _Lowering(found.ring(), fail).node(node)
-    lowering = _Lowering(Ring.of(names), fail)
+    lowering = _Lowering(found.ring() if names is None else Ring.of(names), fail)
     for part in shared:
         lowering.remember(part)
     return lowering.node(node)
@@ -300,7 +299,9 @@ class _Lowering:
             match term:
                 case Number(value):
                     return terms.number(self.ring, value)
-                case Name(name, _):
+                case Name(name, at):
+                    if name not in self.ring.index:
+                        raise self.fail(f"unknown variable {name}", at)
                     return terms.variable(self.ring, name)
                 case Sum(parts):
                     return terms.total([self.term(part) for part in parts])

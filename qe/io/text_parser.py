@@ -63,7 +63,7 @@ _RELATIONS = {
 
 # "c" ends with a closed formula, "o" with a quantifier whose body runs on: nothing can follow an "o" inside
 # its brackets, which makes the grammar unambiguous. Formulas and terms share the round brackets.
-_GRAMMAR = """
+_FORMULAS = """
 %declare QUANTIFIER NAME NUMBER RELATION PLUS MINUS TIMES OVER POWER OPEN CLOSE COMMA DOT
 %declare AND OR NOT IMPLIES IFF TRUE FALSE
 ?start: c4 | o4
@@ -82,6 +82,8 @@ names: NAME | names COMMA NAME
 ?base: comparison | TRUE        -> true
      | FALSE                    -> false
      | OPEN start CLOSE         -> brackets
+"""
+TERMS = """
 comparison: sum RELATION sum | comparison RELATION sum
 ?sum: product | sum PLUS product -> plus
      | sum MINUS product        -> minus
@@ -134,7 +136,7 @@ def _parser() -> Lark:
         def lex(self, text: str) -> Iterator[Token]:  # type: ignore[override]
             return _tokens(text, Token)
 
-    return Lark(_GRAMMAR, parser="lalr", lexer=TextLexer, transformer=_Builder(), maybe_placeholders=False)
+    return Lark(_FORMULAS + TERMS, parser="lalr", lexer=TextLexer, transformer=Builder(), maybe_placeholders=False)
 
 
 def _tokens(text: str, token: Callable[..., Token]) -> Iterator[Token]:
@@ -157,8 +159,8 @@ def _tokens(text: str, token: Callable[..., Token]) -> Iterator[Token]:
         at = found.end()
 
 
-class _Builder:
-    """The actions of the grammar."""
+class Builder:
+    """The actions of the grammar; other formats share them."""
 
     def quantified(self, c: list[Any]) -> s.Node:
         return s.Quantification(str(c[0]) in _UNIVERSAL, c[1], c[3])

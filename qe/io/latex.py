@@ -1,0 +1,89 @@
+"""LaTeX for printed pages: ``\\exists x\\; a x^{2} + b x + c = 0``; long conjunctions and disjunctions in lines."""
+
+from __future__ import annotations
+
+import re
+
+from qe.formula.syntax import And, Exists, ForAll, Formula, Or, Relation, RootAtom
+from qe.io.infix import Notation, formula_text, polynomial, positive
+
+WIDTH = 90
+"""Characters of source after which a formula is broken at its outermost operator."""
+
+GREEK = frozenset(
+    (
+        *("alpha", "beta", "gamma", "delta", "epsilon", "zeta", "eta", "theta", "iota", "kappa", "lambda", "mu"),
+        *("nu", "xi", "pi", "rho", "sigma", "tau", "upsilon", "phi", "chi", "psi", "omega"),
+    )
+)
+_NAME = re.compile(r"([^\W\d_]+)_?(\d*)('*)")
+_ESCAPES = {"_": r"\_", "#": r"\#", "$": r"\$", "%": r"\%", "&": r"\&", "{": r"\{", "}": r"\}", "~": r"\sim "}
+_RELATIONS = {Relation.NE: r"\neq", Relation.LE: r"\leq", Relation.GE: r"\geq"}
+
+
+def write(formula: Formula) -> str:
+    """Source for math mode, without dollar signs."""
+    text = formula_text(formula, _NOTATION)
+    if len(text) <= WIDTH:
+        return text
+    prefix, body = _prefix(formula)
+    if not isinstance(body, And | Or):
+        return text
+    operator = _NOTATION.conjunction if isinstance(body, And) else _NOTATION.disjunction
+    looser = Or | Exists | ForAll if isinstance(body, And) else Exists | ForAll
+    lines = [formula_text(arg, _NOTATION) for arg in body.args]
+    lines = [rf"\left({line}\right)" if isinstance(arg, looser) else line for arg, line in zip(body.args, lines)]
+    joined = (r" \\" + f"\n{operator.strip()}\\; & ").join(lines)
+    return f"{prefix}\\begin{{array}}{{rl}}\n& {joined}\n\\end{{array}}"
+
+
+def _prefix(formula: Formula) -> tuple[str, Formula]:
+    text = ""
+    while isinstance(formula, Exists | ForAll):
+        text += _quantifier(isinstance(formula, ForAll), formula.variables)
+        formula = formula.body
+    return text, formula
+
+
+def name(variable: str) -> str:
+    """A variable: ``x1`` as x with an index, Greek letters by name, long words upright."""
+    found = _NAME.fullmatch(variable)
+    if found is None:
+        return r"\mathrm{" + "".join(_ESCAPES.get(c, c) for c in variable) + "}"
+    letters, number, primes = found.groups()
+    if letters.lower() in GREEK and letters[1:].islower():
+        base = "\\" + letters
+    else:
+        base = letters if len(letters) == 1 else rf"\mathrm{{{letters}}}"
+    return base + (f"_{{{number}}}" if number else "") + primes
+
+
+def _power(base: str, k: int) -> str:
+    return f"{{{base}}}^{{{k}}}" if base.endswith("'") else f"{base}^{{{k}}}"
+
+
+def _quantifier(universal: bool, variables: tuple[str, ...]) -> str:
+    symbol = r"\forall" if universal else r"\exists"
+    return f"{symbol} {', '.join(map(name, variables))}\\colon "
+
+
+def _root(atom: RootAtom) -> str:
+    poly = polynomial(positive(atom.poly), _NOTATION)
+    relation = _NOTATION.relation(atom.relation)
+    return rf"{name(atom.variable)} {relation} \operatorname{{root}}_{{{atom.k}}}\left({poly}\right)"
+
+
+_NOTATION = Notation(
+    name=name,
+    relation=lambda relation: _RELATIONS.get(relation, relation.value),
+    quantifier=_quantifier,
+    root=_root,
+    conjunction=r" \land ",
+    disjunction=r" \lor ",
+    negation=r"\lnot ",
+    true=r"\top",
+    false=r"\bot",
+    times=r"\,",
+    power=_power,
+    brackets=(r"\left(", r"\right)"),
+)

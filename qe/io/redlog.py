@@ -1,0 +1,212 @@
+"""Redlog formulas (REDUCE syntax): ``ex(x, a*x**2 + b*x + c = 0)``, ``all({x,y}, …)``, ``and or not impl repl equiv``.
+
+The reader also takes ``name := …`` in front, ``;`` or ``$`` at the end, comments from ``%`` to the end of the line,
+and ``**`` as well as ``^``. ``e``, ``i`` and ``pi`` are constants of REDUCE and no variables. The writer renames what
+REDUCE would misread (its words, letters that are not ASCII) and quotes capitals with ``!``: no case is folded.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator
+from functools import cache
+from typing import TYPE_CHECKING, Any
+
+from qe.errors import InputError, ParseError
+from qe.formula.syntax import Formula, Relation, RootAtom
+from qe.io import surface as s
+from qe.io.infix import Notation, formula_text
+from qe.io.names import Renaming
+from qe.io.surface import lower
+from qe.io.text_errors import SyntaxFailure, unexpected_token, unknown_character
+from qe.io.text_parser import TERMS, Builder, position
+
+if TYPE_CHECKING:
+    from lark import Lark, Token
+
+_TOKEN = re.compile(
+    r"(?P<SPACE>\s+|%[^\n]*)"
+    r"|(?P<NAME>(?:[A-Za-z]|!.)(?:[A-Za-z0-9_]|!.)*)"
+    r"|(?P<NUMBER>[0-9]+(?:\.[0-9]+)?(?:[eE][+-]?[0-9]+)?)"
+    r"|(?P<OPERATOR>:=|<=|>=|<>|\*\*|[-+*/^()={},<>;$])"
+)
+_WORDS = {
+    "and": "AND",
+    "or": "OR",
+    "not": "NOT",
+    "impl": "IMPLIES",
+    "repl": "REPL",
+    "equiv": "IFF",
+    "true": "TRUE",
+    "false": "FALSE",
+    "ex": "QUANTIFIER",
+    "all": "QUANTIFIER",
+    "neq": "RELATION",
+    "geq": "RELATION",
+    "leq": "RELATION",
+    "equal": "RELATION",
+    "lessp": "RELATION",
+    "greaterp": "RELATION",
+}
+_RELATIONS = {
+    "<>": "/=",
+    "neq": "/=",
+    "geq": ">=",
+    "leq": "<=",
+    "equal": "=",
+    "lessp": "<",
+    "greaterp": ">",
+}
+_OPERATORS = {
+    **dict.fromkeys(("=", "<>", "<", "<=", ">", ">="), "RELATION"),
+    "+": "PLUS",
+    "-": "MINUS",
+    "*": "TIMES",
+    "/": "OVER",
+    "^": "POWER",
+    "**": "POWER",
+    "(": "OPEN",
+    ")": "CLOSE",
+    "{": "BEGIN",
+    "}": "END",
+    ",": "COMMA",
+    ":=": "ASSIGN",
+    ";": "STOP",
+    "$": "STOP",
+}
+_FORMULAS = """
+%declare QUANTIFIER NAME NUMBER RELATION PLUS MINUS TIMES OVER POWER OPEN CLOSE COMMA BEGIN END
+%declare AND OR NOT IMPLIES REPL IFF TRUE FALSE ASSIGN STOP
+?start: formula | NAME ASSIGN formula -> third | formula STOP -> first | NAME ASSIGN formula STOP -> third
+?formula: c3 | formula IFF c3   -> iff
+?c3: c2 | c2 IMPLIES c3         -> implies
+     | c2 REPL c3               -> replied
+?c2: c1 | c2 OR c1              -> some
+?c1: c0 | c1 AND c0             -> every
+?c0: base | NOT c0              -> negation
+?base: comparison | TRUE        -> true
+     | FALSE                    -> false
+     | OPEN formula CLOSE       -> brackets
+     | QUANTIFIER OPEN variables COMMA formula CLOSE -> quantifier
+variables: NAME                 -> names
+     | BEGIN names END          -> braced
+names: NAME | names COMMA NAME
+"""
+_CAPITAL = re.compile(r"[A-Z]")
+_PLAIN = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
+_RESERVED = re.compile(
+    r"and|or|not|impl|repl|equiv|true|false|ex|all|neq|geq|leq|equal|lessp|greaterp|e|i|pi|t|nil|infinity|df|int|mod|"
+    r"if|then|else|for|while|repeat|until|do|begin|end|let|procedure|return|symbolic|algebraic|integer|real|scalar|"
+    r"list|first|rest|part|sub|solve|on|off|in|out|write|where|product|sum|union|member|memq|setdiff|freeof|mand|mor|"
+    r"bex|ball|equ|cons|eq|difference|quotient|expt|plus|times|minus|go|goto|step|join|collect|each|such|that|ws",
+    re.IGNORECASE,
+)
+
+
+def read(text: str, *, source: str = "<text>") -> Formula:
+    """The formula that a Redlog text means. Raises ``ParseError`` with line and column."""
+    from lark.exceptions import UnexpectedToken
+
+    def fail(message: str, at: int, expected: str = "") -> ParseError:
+        line, column = position(text, max(at, 0))
+        return ParseError(message, source=source, line=line, column=column, expected=expected)
+
+    try:
+        node = _parser().parse(text)
+    except UnexpectedToken as error:
+        token = error.token
+        at = len(text) if token.type == "$END" else token.start_pos or 0
+        failed = unexpected_token(text, token.type, str(token), at, error.accepts or error.expected)
+        raise fail(failed.message, failed.at, failed.expected) from None
+    except SyntaxFailure as error:
+        raise fail(error.message, error.at, error.expected) from None
+    return lower(node, fail)  # type: ignore[arg-type]
+
+
+@cache
+def _parser() -> Lark:
+    from lark import Lark, Token
+    from lark.lexer import Lexer
+
+    class RedlogLexer(Lexer):
+        """One compiled pattern for all tokens."""
+
+        def __init__(self, lexer_conf: Any) -> None:
+            pass
+
+        def lex(self, text: str) -> Iterator[Token]:  # type: ignore[override]
+            return _tokens(text, Token)
+
+    return Lark(_FORMULAS + TERMS, parser="lalr", lexer=RedlogLexer, transformer=_Builder(), maybe_placeholders=False)
+
+
+def _tokens(text: str, token: Callable[..., Token]) -> Iterator[Token]:
+    at = 0
+    while at < len(text):
+        found = _TOKEN.match(text, at)
+        if found is None:
+            raise unknown_character(text, at)
+        kind, value = found.lastgroup, found.group()
+        if kind == "NAME":
+            kind = _WORDS.get(value.lower(), "NAME")
+            if value.lower() in ("e", "i", "pi"):
+                raise SyntaxFailure(f"{value} is a constant in REDUCE, not a variable", at)
+            value = _RELATIONS.get(value.lower(), value) if kind == "RELATION" else value
+            yield token(kind, value.replace("!", "") if kind == "NAME" else value.lower(), at)
+        elif kind == "OPERATOR":
+            yield token(_OPERATORS[value], _RELATIONS.get(value, value), at)
+        elif kind != "SPACE":
+            yield token(kind, value, at)
+        at = found.end()
+
+
+class _Builder(Builder):
+    """The actions that only this format has."""
+
+    def first(self, c: list[Any]) -> Any:
+        return c[0]
+
+    def third(self, c: list[Any]) -> Any:
+        return c[2]
+
+    def braced(self, c: list[Any]) -> Any:
+        return c[1]
+
+    def replied(self, c: list[Any]) -> s.Node:
+        return s.Implication(c[2], c[0])
+
+    def quantifier(self, c: list[Any]) -> s.Node:
+        return s.Quantification(str(c[0]) == "all", c[2], c[4])
+
+
+def write(formula: Formula) -> str:
+    """One line that Redlog reads. Raises ``InputError`` for a root atom, which Redlog has no text for."""
+    names = Renaming(formula, keeps=_allowed, spell=lambda name: re.sub(r"[^A-Za-z0-9]", "_", f"v{name}"))
+
+    def spelled(name: str) -> str:
+        return _CAPITAL.sub(r"!\g<0>", names[name])
+
+    def quantifier(universal: bool, variables: tuple[str, ...]) -> str:
+        return f"{'all' if universal else 'ex'}({{{','.join(map(spelled, variables))}}}, "
+
+    notation = Notation(
+        name=spelled,
+        relation=lambda relation: "<>" if relation is Relation.NE else relation.value,
+        quantifier=quantifier,
+        root=_no_root,
+        conjunction=" and ",
+        disjunction=" or ",
+        negation="not ",
+        true="true",
+        false="false",
+        scope=("", ")"),
+    )
+    return formula_text(formula, notation)
+
+
+def _allowed(name: str) -> bool:
+    return bool(_PLAIN.fullmatch(name)) and not _RESERVED.fullmatch(name)
+
+
+def _no_root(atom: RootAtom) -> str:
+    raise InputError("root(…) cannot be written in Redlog syntax")

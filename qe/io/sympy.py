@@ -1,0 +1,307 @@
+"""SymPy Booleans in and out. SymPy is imported when a function of this module is called, never before.
+
+Read: relations, ``And Or Not Implies Equivalent Xor ITE``, polynomials with rational coefficients, ``Abs``, ``Min``,
+``Max`` and ``Piecewise`` (by cases). A SymPy ``Float`` is read as the exact binary number it is: ``Float(0.1)`` is not
+1/10, write ``Rational(1, 10)``. SymPy has no quantifiers, so ``Exists`` and ``ForAll`` here wrap an expression and can
+be combined with ``& | ~ >>`` among themselves and with SymPy expressions. A symbol may be assumed real; assumptions
+that say more (positive, integer) would be lost and are refused.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any
+
+from qe.errors import InputError
+from qe.exact.ring import Ring
+from qe.formula.build import conj, convert, disj, exists, forall, implies, neg
+from qe.formula.syntax import And, Atom, Constant, Formula, Not, Or, Relation
+from qe.formula.traverse import ring_of
+from qe.io import surface as s
+from qe.io.cases import Cases, choose, combine, compare, plain
+from qe.io.names import check_name, names_in
+from qe.io.terms import TermError
+
+if TYPE_CHECKING:
+    import sympy
+
+_RELATIONS = {**{relation.value: relation for relation in Relation}, "==": Relation.EQ, "!=": Relation.NE}
+_SIGNS = ("positive", "negative", "integer", "rational")
+_CLASSES = {
+    Relation.EQ: "Eq",
+    Relation.NE: "Ne",
+    Relation.LT: "Lt",
+    Relation.LE: "Le",
+    Relation.GT: "Gt",
+    Relation.GE: "Ge",
+}
+
+
+class _Operators:
+    """Connectives between wrapped formulas, SymPy Booleans and formulas."""
+
+    __slots__ = ()
+
+    def formula(self) -> Formula:
+        """The formula that this stands for."""
+        raise TypeError(f"{type(self).__name__} holds no formula")
+
+    def __and__(self, other: object) -> Combined:
+        return Combined(conj(_together(self, other)))
+
+    def __rand__(self, other: object) -> Combined:
+        return Combined(conj(_together(other, self)))
+
+    def __or__(self, other: object) -> Combined:
+        return Combined(disj(_together(self, other)))
+
+    def __ror__(self, other: object) -> Combined:
+        return Combined(disj(_together(other, self)))
+
+    def __rshift__(self, other: object) -> Combined:
+        return Combined(implies(*_together(self, other)))
+
+    def __rrshift__(self, other: object) -> Combined:
+        return Combined(implies(*_together(other, self)))
+
+    def __invert__(self) -> Combined:
+        return Combined(neg(self.formula()))
+
+    def __str__(self) -> str:
+        return str(self.formula())
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Combined(_Operators):
+    """A formula made of wrapped ones by ``& | ~ >>``."""
+
+    value: Formula
+
+    def formula(self) -> Formula:
+        """The formula that this stands for."""
+        return self.value
+
+
+class _Quantified(_Operators):
+    __slots__ = ("body", "names")
+
+    def __init__(self, variables: object, body: object) -> None:
+        self.names = _variables(variables)
+        self.body = from_sympy(body)
+
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}({', '.join(self.names)}; {self.body})"
+
+
+class Exists(_Quantified):
+    """``Exists(x, body)`` or ``Exists((x, y), body)``: there are real values with ``body``.
+
+    Variables are SymPy symbols or names; ``body`` is a SymPy Boolean, a formula, or wrapped itself. Raises
+    ``InputError`` where ``body`` is not built from polynomial relations.
+    """
+
+    __slots__ = ()
+
+    def formula(self) -> Formula:
+        """The formula that this stands for."""
+        return exists(self.names, self.body)
+
+
+class ForAll(_Quantified):
+    """``ForAll(x, body)`` or ``ForAll((x, y), body)``: ``body`` holds for all real values; see ``Exists``."""
+
+    __slots__ = ()
+
+    def formula(self) -> Formula:
+        """The formula that this stands for."""
+        return forall(self.names, self.body)
+
+
+def _together(*parts: object) -> tuple[Formula, ...]:
+    """Formulas of the parts, over one ring."""
+    formulas = tuple(from_sympy(part) for part in parts)
+    names = [name for f in formulas if (ring := ring_of(f)) is not None for name in ring.names]
+    ring = Ring.of(dict.fromkeys(names))
+    return tuple(convert(f, ring) for f in formulas)
+
+
+def _variables(variables: object) -> tuple[str, ...]:
+    import sympy
+
+    items = variables if isinstance(variables, Iterable) and not isinstance(variables, str) else (variables,)
+    names = tuple(_symbol(v) if isinstance(v, sympy.Symbol) else check_name(v) for v in items)
+    if not names:
+        raise InputError("a quantifier needs at least one variable")
+    return names
+
+
+def _symbol(symbol: sympy.Symbol) -> str:
+    import sympy
+
+    known = sympy.Symbol("x", real=True).assumptions0
+    extra = [key for key, value in symbol.assumptions0.items() if known.get(key) is not value]
+    extra.sort(key=lambda key: ("_" in key, not symbol.assumptions0[key], key not in _SIGNS, key))
+    if extra:
+        raise InputError(f"the symbol {symbol} is assumed to be more than real ({extra[0]}); say it in the formula")
+    return check_name(symbol.name)
+
+
+def from_sympy(expression: object) -> Formula:
+    """The formula of a SymPy Boolean, a Python bool, a wrapped or a finished formula.
+
+    Raises ``InputError`` for what is not a Boolean combination of polynomial relations over Q.
+    """
+    if isinstance(expression, Formula):
+        return expression
+    if isinstance(expression, _Operators):
+        return expression.formula()
+    import sympy
+
+    if isinstance(expression, str):
+        raise InputError("a SymPy Boolean expected, a string found")
+    try:
+        whole = sympy.sympify(expression)
+    except (sympy.SympifyError, TypeError):
+        raise InputError(f"a SymPy Boolean expected, {type(expression).__name__} found") from None
+    try:
+        return s.lower(_Reader(sympy).boolean(whole), lambda message, _: InputError(f"{_shown(whole)}: {message}"))
+    except TermError as error:
+        raise InputError(f"{_shown(whole)}: {error}") from None
+    except RecursionError:
+        raise InputError("the expression is nested too deeply") from None
+
+
+def _shown(expression: object) -> str:
+    text = str(expression)
+    return text if len(text) <= 60 else f"{text[:57]}…"
+
+
+class _Reader:
+    """SymPy trees to surface trees."""
+
+    def __init__(self, module: Any) -> None:
+        self.sympy = module
+
+    def boolean(self, e: Any) -> s.Node:
+        sp = self.sympy
+        if e in (sp.true, sp.false):
+            return s.Truth(e is sp.true)
+        if isinstance(e, sp.core.relational.Relational):
+            return compare(self.real(e.lhs), _RELATIONS[e.rel_op], self.real(e.rhs), -1)
+        if isinstance(e, sp.And):
+            return s.Every([self.boolean(a) for a in e.args])
+        if isinstance(e, sp.Or):
+            return s.Some([self.boolean(a) for a in e.args])
+        if isinstance(e, sp.Not):
+            return s.Negation(self.boolean(e.args[0]))
+        if isinstance(e, sp.Implies):
+            return s.Implication(self.boolean(e.args[0]), self.boolean(e.args[1]))
+        if isinstance(e, sp.Equivalent):
+            parts = [self.boolean(a) for a in e.args]
+            return s.Every([s.Equivalence(parts[0], part) for part in parts[1:]])
+        if isinstance(e, sp.Xor):
+            return self.odd([self.boolean(a) for a in e.args])
+        if isinstance(e, sp.ITE):
+            condition, then, other = (self.boolean(a) for a in e.args)
+            return s.Every([s.Implication(condition, then), s.Some([condition, other])])
+        raise InputError(f"a Boolean combination of relations expected, {_shown(e)} found")
+
+    def odd(self, parts: list[s.Node]) -> s.Node:
+        """Whether an odd number of parts holds."""
+        result: s.Node = s.Truth(False)
+        for part in parts:
+            result = s.Negation(s.Equivalence(result, part))
+        return result
+
+    def real(self, e: Any) -> Cases:
+        sp = self.sympy
+        if isinstance(e, sp.Symbol):
+            return plain(s.Name(_symbol(e), -1))
+        if isinstance(e, sp.Rational):
+            return plain(s.Number(Fraction(int(e.p), int(e.q))))
+        if isinstance(e, sp.Float):
+            return plain(s.Number(self.exact_float(e)))
+        if isinstance(e, sp.Add):
+            return combine([self.real(a) for a in e.args], lambda terms: s.Sum(terms))
+        if isinstance(e, sp.Mul):
+            return combine([self.real(a) for a in e.args], _product)
+        if isinstance(e, sp.Pow):
+            return self.power(e)
+        if isinstance(e, sp.Abs):
+            inner = self.real(e.args[0])
+            positive = compare(inner, Relation.GE, plain(s.Number(0)), -1)
+            return choose(positive, inner, combine([inner], lambda terms: s.Minus(terms[0])))
+        if isinstance(e, sp.Max | sp.Min):
+            return self.extremum([self.real(a) for a in e.args], Relation.GE if isinstance(e, sp.Max) else Relation.LE)
+        if isinstance(e, sp.Piecewise):
+            return self.piecewise(e)
+        raise InputError(f"only polynomials with rational coefficients are allowed, {_shown(e)} found")
+
+    def exact_float(self, e: Any) -> Fraction:
+        if not e.is_finite:
+            raise InputError(f"a finite number expected, {e} found")
+        rational = self.sympy.Rational(e)
+        return Fraction(int(rational.p), int(rational.q))
+
+    def power(self, e: Any) -> Cases:
+        if not e.exp.is_Integer or e.exp < 0:
+            reason = "division by a term" if e.exp.is_Integer else "an exponent that is no natural number"
+            raise InputError(f"{reason}: {_shown(e)}; only polynomials are allowed")
+        exponent = s.Number(int(e.exp))
+        return combine([self.real(e.base)], lambda terms: s.Power(terms[0], exponent, -1))
+
+    def extremum(self, parts: list[Cases], relation: Relation) -> Cases:
+        best = parts[0]
+        for part in parts[1:]:
+            best = choose(compare(best, relation, part, -1), best, part)
+        return best
+
+    def piecewise(self, e: Any) -> Cases:
+        *pairs, last = [(value, condition) for value, condition in e.args]
+        if last[1] != self.sympy.true:
+            raise InputError(f"the cases of {_shown(e)} must end with True")
+        result = self.real(last[0])
+        for value, condition in reversed(pairs):
+            result = choose(self.boolean(condition), self.real(value), result)
+        return result
+
+
+def _product(terms: list[s.Term]) -> s.Term:
+    result = terms[0]
+    for term in terms[1:]:
+        result = s.Product(result, term, -1)
+    return result
+
+
+def to_sympy(formula: Formula, *, symbols: Mapping[str, Any] | None = None) -> Any:
+    """The SymPy Boolean of a quantifier-free formula; ``subs`` with numbers for all variables decides it.
+
+    ``symbols`` gives the symbols to use for names (default: ``Symbol(name)``). SymPy may simplify as it builds. Raises
+    ``InputError`` for quantifiers and root atoms, which SymPy cannot express.
+    """
+    import sympy
+
+    table = {name: sympy.Symbol(name) for name in names_in(formula)}
+    table.update(symbols or {})
+    return _boolean(formula, table, sympy)
+
+
+def _boolean(formula: Formula, symbols: Mapping[str, Any], sp: Any) -> Any:
+    match formula:
+        case Constant(value):
+            return sp.true if value else sp.false
+        case Atom(poly, relation):
+            columns = [symbols[name] for name in poly.ring.names]
+            terms = [
+                sp.Mul(sp.Integer(c), *(x**k for x, k in zip(columns, exponents) if k)) for exponents, c in poly.terms()
+            ]
+            return getattr(sp, _CLASSES[relation])(sp.Add(*terms), 0)
+        case And(args):
+            return sp.And(*(_boolean(arg, symbols, sp) for arg in args))
+        case Or(args):
+            return sp.Or(*(_boolean(arg, symbols, sp) for arg in args))
+        case Not(arg):
+            return sp.Not(_boolean(arg, symbols, sp))
+    raise InputError("SymPy has no quantifiers and no root atoms; eliminate the quantifiers first")
