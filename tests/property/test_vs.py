@@ -83,6 +83,33 @@ def open_matrices(draw: st.DrawFn) -> Formula:
     return conj(parts)
 
 
+@st.composite
+def lone_quadratics(draw: st.DrawFn) -> Formula:
+    """One quadratic polynomial, in one weak and perhaps a strict inequality, among linear ones."""
+    line = Ring.of(("a", "b"))
+    flat = polynomials_of(line, max_degree=1, max_terms=2, max_coefficient=3).map(lambda p: p.convert(RING))
+    x = RING.gen(2)
+    g = draw(st.sampled_from((RING.constant(1), RING.constant(-1), RING.gen(0)))) * x**2 + draw(flat) * x + draw(flat)
+    relations = st.sampled_from([r for r in Relation if r is not Relation.EQ])
+    parts = [atom(g, draw(relations))]
+    if draw(st.booleans()):
+        parts.append(atom(g, draw(st.sampled_from((Relation.LT, Relation.GT, Relation.NE)))))
+    for _ in range(draw(st.integers(1, 3))):
+        parts.append(atom(draw(flat) * x + draw(flat), draw(st.sampled_from(tuple(Relation)))))
+    parts = draw(st.permutations(parts))
+    cut = draw(st.integers(0, len(parts)))
+    return conj((*parts[:cut], disj(parts[cut:]) if cut < len(parts) else conj(())))
+
+
+@given(lone_quadratics(), st.lists(PARAMETERS, min_size=4, max_size=4))
+@settings(max_examples=150)
+def test_lone_quadratic(matrix: Formula, points: list[dict[str, Fraction]]) -> None:
+    """The elimination set without square roots: both infinities, the linear roots, the vertex."""
+    result = eliminate_block(("x",), matrix, budget=budget(), simplify=identity)
+    for values in points:
+        assert holds_at(result.formula, values) == satisfiable(specialise(matrix, values), 2)
+
+
 @given(open_matrices(), st.lists(VALUES, min_size=3, max_size=3))
 @settings(max_examples=80)
 def test_open_blocks(matrix: Formula, points: list[Fraction]) -> None:

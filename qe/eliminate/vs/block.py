@@ -136,8 +136,8 @@ class _Run:
             choice = Choice(self.ring.names[plan.x], point, plan.exponent, before)
             return self._substituted(choice, thinned(result, rest) if strict else result, rest)
 
-        if plan.infinity is not None:
-            yield attempt(plan.infinity, plan.infinity_guard or TRUE, plan.formula, frozenset())
+        for infinity in plan.infinities:
+            yield attempt(infinity, plan.infinity_guard or TRUE, plan.formula, frozenset())
         for candidate, settled in in_order(plan.candidates):
             yield attempt(candidate.point, candidate.guard, candidate.formula, settled)
         if plan.degenerate != FALSE:

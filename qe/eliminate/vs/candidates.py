@@ -23,6 +23,7 @@ from qe.eliminate.vs.points import LinearRoot, QuadraticRoot
 from qe.exact.ring import Poly
 from qe.formula.build import conj, disj
 from qe.formula.syntax import FALSE, And, Atom, Formula, Or, Relation
+from qe.formula.traverse import atoms
 
 EQ, NE, LT, GT, GE = Relation.EQ, Relation.NE, Relation.LT, Relation.GT, Relation.GE
 _UPWARD = (GT, GE)
@@ -32,13 +33,14 @@ _UPWARD = (GT, GE)
 class Candidate:
     """Try ``formula`` at ``point`` where ``guard`` holds. ``formula`` implies the formula it was taken from.
 
-    ``source`` is the atom that turns true at the point.
+    ``source`` is the atom that turns true at the point; ``complete``: all such points of it are candidates.
     """
 
     point: LinearRoot | QuadraticRoot
     guard: Formula
     formula: Formula
     source: Atom
+    complete: bool = True
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,20 +51,25 @@ class Gauss:
     degenerate: Formula
 
 
-def bounds(formula: Formula, x: int, side: int, signs: Signs) -> tuple[Candidate, ...] | None:
-    """Candidates for the lower (side 1) or upper (side -1) ends of the truth set; None if a degree is too high."""
+def bounds(
+    formula: Formula, x: int, side: int, signs: Signs, omit: Poly | None = None
+) -> tuple[Candidate, ...] | None:
+    """Candidates for the lower (side 1) or upper (side -1) ends of the truth set; None if a degree is too high.
+
+    The roots of the irreducible polynomial ``omit`` of degree 2 are left out where its leading coefficient is not 0.
+    """
     match formula:
         case Atom(poly, _):
-            return _atom_points(formula, x, side, signs) if poly.degree(x) else ()
+            return _atom_points(formula, x, side, signs, omit) if poly.degree(x) else ()
         case And(args):
             gauss = best_gauss([gauss_constituent(a, x, side, signs) for a in args])
             if gauss is not None:
-                return _with_gauss(formula, *gauss, x, side, signs)
+                return _with_gauss(formula, *gauss, x, side, signs, omit)
             return _joined(
-                _within(formula, args, k, bounds(arg, x, side, signs)) for k, arg in enumerate(args)
+                _within(formula, args, k, bounds(arg, x, side, signs, omit)) for k, arg in enumerate(args)
             )
         case Or(args):
-            return _joined(bounds(arg, x, side, signs) for arg in args)
+            return _joined(bounds(arg, x, side, signs, omit) for arg in args)
     return ()
 
 
@@ -112,6 +119,52 @@ def points_cost(candidates: Iterable[Candidate]) -> float:
     return total
 
 
+def lone_quadratic(formula: Formula, x: int) -> Poly | None:
+    """The only irreducible factor of degree 2 in x, if it stands alone (but for factors without x) in inequalities.
+
+    At most one occurrence may be weak, none an equation. None if there is no such factor.
+    """
+    found: Poly | None = None
+    weak = 0
+    for given in atoms(formula):
+        if not given.poly.degree(x):
+            continue
+        inside = [(f, e) for f, e in given.poly.factors()[1] if f.degree(x)]
+        for factor, exponent in inside:
+            if factor.degree(x) < 2:
+                continue
+            if factor.degree(x) > 2 or (found is not None and factor != found):
+                return None
+            if len(inside) > 1 or exponent % 2 == 0 or given.relation is EQ:
+                return None
+            found = factor
+            weak += not given.relation.is_strict
+    return found if weak <= 1 else None
+
+
+def without_radicals(formula: Formula, x: int, signs: Signs) -> tuple[Candidate, ...] | None:
+    """Candidates that, with both infinities, are an elimination set without square roots; None if there is none.
+
+    THEOREM. Let g = a*x^2 + b*x + c be the lone quadratic of F. If F holds somewhere, it holds at -infinity or
+    +infinity, or at the lower or upper end of a component of its truth set that is a root of another atom's
+    polynomial (or of g where a = 0), or at -b/(2*a), a /= 0. Proof: otherwise both ends of a component are roots of
+    g and come from atoms in g. If they differ, the vertex of g is between them. If they coincide, the atom turns
+    true at a root and false right after it, so it is the weak one and the root is double, the vertex.
+    """
+    g = lone_quadratic(formula, x)
+    if g is None:
+        return None
+    lower, upper = (bounds(formula, x, side, signs, g) for side in (1, -1))
+    if lower is None or upper is None:
+        return None
+    guard = signs.atom(g.leading(x), NE)
+    if guard == FALSE:
+        return lower + upper
+    slope = next(f for f, _ in g.derivative(x).factors()[1] if f.degree(x))
+    b, a = slope.coefficients(x)
+    return (*lower, *upper, Candidate(LinearRoot(a, b), guard, formula, Atom(g, LT), complete=False))
+
+
 def in_order(candidates: Iterable[Candidate]) -> Iterator[tuple[Candidate, frozenset[Atom]]]:
     """The distinct candidates, atom by atom, cheap atoms first; each with the atoms *settled* for it.
 
@@ -128,7 +181,7 @@ def in_order(candidates: Iterable[Candidate]) -> Iterator[tuple[Candidate, froze
         for candidate in group:
             args = candidate.formula.args if isinstance(candidate.formula, And) else ()
             yield candidate, frozenset(a for a in args if a in tried) if candidate.point.epsilon else frozenset()
-        if source.relation.is_strict:
+        if source.relation.is_strict and all(c.complete for c in group):
             tried.add(source)
 
 
@@ -145,7 +198,7 @@ def vanishing(f: Poly, x: int, signs: Signs) -> Formula:
 
 
 def _with_gauss(
-    whole: And, gauss: Gauss, k: int, x: int, side: int, signs: Signs
+    whole: And, gauss: Gauss, k: int, x: int, side: int, signs: Signs, omit: Poly | None
 ) -> tuple[Candidate, ...] | None:
     """The Gauss constituent's candidates, and where it degenerates those of the other conjuncts."""
     args = whole.args
@@ -153,7 +206,7 @@ def _with_gauss(
     if gauss.degenerate == FALSE or inner is None:
         return inner
     others = _joined(
-        _within(whole, args, j, bounds(arg, x, side, signs)) for j, arg in enumerate(args) if j != k
+        _within(whole, args, j, bounds(arg, x, side, signs, omit)) for j, arg in enumerate(args) if j != k
     )
     if others is None:
         return None
@@ -181,7 +234,9 @@ def _joined(parts: Iterable[tuple[Candidate, ...] | None]) -> tuple[Candidate, .
     return tuple(out)
 
 
-def _atom_points(given: Atom, x: int, side: int, signs: Signs) -> tuple[Candidate, ...] | None:
+def _atom_points(
+    given: Atom, x: int, side: int, signs: Signs, omit: Poly | None = None
+) -> tuple[Candidate, ...] | None:
     """The points where the atom can turn true, with guards."""
     _, parts = given.poly.factors()
     inside = [(f, e) for f, e in parts if f.degree(x)]
@@ -198,7 +253,10 @@ def _atom_points(given: Atom, x: int, side: int, signs: Signs) -> tuple[Candidat
         if factor.degree(x) == 1:
             out += _linear(given, factor, x, epsilon, content, direction, signs)
         else:
-            out += _quadratic(given, factor, x, epsilon, content, direction, signs)
+            found = _quadratic(given, factor, x, epsilon, content, direction, signs)
+            if factor == omit:
+                found = (replace(c, complete=False) for c in found if isinstance(c.point, LinearRoot))
+            out += found
     return tuple(out)
 
 

@@ -12,6 +12,7 @@ from qe.eliminate.vs.candidates import (
     gauss_constituent,
     gauss_cost,
     points_cost,
+    without_radicals,
 )
 from qe.eliminate.vs.known import Signs
 from qe.eliminate.vs.points import Infinity
@@ -26,7 +27,7 @@ _QUADRATIC_SPREAD = 1.5  # how much worse it is when a block variable's degree g
 
 @dataclass(frozen=True, slots=True)
 class Plan:
-    """Substitute ``candidates`` (and ``infinity``) for x in ``formula``; ``exponent``: degree shift done before.
+    """Substitute ``candidates`` (and ``infinities``) for x in ``formula``; ``exponent``: degree shift done before.
 
     ``degenerate`` is a further subproblem, still with x, or FALSE: the Gauss constituent vanishes there.
     """
@@ -35,7 +36,7 @@ class Plan:
     exponent: int
     formula: Formula
     candidates: tuple[Candidate, ...]
-    infinity: Infinity | None
+    infinities: tuple[Infinity, ...]
     infinity_guard: Formula | None
     degenerate: Formula
     cost: float
@@ -115,19 +116,19 @@ def _with_gauss(
     )
     cost = gauss_cost(gauss) * size if size > 1 or gauss.degenerate != FALSE else points_cost(candidates) * 0.5
     if gauss.degenerate == FALSE:
-        return Plan(x, exponent, formula, candidates, None, None, FALSE, cost)
+        return Plan(x, exponent, formula, candidates, (), None, FALSE, cost)
     if isinstance(args[k], Atom):
         without = conj((gauss.degenerate, *originals[:k], *originals[k + 1 :]))
-        return Plan(x, exponent, formula, candidates, None, None, without, cost)
+        return Plan(x, exponent, formula, candidates, (), None, without, cost)
     plain = _with_bounds(formula, x, exponent, size, signs)
-    if plain is None or plain.infinity is None:
+    if plain is None:
         return None
     others = tuple(replace(c, guard=conj((gauss.degenerate, c.guard))) for c in plain.candidates)
-    return Plan(x, exponent, formula, candidates + others, plain.infinity, gauss.degenerate, FALSE, cost + plain.cost)
+    return Plan(x, exponent, formula, candidates + others, plain.infinities, gauss.degenerate, FALSE, cost + plain.cost)
 
 
 def _with_bounds(formula: Formula, x: int, exponent: int, size: float, signs: Signs) -> Plan | None:
-    """Lower bounds with -infinity or upper bounds with +infinity, the cheaper set."""
+    """Lower bounds with -infinity, upper bounds with +infinity, or a set without radicals: the cheapest."""
     best: Plan | None = None
     for side in (1, -1):
         found = bounds(formula, x, side, signs)
@@ -135,7 +136,12 @@ def _with_bounds(formula: Formula, x: int, exponent: int, size: float, signs: Si
             return None
         cost = (points_cost(found) + _INFINITY_COST) * size
         if best is None or cost < best.cost:
-            best = Plan(x, exponent, formula, found, Infinity(-side), None, FALSE, cost)
+            best = Plan(x, exponent, formula, found, (Infinity(-side),), None, FALSE, cost)
+    plain = without_radicals(formula, x, signs)
+    if plain is not None and best is not None:
+        cost = (points_cost(plain) + 2 * _INFINITY_COST) * size
+        if cost < best.cost:
+            best = Plan(x, exponent, formula, plain, (Infinity(-1), Infinity(1)), None, FALSE, cost)
     return best
 
 
