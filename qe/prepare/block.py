@@ -7,7 +7,9 @@ from collections.abc import Sequence
 from qe.formula.syntax import FALSE, Formula
 from qe.formula.traverse import free_variables
 from qe.prepare.cases import groebner_equations, split_factors, split_squares
+from qe.prepare.degree_shift import shift_degree
 from qe.prepare.rules import guarded_linear_equation, independent_parts, linear_equation
+from qe.prepare.scaling import fix_scale
 from qe.prepare.simplify import simplify_under
 from qe.prepare.step import StepKind
 from qe.prepare.tree import NEVER, Leaf, Node
@@ -18,7 +20,9 @@ RULES: tuple[Rule, ...] = (
     linear_equation,
     split_squares,
     groebner_equations,
+    shift_degree,
     split_factors,
+    fix_scale,
     guarded_linear_equation,
 )
 

@@ -75,7 +75,8 @@ def better_equations(old: Sequence[Poly], basis: Basis, block: Sequence[str]) ->
     """The generators to go on with: the old ones, the basis, or a lexicographic basis if it is small."""
     graded = basis.polys
     best: tuple[Poly, ...] = tuple(dict.fromkeys(old))
-    if total(graded) <= total(best) or _solvable(graded, block) > _solvable(best, block):
+    gain = _solvable(graded, block) - _solvable(best, block)
+    if total(graded) <= total(best) or gain >= 3 or (gain > 0 and total(graded) <= 2 * total(best) + 20):
         best = graded
     if len(graded) > 1:
         triangular = groebner_basis(graded, variables=basis.variables, order=MonomialOrder.LEX, limits=_LIMITS)
@@ -90,16 +91,14 @@ def total(polys: Sequence[Poly]) -> int:
 
 
 def _solvable(polys: Sequence[Poly], block: Sequence[str]) -> int:
-    """How many variables of the block have an equation that is linear in them with constant coefficient."""
+    """Variables of the block with an equation linear in them: 3 for a constant coefficient, 1 for another."""
     names = polys[0].ring.names
-    return len(
-        {
-            i
-            for p in polys
-            for i in p.variables
-            if names[i] in block and p.degree(i) == 1 and p.leading(i).is_constant
-        }
-    )
+    worth: dict[int, int] = {}
+    for p in polys:
+        for i in p.variables:
+            if names[i] in block and p.degree(i) == 1:
+                worth[i] = max(worth.get(i, 0), 3 if p.leading(i).is_constant else 1)
+    return sum(worth.values())
 
 
 def _triangular_gain(new: Sequence[Poly], old: Sequence[Poly], block: Sequence[str]) -> bool:

@@ -16,9 +16,12 @@ from hypothesis import strategies as st
 
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj, disj, exists, forall, neg
-from qe.formula.syntax import Formula, Relation
+from qe.formula.syntax import Atom, Formula, Relation
+from qe.formula.traverse import free_variables
 from qe.prepare import ALL_STEPS, StepKind, prepare
-from qe.prepare.lift import holds_at
+from qe.prepare.degree_shift import common_exponent
+from qe.prepare.lift import Value, holds_at, root
+from qe.prepare.rewrite import rewrite
 from qe.prepare.tree import Leaf
 
 from .prepare_support import RING, formulas, interesting, points
@@ -29,7 +32,8 @@ STEP_SETS = [
     frozenset({StepKind.LINEAR}),
     frozenset({StepKind.LINEAR, StepKind.GUARDED_LINEAR}),
     frozenset({StepKind.LINEAR, StepKind.GUARDED_LINEAR, StepKind.SIMPLIFY, StepKind.MINISCOPE}),
-    ALL_STEPS,
+    frozenset({StepKind.GROEBNER, StepKind.FACTOR_SPLIT, StepKind.SUM_OF_SQUARES}),
+    ALL_STEPS - {StepKind.DEGREE_SHIFT, StepKind.SCALING},  # these two change values: their own tests are below
 ]
 
 
@@ -89,3 +93,75 @@ def test_universal_blocks_lift_counterexamples(problem: tuple[Formula, tuple[Fra
     assert prepared.universal
     assert prepared.tree.satisfied(known)
     assert not holds_at(neg(body), prepared.lift(known))
+
+
+@settings(max_examples=60, deadline=None)
+@given(solvable(), st.integers(2, 3), st.lists(points, max_size=6))
+def test_degree_shift(
+    problem: tuple[Formula, tuple[Fraction, ...]], k: int, elsewhere: list[tuple[Fraction, ...]]
+) -> None:
+    """f(x^k) is satisfied at x iff its shifted form is at x^k; a solution of the shifted form lifts to the root."""
+    body, point = problem
+    ring = RING
+    x = ring.index["x"]
+
+    def spread(found: Atom) -> Formula:
+        return atom(found.poly.compose({x: ring.gen(x) ** k}), found.relation)
+
+    stretched = rewrite(body, spread, ())
+    prepared = prepare(exists(("x",), stretched), enabled={StepKind.DEGREE_SHIFT})
+    if "x" not in free_variables(stretched):
+        return
+    assert any(s.kind is StepKind.DEGREE_SHIFT for s in prepared.steps) and prepared.tree is not None
+    for values in (point, *elsewhere):
+        at = dict(zip(ring.names, values, strict=True))
+        shifted = at | {"x": at["x"] ** common_exponent(stretched, "x")}
+        assert holds_at(stretched, at) == prepared.tree.satisfied(shifted)
+        if prepared.tree.satisfied(at):
+            assert holds_at(stretched, prepared.lift(at))
+
+
+@st.composite
+def homogeneous(draw: st.DrawFn) -> tuple[Formula, tuple[Fraction, ...]]:
+    """(body, a point where it holds) with every polynomial homogeneous in x and y of weights 1 and w."""
+    weight, point = draw(st.sampled_from([1, 2, 3])), draw(points)
+    members = []
+    for base in draw(st.lists(interesting(), min_size=1, max_size=4)):
+        degree = max(e[2] + weight * e[3] for e, _ in base.terms()) if base else 0
+        terms: dict[tuple[int, ...], int] = {}
+        for e, c in base.terms():
+            key = (e[0], e[1], degree - weight * e[3], e[3])
+            terms[key] = terms.get(key, 0) + c
+        members.append(made_true(RING.from_terms(terms), point, False))
+    return conj(members), point
+
+
+@settings(max_examples=80, deadline=None)
+@given(homogeneous(), st.lists(points, max_size=6))
+def test_scaling(problem: tuple[Formula, tuple[Fraction, ...]], elsewhere: list[tuple[Fraction, ...]]) -> None:
+    """A body that holds at a point still holds for some value of the scaled block; what is found is a solution."""
+    body, point = problem
+    prepared = prepare(exists(("x", "y"), body), enabled={StepKind.SCALING})
+    if prepared.tree is None:
+        return
+    known = dict(zip(RING.names, point, strict=True))
+    if len(prepared.steps) == 1:  # one variable is left: try the images of the point under all scalings
+        name = prepared.steps[0].detail[0]
+        other = "y" if name == "x" else "x"
+        candidates = [known | {other: v} for v in scaled_images(known, name, other)]
+        assert any(prepared.tree.satisfied(c) for c in candidates)
+    for values in (point, *elsewhere):
+        at = dict(zip(RING.names, values, strict=True))
+        if prepared.tree.satisfied(at):
+            assert holds_at(body, prepared.lift(at))
+
+
+def scaled_images(known: dict[str, Fraction], name: str, other: str) -> list[Value]:
+    """The values of ``other`` when ``name`` is scaled to -1, 0 or 1 by weights 1:1, 1:2, 1:3 and back."""
+    size, value = abs(known[name]), known[other]
+    if size == 0:
+        return [value, Fraction(1), Fraction(-1), Fraction(0)]
+    images: list[Value] = [value, Fraction(0), Fraction(1), Fraction(-1)]
+    for k in (1, 2, 3):
+        images += [value / size**k, value / root(size, k)]
+    return images
