@@ -114,7 +114,7 @@ class StackChecker:
         discriminant = None
         if k > 0 and not nullified:
             discriminant = sign(self.closure.discriminants[k][i], sample.signs)
-            if not discriminant and f.degree != poly.degree(k):
+            if not discriminant and f.degree != self.lists.lists[k][i].degree(k):
                 discriminant = None  # it is zero because the degree drops, which says nothing about multiple roots
         simple = _check_roots(f, signs, at, listed, discriminant, lambda e, r: fail(e, f"factor {i}: {r}"))
         return Branch(i, f, signs, nullified, simple)

@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 from qe.certify.cells import check_cells
+from qe.certify.containment import check_containment
 from qe.certify.optimum import check_optimum
 from qe.certify.verdict import Verdict
+from qe.certify.witness import check_witness
 from qe.errors import CertificateRejected, InputError
 from qe.evidence.cells_json import CellEvidence
 from qe.evidence.certificate import Certificate, Kind
+
+_CHECKERS = {Kind.OPTIMUM: check_optimum, Kind.WITNESS: check_witness, Kind.CONTAINMENT: check_containment}
 
 
 def verify(certificate: Certificate) -> Verdict:
@@ -39,8 +43,8 @@ def _check(certificate: Certificate) -> None:
     payload = certificate.payload
     if isinstance(payload, CellEvidence) and certificate.kind is Kind.CELLS:
         check_cells(payload)
-    elif isinstance(payload, dict) and certificate.kind is Kind.OPTIMUM:
-        check_optimum(payload)
+    elif isinstance(payload, dict) and certificate.kind in _CHECKERS:
+        _CHECKERS[certificate.kind](payload)
     elif isinstance(payload, tuple) and certificate.kind is Kind.BUNDLE:
         for position, member in enumerate(payload):
             try:

@@ -8,14 +8,16 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from enum import Enum
+from fractions import Fraction
 
 from qe.errors import CertificateRejected, InputError
 from qe.evidence.cells import CellTable
 from qe.evidence.cells_json import CellEvidence, cells_from_json, cells_to_json
-from qe.evidence.entry import Entry, Json
+from qe.evidence.entry import Entry, Json, formula_to_json
+from qe.exact.ring import Ring, format_poly
 from qe.formula.syntax import Formula
 
 FORMAT, VERSION = "bezier-qe certificate", 1
@@ -45,6 +47,15 @@ class Labelled:
     certificate: Certificate
 
 
+@dataclass(frozen=True, slots=True)
+class Root:
+    """The only real root in (low, high) of the polynomial with these integer coefficients, from degree 0 up."""
+
+    coefficients: tuple[int, ...]
+    low: Fraction
+    high: Fraction
+
+
 Payload = CellEvidence | tuple[Labelled, ...] | dict[str, Json]
 
 
@@ -68,6 +79,16 @@ class Certificate:
     def bundle(members: Iterable[tuple[str, Certificate]]) -> Certificate:
         """Several certificates, each with a label."""
         return Certificate(Kind.BUNDLE, tuple(Labelled(label, c) for label, c in members))
+
+    @staticmethod
+    def witness(matrix: Formula, order: Sequence[str], values: Sequence[Root | Fraction]) -> Certificate:
+        """That the quantifier-free ``matrix`` (over the ring of ``order``) holds where the variables have ``values``.
+
+        A value is a rational number or a ``Root``.
+        """
+        numbers: list[Json] = [_value_to_json(v, name) for v, name in zip(values, order, strict=True)]
+        payload: dict[str, Json] = {"order": list(order), "matrix": formula_to_json(matrix), "values": numbers}
+        return Certificate(Kind.WITNESS, payload)
 
     def to_data(self) -> dict[str, Json]:
         """Kind and payload as JSON data."""
@@ -115,6 +136,14 @@ def digest(whole: dict[str, Json]) -> str:
     content = {k: v for k, v in whole.items() if k != "digest"}
     canonical = json.dumps(content, ensure_ascii=True, sort_keys=True, separators=(",", ":"))
     return hashlib.sha256(canonical.encode()).hexdigest()
+
+
+def _value_to_json(value: Root | Fraction, name: str) -> Json:
+    if isinstance(value, Fraction):
+        return str(value)
+    ring = Ring.of((name,))
+    poly = ring.from_terms({(k,): c for k, c in enumerate(value.coefficients) if c})
+    return {"polynomial": format_poly(poly.normal()[1]), "interval": [str(value.low), str(value.high)]}
 
 
 def _from_data(entry: Entry, labelled: bool = False) -> Certificate:

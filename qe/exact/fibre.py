@@ -13,7 +13,15 @@ from typing import Any
 from flint import arb, ctx, fmpz_poly
 
 from qe.exact.ring import Poly, from_univariate
-from qe.exact.sturm import count_real_roots, exact, irreducible_factor_at, rational_root, sign_of, variations
+from qe.exact.sturm import (
+    count_real_roots,
+    count_roots_between,
+    exact,
+    irreducible_factor_at,
+    rational_root,
+    sign_of,
+    variations,
+)
 from qe.exact.triangular import (
     FIRST_BITS,
     Coordinate,
@@ -66,6 +74,10 @@ class RationalFibre:
     def count(self) -> int:
         """The number of distinct real roots."""
         return count_real_roots(self.p)
+
+    def count_between(self, low: Fraction, high: Fraction) -> int:
+        """The number of distinct real roots in (low, high); neither end is a root."""
+        return count_roots_between(self.p, low, high)
 
     def coordinate(self, low: Fraction, high: Fraction) -> Fraction | Coordinate | None:
         """The root between low and high, if exactly one irreducible factor changes sign there and only once."""

@@ -68,6 +68,13 @@ def count_real_roots(p: fmpz_poly) -> int:
     return _count(tuple(int(c) for c in p.coeffs()))
 
 
+def count_roots_between(p: fmpz_poly, low: Fraction, high: Fraction) -> int:
+    """The number of distinct real roots in (low, high), by Sturm's theorem; neither end is a root."""
+    sequence = sturm_sequence(p)
+    ends = [[sign_of(q(exact(x))) for q in sequence] for x in (low, high)]
+    return variations(ends[0]) - variations(ends[1])
+
+
 def _count_by_enclosure(p: fmpz_poly) -> int | None:
     """Distinct real roots of a squarefree p from disjoint balls around all complex roots; None if that fails.
 

@@ -1,0 +1,158 @@
+"""Hand-made cell tables that look right at every sample and are wrong: each has one missing argument."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from fractions import Fraction
+
+import pytest
+
+from qe.certify.verdict import Verdict
+from qe.certify.verify import verify
+from qe.evidence.cells import Cell, CellTable, Stack
+from qe.evidence.certificate import Certificate
+from qe.exact.ring import Poly, Ring
+from qe.formula.build import atom, conj, convert
+from qe.formula.syntax import Formula, Relation
+from qe.io.text import read
+from qe.options import Projection
+
+BROWN, LAZARD = Projection.BROWN_MCCALLUM, Projection.LAZARD
+
+
+def _poly(text: str, names: tuple[str, ...]) -> Poly:
+    ring = Ring.of(names)
+    found = convert(read(f"{text} = 0"), ring)
+    return found.poly  # type: ignore[attr-defined,no-any-return]
+
+
+def _stack(used: tuple[int, ...], sectors: str, sections: tuple[tuple[int, ...], ...], *cells: Cell) -> Stack:
+    return Stack(used, tuple(Fraction(s) for s in sectors.split()), sections, cells)
+
+
+def _verdict(
+    order: tuple[str, ...],
+    quantifiers: tuple[str, ...],
+    matrix: Formula,
+    factors: list[list[str]],
+    root: Cell,
+    projection: Projection = BROWN,
+) -> Verdict:
+    lists = tuple(tuple(_poly(f, order) for f in level) for level in factors)
+    table = CellTable(order, quantifiers, convert(matrix, Ring.of(order)), projection, lists, root)
+    return verify(Certificate.cells(table))
+
+
+def _leaf(signs: str, truth: bool | None) -> Cell:
+    return Cell(signs, truth)
+
+
+def test_a_factor_nullified_away_from_the_sample() -> None:
+    """x*z + y - 1 is zero on the whole line over (0, 1), but not over the sample (0, 0)."""
+    flat = Cell("", False, _stack((0,), "0", (), _leaf("-", False)))
+    middle = Cell("0", False, _stack((), "0", (), flat))
+    root = Cell("", False, _stack((0,), "-1 1", ((0,),), _leaf("-", False), middle, _leaf("+", False)))
+    names = ("x", "y", "z")
+    verdict = _verdict(names, ("E",) * 3, read("x = 0 and x*z + y - 1 = 0"), [["x"], [], ["x*z + y - 1"]], root)
+    assert not verdict.accepted
+    assert "may vanish identically" in verdict.reason
+    assert verdict.step == "payload.root.stack.cells[1].stack.cells[0].stack.used"
+
+
+def test_the_same_table_is_not_closed_under_lazard() -> None:
+    names = ("x", "y", "z")
+    root = Cell("", False, _stack((0,), "0", (), _leaf("0", False)))
+    verdict = _verdict(names, ("E",) * 3, read("x = 0 and x*z + y - 1 = 0"), [["x"], [], ["x*z + y - 1"]], root, LAZARD)
+    assert verdict.step == "payload.factors[2][0]"
+    assert "trailing coefficient" in verdict.reason
+
+
+def _cubic(right: Stack) -> Verdict:
+    """E y. y^3 + y + x = 0, with discriminant of one sign: factors at level 0 are none."""
+    root = Cell("", None, _stack((0,), "0", (), Cell("+", False, right)))
+    return _verdict(
+        ("x", "y"),
+        ("", "E"),
+        read("y^3 + y + x^2 + 10 = 0"),
+        [["27*x^4 + 540*x^2 + 2704"], ["y^3 + y + x^2 + 10"]],
+        root,
+    )
+
+
+def test_a_root_beyond_the_outermost_samples_is_missed() -> None:
+    verdict = _cubic(_stack((0,), "0", (), _leaf("+", False)))
+    assert not verdict.accepted
+    assert "missing" in verdict.reason
+
+
+def test_the_complete_stack_of_the_same_cubic() -> None:
+    stack = _stack((0,), "-3 0", ((0,),), _leaf("-", False), _leaf("0", True), _leaf("+", False))
+    verdict = _cubic(stack)
+    assert verdict.step == "payload.root.stack.cells[0].truth"  # the cell says False, E y is True
+    table_cell = replace(Cell("+", True, stack))
+    root = Cell("", None, _stack((0,), "0", (), table_cell))
+    names = ("x", "y")
+    factors = [["27*x^4 + 540*x^2 + 2704"], ["y^3 + y + x^2 + 10"]]
+    assert _verdict(names, ("", "E"), read("y^3 + y + x^2 + 10 = 0"), factors, root).accepted
+
+
+def test_a_degree_drop_is_not_a_double_root() -> None:
+    """x*y^4 + y^2 + 1 at x = 0 has discriminant 0 as a quartic and no real root."""
+    f = "x*y^4 + y^2 + 1"
+    false_stack = _stack((0,), "-1 1", ((0,),), _leaf("+", False), _leaf("0", True), _leaf("+", False))
+    none = Cell("++", False, _stack((0,), "0", (), _leaf("+", False)))
+    quarter = Cell("+0", False, _stack((0,), "0", (), _leaf("+", False)))
+    small = Cell("+-", False, _stack((0,), "0", (), _leaf("+", False)))
+    two = _stack(
+        (0,),
+        "-2 0 2",
+        ((0,), (0,)),
+        _leaf("-", False),
+        _leaf("0", True),
+        _leaf("+", False),
+        _leaf("0", None),
+        _leaf("-", False),
+    )
+    negative = Cell("--", True, two)
+
+    def root(at_zero: Cell) -> Cell:
+        return Cell("", None, _stack((0, 1), "-1 1/8 1", ((0,), (1,)), negative, at_zero, small, quarter, none))
+
+    def verdict(at_zero: Cell) -> Verdict:
+        return _verdict(("x", "y"), ("", "E"), read(f"{f} = 0"), [["x", "4*x - 1"], [f]], root(at_zero))
+
+    honest = Cell("0-", False, _stack((0,), "0", (), _leaf("+", False)))
+    assert str(verdict(honest)) == "accepted"
+    wrong = verdict(Cell("0-", True, false_stack))
+    assert wrong.step == "payload.root.stack.cells[1].stack.sections[0]"
+
+
+def test_equal_intervals_are_not_equal_roots() -> None:
+    """x^2 - 2 and x^2 - 3 have roots between 1 and 2, but not the same."""
+    merged = _stack(
+        (0, 1), "-2 0 2", ((0, 1), (0, 1)), *(_leaf(s, t) for s, t in [("++", False), ("00", True), ("--", False)]),
+        _leaf("00", True), _leaf("++", False),
+    )  # fmt: skip
+    names = ("x",)
+    ring = Ring.of(names)
+    both = conj([atom(_poly("x^2 - 2", names), Relation.EQ), atom(_poly("x^2 - 3", names), Relation.EQ)])
+    verdict = _verdict(names, ("",), both, [["x^2 - 2", "x^2 - 3"]], Cell("", None, merged))
+    assert ring is Ring.of(names)
+    assert verdict.step == "payload.root.stack.sections[0]"
+    assert "no common root" in verdict.reason
+
+
+@pytest.mark.parametrize(
+    ("quantifiers", "step"), [(("E", ""), "payload.quantifiers[1]"), (("X", "E"), "payload.quantifiers[0]")]
+)
+def test_free_variables_come_first(quantifiers: tuple[str, str], step: str) -> None:
+    root = Cell("", True)
+    assert _verdict(("x", "y"), quantifiers, read("true"), [[], []], root).step == step
+
+
+def test_a_list_must_be_squarefree_and_coprime() -> None:
+    root = Cell("", None)
+    verdict = _verdict(("x", "y"), ("", ""), read("x*y + y = 0"), [["x"], ["x*y + y"]], root)
+    assert not verdict.accepted
+    verdict = _verdict(("x", "y"), ("", ""), read("y = 0"), [[], ["y", "y^2 - 2*y*x + x^2"]], root)
+    assert "squarefree" in verdict.reason
