@@ -23,7 +23,7 @@ _POINT = re.compile(r"([pqr])([0-9])([xyz])")
 
 def math(body: str, *, block: bool = False) -> str:
     """A ``<math>`` element."""
-    return f'<math display="{"block" if block else "inline"}">{body}</math>'
+    return f'<math display="{"block" if block else "inline"}" displaystyle="true">{body}</math>'
 
 
 def name(text: str) -> str:

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from bezier.mesh import Array, RegionMesh, hull
+from bezier.mesh import Array, best_view, hull
 from bezier.picture import FLOOR, INK, PALE, PathPicture, RegionPicture
 
 VIEWS = (("top view", 0, 1), ("front view", 0, 2), ("side view", 1, 2))
@@ -26,7 +26,7 @@ def save_region(picture: PathPicture, path: Path) -> None:
         axis = above.add_subplot()
         _say(axis, "the region has no interior, so there is nothing to draw:\nsee the report for its exact description")
     else:
-        elevation, turn = _best_view(region.mesh)
+        elevation, turn = best_view(region.mesh)
         for column, (up, around) in enumerate(((elevation, turn), (10.0, turn + 180))):
             axis = above.add_subplot(1, 2, column + 1, projection="3d")
             _draw_region(axis, region, alpha=1.0)
@@ -130,24 +130,6 @@ def _draw_workspace(axis: Any, picture: PathPicture) -> None:
     axis.plot([0], [0], [0], marker="+", color=INK)
 
 
-def _best_view(mesh: RegionMesh) -> tuple[float, float]:
-    """Elevation and azimuth in degrees from which the boundary surfaces are all seen as well as possible."""
-    corners = mesh.vertices[mesh.faces]
-    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    owners = sorted(set(mesh.owner.tolist()))
-    whole = np.linalg.norm(normals, axis=1).sum()
-    best, score = (20.0, -62.0), -np.inf
-    for elevation in (15.0, 25.0, 35.0):
-        for turn in range(-170, 190, 15):
-            up, around = np.radians(elevation), np.radians(turn)
-            eye = np.array([np.cos(up) * np.cos(around), np.cos(up) * np.sin(around), np.sin(up)])
-            seen = np.clip(normals @ eye, 0, None)
-            value = sum(float(np.sqrt(seen[mesh.owner == k].sum() / whole)) for k in owners)
-            if value > score:
-                best, score = (elevation, float(turn)), value
-    return best
-
-
 def _frame(axis: Any, points: Array, pad: float, view: tuple[float, float] = (20.0, -62.0)) -> None:
     from matplotlib.ticker import MaxNLocator
 
@@ -214,7 +196,7 @@ def _grouped(picture: PathPicture, i: int, j: int) -> list[tuple[str, tuple[floa
     groups: list[tuple[list[str], tuple[float, float]]] = []
     for name, point in picture.marks.items():
         here = (float(point[i]), float(point[j]))
-        near = [g for g in groups if np.hypot(g[1][0] - here[0], g[1][1] - here[1]) < 0.04 * picture.radius]
+        near = [g for g in groups if np.hypot(g[1][0] - here[0], g[1][1] - here[1]) < 0.07 * picture.radius]
         if near:
             near[0][0].append(name)
         else:

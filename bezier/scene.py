@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from bezier.mesh import Array
+from bezier.mesh import Array, best_view
 from bezier.picture import INK, PALE, PathPicture, RegionPicture
 
 Trace = dict[str, Any]
@@ -29,12 +29,12 @@ def region_figure(picture: PathPicture) -> dict[str, Any] | None:
     traces = _region_traces(picture.region, opacity=1.0, legend=True)
     if picture.region.chosen is not None:
         traces.append(_marks({"Q1": picture.region.chosen}, size=6))
-    return _figure(traces)
+    return _figure(traces, best_view(picture.region.mesh))
 
 
 def corrected_figure(picture: RegionPicture) -> dict[str, Any]:
     """A region of its own, such as the one with z >= 0 added."""
-    return _figure(_region_traces(picture, opacity=1.0, legend=True))
+    return _figure(_region_traces(picture, opacity=1.0, legend=True), best_view(picture.mesh))
 
 
 def path_figure(picture: PathPicture) -> dict[str, Any]:
@@ -135,10 +135,13 @@ def _short(values: Array) -> list[float | None]:
     return [None if v != v else round(float(v), 6) for v in values]
 
 
-def _figure(traces: list[Trace]) -> dict[str, Any]:
+def _figure(traces: list[Trace], view: tuple[float, float] = (22.0, -62.0)) -> dict[str, Any]:
+    """``view``: elevation and azimuth of the first look, in degrees."""
+    up, around = np.radians(view)
+    eye = 2.15 * np.array([np.cos(up) * np.cos(around), np.cos(up) * np.sin(around), np.sin(up)])
     axis = {"backgroundcolor": "#f6f8fa", "gridcolor": "#dde3e8", "showbackground": True, "zerolinecolor": "#c5ced6"}
     scene: dict[str, Any] = {f"{name}axis": axis | {"title": {"text": name}} for name in "xyz"}
-    scene |= {"aspectmode": "data", "camera": {"eye": {"x": 0.9, "y": -1.7, "z": 0.8}}}
+    scene |= {"aspectmode": "data", "camera": {"eye": dict(zip("xyz", _short(eye), strict=True))}}
     layout = {
         "scene": scene,
         "margin": {"l": 0, "r": 0, "t": 0, "b": 0},
