@@ -324,7 +324,9 @@ def _quadratic(c: list[arb]) -> list[arb] | None:
 def _certified_roots(c: list[arb], bits: int) -> list[arb] | None:
     """Real roots from isolating complex balls: a ball that meets its conjugate and no other holds a real root."""
     try:
-        found = acb_poly(arb_poly(c)).roots(tol=arb(2) ** -bits)
+        # Half the bits: cancellation in the coefficients costs some, and a tolerance out of reach at every
+        # precision would never end. ``FibreRoot.ball`` asks again with more bits where it needs them.
+        found = acb_poly(arb_poly(c)).roots(tol=arb(2) ** -(bits // 2))
     except ValueError:
         return None
     real: list[arb] = []

@@ -1,0 +1,68 @@
+"""Comparing what the engine made of a formula with the oracles, at rational points."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Callable
+from fractions import Fraction
+
+from experiments import z3_oracle
+from qe import reference
+from qe.errors import BudgetExceeded
+from qe.formula.build import conj, disj
+from qe.formula.syntax import And, Constant, Exists, ForAll, Formula, Not, Or
+from qe.formula.traverse import children, free_variables
+from qe.options import Budget
+from tests.differential.generate import at_point, random_point
+
+
+def oracle(sentence: Formula, *, seconds: float = 1.0) -> bool | None:
+    """The truth of a sentence by the reference elimination, or else by z3 where it is installed, or None."""
+    if isinstance(sentence, Constant):
+        return sentence.value
+    try:
+        return reference.decide(sentence, budget=Budget(seconds))
+    except BudgetExceeded:
+        pass
+    try:
+        return z3_oracle.decide(sentence, seconds=seconds)
+    except ImportError:
+        return None
+
+
+def disagreement(
+    before: Formula, after: Formula, rng: random.Random, *, points: int = 4, seconds: float = 1.0
+) -> dict[str, Fraction] | None:
+    """A point where the two formulas differ, by the oracles; None if none was found. New free names are refused."""
+    assert set(free_variables(after)) <= set(free_variables(before)), "the answer has new free variables"
+    for _ in range(points if free_variables(before) else 1):
+        point = random_point(rng, before)
+        left = oracle(at_point(before, point), seconds=seconds)
+        right = oracle(at_point(after, point), seconds=seconds)
+        if left is not None and right is not None and left != right:
+            return point
+    return None
+
+
+def smaller(formula: Formula) -> list[Formula]:
+    """Formulas one step smaller: an argument dropped or taken alone, a quantified body with a part dropped."""
+    match formula:
+        case And(args) | Or(args):
+            join = conj if isinstance(formula, And) else disj
+            dropped = [join(args[:i] + args[i + 1 :]) for i in range(len(args))]
+            deeper = [join((*args[:i], s, *args[i + 1 :])) for i, a in enumerate(args) for s in smaller(a)]
+            return [*args, *dropped, *deeper]
+        case Not(arg):
+            return [arg, *(Not(s) for s in smaller(arg))]
+        case Exists(names, body) | ForAll(names, body):
+            return [type(formula)(names, s) for s in smaller(body)]
+    return list(children(formula))
+
+
+def reduced(formula: Formula, fails: Callable[[Formula], bool]) -> Formula:
+    """A formula that still fails and none of whose one step smaller ones does."""
+    while True:
+        following = next((s for s in smaller(formula) if not isinstance(s, Constant) and fails(s)), None)
+        if following is None:
+            return formula
+        formula = following

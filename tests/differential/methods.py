@@ -1,0 +1,69 @@
+"""The engine's parts as functions from a formula to an equivalent one, for comparison with the oracles."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from qe.eliminate.cad.decompose import decompose
+from qe.eliminate.vs.block import eliminate_block
+from qe.formula.build import disj, exists, neg
+from qe.formula.normal import Quantifier, prenex
+from qe.formula.syntax import Constant, Formula
+from qe.formula.traverse import free_variables
+from qe.options import Budget, Projection
+from qe.prepare.pipeline import prepare
+from qe.prepare.simplify import simplify
+from qe.solution.construct import construct
+
+Part = Callable[[Formula, Budget], Formula]
+
+
+def by_cad(projection: Projection) -> Part:
+    """Prenex form, cell table, solution formula."""
+
+    def run(formula: Formula, budget: Budget) -> Formula:
+        prefix, matrix = prenex(formula)
+        if isinstance(matrix, Constant):
+            return matrix
+        free = free_variables(formula)
+        order = (*free, *(name for _, names in prefix for name in names))
+        kinds = (*("" for _ in free), *(kind.value for kind, names in prefix for _ in names))
+
+        def refine(levels: frozenset[int]) -> object:
+            return decompose(
+                matrix, order, kinds, budget=budget, projection=projection, separated=levels
+            ).table
+
+        table = decompose(matrix, order, kinds, budget=budget, projection=projection).table
+        return construct(table, refine)[0]  # type: ignore[arg-type]
+
+    return run
+
+
+def by_substitution(formula: Formula, budget: Budget) -> Formula:
+    """Virtual substitution block by block from the inside; what is of too high a degree stays quantified."""
+    prefix, matrix = prenex(formula)
+    for kind, names in reversed(prefix):
+        negate = kind is Quantifier.FORALL
+        inner = neg(matrix) if negate else matrix
+        result = eliminate_block(names, inner, budget=budget, simplify=simplify)
+        found = disj([result.formula])
+        matrix = neg(found) if negate else found
+        if result.remaining:
+            return _requantified(prefix[: prefix.index((kind, names))], matrix)
+    return matrix
+
+
+def _requantified(prefix: tuple[tuple[Quantifier, tuple[str, ...]], ...], formula: Formula) -> Formula:
+    for kind, names in reversed(prefix):
+        formula = exists(names, formula) if kind is Quantifier.EXISTS else neg(exists(names, neg(formula)))
+    return formula
+
+
+PARTS: dict[str, Part] = {
+    "simplify": lambda f, budget: simplify(f),
+    "prepare": lambda f, budget: prepare(f, budget=budget).formula,
+    "vs": by_substitution,
+    "cad-brown-mccallum": by_cad(Projection.BROWN_MCCALLUM),
+    "cad-lazard": by_cad(Projection.LAZARD),
+}
