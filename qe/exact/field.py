@@ -221,6 +221,10 @@ class FieldElement:
         return hash(self.as_fraction()) if self.is_rational else hash(self.to_algebraic())
 
     def __lt__(self, other: object) -> bool:
+        if isinstance(other, FieldElement) and other.field != self.field:
+            return self.to_algebraic() < other.to_algebraic()
+        if isinstance(other, RealAlgebraic):
+            return self.to_algebraic() < other
         value = self._operand(other)
         return NotImplemented if value is None else FieldElement(self.field, self.value - value).sign() < 0
 

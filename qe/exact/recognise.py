@@ -18,9 +18,12 @@ from qe.exact.field import FieldElement, NumberField
 
 Digits = Callable[[int], arb]  # an approximation with error below 2^-bits
 
-_EXTRA = 96  # further bits that a candidate has to agree with
+_EXTRA = 128  # further bits that a candidate has to agree with
 # (largest degree, bits) tried in this order: each step costs a few times the one before
-_SCHEDULE = ((1, 64), (2, 128), (4, 320), (8, 800), (12, 1800), (16, 2800), (24, 5000), (32, 9000), (40, 14000))
+SCHEDULE = (
+    *((1, 64), (2, 128), (4, 320), (8, 800), (12, 1800), (16, 2800)),
+    *((20, 5500), (28, 9000), (40, 15000)),
+)
 
 
 def _rounded(x: arb, bits: int) -> fmpz:
@@ -44,27 +47,41 @@ def _powers(x: arb, count: int) -> list[arb]:
     return out
 
 
-def algebraic_candidate(digits: Digits, max_degree: int) -> RealAlgebraic | None:
-    """The real algebraic number that the digits seem to be of, of degree at most ``max_degree``."""
-    for degree, bits in _SCHEDULE:
-        full = bits + _EXTRA + 32
-        x = digits(full)
-        with precision(full + 32):
-            coefficients = relation(_powers(x, degree), bits)
-            p = fmpz_poly(coefficients)
-            agrees = p.degree() > 0 and abs(p(x)) < arb(2) ** -(bits + _EXTRA // 2)
-        if agrees:
-            found = _nearest_root(p, x, bits)
-            if found is not None:
-                return found
-        if degree >= max_degree:
+def algebraic_candidate(digits: Digits, degree: int, bits: int) -> RealAlgebraic | None:
+    """The real algebraic number that the digits seem to be of, of degree at most ``degree``, from ``bits`` digits.
+
+    The number is scaled by a power of two to about 1, so that all coefficients weigh alike.
+    """
+    full = bits + 2 * bits // (degree + 1) + _EXTRA  # the coefficients amplify the error of x
+    x = digits(full)
+    with precision(full + 32):
+        shift = _magnitude(x)
+        scaled = x * arb(2) ** -shift
+        coefficients = relation(_powers(scaled, degree), bits)
+        p = fmpz_poly(coefficients)
+        if p.degree() <= 0 or not abs(p(scaled)) < arb(2) ** -(bits + _EXTRA // 2):
             return None
-    return None
+        # p(x / 2^shift), without denominators
+        up, down, top = max(shift, 0), max(-shift, 0), p.degree()
+        unscaled = [c << (up * (top - i) + down * i) for i, c in enumerate(p.coeffs())]
+    return _nearest_root(fmpz_poly(unscaled), x, bits - abs(shift))
+
+
+def _size(field: NumberField) -> int:
+    return max(0, _magnitude(field.theta.ball()))
+
+
+def _magnitude(x: arb) -> int:
+    middle = x.mid()
+    if middle.is_zero():
+        return 0
+    mantissa, exponent = middle.man_exp()
+    return max(-64, min(64, int(exponent) + int(abs(mantissa)).bit_length()))
 
 
 def _nearest_root(p: fmpz_poly, x: arb, bits: int) -> RealAlgebraic | None:
     """The root of p that lies within 2^(-bits/4) of x, if there is one."""
-    with precision(bits + _EXTRA + 64):
+    with precision(2 * bits + _EXTRA + 64):
         reach = arb(x.mid(), arb(2) ** -(bits // 4))
         for factor, _ in irreducible_factors(p):
             if factor(reach).contains(0):
@@ -84,8 +101,8 @@ def element_candidate(field: NumberField, digits: Digits) -> FieldElement | None
     p = field.theta.poly
     degree, slope = p.degree(), p.derivative()
     bits = 64 + (degree + 1) * (24 + int(p.height_bits()) // 2)
-    for _ in range(4):
-        full = bits + _EXTRA + 32
+    for _ in range(5):
+        full = bits + 2 * bits // (degree + 1) + degree * _size(field) + _EXTRA
         x = digits(full)
         with precision(full + 32):
             theta = field.theta.ball(full)

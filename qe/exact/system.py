@@ -12,6 +12,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
+from math import gcd, lcm
 
 from flint import arb, arb_mat, fmpq
 
@@ -19,11 +20,12 @@ from qe.errors import Unable
 from qe.exact.balls import precision
 from qe.exact.field import FieldElement, NumberField, to_fmpq
 from qe.exact.quadratic_form import Number, Quadratic, combine, independent_rows, solve_linear
-from qe.exact.recognise import Digits, algebraic_candidate, element_candidate
+from qe.exact.recognise import SCHEDULE, Digits, algebraic_candidate, element_candidate
 
 Point = tuple[Number, ...]
 
 MAX_DEGREE = 40  # of the number field: beyond, lattice reduction takes seconds
+_MANY_TRIALS = 12  # degree up to which several generators are tried
 
 
 @dataclass(frozen=True, slots=True)
@@ -195,7 +197,8 @@ def critical_point(
     if reduced is None:
         return None
     flat, rest = reduced
-    f = objective.restrict(flat.origin, flat.basis)
+    f = _primitive(objective.restrict(flat.origin, flat.basis))
+    rest = [_primitive(q) for q in rest]
     if not rest:
         solution = solve_linear(f.hessian, [-b for b in f.gradient], f.size)
         if solution is None or solution.kernel:
@@ -213,6 +216,13 @@ def critical_point(
         return None
     field, found = _recognise(newton, f, rest, max_degree)
     return field, flat.lift(found)
+
+
+def _primitive(q: Quadratic) -> Quadratic:
+    """The positive multiple with integer coefficients of content 1: short multipliers belong to it."""
+    numbers = [c for row in q.hessian for c in row] + [*q.gradient, q.constant]
+    scale = Fraction(lcm(*(c.denominator for c in numbers)), gcd(*(c.numerator for c in numbers)) or 1)
+    return combine([scale], [q])
 
 
 def _multipliers(f: Quadratic, rest: Sequence[Quadratic], z: Sequence[float]) -> list[float]:
@@ -240,18 +250,27 @@ def _recognise(newton: _Newton, f: Quadratic, rest: Sequence[Quadratic], max_deg
 
     unit = [[int(i == j) for j in range(total)] for i in range(total)]
     # one unknown alone mostly generates the field; otherwise small generic combinations do
-    trials = [unit[n], [0] * n + [1 + 2 * k for k in range(len(rest))], [3 * k + 1 for k in range(total)]]
-    for weights in trials:
-        theta = algebraic_candidate(combination(weights), max_degree)
-        if theta is None:  # a number of the field has too high a degree, so the field has
+    generic = [[0] * n + [1 + 2 * k for k in range(len(rest))], [3 * k + 1 for k in range(total)]]
+    trials = [unit[n], unit[0], *unit[n + 1 :], *generic]
+    for degree, bits in SCHEDULE:
+        if degree > max_degree:
             break
-        field = NumberField(theta)
-        nu = _elements(field, [combination(unit[i]) for i in range(n, total)])
-        if nu is None:
-            continue
-        z = _stationary(f, rest, nu, partial(_guess, field, [combination(row) for row in unit[:n]]))
-        if z is not None:
-            return field, z
+        for weights in trials if degree <= _MANY_TRIALS else trials[:2]:
+            theta = algebraic_candidate(combination(weights), degree, bits)
+            if theta is None:
+                continue
+            field = NumberField(theta)
+            if weights is unit[0]:  # a coordinate: the others are about as short, multipliers mostly longer
+                point = _elements(field, [combination(unit[i]) for i in range(n)])
+                if point is not None:
+                    return field, tuple(point)
+                continue
+            nu = _elements(field, [combination(unit[i]) for i in range(n, total)])
+            if nu is None:
+                continue
+            z = _stationary(f, rest, nu, partial(_guess, field, [combination(row) for row in unit[:n]]))
+            if z is not None:
+                return field, z
     raise HighDegree(f"the exact optimum seems to need a number field of degree above {max_degree}")
 
 

@@ -1,0 +1,131 @@
+"""The optima of formulas (7) and (8): the values that are known, exactly."""
+
+from __future__ import annotations
+
+from fractions import Fraction as F
+
+import pytest
+from tests.optimum_problems import CUBIC_LABELS, at_most_zero, cubic, quadratic
+
+from qe.certify.optimum import check_optimum
+from qe.exact.field import FieldElement
+from qe.solution.optimum import OptimumStatus, minimize
+
+
+def _decimals(value: object, digits: str) -> bool:
+    """Whether a number is within one unit in the last place of a printed decimal, decided exactly."""
+    unit = F(1, 10 ** len(digits.partition(".")[2]))
+    return F(digits) - unit <= value <= F(digits) + unit  # type: ignore[operator]
+
+
+PLANE = [
+    # Q0, R0, r^2, objective, Q1 and Q2, active
+    ((-3, 2), (3, 2), 27, "13.036164", ("-1.3991", "2.2007", "1.3991", "2.2007"), "P1 R2"),
+    ((-3, 2), (2, 2), 27, "8.608561", ("-1.6696", "2.1323", "0.3635", "2.0843"), "P1 R2"),
+    ((-3, 2), (1, 2), 14, "7.080015", ("-2.5829", "2.4757", "-0.5333", "2.3237"), "P2 R2"),
+    ((-4, 2), (3, 2), 21, "29.961225", ("-3.5528", "2.8944", "1.5515", "2.8994"), "P2 Q1 R1"),
+    ((0, 3), (4, 3), 26, "6.894445", ("1.7779", "3.2501", "3.5558", "3.5001"), "R1"),
+    ((-3, 4), (3, 4), 26, "21.36", ("-2.2", "4.6", "2.2", "4.6"), "P2 Q1 Q2 R1"),
+    ((-1, 5), (4, 5), 44, "9.614010", ("1.0053", "5.3127", "3.0244", "5.6133"), "P1 R1"),
+    (
+        (-3, 1, 2),
+        (2, 1, 2),
+        15,
+        "12.024396",
+        ("-2.405", "1.3556", "2.7112", "0.4517", "1.3058", "2.6116"),
+        "P2 R1",
+    ),
+]
+
+
+@pytest.mark.parametrize(("q0", "r0", "r2", "value", "point", "active"), PLANE)
+def test_cubic_optima(q0, r0, r2, value, point, active) -> None:
+    objective, forms, _ = cubic(q0, r0, r2)
+    found = minimize(objective, at_most_zero(forms))
+    assert found.status is OptimumStatus.OPTIMAL
+    assert found.unique and found.attained
+    assert _decimals(found.value, value)
+    assert all(_decimals(c, d) for c, d in zip(found.point.values(), point, strict=True))
+    assert {CUBIC_LABELS[i] for i in found.active} == set(active.split())
+    check_optimum(found.certificate.payload)
+
+
+FAMILY = [
+    ("2.6", "-.33333", "1.00000", "1.33333"),
+    ("2.5", "-.34034", "1.00541", "1.33369"),
+    ("2.3", "-.37671", "1.03322", "1.34683"),
+    ("2.0", "-.43140", "1.07440", "1.40211"),
+    ("1.8", "-.46796", "1.10151", "1.46268"),
+    ("1.75", "-.46635", "1.15714", "1.48888"),
+    ("1.7", "-.48433", "1.23010", "1.57603"),
+    ("1.6", "-.55432", "1.31442", "1.82407"),
+    ("1.5", "-.64645", "1.35355", "2.17157"),
+]
+
+
+@pytest.mark.parametrize(("radius", "x", "y", "value"), FAMILY)
+def test_symmetric_family(radius: str, x: str, y: str, value: str) -> None:
+    objective, forms, _ = cubic((-1, 1), (1, 1), F(radius) ** 2)
+    found = minimize(objective, at_most_zero(forms))
+    assert _decimals(found.point["a0"], x) and _decimals(found.point["a1"], y)
+    assert found.point["b0"] == -found.point["a0"] and found.point["b1"] == found.point["a1"]
+    assert _decimals(found.value, value)
+
+
+def test_threshold_of_the_interior_solution() -> None:
+    for r2, inside in ((F(58, 9), True), (F(57, 9), False)):
+        objective, forms, _ = cubic((-1, 1), (1, 1), r2)
+        found = minimize(objective, at_most_zero(forms))
+        assert (found.value == F(4, 3)) is inside
+        assert (found.active != ()) is (not inside or r2 == F(58, 9))
+
+
+def test_hemisphere_condition_bites_at_radius_three_halves() -> None:
+    objective, forms, _ = cubic((-1, 1), (1, 1), F(9, 4), hemisphere=True)
+    found = minimize(objective, at_most_zero(forms))
+    free = minimize(objective, at_most_zero(forms[:6]))
+    assert 4 - 4 * free.point["a1"] + free.point["b1"] < 0  # P1 below the ground
+    assert found.value > free.value
+    assert 4 - 4 * found.point["a1"] + found.point["b1"] == 0
+
+
+def test_planar_problem_in_space_has_the_planar_optimum() -> None:
+    plane = minimize(*_problem(cubic((-3, 2), (2, 2), 27)))
+    turned = minimize(*_problem(cubic((-3, F(6, 5), F(8, 5)), (2, F(6, 5), F(8, 5)), 27)))
+    assert turned.value == plane.value * 625  # the objective carries the square of the denominators
+    assert turned.point["a0"] == plane.point["a0"]
+    assert turned.point["a1"] * 4 == turned.point["a2"] * 3
+
+
+def _problem(parts):
+    return parts[0], at_most_zero(parts[1])
+
+
+def test_formula_eight_interior_touching_and_degenerate() -> None:
+    inside = minimize(*_problem(quadratic((-1, 3, 3), (1, 3, 3), 27)))
+    assert inside.point == {"x": 0, "y": 3, "z": 3} and inside.active == () and inside.value == 2
+    # the midpoint lies on two spheres at once, without being pressed against them
+    touching = minimize(*_problem(quadratic((-1, 3, 3), (1, 3, 3), 22)))
+    assert touching.active == (1, 2) and not any(touching.multipliers)
+    # the via point R0 on the sphere leaves Q1 = R0 alone: no multipliers without facial reduction
+    single = minimize(*_problem(quadratic((0, 1, 1), (1, 2, 1), 6)))
+    assert single.point == {"x": 1, "y": 2, "z": 1} and len(single.evidence.faces) == 1
+    check_optimum(single.certificate.payload)
+
+
+def test_formula_eight_with_irrational_optimum() -> None:
+    found = minimize(*_problem(quadratic((-3, 1, 3), (1, 4, 3), 32, hemisphere=True)))
+    assert isinstance(found.value, FieldElement) and found.field.degree == 2
+    assert found.active == (1, 2)
+    assert str(found.point["z"]).count("sqrt") == 1
+
+
+def test_formula_eight_infeasible_as_the_enclosing_circle_says() -> None:
+    q0, r0 = (-1, 3, 3), (1, 3, 3)
+    # d^2 + k^2 <= r k with d = 1, k = sqrt(18): r^2 >= 361/18
+    feasible = minimize(*_problem(quadratic(q0, r0, F(361, 18))))
+    empty = minimize(*_problem(quadratic(q0, r0, F(360, 18))))
+    assert feasible.status is OptimumStatus.OPTIMAL and empty.status is OptimumStatus.INFEASIBLE
+    assert empty.value is None and all(m >= 0 for m in empty.multipliers)
+    check_optimum(feasible.certificate.payload)
+    check_optimum(empty.certificate.payload)
