@@ -7,7 +7,7 @@ from fractions import Fraction
 import pytest
 
 from qe.eliminate.vs import BlockResult, eliminate_block, witness
-from qe.eliminate.vs.candidates import bounds, in_order
+from qe.eliminate.vs.candidates import bounds, in_order, lone_quadratic, without_radicals
 from qe.eliminate.vs.known import Signs
 from qe.eliminate.vs.openness import is_open, thinned
 from qe.eliminate.vs.substitute import Substitution
@@ -15,7 +15,7 @@ from qe.exact.ring import Ring
 from qe.formula.build import conj, disj
 from qe.formula.evaluate import holds_at
 from qe.formula.syntax import FALSE, TRUE, And, Atom, Exists, Formula
-from qe.formula.traverse import free_variables
+from qe.formula.traverse import atoms, free_variables, polynomials
 from qe.io.text import read
 from qe.options import Budget
 from qe.prepare.simplify import simplify
@@ -178,6 +178,40 @@ def test_settled_atoms_lose_only_the_zero_case() -> None:
     short = Substitution(ring.index["x"], point, Signs(), frozenset((second,)))(second)
     agree(full, "a >= b")
     agree(short, "a > b")
+
+
+@pytest.mark.parametrize(
+    ("text", "alone"),
+    [
+        ("x^2 - a <= 0 and x > b", True),
+        ("x^2 - a <= 0 and x^2 - a /= 0 and x > b", True),
+        ("a*x^2 - 1 < 0 and a*x^2 - 1 > 0 and (x > b or x = 1)", True),
+        ("x^2 - a <= 0 and x^2 - a >= 0 and x > b", False),
+        ("x^2 - a = 0 or x > b", False),
+        ("(x^2 - a)*(x - b) < 0", False),
+        ("x^2 - a < 0 and x^2 - b < 0", False),
+        ("(x^2 - a)^2 > 0", False),
+        ("x > b", False),
+        ("x^3 - a < 0 and x^2 < b", False),
+    ],
+)
+def test_lone_quadratic(text: str, alone: bool) -> None:
+    matrix = read(text)
+    ring = next(iter(polynomials(matrix))).ring
+    assert (lone_quadratic(matrix, ring.index["x"]) is not None) == alone
+
+
+def test_incomplete_sources_do_not_settle() -> None:
+    matrix = read("x^2 - a < 0 and x > b and x < c")
+    found = without_radicals(matrix, next(iter(polynomials(matrix))).ring.index["x"], Signs())
+    assert found is not None
+    quadratic = {a for a in atoms(matrix) if isinstance(a, Atom) and a.poly.total_degree == 2}
+    assert all(not settled & quadratic for _, settled in in_order((*reversed(found), *found)))
+    assert any(settled for _, settled in in_order(found))
+
+
+def test_an_equation_written_as_two_inequalities() -> None:
+    agree(run("ex x. x^2 - a <= 0 and x^2 - a >= 0 and x > b").formula, "a >= 0 and (b < 0 or b^2 < a)")
 
 
 def test_thinning() -> None:
