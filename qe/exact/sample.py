@@ -248,7 +248,7 @@ class Fibre:
             return [] if len(c) == 1 else [-c[0] / c[1]]
         if len(c) == 3:
             return _quadratic(c)
-        return _certified_roots(c, bits)
+        return certified_roots(c, bits)
 
     def _make_exact(self) -> None:
         """Prove the degree, and replace the polynomial by its squarefree part over the tower."""
@@ -321,7 +321,7 @@ def _quadratic(c: list[arb]) -> list[arb] | None:
     return pair if pair[0] < pair[1] else None
 
 
-def _certified_roots(c: list[arb], bits: int) -> list[arb] | None:
+def certified_roots(c: list[arb], bits: int) -> list[arb] | None:
     """Real roots from isolating complex balls: a ball that meets its conjugate and no other holds a real root."""
     try:
         # Half the bits: cancellation in the coefficients costs some, and a tolerance out of reach at every

@@ -1,0 +1,156 @@
+"""Pictures of regions in one, two and three variables, drawn from the cylindrical description. For looking only."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from qe.errors import InputError
+from qe.solution.pieces import Piece, RootFunction
+
+if TYPE_CHECKING:
+    from qe.solution.region import Region
+
+FILL, EDGE = "#4c78a8", "#1f3b5c"
+SAMPLES_2D, SAMPLES_3D = 400, 60
+MARGIN = 0.06
+UNBOUNDED = 4.0
+
+
+def draw(region: Region, path: Path) -> None:
+    """Write a picture of the region; the format follows the file name. ``InputError`` above three variables."""
+    if len(region.order) > 3:
+        raise InputError(f"a picture needs 1 to 3 variables, the region has {len(region.order)}")
+    import matplotlib
+
+    matplotlib.use("Agg")
+    from matplotlib import pyplot
+
+    figure = pyplot.figure(figsize=(6.4, 5.2), dpi=150)
+    axes = figure.add_subplot(projection="3d" if len(region.order) == 3 else None)
+    (_line, _plane, _space)[len(region.order) - 1](region, axes)
+    if region.is_empty:
+        axes.set_title("empty region")
+    figure.tight_layout()
+    figure.savefig(path)
+    pyplot.close(figure)
+
+
+def _span(region: Region, variable: str) -> tuple[float, float]:
+    """Drawing limits of a variable; unbounded directions are cut off."""
+    if region.is_empty:
+        return -1.0, 1.0
+    lower, upper = region.bounds(variable)
+    lo = float(lower) if lower is not None else (float(upper) if upper is not None else 0.0) - UNBOUNDED
+    hi = float(upper) if upper is not None else (float(lower) if lower is not None else 0.0) + UNBOUNDED
+    pad = MARGIN * (hi - lo) or 1.0
+    return lo - pad, hi + pad
+
+
+def _at(root: RootFunction | None, values: Mapping[int, float], fallback: float) -> float:
+    """An approximate value of a root function."""
+    import numpy
+
+    if root is None:
+        return fallback
+    if root.value is not None:
+        return float(root.value)
+    level = root.poly.level
+    coefficients = [_value(c.terms(), values) for c in root.poly.coefficients(level)]
+    if len(coefficients) == 2:
+        return -coefficients[0] / coefficients[1] if coefficients[1] else fallback
+    if len(coefficients) == 3:
+        c, b, a = coefficients
+        if not a:
+            return -c / b if b else fallback
+        wide = max(b * b - 4 * a * c, 0.0) ** 0.5
+        pair = sorted(((-b - wide) / (2 * a), (-b + wide) / (2 * a)))
+        return pair[root.k - 1]
+    found = numpy.roots(coefficients[::-1])
+    real = sorted(float(z.real) for z in found if abs(z.imag) < 1e-6 * max(1.0, abs(z)))
+    return real[min(root.k, len(real)) - 1] if real else fallback
+
+
+def _value(terms: list[tuple[tuple[int, ...], int]], values: Mapping[int, float]) -> float:
+    total = 0.0
+    for exponents, c in terms:
+        product = float(c)
+        for i, e in enumerate(exponents):
+            if e:
+                product *= values[i] ** e
+        total += product
+    return total
+
+
+def _ends(piece: Piece, i: int, values: Mapping[int, float], span: tuple[float, float]) -> tuple[float, float]:
+    r = piece.ranges[i]
+    return _at(r.lower, values, span[0]), _at(r.upper, values, span[1])
+
+
+def _line(region: Region, axes: Any) -> None:
+    span = _span(region, region.order[0])
+    for piece in region.cells:
+        lo, hi = _ends(piece, 0, {}, span)
+        axes.plot([lo, hi], [0, 0], color=FILL, linewidth=6, solid_capstyle="butt")
+        for end, closed in ((lo, piece.ranges[0].lower_closed), (hi, piece.ranges[0].upper_closed)):
+            axes.plot([end], [0], "o", markersize=9, markerfacecolor=FILL if closed else "white", markeredgecolor=EDGE)
+    axes.set_xlim(*span)
+    axes.set_ylim(-1, 1)
+    axes.set_yticks([])
+    axes.axhline(0, color="0.7", linewidth=0.8, zorder=0)
+    axes.set_xlabel(region.order[0])
+
+
+def _plane(region: Region, axes: Any) -> None:
+    import numpy
+
+    x_span, y_span = _span(region, region.order[0]), _span(region, region.order[1])
+    for piece in region.cells:
+        lo, hi = _ends(piece, 0, {}, x_span)
+        turn = numpy.linspace(0, numpy.pi, SAMPLES_2D)
+        xs = [lo] if lo == hi else list(lo + (hi - lo) * (1 - numpy.cos(turn)) / 2)
+        bounds = [_ends(piece, 1, {0: x}, y_span) for x in xs]
+        low, high = [b[0] for b in bounds], [b[1] for b in bounds]
+        if len(xs) == 1:
+            axes.plot([xs[0], xs[0]], [low[0], high[0]], color=EDGE, marker="o" if low == high else None, markersize=5)
+            continue
+        axes.fill_between(xs, low, high, color=FILL, alpha=0.55, linewidth=0)
+        for side, curve in ((piece.ranges[1].lower, low), (piece.ranges[1].upper, high)):
+            if side is not None:
+                axes.plot(xs, curve, color=EDGE, linewidth=1.2)
+    axes.set_xlim(*x_span)
+    axes.set_ylim(*y_span)
+    axes.set_aspect("equal", adjustable="datalim")
+    axes.grid(color="0.9")
+    axes.set_axisbelow(True)
+    axes.set_xlabel(region.order[0])
+    axes.set_ylabel(region.order[1])
+
+
+def _space(region: Region, axes: Any) -> None:
+    import numpy
+
+    spans = [_span(region, v) for v in region.order]
+    for piece in region.cells:
+        x_lo, x_hi = _ends(piece, 0, {}, spans[0])
+        wave = (1 - numpy.cos(numpy.linspace(0, numpy.pi, SAMPLES_3D))) / 2
+        grid: list[list[tuple[float, float, float, float]]] = []
+        for x in x_lo + (x_hi - x_lo) * wave:
+            y_lo, y_hi = _ends(piece, 1, {0: x}, spans[1])
+            row = []
+            for y in y_lo + (y_hi - y_lo) * wave:
+                row.append((float(x), float(y), *_ends(piece, 2, {0: x, 1: y}, spans[2])))
+            grid.append(row)
+        whole = numpy.array(grid)
+        if x_lo == x_hi and numpy.ptp(whole[:, :, 1]) == 0 and numpy.allclose(whole[:, :, 2], whole[:, :, 3]):
+            axes.scatter([whole[0, 0, 0]], [whole[0, 0, 1]], [whole[0, 0, 2]], color=EDGE, s=30)
+            continue
+        for sheet in (2, 3):
+            axes.plot_surface(
+                whole[:, :, 0], whole[:, :, 1], whole[:, :, sheet], color=FILL, alpha=0.75, linewidth=0, shade=True
+            )
+    for axis, span, name in zip("xyz", spans, region.order, strict=True):
+        getattr(axes, f"set_{axis}lim")(*span)
+        getattr(axes, f"set_{axis}label")(name)
+    axes.set_box_aspect([b - a for a, b in spans])
