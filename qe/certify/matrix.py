@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from qe.certify.products import FactorLists, Product, Signs, sign
+from qe.certify.products import FactorLists, Product, Signs, possible_signs, sign
 from qe.errors import CertificateRejected
 from qe.exact.ring import Poly, format_poly
 from qe.formula.build import atom
@@ -74,7 +74,10 @@ def _atom(product: Product, relation: Relation) -> Test:
 
     def run(situation: Situation) -> Truth:
         s = sign(product, situation.signs)
-        return None if s is None else s in holding
+        if s is not None:
+            return s in holding
+        possible = possible_signs(product, situation.signs)
+        return True if possible <= holding else None if possible & holding else False
 
     return run
 

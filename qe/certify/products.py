@@ -36,6 +36,23 @@ def sign(product: Product, signs: Signs) -> int | None:
     return None if unknown else result
 
 
+_ANY, _SQUARE = frozenset((-1, 0, 1)), frozenset((0, 1))
+
+
+def possible_signs(product: Product, signs: Signs) -> frozenset[int]:
+    """The signs that the product can have where the factors have these signs; an unknown one can have any."""
+    known, open_factors = product.unit, _SQUARE
+    for level, index, exponent in product.powers:
+        s = signs[level][index] if level < len(signs) else None
+        if s is None:
+            open_factors = _ANY if exponent & 1 else open_factors
+        elif s == 0:
+            return frozenset((0,))
+        elif exponent & 1:
+            known *= s
+    return frozenset(known * s for s in open_factors)
+
+
 class FactorLists:
     """The factor lists of a table, ready for trial division. Values are not changed after construction."""
 

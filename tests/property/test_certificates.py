@@ -1,0 +1,133 @@
+"""Random decompositions are accepted, and what the checker's arithmetic says agrees with other methods."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from fractions import Fraction
+
+import pytest
+from flint import fmpz_poly
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from qe.certify.verify import verify
+from qe.eliminate.cad.decompose import decompose
+from qe.errors import BudgetExceeded
+from qe.evidence.cells import Cell, CellTable
+from qe.evidence.certificate import Certificate
+from qe.exact.algebraic import real_roots
+from qe.exact.fibre import AlgebraicFibre, fibre
+from qe.exact.ring import Ring, from_univariate
+from qe.exact.sturm import count_real_roots, count_roots_between, sylvester_determinant
+from qe.exact.triangular import ORIGIN, Coordinate
+from qe.formula.syntax import Formula
+from qe.options import Budget, Projection
+from tests.strategies import formulas
+
+INTEGERS = st.lists(st.integers(-6, 6), min_size=1, max_size=7)
+NAMES = ("x", "y", "z")
+
+
+def _table(matrix: Formula, quantifiers: tuple[str, ...], projection: Projection, seconds: float) -> CellTable:
+    try:
+        names = NAMES[: len(quantifiers)]
+        return decompose(matrix, names, quantifiers, budget=Budget(seconds), projection=projection).table
+    except BudgetExceeded:
+        assume(False)
+        raise
+
+
+def _flipped(cell: Cell) -> Cell | None:
+    """The cell with the first decided leaf below it saying the opposite."""
+    if cell.stack is None:
+        return None if cell.truth is None else replace(cell, truth=not cell.truth)
+    for i, child in enumerate(cell.stack.cells):
+        other = _flipped(child)
+        if other is not None:
+            cells = (*cell.stack.cells[:i], other, *cell.stack.cells[i + 1 :])
+            return replace(cell, stack=replace(cell.stack, cells=cells))
+    return None
+
+
+def _check(matrix: Formula, quantifiers: tuple[str, ...], projection: Projection, seconds: float = 1.0) -> None:
+    table = _table(matrix, quantifiers, projection, seconds)
+    certificate = Certificate.cells(table)
+    assert str(verify(certificate)) == "accepted"
+    assert Certificate.from_json(certificate.to_json()) == certificate
+    wrong = _flipped(table.root)
+    assert wrong is not None
+    assert not verify(Certificate.cells(replace(table, root=wrong))).accepted
+
+
+BOTH = (Projection.BROWN_MCCALLUM, Projection.LAZARD)
+PLANE = formulas(names=NAMES[:2], max_degree=3, max_depth=2, max_width=2)
+SPACE = formulas(names=NAMES, max_degree=2, max_depth=2, max_width=2)
+
+
+@settings(max_examples=40)
+@given(PLANE, st.sampled_from([("", ""), ("", "E"), ("E", "A"), ("A", "E")]), st.sampled_from(BOTH))
+def test_random_tables_in_the_plane(matrix: Formula, quantifiers: tuple[str, ...], projection: Projection) -> None:
+    _check(matrix, quantifiers, projection)
+
+
+@settings(max_examples=25)
+@given(SPACE, st.sampled_from([("", "", ""), ("", "E", "A"), ("E", "E", "E")]), st.sampled_from(BOTH))
+def test_random_tables_in_space(matrix: Formula, quantifiers: tuple[str, ...], projection: Projection) -> None:
+    _check(matrix, quantifiers, projection)
+
+
+@pytest.mark.deep
+@settings(max_examples=1500)
+@given(SPACE, st.sampled_from([("", "", ""), ("", "E", "A"), ("E", "E", "E")]), st.sampled_from(BOTH))
+def test_many_random_tables(matrix: Formula, quantifiers: tuple[str, ...], projection: Projection) -> None:
+    _check(matrix, quantifiers, projection, 5.0)
+
+
+@given(INTEGERS, INTEGERS, st.fractions(-4, 4, max_denominator=5), st.fractions(-4, 4, max_denominator=5))
+def test_sturm_counts_what_isolation_finds(f: list[int], g: list[int], low: Fraction, high: Fraction) -> None:
+    p = fmpz_poly(f) * fmpz_poly(g) ** 2
+    assume(p)
+    roots = real_roots(p) if p.degree() > 0 else []
+    assert count_real_roots(p) == len(roots)
+    low, high = min(low, high), max(low, high)
+    if p.degree() > 0 and not any(r.compare(s) == 0 for r in roots for s in map(_number, (low, high))):
+        inside = [r for r in roots if _number(low) < r < _number(high)]
+        assert count_roots_between(p, low, high) == len(inside)
+
+
+def _number(x: Fraction):  # type: ignore[no-untyped-def]
+    from qe.exact.algebraic import RealAlgebraic
+
+    return RealAlgebraic.rational(x)
+
+
+@given(INTEGERS, INTEGERS)
+def test_the_sylvester_determinant_is_the_resultant(f: list[int], g: list[int]) -> None:
+    assume(f[-1] and g[-1] and len(f) > 1 and len(g) > 1)
+    assert sylvester_determinant(f, g) == int(fmpz_poly(f).resultant(fmpz_poly(g)))
+
+
+@given(st.lists(st.lists(st.integers(-3, 3), min_size=1, max_size=3), min_size=2, max_size=4))
+def test_fibres_over_sqrt2_have_the_roots_of_their_norm(rows: list[list[int]]) -> None:
+    """f(sqrt 2, y) * f(-sqrt 2, y) has integer coefficients; its real roots are those of the two fibres."""
+    ring = Ring.of(("x", "y"))
+    x, y = ring.gen(0), ring.gen(1)
+    f = ring.constant(0)
+    for k, row in enumerate(rows):
+        for i, c in enumerate(row):
+            f = f + c * x**i * y**k
+    minimal = x * x - 2
+    counts, shared = 0, None
+    for low, high, rising in ((1, 2, 1), (-2, -1, -1)):
+        point = ORIGIN.extended(Coordinate(0, minimal, Fraction(low), Fraction(high), rising))
+        here = fibre(point, f, 1)
+        assume(here.degree > 0)
+        counts += here.count()
+        assert here.squarefree().count() == here.count()
+        lifted = here.poly if isinstance(here, AlgebraicFibre) else from_univariate(ring, 1, here.p)
+        conjugate = AlgebraicFibre(point, 1, f.compose({0: -x}))
+        shared = AlgebraicFibre(point, 1, lifted).gcd(conjugate)
+    norm = minimal.resultant(f, 0) if f.degree(0) else f * f
+    assert shared is not None
+    expected = count_real_roots(norm.to_univariate(1))
+    assert expected == counts - (shared.count() if shared.degree > 0 else 0)
