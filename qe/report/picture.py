@@ -121,7 +121,7 @@ def _plane(region: Region, axes: Any) -> None:
                 axes.plot(xs, curve, color=EDGE, linewidth=1.2)
     axes.set_xlim(*x_span)
     axes.set_ylim(*y_span)
-    axes.set_aspect("equal", adjustable="datalim")
+    axes.set_aspect("equal", adjustable="box")
     axes.grid(color="0.9")
     axes.set_axisbelow(True)
     axes.set_xlabel(region.order[0])
