@@ -103,7 +103,8 @@ def at_point(formula: Formula, point: dict[str, Fraction]) -> Formula:
             return forall(names, at_point(body, {k: v for k, v in point.items() if k not in names}))
         case Atom(poly, relation):
             for name, value in point.items():
-                poly = poly.at_rational(poly.ring.index[name], value)
+                if name in poly.ring.index:
+                    poly = poly.at_rational(poly.ring.index[name], value)
             return atom(poly, relation)
     return _children_at(formula, point)
 
