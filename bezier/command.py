@@ -44,7 +44,7 @@ def plan(channel: Channel, request: Request) -> Reply:
     """``bezier plan``: all files into ``request.folder``, and what to print."""
     clock = Clock(limit=request.timeout, listener=channel.event, note=channel.fact)
     made = make_plan(request.problem, clock)
-    files = write_data(made, request.folder, bundle(made))
+    files = write_data(made, request.folder)
     picture, views = None, ""
     if request.plots:
         with clock.step("pictures"):
@@ -62,15 +62,6 @@ def plan(channel: Channel, request: Request) -> Reply:
     (request.folder / SUMMARY).write_text(text + "\n", encoding="utf-8")
     code = OK if made.outcome is Outcome.SOLVED else UNABLE
     return Reply(text if request.json else in_words(made, request.target, files, total), code)
-
-
-def bundle(made: Plan) -> Any:
-    """All certificates of a plan in one."""
-    from qe.evidence.certificate import Certificate
-
-    optimum = made.optimum if made.optimum is not None else made.infeasibility
-    members = [("region", made.region.certificate), ("optimum", optimum.certificate)]  # type: ignore[union-attr]
-    return Certificate.bundle(members)
 
 
 def draw(made: Plan, folder: FilePath) -> tuple[Any, str, list[str]]:

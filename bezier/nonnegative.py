@@ -120,7 +120,7 @@ def _factored(b: bs.Coefficients) -> Nonnegative | Negative:
     if outcome is None:
         raise InternalError("unlimited subdivision stopped early")
     touches = [(Fraction(0), Fraction(0))] if at_start else []
-    touches += isolate(bs.from_power(square))
+    touches += [_recognised(bs.from_power(square), interval) for interval in isolate(bs.from_power(square))]
     touches += [(Fraction(1), Fraction(1))] if at_end else []
     return Nonnegative(at_start, at_end, bs.from_power(square), rest, outcome, tuple(touches))
 
@@ -142,13 +142,8 @@ def isolate(b: Sequence[Any]) -> list[Interval]:
     (Mourrain, Rouillier and Roy 2005): no sign change, no root; one sign change, one root. Equal ends mean
     that the root is that rational number.
     """
-    power = bs.to_power(b)
-    while len(power) > 1 and is_zero(power[0]):
-        power = power[1:]
-    common = bs.gcd(power, bs.power_derivative(power))
-    simple = bs.from_power(bs.divide(power, common)[0])
     found: list[Interval] = []
-    todo = [(simple, Fraction(0), Fraction(1))]
+    todo = [(_square_free(b), Fraction(0), Fraction(1))]
     while todo:
         part, low, high = todo.pop()
         changes = bs.sign_changes(part)
@@ -163,6 +158,22 @@ def isolate(b: Sequence[Any]) -> list[Interval]:
             found.append((middle, middle))
         todo += [(left, low, middle), (right, middle, high)]
     return sorted(found)
+
+
+def _square_free(b: Sequence[Any]) -> bs.Coefficients:
+    """The square-free part, without a root at 0."""
+    power = bs.to_power(b)
+    while len(power) > 1 and is_zero(power[0]):
+        power = power[1:]
+    common = bs.gcd(power, bs.power_derivative(power))
+    return bs.from_power(bs.divide(power, common)[0])
+
+
+def _recognised(b: bs.Coefficients, interval: Interval) -> Interval:
+    """The interval, shrunk to the root itself if that is a rational number of moderate size."""
+    low, high = refine(_square_free(b), interval, Fraction(1, 2**40))
+    guess = ((low + high) / 2).limit_denominator(10**5)
+    return (guess, guess) if low <= guess <= high and is_zero(bs.value(b, guess)) else interval
 
 
 def refine(b: Sequence[Any], interval: Interval, width: Fraction) -> Interval:

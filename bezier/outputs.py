@@ -198,9 +198,9 @@ def path_csv(path: Path) -> str:
     return "".join(rows)
 
 
-def write_data(plan: Plan, folder: FilePath, certificate: Any) -> list[str]:
+def write_data(plan: Plan, folder: FilePath) -> list[str]:
     """The files that carry exact data; returns their names."""
-    texts = {"region.json": plan.region.to_json(), "certificate.json": certificate.to_json()}
+    texts = {"region.json": plan.region.to_json(), "certificate.json": plan.certificate.to_json()}
     if plan.path is not None:
         texts["path.json"] = json.dumps(path_json(plan, plan.path), indent=1, ensure_ascii=False) + "\n"
         texts["path.csv"] = path_csv(plan.path)

@@ -16,6 +16,7 @@ from typing import Any
 
 import qe
 from bezier import quadratic
+from bezier.evidence import path_certificates
 from bezier.path import Path, Proof, assemble, prove
 from bezier.problem import PlanMethod, Problem
 from bezier.scalar import Vector, sign
@@ -55,7 +56,10 @@ class Gap:
 
 @dataclass(frozen=True, slots=True)
 class Plan:
-    """Everything a report needs. ``optimum`` is None exactly when the problem is infeasible."""
+    """Everything a report needs. ``optimum`` is None exactly when the problem is infeasible.
+
+    ``certificate``: all certificates, labelled; ``checks``: what the independent checker says of them.
+    """
 
     problem: Problem
     outcome: Outcome
@@ -68,7 +72,8 @@ class Plan:
     active: tuple[str, ...]
     balls: quadratic.ThreeBalls
     gap: Gap
-    checks: Mapping[str, Any]
+    certificate: qe.Certificate
+    checks: Mapping[str, qe.Verdict]
     seconds: Mapping[str, float]
 
     @property
@@ -136,7 +141,11 @@ def _quadratic_plan(problem: Problem, clock: Clock) -> Plan:
     with clock.step("hemisphere question"):
         gap = _gap(problem, region, path, clock)
     with clock.step("verification"):
-        checks = {"region": qe.verify(region.certificate), "optimum": qe.verify(optimum.certificate)}
+        members = [("region", region.certificate), ("optimum", optimum.certificate)]
+        checks = {label: qe.verify(certificate) for label, certificate in members}
+        of_path = path_certificates(path) if path else []
+        if of_path:
+            checks["path"] = qe.verify(qe.Certificate.bundle(of_path))
     solved = found is not None
     return Plan(
         problem=problem,
@@ -150,6 +159,7 @@ def _quadratic_plan(problem: Problem, clock: Clock) -> Plan:
         active=active,
         balls=quadratic.three_balls(problem),
         gap=gap,
+        certificate=qe.Certificate.bundle([*members, *of_path]),
         checks=checks,
         seconds=clock.seconds,
     )

@@ -359,6 +359,7 @@ def certificates(plan: Plan) -> list[Row]:
         "optimum": "The chosen Q1 is the global optimum"
         if plan.outcome is Outcome.SOLVED
         else "The conditions on Q1 contradict each other",
+        "path": "Every curve stays in the workspace, by its Bernstein coefficients",
     }
     rows = []
     for name, verdict in plan.checks.items():
@@ -369,7 +370,7 @@ def certificates(plan: Plan) -> list[Row]:
         inside = plan.path.is_inside
         how = "exact arithmetic in the number field of the coordinates"
         result = "proved" if inside else "refuted"
-        claim = "The whole path stays in the workspace"
+        claim = "The whole path stays in the workspace (see the proofs above)"
         rows.append({"claim": claim, "how": how, "result": result, "tone": _tone(inside)})
         smooth = plan.path.smoothness
         claim = f"Both joins are {'C²' if smooth is Smoothness.C2 else 'C¹'}"
