@@ -80,7 +80,8 @@ class RealAlgebraic:
         """Rational numbers lo <= self <= hi, with hi - lo small when ``bits`` are asked for."""
         if bits:
             x = self.ball(bits)
-            lo, hi = lower_end(x), upper_end(x)
+            with precision(bits + 16):
+                lo, hi = lower_end(x), upper_end(x)
         else:
             lo, hi = self._lo, self._hi
         return Fraction(int(lo.p), int(lo.q)), Fraction(int(hi.p), int(hi.q))

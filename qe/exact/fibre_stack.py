@@ -188,14 +188,12 @@ def _as_fibre_root(point: Point, value: fmpq | RealAlgebraic | FibreRoot) -> Fib
 def _sector_samples(sections: list[Section]) -> list[fmpq]:
     if not sections:
         return [fmpq(0)]
-    ends: list[tuple[fmpq, fmpq]] = []
-    for s in sections:
-        if isinstance(s.value, fmpq):
-            ends.append((s.value, s.value))
-        else:
-            with precision(s.bits + 16):
-                x = s.ball()
-            ends.append((lower_end(x), upper_end(x)))
+    with precision(max(s.bits for s in sections) + 64):  # ends are rounded outward to the working precision
+        balls = [s.ball() for s in sections]
+        ends = [(lower_end(x), upper_end(x)) for x in balls]
+    for k, section in enumerate(sections):
+        if isinstance(section.value, fmpq):
+            ends[k] = (section.value, section.value)
     first, last = ends[0][0], ends[-1][1]
     samples = [fmpq(0) if first > 0 else fmpq(first.ceil() - 1)]
     samples += [simplest_between(a[1], b[0]) for a, b in zip(ends, ends[1:], strict=False)]

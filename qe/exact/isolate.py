@@ -8,6 +8,8 @@ from __future__ import annotations
 
 from flint import fmpq, fmpz, fmpz_poly
 
+from qe.errors import InternalError
+
 Interval = tuple[fmpq, fmpq]
 
 _SHIFT = fmpz_poly([1, 1])
@@ -140,6 +142,8 @@ def _open_ends(p: fmpz_poly, pair: Interval) -> Interval:
 
 def simplest_between(lo: fmpq, hi: fmpq) -> fmpq:
     """The rational of smallest denominator, then smallest magnitude, in the open interval (lo, hi)."""
+    if lo >= hi:
+        raise InternalError(f"no rational number lies between {lo} and {hi}")
     if lo < 0 < hi:
         return fmpq(0)
     if hi <= 0:
