@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from fractions import Fraction
+from math import lcm
 
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj
@@ -25,11 +26,8 @@ def norm(v: Vector) -> Poly:
 
 
 def _scaled(points: Sequence[Coordinates]) -> int:
-    """A common denominator."""
-    scale = 1
-    for c in (c for p in points for c in p):
-        scale *= Fraction(c).denominator
-    return scale
+    """The least common denominator."""
+    return lcm(*(Fraction(c).denominator for p in points for c in p))
 
 
 def cubic(

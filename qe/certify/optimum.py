@@ -17,6 +17,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from math import gcd
 
 from qe.certify.convexity import Form, Row, is_convex, is_linear, rank, read_form
 from qe.certify.residue import ZERO, Residue, RootField, add, of_rationals, scale
@@ -106,6 +107,8 @@ def _read_field(entry: Entry) -> RootField:
     coefficients = [c.rational() for c in polynomial.items()]
     if any(c.denominator != 1 for c in coefficients):
         raise polynomial.fail("expected integers")
+    if not coefficients or coefficients[-1] <= 0 or gcd(*(c.numerator for c in coefficients)) != 1:
+        raise polynomial.fail("expected a primitive polynomial with positive leading coefficient")
     ends = [e.rational() for e in interval.items()]
     if len(ends) != 2:
         raise interval.fail("expected two ends")
@@ -231,6 +234,8 @@ def _check_stationary(
             total = [add(t, field.multiply(m, s)) for t, s in zip(total, _slope(form, point), strict=True)]
     for w, equation in zip(weights, derived, strict=True):
         if not w.is_zero:
+            if not any(equation.row):
+                raise CertificateRejected(path, "a multiplier on an empty equation")
             total = [add(t, scale(w, a)) for t, a in zip(total, equation.row, strict=True)]
     for j, t in enumerate(total):
         if not t.is_zero:

@@ -5,11 +5,11 @@ from __future__ import annotations
 from fractions import Fraction as F
 
 import pytest
-from tests.optimum_problems import CUBIC_LABELS, at_most_zero, cubic, quadratic
 
 from qe.certify.optimum import check_optimum
 from qe.exact.field import FieldElement
 from qe.solution.optimum import OptimumStatus, minimize
+from tests.optimum_problems import CUBIC_LABELS, at_most_zero, cubic, quadratic
 
 
 def _decimals(value: object, digits: str) -> bool:
@@ -91,8 +91,9 @@ def test_hemisphere_condition_bites_at_radius_three_halves() -> None:
 
 def test_planar_problem_in_space_has_the_planar_optimum() -> None:
     plane = minimize(*_problem(cubic((-3, 2), (2, 2), 27)))
-    turned = minimize(*_problem(cubic((-3, F(6, 5), F(8, 5)), (2, F(6, 5), F(8, 5)), 27)))
-    assert turned.value == plane.value * 625  # the objective carries the square of the denominators
+    space = cubic((-3, F(6, 5), F(8, 5)), (2, F(6, 5), F(8, 5)), 27)
+    turned = minimize(*_problem(space))
+    assert turned.value == plane.value * space[2] ** 2  # the objective carries the square of the denominator
     assert turned.point["a0"] == plane.point["a0"]
     assert turned.point["a1"] * 4 == turned.point["a2"] * 3
 

@@ -1,0 +1,173 @@
+"""Certificates of optima: accepted as made, rejected when any number in them is altered.
+
+Every leaf is altered twice: with the digest as it was (always rejected) and with a fresh digest, so that only the
+meaning can reject it. What then survives has to be a true certificate about the altered problem, which is solved anew.
+"""
+
+from __future__ import annotations
+
+import json
+from fractions import Fraction
+from typing import Any
+
+import pytest
+
+from qe.certify.verify import verify, verify_json
+from qe.exact.ring import Ring
+from qe.formula.build import atom, conj
+from qe.formula.syntax import Relation
+from qe.solution.optimum import Optimum, minimize
+from tests.certificates.mutation import leaves, replaced, without
+from tests.optimum_problems import at_most_zero, cubic, quadratic
+
+RING = Ring.of(("x", "y", "z"))
+X, Y, Z = (RING.gen(i) for i in range(3))
+
+
+def _of(parts) -> Optimum:
+    return minimize(parts[0], at_most_zero(parts[1]))
+
+
+def _tangent(objective, relation: Relation) -> Optimum:
+    discs = (atom(X * X + Y * Y - 1, relation), atom((X - 2) * (X - 2) + Y * Y - 1, Relation.LE))
+    return minimize(objective, conj((*discs, atom(Z * Z - 2, Relation.LE), atom(X + Z - Y, Relation.GE))))
+
+
+CASES = {
+    "cubic": lambda: _of(cubic((-4, 2), (3, 2), 21)),
+    "quadratic hemisphere": lambda: _of(quadratic((-3, 1, 3), (1, 4, 3), 32, hemisphere=True)),
+    "infeasible": lambda: _of(quadratic((-1, 3, 3), (1, 3, 3), 19)),
+    "face": lambda: _tangent(Y + Z, Relation.LE),
+    "empty strict": lambda: _tangent(Y, Relation.LT),
+    "not attained": lambda: minimize(X + Y, atom(X * X + 2 * Y * Y - 3, Relation.LT)),
+    "unbounded": lambda: minimize(X, conj((atom(Y - 1, Relation.LE), atom(Z - X, Relation.LE)))),
+    "equations": lambda: minimize(
+        X * X + Y * Y, conj((atom(X + Y - 1, Relation.EQ), atom(X - 2 * Y, Relation.LE), atom(Z - 1, Relation.EQ)))
+    ),
+}
+
+
+@pytest.fixture(params=CASES, scope="module")
+def whole(request: pytest.FixtureRequest) -> Any:
+    """A certificate as JSON data."""
+    return json.loads(CASES[request.param]().certificate.to_json())
+
+
+def _alterations(value: Any) -> list[Any]:
+    if isinstance(value, bool):
+        return [not value]
+    if isinstance(value, int):
+        return [value + 1, -1]
+    try:
+        number = Fraction(value)
+    except ValueError:
+        return [value + "x", ""]
+    step = max(abs(number) / 10**9, Fraction(1, 10**9))
+    return [str(n) for n in {-number, number + 1, number * 2, number + step} if n != number]
+
+
+def test_accepted_after_a_round_trip(whole: Any) -> None:
+    assert verify_json(json.dumps(whole)).accepted
+
+
+def test_every_altered_leaf_is_rejected(whole: Any) -> None:
+    for path, value in leaves(whole["payload"]):
+        for other in _alterations(value)[:2]:
+            verdict = verify_json(replaced(whole, ("payload", *path), other, signed=False))
+            assert not verdict.accepted, (path, value, other)
+            assert verdict.step
+
+
+def test_altered_meaning_is_rejected_whatever_the_digest_says(whole: Any) -> None:
+    survivors = 0
+    for path, value in leaves(whole["payload"]):
+        for other in _alterations(value):
+            text = replaced(whole, ("payload", *path), other)
+            if verify_json(text).accepted:
+                survivors += 1
+                assert _still_true(path, json.loads(text)["payload"]), (path, value, other)
+    assert survivors < 60
+
+
+def test_every_entry_left_out_is_rejected(whole: Any) -> None:
+    payload = whole["payload"]
+    for name in list(payload):
+        altered = {**payload, name: None}
+        assert not verify_json(replaced(whole, ("payload",), altered)).accepted, name
+        del altered[name]
+        assert not verify_json(replaced(whole, ("payload",), altered)).accepted, name
+    for name in ("point", "multipliers", "values", "derived"):
+        for i in range(len(payload.get(name, []))):
+            assert not verify_json(without(whole, ("payload", name), i)).accepted, (name, i)
+
+
+def _still_true(path: tuple[Any, ...], payload: Any) -> bool:
+    """Whether an accepted alteration left a true statement: a name, an isolating interval, an equally good choice of
+    data (another feasible point or direction), or a changed problem that has the same answer."""
+    if path[0] == "problem" and path[1] == "variables":
+        return True
+    if path[:2] == ("field", "interval") or path[:3] == ("inner", "field", "interval"):
+        return True
+    if path[0] == "inner" or (payload["status"] == "unbounded" and path[0] in ("point", "direction")):
+        return True
+    if path[0] == "faces" and path[2] == "point":
+        return True  # a coordinate that the weighted sum of the face does not contain
+    if path == ("unique",):
+        return payload["unique"] is False  # the weaker claim
+    if path[0] != "problem":
+        return False
+    found = _solve_again(payload["problem"])
+    if found.evidence.status.value != payload["status"]:
+        return False
+    if payload["status"] != "optimal":
+        return True
+    return [str(c) for c in _coefficients(found.value)] == payload["value"]
+
+
+def _coefficients(value: Any) -> list[Fraction]:
+    if isinstance(value, Fraction):
+        return [value]
+    found = list(value.coefficients)
+    while len(found) > 1 and not found[-1]:
+        found.pop()
+    return found
+
+
+def _solve_again(problem: Any) -> Optimum:
+    ring = Ring.of(tuple(problem["variables"]))
+
+    def poly(terms: Any) -> tuple[Any, int]:
+        scale = 1
+        for c, _ in terms:
+            scale *= Fraction(c).denominator
+        return ring.from_terms({tuple(e): int(Fraction(c) * scale) for c, e in terms}), scale
+
+    objective, scale = poly(problem["minimise"])
+    relations = {"<=": Relation.LE, "<": Relation.LT, "=": Relation.EQ}
+    parts = [atom(poly(c["terms"])[0], relations[c["relation"]]) for c in problem["constraints"]]
+    return minimize(objective, conj(parts), scale=Fraction(1, scale))
+
+
+def test_digest_of_a_certificate_in_memory_is_not_needed() -> None:
+    assert verify(CASES["cubic"]().certificate).accepted
+
+
+@pytest.mark.parametrize(
+    ("p", "interval", "accepted"),
+    [
+        (["-2", "0", "1"], ["1", "2"], True),
+        (["-2", "0", "1"], ["-2", "2"], False),  # two roots
+        (["-2", "0", "1"], ["2", "3"], False),  # none
+        (["4", "0", "-4", "0", "1"], ["1", "2"], False),  # a double root does not change the sign
+        (["2", "0", "-1"], ["7/5", "3/2"], False),  # not normalised
+        (["-4", "0", "2"], ["7/5", "3/2"], False),  # not primitive
+        (["-2"], ["1", "2"], False),
+        (["-2", "0", "1"], ["1"], False),
+        (["-4", "0", "1"], ["2", "2"], True),  # reducible, but 2 is a root
+        (["-4", "0", "1"], ["1", "1"], False),
+    ],
+)
+def test_field_of_a_certificate(p: list[str], interval: list[str], accepted: bool) -> None:
+    whole = json.loads(minimize(X * X - 2 * X, conj((atom(X, Relation.GE),))).certificate.to_json())
+    field = {"minimal_polynomial": p, "interval": interval}
+    assert verify_json(replaced(whole, ("payload", "field"), field)).accepted is accepted
