@@ -39,9 +39,12 @@ FIRST_SHARE = 0.5
 SHORTEN_ABOVE = 8
 """Answers of substitution with more atoms than this are shortened by decomposition of parameter space."""
 
+PROBE_ABOVE, PROBE_SECONDS, PROBE_SHARE, PROBE_ATOMS = 3, 0.5, 0.05, 30
+"""Substitution is tried for this long before a decomposition in more variables, and taken if its answer is small."""
+
 SHORTEN_VARIABLES = 3
 SHORTEN_SHARE = 0.25
-SHORTEN_SECONDS = 3.0
+SHORTEN_SECONDS = 0.7
 
 
 def solve(formula: Formula, options: Options, budget: Budget) -> Elimination:
@@ -169,6 +172,10 @@ class _Run:
         """``exists variables. body`` by the methods that the planner proposes, in their order."""
         plan = self._plan(variables, body)
         self.note("plan", f"{plan.methods[0].value} first for {', '.join(variables)}: {plan.reason}")
+        if plan.methods[0] is Method.CAD and self._allows(Method.VS) and len(free_variables(body)) > PROBE_ABOVE:
+            probed = self._probe(variables, body)
+            if probed is not None:
+                return probed
         for position, method in enumerate(plan.methods):
             last = position == len(plan.methods) - 1
             share = self.budget if last else self.budget.share(FIRST_SHARE)
@@ -182,6 +189,21 @@ class _Run:
                 self.budget.check("switch")
                 self.note("switches", f"{method.value}: {error}")
         raise Unable("no method applies")
+
+    def _probe(self, variables: Sequence[str], body: Formula) -> tuple[Formula, Values | None] | None:
+        """A short try of substitution where decomposition is planned: a small complete answer is taken."""
+        left = self.budget.remaining()
+        part = Budget(PROBE_SECONDS if left is None else min(PROBE_SECONDS, PROBE_SHARE * left))
+        try:
+            result = self._substituted(variables, body, part)
+        except Unable as error:
+            self.note("switches", f"vs probe: {error}")
+            return None
+        assert result is not None
+        formula, values = result
+        if not is_quantifier_free(formula) or sum(1 for _ in atoms(formula)) > PROBE_ATOMS:
+            return None
+        return self._shortened(formula), values
 
     def _plan(self, variables: Sequence[str], body: Formula) -> Choice:
         asked = self.options.method
