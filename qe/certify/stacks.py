@@ -162,8 +162,11 @@ class StackChecker:
         f, g = a.fibre, b.fibre
         if isinstance(f, RationalFibre) != isinstance(g, RationalFibre):
             f, g = lift_up(f, sample.point), lift_up(g, sample.point)
-        if not isinstance(f, RationalFibre) and min(f.degree, g.degree) == 1 and self._resultant_zero(a, b, sample):
-            return True  # a common root exists, and the polynomial of degree 1 has only this one
+        if not isinstance(f, RationalFibre) and self._resultant_zero(a, b, sample):
+            if min(f.degree, g.degree) == 1:
+                return True  # a common root exists, and the polynomial of degree 1 has only this one
+            if f.shares_root(g, ends[0][0], ends[1][0]):
+                return True
         common = f.gcd(g)
         if common.degree < 1:
             return False

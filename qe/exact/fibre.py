@@ -10,15 +10,17 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import Any
 
-from flint import arb, ctx, fmpz_poly
+from flint import acb_poly, arb, ctx, fmpz_poly
 
 from qe.exact.ring import Poly, from_univariate
 from qe.exact.sturm import (
+    complex_enclosures,
     count_real_roots,
     count_roots_between,
     exact,
     irreducible_factor_at,
     rational_root,
+    real_among,
     sign_of,
     variations,
 )
@@ -34,6 +36,7 @@ from qe.exact.triangular import (
     trim,
 )
 
+ENCLOSURE_BITS = (64, 192)
 Values = list[tuple[Fraction, Any, Any]]
 
 
@@ -133,8 +136,42 @@ class AlgebraicFibre:
             return self
         return AlgebraicFibre(self.point, self.index, quotient(self.point, self.poly, shared, self.index))
 
+    def enclosures(self, bits: int) -> list[Any] | None:
+        """Disjoint balls around all complex roots, or None if ``bits`` do not suffice or a root is multiple."""
+        with ctx.workprec(bits):
+            q = fibre_balls(self.point, self.poly, self.index, bits)
+            return None if q[self.degree].contains(0) else complex_enclosures(acb_poly(q), bits)
+
+    def shares_root(self, other: Fibre, low: Fraction, high: Fraction) -> bool:
+        """True if self and other, known to have a common complex root, provably have one in (low, high).
+
+        A common root lies in a ball of each; if one pair of balls only meets, the root is there, and it is real
+        because its conjugate is common too.
+        """
+        if not isinstance(other, AlgebraicFibre):
+            return False
+        for bits in ENCLOSURE_BITS:
+            mine, theirs = self.enclosures(bits), other.enclosures(bits)
+            if mine is None or theirs is None:
+                continue
+            meeting = [z for z in mine for w in theirs if z.overlaps(w)]
+            if len(meeting) == 1:
+                place = meeting[0].real
+                return bool(place > arb(exact(low)) and place < arb(exact(high)))
+        return False
+
     def count(self) -> int:
-        """The number of distinct real roots, by the signed remainder sequence over the point's field."""
+        """The number of distinct real roots: from enclosures of all complex roots if these separate them, else by
+        the signed remainder sequence over the point's field."""
+        for bits in ENCLOSURE_BITS:
+            roots = self.enclosures(bits)
+            found = None if roots is None else real_among(roots)
+            if found is not None:
+                return found
+        return self.count_by_remainders()
+
+    def count_by_remainders(self) -> int:
+        """The number of distinct real roots, by the signed remainder sequence over the point's field (Sturm)."""
         i, point = self.index, self.point
         a, b = self.poly, self.poly.derivative(i)
         leads = [(point.sign(a.leading(i)), a.degree(i))]

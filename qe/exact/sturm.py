@@ -11,6 +11,7 @@ from collections.abc import Sequence
 from fractions import Fraction
 from functools import lru_cache
 from itertools import pairwise
+from typing import Any
 
 from flint import acb_poly, arb, fmpq, fmpz, fmpz_mat, fmpz_poly
 
@@ -76,18 +77,33 @@ def count_roots_between(p: fmpz_poly, low: Fraction, high: Fraction) -> int:
 
 
 def _count_by_enclosure(p: fmpz_poly) -> int | None:
-    """Distinct real roots of a squarefree p from disjoint balls around all complex roots; None if that fails.
+    """Distinct real roots of a squarefree p from disjoint balls around all complex roots; None if that fails."""
+    roots = complex_enclosures(acb_poly(p), 20_000)
+    return None if roots is None else real_among(roots)
+
+
+def complex_enclosures(p: acb_poly, bits: int) -> list[Any] | None:
+    """Disjoint balls, each with exactly one root of p and all roots covered, or None where FLINT finds none.
+
+    The coefficients may be balls with a leading one away from zero (Rump-Newton bounds, FLINT's validate_roots).
+    """
+    try:
+        roots: list[Any] = p.roots(maxprec=bits)
+    except ValueError:
+        return None
+    return roots if len(roots) == p.degree() else None
+
+
+def real_among(roots: list[Any]) -> int | None:
+    """How many of the enclosed roots of a real polynomial are real; None if the balls do not tell.
 
     A ball that misses the real axis holds a nonreal root. A ball that meets it holds a real one if its mirror
     image meets no other ball: the conjugate root lies in the mirror image, so it is the same root.
     """
-    try:
-        roots = acb_poly(p).roots(maxprec=20_000)
-    except ValueError:
-        return None
     near = [z for z in roots if z.imag.contains(0)]
-    for i, z in enumerate(near):
-        if any(i != j and z.conjugate().overlaps(w) for j, w in enumerate(near)):
+    for z in near:
+        mirror = z.conjugate()
+        if any(w is not z and mirror.overlaps(w) for w in roots):
             return None
     return len(near)
 

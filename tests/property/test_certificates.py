@@ -124,6 +124,8 @@ def test_fibres_over_sqrt2_have_the_roots_of_their_norm(rows: list[list[int]]) -
         assume(here.degree > 0)
         counts += here.count()
         assert here.squarefree().count() == here.count()
+        if isinstance(here, AlgebraicFibre):
+            assert here.count_by_remainders() == here.count()
         lifted = here.poly if isinstance(here, AlgebraicFibre) else from_univariate(ring, 1, here.p)
         conjugate = AlgebraicFibre(point, 1, f.compose({0: -x}))
         shared = AlgebraicFibre(point, 1, lifted).gcd(conjugate)
