@@ -118,7 +118,8 @@ def in_words(made: Plan, target: FilePath, files: list[str], seconds: float) -> 
         lines.append(f"region of Q1: dimension {made.region.dimension}, {cells} cell{'s' if cells != 1 else ''}")
         lines.append(f"best Q1 = ({', '.join(map(exact_text, made.path.points['Q1']))})")
         value = made.optimum.value
-        lines.append(f"objective {exact_text(value)} (about {decimal_text(value, 8)}), active: {_listed(made.active)}")
+        about = "" if exact_text(value) == decimal_text(value, 8) else f" (about {decimal_text(value, 8)})"
+        lines.append(f"objective {exact_text(value)}{about}, active: {_listed(made.active)}")
         lines.append(f"path: {made.path.smoothness.name} at both joins, {_inside(made)}")
     lines.append(_table(made))
     accepted = all(verdict.accepted for verdict in made.checks.values())

@@ -109,12 +109,19 @@ def reason(plan: Plan) -> str:
             " (the certificate shows it)"
         )
     shape = "acute" if balls.is_acute else "right or obtuse or flat"
-    about = f"about {float(balls.needed_squared) ** 0.5:.6g}"
-    have = f"about {float(balls.radius_squared) ** 0.5:.6g}"
     return (
-        f"no control point exists: the balls of radius r = {radius} ({have}) about O, 2 Q0 and 2 R0 have no common"
-        f" point; the triangle O, Q0, R0 is {shape}, so r would have to be at least {balls.needed_text} ({about})"
+        f"no control point exists: the balls of radius r = {_sized(radius, balls.radius_squared)} about O, 2 Q0 and"
+        f" 2 R0 have no common point; the triangle O, Q0, R0 is {shape}, so r would have to be at least"
+        f" {_sized(balls.needed_text, balls.needed_squared)}"
     )
+
+
+def _sized(exact: str, square: Fraction) -> str:
+    """An exact root with its decimal; the decimal alone when the exact text would fill the line."""
+    decimal = f"{float(square) ** 0.5:.6g}"
+    if len(exact) > 40:
+        return f"about {decimal}"
+    return exact if exact == decimal else f"{exact} (about {decimal})"
 
 
 def path_json(plan: Plan, path: Path) -> dict[str, Any]:

@@ -18,7 +18,7 @@ from bezier.numbers import NotANumber, parse
 from bezier.path import Path, assemble
 from bezier.problem import PlanMethod, Problem
 from bezier.scalar import Vector, same, sign
-from bezier.terms import Terms, condition_terms, multiple_of, objective_terms, terms_of
+from bezier.terms import Terms, condition_terms, fixed_values, multiple_of, objective_terms, reduced, terms_of
 from bezier.workspace import Workspace, WorkspaceKind
 from qe.errors import CertificateRejected, InputError
 from qe.worker import Channel
@@ -144,15 +144,18 @@ def _check_optimum(problem: Problem, payload: Mapping[str, Any]) -> None:
     if terms_of(stated["minimise"]) != objective_terms(problem):
         raise CertificateRejected("optimum.problem.minimise", "not the objective of this problem")
     allowed = [condition_terms(item.condition) for item in quadratic.as_conditions_on_q1(problem)]
+    fixed = fixed_values(stated["constraints"])
 
-    def known(terms: Terms) -> bool:
-        return any(multiple_of(terms, other) is not None for other in allowed)
+    def known(terms: Terms, fixed: Mapping[int, Fraction]) -> bool:
+        return any(multiple_of(reduced(terms, fixed), reduced(other, fixed)) is not None for other in allowed)
 
     for i, constraint in enumerate(stated["constraints"]):
         terms = terms_of(constraint["terms"])
         opposite = {exponents: -coefficient for exponents, coefficient in terms.items()}
         needed = {"<=": (terms,), "=": (terms, opposite)}.get(constraint["relation"], ())
-        if not needed or not all(map(known, needed)):
+        # an equation needs both of its halves among the conditions; the others may use it
+        usable = fixed if constraint["relation"] == "<=" else {}
+        if not needed or not all(known(half, usable) for half in needed):
             raise CertificateRejected(f"optimum.problem.constraints[{i}]", "not a condition of this problem")
 
 

@@ -61,6 +61,28 @@ def multiple_of(a: Terms, b: Terms) -> Fraction | None:
     return ratio if ratio > 0 and all(a[e] == ratio * b[e] for e in a) else None
 
 
+def fixed_values(constraints: Sequence[Mapping[str, Any]]) -> dict[int, Fraction]:
+    """The variables that an equation c x + d = 0 among the constraints fixes, with their values."""
+    found = {}
+    for constraint in constraints:
+        terms = terms_of(constraint["terms"])
+        linear = [i for i in range(3) if _power(i, 1) in terms]
+        if constraint["relation"] == "=" and len(linear) == 1 and terms.keys() <= {(0, 0, 0), _power(linear[0], 1)}:
+            found[linear[0]] = -terms.get((0, 0, 0), Fraction(0)) / terms[_power(linear[0], 1)]
+    return found
+
+
+def reduced(terms: Terms, fixed: Mapping[int, Fraction]) -> Terms:
+    """The polynomial with fixed variables replaced by their values."""
+    found: Terms = {}
+    for exponents, coefficient in terms.items():
+        left = tuple(0 if i in fixed else k for i, k in enumerate(exponents))
+        for i, value in fixed.items():
+            coefficient = coefficient * value ** exponents[i]
+        found[left] = found.get(left, Fraction(0)) + coefficient
+    return _clean(found)
+
+
 def named_multipliers(problem: Problem, optimum: Any) -> list[tuple[str, Any]]:
     """(label, multiplier) for each condition with a non-zero multiplier.
 
@@ -69,11 +91,12 @@ def named_multipliers(problem: Problem, optimum: Any) -> list[tuple[str, Any]]:
     """
     known = [(item.label, condition_terms(item.condition)) for item in quadratic.as_conditions_on_q1(problem)]
     stated = optimum.certificate.payload["problem"]["constraints"]
+    fixed = fixed_values(stated)
     found = []
     for constraint, value in zip(stated, optimum.multipliers, strict=True):
         if sign(value):
-            terms = terms_of(constraint["terms"])
-            matches = ((label, multiple_of(terms, other)) for label, other in known)
+            terms, at = terms_of(constraint["terms"]), {} if constraint["relation"] == "=" else fixed
+            matches = ((label, multiple_of(reduced(terms, at), reduced(other, at))) for label, other in known)
             label, ratio = next(((name, c) for name, c in matches if c is not None), ("another condition", Fraction(1)))
             found.append((label, ratio * value))
     return found
