@@ -9,7 +9,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from qe.cli_work import Reply, Request, certificate_text, plain, read_formula
+from qe.cli_work import Reply, Request, certificate_text, read_formula, soft
 from qe.errors import InputError, Unable
 from qe.worker import Channel
 
@@ -28,9 +28,8 @@ def region(channel: Channel, request: Request, picture: str | None) -> Reply:
     if picture is not None and picture not in PICTURES:
         raise InputError(f"--plot: a file ending in {', '.join(PICTURES)} expected, {picture} found")
     start = time.perf_counter()
-    found = api.region(
-        read_formula(request.source), order=request.order, timeout=request.timeout, progress=channel.event
-    )
+    formula = read_formula(channel, request.source)
+    found = api.region(formula, order=request.order, timeout=soft(request.timeout), progress=channel.event)
     seconds = time.perf_counter() - start
     files: dict[str, str | bytes] = {}
     if request.certificate:
@@ -67,8 +66,8 @@ def optimize(channel: Channel, request: Request, objective: str, maximize: bool)
 
     start = time.perf_counter()
     solve = api.maximize if maximize else api.minimize
-    constraints = read_formula(request.source)
-    best = solve(objective, constraints, timeout=request.timeout, progress=channel.event)
+    constraints = read_formula(channel, request.source)
+    best = solve(objective, constraints, timeout=soft(request.timeout), progress=channel.event)
     seconds = time.perf_counter() - start
     if best.value is None:
         raise Unable(f"{best.status.name.lower()}: no {'greatest' if maximize else 'least'} value")
@@ -78,19 +77,20 @@ def optimize(channel: Channel, request: Request, objective: str, maximize: bool)
             "status": best.status.name.lower(),
             "value": exact_and_decimal(best.value),
             "point": {name: exact_and_decimal(value) for name, value in best.point.items()},
-            "active": plain(best.active),
-            "multipliers": [exact_and_decimal(value) for value in _values(best.multipliers)],
+            "active": [best.constraints[i] for i in best.active],
+            "unique": best.unique,
+            "attained": best.attained,
+            "multipliers": [exact_and_decimal(value) for value in best.multipliers],
             "seconds": round(seconds, 6),
         }
         return Reply(json.dumps(data, indent=2, ensure_ascii=False), files=files)
     lines = [f"value {shown(best.value)}"]
     lines += [f"{name} = {shown(value)}" for name, value in best.point.items()]
-    lines.append(f"active: {', '.join(map(str, best.active)) if best.active else 'nothing'} ({seconds:.3f} s)")
+    lines.append(f"active: {', '.join(best.constraints[i] for i in best.active) or 'nothing'}")
+    if best.attained is False:
+        lines.append("not attained: the value is a limit")
+    lines.append(f"proved optimal in {seconds:.3f} s")
     return Reply("\n".join(lines), files=files)
-
-
-def _values(multipliers: Any) -> list[Any]:
-    return list(multipliers.values()) if hasattr(multipliers, "values") else list(multipliers or ())
 
 
 def shown(value: object, unbounded: str = "") -> str:

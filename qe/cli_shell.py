@@ -20,7 +20,7 @@ from typer.main import get_command
 
 from qe.errors import CertificateRejected, InputError, InternalError, Unable
 from qe.progress import Event
-from qe.worker import Channel, Known, WorkerDied, WorkerStopped, run
+from qe.worker import GRACE, Channel, Known, WorkerDied, WorkerStopped, run
 
 T = TypeVar("T")
 
@@ -110,9 +110,13 @@ class Display:
 def limited(
     work: Callable[[Channel], T], *, timeout: float | None, memory: int | None, plain: bool, known: Known | None = None
 ) -> T:
-    """Do the work in a worker under hard limits, with a progress display."""
+    """Do the work in a worker under hard limits, with a progress display.
+
+    The time limit is the user's, for the whole command: the processor time that start-up has taken comes off the grace.
+    """
+    grace = GRACE - min(time.process_time(), GRACE)
     with Display(wanted=not plain) as display:
-        return run(work, timeout=timeout, memory=memory, progress=display, known=known)
+        return run(work, timeout=timeout, memory=memory, progress=display, known=known, grace=grace)
 
 
 def check_writable(path: Path | None) -> None:

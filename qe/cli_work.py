@@ -10,7 +10,7 @@ import json
 import time
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from qe.cli_source import InputFormat, OutputFormat, Source
 from qe.errors import InputError, Unable
@@ -43,10 +43,10 @@ class Request:
     certificate: bool = False
     json: bool = False
 
-    def keywords(self, channel: Channel) -> dict[str, object]:
+    def keywords(self, channel: Channel) -> dict[str, Any]:
         """The keywords for a call of the public functions; the memory limit is the worker's own."""
         return {
-            "timeout": self.timeout,
+            "timeout": soft(self.timeout),
             "method": self.method,
             "order": self.order,
             "progress": channel.event,
@@ -55,11 +55,24 @@ class Request:
         }
 
 
-def read_formula(source: Source) -> Formula:
-    """The formula of a source."""
+def soft(timeout: float | None) -> float | None:
+    """The limit for checks inside the engine: what is left of the command's own limit, start-up counted."""
+    return None if timeout is None else max(timeout / 2, timeout - time.process_time())
+
+
+def read_formula(channel: Channel, source: Source) -> Formula:
+    """The formula of a source; its size is the first thing to be known about the run."""
+    from qe.formula.features import features
     from qe.io import formats
 
-    return formats.read(source.text, source.format.value, source=source.name)
+    formula = formats.read(source.text, source.format.value, source=source.name)
+    size = features(formula)
+    channel.fact(
+        "formula",
+        f"{size.atoms} atoms of degree up to {size.total_degree} in {len(size.free) + len(size.bound)} variables, "
+        f"{len(size.bound)} of them quantified",
+    )
+    return formula
 
 
 def eliminate(channel: Channel, request: Request, output: OutputFormat) -> Reply:
@@ -68,7 +81,7 @@ def eliminate(channel: Channel, request: Request, output: OutputFormat) -> Reply
     from qe.io import formats
 
     start = time.perf_counter()
-    answer = api.eliminate(read_formula(request.source), **request.keywords(channel))
+    answer = api.eliminate(read_formula(channel, request.source), **request.keywords(channel))
     seconds = time.perf_counter() - start
     if answer.formula is None:
         raise Unable(answer.reason or "no answer")
@@ -92,7 +105,7 @@ def decide(channel: Channel, request: Request) -> Reply:
     from qe import api
     from qe.formula import build, traverse
 
-    formula = read_formula(request.source)
+    formula = read_formula(channel, request.source)
     free = traverse.free_variables(formula)
     script = request.source.format is InputFormat.SMTLIB
     if free and not script:
@@ -121,7 +134,7 @@ def convert(channel: Channel, source: Source, output: OutputFormat) -> Reply:
     """``qe convert``."""
     from qe.io import formats
 
-    return Reply(formats.write(read_formula(source), output.value).rstrip("\n"))
+    return Reply(formats.write(read_formula(channel, source), output.value).rstrip("\n"))
 
 
 def check(channel: Channel, text: str, name: str) -> Reply:

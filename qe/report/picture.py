@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -16,12 +17,16 @@ FILL, EDGE = "#4c78a8", "#1f3b5c"
 SAMPLES_2D, SAMPLES_3D = 400, 60
 MARGIN = 0.06
 UNBOUNDED = 4.0
+INSIDE = 1e-7
+"""The share of a range left out at its ends, where the roots above may coincide or vanish."""
 
 
 def draw(region: Region, path: Path) -> None:
     """Write a picture of the region; the format follows the file name. ``InputError`` above three variables."""
     if len(region.order) > 3:
         raise InputError(f"a picture needs 1 to 3 variables, the region has {len(region.order)}")
+    if path.suffix.lower() not in (".png", ".svg", ".pdf"):
+        raise InputError(f"a picture needs a file name ending in .png, .svg or .pdf, {path.name} found")
     import matplotlib
 
     matplotlib.use("Agg")
@@ -48,8 +53,8 @@ def _span(region: Region, variable: str) -> tuple[float, float]:
     return lo - pad, hi + pad
 
 
-def _at(root: RootFunction | None, values: Mapping[int, float], fallback: float) -> float:
-    """An approximate value of a root function."""
+def _at(root: RootFunction | None, values: Mapping[int, float], fallback: float, thin: bool = False) -> float:
+    """An approximate value of a root function; ``thin``: over a single value, where coinciding roots count once."""
     import numpy
 
     if root is None:
@@ -69,6 +74,8 @@ def _at(root: RootFunction | None, values: Mapping[int, float], fallback: float)
         return pair[root.k - 1]
     found = numpy.roots(coefficients[::-1])
     real = sorted(float(z.real) for z in found if abs(z.imag) < 1e-6 * max(1.0, abs(z)))
+    if thin:
+        real = [b for a, b in zip([-numpy.inf, *real], real, strict=False) if b - a > 1e-5 * max(1.0, abs(b))]
     return real[min(root.k, len(real)) - 1] if real else fallback
 
 
@@ -85,7 +92,23 @@ def _value(terms: list[tuple[tuple[int, ...], int]], values: Mapping[int, float]
 
 def _ends(piece: Piece, i: int, values: Mapping[int, float], span: tuple[float, float]) -> tuple[float, float]:
     r = piece.ranges[i]
-    return _at(r.lower, values, span[0]), _at(r.upper, values, span[1])
+    thin = any(earlier.is_point for earlier in piece.ranges[:i])
+    return _at(r.lower, values, span[0], thin), _at(r.upper, values, span[1], thin)
+
+
+def _inner_grid(count: int) -> Any:
+    """Shares of a range from end to end, dense towards the ends but not on them."""
+    import numpy
+
+    return INSIDE + (1 - 2 * INSIDE) * (1 - numpy.cos(numpy.linspace(0, numpy.pi, count))) / 2
+
+
+def _seams(pieces: list[Piece]) -> frozenset[Any]:
+    """The values of the first variable where several pieces meet: inner lines, not the region's outline."""
+    met: Counter[Any] = Counter()
+    for piece in pieces:
+        met.update({end.value for end in (piece.ranges[0].lower, piece.ranges[0].upper) if end is not None})
+    return frozenset(value for value, count in met.items() if count > 1)
 
 
 def _line(region: Region, axes: Any) -> None:
@@ -103,22 +126,24 @@ def _line(region: Region, axes: Any) -> None:
 
 
 def _plane(region: Region, axes: Any) -> None:
-    import numpy
-
+    seams = _seams(region.cells)
     x_span, y_span = _span(region, region.order[0]), _span(region, region.order[1])
     for piece in region.cells:
         lo, hi = _ends(piece, 0, {}, x_span)
-        turn = numpy.linspace(0, numpy.pi, SAMPLES_2D)
-        xs = [lo] if lo == hi else list(lo + (hi - lo) * (1 - numpy.cos(turn)) / 2)
+        xs = [lo] if piece.ranges[0].is_point else list(lo + (hi - lo) * _inner_grid(SAMPLES_2D))
         bounds = [_ends(piece, 1, {0: x}, y_span) for x in xs]
         low, high = [b[0] for b in bounds], [b[1] for b in bounds]
         if len(xs) == 1:
-            axes.plot([xs[0], xs[0]], [low[0], high[0]], color=EDGE, marker="o" if low == high else None, markersize=5)
+            first = piece.ranges[0].lower
+            width = 0.4 if first is not None and first.value in seams else 1.2
+            marker = "o" if piece.ranges[1].is_point and width > 1 else None
+            axes.plot([lo, lo], [low[0], high[0]], color=EDGE, marker=marker, markersize=5, linewidth=width)
             continue
         axes.fill_between(xs, low, high, color=FILL, alpha=0.55, linewidth=0)
-        for side, curve in ((piece.ranges[1].lower, low), (piece.ranges[1].upper, high)):
+        up = piece.ranges[1]
+        for side, closed, curve in ((up.lower, up.lower_closed, low), (up.upper, up.upper_closed, high)):
             if side is not None:
-                axes.plot(xs, curve, color=EDGE, linewidth=1.2)
+                axes.plot(xs, curve, color=EDGE, linewidth=1.2, linestyle="-" if closed else "--")
     axes.set_xlim(*x_span)
     axes.set_ylim(*y_span)
     axes.set_aspect("equal", adjustable="box")
@@ -134,7 +159,7 @@ def _space(region: Region, axes: Any) -> None:
     spans = [_span(region, v) for v in region.order]
     for piece in region.cells:
         x_lo, x_hi = _ends(piece, 0, {}, spans[0])
-        wave = (1 - numpy.cos(numpy.linspace(0, numpy.pi, SAMPLES_3D))) / 2
+        wave = _inner_grid(SAMPLES_3D)
         grid: list[list[tuple[float, float, float, float]]] = []
         for x in x_lo + (x_hi - x_lo) * wave:
             y_lo, y_hi = _ends(piece, 1, {0: x}, spans[1])

@@ -29,20 +29,24 @@ ROWS = {
     "qe.eliminate.critical": 5,
     "qe.eliminate.cgs": 5,
     "qe.eliminate": 5,
-    "qe.solution": 5,
-    "qe.worker": 6,
-    "qe.pipeline": 6,
-    "qe.api": 6,
-    "qe.cli": 6,
+    "qe.solution": 6,
     "qe.report": 6,
-    "qe": 6,
-    "bezier": 7,
-    "experiments": 8,
-    "paper_repro": 8,
+    "qe.worker": 7,
+    "qe.pipeline": 7,
+    "qe.api": 7,
+    "qe.cli": 7,
+    "qe": 7,
+    "bezier": 8,
+    "experiments": 9,
+    "paper_repro": 9,
 }
-# Parts of one row that know each other: printing a formula needs a writer, and writers need the syntax;
-# the budget speaks in events and errors; row 6 is the line of arrows itself.
-TOGETHER = ({"qe.formula", "qe.io"}, *({k for k, row in ROWS.items() if row == same} for same in (0, 6)))
+# Parts of one row that know each other: printing a formula needs a writer, and writers need the syntax; a region can
+# draw itself; the budget speaks in events and errors; row 7 is the line of arrows itself.
+TOGETHER = (
+    {"qe.formula", "qe.io"},
+    {"qe.solution", "qe.report"},
+    *({k for k, row in ROWS.items() if row == same} for same in (0, 7)),
+)
 
 
 def part(module: str) -> str:
@@ -118,7 +122,7 @@ def test_sympy_enters_only_by_its_own_door() -> None:
     wrong = [
         f"{module}:{line}"
         for module, path in MODULES
-        if module.startswith("qe") and module != "qe.io.sympy"
+        if module.startswith("qe") and module not in ("qe.io.sympy", "qe.api")  # an objective may be an expression
         for line, name in imports(path, module)
         if name.split(".")[0] == "sympy"
     ]

@@ -125,7 +125,10 @@ def test_empty_region() -> None:
 def test_minimize() -> None:
     process = run("minimize", "(x - 3)^2 + y^2", "x^2 + y^2 <= 1", "--json")
     assert process.returncode == 0, process.stderr
-    assert json.loads(process.stdout)["value"]["exact"] == "4"
+    data = json.loads(process.stdout)
+    assert data["value"]["exact"] == "4"
+    assert data["point"]["x"]["exact"] == "1"
+    assert len(data["active"]) == len(data["multipliers"]) == 1
     assert "4" in run("minimize", "(x - 3)^2 + y^2", "x^2 + y^2 <= 1").stdout
 
 
@@ -150,7 +153,7 @@ BAD_FORMULAS = [
     "",
     "x^(1/2) = 1",
     "x^y = 1",
-    "x > nan",
+    "x > 1/(2-2)",
     "x\x01 > 0",
 ]
 
@@ -200,7 +203,7 @@ def test_the_time_limit_holds_and_tells_what_is_known() -> None:
     start = time.monotonic()
     process = run("eliminate", HARD, "--timeout", "1")
     assert time.monotonic() - start < 10  # 2 s are asked (the benchmark measures it); the tests' machine may be busy
-    refused(process, 3, "unable", "known after")
+    refused(process, 3, "unable", "known after", "8 variables, 5 of them quantified")
 
 
 def test_the_memory_limit_holds() -> None:
