@@ -313,6 +313,8 @@ def facts(known: Known) -> Mapping[str, object]:
     return {**known.facts, "seconds": round(known.seconds, 3), "phases": [_in_words(e) for e in known.phases.values()]}
 
 
-def run_limited(work: Callable[[], T], *, seconds: float | None, megabytes: int | None, progress: Listener = silent) -> T:
+def run_limited(
+    work: Callable[[], T], *, seconds: float | None, megabytes: int | None, progress: Listener = silent
+) -> T:
     """``work()`` in a worker under hard limits; see ``run``, which also lets the work talk while it runs."""
     return run(lambda channel: work(), timeout=seconds, memory=megabytes, progress=progress)
