@@ -91,13 +91,16 @@ def total(polys: Sequence[Poly]) -> int:
 
 
 def _solvable(polys: Sequence[Poly], block: Sequence[str]) -> int:
-    """Variables of the block with an equation linear in them: 3 for a constant coefficient, 1 for another."""
+    """Variables of the block with an equation linear in them: 3 for a constant coefficient, 1 for another.
+
+    The latter counts only in a block of several variables: a single one is left to methods that need no guards.
+    """
     names = polys[0].ring.names
     worth: dict[int, int] = {}
     for p in polys:
         for i in p.variables:
             if names[i] in block and p.degree(i) == 1:
-                worth[i] = max(worth.get(i, 0), 3 if p.leading(i).is_constant else 1)
+                worth[i] = max(worth.get(i, 0), 3 if p.leading(i).is_constant else int(len(block) > 1))
     return sum(worth.values())
 
 
