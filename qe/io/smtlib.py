@@ -60,10 +60,10 @@ def _depth(formula: Formula) -> int:
 def write(formula: Formula) -> str:
     """A script that asserts ``formula``.
 
-    Names that SMT-LIB keeps for itself get an underscore; others are quoted where needed. Raises ``InputError``
+    Names that SMT-LIB keeps for itself get ``v_`` in front; others are quoted where needed. Raises ``InputError``
     for a root atom, which SMT-LIB cannot express.
     """
-    names = Renaming(formula, keeps=lambda name: not _RESERVED.fullmatch(name))
+    names = Renaming(formula, keeps=lambda name: not _RESERVED.fullmatch(name), spell="v_{}".format)
     lines = [f"(set-logic {'QF_NRA' if is_quantifier_free(formula) else 'NRA'})"]
     lines += [f"(declare-const {_symbol(names[name])} Real)" for name in free_variables(formula)]
     lines.append(f"(assert {_term(formula, names)})")

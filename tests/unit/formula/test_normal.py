@@ -3,37 +3,18 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Mapping
 from fractions import Fraction
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from qe.formula.evaluate import holds_at
 from qe.formula.normal import Quantifier, close, nnf, prenex, rename, rename_apart
-from qe.formula.syntax import And, Atom, Exists, ForAll, Formula, Not, Or, RootAtom
+from qe.formula.syntax import Atom, Exists, ForAll, Formula, Not, Or, RootAtom
 from qe.formula.traverse import children, free_variables, is_quantifier_free, ring_of
 from qe.io.text import read
 from tests.strategies import formulas
-
-UNIVERSE = (Fraction(-1), Fraction(0), Fraction(3, 2))
-
-
-def holds(formula: Formula, point: Mapping[str, Fraction]) -> bool:
-    """Truth with quantifiers that range over ``UNIVERSE`` instead of the reals."""
-    match formula:
-        case Exists(variables, body) | ForAll(variables, body):
-            join = any if isinstance(formula, Exists) else all
-            choices = itertools.product(UNIVERSE, repeat=len(variables))
-            return join(holds(body, {**point, **dict(zip(variables, c, strict=True))}) for c in choices)
-        case And(args):
-            return all(holds(arg, point) for arg in args)
-        case Or(args):
-            return any(holds(arg, point) for arg in args)
-        case Not(arg):
-            return not holds(arg, point)
-    return holds_at(formula, point)
+from tests.universe import UNIVERSE, holds
 
 
 def binders(formula: Formula) -> list[str]:
@@ -51,7 +32,7 @@ places = st.fixed_dictionaries({name: st.sampled_from(UNIVERSE) for name in ("x"
 
 
 @given(quantified, places, st.booleans())
-def test_nnf_is_equivalent_and_has_no_inner_negation(formula: Formula, point: dict[str, Fraction], negate: bool) -> None:
+def test_nnf_is_equivalent_without_inner_negation(formula: Formula, point: dict[str, Fraction], negate: bool) -> None:
     result = nnf(formula, negate=negate)
     assert holds(result, point) == (holds(formula, point) != negate)
     assert all(isinstance(arg, RootAtom) for arg in nots(result))

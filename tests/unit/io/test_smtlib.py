@@ -1,0 +1,160 @@
+"""SMT-LIB scripts: the language that is read, what is refused and where, and scripts that solvers read."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import pytest
+
+from qe.errors import InputError, ParseError
+from qe.exact.ring import Ring
+from qe.formula.build import atom
+from qe.formula.evaluate import holds_at
+from qe.formula.syntax import Relation
+from qe.formula.traverse import free_variables
+from qe.io import smtlib
+from qe.io.text import read as text
+
+X = "(declare-const x Real)(declare-fun y () Real)(declare-const p Bool)"
+
+
+@pytest.mark.parametrize(
+    ("term", "printed"),
+    [
+        ("(> x 1.5)", "2*x - 3 > 0"),
+        ("(= (* 2 x y) (/ 1 3) )", "6*x*y - 1 = 0"),
+        ("(< x y 3)", "x - y < 0 and y - 3 < 0"),
+        ("(<= (- x) (- 3) (- x y 1))", "x - 3 >= 0 and x - y + 2 >= 0"),
+        ("(distinct x y 0)", "x - y /= 0 and x /= 0 and y /= 0"),
+        ("(=> (> x 0) (> y 0) (> x y))", "x <= 0 or y <= 0 or x - y > 0"),
+        ("(not (or (> x 0) (< y 0)))", "not (x > 0 or y < 0)"),
+        ("(xor (> x 0) true)", "x <= 0"),
+        ("(let ((a (+ x 1)) (x 5)) (> a x))", "x - 4 > 0"),
+        ("(let ((x y) (y x)) (> x (* 2 y)))", "2*x - y < 0"),
+        ("(exists ((x Real)) (> x y))", "ex x_1. y - x_1 < 0"),
+        ("(let ((a x)) (exists ((x Real)) (> x a)))", "ex x_1. x - x_1 < 0"),
+        ("(forall ((u Real) (q Bool)) (=> q (> u 0)))", "all u, q. q <= 0 or u > 0"),
+        ("(and p (not p))", "p > 0 and p <= 0"),
+        ("(! (> x 0) :named first)", "x > 0"),
+        ("(> (ite (> x 0) x (- x)) 1)", "x > 0 and x - 1 > 0 or x <= 0 and x + 1 < 0"),
+        ("(ite (> x 0) (> y 0) (< y 0))", "(x <= 0 or y > 0) and (x > 0 or y < 0)"),
+        ("(= (> x 0) (> y 0) )", "(x <= 0 or y > 0) and (y <= 0 or x > 0)"),
+        ("true", "true"),
+    ],
+)
+def test_terms(term: str, printed: str) -> None:
+    assert str(smtlib.read(f"{X}(assert {term})")) == printed
+
+
+def test_a_whole_script() -> None:
+    script = """
+        ; a comment
+        (set-logic QF_NRA) (set-info :status sat) (set-option :produce-models true)
+        (declare-const |my name| Real)
+        (define-const c Real (/ 1 2))
+        (define-fun square ((t Real)) Real (* t t))
+        (define-fun near ((a Real) (b Real)) Bool (< (square (- a b)) c))
+        (assert (near |my name| 2))
+        (assert (> |my name| 0))
+        (check-sat) (get-model) (echo "done")
+        (exit)
+        (push 1)
+    """
+    assert str(smtlib.read(script)) == "2*|my name|^2 - 8*|my name| + 7 < 0 and |my name| > 0"
+
+
+def test_a_definition_does_not_capture() -> None:
+    script = "(define-fun below ((x Real)) Bool (exists ((y Real)) (< x y)))(declare-const y Real)(assert (below y))"
+    assert str(smtlib.read(script)) == "ex y_1. y - y_1 < 0"
+
+
+def test_long_chains_of_definitions() -> None:
+    steps = "".join(f"(let ((y{i + 1} (+ y{i} 1)))" for i in range(500))
+    script = f"(declare-const x Real)(assert (let ((y0 x)) {steps}(> y500 0){')' * 500}))"
+    assert str(smtlib.read(script)) == "x + 500 > 0"
+
+
+def test_shared_definitions_are_evaluated_once() -> None:
+    steps = "".join(f"(let ((y{i + 1} (+ y{i} y{i})))" for i in range(60))
+    script = f"(declare-const x Real)(assert (let ((y0 x)) {steps}(> y60 (* {2**60} 3)){')' * 60}))"
+    assert str(smtlib.read(script)) == "x - 3 > 0"
+
+
+@pytest.mark.parametrize(
+    ("script", "line", "column", "part"),
+    [
+        ("(assert", 1, 1, "never closed"),
+        ("(assert true))", 1, 14, "no partner"),
+        ("\n(push 1)", 2, 2, "push is not supported"),
+        ("(declare-const x Int)", 1, 18, "Real or Bool"),
+        ("(declare-fun f (Real) Real)", 1, 16, "without arguments"),
+        ("(declare-const x Real)(assert (> x z))", 1, 36, "unknown symbol z"),
+        ("(declare-const x Real)(assert (sin x))", 1, 32, "unknown function sin"),
+        ("(declare-const x Real)(assert (> x (/ 1 x)))", 1, 37, "division by a term"),
+        ("(declare-const x Real)(assert (> x (/ x 0)))", 1, 37, "division by zero"),
+        ("(declare-const x Real)(assert (+ x 1))", 1, 31, "sort Bool expected"),
+        ("(declare-const x Real)(assert (and x))", 1, 36, "sort Bool expected"),
+        ("(assert (> true 1))", 1, 12, "sort Real expected"),
+        ("(assert (> 1x 2))", 1, 12, "malformed number"),
+        ("(check-sat)(assert true)", 1, 12, "one question"),
+        ("(declare-const x Real)(declare-const x Real)", 1, 38, "twice"),
+        ("(assert (> |x 1))", 1, 12, "never closed"),
+        ("x", 1, 1, "a command in brackets"),
+        ("(frobnicate)", 1, 2, "not supported"),
+        ("(assert true true)", 1, 1, "1 arguments expected"),
+        ("(assert (exists () true))", 1, 17, "without variables"),
+        ("(assert (> #b1 0))", 1, 12, "unexpected"),
+    ],
+)
+def test_mistakes(script: str, line: int, column: int, part: str) -> None:
+    with pytest.raises(ParseError) as caught:
+        smtlib.read(script, source="file.smt2")
+    assert part in str(caught.value)
+    assert "\n" not in str(caught.value)
+    assert (caught.value.line, caught.value.column) == (line, column)
+
+
+def test_case_distinctions_are_limited() -> None:
+    product = " ".join(["(ite (> x 0) x 1)"] * 12)
+    with pytest.raises(InputError, match="cases"):
+        smtlib.read(f"{X}(assert (> (* {product}) 0))")
+
+
+def test_too_deep_is_said() -> None:
+    with pytest.raises(ParseError, match="deep"):
+        smtlib.read(f"{X}(assert {'(not (and p ' * 1500}p{'))' * 1500})")
+
+
+def test_writing() -> None:
+    written = smtlib.write(text("ex y. 2*x^2*y - 5 <= 0 and not x = 0"))
+    assert written == (
+        "(set-logic NRA)\n(declare-const x Real)\n"
+        "(assert (exists ((y Real)) (and (<= (+ (* 2 x x y) (- 5)) 0) (not (= x 0)))))\n"
+    )
+    assert "QF_NRA" in smtlib.write(text("x > 0"))
+
+
+STRANGE = ["and", "pi", "e", "sin", "x'", "a b", "ä", "_", "let", "Real", "is_int", ".x", "1x", "@y", "declare-x"]
+
+
+@pytest.mark.parametrize("name", STRANGE)
+def test_scripts_with_any_name_are_read_by_z3(name: str) -> None:
+    z3 = pytest.importorskip("z3")
+    formula = atom(Ring.of((name, f"v_{name}")).gen(0) - Ring.of((name, f"v_{name}")).gen(1), Relation.GT)
+    written = smtlib.write(formula)
+    (term,) = z3.parse_smt2_string(written)
+    assert term.num_args() == 2
+    again = smtlib.read(written)
+    assert len(free_variables(again)) == 2, "no two names become one"
+    first, second = (n for n in free_variables(again))
+    assert holds_at(again, {first: 1, second: 0}) != holds_at(again, {first: 0, second: 1})
+
+
+def test_z3_agrees_at_points() -> None:
+    z3 = pytest.importorskip("z3")
+    formula = text("x^3 - 2*x*y <= 1/3 and (y /= x or not (x < 0 and y > 2))")
+    (term,) = z3.parse_smt2_string(smtlib.write(formula))
+    for x in (-2, -1, 0, 1, 3):
+        for y in (Fraction(-1, 2), 0, 3):
+            values = [(z3.Real("x"), z3.RealVal(x)), (z3.Real("y"), z3.RealVal(str(y)))]
+            assert z3.is_true(z3.simplify(z3.substitute(term, *values))) is holds_at(formula, {"x": x, "y": y})

@@ -1,0 +1,100 @@
+"""The SymPy door."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from collections.abc import Callable
+
+import pytest
+import sympy as sp
+from sympy.abc import x, y
+
+from qe.errors import InputError
+from qe.formula.syntax import TRUE
+from qe.io.sympy import Exists, ForAll, from_sympy, to_sympy
+from qe.io.text import read
+
+HALF = sp.Rational(1, 2)
+
+
+@pytest.mark.parametrize(
+    ("given", "printed"),
+    [
+        (sp.And(x > HALF, sp.Ne(y, x)), "2*x - 1 > 0 and x - y /= 0"),
+        (sp.Eq(x**2, 2), "x^2 - 2 = 0"),
+        (x < sp.Float(0.1), "36028797018963968*x - 3602879701896397 < 0"),
+        (sp.Abs(x) <= 1, "x >= 0 and x - 1 <= 0 or x < 0 and x + 1 >= 0"),
+        (sp.Implies(x > 0, y > 0), "x <= 0 or y > 0"),
+        (sp.Xor(x > 0, y > 0), "not ((x <= 0 or y > 0) and (y <= 0 or x > 0))"),
+        (sp.Equivalent(x > 0, y > 0), "(x <= 0 or y > 0) and (y <= 0 or x > 0)"),
+        (sp.ITE(x > 0, y > 0, y < 0), "(x <= 0 or y > 0) and (x > 0 or y < 0)"),
+        (sp.Piecewise((x, x > 0), (y, True)) > 1, "x > 0 and x - 1 > 0 or x <= 0 and y - 1 > 0"),
+        (sp.Symbol("x", real=True) > 0, "x > 0"),
+        (Exists(x, sp.Eq(x**2, y)), "ex x. x^2 - y = 0"),
+        (Exists([x, "y"], x > y), "ex x, y. x - y > 0"),
+        (ForAll(x, Exists(y, y > x)), "all x. ex y. y - x > 0"),
+        ((x > 0) & Exists(y, y > x), "x > 0 and ex y. x - y < 0"),
+        (Exists(y, y > x) & (x > 0), "(ex y. y - x > 0) and x > 0"),
+        ((x > 0) | ForAll(y, y > x), "x > 0 or all y. x - y < 0"),
+        (~Exists(y, y > x), "not ex y. y - x > 0"),
+        ((x > 0) >> Exists(y, y > x), "x <= 0 or ex y. x - y < 0"),
+        (Exists(y, read("y > x")), "ex y. y - x > 0"),
+        (True, "true"),
+    ],
+)
+def test_reading(given: object, printed: str) -> None:
+    assert str(from_sympy(given)) == printed
+
+
+@pytest.mark.parametrize(
+    ("make", "part"),
+    [
+        (lambda: sp.sqrt(x) > 1, "natural number"),
+        (lambda: 1 / x > 1, "division"),
+        (lambda: sp.sin(x) > 0, "sin"),
+        (lambda: sp.pi > x, "pi"),
+        (lambda: sp.And(sp.Symbol("p"), x > 0), "p found"),
+        (lambda: x, "Boolean combination"),
+        (lambda: "x > 0", "string"),
+        (lambda: x**99999999 > 0, "limit"),
+        (lambda: sp.Symbol("x", positive=True) < 1, "positive"),
+        (lambda: sp.Symbol("n", integer=True) < 1, "integer"),
+        (lambda: sp.Symbol("a|b") > 0, "name of a variable"),
+        (lambda: Exists([], x > 0).formula(), "at least one"),
+        (lambda: x < sp.oo, "oo"),
+    ],
+)
+def test_what_is_not_polynomial_is_refused(make: Callable[[], object], part: str) -> None:
+    with pytest.raises(InputError, match=part) as caught:
+        from_sympy(make())
+    assert "\n" not in str(caught.value)
+
+
+def test_minimum_and_maximum() -> None:
+    formula = from_sympy(sp.Max(x, y, 1) - sp.Min(x, y) > 2)
+    from qe.formula.evaluate import holds_at
+
+    for a in range(-3, 4):
+        for b in range(-3, 4):
+            assert holds_at(formula, {"x": a, "y": b}) is (max(a, b, 1) - min(a, b) > 2)
+
+
+def test_writing_uses_the_symbols_given() -> None:
+    real = sp.Symbol("x", real=True)
+    written = to_sympy(read("x^2 > 2"), symbols={"x": real})
+    assert written.free_symbols == {real}
+    assert to_sympy(TRUE) is sp.true
+    assert to_sympy(read("x^2 > 2 and not x < 0")).subs({sp.Symbol("x"): 2}) is sp.true
+
+
+@pytest.mark.parametrize("text", ["ex x. x > y", "x < root(1, x^2 - y)"])
+def test_what_sympy_cannot_say_is_refused(text: str) -> None:
+    with pytest.raises(InputError):
+        to_sympy(read(text))
+
+
+def test_the_door_opens_without_sympy() -> None:
+    code = "import sys, qe.io.sympy, qe.io.formats; print('sympy' in sys.modules, 'lark' in sys.modules)"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.split() == ["False", "False"]

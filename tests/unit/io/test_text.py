@@ -1,0 +1,168 @@
+"""The text syntax: what it means, how it is printed, and what is said about mistakes."""
+
+from __future__ import annotations
+
+import pytest
+
+from qe.errors import InputError, ParseError
+from qe.exact.ring import Ring
+from qe.formula.syntax import FALSE, TRUE, Exists, RootAtom
+from qe.formula.traverse import ring_of
+from qe.io.text import read, write
+
+
+@pytest.mark.parametrize(
+    ("text", "printed"),
+    [
+        ("x>0", "x > 0"),
+        ("x >= 1/2", "2*x - 1 >= 0"),
+        ("1 <= x", "x - 1 >= 0"),
+        ("y - x > 0", "y - x > 0"),
+        ("0.75*x = 1.5e-3", "500*x - 1 = 0"),
+        ("(x + 1)*(x - 1) /= 0", "x^2 - 1 /= 0"),
+        ("(x - y)^3/3 < 0", "x^3 - 3*x^2*y + 3*x*y^2 - y^3 < 0"),
+        ("-x^2 <= -4", "x^2 - 4 >= 0"),
+        ("2*-x = --1", "2*x + 1 = 0"),
+        ("x^0 = 1", "true"),
+        ("1 < 0", "false"),
+        ("x = x and y > 0", "y > 0"),
+        ("0 < x <= 1", "x > 0 and x - 1 <= 0"),
+        ("x = 1 and y = 2 or z = 3", "x - 1 = 0 and y - 2 = 0 or z - 3 = 0"),
+        ("x = 1 and (y = 2 or z = 3)", "x - 1 = 0 and (y - 2 = 0 or z - 3 = 0)"),
+        ("x = 0 -> y = 0 -> z = 0", "x /= 0 or y /= 0 or z = 0"),
+        ("(x = 0 -> y = 0) -> z = 0", "not (x /= 0 or y = 0) or z = 0"),
+        ("x = 0 <-> y = 0", "(x /= 0 or y = 0) and (y /= 0 or x = 0)"),
+        ("not x < 0", "x >= 0"),
+        ("not not (x < 0 and y < 0)", "x < 0 and y < 0"),
+        ("ex x, y. all z. x*y > z", "ex x, y. all z. x*y - z > 0"),
+        ("ex x. x > 0 and y > 0", "ex x. x > 0 and y > 0"),
+        ("(ex x. x > 0) and y > 0", "(ex x. x > 0) and y > 0"),
+        ("y > 0 and ex x. x > y", "y > 0 and ex x. y - x < 0"),
+        ("y > 0 and (ex x. x > y) or z > 0", "y > 0 and (ex x. y - x < 0) or z > 0"),
+        ("not ex x. x > y", "not ex x. y - x < 0"),
+        ("x > 0 and not (ex y. y > x) and x < 5", "x > 0 and not (ex y. x - y < 0) and x - 5 < 0"),
+        ("ex x. ex x. x = a", "ex x. a - x = 0"),
+        ("ex x, x. x = a", "ex x. a - x = 0"),
+        ("ex x. true", "true"),
+        ("x < root(2, x^2 - y, x)", "x < root(2, x^2 - y)"),
+        ("root(-1, y - x^2) >= x", "x <= root(-1, x^2 - y)"),
+        ("not x = root(1, x^2 - y)", "not (x = root(1, x^2 - y))"),
+        ("E + A > 0 and (E x. x > E)", "E + A > 0 and ex x. E - x < 0"),
+        ("A y, z. y > A + z", "all y, z. A - y + z < 0"),
+        ("x' + x'' = |my name|", "x' + x'' - |my name| = 0"),
+        ("|and| > |x|", "|and| - x > 0"),
+        ("∃x. x·y ≥ 1 ∧ ¬(x ≠ y)", "ex x. y*x - 1 >= 0 and y - x = 0"),
+        ("Ex u, v. (x-u*v = 0 /\\ ~(y = 0 \\/ z < 1))", "ex u, v. u*v - x = 0 and not (y = 0 or z - 1 < 0)"),
+        ("All x. x != 1 ==> x /= 2 <==> true", "all x. x - 1 = 0 or x - 2 /= 0"),
+        ("forall x. exists y. x < y # a comment\n and y > 0", "all x. ex y. x - y < 0 and y > 0"),
+    ],
+)
+def test_meaning_and_printing(text: str, printed: str) -> None:
+    formula = read(text)
+    assert write(formula) == printed
+    assert write(read(printed)) == printed
+
+
+@pytest.mark.parametrize(
+    ("text", "column", "part"),
+    [
+        ("ex x. x^2 +", 12, "ends too early"),
+        ("x ** ** 2 = 0", 4, "x^2"),
+        ("x^2 < ", 6, "ends too early"),
+        ("ex . x = 0", 4, "the name of a variable"),
+        ("2x = 1", 2, "2*x"),
+        ("x/y < 1", 2, "division by a term"),
+        ("x^99999999 = 0", 2, "above the limit"),
+        ("x = 1/0", 6, "division by zero"),
+        ("(x = 1", 1, "never closed"),
+        ("x = 1)", 6, "no partner"),
+        ("x === 1", 4, "one ="),
+        ("ex x, x = 0", 9, "'.' or ','"),
+        ("sin(x) = 0", 1, "unknown function sin"),
+        ("", 1, "empty"),
+        ("x^(1/2) = 1", 2, "natural number"),
+        ("x^y = 1", 2, "natural number"),
+        ("x^-1 = 1", 2, "negative exponent"),
+        ("(x)(y) = 0", 4, "(…)*(…)"),
+        ("x^2^3 = 1", 4, "ambiguous"),
+        ("x² = 1", 2, "x^2"),
+        ("x => 1", 4, ">="),
+        ("x > 0 & y > 0", 7, "and"),
+        ("x > 0 | y > 0", 7, "or"),
+        ("x > 0 || y > 0", 7, "or"),
+        ("[x > 0]", 1, "round brackets"),
+        ("(x > 0) = (y > 0)", 9, "<->"),
+        ("x", 2, "a relation"),
+        ("x and y > 0", 3, "a relation"),
+        ("(x + y + z + w + 1)^1000 = 0", 20, "million"),
+        ("1e99999999 = x", 1, "exponent of the number"),
+        ("x < root(0, x)", 5, "no such root"),
+        ("x < root(1, y)", 5, "does not contain x"),
+        ("x + 1 < root(1, x)", 9, "compared with a variable"),
+        ("x < root(1)", 5, "root takes"),
+        ("x < root(1, x, y)", 5, "cannot be compared"),
+        ("x = 'a'", 5, "unknown character"),
+    ],
+)
+def test_mistakes_are_explained_in_one_line(text: str, column: int, part: str) -> None:
+    with pytest.raises(ParseError) as caught:
+        read(text, source="input")
+    assert part in str(caught.value)
+    assert "\n" not in str(caught.value)
+    assert (caught.value.line, caught.value.column) == (1, column)
+    assert str(caught.value).startswith(f"input:1:{column}: ")
+
+
+def test_lines_are_counted() -> None:
+    with pytest.raises(ParseError) as caught:
+        read("x = 1\n  and y >< 2")
+    assert (caught.value.line, caught.value.column) == (2, 10)
+
+
+def test_nesting_has_a_limit_and_says_so() -> None:
+    assert write(read("(" * 500 + "x = 1" + ")" * 500)) == "x - 1 = 0"
+    deep = "x = 1"
+    for _ in range(200):
+        deep = f"x = 2 or (y = 1 and ({deep}))"
+    with pytest.raises(InputError, match="deep"):
+        read(deep)
+
+
+def test_long_inputs_are_not_deep() -> None:
+    assert write(read("+".join(["x"] * 3000) + " = 0")) == "x = 0"
+    assert write(read("*".join(["x"] * 3000) + " = 0")) == "x^3000 = 0"
+    assert write(read(" and ".join(f"x > {i}" for i in range(1000)))).count("and") == 999
+
+
+def test_numbers_of_any_length() -> None:
+    digits = "1234567890" * 1000
+    formula = read(f"x = {digits}")
+    assert write(formula) == f"x - {digits} = 0"
+    assert read(f"x = {digits}.0") == formula
+
+
+def test_powers_that_would_not_fit_are_refused_before_they_are_computed() -> None:
+    for text in ("((2*x + 1)^99)^99 = 0", "((7^10000)^10000)^10000 = x", "(123456789^9999*x)^9999 = 1"):
+        with pytest.raises(ParseError):
+            read(text)
+
+
+def test_ring_order_is_free_then_bound() -> None:
+    assert ring_of(read("ex x, y. x + b = y*a and (ex z. z > a)")) is Ring.of(("b", "a", "x", "y", "z"))
+    assert ring_of(read("x > 0 and (ex y. ex x. x = y)")) is Ring.of(("x", "y"))
+
+
+def test_constants_have_no_ring() -> None:
+    assert read("true") is TRUE
+    assert read("x < x") is FALSE
+
+
+def test_a_name_may_be_free_and_bound() -> None:
+    formula = read("ex x. x = y and (ex y. y > x)")
+    assert isinstance(formula, Exists)
+    assert write(formula) == "ex x. y - x = 0 and ex y. y - x > 0"
+
+
+def test_root_atoms() -> None:
+    formula = read("x > root(3, x^3 - y*x)")
+    assert isinstance(formula, RootAtom) and formula.k == 3 and formula.variable == "x"
