@@ -44,7 +44,9 @@ def read_formula(given: AnyFormula, format: str = "text") -> Formula:
     return from_sympy(given)
 
 
-def _options(method: str | Method, order: Iterable[str] | None, root_atoms: bool, explain: bool, progress: Progress) -> Options:
+def _options(
+    method: str | Method, order: Iterable[str] | None, root_atoms: bool, explain: bool, progress: Progress
+) -> Options:
     try:
         chosen = method if isinstance(method, Method) else Method(method)
     except ValueError:
@@ -155,12 +157,16 @@ def region(
 
 
 def minimize(
-    objective: AnyFormula, constraints: AnyFormula = "true", *, timeout: float | None = None, progress: Progress = silent
+    objective: AnyFormula,
+    constraints: AnyFormula = "true",
+    *,
+    timeout: float | None = None,
+    progress: Progress = silent,
 ) -> Optimum:
     """The exact minimum of a convex quadratic (or linear) polynomial under convex quadratic or linear constraints.
 
-    ``objective``: text, ``Poly``, or a SymPy expression; ``constraints``: a formula or a list of formulas (conjunction).
-    Raises ``Unable`` outside that class.
+    ``objective``: text, ``Poly``, or a SymPy expression; ``constraints``: a formula, or a list of formulas to be
+    conjoined. Raises ``Unable`` outside that class.
     """
     from qe.solution.optimum import minimize as solve
 
@@ -169,7 +175,11 @@ def minimize(
 
 
 def maximize(
-    objective: AnyFormula, constraints: AnyFormula = "true", *, timeout: float | None = None, progress: Progress = silent
+    objective: AnyFormula,
+    constraints: AnyFormula = "true",
+    *,
+    timeout: float | None = None,
+    progress: Progress = silent,
 ) -> Optimum:
     """The exact maximum; see ``minimize``."""
     from qe.solution.optimum import maximize as solve

@@ -17,7 +17,9 @@ class ParseError(InputError):
     ``line`` and ``column`` count from 1; ``expected`` says what would have been accepted there.
     """
 
-    def __init__(self, message: str, *, source: str = "<text>", line: int = 1, column: int = 1, expected: str = "") -> None:
+    def __init__(
+        self, message: str, *, source: str = "<text>", line: int = 1, column: int = 1, expected: str = ""
+    ) -> None:
         self.message, self.source, self.line, self.column, self.expected = message, source, line, column, expected
         tail = f" (expected {expected})" if expected else ""
         super().__init__(f"{source}:{line}:{column}: {message}{tail}")

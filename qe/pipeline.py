@@ -151,7 +151,9 @@ class _Run:
                 return self._quantified(variables, body, universal=True, substitution_only=substitution_only)
         return formula
 
-    def _quantified(self, variables: Sequence[str], body: Formula, *, universal: bool, substitution_only: bool) -> Formula:
+    def _quantified(
+        self, variables: Sequence[str], body: Formula, *, universal: bool, substitution_only: bool
+    ) -> Formula:
         inner = self.eliminate(body, substitution_only=True)
         rebuilt = (forall if universal else exists)(variables, inner)
         if not is_quantifier_free(inner):
@@ -223,7 +225,9 @@ class _Run:
     ) -> tuple[Formula, Values | None] | None:
         start = time.perf_counter()
         result = eliminate_block(variables, body, budget=budget, simplify=simplify)
-        self.note("vs", {"variables": list(variables), **result.stats, "seconds": round(time.perf_counter() - start, 6)})
+        self.note(
+            "vs", {"variables": list(variables), **result.stats, "seconds": round(time.perf_counter() - start, 6)}
+        )
         if result.remaining:
             return result.formula, None
         values: Values | None = None
@@ -234,7 +238,9 @@ class _Run:
                     break
         return result.formula, values
 
-    def _by_substitution(self, variables: Sequence[str], body: Formula, budget: Budget) -> tuple[Formula, Values | None]:
+    def _by_substitution(
+        self, variables: Sequence[str], body: Formula, budget: Budget
+    ) -> tuple[Formula, Values | None]:
         result = self._substituted(variables, body, budget)
         assert result is not None
         formula, values = result
@@ -317,7 +323,9 @@ class _Run:
             self.certificate = Certificate.cells(proof, answer)
         return answer, values
 
-    def _order(self, prefix: Sequence[tuple[object, tuple[str, ...]]], free: Sequence[str], polys: Sequence[object]) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    def _order(
+        self, prefix: Sequence[tuple[object, tuple[str, ...]]], free: Sequence[str], polys: Sequence[object]
+    ) -> tuple[tuple[str, ...], tuple[str, ...]]:
         asked = self.options.order or ()
         order: list[str] = []
         quantifiers: list[str] = []
@@ -327,5 +335,3 @@ class _Run:
             order += chosen
             quantifiers += [kind] * len(chosen)
         return tuple(order), tuple(quantifiers)
-
-

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from fractions import Fraction
 from functools import total_ordering
+from typing import Any
 
 from flint import arb, fmpq, fmpq_poly, fmpz, fmpz_mpoly_ctx, fmpz_poly
 
@@ -55,11 +56,11 @@ class RealAlgebraic:
     # --- access ----------------------------------------------------------------------------
     @property
     def degree(self) -> int:
-        return self.poly.degree()
+        return int(self.poly.degree())
 
     @property
     def is_rational(self) -> bool:
-        return self.poly.degree() == 1
+        return bool(self.poly.degree() == 1)
 
     def as_fmpq(self) -> fmpq:
         """The value of a rational number."""
@@ -140,7 +141,7 @@ class RealAlgebraic:
         """The sign of self - q, exactly."""
         if self.poly.degree() == 1:
             own = self.as_fmpq()
-            return (own > q) - (own < q)
+            return int(own > q) - int(own < q)
         x = self.ball() - arb(q)
         sign = ball_sign(x)
         if sign is not None:
@@ -194,18 +195,18 @@ class RealAlgebraic:
     def __neg__(self) -> RealAlgebraic:
         return _image(self, lambda p: p(fmpz_poly([0, -1])), lambda x: -x)
 
-    def __add__(self, other: object) -> RealAlgebraic:
+    def __add__(self, other: object) -> Any:
         return _combine(self, self._coerce(other), "+")
 
     __radd__ = __add__
 
-    def __sub__(self, other: object) -> RealAlgebraic:
+    def __sub__(self, other: object) -> Any:
         return _combine(self, self._coerce(other), "-")
 
-    def __rsub__(self, other: object) -> RealAlgebraic:
+    def __rsub__(self, other: object) -> Any:
         return -self + other
 
-    def __mul__(self, other: object) -> RealAlgebraic:
+    def __mul__(self, other: object) -> Any:
         return _combine(self, self._coerce(other), "*")
 
     __rmul__ = __mul__
@@ -216,13 +217,13 @@ class RealAlgebraic:
             raise ZeroDivisionError("inverse of zero")
         return _image(self, lambda p: fmpz_poly(p.coeffs()[::-1]), lambda x: 1 / x)
 
-    def __truediv__(self, other: object) -> RealAlgebraic:
+    def __truediv__(self, other: object) -> Any:
         value = self._coerce(other)
         if value is None:
             return NotImplemented
         return self * value.inverse()
 
-    def __rtruediv__(self, other: object) -> RealAlgebraic:
+    def __rtruediv__(self, other: object) -> Any:
         return self.inverse() * other
 
     def __pow__(self, exponent: int) -> RealAlgebraic:
@@ -321,10 +322,10 @@ def _image(a: RealAlgebraic, transform: Callable[[fmpz_poly], fmpz_poly], value:
 _PAIR = fmpz_mpoly_ctx.get(("y", "z"), "lex")
 
 
-def _combine(a: RealAlgebraic, b: RealAlgebraic | None, operation: str) -> RealAlgebraic:
+def _combine(a: RealAlgebraic, b: RealAlgebraic | None, operation: str) -> Any:
     """a+b, a-b or a*b: a root of the resultant of the two minimal polynomials, picked by enclosure."""
     if b is None:
-        return NotImplemented  # type: ignore[return-value]
+        return NotImplemented
     if a.is_rational and b.is_rational:
         x, y = a.as_fmpq(), b.as_fmpq()
         return RealAlgebraic.rational(x + y if operation == "+" else x - y if operation == "-" else x * y)

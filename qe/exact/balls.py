@@ -8,7 +8,7 @@ FIRST_PRECISION = 64
 EXACT_FROM = 128  # bits from which a ball that still contains zero is worth an exact zero test
 
 
-class precision:  # noqa: N801 - used like a keyword
+class precision:
     """Run the body at this working precision (FLINT's is process-wide, so it is always restored)."""
 
     __slots__ = ("bits", "saved")

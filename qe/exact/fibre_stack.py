@@ -7,6 +7,7 @@ factor over Q, or by a greatest common divisor over the tower), never by toleran
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import dataclass, field
 from fractions import Fraction
 
@@ -121,7 +122,9 @@ def _separate(point: Point, sections: list[Section]) -> list[Section]:
         with precision(max(s.bits for s in sections) + 16):
             balls = {id(s): s.ball() for s in sections}
             sections.sort(key=lambda s: float(balls[id(s)].mid()))
-            clash = next(((a, b) for a, b in zip(sections, sections[1:], strict=False) if not balls[id(a)] < balls[id(b)]), None)
+            clash = next(
+                ((a, b) for a, b in itertools.pairwise(sections) if not balls[id(a)] < balls[id(b)]), None
+            )
         if clash is None:
             return sections
         a, b = clash
@@ -196,7 +199,7 @@ def _sector_samples(sections: list[Section]) -> list[fmpq]:
             ends[k] = (section.value, section.value)
     first, last = ends[0][0], ends[-1][1]
     samples = [fmpq(0) if first > 0 else fmpq(first.ceil() - 1)]
-    samples += [simplest_between(a[1], b[0]) for a, b in zip(ends, ends[1:], strict=False)]
+    samples += [simplest_between(a[1], b[0]) for a, b in itertools.pairwise(ends)]
     samples.append(fmpq(0) if last < 0 else fmpq(last.floor() + 1))
     return samples
 
@@ -211,7 +214,7 @@ def _signs(shape: fmpz_poly | Fibre | None, sectors: list[fmpq]) -> tuple[int, .
 
 
 def root_between(point: Point, f: Poly, lo: Fraction, hi: Fraction) -> fmpq | RealAlgebraic | FibreRoot:
-    """The only root of f over the point that lies strictly between two rational numbers (Lazard evaluation if nullified)."""
+    """The only root of f (if nullified, of its Lazard evaluation) over the point strictly between two rationals."""
     shape = _specialise(point, f, point.depth)
     if shape is None:
         shape = _specialise(point, lazard_evaluation(point, f), point.depth)

@@ -19,7 +19,7 @@ _HALF = fmpq(1, 2)
 def sign_at(p: fmpz_poly, value: fmpq) -> int:
     """The sign of p at a rational number."""
     result = p(value)
-    return (result > 0) - (result < 0)
+    return int(result > 0) - int(result < 0)
 
 
 def _variations(p: fmpz_poly) -> int:

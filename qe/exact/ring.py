@@ -10,7 +10,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from fractions import Fraction
-from functools import cached_property, lru_cache
+from functools import cache, cached_property
+from typing import Any
 
 from flint import fmpq, fmpq_mpoly, fmpq_mpoly_ctx, fmpz, fmpz_mpoly, fmpz_mpoly_ctx, fmpz_poly
 
@@ -79,7 +80,7 @@ class Ring:
         return Ring.of, (self.names,)
 
 
-@lru_cache(maxsize=None)
+@cache
 def _intern(names: tuple[str, ...]) -> Ring:
     # FLINT contexts are immortal too, so nothing is lost by keeping the (small) rings.
     return Ring(names)
@@ -217,16 +218,17 @@ class Poly:
 
     def coefficients(self, i: int) -> tuple[Poly, ...]:
         """The coefficients with respect to variable ``i``, from degree 0 up; () for zero."""
+        memory: dict[Any, Any] = self.__dict__
         key = ("coefficients", i)
-        stored = self.__dict__.get(key)
+        stored: tuple[Poly, ...] | None = memory.get(key)
         if stored is None:
             slot, gen, rest, out = self.ring.slot(i), self.ring._gens[self.ring.slot(i)], self.p, []
             while rest:
                 lowest = rest.subs({slot: _ZERO})
                 out.append(Poly(self.ring, lowest))
                 rest = (rest - lowest) / gen
-            stored = self.__dict__[key] = tuple(out)  # type: ignore[index]
-        return stored  # type: ignore[no-any-return]
+            stored = memory[key] = tuple(out)
+        return stored
 
     def leading(self, i: int) -> Poly:
         """The leading coefficient with respect to variable ``i``."""

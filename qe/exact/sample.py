@@ -8,6 +8,7 @@ tower of fields (built lazily) prove the zero. No primitive elements.
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterable
 from fractions import Fraction
 
@@ -26,7 +27,9 @@ class Point:
 
     __slots__ = ("_balls", "_reduced", "_tower", "algebraic", "depth", "parent", "ring", "value")
 
-    def __init__(self, ring: Ring, parent: Point | None = None, value: fmpq | RealAlgebraic | FibreRoot | None = None) -> None:
+    def __init__(
+        self, ring: Ring, parent: Point | None = None, value: fmpq | RealAlgebraic | FibreRoot | None = None
+    ) -> None:
         self.ring, self.parent = ring, parent
         if isinstance(value, RealAlgebraic) and value.is_rational:
             value = value.as_fmpq()
@@ -34,7 +37,7 @@ class Point:
         self.depth: int = 0 if parent is None else parent.depth + 1
         inherited: tuple[int, ...] = () if parent is None else parent.algebraic
         rational = parent is None or isinstance(value, fmpq)
-        self.algebraic = inherited if rational else (*inherited, self.depth - 1)
+        self.algebraic: tuple[int, ...] = inherited if rational else (*inherited, self.depth - 1)
         self._reduced: dict[Poly, Poly] = {}
         self._tower: Tower | None = None
         self._balls: dict[tuple[int, int], arb] = {}
@@ -337,7 +340,7 @@ def certified_roots(c: list[arb], bits: int) -> list[arb] | None:
                 return None
             real.append(z.real)
     real.sort(key=lambda x: float(x.mid()))
-    return real if all(a < b for a, b in zip(real, real[1:], strict=False)) else None
+    return real if all(a < b for a, b in itertools.pairwise(real)) else None
 
 
 def common_fibre(f: Fibre, g: Fibre) -> Fibre | None:

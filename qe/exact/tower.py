@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from itertools import count
+from typing import TypeAlias
 
 from flint import arb, fmpq, fmpq_mpoly, fmpz, fmpz_poly
 
@@ -17,7 +18,7 @@ from qe.exact.algebraic import irreducible_factors
 from qe.exact.balls import FIRST_PRECISION
 from qe.exact.ring import Poly, Ring
 
-Element = fmpq_mpoly
+Element: TypeAlias = "fmpq_mpoly"
 
 
 class Tower:
@@ -115,7 +116,9 @@ class Tower:
             current = modulus.resultant(current, self.variables[position]).normal()[1]
         return current.to_univariate(variable)
 
-    def irreducible_factor(self, f: Element, variable: int, ball: Callable[[int], arb], own: Callable[[int, int], arb]) -> Element:
+    def irreducible_factor(
+        self, f: Element, variable: int, ball: Callable[[int], arb], own: Callable[[int, int], arb]
+    ) -> Element:
         """The monic irreducible factor of squarefree f over the field that vanishes at the number in ``ball(bits)``.
 
         ``own(i, bits)`` encloses the tower's coordinate i. Trager 1976: after a shift by a multiple of a generator

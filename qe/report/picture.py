@@ -71,9 +71,9 @@ def _at(root: RootFunction | None, values: Mapping[int, float], fallback: float,
             return -c / b if b else fallback
         wide = max(b * b - 4 * a * c, 0.0) ** 0.5
         pair = sorted(((-b - wide) / (2 * a), (-b + wide) / (2 * a)))
-        return pair[root.k - 1]
+        return float(pair[root.k - 1])
     found = numpy.roots(coefficients[::-1])
-    real = sorted(float(z.real) for z in found if abs(z.imag) < 1e-6 * max(1.0, abs(z)))
+    real: list[float] = sorted(float(z.real) for z in found if abs(z.imag) < 1e-6 * max(1.0, abs(z)))
     if thin:
         real = [b for a, b in zip([-numpy.inf, *real], real, strict=False) if b - a > 1e-5 * max(1.0, abs(b))]
     return real[min(root.k, len(real)) - 1] if real else fallback

@@ -44,15 +44,19 @@ class RootFunction:
                 unit = 2
             sign = "-" if self.k == 1 else "+"
             front = format_poly((-c[1]).exact_divide(unit)) + " " if c[1] else ""
-            return _quotient(f"{front}{sign if front or sign == '-' else ''}{' ' if front else ''}sqrt({format_poly(inside)})", str(half))
+            shown = f"{sign} " if front else "-" if sign == "-" else ""
+            return _quotient(f"{front}{shown}sqrt({format_poly(inside)})", str(half))
         return f"root({self.k}, {format_poly(self.poly)}, {self.poly.ring.names[i]})"
 
 
 def _quotient(top: str, bottom: str) -> str:
     if bottom == "1":
         return top
-    wrap = lambda s: f"({s})" if " " in s or "*" in s else s  # noqa: E731
-    return f"{wrap(top)}/{wrap(bottom)}"
+    return f"{_bracketed(top)}/{_bracketed(bottom)}"
+
+
+def _bracketed(text: str) -> str:
+    return f"({text})" if " " in text or "*" in text else text
 
 
 @dataclass(frozen=True, slots=True)

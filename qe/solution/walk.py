@@ -61,7 +61,9 @@ def rational(value: Fraction) -> RealAlgebraic:
     return RealAlgebraic.rational(value)
 
 
-def leaves(table: CellTable, wanted: Callable[[Cell], bool] = lambda cell: True, depth: int | None = None) -> Iterator[Place]:
+def leaves(
+    table: CellTable, wanted: Callable[[Cell], bool] = lambda cell: True, depth: int | None = None
+) -> Iterator[Place]:
     """The undecomposed cells (or those at ``depth``), in order; subtrees without a wanted cell are skipped."""
     limit = len(table.order) if depth is None else depth
 

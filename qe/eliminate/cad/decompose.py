@@ -40,7 +40,8 @@ def decompose(
     """The cell table of Q_k x_k … Q_n x_n. matrix over the variables ``order`` (free ones first).
 
     Where the projection asked for meets a nullified factor that its theorem does not allow, the work is redone
-    with Lazard projection and Lazard evaluation together. ``separated``: see ``factor_lists``. Raises ``BudgetExceeded``.
+    with Lazard projection and Lazard evaluation together. ``separated``: see ``factor_lists``.
+    Raises ``BudgetExceeded``.
     """
     ring = Ring.of(order)
     matrix = convert(matrix, ring)

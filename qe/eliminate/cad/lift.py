@@ -46,7 +46,9 @@ class Lifter:
             return Cell(signs, node)
         level = point.depth
         used = self._used(node, level)
-        isolation = isolate_over(point, tuple(self.levels[level][j] for j in used), lazard=self.projection is Projection.LAZARD)
+        isolation = isolate_over(
+            point, tuple(self.levels[level][j] for j in used), lazard=self.projection is Projection.LAZARD
+        )
         self._check_orientation(isolation, level, dimension)
         self.stacks += 1
         count = 2 * len(isolation.sections) + 1
@@ -62,9 +64,9 @@ class Lifter:
 
     def _check_orientation(self, isolation: Isolation, level: int, dimension: int) -> None:
         """Brown 2001 needs factors that are not nullified, except over single points on the last level."""
-        if isolation.nullified and self.projection is not Projection.LAZARD:
-            if dimension > 0 or level < len(self.levels) - 1:
-                raise NotWellOriented(f"a factor of level {level} is nullified over a cell of dimension {dimension}")
+        harmless = dimension == 0 and level == len(self.levels) - 1
+        if isolation.nullified and self.projection is not Projection.LAZARD and not harmless:
+            raise NotWellOriented(f"a factor of level {level} is nullified over a cell of dimension {dimension}")
 
     def _stack(
         self, point: Point, node: Node, signs: str, dimension: int, used: tuple[int, ...], isolation: Isolation
@@ -93,7 +95,14 @@ class Lifter:
         return Cell(signs, truth, Stack(used, sectors, sections, complete))
 
     def _child(
-        self, point: Point, node: Node, used: tuple[int, ...], isolation: Isolation, position: int, text: str, dimension: int
+        self,
+        point: Point,
+        node: Node,
+        used: tuple[int, ...],
+        isolation: Isolation,
+        position: int,
+        text: str,
+        dimension: int,
     ) -> Cell:
         child = self._specialised(node, point.depth, used, text)
         if isinstance(child, bool):
@@ -139,4 +148,3 @@ def _visiting_order(size: int) -> list[int]:
     """Sectors first (rational samples are cheap), middle ones first, then sections likewise."""
     middle = size // 2
     return sorted(range(size), key=lambda p: (p % 2, abs(p - middle)))
-
