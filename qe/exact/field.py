@@ -258,7 +258,8 @@ class FieldElement:
     def interval(self, bits: int = 64) -> tuple[Fraction, Fraction]:
         """Rational numbers lo <= self <= hi, close together."""
         x = self.ball(bits)
-        return to_fraction(x.lower().fmpq()), to_fraction(x.upper().fmpq())
+        with precision(bits + 16):
+            return to_fraction(x.lower().fmpq()), to_fraction(x.upper().fmpq())
 
     def __str__(self) -> str:
         return format_number(self.to_algebraic())
