@@ -12,7 +12,7 @@ from fractions import Fraction
 from functools import total_ordering
 from typing import Any
 
-from flint import arb, fmpq, fmpq_poly, fmpz, fmpz_mpoly_ctx, fmpz_poly
+from flint import arb, fmpq, fmpz, fmpz_mpoly_ctx, fmpz_poly
 
 from qe.errors import InputError
 from qe.exact.balls import FIRST_PRECISION, ball_sign, hull, lower_end, precision, upper_end
@@ -237,6 +237,8 @@ class RealAlgebraic:
         return _restore, (self.minimal_polynomial, self.index)
 
     def __str__(self) -> str:
+        from qe.exact.algebraic_text import format_algebraic
+
         return format_algebraic(self)
 
     def __repr__(self) -> str:
@@ -357,51 +359,3 @@ def _combined_polynomial(p: fmpz_poly, q: fmpz_poly, operation: str) -> fmpz_pol
     for exponents, c in resultant.terms():
         out[int(exponents[1])] = c
     return fmpz_poly(out)
-
-
-def format_algebraic(a: RealAlgebraic) -> str:
-    """Exact text: a fraction, ``(p + q*sqrt(d))/r`` for degree 2, otherwise ``root(k, polynomial)`` with k from 1."""
-    if a.is_rational:
-        return str(a.as_fraction())
-    if a.degree == 2:
-        return _format_quadratic(a)
-    terms = []
-    for i, c in reversed(list(enumerate(a.minimal_polynomial))):
-        if c:
-            power = "" if i == 0 else "x" if i == 1 else f"x^{i}"
-            body = power if abs(c) == 1 and power else f"{abs(c)}*{power}" if power else str(abs(c))
-            terms.append(("- " if c < 0 else "+ ") + body)
-    text = " ".join(terms)
-    text = text[2:] if text.startswith("+") else "-" + text[2:]
-    return f"root({a.index + 1}, {text})"
-
-
-def _format_quadratic(a: RealAlgebraic) -> str:
-    c, b, lead = (int(k) for k in a.minimal_polynomial)
-    discriminant, outside = b * b - 4 * lead * c, 1
-    for prime, power in fmpz(discriminant).factor():
-        outside *= int(prime) ** (int(power) // 2)
-    inside = discriminant // outside**2
-    negative = a.index == 0
-    common = Fraction(-b, 2 * lead)
-    radical = Fraction(outside, 2 * lead)
-    denominator = (common.denominator * radical.denominator) // _gcd(common.denominator, radical.denominator)
-    whole, factor = int(common * denominator), int(radical * denominator)
-    root = f"sqrt({inside})" if factor == 1 else f"{factor}*sqrt({inside})"
-    if whole:
-        text = f"{whole} {'-' if negative else '+'} {root}"
-        return text if denominator == 1 else f"({text})/{denominator}"
-    text = f"-{root}" if negative else root
-    return text if denominator == 1 else f"{text}/{denominator}"
-
-
-def _gcd(a: int, b: int) -> int:
-    while b:
-        a, b = b, a % b
-    return a
-
-
-def to_fmpq_poly(p: fmpz_poly) -> fmpq_poly:
-    """The monic associate over Q."""
-    q = fmpq_poly(p)
-    return q / p.leading_coefficient()

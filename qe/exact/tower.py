@@ -11,7 +11,7 @@ from collections.abc import Callable
 from itertools import count
 from typing import TypeAlias
 
-from flint import arb, fmpq, fmpq_mpoly, fmpz, fmpz_poly
+from flint import arb, fmpq_mpoly, fmpz, fmpz_poly
 
 from qe.errors import InternalError
 from qe.exact.algebraic import irreducible_factors
@@ -193,8 +193,3 @@ def clear_denominators(ring: Ring, a: Element) -> Poly:
     for c in a.coeffs():
         scale = scale * c.q // scale.gcd(c.q)
     return Poly(ring, ring.ctx.from_dict({m: int((c * scale).p) for m, c in a.terms()}))
-
-
-def rational_constant(ring: Ring, value: fmpq) -> Element:
-    """The rational number as an element."""
-    return ring.qctx.constant(value)
