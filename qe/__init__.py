@@ -36,6 +36,7 @@ from qe.errors import (
     Unable,
 )
 from qe.exact.algebraic import RealAlgebraic
+from qe.io.sympy import Exists, ForAll
 from qe.options import Method
 
 __version__ = "0.1.0"
@@ -46,6 +47,8 @@ __all__ = [
     "Certificate",
     "CertificateRejected",
     "DegreeTooHigh",
+    "Exists",
+    "ForAll",
     "Guarantee",
     "InputError",
     "InternalError",
