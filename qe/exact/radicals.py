@@ -7,7 +7,8 @@ from math import gcd, isqrt
 
 from flint import fmpq, fmpz, fmpz_poly
 
-from qe.exact.algebraic import RealAlgebraic, format_algebraic, irreducible_roots
+from qe.exact.algebraic import RealAlgebraic, irreducible_roots
+from qe.exact.algebraic_text import format_algebraic
 
 
 def format_number(a: RealAlgebraic) -> str:
