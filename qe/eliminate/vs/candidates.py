@@ -18,7 +18,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from itertools import chain
 
-from qe.eliminate.vs.known import Signs
+from qe.eliminate.vs.known import Signs, factor_parts
 from qe.eliminate.vs.points import LinearRoot, QuadraticRoot
 from qe.exact.ring import Poly
 from qe.formula.build import conj, disj
@@ -129,7 +129,7 @@ def lone_quadratic(formula: Formula, x: int) -> Poly | None:
     for given in atoms(formula):
         if not given.poly.degree(x):
             continue
-        inside = [(f, e) for f, e in given.poly.factors()[1] if f.degree(x)]
+        inside = [(f, e) for f, e in factor_parts(given.poly)[1] if f.degree(x)]
         for factor, exponent in inside:
             if factor.degree(x) < 2:
                 continue
@@ -187,7 +187,7 @@ def in_order(candidates: Iterable[Candidate]) -> Iterator[tuple[Candidate, froze
 
 def vanishing(f: Poly, x: int, signs: Signs) -> Formula:
     """The condition that f vanishes identically in x: a factor without x does, or all coefficients of another."""
-    _, parts = f.factors()
+    _, parts = factor_parts(f)
     cases = []
     for factor, _ in parts:
         if factor.degree(x):
@@ -238,7 +238,7 @@ def _atom_points(
     given: Atom, x: int, side: int, signs: Signs, omit: Poly | None = None
 ) -> tuple[Candidate, ...] | None:
     """The points where the atom can turn true, with guards."""
-    _, parts = given.poly.factors()
+    _, parts = factor_parts(given.poly)
     inside = [(f, e) for f, e in parts if f.degree(x)]
     if any(f.degree(x) > 2 for f, _ in inside):
         return None

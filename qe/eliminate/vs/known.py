@@ -42,7 +42,7 @@ class Signs:
         unit, primitive = poly.normal()
         signs = self._irreducible(primitive)
         if len(signs) > 1 and primitive.total_degree > 1:
-            unit2, parts = _parts(primitive)
+            unit2, parts = factor_parts(primitive)
             if len(parts) > 1 or parts[0][1] > 1:
                 product = frozenset((1 if unit2 > 0 else -1,))
                 for factor, exponent in parts:
@@ -66,7 +66,7 @@ class Signs:
         """
         if poly.is_constant or poly.total_degree == 1:
             return self._decided(poly, relation)
-        _, parts = _parts(poly)
+        _, parts = factor_parts(poly)
         unit = 1 if poly.normal()[0] > 0 else -1
         if relation in (Relation.EQ, Relation.NE):
             kept = [f for f, _ in parts if 0 in self.possible(f)]
@@ -111,7 +111,8 @@ def _sum_of_squares(poly: Poly) -> list[Poly]:
     return [poly.ring.from_terms({tuple(min(k, 1) for k in e): 1}) for e, _ in terms]
 
 
-def _parts(primitive: Poly) -> tuple[int, tuple[tuple[Poly, int], ...]]:
+def factor_parts(primitive: Poly) -> tuple[int, tuple[tuple[Poly, int], ...]]:
+    """Unit and factors with multiplicities; a polynomial of very many terms counts as irreducible."""
     if primitive.total_degree <= 1 or primitive.term_count() > _FACTORED_TERMS:
         unit, q = primitive.normal()
         return unit, ((q, 1),)

@@ -14,7 +14,7 @@ from qe.eliminate.vs.candidates import (
     points_cost,
     without_radicals,
 )
-from qe.eliminate.vs.known import Signs
+from qe.eliminate.vs.known import Signs, factor_parts
 from qe.eliminate.vs.points import Infinity
 from qe.eliminate.vs.shift import common_exponent, shifted
 from qe.formula.build import conj
@@ -150,7 +150,7 @@ def split_equation(formula: Formula, block: frozenset[int]) -> tuple[Formula, ..
     args = formula.args if isinstance(formula, And) else (formula,)
     for k, arg in enumerate(args):
         if isinstance(arg, Atom) and arg.relation is Relation.EQ:
-            _, parts = arg.poly.factors()
+            _, parts = factor_parts(arg.poly)
             if len(parts) > 1 and block & set(arg.poly.variables):
                 rest = (*args[:k], *args[k + 1 :])
                 return tuple(conj((Atom(f, Relation.EQ), *rest)) for f, _ in parts)
