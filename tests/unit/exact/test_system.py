@@ -50,8 +50,6 @@ def test_two_spheres_and_their_radical_plane() -> None:
     assert cut_linear_combinations(Flat.whole(3), [spheres[0], _form(X * X + Y * Y + Z * Z - 5)]) is None
     doubled = _form(2 * X * X + 2 * Y * Y + 2 * Z * Z - 8)
     assert cut_linear_combinations(Flat.whole(3), [spheres[0], doubled]) is not None
-        cut_linear_combinations(Flat.whole(3), [spheres[0], _form(2 * X * X + 2 * Y * Y + 2 * Z * Z - 8)]) is not None
-    )
 
 
 def _on_a_circle(**options: int):
