@@ -56,7 +56,7 @@ def number_text(text: str) -> str:
 def _expression(node: ast.expr) -> str:
     match node:
         case ast.Constant(value):
-            return f"<mn>{value}</mn>"
+            return f"<mn>{value!r}</mn>"
         case ast.Name(id):
             return name(id)
         case ast.UnaryOp(ast.USub(), operand):

@@ -41,7 +41,7 @@ Shape = tuple[str, Array, float]
 def icosphere(level: int) -> tuple[Array, Indices]:
     """Unit directions and triangles of an icosahedron with each face split into 4^level."""
     g = (1 + 5**0.5) / 2
-    corners = [(-1, g, 0), (1, g, 0), (-1, -g, 0), (1, -g, 0), (0, -1, g), (0, 1, g)]
+    corners: list[tuple[float, float, float]] = [(-1, g, 0), (1, g, 0), (-1, -g, 0), (1, -g, 0), (0, -1, g), (0, 1, g)]
     corners += [(0, -1, -g), (0, 1, -g), (g, 0, -1), (g, 0, 1), (-g, 0, -1), (-g, 0, 1)]
     faces = [(0, 11, 5), (0, 5, 1), (0, 1, 7), (0, 7, 10), (0, 10, 11), (1, 5, 9), (5, 11, 4), (11, 10, 2), (10, 7, 6)]
     faces += [(7, 1, 8), (3, 9, 4), (3, 4, 2), (3, 2, 6), (3, 6, 8), (3, 8, 9), (4, 9, 5), (2, 4, 11), (6, 2, 10)]
@@ -121,8 +121,8 @@ def _margin(shape: Shape, points: Array) -> Array:
     """Distance to the boundary, positive inside."""
     kind, vector, number = shape
     if kind == "ball":
-        return number - np.linalg.norm(points - vector, axis=1)
-    return points @ vector + number
+        return np.asarray(number - np.linalg.norm(points - vector, axis=1))
+    return np.asarray(points @ vector + number)
 
 
 def _inner_point(shapes: Sequence[Shape]) -> Array:
@@ -141,7 +141,7 @@ def _inner_point(shapes: Sequence[Shape]) -> Array:
         size = float(np.linalg.norm(arrow))
         point = point + arrow / (size or 1.0) * step
         step *= 0.985
-    return best
+    return np.asarray(best)
 
 
 def _ray(shape: Shape, origin: Array, directions: Array) -> Array:

@@ -134,7 +134,8 @@ def _quadratic_plan(problem: Problem, clock: Clock) -> Plan:
     found = None if region.is_empty else tuple(optimum.point[name] for name in quadratic.FREE)
     if (found is None) == optimum.is_optimal:
         raise InternalError("the region and the optimum disagree about the existence of a control point")
-    path, active = None, ()
+    path: Path | None = None
+    active: tuple[str, ...] = ()
     with clock.step("curves and proofs"):
         if found is not None:
             path, active = _path(problem, found)

@@ -174,9 +174,13 @@ def as_conditions_on_q1(problem: Problem) -> tuple[OnPoint, ...]:
             moved: Condition = Ball(centre, item.condition.radius_squared, item.label)
         else:
             side = 1 if item.point == "Q1" else -1
-            moved = HalfSpace((Fraction(0), Fraction(0), Fraction(side)), Fraction(centre[2]), item.label)
+            moved = HalfSpace((Fraction(0), Fraction(0), Fraction(side)), _rational(centre[2]), item.label)
         found.append(OnPoint(item.point, moved))
     return tuple(found)
+
+
+def _rational(value: Any) -> Fraction:
+    return Fraction(value)
 
 
 @dataclass(frozen=True, slots=True)

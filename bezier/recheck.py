@@ -12,6 +12,7 @@ from fractions import Fraction
 from pathlib import Path as FilePath
 from typing import Any
 
+import qe
 from bezier import quadratic
 from bezier.curve import Bezier, Smoothness
 from bezier.numbers import NotANumber, parse
@@ -20,7 +21,10 @@ from bezier.problem import PlanMethod, Problem
 from bezier.scalar import Vector, same, sign
 from bezier.terms import Terms, condition_terms, fixed_values, multiple_of, objective_terms, reduced, terms_of
 from bezier.workspace import Workspace, WorkspaceKind
+from qe.certify.verify import verify
 from qe.errors import CertificateRejected, InputError
+from qe.evidence.cells_json import CellEvidence
+from qe.evidence.certificate import Certificate, Kind
 from qe.worker import Channel
 
 MAX_BYTES = 200_000_000
@@ -30,22 +34,16 @@ TOLERANCE = 1e-9
 
 def recheck(channel: Channel, folder: FilePath) -> list[str]:
     """Lines saying what was checked. Raises ``CertificateRejected`` naming the first entry that is wrong."""
-    from qe.certify.verify import verify
-    from qe.evidence.certificate import Certificate
-
     certificate = Certificate.from_json(_text(folder / "certificate.json"))
     verdict = verify(certificate)
     if not verdict.accepted:
         raise CertificateRejected(f"certificate.json: {verdict.step}", verdict.reason)
     lines = ["certificate.json: accepted"]
-    members = {member["label"]: member for member in certificate.to_data().get("certificates", ())}
-    for label in ("region", "optimum"):
-        if label not in members:
-            raise CertificateRejected("certificate.json", f"no certificate with the label {label}")
-    optimum = members["optimum"]["payload"]
+    table = _member(certificate, "region", Kind.CELLS)
+    optimum: Any = _member(certificate, "optimum", Kind.OPTIMUM)
     stored = _json(folder / ("path.json" if optimum["status"] == "optimal" else "summary.json"))
     problem = _problem(_entry(stored, "problem", dict))
-    _check_region(problem, members["region"])
+    _check_region(problem, table)
     lines.append("the region belongs to formula (8) of this problem")
     _check_optimum(problem, optimum)
     if optimum["status"] != "optimal":
@@ -57,6 +55,15 @@ def recheck(channel: Channel, folder: FilePath) -> list[str]:
     _check_path(path, stored)
     lines.append(f"path.json: {path.smoothness.name} at every join, every curve proved to lie in the workspace")
     return lines
+
+
+def _member(certificate: Certificate, label: str, kind: Kind) -> object:
+    """The payload of the member with this label and kind."""
+    if isinstance(certificate.payload, tuple):
+        for member in certificate.payload:
+            if member.label == label and member.certificate.kind is kind:
+                return member.certificate.payload
+    raise CertificateRejected("certificate.json", f"no certificate about the {label}")
 
 
 def _text(path: FilePath) -> str:
@@ -119,15 +126,8 @@ def _problem(table: Mapping[str, Any]) -> Problem:
     )
 
 
-def _check_region(problem: Problem, member: Mapping[str, Any]) -> None:
+def _check_region(problem: Problem, payload: object) -> None:
     """The region's certificate is about the answer to this problem's formula."""
-    import qe
-    from qe.evidence.cells_json import CellEvidence
-    from qe.evidence.certificate import Certificate
-
-    content = {key: value for key, value in member.items() if key != "label"}
-    whole = {"format": "bezier-qe certificate", "version": 1, "digest": "", **content}
-    payload = Certificate.from_json(json.dumps(whole)).payload
     if not isinstance(payload, CellEvidence):
         raise CertificateRejected("region", "expected a cell table")
     answer = qe.eliminate(quadratic.formula(problem)).formula

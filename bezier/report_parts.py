@@ -243,7 +243,7 @@ _RAISED = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 def plan_polynomial(coefficients: Sequence[int]) -> str:
     """A univariate polynomial in theta as text."""
-    pieces = []
+    pieces: list[str] = []
     for k, c in reversed(list(enumerate(coefficients))):
         if c:
             power = "" if k == 0 else "θ" if k == 1 else f"θ{str(k).translate(_RAISED)}"
@@ -264,7 +264,7 @@ def proofs(found: Iterable[Proof]) -> list[Row]:
     """One row per curve and condition."""
     rows = []
     for proof in found:
-        row = {"curve": shown(mathml.name(proof.curve) + "<mo>(</mo><mi>t</mi><mo>)</mo>")}
+        row: Row = {"curve": shown(mathml.name(proof.curve) + "<mo>(</mo><mi>t</mi><mo>)</mo>")}
         row["condition"] = condition_name(proof.condition)
         if isinstance(proof.outcome, Inside):
             rows.append(row | {"result": "for all t in [0, 1]", "tone": "good", "test": _TESTS[proof.outcome.test]})
