@@ -200,8 +200,9 @@ def qepcad_body(matrix: object) -> str:
 def main() -> None:
     """Print the table."""
     print(f"medians of {REPEAT}; in-process figures after import")
-    for row in [*engine_rows(), *process_rows()]:
-        print(row, flush=True)
+    for rows in (engine_rows, process_rows):
+        for row in rows():
+            print(row, flush=True)
 
 
 if __name__ == "__main__":
