@@ -22,7 +22,7 @@ from qe.exact.ring import Ring
 from qe.formula.build import conj, convert, disj, exists, forall, neg
 from qe.formula.normal import nnf, prenex, rename_apart
 from qe.formula.syntax import FALSE, TRUE, And, Constant, Exists, ForAll, Formula, Not, Or
-from qe.formula.traverse import atoms, free_variables, is_quantifier_free, polynomials
+from qe.formula.traverse import atoms, free_variables, is_quantifier_free, polynomials, ring_of
 from qe.options import Budget, Method, Options
 from qe.plan.choice import Choice, choose
 from qe.plan.order import brown_order
@@ -52,8 +52,10 @@ def solve(formula: Formula, options: Options, budget: Budget) -> Elimination:
 
     Raises ``Unable`` (``BudgetExceeded`` at a limit) when no method finished.
     """
-    run = _Run(options, budget)
+    run, free = _Run(options, budget), free_variables(formula)
     result, values = run.sentence_or_formula(rename_apart(formula))
+    if free:
+        result = convert(result, Ring.of(free))
     run.stats["seconds"] = round(time.perf_counter() - run.started, 6)
     return Elimination(result, values, run.certificate, run.stats)
 
@@ -97,7 +99,10 @@ class _Run:
         except Unable as error:
             self.note("switches", f"no witness: {error}")
             return answer, None
-        return answer, {name: lifted.get(name, Fraction(0)) for name in formula.variables}
+        found = {name: lifted.get(name, Fraction(0)) for name in formula.variables}
+        if self.certificate is None and is_quantifier_free(formula.body):
+            self.certificate = Certificate.witness(formula.body, tuple(found), tuple(found.values()))
+        return answer, found
 
     def with_values(self, formula: Formula) -> tuple[Formula, Values | None]:
         """A sentence of existential blocks under conjunction and disjunction, with values when true."""
@@ -321,7 +326,9 @@ class _Run:
         )
         if self.certificate is None and formula == self.whole:
             self.certificate = Certificate.cells(proof, answer)
-        return answer, values
+        # back into the ring of the formula it came from: it is joined with parts of that formula
+        ring = ring_of(formula)
+        return answer if ring is None else convert(answer, ring), values
 
     def _order(
         self, prefix: Sequence[tuple[object, tuple[str, ...]]], free: Sequence[str], polys: Sequence[object]
