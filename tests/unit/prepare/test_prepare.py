@@ -1,0 +1,153 @@
+"""Preparation of whole formulas: the paper's formulas, geometry, switches, lifts."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import pytest
+
+from qe.errors import BudgetExceeded, Unable
+from qe.exact.algebraic import RealAlgebraic
+from qe.formula.syntax import FALSE, TRUE, And, Exists, Relation
+from qe.formula.traverse import atoms, free_variables, is_quantifier_free
+from qe.io.text import read
+from qe.options import Budget
+from qe.prepare import StepKind, prepare
+from qe.prepare.lift import holds_at
+from qe.prepare.simplify import simplify
+
+BALL = "{0}1^2 + {0}2^2 + {0}3^2 - r^2 <= 0"
+
+
+def formula_8(symbolic: bool) -> str:
+    given = {"q": ["-1", "3", "3"], "s": ["1", "3", "3"]}
+    points = {"q": ["q1", "q2", "q3"], "s": ["s1", "s2", "s3"]} if symbolic else given
+    equations = [f"p{i} = 2*{points['q'][i - 1]} - x{i} and t{i} = 2*{points['s'][i - 1]} - x{i}" for i in (1, 2, 3)]
+    balls = " and ".join(BALL.format(v) for v in "ptx")
+    text = f"ex p1, p2, p3, t1, t2, t3. ({' and '.join(equations)} and {balls})"
+    return text if symbolic else text.replace("r^2", "27")
+
+
+@pytest.mark.parametrize("symbolic", [False, True])
+def test_formula_8_becomes_three_balls(symbolic: bool) -> None:
+    result = prepare(read(formula_8(symbolic))).formula
+    assert is_quantifier_free(result)
+    assert len(list(atoms(result))) == 3
+    assert all(a.relation in (Relation.LE, Relation.GE) and a.poly.total_degree == 2 for a in atoms(result))
+
+
+def test_formula_8_lifts_to_the_control_points() -> None:
+    formula = read(formula_8(False))
+    prepared = prepare(formula)
+    lifted = prepared.lift({"x1": Fraction(0), "x2": Fraction(4), "x3": Fraction(3)})
+    assert (lifted["p1"], lifted["p2"], lifted["p3"], lifted["t1"]) == (-2, 2, 3, 2)
+    assert holds_at(formula.body, lifted)  # type: ignore[attr-defined]
+
+
+def test_formula_7_keeps_six_balls_in_six_variables() -> None:
+    q, s = ("-1", "3", "3"), ("1", "3", "3")
+    equations = [
+        f"a{i} = 4*{q[i - 1]} - 4*x{i} + y{i} and b{i} = 2*{q[i - 1]} - x{i}"
+        f" and c{i} = 2*{s[i - 1]} - y{i} and d{i} = x{i} - 4*y{i} + 4*{s[i - 1]}"
+        for i in (1, 2, 3)
+    ]
+    block = ", ".join(f"{v}{i}" for v in "abcd" for i in (1, 2, 3))
+    balls = " and ".join(BALL.format(v).replace("r^2", "27") for v in "abcdxy")
+    result = prepare(read(f"ex {block}. ({' and '.join(equations)} and {balls})")).formula
+    assert is_quantifier_free(result)
+    assert len(free_variables(result)) == 6
+    assert len(list(atoms(result))) == 6
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("ex x. x*y = 1", "y /= 0"),
+        ("ex x. (x*y = 1 and x > 0)", "y > 0"),
+        ("all x. (x*y /= 1 or x <= 0)", "y <= 0"),
+        ("ex x. (a*x + b = 0)", "a /= 0 or b = 0"),
+        ("ex x, y. (x + y = 1 and x - y = a and x*y > 0)", "a^2 < 1"),
+        ("ex x, y. (x^2 + y^2 = 0 and a*x + b > y)", "b > 0"),
+        ("ex x, y. (x*y = 0 and x = 1 and a > y)", "a > 0"),
+        ("ex y. (x^2 + y = 0 and x > 0 and (y > 5 or y < -4))", "x > 2"),
+        ("y > 0 and ex x. (x*y = 1 and x < 2)", "2*y > 1"),
+        ("ex x, y, z. (x + y + z = 0 and x*y + y*z + z*x = 0 and x*y*z = 1)", "false"),
+    ],
+)
+def test_equations_disappear(text: str, expected: str) -> None:
+    result = prepare(read(text)).formula
+    assert is_quantifier_free(result)
+    if not free_variables(result):
+        assert str(result) == expected
+        return
+    ring = next(atoms(result)).poly.ring
+    wanted = simplify(read(expected))
+    for k in range(-40, 41):
+        at = {name: Fraction(k * (3 + i) % 17 - 8, 4) for i, name in enumerate(ring.names)}
+        assert holds_at(result, at) == holds_at(wanted, at)
+
+
+def test_witness_through_a_degree_shift_is_a_root() -> None:
+    formula = read("ex x. (x^4 - 2*x^2 - 1 = 0 and x^2 > 1)")
+    prepared = prepare(formula, enabled={StepKind.DEGREE_SHIFT})
+    golden = RealAlgebraic.from_root([-1, -2, 1], 2, 3)  # 1 + sqrt(2)
+    lifted = prepared.lift({"x": golden})
+    assert lifted["x"] ** 2 == golden
+    assert holds_at(formula.body, lifted)  # type: ignore[attr-defined]
+
+
+def test_sign_atoms_survive_a_degree_shift() -> None:
+    prepared = prepare(read("ex x. (x >= 0 and x^4 - a*x^2 + 1 < 0)"), enabled={StepKind.DEGREE_SHIFT})
+    assert max(p.poly.total_degree for p in atoms(prepared.formula)) == 2
+    odd = prepare(read("ex x. (x > 0 and x^4 - a*x^2 + 1 < 0 and x^2*b < 1)"), enabled={StepKind.DEGREE_SHIFT})
+    assert max(p.poly.total_degree for p in atoms(odd.formula)) == 2
+    unsigned = prepare(read("ex x. ((x > 0 or a > 0) and x^4 - a*x^2 + 1 < 0)"), enabled={StepKind.DEGREE_SHIFT})
+    assert not unsigned.steps
+
+
+def test_scaling_uses_known_signs() -> None:
+    prepared = prepare(read("ex x, y, z. (x > 0 and x^2 + y^2 < z^2 and x*y > z^2)"), enabled={StepKind.SCALING})
+    assert prepared.steps[0].cases == 1
+    assert free_variables(prepared.formula) == ()
+    assert str(prepared.formula).startswith("ex y, z.")
+
+
+def test_independent_parts_separate() -> None:
+    result = prepare(read("ex x, y. (x^2 < a and y^3 + y > b and c > 0)"), enabled={StepKind.MINISCOPE}).formula
+    assert isinstance(result, And) and len(result.args) == 3
+    assert sorted(f.variables for f in result.args if isinstance(f, Exists)) == [("x",), ("y",)]
+
+
+def test_no_capture_by_inner_quantifiers() -> None:
+    """x = y must not be put under a quantifier that binds y."""
+    text = "ex x. (x = y and all y. (y^2 + 1 > x))"
+    result = prepare(read(text), enabled={StepKind.LINEAR}).formula
+    assert result == read(text)
+
+
+def test_switches() -> None:
+    formula = read("ex x. (2*x = a and x > b)")
+    assert prepare(formula, enabled=()).formula == formula
+    assert prepare(formula, enabled=()).steps == ()
+    solved = prepare(formula, enabled={StepKind.LINEAR})
+    assert [s.kind for s in solved.steps] == [StepKind.LINEAR]
+    assert str(solved.formula) == str(simplify(read("a > 2*b")))
+
+
+def test_budget_is_obeyed() -> None:
+    budget = Budget(60.0)
+    budget.cancel()
+    with pytest.raises(BudgetExceeded):
+        prepare(read("ex x. (2*x = a and x > b)"), budget=budget)
+
+
+def test_lift_of_nothing_is_refused() -> None:
+    prepared = prepare(read("ex x, y. (x*y = 1 and x^2*y^3 + y > 2 or x + y = 3 and x^5 > y and y > 9)"))
+    with pytest.raises(Unable):
+        prepared.lift({"x": Fraction(0), "y": Fraction(0)})
+
+
+def test_closed_formulas_without_quantifier() -> None:
+    assert prepare(TRUE).formula == TRUE
+    assert prepare(FALSE).formula == FALSE
+    assert prepare(read("x^2 < 0")).formula == FALSE

@@ -1,0 +1,68 @@
+"""The simplifier's rules, one example each; every pair is checked for equivalence by the property tests as well."""
+
+from __future__ import annotations
+
+import pytest
+
+from qe.formula.syntax import FALSE, TRUE
+from qe.io.text import read
+from qe.prepare.simplify import simplify
+
+CASES = [
+    # implied bounds: one polynomial up to a constant
+    ("x^2 + y^2 - 4 <= 0 and x^2 + y^2 - 9 <= 0", "x^2 + y^2 - 4 <= 0"),
+    ("x^2 + y^2 - 4 <= 0 or x^2 + y^2 - 9 <= 0", "x^2 + y^2 - 9 <= 0"),
+    ("x > 0 and x /= 1 and x >= 1", "x > 1"),
+    ("2*x > 1 and 3*x > 1", "2*x > 1"),
+    ("x >= 0 and x <= 0", "x = 0"),
+    ("x > 0 or x < 0", "x /= 0"),
+    ("x > 0 and x < 0", "false"),
+    ("x >= 0 or x < 1", "true"),
+    # sign-definite polynomials
+    ("x^2 + y^2 + 1 > 0", "true"),
+    ("x^4 + y^2 < 0", "false"),
+    ("x^2 + y^2 <= 0", "x^2 + y^2 = 0"),
+    ("x^2 - x + 1 > 0", "true"),
+    ("x^2 + 2*x*y + 2*y^2 - 2*y + 1 < 0", "false"),
+    # multiplicities and factors
+    ("x^2*y < 0", "x /= 0 and y < 0"),
+    ("x^2*y <= 0", "x = 0 or y <= 0"),
+    ("x^3*y >= 0", "x*y >= 0"),
+    ("x^3 = 0", "x = 0"),
+    ("(x^2 + 1)*y > 0", "y > 0"),
+    ("x > 0 and x*y < 0", "x > 0 and y < 0"),
+    ("x < 0 and x*y < 0", "x < 0 and y > 0"),
+    ("x*y /= 0 and z > 0", "z > 0 and x /= 0 and y /= 0"),
+    # variables with a known value
+    ("x = 0 and x*y + z = 0 and (z > 1 or y + x < 0)", "x = 0 and z = 0 and y < 0"),
+    ("x /= 2 or x*y > 0", "x /= 2 or y > 0"),
+    # the implicit theory reaches into subformulas
+    ("x > 1 and (x > 0 or y > 0)", "x > 1"),
+    ("x > 1 and (x < 0 or y > 0)", "x > 1 and y > 0"),
+    ("x > 0 and y > 0 and x + y > 0", "x > 0 and y > 0"),
+    ("x > 0 and ex y. (x*y > 0 and x > -1)", "x > 0 and ex y. y > 0"),
+    # a bound variable is not the free one of the same name
+    ("x > 1 and ex x. (x > 0 and y*x > 1)", "x > 1 and ex x. (x > 0 and x*y > 1)"),
+    # absorption and merging
+    ("x > 0 and y > 0 or x > 0 and y > 0 and z > 0", "x > 0 and y > 0"),
+    ("x < 0 and y > z or x = 0 and y > z", "y > z and x <= 0"),
+    # quantifiers over nothing
+    ("ex x, y. x*z > 1", "ex x. x*z > 1"),
+    ("not ex x. (x > 0 and (y < 0 or x >= 0))", "all x. x <= 0"),
+]
+
+
+@pytest.mark.parametrize(("given", "expected"), CASES)
+def test_rule(given: str, expected: str) -> None:
+    assert str(simplify(read(given))) == str(simplify(read(expected)))
+    assert len(str(simplify(read(given)))) <= len(str(read(expected))) + 4
+
+
+def test_assumptions_decide() -> None:
+    assert simplify(read("x*y > 0"), read("x > 0 and y > 1")) == TRUE
+    assert simplify(read("x*y > 0"), read("x > 0 and y < -1")) == FALSE
+    assert simplify(read("x > 0"), read("y > 0")) == read("x > 0")
+
+
+def test_contradictory_assumptions_allow_everything() -> None:
+    assert simplify(read("x > y"), read("x > 0 and x < 0")) == TRUE
