@@ -367,7 +367,7 @@ def format_poly(p: Poly) -> str:
     for exponents, coefficient in ordered:
         powers = [name if k == 1 else f"{name}^{k}" for name, k in zip(p.ring.names, exponents, strict=True) if k]
         magnitude = abs(coefficient)
-        body = "*".join(([str(magnitude)] if magnitude != 1 or not powers else []) + powers)
+        body = "*".join(([str(fmpz(magnitude))] if magnitude != 1 or not powers else []) + powers)
         if not pieces:
             pieces.append(f"-{body}" if coefficient < 0 else body)
         else:

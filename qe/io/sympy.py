@@ -165,8 +165,10 @@ def from_sympy(expression: object) -> Formula:
         whole = sympy.sympify(expression)
     except (sympy.SympifyError, TypeError):
         raise InputError(f"a SymPy Boolean expected, {type(expression).__name__} found") from None
+    names = sorted(str(symbol) for symbol in getattr(whole, "free_symbols", ()))
     try:
-        return s.lower(_Reader(sympy).boolean(whole), lambda message, _: InputError(f"{_shown(whole)}: {message}"))
+        node = _Reader(sympy).boolean(whole)
+        return s.lower(node, lambda message, _: InputError(f"{_shown(whole)}: {message}"), names=dict.fromkeys(names))
     except TermError as error:
         raise InputError(f"{_shown(whole)}: {error}") from None
     except RecursionError:
