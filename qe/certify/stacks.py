@@ -18,7 +18,7 @@ from qe.certify.closure import Closure, nullification_witnesses
 from qe.certify.products import FactorLists, Signs, sign
 from qe.errors import CertificateRejected
 from qe.evidence.cells import Stack
-from qe.exact.fibre import Fibre, RationalFibre, Values, fibre, lazard_evaluation, lift_up, values
+from qe.exact.fibre import Fibre, RationalFibre, Simple, SimplePart, Values, fibre, lazard_evaluation, lift_up, values
 from qe.exact.ring import Poly
 from qe.exact.triangular import Coordinate, Point
 from qe.options import Projection
@@ -54,7 +54,7 @@ class Branch:
     fibre: Fibre
     signs: list[int]
     nullified: bool
-    simple: Fibre | None
+    simple: Simple | None
 
 
 @dataclass(frozen=True, slots=True)
@@ -192,7 +192,7 @@ class StackChecker:
         low, high = stack.sectors[j], stack.sectors[j + 1]
         for branch in sorted((checked.branches[i] for i in stack.sections[j]), key=lambda b: b.fibre.degree):
             if branch.simple is None:
-                branch.simple = branch.fibre.squarefree()
+                branch.simple = branch.fibre.squarefree()  # not needed for counting, so not worked out before
             found = branch.simple.coordinate(low, high)
             if found is not None:
                 return found
@@ -221,8 +221,8 @@ def _check_shape(stack: Stack, factors: int, last: bool, fail: Fail) -> None:
 
 
 def _check_roots(
-    f: Fibre, signs: list[int], at: Values, listed: list[int], discriminant: int | None, fail: Fail
-) -> Fibre | None:
+    f: Simple, signs: list[int], at: Values, listed: list[int], discriminant: int | None, fail: Fail
+) -> Simple | None:
     """The listed sections hold exactly one root of f each and there are no others.
 
     Returns f or a polynomial with the same roots, all simple (None if that was not worked out).
@@ -237,20 +237,21 @@ def _check_roots(
         if len(changes) != f.degree:
             raise fail("sections", "a root of it is missing")
         return f
+    if discriminant == 0:
+        simple = f.derivative() if f.degree == 2 and not isinstance(f, SimplePart) else f.squarefree()
+        return _check_roots(simple, simple.signs(at), at, listed, None, fail) or simple
     if changes == listed:
         missing = _distinct_roots(f, len(changes), discriminant) - len(changes)
         if missing:
             raise fail("sections", f"{missing} root(s) of it missing")
         return f if discriminant or isinstance(f, RationalFibre) else None
-    if discriminant:
-        raise fail(f"sections[{next(j for j in listed if j not in changes)}]", "it has no root here")
-    simple: Fibre = f.derivative() if f.degree == 2 and discriminant == 0 else f.squarefree()
+    simple = f if discriminant else f.squarefree()
     if simple.degree == f.degree:
         raise fail(f"sections[{next(j for j in listed if j not in changes)}]", "it has no root here")
     return _check_roots(simple, simple.signs(at), at, listed, None, fail) or simple
 
 
-def _distinct_roots(f: Fibre, seen: int, discriminant: int | None) -> int:
+def _distinct_roots(f: Simple, seen: int, discriminant: int | None) -> int:
     """The number of distinct real roots (at least, if more than ``seen``), of which ``seen`` are known.
 
     The sign of the discriminant is (-1)^c with c the number of pairs of conjugate nonreal roots (Basu, Pollack,

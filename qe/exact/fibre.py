@@ -127,20 +127,35 @@ class AlgebraicFibre:
         a, b = (self, other) if self.degree >= other.degree else (other, self)
         return AlgebraicFibre(self.point, self.index, gcd(self.point, a.poly, b.poly, self.index))
 
-    def squarefree(self) -> AlgebraicFibre:
-        """The polynomial divided by its common divisor with its derivative."""
+    def squarefree(self) -> AlgebraicFibre | SimplePart:
+        """A polynomial with the same roots, all simple: self over its common divisor with its derivative."""
+        shared = self._repeated()
+        if shared is None:
+            return self
+        if shared.degree == 1 or shared._repeated() is None:
+            return SimplePart(self, shared)
+        return self.divided(shared)
+
+    def divided(self, divisor: AlgebraicFibre) -> AlgebraicFibre:
+        """The exact quotient by a divisor."""
+        return AlgebraicFibre(self.point, self.index, quotient(self.point, self.poly, divisor.poly, self.index))
+
+    def _repeated(self) -> AlgebraicFibre | None:
+        """The greatest common divisor with the derivative, or None if all roots are simple."""
         if self.degree < 2:
-            return self
+            return None
         shared = gcd(self.point, self.poly, self.poly.derivative(self.index), self.index)
-        if shared.degree(self.index) == 0:
-            return self
-        return AlgebraicFibre(self.point, self.index, quotient(self.point, self.poly, shared, self.index))
+        return None if shared.degree(self.index) == 0 else AlgebraicFibre(self.point, self.index, shared)
 
     def enclosures(self, bits: int) -> list[Any] | None:
         """Disjoint balls around all complex roots, or None if ``bits`` do not suffice or a root is multiple."""
         with ctx.workprec(bits):
-            q = fibre_balls(self.point, self.poly, self.index, bits)
+            q = self.balls(bits)
             return None if q[self.degree].contains(0) else complex_enclosures(acb_poly(q), bits)
+
+    def balls(self, bits: int) -> Any:
+        """The coefficients as balls; the working precision must be ``bits``."""
+        return fibre_balls(self.point, self.poly, self.index, bits)
 
     def shares_root(self, other: Fibre, low: Fraction, high: Fraction) -> bool:
         """True if self and other, known to have a common complex root, provably have one in (low, high).
@@ -192,7 +207,45 @@ class AlgebraicFibre:
         return Coordinate(self.index, self.poly, low, high, ends[1])
 
 
+class SimplePart:
+    """f / g for g = gcd(f, f') squarefree: the roots of f, each once (so f has no root of multiplicity above 2).
+
+    It is never written out exactly: signs are products, and the enclosures of its roots come from a division of
+    ball polynomials, which encloses the exact quotient.
+    """
+
+    __slots__ = ("degree", "f", "g")
+
+    def __init__(self, f: AlgebraicFibre, g: AlgebraicFibre) -> None:
+        self.f, self.g, self.degree = f, g, f.degree - g.degree
+
+    def signs(self, at: Values) -> list[int]:
+        """The exact signs at rational numbers, up to a common factor, where f is nonzero."""
+        return [a * b for a, b in zip(self.f.signs(at), self.g.signs(at), strict=True)]
+
+    def squarefree(self) -> SimplePart:
+        return self
+
+    def count(self) -> int:
+        """The number of real roots."""
+        for bits in ENCLOSURE_BITS:
+            with ctx.workprec(bits):
+                dividend, divisor = self.f.balls(bits), self.g.balls(bits)
+                if dividend[self.f.degree].contains(0) or divisor[self.g.degree].contains(0):
+                    continue
+                roots = complex_enclosures(acb_poly(dividend // divisor), bits)
+                found = None if roots is None or len(roots) != self.degree else real_among(roots)
+            if found is not None:
+                return found
+        return self.f.divided(self.g).count()
+
+    def coordinate(self, low: Fraction, high: Fraction) -> Fraction | Coordinate | None:
+        """The root of f between low and high where f has exactly one: a simple root of g, or else of f."""
+        return self.g.coordinate(low, high) or self.f.coordinate(low, high)
+
+
 Fibre = RationalFibre | AlgebraicFibre
+Simple = Fibre | SimplePart
 
 
 def fibre(point: Point, poly: Poly, index: int, *, leading_nonzero: bool = False) -> Fibre:
