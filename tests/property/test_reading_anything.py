@@ -15,7 +15,8 @@ WORDS = (
     *("x", "y", "E", "A", "ex", "all", "not", "and", "or", "->", "<->", "true", "(", ")", "+", "-", "*", "/", "^", "<"),
     *("=", "/=", ">=", ".", ",", "0", "2", "1/2", "0.5", "1e3", "root", "|a b|", "#", "\n", "~", "/\\", "\\/", "==>"),
     *("[", "]", "(E x)", "_root_1", "{", "}", "impl", "<>", "**", ":=", ";", "%", "|", '"', "!", ":named", "let"),
-    *("assert", "(assert", "declare-const", "Real", "exists", "(check-sat)", "(declare-const x Real)", "((", "))", "²", "ite"),
+    *("assert", "(assert", "declare-const", "Real", "exists", "(check-sat)", "(declare-const x Real)", "((", "))"),
+    *("²", "ite"),
 )
 token_texts = st.lists(st.sampled_from(WORDS), max_size=14).map(" ".join)
 
