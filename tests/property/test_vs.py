@@ -19,7 +19,7 @@ from qe.formula.syntax import FALSE, TRUE, And, Exists, Formula, Or, Relation
 from qe.formula.traverse import polynomials
 from qe.options import Budget
 from qe.prepare.simplify import simplify
-from tests.strategies import atoms, rationals
+from tests.strategies import RELATIONS, atoms, rationals
 from tests.strategies import polynomials as polynomials_of
 from tests.unit.vs.line import satisfiable, specialise
 
@@ -73,6 +73,33 @@ def check_witness(matrix: Formula, values: dict[str, Fraction], found: dict) -> 
 
 
 TWO = Ring.of(("a", "x", "y"))
+
+
+@st.composite
+def convex_families(draw: st.DrawFn) -> Formula:
+    """Conjoined parabolas opening upwards (leading coefficients partly positive polynomials), other atoms, an Or."""
+    line = Ring.of(("a", "b"))
+    flat = polynomials_of(line, max_degree=1, max_terms=2, max_coefficient=3).map(lambda p: p.convert(RING))
+    x, a = RING.gen(2), RING.gen(0)
+    below = st.sampled_from((Relation.LT, Relation.LE))
+    parts = []
+    for _ in range(draw(st.integers(1, 3))):
+        lead = draw(st.sampled_from((RING.constant(1), RING.constant(1), RING.constant(2), a * a + 1)))
+        parts.append(atom(lead * x**2 + draw(flat) * x + draw(flat), draw(below)))
+    loose = [
+        atom(draw(st.sampled_from((0, 0, 1, -1))) * x**2 + draw(flat) * x + draw(flat), draw(RELATIONS))
+        for _ in range(draw(st.integers(0, 2)))
+    ]
+    return conj((*parts, disj(loose) if loose else conj(())))
+
+
+@given(convex_families(), st.lists(PARAMETERS, min_size=4, max_size=4))
+@settings(max_examples=150)
+def test_convex_family(matrix: Formula, points: list[dict[str, Fraction]]) -> None:
+    """The elimination set of vertices and crossings, without square roots."""
+    result = eliminate_block(("x",), matrix, budget=budget(), simplify=identity)
+    for values in points:
+        assert holds_at(result.formula, values) == satisfiable(specialise(matrix, values), 2)
 
 
 @st.composite

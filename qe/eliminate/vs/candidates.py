@@ -23,7 +23,6 @@ from qe.eliminate.vs.points import LinearRoot, QuadraticRoot
 from qe.exact.ring import Poly
 from qe.formula.build import conj, disj
 from qe.formula.syntax import FALSE, And, Atom, Formula, Or, Relation
-from qe.formula.traverse import atoms
 
 EQ, NE, LT, GT, GE = Relation.EQ, Relation.NE, Relation.LT, Relation.GT, Relation.GE
 _UPWARD = (GT, GE)
@@ -52,11 +51,11 @@ class Gauss:
 
 
 def bounds(
-    formula: Formula, x: int, side: int, signs: Signs, omit: Poly | None = None
+    formula: Formula, x: int, side: int, signs: Signs, omit: frozenset[Poly] = frozenset()
 ) -> tuple[Candidate, ...] | None:
     """Candidates for the lower (side 1) or upper (side -1) ends of the truth set; None if a degree is too high.
 
-    The roots of the irreducible polynomial ``omit`` of degree 2 are left out where its leading coefficient is not 0.
+    The roots of the polynomials ``omit``, of degree 2, are left out where their leading coefficient is not 0.
     """
     match formula:
         case Atom(poly, _):
@@ -119,52 +118,6 @@ def points_cost(candidates: Iterable[Candidate]) -> float:
     return total
 
 
-def lone_quadratic(formula: Formula, x: int) -> Poly | None:
-    """The only irreducible factor of degree 2 in x, if it stands alone (but for factors without x) in inequalities.
-
-    At most one occurrence may be weak, none an equation. None if there is no such factor.
-    """
-    found: Poly | None = None
-    weak = 0
-    for given in atoms(formula):
-        if not given.poly.degree(x):
-            continue
-        inside = [(f, e) for f, e in factor_parts(given.poly)[1] if f.degree(x)]
-        for factor, exponent in inside:
-            if factor.degree(x) < 2:
-                continue
-            if factor.degree(x) > 2 or (found is not None and factor != found):
-                return None
-            if len(inside) > 1 or exponent % 2 == 0 or given.relation is EQ:
-                return None
-            found = factor
-            weak += not given.relation.is_strict
-    return found if weak <= 1 else None
-
-
-def without_radicals(formula: Formula, x: int, signs: Signs) -> tuple[Candidate, ...] | None:
-    """Candidates that, with both infinities, are an elimination set without square roots; None if there is none.
-
-    THEOREM. Let g = a*x^2 + b*x + c be the lone quadratic of F. If F holds somewhere, it holds at -infinity or
-    +infinity, or at the lower or upper end of a component of its truth set that is a root of another atom's
-    polynomial (or of g where a = 0), or at -b/(2*a), a /= 0. Proof: otherwise both ends of a component are roots of
-    g and come from atoms in g. If they differ, the vertex of g is between them. If they coincide, the atom turns
-    true at a root and false right after it, so it is the weak one and the root is double, the vertex.
-    """
-    g = lone_quadratic(formula, x)
-    if g is None:
-        return None
-    lower, upper = (bounds(formula, x, side, signs, g) for side in (1, -1))
-    if lower is None or upper is None:
-        return None
-    guard = signs.atom(g.leading(x), NE)
-    if guard == FALSE:
-        return lower + upper
-    slope = next(f for f, _ in g.derivative(x).factors()[1] if f.degree(x))
-    b, a = slope.coefficients(x)
-    return (*lower, *upper, Candidate(LinearRoot(a, b), guard, formula, Atom(g, LT), complete=False))
-
-
 def in_order(candidates: Iterable[Candidate]) -> Iterator[tuple[Candidate, frozenset[Atom]]]:
     """The distinct candidates, atom by atom, cheap atoms first; each with the atoms *settled* for it.
 
@@ -198,7 +151,7 @@ def vanishing(f: Poly, x: int, signs: Signs) -> Formula:
 
 
 def _with_gauss(
-    whole: And, gauss: Gauss, k: int, x: int, side: int, signs: Signs, omit: Poly | None
+    whole: And, gauss: Gauss, k: int, x: int, side: int, signs: Signs, omit: frozenset[Poly]
 ) -> tuple[Candidate, ...] | None:
     """The Gauss constituent's candidates, and where it degenerates those of the other conjuncts."""
     args = whole.args
@@ -235,7 +188,7 @@ def _joined(parts: Iterable[tuple[Candidate, ...] | None]) -> tuple[Candidate, .
 
 
 def _atom_points(
-    given: Atom, x: int, side: int, signs: Signs, omit: Poly | None = None
+    given: Atom, x: int, side: int, signs: Signs, omit: frozenset[Poly] = frozenset()
 ) -> tuple[Candidate, ...] | None:
     """The points where the atom can turn true, with guards."""
     _, parts = factor_parts(given.poly)
@@ -254,7 +207,7 @@ def _atom_points(
             out += _linear(given, factor, x, epsilon, content, direction, signs)
         else:
             found = _quadratic(given, factor, x, epsilon, content, direction, signs)
-            if factor == omit:
+            if factor in omit:
                 found = (replace(c, complete=False) for c in found if isinstance(c.point, LinearRoot))
             out += found
     return tuple(out)

@@ -12,10 +12,10 @@ from qe.eliminate.vs.candidates import (
     gauss_constituent,
     gauss_cost,
     points_cost,
-    without_radicals,
 )
 from qe.eliminate.vs.known import Signs, factor_parts
 from qe.eliminate.vs.points import Infinity
+from qe.eliminate.vs.rational import without_radicals
 from qe.eliminate.vs.shift import common_exponent, shifted
 from qe.formula.build import conj
 from qe.formula.syntax import FALSE, And, Atom, Formula, Relation, RootAtom

@@ -7,9 +7,10 @@ from fractions import Fraction
 import pytest
 
 from qe.eliminate.vs import BlockResult, eliminate_block, witness
-from qe.eliminate.vs.candidates import bounds, in_order, lone_quadratic, without_radicals
+from qe.eliminate.vs.candidates import bounds, in_order
 from qe.eliminate.vs.known import Signs
 from qe.eliminate.vs.openness import is_open, thinned
+from qe.eliminate.vs.rational import convex_family, lone_quadratic, without_radicals
 from qe.eliminate.vs.substitute import Substitution
 from qe.exact.ring import Ring
 from qe.formula.build import conj, disj
@@ -199,6 +200,38 @@ def test_lone_quadratic(text: str, alone: bool) -> None:
     matrix = read(text)
     ring = next(iter(polynomials(matrix))).ring
     assert (lone_quadratic(matrix, ring.index["x"]) is not None) == alone
+
+
+@pytest.mark.parametrize(
+    ("text", "size"),
+    [
+        ("x^2 - a <= 0 and x^2 - 2*x - b < 0 and x > c", 2),
+        ("a - x^2 >= 0 and (a^2 + 1)*x^2 - b < 0", 2),
+        ("x^2 - a <= 0 and x^2 - b >= 0", 1),
+        ("x^2 - a <= 0 and (x^2 - a < 0 or x > b)", 0),
+        ("x^2 - a <= 0 and (x^2 - b < 0 or x > b)", 1),
+        ("a*x^2 - 1 <= 0", 0),
+        ("a > 0 and a*x^2 - 1 <= 0", 1),
+        ("x^2 - a <= 0 or x^2 - b <= 0", 0),
+        ("x^2 - 1 <= 0", 0),
+        ("x^2 - a = 0 and x^2 - b /= 0", 0),
+    ],
+)
+def test_convex_family(text: str, size: int) -> None:
+    matrix = read(text)
+    x = next(iter(polynomials(matrix))).ring.index["x"]
+    assert len(convex_family(matrix, x, Signs.of(matrix))) == size
+
+
+def test_vertices_and_crossings_of_circles() -> None:
+    """Discs are met by rational points only: no answer mentions a square root."""
+    result = run("ex x, y. x^2 + y^2 <= 4 and (x - a)^2 + y^2 <= 1 and (x - 1)^2 + (y - 1)^2 <= 1")
+    assert not result.remaining
+    assert not any("sqrt" in str(answer) for answer in result.answers)
+    third = run("ex x, y. x^2 + y^2 <= 4 and (x - a)^2 + y^2 <= 1 and x = 1 and y = 1").formula
+    for value in (Fraction(k, 8) for k in range(-20, 30)):
+        if holds_at(third, {"a": value}):
+            assert holds_at(result.formula, {"a": value})
 
 
 def test_incomplete_sources_do_not_settle() -> None:
