@@ -72,16 +72,21 @@ def complexity(poly: Poly) -> tuple[int, int, int]:
 
 
 def better_equations(old: Sequence[Poly], basis: Basis, block: Sequence[str]) -> tuple[Poly, ...]:
-    """The generators to go on with: the old ones, the basis, or a lexicographic basis if it is small."""
-    graded = basis.polys
+    """The generators to go on with: the old ones, the basis, or a lexicographic basis.
+
+    Variables that can be solved for count first (as long as the size stays moderate), then the size.
+    """
     best: tuple[Poly, ...] = tuple(dict.fromkeys(old))
-    gain = _solvable(graded, block) - _solvable(best, block)
-    if total(graded) <= total(best) or gain >= 3 or (gain > 0 and total(graded) <= 2 * total(best) + 20):
-        best = graded
-    if len(graded) > 1:
-        triangular = groebner_basis(graded, variables=basis.variables, order=MonomialOrder.LEX, limits=_LIMITS)
-        if triangular is not None and _triangular_gain(triangular.polys, best, block):
-            best = triangular.polys
+    candidates = [basis.polys]
+    if len(basis.polys) > 1:
+        triangular = groebner_basis(basis.polys, variables=basis.variables, order=MonomialOrder.LEX, limits=_LIMITS)
+        if triangular is not None:
+            candidates.append(triangular.polys)
+    for polys in candidates:
+        gain = _solvable(polys, block) - _solvable(best, block)
+        size, room = total(polys), total(best)
+        if (gain >= 0 and size < room) or (gain >= 3 and size <= 6 * room + 60) or (gain > 0 and size <= 2 * room + 20):
+            best = polys
     return best
 
 
@@ -102,12 +107,6 @@ def _solvable(polys: Sequence[Poly], block: Sequence[str]) -> int:
             if names[i] in block and p.degree(i) == 1:
                 worth[i] = max(worth.get(i, 0), 3 if p.leading(i).is_constant else int(len(block) > 1))
     return sum(worth.values())
-
-
-def _triangular_gain(new: Sequence[Poly], old: Sequence[Poly], block: Sequence[str]) -> bool:
-    """Whether a lexicographic basis is worth its size: more variables to solve for, or small and equal in that."""
-    gain = _solvable(new, block) - _solvable(old, block)
-    return gain > 0 and total(new) <= 6 * total(old) + 60
 
 
 def squarefree(polys: Sequence[Poly]) -> tuple[Poly, ...]:
