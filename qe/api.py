@@ -9,9 +9,9 @@ from typing import Any
 from qe import pipeline
 from qe.certify.verdict import Verdict
 from qe.certify.verify import verify as _verify
-from qe.errors import InputError, Unable
+from qe.errors import InputError, InternalError, Unable
 from qe.evidence.answer import Answer, Guarantee, Status
-from qe.evidence.certificate import Certificate
+from qe.evidence.certificate import Certificate, Kind
 from qe.evidence.elimination import Assignment
 from qe.exact.ring import Poly
 from qe.formula.build import conj, convert, exists, iff
@@ -72,30 +72,39 @@ def eliminate(
     progress: Progress = silent,
     root_atoms: bool = False,
     explain: bool = False,
+    check: bool = False,
 ) -> Answer:
     """Quantifier elimination over the reals: an equivalent quantifier-free formula.
 
     ``timeout`` in seconds and ``memory`` in MB: with ``memory`` the work runs in a worker process that is killed at a
     limit; with ``timeout`` alone the limit is checked between steps. The answer has status UNABLE, with the
-    reason, when a limit was reached; it is never partial. Raises ``InputError`` for input that cannot be read.
+    reason, when a limit was reached; it is never partial. With ``check`` the answer's certificate (if the method
+    makes one) is verified by the separate checker; certificates that are a witness always are. Raises ``InputError``
+    for input that cannot be read.
     """
     given = read_formula(formula, format)
     options = _options(method, order, root_atoms, explain, progress)
     if memory is not None:
-        from qe.worker import run_limited
+        from qe.worker import run
 
-        return run_limited(lambda: _answer(given, options, timeout), seconds=timeout, megabytes=memory)
-    return _answer(given, options, timeout)
+        return run(lambda _: _answer(given, options, timeout, check), timeout=timeout, memory=memory)
+    return _answer(given, options, timeout, check)
 
 
-def _answer(formula: Formula, options: Options, timeout: float | None) -> Answer:
+def _answer(formula: Formula, options: Options, timeout: float | None, check: bool) -> Answer:
     budget = Budget(timeout, listener=options.progress)
     try:
         found = pipeline.solve(formula, options, budget)
     except Unable as error:
         return Answer(Status.UNABLE, None, reason=str(error), stats={"cells": budget.used_cells})
     certificate = found.evidence if isinstance(found.evidence, Certificate) else None
-    return Answer(Status.SOLVED, found.formula, found.witness, certificate, Guarantee.DERIVED, stats=found.stats)
+    guarantee = Guarantee.DERIVED
+    if certificate is not None and (check or certificate.kind is Kind.WITNESS):
+        verdict = _verify(certificate)
+        if not verdict.accepted:
+            raise InternalError(f"the certificate of an answer was rejected at {verdict.step}: {verdict.reason}")
+        guarantee = Guarantee.CHECKED
+    return Answer(Status.SOLVED, found.formula, found.witness, certificate, guarantee, stats=found.stats)
 
 
 def decide(formula: AnyFormula, **keywords: Any) -> bool:

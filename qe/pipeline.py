@@ -15,7 +15,7 @@ from fractions import Fraction
 from qe.eliminate.cad.decompose import Decomposition, decompose
 from qe.eliminate.vs import eliminate_block, witness
 from qe.errors import Unable
-from qe.evidence.certificate import Certificate
+from qe.evidence.certificate import Certificate, Root
 from qe.evidence.elimination import Elimination
 from qe.exact.algebraic import RealAlgebraic
 from qe.exact.ring import Ring
@@ -101,7 +101,8 @@ class _Run:
             return answer, None
         found = {name: lifted.get(name, Fraction(0)) for name in formula.variables}
         if self.certificate is None and is_quantifier_free(formula.body):
-            self.certificate = Certificate.witness(formula.body, tuple(found), tuple(found.values()))
+            matrix = convert(formula.body, Ring.of(tuple(found)))
+            self.certificate = Certificate.witness(matrix, tuple(found), [_as_root(v) for v in found.values()])
         return answer, found
 
     def with_values(self, formula: Formula) -> tuple[Formula, Values | None]:
@@ -325,7 +326,7 @@ class _Run:
             },
         )
         if self.certificate is None and formula == self.whole:
-            self.certificate = Certificate.cells(proof, answer)
+            self.certificate = Certificate.cells(proof, convert(answer, Ring.of(order)))
         # back into the ring of the formula it came from: it is joined with parts of that formula
         ring = ring_of(formula)
         return answer if ring is None else convert(answer, ring), values
@@ -342,3 +343,13 @@ class _Run:
             order += chosen
             quantifiers += [kind] * len(chosen)
         return tuple(order), tuple(quantifiers)
+
+
+def _as_root(value: Fraction | RealAlgebraic) -> Fraction | Root:
+    """A number as the witness certificate wants it: by polynomial and isolating interval."""
+    if isinstance(value, Fraction):
+        return value
+    if value.is_rational:
+        return value.as_fraction()
+    low, high = value.interval()
+    return Root(value.minimal_polynomial, low, high)

@@ -49,6 +49,7 @@ def read_form(entry: Entry, size: int) -> Form:
 
 
 def is_linear(form: Form) -> bool:
+    """Whether the form has no quadratic part."""
     return not any(any(row) for row in form.hessian)
 
 
