@@ -21,6 +21,8 @@ from qe.exact.radicals import format_number
 
 Rational = int | Fraction
 
+_SOLVE_FROM_DEGREE = 9  # from here a linear system gives inverses faster than the Euclidean algorithm
+
 
 def to_fmpq(value: Rational | fmpq) -> fmpq:
     """A Python rational as a FLINT one."""
@@ -179,13 +181,18 @@ class FieldElement:
     __rmul__ = __mul__
 
     def inverse(self) -> FieldElement:
-        """1/self, by the extended Euclidean algorithm; ``ZeroDivisionError`` for zero."""
+        """1/self; ``ZeroDivisionError`` for zero."""
         if not self.value:
             raise ZeroDivisionError("inverse of zero in a number field")
         if self.is_rational:
             return FieldElement(self.field, fmpq_poly([1 / self.value[0]]))
-        _, factor, _ = self.value.xgcd(self.field.modulus)
-        return FieldElement(self.field, factor)
+        if self.field.degree < _SOLVE_FROM_DEGREE:
+            _, factor, _ = self.value.xgcd(self.field.modulus)
+            return FieldElement(self.field, factor)
+        n = self.field.degree
+        one = fmpq_mat(n, 1, [1] + [0] * (n - 1))
+        solution = fmpq_mat(self._products()).transpose().solve(one)
+        return FieldElement(self.field, fmpq_poly([solution[i, 0] for i in range(n)]))
 
     def __truediv__(self, other: object) -> FieldElement:
         value = self._operand(other)
@@ -241,13 +248,17 @@ class FieldElement:
             return _quadratic(p, self)
         return select_root(p, self.ball)
 
-    def _minimal_polynomial(self) -> fmpz_poly:
-        """Minimal polynomial of multiplication by the element on the power basis."""
+    def _products(self) -> list[list[fmpq]]:
+        """Coefficients of self, self*theta, self*theta^2, …: multiplication by the element on the power basis."""
         n, rows, power = self.field.degree, [], self.value
         for _ in range(n):
             rows.append([power[i] for i in range(n)])
             power = power.left_shift(1) % self.field.modulus
-        p = fmpz_poly(fmpq_mat(rows).minpoly().numer().coeffs())
+        return rows
+
+    def _minimal_polynomial(self) -> fmpz_poly:
+        """Minimal polynomial of multiplication by the element on the power basis."""
+        p = fmpz_poly(fmpq_mat(self._products()).minpoly().numer().coeffs())
         return p if p.leading_coefficient() > 0 else -p
 
     @property

@@ -91,28 +91,52 @@ def _nearest_root(p: fmpz_poly, x: arb, bits: int) -> RealAlgebraic | None:
     return None
 
 
-def element_candidate(field: NumberField, digits: Digits) -> FieldElement | None:
-    """The element of the field that the digits seem to be of.
+class FieldLattice:
+    """Recognition of many elements of one field: the lattice of small values at theta is reduced once per precision."""
+
+    def __init__(self, field: NumberField) -> None:
+        self.field = field
+        self.bits = 64 + (field.degree + 1) * (16 + int(field.theta.poly.height_bits()))
+        self._reduced: dict[int, list[list[fmpz]]] = {}
+        slope = fmpq_poly(field.theta.poly.derivative()) % field.modulus
+        self.slope_inverse = FieldElement(field, slope).inverse()
+
+    def relation(self, value: arb, bits: int) -> list[fmpz]:
+        """A short (c, a_0, …, a_{d-1}) with c*value + a_0 + … + a_{d-1}*theta^(d-1) near zero."""
+        d = self.field.degree
+        basis = self._reduced.get(bits)
+        if basis is None:
+            powers = _powers(self.field.theta.ball(2 * bits), d - 1)
+            rows = [[int(i == j) for j in range(d)] + [_rounded(v, bits)] for i, v in enumerate(powers)]
+            reduced = fmpz_mat(rows).lll()
+            basis = self._reduced[bits] = [[reduced[i, j] for j in range(d + 1)] for i in range(d)]
+        extended = [[fmpz(0), *row] for row in basis] + [[fmpz(1), *[fmpz(0)] * d, _rounded(value, bits)]]
+        short = fmpz_mat(extended).lll()
+        return [short[0, j] for j in range(d + 1)]
+
+
+def element_candidate(lattice: FieldLattice, digits: Digits) -> FieldElement | None:
+    """The element of the lattice's field that the digits seem to be of.
 
     Searched in the form (a_0 + … + a_{d-1} theta^{d-1}) / (c * p'(theta)) with p the minimal polynomial of
     theta: in this form the coefficients stay as short as those of p (rational univariate representation,
     Rouillier 1999).
     """
-    p = field.theta.poly
+    field, p = lattice.field, lattice.field.theta.poly
     degree, slope = p.degree(), p.derivative()
-    bits = 64 + (degree + 1) * (24 + int(p.height_bits()) // 2)
-    for _ in range(5):
+    for _ in range(4):
+        bits = lattice.bits
         full = bits + 2 * bits // (degree + 1) + degree * _size(field) + _EXTRA
         x = digits(full)
-        with precision(full + 32):
+        with precision(2 * full + 32):
             theta = field.theta.ball(full)
-            values = [x * slope(theta), *_powers(theta, degree - 1)]
-            found = relation(values, bits)
-            rest = arb(0)
-            for a, v in zip(found, values, strict=True):
+            value = x * slope(theta)
+            found = lattice.relation(value, bits)
+            rest = value * found[0]
+            for a, v in zip(found[1:], _powers(theta, degree - 1), strict=True):
                 rest += v * a
             if found[0] != 0 and abs(rest) < arb(2) ** -(bits + _EXTRA // 2):
                 top = fmpq_poly([fmpq(-a, found[0]) for a in found[1:]])
-                return FieldElement(field, top) / FieldElement(field, fmpq_poly(slope) % field.modulus)
-        bits *= 2
+                return FieldElement(field, top) * lattice.slope_inverse
+        lattice.bits *= 2
     return None

@@ -20,7 +20,7 @@ from qe.errors import Unable
 from qe.exact.balls import precision
 from qe.exact.field import FieldElement, NumberField, to_fmpq
 from qe.exact.quadratic_form import Number, Quadratic, combine, independent_rows, solve_linear
-from qe.exact.recognise import SCHEDULE, Digits, algebraic_candidate, element_candidate
+from qe.exact.recognise import SCHEDULE, Digits, FieldLattice, algebraic_candidate, element_candidate
 
 Point = tuple[Number, ...]
 
@@ -260,28 +260,29 @@ def _recognise(newton: _Newton, f: Quadratic, rest: Sequence[Quadratic], max_deg
             if theta is None:
                 continue
             field = NumberField(theta)
+            lattice = FieldLattice(field)
             if weights is unit[0]:  # a coordinate: the others are about as short, multipliers mostly longer
-                point = _elements(field, [combination(unit[i]) for i in range(n)])
+                point = _elements(lattice, [combination(unit[i]) for i in range(n)])
                 if point is not None:
                     return field, tuple(point)
                 continue
-            nu = _elements(field, [combination(unit[i]) for i in range(n, total)])
+            nu = _elements(lattice, [combination(unit[i]) for i in range(n, total)])
             if nu is None:
                 continue
-            z = _stationary(f, rest, nu, partial(_guess, field, [combination(row) for row in unit[:n]]))
+            z = _stationary(f, rest, nu, partial(_guess, lattice, [combination(row) for row in unit[:n]]))
             if z is not None:
                 return field, z
     raise HighDegree(f"the exact optimum seems to need a number field of degree above {max_degree}")
 
 
-def _guess(field: NumberField, unknowns: Sequence[Digits], index: int) -> FieldElement | None:
-    return element_candidate(field, unknowns[index])
+def _guess(lattice: FieldLattice, unknowns: Sequence[Digits], index: int) -> FieldElement | None:
+    return element_candidate(lattice, unknowns[index])
 
 
-def _elements(field: NumberField, unknowns: Sequence[Digits]) -> list[FieldElement] | None:
+def _elements(lattice: FieldLattice, unknowns: Sequence[Digits]) -> list[FieldElement] | None:
     found: list[FieldElement] = []
     for digits in unknowns:
-        value = element_candidate(field, digits)
+        value = element_candidate(lattice, digits)
         if value is None:
             return None
         found.append(value)

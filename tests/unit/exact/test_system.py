@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from qe.exact.algebraic import real_roots
 from qe.exact.field import NumberField
 from qe.exact.quadratic_form import Quadratic, quadratic
-from qe.exact.recognise import algebraic_candidate, element_candidate
+from qe.exact.recognise import FieldLattice, algebraic_candidate, element_candidate
 from qe.exact.ring import Ring
 from qe.exact.system import Flat, HighDegree, critical_point, cut_linear_combinations
 
@@ -38,7 +38,7 @@ def test_roots_are_recognised_from_their_digits(coefficients) -> None:
 def test_elements_are_recognised_from_their_digits(coefficients) -> None:
     field = NumberField.from_root([-1, -1, 0, 0, 0, 1], 1, 2)
     element = field.element(coefficients)
-    assert element_candidate(field, lambda bits: element.ball(bits + 64)) == element
+    assert element_candidate(FieldLattice(field), lambda bits: element.ball(bits + 64)) == element
 
 
 def test_two_spheres_and_their_radical_plane() -> None:
