@@ -41,12 +41,13 @@ class Gap:
 
     ``example``: control points that the formula allows, one of them below the table, or None when there are none.
     ``region``: the region with z >= 0 added for all control points, where there is a gap. ``chosen``: what was
-    found out about z >= 0 along the curves of the chosen path.
+    found out about z >= 0 along the curves of the chosen path. ``certificate``: of the example.
     """
 
     example: Mapping[str, Vector] | None
     region: Any | None
     chosen: tuple[Proof, ...]
+    certificate: qe.Certificate | None = None
 
     @property
     def can_leave(self) -> bool:
@@ -143,6 +144,8 @@ def _quadratic_plan(problem: Problem, clock: Clock) -> Plan:
         gap = _gap(problem, region, path, clock)
     with clock.step("verification"):
         members = [("region", region.certificate), ("optimum", optimum.certificate)]
+        if gap.certificate is not None:
+            members.append(("below the table", gap.certificate))
         checks = {label: qe.verify(certificate) for label, certificate in members}
         of_path = path_certificates(path) if path else []
         if of_path:
@@ -201,6 +204,7 @@ def _gap(problem: Problem, region: Any, path: Path | None, clock: Clock) -> Gap:
     if not allowed or all(sign(point[2]) >= 0 for point in example.values()):
         raise InternalError("the engine's example does not show what it should")
     if problem.workspace.kind is WorkspaceKind.HEMISPHERE:
-        return Gap(example, region, chosen)
+        return Gap(example, region, chosen, asked.certificate)
     corrected = _answered(qe.eliminate(quadratic.corrected_formula(problem), timeout=clock.remaining()))
-    return Gap(example, qe.region(corrected.formula, order=quadratic.FREE, timeout=clock.remaining()), chosen)
+    smaller = qe.region(corrected.formula, order=quadratic.FREE, timeout=clock.remaining())
+    return Gap(example, smaller, chosen, asked.certificate)

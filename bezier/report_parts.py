@@ -359,6 +359,7 @@ def certificates(plan: Plan) -> list[Row]:
         "optimum": "The chosen Q1 is the global optimum"
         if plan.outcome is Outcome.SOLVED
         else "The conditions on Q1 contradict each other",
+        "below the table": "The printed formula allows the example below the table",
         "path": "Every curve stays in the workspace, by its Bernstein coefficients",
     }
     rows = []

@@ -1,0 +1,107 @@
+"""Planning in process: the engine's answers against the three-ball condition and against exact evaluation."""
+
+from fractions import Fraction
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import qe
+from bezier import quadratic
+from bezier.plan import Clock, Outcome, make_plan
+from bezier.problem import PlanMethod, Problem, load_problem
+from bezier.scalar import dot, sign
+from bezier.terms import named_multipliers
+from bezier.workspace import Workspace, WorkspaceKind
+from qe.errors import BudgetExceeded, Unable
+from qe.formula.evaluate import holds_at
+from tests.bezier.numbers import points
+
+COORDINATE = st.integers(-3, 3).map(Fraction)
+POINT = points(3, COORDINATE)
+
+
+def problem_of(q0, r0, r2, kind=WorkspaceKind.BALL, method=PlanMethod.QUADRATIC):
+    start, goal = (Fraction(0), Fraction(0), Fraction(1)), (Fraction(1), Fraction(0), Fraction(1))
+    return Problem(method, Workspace(kind, Fraction(r2)), start, (q0, r0), goal, False)
+
+
+@settings(max_examples=25)
+@given(POINT, POINT, st.integers(1, 24), st.lists(points(), min_size=8, max_size=8), st.sampled_from(WorkspaceKind))
+def test_the_answer_is_the_conditions(q0, r0, r2, candidates, kind):
+    problem = problem_of(q0, r0, r2, kind)
+    answer = qe.eliminate(quadratic.formula(problem)).formula
+    conditions = [item.condition for item in quadratic.as_conditions_on_q1(problem)]
+    for q1 in [*candidates, q0, r0]:
+        expected = all(condition.margin(q1) >= 0 for condition in conditions)
+        assert holds_at(answer, dict(zip(quadratic.FREE, q1, strict=True))) == expected
+
+
+@settings(max_examples=12)
+@given(POINT, POINT, st.integers(0, 6))
+def test_plans_exist_exactly_when_the_balls_meet(q0, r0, more):
+    least = max(dot(q0, q0), dot(r0, r0), Fraction(2))
+    problem = problem_of(q0, r0, least + more)
+    plan = make_plan(problem)
+    assert plan.certified
+    assert (plan.outcome is Outcome.SOLVED) == quadratic.three_balls(problem).meet
+    if plan.path is None:
+        assert plan.infeasibility is not None and plan.region.is_empty
+        return
+    q1 = plan.path.points["Q1"]
+    assert sign(plan.optimum.value - quadratic.objective_at(problem, q1)) == 0
+    assert plan.path.is_inside and plan.path.smoothness >= 1
+    for sample in plan.region.sample_points():
+        other = tuple(sample[name] for name in quadratic.FREE)
+        assert float(quadratic.objective_at(problem, other)) >= float(plan.optimum.value) - 1e-9
+    assert {label for label, _ in named_multipliers(problem, plan.optimum)} <= set(plan.active) | {"another condition"}
+
+
+def test_symbolic_points_leave_no_quantifier():
+    answer = qe.eliminate(quadratic.symbolic_formula()).formula
+    numbers = dict(zip([f"q0{a}" for a in "xyz"] + [f"r0{a}" for a in "xyz"], (-1, 3, 3, 1, 3, 3), strict=True))
+    for r, q1, expected in ((6, (0, 3, 3), True), (6, (0, 0, 0), False), (3, (0, 3, 3), False), (-6, (0, 3, 3), False)):
+        place = {**numbers, "r": r, **dict(zip(quadratic.FREE, q1, strict=True))}
+        assert holds_at(answer, {name: Fraction(value) for name, value in place.items()}) is expected
+
+
+def test_kkt_of_the_irrational_example(root):
+    plan = make_plan(load_problem(root / "examples" / "tight_radius.toml"))
+    multipliers = dict(named_multipliers(plan.problem, plan.optimum))
+    q1 = plan.path.points["Q1"]
+    assert set(multipliers) == {"P1", "R1"} == set(plan.active)
+    centres = {item.label: item.condition.centre for item in quadratic.as_conditions_on_q1(plan.problem)}
+    q0, r0 = plan.problem.via
+    for i in range(3):
+        gradient = 2 * (q1[i] - q0[i]) + 2 * (q1[i] - r0[i])
+        pull = sum((m * 2 * (q1[i] - centres[label][i]) for label, m in multipliers.items()), Fraction(0))
+        assert sign(gradient + pull) == 0
+
+
+def test_the_hemisphere_gap_is_the_one_of_the_paper(root):
+    plan = make_plan(load_problem(root / "examples" / "hemisphere_gap.toml"))
+    assert plan.gap.can_leave and plan.gap.region is plan.region
+    below = [name for name, point in plan.gap.example.items() if sign(point[2]) < 0]
+    assert below and all(sign(plan.problem.workspace.ball.margin(p)) >= 0 for p in plan.gap.example.values())
+    printed = qe.region(qe.eliminate(quadratic.printed_formula(plan.problem)).formula)
+    paper = dict(zip(quadratic.FREE, (0, 1, 1), strict=True))
+    assert printed.contains(paper) and not plan.region.contains(paper)
+
+
+@pytest.mark.parametrize("method", [PlanMethod.CUBIC, PlanMethod.SINGLE])
+def test_methods_that_are_not_there(method):
+    with pytest.raises(Unable, match="not there yet"):
+        make_plan(problem_of((Fraction(1),) * 3, (Fraction(2),) * 3, 20, method=method))
+
+
+def test_the_clock_stops_at_its_limit():
+    problem = problem_of((Fraction(1),) * 3, (Fraction(2),) * 3, 20)
+    with pytest.raises(BudgetExceeded):
+        make_plan(problem, Clock(limit=1e-9))
+
+
+def test_steps_are_told_and_timed(root):
+    told, noted = [], {}
+    clock = Clock(listener=lambda event: told.append(event.phase), note=noted.__setitem__)
+    plan = make_plan(load_problem(root / "examples" / "three_balls.toml"), clock)
+    assert told == list(plan.seconds) and "q1x" in noted["quantifier-free answer"]
