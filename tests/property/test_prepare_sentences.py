@@ -1,0 +1,56 @@
+"""Preparation keeps the meaning of whole formulas, whatever their quantifiers, and whichever steps are enabled.
+
+Random formulas rich in equations, nested quantifiers with repeated names included, are decided before and after at
+rational values of their free variables by the reference elimination or z3.
+"""
+
+from __future__ import annotations
+
+import random
+
+import pytest
+
+from qe.formula.build import atom
+from qe.formula.syntax import Atom, Formula, Relation, RootAtom
+from qe.formula.traverse import map_atoms
+from qe.prepare import ALL_STEPS, StepKind, prepare
+from tests.differential.check import disagreement, reduced
+from tests.differential.generate import LARGE, NESTED, SMALL, Shape, random_formula
+
+SHAPES = (*SMALL, *NESTED, *LARGE, Shape(0, 3, 2, 5), Shape(1, 2, 2, 5), Shape(2, 2, 2, 4))
+
+
+def with_equations(rng: random.Random, formula: Formula) -> Formula:
+    """Half of the atoms turned into equations."""
+
+    def change(found: Atom | RootAtom) -> Formula:
+        return atom(found.poly, Relation.EQ) if isinstance(found, Atom) and rng.random() < 0.5 else found
+
+    return map_atoms(formula, change)
+
+
+def check(seed: str, *, seconds: float) -> None:
+    """Fail with a reduced formula if preparation changes the meaning of the formula of this seed."""
+    rng = random.Random(seed)
+    formula = with_equations(rng, random_formula(rng, rng.choice(SHAPES)))
+    some = frozenset(k for k in StepKind if rng.random() < 0.6)
+    for enabled in (ALL_STEPS, some):
+
+        def fails(candidate: Formula, enabled: frozenset[StepKind] = enabled) -> bool:
+            after = prepare(candidate, enabled=enabled).formula
+            return disagreement(candidate, after, random.Random(seed), points=3, seconds=seconds) is not None
+
+        assert not fails(formula), f"meaning changed: {reduced(formula, fails)}"
+
+
+@pytest.mark.parametrize("block", range(5))
+def test_meaning_is_kept(block: int) -> None:
+    for seed in range(12 * block, 12 * block + 12):
+        check(f"prepare {seed}", seconds=0.2)
+
+
+@pytest.mark.deep
+@pytest.mark.parametrize("block", range(60))
+def test_meaning_is_kept_deep(block: int) -> None:
+    for seed in range(20 * block, 20 * block + 20):
+        check(f"deep prepare {seed}", seconds=1.0)
