@@ -110,7 +110,7 @@ def _iterate(
     dual = [1.0] * len(g)
     best, stalled = _state(f, g, x, slack, dual)[-1], 0
     kept = (x, dual, slack, best)
-    for _ in range(150 if damped else 60):
+    for _ in range(90 if damped else 60):
         step = _newton_step(f, g, x, slack, dual, damped)
         if step is None:
             break
@@ -120,7 +120,7 @@ def _iterate(
             best, stalled, kept = residual, 0, (x, dual, slack, residual)
         else:
             stalled += 1
-        if best < 1e-14 or stalled > 25:
+        if best < 1e-14 or stalled > 14:
             break
     return kept
 
