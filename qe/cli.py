@@ -13,7 +13,7 @@ from typing import Annotated
 
 import typer
 
-from qe.cli_shell import check_writable, enter, limited, write_file
+from qe.cli_shell import check_writable, enter, limited, remaining, write_file
 from qe.cli_source import InputFormat, OutputFormat, read_source
 from qe.cli_work import Reply, Request
 from qe.errors import InputError
@@ -67,7 +67,7 @@ def eliminate(
         source=read_source(formula, format),
         method=method.value,
         order=names(order),
-        timeout=timeout,
+        timeout=soft(timeout),
         root_atoms=root_atoms,
         explain=explain,
         certificate=certificate is not None,
@@ -98,7 +98,7 @@ def decide(
     request = Request(
         source=read_source(formula, format),
         method=method.value,
-        timeout=timeout,
+        timeout=soft(timeout),
         explain=explain,
         certificate=certificate is not None,
         json=json,
@@ -128,7 +128,7 @@ def region(
     request = Request(
         source=read_source(formula, format),
         order=names(order),
-        timeout=timeout,
+        timeout=soft(timeout),
         certificate=certificate is not None,
         json=json,
     )
@@ -155,7 +155,7 @@ def minimize(
     check_limits(timeout, memory)
     check_writable(certificate)
     request = Request(
-        source=read_source(constraints, format), timeout=timeout, certificate=certificate is not None, json=json
+        source=read_source(constraints, format), timeout=soft(timeout), certificate=certificate is not None, json=json
     )
     work = partial(cli_region.optimize, request=request, objective=objective, maximize=maximize)
     reply = limited(work, timeout=timeout, memory=memory, plain=plain)
@@ -208,6 +208,11 @@ def check_limits(timeout: float | None, memory: int | None) -> None:
         raise InputError(f"--timeout: a positive number of seconds expected, {timeout} found")
     if memory is not None and not 0 < memory < 1 << 40:
         raise InputError(f"--memory: a positive number of MiB expected, {memory} found")
+
+
+def soft(timeout: float | None) -> float | None:
+    """The limit for the checks inside the engine, which can end the work in order."""
+    return None if timeout is None else remaining(timeout)
 
 
 def deliver(reply: Reply, paths: dict[str, Path | None], *, explain: bool = False) -> int:

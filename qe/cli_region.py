@@ -9,7 +9,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from qe.cli_work import Reply, Request, certificate_text, read_formula, soft
+from qe.cli_work import Reply, Request, certificate_text, read_formula
 from qe.errors import InputError, Unable
 from qe.worker import Channel
 
@@ -29,7 +29,7 @@ def region(channel: Channel, request: Request, picture: str | None) -> Reply:
         raise InputError(f"--plot: a file ending in {', '.join(PICTURES)} expected, {picture} found")
     start = time.perf_counter()
     formula = read_formula(channel, request.source)
-    found = api.region(formula, order=request.order, timeout=soft(request.timeout), progress=channel.event)
+    found = api.region(formula, order=request.order, timeout=request.timeout, progress=channel.event)
     seconds = time.perf_counter() - start
     files: dict[str, str | bytes] = {}
     if request.certificate:
@@ -67,7 +67,7 @@ def optimize(channel: Channel, request: Request, objective: str, maximize: bool)
     start = time.perf_counter()
     solve = api.maximize if maximize else api.minimize
     constraints = read_formula(channel, request.source)
-    best = solve(objective, constraints, timeout=soft(request.timeout), progress=channel.event)
+    best = solve(objective, constraints, timeout=request.timeout, progress=channel.event)
     seconds = time.perf_counter() - start
     if best.value is None:
         raise Unable(f"{best.status.name.lower()}: no {'greatest' if maximize else 'least'} value")

@@ -112,11 +112,26 @@ def limited(
 ) -> T:
     """Do the work in a worker under hard limits, with a progress display.
 
-    The time limit is the user's, for the whole command: the processor time that start-up has taken comes off the grace.
+    The time limit is the user's, for the whole command: what start-up has taken of it is gone.
     """
-    grace = GRACE - min(time.process_time(), GRACE)
+    grace = 0.0 if timeout is None else remaining(timeout) - timeout + GRACE
     with Display(wanted=not plain) as display:
         return run(work, timeout=timeout, memory=memory, progress=display, known=known, grace=grace)
+
+
+def remaining(timeout: float) -> float:
+    """Seconds left of a command's time limit, at least a quarter of it however slow the start was."""
+    return max(timeout / 4, timeout - age())
+
+
+def age() -> float:
+    """Seconds since this process was started, where the system tells; else the processor time it has used."""
+    try:
+        with open("/proc/self/stat") as handle:
+            ticks = int(handle.read().rpartition(")")[2].split()[19])
+        return time.clock_gettime(time.CLOCK_BOOTTIME) - ticks / os.sysconf("SC_CLK_TCK")
+    except (OSError, AttributeError, ValueError):
+        return time.process_time()
 
 
 def check_writable(path: Path | None) -> None:

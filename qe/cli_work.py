@@ -46,18 +46,13 @@ class Request:
     def keywords(self, channel: Channel) -> dict[str, Any]:
         """The keywords for a call of the public functions; the memory limit is the worker's own."""
         return {
-            "timeout": soft(self.timeout),
+            "timeout": self.timeout,
             "method": self.method,
             "order": self.order,
             "progress": channel.event,
             "root_atoms": self.root_atoms,
             "explain": self.explain,
         }
-
-
-def soft(timeout: float | None) -> float | None:
-    """The limit for checks inside the engine: what is left of the command's own limit, start-up counted."""
-    return None if timeout is None else max(timeout / 2, timeout - time.process_time())
 
 
 def read_formula(channel: Channel, source: Source) -> Formula:
