@@ -29,6 +29,7 @@ from qe.plan.order import brown_order
 from qe.prepare import prepare
 from qe.prepare.simplify import simplify
 from qe.solution.construct import construct
+from qe.solution.extended import extended_formula
 from qe.solution.walk import deciding_point
 
 Values = dict[str, Fraction | RealAlgebraic]
@@ -172,12 +173,18 @@ class _Run:
                 return rebuilt
             answer = result[0]
         else:
-            answer = self.block(variables, positive)[0]
+            answer = self.block(variables, positive, universal=universal)[0]
         return simplify(nnf(answer, negate=universal))
 
     # --- one existential block over a quantifier-free body ----------------------------------------
-    def block(self, variables: Sequence[str], body: Formula) -> tuple[Formula, Values | None]:
-        """``exists variables. body`` by the methods that the planner proposes, in their order."""
+    def block(
+        self, variables: Sequence[str], body: Formula, *, universal: bool = False
+    ) -> tuple[Formula, Values | None]:
+        """``exists variables. body`` by the methods that the planner proposes, in their order.
+
+        With ``universal`` the block was the negation of a universal one: decomposition then works on that directly,
+        so that its formula and its certificate are about the question that was asked.
+        """
         plan = self._plan(variables, body)
         self.note("plan", f"{plan.methods[0].value} first for {', '.join(variables)}: {plan.reason}")
         if plan.methods[0] is Method.CAD and self._allows(Method.VS) and len(free_variables(body)) > PROBE_ABOVE:
@@ -190,6 +197,9 @@ class _Run:
             try:
                 if method is Method.VS:
                     return self._by_substitution(variables, body, share)
+                if universal:
+                    answer, values = self._decomposed(forall(variables, nnf(body, negate=True)), share)
+                    return nnf(answer, negate=True), values
                 return self._decomposed(exists(variables, body), share)
             except Unable as error:
                 if last:
@@ -307,6 +317,8 @@ class _Run:
         values: Values | None = None
         if free:
             answer, proof = construct(first.table, lambda levels: table(levels).table)
+            if self.options.root_atoms:
+                answer = extended_formula(proof)
             answer = simplify(convert(answer, Ring.of(free)))
         else:
             truth, proof = first.table.root.truth is True, first.table

@@ -115,26 +115,30 @@ class _Branch:
         return self.start % 2 == 1, self.stop % 2 == 1
 
 
-def merge(table: CellTable) -> list[Piece]:
-    """The pieces of the set of true cells (all variables free), in order."""
-    branches = _branches(table, root_place(table))
+def merge(table: CellTable, *, distinct: bool = False) -> list[Piece]:
+    """The pieces of the set of true cells (all variables free), in order.
+
+    With ``distinct`` the roots in the bounds are counted without multiplicity, as ``RootAtom`` does; then fewer
+    cells merge.
+    """
+    branches = _branches(table, root_place(table), distinct)
     if branches is None:
         return [_piece(table, (), root_place(table))]
     return [p for b in branches for p in _flatten(table, b, ())]
 
 
-def _branches(table: CellTable, place: Place) -> tuple[_Branch, ...] | None:
+def _branches(table: CellTable, place: Place, distinct: bool) -> tuple[_Branch, ...] | None:
     """The description of the truth set over a cell: None for everything, () for nothing."""
     cell = place.cell
     if cell.stack is None:
         return None if cell.truth else ()
-    ends = _section_roots(table, place)
+    ends = _section_roots(table, place, distinct)
     merged: list[_Branch] = []
     for position, below in enumerate(cell.stack.cells):
         if below.stack is None and not below.truth:
             continue
         inner = child(table, place, position)
-        above = _branches(table, inner)
+        above = _branches(table, inner, distinct)
         if above == ():
             continue
         lower = ends[(position - 1) // 2] if position > 0 else None
@@ -191,7 +195,7 @@ def _common(a: Candidates | None, b: Candidates | None) -> Candidates | None:
     return a & b
 
 
-def _section_roots(table: CellTable, place: Place) -> list[Candidates]:
+def _section_roots(table: CellTable, place: Place, distinct: bool) -> list[Candidates]:
     """For every section the root functions that describe it (several where roots meet or factors share it)."""
     stack = place.cell.stack
     assert stack is not None
@@ -204,7 +208,7 @@ def _section_roots(table: CellTable, place: Place) -> list[Candidates]:
         for j in members:
             poly = table.factors[level][j]
             k = seen.get(j, 0) + 1
-            multiplicity = 2 if totals[j] == 1 and _true_degree(place.point, poly, level) == 2 else 1
+            multiplicity = 2 if not distinct and totals[j] == 1 and _true_degree(place.point, poly, level) == 2 else 1
             value = None
             if poly.variables == (level,):
                 number = child(table, place, 2 * section + 1).point.number(level)

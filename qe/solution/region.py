@@ -21,7 +21,7 @@ from qe.formula.syntax import Formula
 from qe.formula.traverse import free_variables
 from qe.options import Budget
 from qe.solution.pieces import Piece, merge
-from qe.solution.walk import coordinates, leaves
+from qe.solution.walk import coordinates, free_part, leaves
 
 Number = Fraction | RealAlgebraic
 Coordinate = int | Fraction | str | RealAlgebraic
@@ -114,7 +114,7 @@ class Region:
         order = (variable, *(v for v in reversed(self.order) if v != variable))
         quantifiers = ("", *("E" for _ in order[1:]))
         table = decompose(self.formula, order, quantifiers, budget=Budget()).table
-        pieces = merge(_shadow(table))
+        pieces = merge(free_part(table))
         first, last = pieces[0].ranges[0], pieces[-1].ranges[0]
         lower = None if first.lower is None else _value(first.lower.value)
         upper = None if last.upper is None else _value(last.upper.value)
@@ -177,18 +177,6 @@ def _value(number: RealAlgebraic | None) -> Number | None:
     if number is None:
         return None
     return number.as_fraction() if number.is_rational else number
-
-
-def _shadow(table: CellTable) -> CellTable:
-    """The table cut off above its first level: truth values of the projection to the first variable."""
-    root = table.root
-    if root.stack is None:
-        return CellTable(table.order[:1], ("",), table.matrix, table.projection, table.factors[:1], root)
-    cells = tuple(Cell(c.signs, c.truth) for c in root.stack.cells)
-    from dataclasses import replace
-
-    cut = replace(root, truth=None, stack=replace(root.stack, cells=cells))
-    return CellTable(table.order[:1], ("",), table.matrix, table.projection, table.factors[:1], cut)
 
 
 def _number(value: Coordinate, name: str) -> Fraction | RealAlgebraic:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from qe.evidence.cells import Cell, CellTable
@@ -105,3 +105,18 @@ def deciding_point(table: CellTable, wanted: bool) -> dict[str, Number] | None:
         values = coordinates(table, place)
         return {name: values[name] for name in table.order[:size]}
     return None
+
+
+def free_part(table: CellTable) -> CellTable:
+    """The table cut off above its free variables: the truth values of the quantified formula on their space."""
+    free = sum(q == "" for q in table.quantifiers)
+
+    def cut(cell: Cell, depth: int) -> Cell:
+        if cell.stack is None:
+            return cell
+        if depth == free:
+            return Cell(cell.signs, cell.truth)
+        return replace(cell, stack=replace(cell.stack, cells=tuple(cut(c, depth + 1) for c in cell.stack.cells)))
+
+    factors = table.factors[:free]
+    return CellTable(table.order[:free], ("",) * free, table.matrix, table.projection, factors, cut(table.root, 0))
