@@ -42,7 +42,7 @@ def compare(answer: str, expected: str, assume: str | None = None, *, seconds: f
     proved = all(_implication(f, g, seconds) for f, g in ((left, right), (right, left)))
     if proved:
         return Verdict.EQUIVALENT
-    return Verdict.DIFFERENT if differing_point(left, right) is not None else Verdict.PROBED
+    return Verdict.DIFFERENT if differing_point(left, right, seconds=seconds) is not None else Verdict.PROBED
 
 
 def _in_one_ring(left: Formula, right: Formula, given: Formula) -> tuple[Formula, Formula]:
@@ -68,7 +68,9 @@ def _implication(left: Formula, right: Formula, seconds: float) -> bool:
         return False
 
 
-def differing_point(left: Formula, right: Formula, *, seed: int = 1) -> dict[str, Fraction] | None:
+def differing_point(
+    left: Formula, right: Formula, *, seed: int = 1, seconds: float = 10.0
+) -> dict[str, Fraction] | None:
     """A rational point where exactly one of two quantifier-free formulas holds, if one is found.
 
     z3's model is tried first (a candidate, confirmed by exact evaluation), then random points.
@@ -77,7 +79,7 @@ def differing_point(left: Formula, right: Formula, *, seed: int = 1) -> dict[str
         return None
     names = tuple(dict.fromkeys((*free_variables(left), *free_variables(right))))
     rng = random.Random(seed)
-    candidates = [point for f, g in ((left, right), (right, left)) for point in _models(f, g, names)]
+    candidates = [point for f, g in ((left, right), (right, left)) for point in _models(f, g, names, seconds)]
     scales = (1, 3, 10, 40)
     candidates += [
         {n: Fraction(rng.randint(-6 * s, 6 * s), s) for n in names} for s in scales for _ in range(POINTS // 4)
@@ -88,11 +90,11 @@ def differing_point(left: Formula, right: Formula, *, seed: int = 1) -> dict[str
     return None
 
 
-def _models(left: Formula, right: Formula, names: tuple[str, ...]) -> list[dict[str, Fraction]]:
+def _models(left: Formula, right: Formula, names: tuple[str, ...], seconds: float) -> list[dict[str, Fraction]]:
     import z3
 
     solver = z3.Tactic("qfnra-nlsat").solver()
-    solver.set("timeout", 10_000)
+    solver.set("timeout", int(1000 * seconds))
     try:
         solver.add(to_z3(conj((left, neg(right)))))
         if solver.check() != z3.sat:

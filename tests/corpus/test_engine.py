@@ -1,0 +1,47 @@
+"""The engine on the corpus: right answers, by equivalence with the expected ones."""
+
+from __future__ import annotations
+
+import pytest
+
+import qe
+from experiments.compare import Verdict, compare
+from qe.formula.evaluate import holds_at
+from qe.formula.syntax import TRUE
+from qe.formula.traverse import free_variables, is_quantifier_free
+from qe.io.text import read, write
+from tests.corpus.catalogue import Problem, problems
+from tests.corpus.test_expected_answers import points
+
+FAST = [p for p in problems() if "slow" not in p.tags]
+SLOW = [p for p in problems() if "slow" in p.tags]
+
+
+def check(problem: Problem, *, timeout: float) -> None:
+    formula, expected = read(problem.formula), read(problem.expected)
+    answer = qe.eliminate(formula, timeout=timeout)
+    assert answer.status is qe.Status.SOLVED, answer.reason
+    found = answer.formula
+    assert found is not None and is_quantifier_free(found)
+    assert set(free_variables(found)) <= set(free_variables(formula))
+    if not free_variables(formula):
+        assert answer.truth is (expected == TRUE)
+        return
+    for point in points(problem, 60):
+        assert holds_at(found, point) is holds_at(expected, point), (str(found), point)
+    try:
+        verdict = compare(write(found), problem.expected, problem.assume, seconds=1.0)
+    except ImportError:  # without z3 the comparison at points above is all there is
+        return
+    assert verdict is not Verdict.DIFFERENT, str(found)
+
+
+@pytest.mark.parametrize("problem", FAST, ids=lambda p: p.id)
+def test_problem(problem: Problem) -> None:
+    check(problem, timeout=20)
+
+
+@pytest.mark.deep
+@pytest.mark.parametrize("problem", SLOW, ids=lambda p: p.id)
+def test_slow_problem(problem: Problem) -> None:
+    check(problem, timeout=120)
