@@ -103,17 +103,18 @@ class _Walk:
         if sample.depth >= len(self.table.order):
             raise fail("cells", "a stack above the last variable")
         checked = self.checker.check(stack, sample, fail)
+        below = Situation(  # filled in for one child after the other; deeper levels copy what they need
+            [*situation.signs, []],
+            [*situation.sections, stack.sections],
+            [*situation.nullified, checked.nullified],
+            [*situation.positions, 0],
+        )
         for position, child in enumerate(stack.cells):
             row = checked.signs[position]
-            if child.signs != "".join(_CHARACTERS[row[i]] for i in stack.used):
-                expected = "".join(_CHARACTERS[row[i]] for i in stack.used)
+            below.signs[-1], below.positions[-1] = row, position
+            expected = "".join([_CHARACTERS[row[i]] for i in stack.used])
+            if child.signs != expected:
                 raise fail(f"cells[{position}].signs", f"said to be {child.signs!r}, found {expected!r}")
-            below = Situation(
-                [*situation.signs, row],
-                [*situation.sections, stack.sections],
-                [*situation.nullified, checked.nullified],
-                [*situation.positions, position],
-            )
             deeper = None if child.stack is None else self._child(sample, checked, cell, position, fail)
             self.cell(child, deeper, below, (here, f".cells[{position}]"))
         value = self._aggregate(cell, sample.depth)

@@ -36,7 +36,8 @@ from qe.exact.triangular import (
     trim,
 )
 
-ENCLOSURE_BITS = (64, 192)
+ENCLOSURE_BITS = (64, 256)
+LONG_BITS = (64, 256, 1024, 4096, 16384)  # a quotient loses many bits by cancellation
 Values = list[tuple[Fraction, Any, Any]]
 
 
@@ -228,7 +229,7 @@ class SimplePart:
 
     def count(self) -> int:
         """The number of real roots."""
-        for bits in ENCLOSURE_BITS:
+        for bits in LONG_BITS:
             with ctx.workprec(bits):
                 dividend, divisor = self.f.balls(bits), self.g.balls(bits)
                 if dividend[self.f.degree].contains(0) or divisor[self.g.degree].contains(0):
