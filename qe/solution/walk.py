@@ -118,5 +118,6 @@ def free_part(table: CellTable) -> CellTable:
             return Cell(cell.signs, cell.truth)
         return replace(cell, stack=replace(cell.stack, cells=tuple(cut(c, depth + 1) for c in cell.stack.cells)))
 
-    factors = table.factors[:free]
+    ring = Ring.of(table.order[:free])
+    factors = tuple(tuple(f.convert(ring) for f in level) for level in table.factors[:free])
     return CellTable(table.order[:free], ("",) * free, table.matrix, table.projection, factors, cut(table.root, 0))
