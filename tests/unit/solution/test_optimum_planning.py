@@ -8,7 +8,9 @@ import pytest
 
 from qe.certify.optimum import check_optimum
 from qe.exact.field import FieldElement
-from qe.solution.optimum import OptimumStatus, minimize
+from qe.formula.build import atom, conj
+from qe.formula.syntax import Relation
+from qe.solution.optimum import OptimumStatus, maximize, minimize
 from tests.optimum_problems import CUBIC_LABELS, at_most_zero, cubic, quadratic
 
 
@@ -130,3 +132,39 @@ def test_formula_eight_infeasible_as_the_enclosing_circle_says() -> None:
     assert empty.value is None and all(m >= 0 for m in empty.multipliers)
     check_optimum(feasible.certificate.payload)
     check_optimum(empty.certificate.payload)
+
+
+def test_exact_bounding_box_and_fibres_of_the_region() -> None:
+    _, forms, _ = cubic((-3, 2), (2, 2), 27)
+    region, ring = at_most_zero(forms), forms[0].ring
+    box = {}
+    for name in ring.names:
+        low, high = minimize(ring.var(name), region), maximize(ring.var(name), region)
+        check_optimum(low.certificate.payload)
+        check_optimum(high.certificate.payload)
+        box[name] = (low.value, high.value)
+        assert low.point[name] == low.value < high.value == high.point[name]
+    assert all(box[n][0] <= c <= box[n][1] for n, c in zip(ring.names, (-3, 2, 2, 2), strict=True))
+    # the interval that is left for the next coordinate when the first is chosen, and nothing when it is outside
+    chosen = conj((region, atom(ring.var("a0") + 2, Relation.EQ)))
+    fibre = minimize(ring.var("a1"), chosen)
+    assert fibre.point["a0"] == -2 and box["a1"][0] <= fibre.value < 2
+    outside = conj((region, atom(ring.var("a0") - 10, Relation.EQ)))
+    assert minimize(ring.var("a1"), outside).status is OptimumStatus.INFEASIBLE
+
+
+def test_via_point_on_the_sphere_forces_its_neighbour() -> None:
+    # |Q0| = r: Q1 and its mirror image in Q0 both lie in the ball, so Q1 = Q0
+    objective, forms, _ = cubic((3, 2, 4), (2, -5, 0), 29)
+    found = minimize(objective, at_most_zero(forms))
+    assert [found.point[f"a{i}"] for i in range(3)] == [3, 2, 4]
+    assert [found.point[f"b{i}"] for i in range(3)] == [2, -5, 0]
+    assert len(found.evidence.faces) == 2
+    check_optimum(found.certificate.payload)
+
+
+def test_field_of_high_degree_under_hemisphere_conditions() -> None:
+    objective, forms, _ = cubic((5, -5, 3), (-5, 1, 5), 61, hemisphere=True)
+    found = minimize(objective, at_most_zero(forms))
+    assert found.field.degree == 14 and found.active == (1, 2, 4, 11)
+    check_optimum(found.certificate.payload)
