@@ -72,8 +72,9 @@ def figures(picture: PathPicture | None) -> dict[str, Any]:
         found["region"] = scene.region_figure(picture)
         found["path"] = scene.path_figure(picture) if picture.curves else None
         if "corrected" in picture.extra and "printed" in picture.extra:
-            found["corrected"] = scene.corrected_figure(picture.extra["corrected"])
-            found["printed"] = scene.corrected_figure(picture.extra["printed"])
+            printed = picture.extra["printed"]
+            found["corrected"] = scene.compared_figure(picture.extra["corrected"], printed)
+            found["printed"] = scene.compared_figure(printed, printed)
     found = {name: figure for name, figure in found.items() if figure is not None}
     text = json.dumps(found, separators=(",", ":")).replace("</", "<\\/")
     shown = {name: name in found for name in ("region", "path", "corrected")}

@@ -29,12 +29,14 @@ def region_figure(picture: PathPicture) -> dict[str, Any] | None:
     traces = _region_traces(picture.region, opacity=1.0, legend=True)
     if picture.region.chosen is not None:
         traces.append(_marks({"Q1": picture.region.chosen}, size=6))
-    return _figure(traces, best_view(picture.region.mesh))
+    mesh = picture.region.mesh
+    return _figure(traces, mesh.vertices, best_view(mesh))
 
 
-def corrected_figure(picture: RegionPicture) -> dict[str, Any]:
-    """A region of its own, such as the one with z >= 0 added."""
-    return _figure(_region_traces(picture, opacity=1.0, legend=True), best_view(picture.mesh))
+def compared_figure(picture: RegionPicture, other: RegionPicture) -> dict[str, Any]:
+    """A region seen as one sees another one, for a picture beside it."""
+    view = best_view(other.mesh)
+    return _figure(_region_traces(picture, opacity=1.0, legend=True), other.mesh.vertices, view)
 
 
 def path_figure(picture: PathPicture) -> dict[str, Any]:
@@ -48,7 +50,8 @@ def path_figure(picture: PathPicture) -> dict[str, Any]:
     if picture.region is not None:
         traces += _region_traces(picture.region, opacity=0.35, legend=False)
     traces.append(_marks(picture.marks, size=3))
-    return _figure(traces)
+    reach = picture.radius
+    return _figure(traces, np.array([[-reach, -reach, 0.0 if picture.has_floor else -reach], [reach] * 3]))
 
 
 def hatted(name: str) -> str:
@@ -135,13 +138,19 @@ def _short(values: Array) -> list[float | None]:
     return [None if v != v else round(float(v), 6) for v in values]
 
 
-def _figure(traces: list[Trace], view: tuple[float, float] = (22.0, -62.0)) -> dict[str, Any]:
-    """``view``: elevation and azimuth of the first look, in degrees."""
+def _figure(traces: list[Trace], frame: Array, view: tuple[float, float] = (22.0, -62.0)) -> dict[str, Any]:
+    """``frame``: points that fill the axes; ``view``: elevation and azimuth of the first look, in degrees."""
     up, around = np.radians(view)
-    eye = 2.15 * np.array([np.cos(up) * np.cos(around), np.cos(up) * np.sin(around), np.sin(up)])
+    eye = 1.75 * np.array([np.cos(up) * np.cos(around), np.cos(up) * np.sin(around), np.sin(up)])
+    low, high = frame.min(axis=0), frame.max(axis=0)
+    pad = 0.04 * (high - low).max()
+    shape = high - low + 2 * pad
     axis = {"backgroundcolor": "#f6f8fa", "gridcolor": "#dde3e8", "showbackground": True, "zerolinecolor": "#c5ced6"}
-    scene: dict[str, Any] = {f"{name}axis": axis | {"title": {"text": name}} for name in "xyz"}
-    scene |= {"aspectmode": "data", "camera": {"eye": dict(zip("xyz", _short(eye), strict=True))}}
+    ranges = zip("xyz", _short(low - pad), _short(high + pad), strict=True)
+    scene: dict[str, Any] = {f"{n}axis": axis | {"title": {"text": n}, "range": [a, b]} for n, a, b in ranges}
+    scene["aspectmode"] = "manual"
+    scene["aspectratio"] = dict(zip("xyz", _short(shape / shape.max()), strict=True))
+    scene |= {"camera": {"eye": dict(zip("xyz", _short(eye), strict=True))}}
     layout = {
         "scene": scene,
         "margin": {"l": 0, "r": 0, "t": 0, "b": 0},
