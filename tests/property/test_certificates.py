@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 from fractions import Fraction
+from itertools import islice
 
 import pytest
 from flint import fmpz_poly
@@ -49,6 +51,23 @@ def _flipped(cell: Cell) -> Cell | None:
     return None
 
 
+def _narrower(cell: Cell, *, merge: bool) -> Iterator[Cell]:
+    """The cell with one section of one stack below it left out, or merged with the next one."""
+    stack = cell.stack
+    if stack is None:
+        return
+    for j in range(len(stack.sections) - merge):
+        sectors = stack.sectors[: j + 1] + stack.sectors[j + 2 :]
+        kept = tuple(sorted({*stack.sections[j], *stack.sections[j + 1]})) if merge else None
+        sections = stack.sections[:j] + (() if kept is None else (kept,)) + stack.sections[j + 1 + merge :]
+        cells = stack.cells[: 2 * j + 1 + merge] + stack.cells[2 * j + 3 + merge :]
+        yield replace(cell, stack=replace(stack, sectors=sectors, sections=sections, cells=cells))
+    for i, child in enumerate(stack.cells):
+        for other in _narrower(child, merge=merge):
+            cells = (*stack.cells[:i], other, *stack.cells[i + 1 :])
+            yield replace(cell, stack=replace(stack, cells=cells))
+
+
 def _check(matrix: Formula, quantifiers: tuple[str, ...], projection: Projection, seconds: float = 1.0) -> None:
     table = _table(matrix, quantifiers, projection, seconds)
     certificate = Certificate.cells(table)
@@ -57,6 +76,9 @@ def _check(matrix: Formula, quantifiers: tuple[str, ...], projection: Projection
     wrong = _flipped(table.root)
     assert wrong is not None
     assert not verify(Certificate.cells(replace(table, root=wrong))).accepted
+    for merge in (False, True):
+        for narrower in islice(_narrower(table.root, merge=merge), 12):
+            assert not verify(Certificate.cells(replace(table, root=narrower))).accepted
 
 
 BOTH = (Projection.BROWN_MCCALLUM, Projection.LAZARD)
