@@ -26,6 +26,7 @@ from qe.io.text import read, write
 
 QEPCAD_HOME = "/usr/lib/qepcad"
 QEPCAD_CELLS = 10_000_000
+MEMORY = 1800  # MB, a little below the limit of the runner, so that ours ends by itself
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,7 +46,7 @@ def ours(formula: Formula, limit: float) -> Answer:
     import qe
 
     start = time.perf_counter()
-    answer = qe.eliminate(formula, timeout=limit)
+    answer = qe.eliminate(formula, timeout=limit, memory=MEMORY)
     seconds = time.perf_counter() - start
     if answer.formula is None or answer.status is not qe.Status.SOLVED:
         raise Unable(str(getattr(answer, "reason", None) or answer.stats))
