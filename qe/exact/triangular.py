@@ -133,7 +133,7 @@ def at(p: Poly, i: int, value: fmpq) -> Poly:
     return p.at_rational(i, Fraction(int(value.p), int(value.q)))
 
 
-_KEYS = {(i,): f"nested ({i},)" for i in range(8)}  # the frequent ones, spelled once
+_KEYS: dict[tuple[int, ...], str] = {(i,): f"nested ({i},)" for i in range(8)}  # the frequent ones, spelled once
 
 
 def nested(p: Poly, indices: tuple[int, ...]) -> Any:

@@ -22,9 +22,10 @@ from qe.exact.fibre import AlgebraicFibre, fibre
 from qe.exact.ring import Ring, from_univariate
 from qe.exact.sturm import count_real_roots, count_roots_between, sylvester_determinant
 from qe.exact.triangular import ORIGIN, Coordinate
-from qe.formula.syntax import Formula
+from qe.formula.build import conj, disj
+from qe.formula.syntax import Atom, Formula
 from qe.options import Budget, Projection
-from tests.strategies import formulas
+from tests.strategies import atoms
 
 INTEGERS = st.lists(st.integers(-6, 6), min_size=1, max_size=7)
 NAMES = ("x", "y", "z")
@@ -82,17 +83,24 @@ def _check(matrix: Formula, quantifiers: tuple[str, ...], projection: Projection
 
 
 BOTH = (Projection.BROWN_MCCALLUM, Projection.LAZARD)
-PLANE = formulas(names=NAMES[:2], max_degree=3, max_depth=2, max_width=2)
-SPACE = formulas(names=NAMES, max_degree=2, max_depth=2, max_width=2)
 
 
-@settings(max_examples=40)
+def _matrices(names: tuple[str, ...], degree: int, width: int) -> st.SearchStrategy[Formula]:
+    found = atoms(Ring.of(names), max_degree=degree).filter(lambda a: isinstance(a, Atom))
+    parts = st.lists(found, min_size=1, max_size=width)
+    return st.one_of(parts.map(conj), parts.map(disj))
+
+
+PLANE, SPACE = _matrices(NAMES[:2], 3, 3), _matrices(NAMES, 2, 2)
+
+
+@settings(max_examples=200)
 @given(PLANE, st.sampled_from([("", ""), ("", "E"), ("E", "A"), ("A", "E")]), st.sampled_from(BOTH))
 def test_random_tables_in_the_plane(matrix: Formula, quantifiers: tuple[str, ...], projection: Projection) -> None:
     _check(matrix, quantifiers, projection)
 
 
-@settings(max_examples=25)
+@settings(max_examples=120)
 @given(SPACE, st.sampled_from([("", "", ""), ("", "E", "A"), ("E", "E", "E")]), st.sampled_from(BOTH))
 def test_random_tables_in_space(matrix: Formula, quantifiers: tuple[str, ...], projection: Projection) -> None:
     _check(matrix, quantifiers, projection)
