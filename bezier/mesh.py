@@ -63,7 +63,7 @@ def _subdivided(points: Array, triangles: Indices) -> tuple[Array, Indices]:
     return np.concatenate([points, middles]), np.concatenate(split)
 
 
-def region_mesh(conditions: Sequence[Condition], level: int = 4) -> RegionMesh | None:
+def region_mesh(conditions: Sequence[Condition], level: int = 3) -> RegionMesh | None:
     """The surface of an intersection of balls and half-spaces; None when it is unbounded or has no inner point."""
     shapes = [_numbers(c) for c in conditions]
     if not any(isinstance(c, Ball) for c in conditions):

@@ -63,7 +63,7 @@ def curve_pictures(curves: Mapping[str, Bezier], count: int = 61) -> tuple[Curve
 
 
 def region_picture(
-    conditions: Sequence[Condition], named: Sequence[Condition], chosen: Sequence[Any] | None, level: int = 4
+    conditions: Sequence[Condition], named: Sequence[Condition], chosen: Sequence[Any] | None, level: int = 3
 ) -> RegionPicture | None:
     """The region bounded by ``conditions``; labels are the names of the equal conditions among ``named``."""
     mesh = region_mesh(conditions, level)

@@ -16,39 +16,34 @@ AXES = ("x", "y", "z")
 
 
 def save_region(picture: PathPicture, path: Path) -> None:
-    """``region.png``: the possible places of Q1 in space, and its three coordinate views."""
-    pyplot = _pyplot()
-    figure = pyplot.figure(figsize=(11, 8), layout="constrained")
-    figure.suptitle(r"Where $\hat{Q}_1$ may be: the region of formula (8)", fontsize=14, color=INK)
-    above, below = figure.subfigures(2, 1, height_ratios=(1.9, 1))
+    """``region.png``: the possible places of Q1 from two sides in space, and the three coordinate views."""
+    figure = _figure(11, 8)
+    figure.suptitle(r"Where $\hat{Q}_1$ may be: the region of formula (8)", fontsize=14, color=INK, y=0.97)
     region = picture.region
     if region is None:
-        axis = above.add_subplot()
+        axis = figure.add_axes((0.0, 0.0, 1.0, 1.0))
         _say(axis, "the region has no interior, so there is nothing to draw:\nsee the report for its exact description")
     else:
         elevation, turn = best_view(region.mesh)
-        for column, (up, around) in enumerate(((elevation, turn), (10.0, turn + 180))):
-            axis = above.add_subplot(1, 2, column + 1, projection="3d")
+        for column, view in enumerate(((elevation, turn), (10.0, turn + 180))):
+            axis = figure.add_axes((0.02 + 0.48 * column, 0.385, 0.46, 0.54), projection="3d")
             _draw_region(axis, region, alpha=1.0)
-            _frame(axis, region.mesh.vertices, pad=0.06, view=(up, around))
+            _frame(axis, region.mesh.vertices, pad=0.06, view=view)
             if region.chosen is not None:
                 axis.plot(*region.chosen[:, None], "o", color=INK, markersize=7, zorder=10)
             if column == 0:
                 _legend(axis, region)
             else:
                 axis.text2D(0.5, 0.98, "from the other side", transform=axis.transAxes, ha="center", fontsize=9)
-        for axis, (title, a, b) in zip(below.subplots(1, 3), VIEWS, strict=True):
-            _region_view(axis, region, title, a, b)
-    figure.savefig(path, dpi=130)
-    pyplot.close(figure)
+        for column, (title, a, b) in enumerate(VIEWS):
+            _region_view(figure.add_axes((0.055 + 0.325 * column, 0.06, 0.27, 0.23)), region, title, a, b)
+    _save(figure, path)
 
 
 def save_path(picture: PathPicture, path: Path) -> None:
     """``path.png``: the three curves with control polygons in the workspace, and the coordinate views."""
-    pyplot = _pyplot()
-    figure = pyplot.figure(figsize=(10, 9), layout="constrained")
-    grid = figure.add_gridspec(2, 3, height_ratios=(2.2, 1))
-    axis = figure.add_subplot(grid[0, :], projection="3d")
+    figure = _figure(10, 9)
+    axis = figure.add_axes((0.1, 0.39, 0.8, 0.60), projection="3d")
     _draw_workspace(axis, picture)
     for curve in picture.curves:
         axis.plot(*curve.polygon.T, "--o", color=curve.colour, linewidth=1, markersize=4, alpha=0.75)
@@ -57,25 +52,25 @@ def save_path(picture: PathPicture, path: Path) -> None:
         _draw_region(axis, picture.region, alpha=0.25)
     for name, point in picture.marks.items():
         axis.text(*(point * 1.04), mathematical(name), fontsize=10, color=INK)
-    axis.legend(loc="upper left", frameon=False)
+    if picture.curves:
+        axis.legend(loc="upper left", frameon=False)
     reach = picture.radius
     low = 0.0 if picture.has_floor else -reach
     _frame(axis, np.array([[-reach, -reach, low], [reach, reach, reach]]), pad=0.0)
     for column, (title, i, j) in enumerate(VIEWS):
-        _path_view(figure.add_subplot(grid[1, column]), picture, title, i, j)
-    figure.savefig(path, dpi=130)
-    pyplot.close(figure)
+        _path_view(figure.add_axes((0.055 + 0.325 * column, 0.05, 0.27, 0.26)), picture, title, i, j)
+    _save(figure, path)
 
 
 def views_svg(picture: PathPicture) -> str:
     """The three coordinate views as one SVG element for the report."""
-    pyplot = _pyplot()
-    figure, axes = pyplot.subplots(1, 3, figsize=(12, 4.3), layout="constrained")
-    for axis, (title, i, j) in zip(axes, VIEWS, strict=True):
-        _path_view(axis, picture, title, i, j)
+    from matplotlib.backends.backend_svg import FigureCanvasSVG
+
+    figure = _figure(12, 4.2)
+    for column, (title, i, j) in enumerate(VIEWS):
+        _path_view(figure.add_axes((0.045 + 0.33 * column, 0.12, 0.275, 0.78)), picture, title, i, j)
     buffer = io.StringIO()
-    figure.savefig(buffer, format="svg", metadata={"Date": None, "Creator": None})
-    pyplot.close(figure)
+    FigureCanvasSVG(figure).print_svg(buffer, metadata={"Date": None, "Creator": None})
     text = buffer.getvalue()
     return text[text.index("<svg") :]
 
@@ -85,15 +80,22 @@ def mathematical(name: str) -> str:
     return f"$\\hat{{{name[0]}}}_{{{name[1:]}}}$" if name[:1] in "PQR" and name[1:].isdigit() else name
 
 
-def _pyplot() -> Any:
+def _figure(width: float, height: float) -> Any:
+    """An empty figure in inches; without pyplot, whose windows and state are not needed."""
     import matplotlib
+    import mpl_toolkits.mplot3d  # noqa: F401  (registers the 3-D projection)
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
 
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as pyplot
+    matplotlib.rcParams.update({"font.size": 10, "axes.edgecolor": PALE, "axes.labelcolor": INK, "text.color": INK})
+    matplotlib.rcParams.update({"xtick.color": PALE, "ytick.color": PALE, "svg.hashsalt": "bezier"})
+    figure = Figure(figsize=(width, height))
+    FigureCanvasAgg(figure)
+    return figure
 
-    pyplot.rcParams.update({"font.size": 10, "axes.edgecolor": PALE, "axes.labelcolor": INK, "text.color": INK})
-    pyplot.rcParams.update({"xtick.color": PALE, "ytick.color": PALE, "svg.hashsalt": "bezier"})
-    return pyplot
+
+def _save(figure: Any, path: Path) -> None:
+    figure.savefig(path, dpi=120, pil_kwargs={"compress_level": 4})
 
 
 def _draw_region(axis: Any, region: RegionPicture, alpha: float) -> None:
