@@ -121,7 +121,7 @@ def _separate(point: Point, sections: list[Section]) -> list[Section]:
     while True:
         with precision(max(s.bits for s in sections) + 16):
             balls = {id(s): s.ball() for s in sections}
-            sections.sort(key=lambda s: float(balls[id(s)].mid()))
+            sections.sort(key=lambda s: balls[id(s)].mid())
             clash = next(
                 ((a, b) for a, b in itertools.pairwise(sections) if not balls[id(a)] < balls[id(b)]), None
             )

@@ -339,7 +339,7 @@ def certified_roots(c: list[arb], bits: int) -> list[arb] | None:
             if any(mirror.overlaps(other) for j, other in enumerate(found) if j != i):
                 return None
             real.append(z.real)
-    real.sort(key=lambda x: float(x.mid()))
+    real.sort(key=arb.mid)
     return real if all(a < b for a, b in itertools.pairwise(real)) else None
 
 
