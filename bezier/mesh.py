@@ -270,6 +270,12 @@ def _turn(a: Sequence[float], b: Sequence[float], c: Sequence[float]) -> float:
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 
 
+def direction(view: tuple[float, float]) -> Array:
+    """The unit vector towards a viewer at this elevation and azimuth, in degrees."""
+    up, around = np.radians(view)
+    return np.array([np.cos(up) * np.cos(around), np.cos(up) * np.sin(around), np.sin(up)])
+
+
 def best_view(mesh: RegionMesh) -> tuple[float, float]:
     """Elevation and azimuth in degrees from which the boundary surfaces are all seen as well as possible."""
     corners = mesh.vertices[mesh.faces]
@@ -279,9 +285,7 @@ def best_view(mesh: RegionMesh) -> tuple[float, float]:
     best, score = (20.0, -62.0), -np.inf
     for elevation in (15.0, 25.0, 35.0):
         for turn in range(-170, 190, 15):
-            up, around = np.radians(elevation), np.radians(turn)
-            eye = np.array([np.cos(up) * np.cos(around), np.cos(up) * np.sin(around), np.sin(up)])
-            seen = np.clip(normals @ eye, 0, None)
+            seen = np.clip(normals @ direction((elevation, turn)), 0, None)
             value = sum(float(np.sqrt(seen[mesh.owner == k].sum() / whole)) for k in owners)
             if value > score:
                 best, score = (elevation, float(turn)), value

@@ -92,7 +92,13 @@ class Clock:
     listener: Listener = silent
     note: Note = field(default=lambda name, value: None)
     seconds: dict[str, float] = field(default_factory=dict)
+    facts: dict[str, object] = field(default_factory=dict)
     start: float = field(default_factory=time.perf_counter)
+
+    def learn(self, name: str, value: object) -> None:
+        """Keep and pass on something worth knowing should a limit end the work."""
+        self.facts[name] = value
+        self.note(name, value)
 
     @contextmanager
     def step(self, name: str) -> Iterator[None]:
@@ -114,20 +120,25 @@ class Clock:
 
 
 def make_plan(problem: Problem, clock: Clock | None = None) -> Plan:
-    """Plan a path. Raises ``Unable`` for methods that are not there yet and at limits."""
+    """Plan a path. Raises ``Unable`` for methods that are not there yet, and at limits with what is known by then."""
     if problem.method is not PlanMethod.QUADRATIC:
         raise Unable(f'method "{problem.method.value}" is not there yet; method "quadratic" is')
-    return _quadratic_plan(problem, clock or Clock())
+    watch = clock or Clock()
+    try:
+        return _quadratic_plan(problem, watch)
+    except BudgetExceeded as error:
+        known = "; ".join(f"{name}: {value}" for name, value in watch.facts.items()) or "nothing yet"
+        raise BudgetExceeded(f"{error}; known so far: {known}", limit=error.limit) from None
 
 
 def _quadratic_plan(problem: Problem, clock: Clock) -> Plan:
     text = quadratic.formula(problem)
     with clock.step("elimination"):
         answer = _answered(qe.eliminate(text, timeout=clock.remaining()))
-    clock.note("quantifier-free answer", str(answer.formula))
+    clock.learn("quantifier-free answer", str(answer.formula))
     with clock.step("region"):
         region = qe.region(answer.formula, order=quadratic.FREE, timeout=clock.remaining())
-    clock.note("region", "empty" if region.is_empty else f"{len(region.cells)} cells")
+    clock.learn("region", "empty" if region.is_empty else f"{len(region.cells)} cells")
     with clock.step("optimum"):
         # an answer "false" holds no conditions to combine to a contradiction: then the given ones are taken
         conditions = quadratic.conditions_text(problem) if answer.formula == FALSE else answer.formula

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from bezier.mesh import Array, best_view, hull
+from bezier.mesh import Array, best_view, direction, hull
 from bezier.picture import FLOOR, INK, PALE, PathPicture, RegionPicture
 
 VIEWS = (("top view", 0, 1), ("front view", 0, 2), ("side view", 1, 2))
@@ -18,7 +18,7 @@ AXES = ("x", "y", "z")
 def save_region(picture: PathPicture, path: Path) -> None:
     """``region.png``: the possible places of Q1 from two sides in space, and the three coordinate views."""
     figure = _figure(11, 8)
-    figure.suptitle(r"Where $\hat{Q}_1$ may be: the region of formula (8)", fontsize=14, color=INK, y=0.97)
+    figure.suptitle(r"Where $\hat{Q}_1$ may be: the region of formula (8)", fontsize=14, color=INK, y=0.995)
     region = picture.region
     if region is None:
         axis = figure.add_axes((0.0, 0.0, 1.0, 1.0))
@@ -26,15 +26,15 @@ def save_region(picture: PathPicture, path: Path) -> None:
     else:
         elevation, turn = best_view(region.mesh)
         for column, view in enumerate(((elevation, turn), (10.0, turn + 180))):
-            axis = figure.add_axes((0.02 + 0.48 * column, 0.385, 0.46, 0.54), projection="3d")
-            _draw_region(axis, region, alpha=1.0)
+            axis = figure.add_axes((0.02 + 0.48 * column, 0.37, 0.46, 0.58), projection="3d")
+            _draw_region(axis, region, alpha=1.0, view=view)
             _frame(axis, region.mesh.vertices, pad=0.06, view=view)
             if region.chosen is not None:
                 axis.plot(*region.chosen[:, None], "o", color=INK, markersize=7, zorder=10)
             if column == 0:
                 _legend(axis, region)
             else:
-                axis.text2D(0.5, 0.98, "from the other side", transform=axis.transAxes, ha="center", fontsize=9)
+                axis.text2D(0.5, 0.93, "from the other side", transform=axis.transAxes, ha="center", fontsize=9)
         for column, (title, a, b) in enumerate(VIEWS):
             _region_view(figure.add_axes((0.055 + 0.325 * column, 0.06, 0.27, 0.23)), region, title, a, b)
     _save(figure, path)
@@ -43,7 +43,7 @@ def save_region(picture: PathPicture, path: Path) -> None:
 def save_path(picture: PathPicture, path: Path) -> None:
     """``path.png``: the three curves with control polygons in the workspace, and the coordinate views."""
     figure = _figure(10, 9)
-    axis = figure.add_axes((0.1, 0.39, 0.8, 0.60), projection="3d")
+    axis = figure.add_axes((0.1, 0.385, 0.8, 0.62), projection="3d")
     _draw_workspace(axis, picture)
     for curve in picture.curves:
         axis.plot(*curve.polygon.T, "--o", color=curve.colour, linewidth=1, markersize=4, alpha=0.75)
@@ -98,7 +98,8 @@ def _save(figure: Any, path: Path) -> None:
     figure.savefig(path, dpi=120, pil_kwargs={"compress_level": 4})
 
 
-def _draw_region(axis: Any, region: RegionPicture, alpha: float) -> None:
+def _draw_region(axis: Any, region: RegionPicture, alpha: float, view: tuple[float, float] | None = None) -> None:
+    """Shaded triangles and creases; with ``view`` only those triangles that face the viewer (the set is convex)."""
     from matplotlib.colors import to_rgb
     from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
@@ -106,11 +107,11 @@ def _draw_region(axis: Any, region: RegionPicture, alpha: float) -> None:
     triangles = mesh.vertices[mesh.faces]
     normals = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
     normals /= np.linalg.norm(normals, axis=1, keepdims=True) + 1e-30
-    outward = triangles.mean(axis=1) - mesh.vertices.mean(axis=0)
-    normals *= np.sign((normals * outward).sum(axis=1, keepdims=True))
+    seen = np.ones(len(normals), dtype=bool) if view is None else normals @ direction(view) > -0.15
+    triangles, normals = triangles[seen], normals[seen]
     light = np.array([-0.35, -0.65, 0.68])
     shade = 0.80 + 0.20 * (normals @ light)
-    base = np.array([to_rgb(region.colour(k)) for k in range(len(region.labels))])[mesh.owner]
+    base = np.array([to_rgb(region.colour(k)) for k in range(len(region.labels))])[mesh.owner[seen]]
     colours = 1 - (1 - base) * 0.62
     faces = np.clip(colours * shade[:, None], 0, 1)
     rgba = np.concatenate([faces, np.full((len(faces), 1), alpha)], axis=1)
@@ -137,11 +138,12 @@ def _frame(axis: Any, points: Array, pad: float, view: tuple[float, float] = (20
 
     low, high = points.min(axis=0), points.max(axis=0)
     extra = (high - low) * pad
+    widest = float((high - low).max()) or 1.0
     for name, a, b in zip(AXES, low - extra, high + extra, strict=True):
         getattr(axis, f"set_{name}lim")(a, b)
         getattr(axis, f"set_{name}label")(name)
-        getattr(axis, f"{name}axis").set_major_locator(MaxNLocator(5))
-    axis.set_box_aspect((high - low) + 1e-12, zoom=1.15)
+        getattr(axis, f"{name}axis").set_major_locator(MaxNLocator(max(1, round(5 * (b - a) / widest))))
+    axis.set_box_aspect((high - low) + 1e-12, zoom=1.06)
     axis.view_init(elev=view[0], azim=view[1])
     for pane in (axis.xaxis, axis.yaxis, axis.zaxis):
         pane.pane.set_facecolor("#f6f8fa")
@@ -154,7 +156,7 @@ def _legend(axis: Any, region: RegionPicture) -> None:
 
     shown = sorted(set(region.mesh.owner.tolist()))
     handles = [Patch(color=region.colour(k), alpha=0.75, label=boundary_name(region.labels[k])) for k in shown]
-    axis.legend(handles=handles, loc="upper left", frameon=False, fontsize=9, bbox_to_anchor=(-0.05, 1.05))
+    axis.legend(handles=handles, loc="upper left", frameon=False, fontsize=9, bbox_to_anchor=(-0.08, 1.05))
 
 
 def boundary_name(label: str) -> str:

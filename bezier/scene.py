@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from bezier.mesh import Array, best_view
+from bezier.mesh import Array, best_view, direction
 from bezier.picture import INK, PALE, PathPicture, RegionPicture
 
 Trace = dict[str, Any]
@@ -140,8 +140,7 @@ def _short(values: Array) -> list[float | None]:
 
 def _figure(traces: list[Trace], frame: Array, view: tuple[float, float] = (22.0, -62.0)) -> dict[str, Any]:
     """``frame``: points that fill the axes; ``view``: elevation and azimuth of the first look, in degrees."""
-    up, around = np.radians(view)
-    eye = 1.75 * np.array([np.cos(up) * np.cos(around), np.cos(up) * np.sin(around), np.sin(up)])
+    eye = 1.75 * direction(view)
     low, high = frame.min(axis=0), frame.max(axis=0)
     pad = 0.04 * (high - low).max()
     shape = high - low + 2 * pad

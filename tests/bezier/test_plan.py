@@ -57,6 +57,22 @@ def test_plans_exist_exactly_when_the_balls_meet(q0, r0, more):
     assert {label for label, _ in named_multipliers(problem, plan.optimum)} <= set(plan.active) | {"another condition"}
 
 
+@pytest.mark.deep
+@settings(max_examples=150)
+@given(points(), points(), st.integers(0, 9), st.sampled_from(WorkspaceKind), st.booleans())
+def test_many_plans(q0, r0, more, kind, tight):
+    if kind is WorkspaceKind.HEMISPHERE:
+        q0, r0 = ((*p[:2], abs(p[2])) for p in (q0, r0))
+    least = max(dot(q0, q0), dot(r0, r0), Fraction(2))
+    if tight:  # the balls meet in one point at most
+        least = max(least, quadratic.three_balls(problem_of(q0, r0, least)).needed_squared)
+    problem = problem_of(q0, r0, least if tight else least + more, kind)
+    plan = make_plan(problem)
+    assert plan.certified
+    if kind is WorkspaceKind.BALL:
+        assert (plan.outcome is Outcome.SOLVED) == quadratic.three_balls(problem).meet
+
+
 def test_symbolic_points_leave_no_quantifier():
     answer = qe.eliminate(quadratic.symbolic_formula()).formula
     numbers = dict(zip([f"q0{a}" for a in "xyz"] + [f"r0{a}" for a in "xyz"], (-1, 3, 3, 1, 3, 3), strict=True))
@@ -96,8 +112,15 @@ def test_methods_that_are_not_there(method):
 
 def test_the_clock_stops_at_its_limit():
     problem = problem_of((Fraction(1),) * 3, (Fraction(2),) * 3, 20)
-    with pytest.raises(BudgetExceeded):
+    with pytest.raises(BudgetExceeded, match="known so far: nothing yet"):
         make_plan(problem, Clock(limit=1e-9))
+
+
+def test_what_is_known_when_the_limit_comes():
+    clock = Clock(limit=60)
+    clock.note = lambda name, value: setattr(clock, "limit", 1e-9)  # the limit passes right after the answer
+    with pytest.raises(BudgetExceeded, match=r"known so far: quantifier-free answer: .*q1x"):
+        make_plan(problem_of((Fraction(1),) * 3, (Fraction(2),) * 3, 20), clock)
 
 
 def test_steps_are_told_and_timed(root):
