@@ -80,7 +80,12 @@ def literature_problems(name: str) -> list[Problem]:
         records = json.loads(text)["problems"]
         return [Problem(name, r["name"], r["formula"], r.get("expected")) for r in records]
     lines = [json.loads(line) for line in text.splitlines() if line.strip()]
-    return [Problem(name, r["id"], r["formula"], r.get("expected"), r.get("assume")) for r in lines]
+    return [Problem(name, r["id"], r["formula"], r.get("expected"), _round_brackets(r.get("assume"))) for r in lines]
+
+
+def _round_brackets(text: str | None) -> str | None:
+    """Assumptions are stated in QEPCAD's square brackets."""
+    return None if text is None else text.replace("[", "(").replace("]", ")")
 
 
 def problems(name: str) -> list[Problem]:
