@@ -8,6 +8,7 @@ from qe.formula.syntax import FALSE, Formula
 from qe.formula.traverse import free_variables
 from qe.prepare.cases import groebner_equations, split_factors, split_squares
 from qe.prepare.degree_shift import shift_degree
+from qe.prepare.generic import drop_inequations
 from qe.prepare.rules import guarded_linear_equation, independent_parts, linear_equation
 from qe.prepare.scaling import fix_scale
 from qe.prepare.simplify import simplify_under
@@ -18,6 +19,7 @@ from qe.prepare.workshop import Rule, Workshop
 RULES: tuple[Rule, ...] = (
     independent_parts,
     linear_equation,
+    drop_inequations,
     split_squares,
     groebner_equations,
     shift_degree,

@@ -7,6 +7,7 @@ from qe.formula.build import atom, conj
 from qe.formula.syntax import FALSE, Formula, Relation
 from qe.prepare import equations as eq
 from qe.prepare.linear import conjuncts
+from qe.prepare.quadratic import vanishing
 from qe.prepare.step import StepKind
 from qe.prepare.tree import NEVER, Node
 from qe.prepare.workshop import Recur, Workshop, either
@@ -61,13 +62,13 @@ def split_factors(variables: tuple[str, ...], body: Formula, shop: Workshop, rec
 
 
 def split_squares(variables: tuple[str, ...], body: Formula, shop: Workshop, recur: Recur) -> Node | None:
-    """A vanishing sum of squares of monomials becomes one equation per monomial."""
+    """An equation p = 0 where p >= 0 everywhere becomes the equations of the set where p is least."""
     if StepKind.SUM_OF_SQUARES not in shop.enabled:
         return None
     found, others = eq.split_equations(conjuncts(body))
     for position, poly in enumerate(found):
-        squares = eq.squares_of(poly)
-        if squares:
+        squares = vanishing(poly)
+        if len(squares) > 1:
             shop.note(StepKind.SUM_OF_SQUARES, eq.describe((poly,)), 1)
             rest = [p for k, p in enumerate(found) if k != position]
             return recur(variables, conj((eq.equal_to_zero(rest), eq.equal_to_zero(squares), *others)), shop)

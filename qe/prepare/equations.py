@@ -1,10 +1,10 @@
-"""The equational part of a conjunction: Groebner reduction, splitting on factors, vanishing sums of squares.
+"""The equational part of a conjunction: Groebner reduction, splitting on factors, equations at a minimum.
 
 Theorem (Groebner). Let I be the ideal of the polynomials of the equations in a conjunction E and f. Any other
 generating set of I (or of an ideal between I and its radical) may replace E. If s*g - r is in I with s > 0, then
 g and r have the same sign wherever E holds, so r may replace g in f. If 1 is in I, the conjunction is false.
 Theorem (factors). g*h = 0 and f  iff  (g = 0 and f) or (h = 0 and f).
-Theorem (squares). A sum of monomials c*m^2 with c > 0 vanishes iff all the m do.
+Theorem (minimum). A polynomial whose least value is 0 vanishes exactly where it attains that value.
 No step introduces, removes or changes a variable: they all lift to themselves.
 """
 
@@ -118,15 +118,6 @@ def squarefree(polys: Sequence[Poly]) -> tuple[Poly, ...]:
             product = product * factor
         out.append(product if not p.is_constant else p)
     return tuple(out)
-
-
-def squares_of(poly: Poly) -> tuple[Poly, ...]:
-    """For a sum of at least two positive multiples of monomials with even exponents: the monomials' radicals."""
-    terms = poly.terms()
-    if len(terms) < 2 or any(c < 0 or any(k % 2 for k in e) for e, c in terms):
-        return ()
-    ring = poly.ring
-    return tuple(ring.from_terms({tuple(min(k, 1) for k in e): 1}) for e, _ in terms)
 
 
 def factor_choice(equations: Sequence[Poly], limit: int) -> tuple[int, tuple[Poly, ...]] | None:

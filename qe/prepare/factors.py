@@ -3,9 +3,10 @@
 For p = s * f1^e1 * ... * fk^ek (s = +1 or -1, fi irreducible), with the signs that the fi can have:
 * a factor that is always positive, or nonzero with even exponent, is dropped; always negative: with a flip;
 * in p = 0 and p /= 0 every exponent becomes 1 and factors that are never zero are dropped;
+* p = 0 where 0 is the least value of p says that simpler polynomials vanish (``qe.prepare.quadratic``);
 * let E be the factors whose power fi^ei is never negative (after flips), O the others. Then
   p < 0  iff  (every E factor /= 0) and s*prod(O) < 0;   p <= 0  iff  (some E factor = 0) or s*prod(O) <= 0.
-The sum of the total degrees of the atoms never grows.
+The sum over the atoms of total degree times number of variables never grows.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ from qe.exact.ring import Poly
 from qe.formula.build import atom, conj, disj
 from qe.formula.syntax import FALSE, TRUE, Atom, Formula, Relation
 from qe.prepare.facts import Facts
+from qe.prepare.quadratic import vanishing
 
 _FACTORED_TERMS = 400  # above this many terms a polynomial is taken as one factor
 
@@ -86,5 +88,21 @@ def _reduce_equation(
         pieces = [atom(f, given.relation) for f in kept]
         return conj(pieces) if conjunctive else disj(pieces)
     if len(kept) == len(parts) and all(e == 1 for _, e in parts):
-        return given
+        return _at_minimum(given, conjunctive)
     return atom(prod(kept, start=given.poly.ring.constant(1)), given.relation)
+
+
+def _at_minimum(given: Atom, conjunctive: bool) -> Formula:
+    """The equations that say where a non-negative polynomial vanishes (dually, where it does not), if not larger."""
+    if conjunctive != (given.relation is Relation.EQ):
+        return given
+    zeros = vanishing(given.poly)
+    if not zeros or sum(len(z.variables) * z.total_degree for z in zeros) > weight(given.poly):
+        return given
+    pieces = [atom(z, given.relation) for z in zeros]
+    return conj(pieces) if conjunctive else disj(pieces)
+
+
+def weight(poly: Poly) -> int:
+    """The size of an atom that simplification does not increase: total degree times number of variables."""
+    return poly.total_degree * len(poly.variables)

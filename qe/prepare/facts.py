@@ -16,11 +16,10 @@ from functools import lru_cache
 
 from qe.exact.ring import Poly, Ring
 from qe.formula.syntax import Atom, Formula, Relation, RootAtom
-from qe.prepare.quadratic import minimum_of_quadratic
+from qe.prepare.quadratic import minimum
 from qe.prepare.ranges import EVERYTHING, Range, add, compare, meet, multiply, power, scale
 
 _ENCLOSED_TERMS = 24  # term count up to which ranges of the variables are propagated through a polynomial
-ZERO = Fraction(0)
 
 
 @lru_cache(maxsize=5_000)
@@ -42,21 +41,9 @@ def key_of(poly: Poly) -> tuple[Poly, int, int]:
 
 @lru_cache(maxsize=20_000)
 def inherent(key: Poly) -> Range:
-    """A range of the polynomial that holds at every real point.
-
-    Sums of monomials with even exponents and positive coefficients are >= 0 with value 0 at the
-    origin; quadratic polynomials bounded below have an exact rational minimum.
-    """
-    if key.total_degree % 2:
-        return EVERYTHING
-    if key.total_degree == 2:
-        low = minimum_of_quadratic(key)
-        if low is not None:
-            return Range(low, None, False, True)
-        return EVERYTHING
-    if all(c > 0 and all(k % 2 == 0 for k in exponents) for exponents, c in key.terms()):
-        return Range(ZERO, None, False, True)
-    return EVERYTHING
+    """A range of the polynomial that holds at every real point: above its global minimum, where that is easy."""
+    least = minimum(key)
+    return EVERYTHING if least is None else Range(least.value, None, False, True)
 
 
 def variable_of(key: Poly) -> int | None:

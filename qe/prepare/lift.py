@@ -6,6 +6,7 @@ step started from, by giving the eliminated variable a value. Values are exact.
 
 from __future__ import annotations
 
+import random
 from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
@@ -15,6 +16,8 @@ from qe.exact.algebraic import RealAlgebraic, real_roots
 from qe.exact.ring import Poly, Ring
 from qe.exact.sample import Point
 from qe.formula.syntax import And, Atom, Constant, Formula, Not, Or
+
+_NUDGES = 400  # each attempt moves half as far as the one before
 
 Value = Fraction | RealAlgebraic
 Assignment = Mapping[str, Value]
@@ -128,3 +131,22 @@ def root(value: Value, degree: int) -> Value:
     spread = line.from_terms({(degree * k,): int(c) for k, c in enumerate(minimal)})
     candidates = real_roots(spread.to_univariate(0))
     return simplest(next(r for r in candidates if r.sign() > 0 and r**degree == value))
+
+
+def nudge(variables: tuple[str, ...], body: Formula, start: Assignment) -> dict[str, Value]:
+    """A point near ``start`` where the body holds; ``start`` itself if it does.
+
+    For a body that is an open condition f and inequations p /= 0, with f true at ``start`` and no p the zero
+    polynomial in these variables, nearly every direction has such points as near as one likes. Raises ``Unable``
+    if none is found.
+    """
+    if holds_at(body, start):
+        return dict(start)
+    for k in range(1, _NUDGES):
+        direction = random.Random(k)
+        moved: dict[str, Value] = dict(start)
+        for name in variables:
+            moved[name] = Fraction(direction.randint(-64, 64), 2 ** (k + 5)) + start.get(name, Fraction(0))
+        if holds_at(body, moved):
+            return moved
+    raise Unable("no solution was found near a solution of the open part")

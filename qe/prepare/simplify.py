@@ -3,8 +3,8 @@
 A conjunction is simplified under its background facts: its own atoms become ranges of key polynomials,
 contradictions and implied atoms are found, and the remaining subformulas are simplified under the facts
 extended by these atoms. A disjunction is treated dually: its subformulas may assume the negations of its
-atoms. Equivalence: facts -> (formula <-> result). The sum of the total degrees over all atoms does not
-grow, and the result is a fixed point.
+atoms. Equivalence: facts -> (formula <-> result). The sum over all atoms of total degree times number of
+variables does not grow, and the result is a fixed point.
 """
 
 from __future__ import annotations

@@ -14,6 +14,7 @@ class StepKind(Enum):
     LINEAR = "linear equation solved"
     GUARDED_LINEAR = "linear equation solved under a guard"
     DEGREE_SHIFT = "degree shift"
+    GENERIC = "inequations that remove no interior"
     SCALING = "homogeneous scaling"
     GROEBNER = "Groebner basis of the equations"
     FACTOR_SPLIT = "case split on factors"

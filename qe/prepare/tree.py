@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from qe.errors import Unable
 from qe.formula.build import conj, disj, exists
 from qe.formula.syntax import FALSE, Formula
-from qe.prepare.lift import Assignment, Lift, Value, holds_at
+from qe.prepare.lift import Assignment, Lift, Value, holds_at, nudge
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,6 +49,25 @@ class Lifted:
     def lift(self, at: Assignment) -> dict[str, Value]:
         known = self.child.lift(at)
         return known | {self.rule.variable: self.rule.value(known)}
+
+
+@dataclass(frozen=True, slots=True)
+class Nudged:
+    """The child's formula, which left out inequations of ``body``; its solution is moved a little where they fail."""
+
+    variables: tuple[str, ...]
+    body: Formula
+    child: Node
+
+    @property
+    def formula(self) -> Formula:
+        return self.child.formula
+
+    def satisfied(self, at: Assignment) -> bool:
+        return self.child.satisfied(at)
+
+    def lift(self, at: Assignment) -> dict[str, Value]:
+        return nudge(self.variables, self.body, self.child.lift(at))
 
 
 @dataclass(frozen=True, slots=True)
@@ -93,7 +112,7 @@ class All:
         return values
 
 
-Node = Leaf | Lifted | Any | All
+Node = Leaf | Lifted | Nudged | Any | All
 NEVER = Leaf((), FALSE)
 
 
@@ -102,6 +121,6 @@ def leaves(node: Node) -> tuple[Leaf, ...]:
     match node:
         case Leaf():
             return (node,)
-        case Lifted(_, child):
+        case Lifted(_, child) | Nudged(_, _, child):
             return leaves(child)
     return tuple(leaf for child in node.children for leaf in leaves(child))

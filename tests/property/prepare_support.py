@@ -42,8 +42,8 @@ def named(ring: Ring, values: tuple[Fraction, ...]) -> dict[str, Fraction]:
 
 
 def weight(formula: Formula) -> int:
-    """The size measure of the simplifier: the sum of the total degrees of the atoms."""
-    return sum(found.poly.total_degree for found in atoms(formula))
+    """The size measure of the simplifier: total degree times number of variables, over the atoms."""
+    return sum(found.poly.total_degree * len(found.poly.variables) for found in atoms(formula))
 
 
 @st.composite

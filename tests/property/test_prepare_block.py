@@ -165,3 +165,34 @@ def scaled_images(known: dict[str, Fraction], name: str, other: str) -> list[Val
     for k in (1, 2, 3):
         images += [value / size**k, value / root(size, k)]
     return images
+
+
+@st.composite
+def open_bodies(draw: st.DrawFn) -> tuple[Formula, tuple[Fraction, ...]]:
+    """(body, a point): strict comparisons that hold there, and inequations that may fail there."""
+    point = draw(points)
+    strict = []
+    for p in draw(st.lists(interesting(), max_size=3)):
+        value = p.evaluate(point)
+        if value:
+            strict.append(atom(p, Relation.GT if value > 0 else Relation.LT))
+    others = draw(st.lists(interesting(), min_size=1, max_size=3))
+    apart = [atom(p - int(p.evaluate(point)), Relation.NE) for p in others]
+    return conj((*strict, *apart)), point
+
+
+@settings(max_examples=80, deadline=None)
+@given(open_bodies(), st.lists(points, max_size=4))
+def test_inequations_in_open_bodies(
+    problem: tuple[Formula, tuple[Fraction, ...]], elsewhere: list[tuple[Fraction, ...]]
+) -> None:
+    """What is left holds wherever the body does, and its solutions move to solutions of the body."""
+    body, point = problem
+    prepared = prepare(exists(("x", "y"), body), enabled={StepKind.GENERIC, StepKind.MINISCOPE})
+    if prepared.tree is None:
+        return
+    for values in (point, *elsewhere):
+        at = dict(zip(RING.names, values, strict=True))
+        assert prepared.tree.satisfied(at) or not holds_at(body, at)
+        if prepared.tree.satisfied(at):
+            assert holds_at(body, prepared.lift(at))

@@ -71,6 +71,8 @@ def test_formula_7_keeps_six_balls_in_six_variables() -> None:
         ("ex x, y. (x*y = 0 and x = 1 and a > y)", "a > 0"),
         ("ex y. (x^2 + y = 0 and x > 0 and (y > 5 or y < -4))", "x > 2"),
         ("y > 0 and ex x. (x*y = 1 and x < 2)", "2*y > 1"),
+        ("ex x. (a*x^3 + b*x + c /= 0)", "a /= 0 or b /= 0 or c /= 0"),
+        ("ex x, y. (a*x*y + b*y^2 /= 0 and x - y /= b)", "a /= 0 or b /= 0"),
         ("ex x, y, z. (x + y + z = 0 and x*y + y*z + z*x = 0 and x*y*z = 1)", "false"),
     ],
 )
@@ -151,3 +153,9 @@ def test_closed_formulas_without_quantifier() -> None:
     assert prepare(TRUE).formula == TRUE
     assert prepare(FALSE).formula == FALSE
     assert prepare(read("x^2 < 0")).formula == FALSE
+
+
+def test_inequations_stay_beside_closed_conditions() -> None:
+    """x^2 <= 0 and x /= 0 is false: the rule needs an open body."""
+    assert prepare(read("ex x. (a*x^2 <= 0 and x /= 0)"), enabled={StepKind.GENERIC}).steps == ()
+    assert prepare(read("ex x. (x^3 = a and x /= 0)"), enabled={StepKind.GENERIC}).steps == ()

@@ -21,7 +21,10 @@ CASES = [
     # sign-definite polynomials
     ("x^2 + y^2 + 1 > 0", "true"),
     ("x^4 + y^2 < 0", "false"),
-    ("x^2 + y^2 <= 0", "x^2 + y^2 = 0"),
+    ("x^2 + y^2 <= 0", "x = 0 and y = 0"),
+    ("x^2 + y^2 > 0 or z > 1", "z > 1 or x /= 0 or y /= 0"),
+    ("x^2 + y^2 - 2*y + 1 = 0 and x /= 0", "false"),
+    ("x^4 + y^2*z^6 = 0", "x = 0 and y*z = 0"),
     ("x^2 - x + 1 > 0", "true"),
     ("x^2 + 2*x*y + 2*y^2 - 2*y + 1 < 0", "false"),
     # multiplicities and factors
