@@ -27,6 +27,7 @@ from qe.options import Budget, Method, Options
 from qe.plan.choice import Choice, choose
 from qe.plan.order import brown_order
 from qe.prepare import prepare
+from qe.prepare.nonzero import only_nonzero
 from qe.prepare.simplify import simplify
 from qe.solution.construct import construct
 from qe.solution.extended import extended_formula
@@ -34,13 +35,13 @@ from qe.solution.walk import deciding_point
 
 Values = dict[str, Fraction | RealAlgebraic]
 
-FIRST_SHARE = 0.5
+FIRST_SHARE = 0.4
 """The share of the remaining time that the first method gets while another one could take over."""
 
 SHORTEN_ABOVE = 8
 """Answers of substitution with more atoms than this are shortened by decomposition of parameter space."""
 
-PROBE_ABOVE, PROBE_SECONDS, PROBE_SHARE, PROBE_ATOMS = 3, 0.5, 0.05, 30
+PROBE_ABOVE, PROBE_SECONDS, PROBE_SHARE, PROBE_ATOMS = 3, 1.0, 0.1, 30
 """Substitution is tried for this long before a decomposition in more variables, and taken if its answer is small."""
 
 SHORTEN_VARIABLES = 3
@@ -185,6 +186,11 @@ class _Run:
         With ``universal`` the block was the negation of a universal one: decomposition then works on that directly,
         so that its formula and its certificate are about the question that was asked.
         """
+        if free_variables(exists(variables, body)) and self.options.method is Method.AUTO:
+            settled = only_nonzero(variables, body)
+            if settled is not None:
+                self.note("plan", f"{', '.join(variables)}: only asked to be no root")
+                return simplify(settled), None
         plan = self._plan(variables, body)
         self.note("plan", f"{plan.methods[0].value} first for {', '.join(variables)}: {plan.reason}")
         if plan.methods[0] is Method.CAD and self._allows(Method.VS) and len(free_variables(body)) > PROBE_ABOVE:
