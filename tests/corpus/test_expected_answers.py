@@ -72,7 +72,7 @@ def points(problem: Problem, count: int) -> list[dict[str, Fraction]]:
 @pytest.mark.parametrize("problem", [p for p in problems() if p.id not in BEYOND_REFERENCE], ids=lambda p: p.id)
 def test_expected_answer_holds_at_points_by_the_reference(problem: Problem) -> None:
     formula, expected = read(problem.formula), read(problem.expected)
-    budget = Budget(3.0)
+    budget = Budget(60.0)  # a bound on blunders, not a measurement: the machine may be busy
     for point in points(problem, 12 if free_variables(formula) else 1):
         claimed = holds_at(expected, point) if free_variables(expected) else expected == TRUE
         assert reference.decide(at_point(formula, point), budget=budget) is claimed, point
@@ -86,4 +86,4 @@ def test_expected_answer_holds_at_points_by_z3(problem: Problem) -> None:
     formula, expected = read(problem.formula), read(problem.expected)
     for point in points(problem, 5 if free_variables(formula) else 1):
         claimed = holds_at(expected, point) if free_variables(expected) else expected == TRUE
-        assert decide(at_point(formula, point), seconds=4) is claimed, point
+        assert decide(at_point(formula, point), seconds=30) is claimed, point
