@@ -8,7 +8,7 @@ from qe.formula.syntax import And, Atom, Formula, Or, Relation
 from qe.prepare.linear import conjuncts
 from qe.prepare.step import StepKind
 from qe.prepare.tree import Node, Nudged
-from qe.prepare.workshop import Recur, Workshop
+from qe.prepare.workshop import Recur, Workshop, either
 
 
 def drop_inequations(variables: tuple[str, ...], body: Formula, shop: Workshop, recur: Recur) -> Node | None:
@@ -22,18 +22,38 @@ def drop_inequations(variables: tuple[str, ...], body: Formula, shop: Workshop, 
         return None
     removed: list[Atom] = []
     others: list[Formula] = []
+    closed: list[Formula] = []
     for part in conjuncts(body):
         if isinstance(part, Atom) and part.relation is Relation.NE and _mentions(part.poly, variables):
             removed.append(part)
-        elif is_open(part, variables):
-            others.append(part)
         else:
-            return None
+            (others if is_open(part, variables) else closed).append(part)
     if not removed:
         return None
+    if closed:
+        return _boundary_apart(variables, body, closed, shop, recur)
     shop.note(StepKind.GENERIC, f"{len(removed)} inequations")
     somewhere = [disj(atom(c, Relation.NE) for c in coefficients(p.poly, variables)) for p in removed]
     return Nudged(variables, body, recur(variables, conj((*others, *somewhere)), shop))
+
+
+def _boundary_apart(
+    variables: tuple[str, ...], body: Formula, closed: list[Formula], shop: Workshop, recur: Recur
+) -> Node | None:
+    """g >= 0 iff g > 0 or g = 0: where at most two weak inequalities of low degree in the only variable are in the way.
+
+    In the first case the body is open, in the second the variable can be solved for. Lifts to itself.
+    """
+    first = closed[0]
+    if len(closed) > 2 or len(variables) > 1 or not isinstance(first, Atom) or first.relation is Relation.EQ:
+        return None
+    if first.poly.degree(first.poly.ring.index[variables[0]]) > 2 or not shop.may_split(StepKind.GENERIC, 2):
+        return None
+    rest = [p for p in conjuncts(body) if p != first]
+    strict = Relation.GT if first.relation is Relation.GE else Relation.LT
+    shop.note(StepKind.GENERIC, "boundary apart", 2)
+    cases = [atom(first.poly, strict), atom(first.poly, Relation.EQ)]
+    return either([recur(variables, conj((case, *rest)), shop) for case in cases])
 
 
 def _mentions(poly: Poly, variables: tuple[str, ...]) -> bool:

@@ -8,7 +8,7 @@ import pytest
 
 from qe.errors import BudgetExceeded, Unable
 from qe.exact.algebraic import RealAlgebraic
-from qe.formula.syntax import FALSE, TRUE, And, Exists, Relation
+from qe.formula.syntax import FALSE, TRUE, And, Atom, Exists, Relation
 from qe.formula.traverse import atoms, free_variables, is_quantifier_free
 from qe.io.text import read
 from qe.options import Budget
@@ -156,6 +156,14 @@ def test_closed_formulas_without_quantifier() -> None:
 
 
 def test_inequations_stay_beside_closed_conditions() -> None:
-    """x^2 <= 0 and x /= 0 is false: the rule needs an open body."""
-    assert prepare(read("ex x. (a*x^2 <= 0 and x /= 0)"), enabled={StepKind.GENERIC}).steps == ()
+    """x^2 <= 0 and x /= 0 is false: the rule needs an open body; the boundary is a case of its own."""
+    assert prepare(read("ex x. (x^2 <= 0 and x /= 0)"), enabled={StepKind.GENERIC}).formula != TRUE
+    assert prepare(read("ex x. (a*x^3 <= 0 and x /= 0)"), enabled={StepKind.GENERIC}).steps == ()
     assert prepare(read("ex x. (x^3 = a and x /= 0)"), enabled={StepKind.GENERIC}).steps == ()
+
+
+def test_weak_bounds_are_split_to_get_rid_of_inequations() -> None:
+    prepared = prepare(read("ex x. (x >= a and b*x + c /= 0 and 1 - x >= a)"))
+    assert any(s.kind is StepKind.GENERIC for s in prepared.steps)
+    left = [a for a in atoms(prepared.formula) if isinstance(a, Atom) and a.relation is Relation.NE]
+    assert left and all("x" not in {a.poly.ring.names[i] for i in a.poly.variables} for a in left)
