@@ -1,0 +1,118 @@
+"""The exact layer: field laws and order of real algebraic numbers, root isolation, signs at algebraic points."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from itertools import pairwise
+
+from flint import fmpq, fmpz_poly
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from qe.exact.algebraic import RealAlgebraic, real_roots
+from qe.exact.fibre_stack import isolate_over
+from qe.exact.isolate import simplest_between
+from qe.exact.ring import Ring
+from qe.exact.sample import Point
+from qe.exact.sturm import count_real_roots
+
+coefficients = st.lists(st.integers(-9, 9), min_size=2, max_size=5)
+rationals = st.fractions(min_value=-6, max_value=6, max_denominator=7)
+
+
+@st.composite
+def numbers(draw: st.DrawFn) -> RealAlgebraic:
+    """A real root of a small polynomial, or a rational number."""
+    roots = real_roots(fmpz_poly(draw(coefficients)) or fmpz_poly([0, 1]))
+    return draw(st.sampled_from(roots)) if roots else RealAlgebraic.rational(draw(rationals))
+
+
+@settings(max_examples=40)
+@given(numbers(), numbers(), numbers())
+def test_field_laws(a: RealAlgebraic, b: RealAlgebraic, c: RealAlgebraic) -> None:
+    assume(a.degree * b.degree * c.degree <= 12)
+    assert a + b == b + a and a * b == b * a
+    assert (a + b) + c == a + (b + c)
+    assert a * (b + c) == a * b + a * c
+    assert a - a == 0 and a + (-a) == 0
+    if b != 0:
+        assert (a / b) * b == a
+
+
+@settings(max_examples=60)
+@given(numbers(), numbers(), rationals)
+def test_order(a: RealAlgebraic, b: RealAlgebraic, q: Fraction) -> None:
+    assert (a < b) + (a == b) + (b < a) == 1
+    assert (a < b) == ((b - a).sign() > 0)
+    assert (a == q) == (a.is_rational and a.as_fraction() == q)
+    low, high = a.interval(40)
+    assert low <= a <= high
+    if a == b:
+        assert hash(a) == hash(b)
+
+
+@settings(max_examples=150)
+@given(st.lists(st.integers(-30, 30), min_size=2, max_size=9))
+def test_as_many_roots_as_sturm_counts(c: list[int]) -> None:
+    p = fmpz_poly(c)
+    assume(p.degree() >= 1)
+    roots = real_roots(p)
+    assert len(roots) == count_real_roots(p)
+    assert all(x < y for x, y in pairwise(roots))
+    for r in roots:  # the minimal polynomial divides p
+        assert p.gcd(r.poly).degree() == r.poly.degree()
+
+
+@given(rationals, rationals)
+def test_simplest_rational_between(a: Fraction, b: Fraction) -> None:
+    assume(a < b)
+    found = simplest_between(fmpq(a.numerator, a.denominator), fmpq(b.numerator, b.denominator))
+    value = Fraction(int(found.p), int(found.q))
+    assert a < value < b
+    for q in range(1, value.denominator):
+        assert not any(a < Fraction(p, q) < b for p in range(int(a * q) - 1, int(b * q) + 2))
+
+
+polys = st.dictionaries(
+    st.tuples(st.integers(0, 2), st.integers(0, 2), st.integers(0, 2)), st.integers(-5, 5), min_size=1, max_size=5
+)
+
+
+@settings(max_examples=60)
+@given(numbers(), numbers(), rationals, polys)
+def test_signs_at_algebraic_points(a: RealAlgebraic, b: RealAlgebraic, q: Fraction, terms: dict) -> None:
+    assume(a.degree <= 3 and b.degree <= 2)
+    ring = Ring.of(("x", "y", "z"))
+    f = ring.from_terms(terms)
+    exact = RealAlgebraic.rational(0)
+    for (i, j, k), c in terms.items():
+        exact = exact + c * (a**i) * (b**j) * RealAlgebraic.rational(q**k)
+    assert Point.of(ring, [a, b, q]).sign(f) == exact.sign()
+
+
+@settings(max_examples=60)
+@given(numbers(), polys, polys)
+def test_stacks_over_algebraic_points(a: RealAlgebraic, f_terms: dict, g_terms: dict) -> None:
+    """Sections are roots, sector samples lie between them, and signs change only there."""
+    assume(a.degree <= 3)
+    ring = Ring.of(("x", "y"))
+    polys = []
+    for terms in (f_terms, g_terms):
+        flat: dict[tuple[int, int], int] = {}
+        for (i, j, _), c in terms.items():
+            flat[i, j] = flat.get((i, j), 0) + c
+        polys.append(ring.from_terms(flat))
+    assume(all(p.degree(1) for p in polys))
+    point = Point.of(ring, [a])
+    found = isolate_over(point, tuple(polys))
+    samples = [RealAlgebraic.rational(q) for q in found.sectors]
+    for k, section in enumerate(found.sections):
+        above = point.extend(section.value)
+        number = above.number(1)
+        value = number if isinstance(number, RealAlgebraic) else RealAlgebraic.rational(number)
+        assert samples[k] < value < samples[k + 1]
+        for j, p in enumerate(polys):
+            assert (above.sign(p) == 0) == (j in section.members or j in found.nullified)
+    for j, p in enumerate(polys):
+        for k, q in enumerate(found.sectors):
+            assert point.extend(q).sign(p) == found.signs[j][k]
