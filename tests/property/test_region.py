@@ -15,7 +15,7 @@ from tests.strategies import formulas, points
 
 
 def _located(region: Region, value: Fraction) -> bool:
-    """Membership of a point of the line read off the stack: the cell between the neighbouring sections, or a section."""
+    """Membership of a point of the line read off the stack: a section, or the cell between neighbouring sections."""
     place = root_place(region.table)
     stack = place.cell.stack
     if stack is None:
