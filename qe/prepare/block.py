@@ -13,12 +13,14 @@ from qe.prepare.rules import guarded_linear_equation, independent_parts, linear_
 from qe.prepare.scaling import fix_scale
 from qe.prepare.simplify import simplify_under
 from qe.prepare.step import StepKind
+from qe.prepare.translation import fix_origin
 from qe.prepare.tree import NEVER, Leaf, Node
 from qe.prepare.workshop import Rule, Workshop
 
 RULES: tuple[Rule, ...] = (
     independent_parts,
     linear_equation,
+    fix_origin,
     drop_inequations,
     split_squares,
     groebner_equations,

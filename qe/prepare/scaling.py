@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from fractions import Fraction
 
 from qe.exact.ring import Poly
 from qe.formula.build import atom
 from qe.formula.syntax import Atom, Formula, RootAtom
 from qe.formula.traverse import atoms
+from qe.prepare.kernel import kernel_vector, occurring
 from qe.prepare.lift import Solve
 from qe.prepare.linear import conjuncts
 from qe.prepare.rewrite import bound_names, rewrite
@@ -83,44 +84,11 @@ def find_weights(body: Formula, names: frozenset[str]) -> dict[int, Fraction] | 
 
     One row per pair of terms of a polynomial: the weights annihilate the differences of exponents.
     """
-    polys = list(dict.fromkeys(found.poly for found in atoms(body)))
-    if not polys:
-        return None
-    ring = polys[0].ring
-    columns = [i for i in range(ring.size) if ring.names[i] in names and any(p.degree(i) for p in polys)]
-    rows = _echelon(polys, columns)
-    if rows is None:
-        return None
-    pivots = {next(k for k, v in enumerate(row) if v): row for row in rows}
-    free = [k for k in range(len(columns)) if k not in pivots]
-    if not free:
-        return None
-    solution = [Fraction(0)] * len(columns)
-    for k in free:
-        solution[k] = Fraction(1)
-    for k in sorted(pivots, reverse=True):
-        row = pivots[k]
-        solution[k] = -sum((row[j] * solution[j] for j in range(k + 1, len(columns))), Fraction(0)) / row[k]
-    return {columns[k]: w for k, w in enumerate(solution)}
+    polys, columns = occurring(body, names)
+    return kernel_vector(columns, (row for poly in polys for row in _differences(poly, columns)))
 
 
-def _echelon(polys: Sequence[Poly], columns: Sequence[int]) -> list[list[Fraction]] | None:
-    """The differences of exponent vectors in row echelon form; None as soon as they have full rank."""
-    rows: list[list[Fraction]] = []
-    for poly in polys:
-        first: tuple[int, ...] | None = None
-        for exponents, _ in poly.terms():
-            if first is None:
-                first = exponents
-                continue
-            row = [Fraction(exponents[i] - first[i]) for i in columns]
-            for other in rows:
-                k = next(j for j, v in enumerate(other) if v)
-                if row[k]:
-                    ratio = row[k] / other[k]
-                    row = [a - ratio * b for a, b in zip(row, other, strict=True)]
-            if any(row):
-                rows.append(row)
-                if len(rows) == len(columns):
-                    return None
-    return rows
+def _differences(poly: Poly, columns: Sequence[int]) -> Iterator[list[Fraction]]:
+    exponents = [e for e, _ in poly.terms()]
+    for other in exponents[1:]:
+        yield [Fraction(other[i] - exponents[0][i]) for i in columns]

@@ -15,6 +15,7 @@ class StepKind(Enum):
     GUARDED_LINEAR = "linear equation solved under a guard"
     DEGREE_SHIFT = "degree shift"
     GENERIC = "inequations that remove no interior"
+    TRANSLATION = "translation of the origin"
     SCALING = "homogeneous scaling"
     GROEBNER = "Groebner basis of the equations"
     FACTOR_SPLIT = "case split on factors"

@@ -33,7 +33,8 @@ STEP_SETS = [
     frozenset({StepKind.LINEAR, StepKind.GUARDED_LINEAR}),
     frozenset({StepKind.LINEAR, StepKind.GUARDED_LINEAR, StepKind.SIMPLIFY, StepKind.MINISCOPE}),
     frozenset({StepKind.GROEBNER, StepKind.FACTOR_SPLIT, StepKind.SUM_OF_SQUARES}),
-    ALL_STEPS - {StepKind.DEGREE_SHIFT, StepKind.SCALING},  # these two change values: their own tests are below
+    # these change values: their own tests are below
+    ALL_STEPS - {StepKind.DEGREE_SHIFT, StepKind.SCALING, StepKind.TRANSLATION},
 ]
 
 
@@ -194,5 +195,31 @@ def test_inequations_in_open_bodies(
     for values in (point, *elsewhere):
         at = dict(zip(RING.names, values, strict=True))
         assert prepared.tree.satisfied(at) or not holds_at(body, at)
+        if prepared.tree.satisfied(at):
+            assert holds_at(body, prepared.lift(at))
+
+
+@settings(max_examples=60, deadline=None)
+@given(solvable(), st.integers(-2, 2), st.lists(points, max_size=4))
+def test_translation(
+    problem: tuple[Formula, tuple[Fraction, ...]], slope: int, elsewhere: list[tuple[Fraction, ...]]
+) -> None:
+    """f(a, b, y - s*x) is the same along (1, s): with x moved to 0 it holds at y - s*x, and solutions lift."""
+    template, _ = problem
+    x, y = RING.index["x"], RING.index["y"]
+
+    def merge(found: Atom) -> Formula:
+        image = found.poly.compose({x: RING.constant(1), y: RING.gen(y) - slope * RING.gen(x)})
+        return atom(image, found.relation)
+
+    body = rewrite(template, merge, ())
+    prepared = prepare(exists(("x", "y"), body), enabled={StepKind.TRANSLATION})
+    if prepared.tree is None or not prepared.steps:
+        return
+    for values in elsewhere:
+        at = dict(zip(RING.names, values, strict=True))
+        images = [at | {"x": Fraction(0), "y": at["y"] - slope * at["x"]}]
+        images += [at | {"y": Fraction(0), "x": at["x"] - at["y"] / slope}] if slope else []
+        assert any(prepared.tree.satisfied(image) == holds_at(body, at) for image in images)
         if prepared.tree.satisfied(at):
             assert holds_at(body, prepared.lift(at))

@@ -167,3 +167,10 @@ def test_weak_bounds_are_split_to_get_rid_of_inequations() -> None:
     assert any(s.kind is StepKind.GENERIC for s in prepared.steps)
     left = [a for a in atoms(prepared.formula) if isinstance(a, Atom) and a.relation is Relation.NE]
     assert left and all("x" not in {a.poly.ring.names[i] for i in a.poly.variables} for a in left)
+
+
+def test_differences_lose_a_variable() -> None:
+    prepared = prepare(read("ex x, y, z. ((x - y)^2 + (y - z)^2 < a and x - z > b)"), enabled={StepKind.TRANSLATION})
+    assert [s.kind for s in prepared.steps] == [StepKind.TRANSLATION]
+    assert isinstance(prepared.formula, Exists) and len(prepared.formula.variables) == 2
+    assert prepare(read("ex x, y. (x - y > b and x*y > 1)"), enabled={StepKind.TRANSLATION}).steps == ()
