@@ -7,14 +7,14 @@ b^2 - 4*c >= 0
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING, Any
+
 from qe.api import (
     Answer,
     Certificate,
     Guarantee,
-    Optimum,
     Region,
     Status,
-    Verdict,
     decide,
     eliminate,
     equivalent,
@@ -39,7 +39,25 @@ from qe.exact.algebraic import RealAlgebraic
 from qe.io.sympy import Exists, ForAll
 from qe.options import Method
 
+if TYPE_CHECKING:
+    from qe.certify.verdict import Verdict
+    from qe.solution.optimum import Optimum
+
 __version__ = "0.1.0"
+
+
+def __getattr__(name: str) -> Any:
+    """The result types of ``verify`` and ``minimize``, loaded with the modules that make them (PEP 562)."""
+    if name == "Verdict":
+        from qe.certify.verdict import Verdict
+
+        return Verdict
+    if name == "Optimum":
+        from qe.solution.optimum import Optimum
+
+        return Optimum
+    raise AttributeError(f"module 'qe' has no attribute {name!r}")
+
 
 __all__ = [
     "Answer",

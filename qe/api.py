@@ -4,11 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from fractions import Fraction
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from qe import pipeline
-from qe.certify.verdict import Verdict
-from qe.certify.verify import verify as _verify
 from qe.errors import InputError, InternalError, Unable
 from qe.evidence.answer import Answer, Guarantee, Status
 from qe.evidence.certificate import Certificate, Kind
@@ -19,8 +17,11 @@ from qe.formula.syntax import Constant, Formula
 from qe.formula.traverse import free_variables, is_quantifier_free, polynomials, ring_of
 from qe.options import Budget, Method, Options
 from qe.progress import Event, silent
-from qe.solution.optimum import Optimum
 from qe.solution.region import Region
+
+if TYPE_CHECKING:  # the checker and the optimiser are loaded where they are used
+    from qe.certify.verdict import Verdict
+    from qe.solution.optimum import Optimum
 
 Progress = Callable[[Event], None]
 AnyFormula = Any
@@ -100,7 +101,7 @@ def _answer(formula: Formula, options: Options, timeout: float | None, check: bo
     certificate = found.evidence if isinstance(found.evidence, Certificate) else None
     guarantee = Guarantee.DERIVED
     if certificate is not None and (check or certificate.kind is Kind.WITNESS):
-        verdict = _verify(certificate)
+        verdict = verify(certificate)
         if not verdict.accepted:
             raise InternalError(f"the certificate of an answer was rejected at {verdict.step}: {verdict.reason}")
         guarantee = Guarantee.CHECKED
@@ -231,17 +232,17 @@ def _objective(given: AnyFormula) -> tuple[Poly, Fraction]:
 
 def verify(certificate: Certificate) -> Verdict:
     """Whether separate code accepts the certificate; see ``qe.certify``."""
-    return _verify(certificate)
+    from qe.certify.verify import verify as check
+
+    return check(certificate)
 
 
 __all__ = [
     "Answer",
     "Certificate",
     "Guarantee",
-    "Optimum",
     "Region",
     "Status",
-    "Verdict",
     "decide",
     "eliminate",
     "equivalent",
