@@ -7,13 +7,13 @@ b^2 - 4*c >= 0
 
 from __future__ import annotations
 
+from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from qe.api import (
     Answer,
     Certificate,
     Guarantee,
-    Region,
     Status,
     decide,
     eliminate,
@@ -36,26 +36,31 @@ from qe.errors import (
     Unable,
 )
 from qe.exact.algebraic import RealAlgebraic
-from qe.io.sympy import Exists, ForAll
 from qe.options import Method
 
 if TYPE_CHECKING:
     from qe.certify.verdict import Verdict
+    from qe.io.sympy import Exists, ForAll
     from qe.solution.optimum import Optimum
+    from qe.solution.region import Region
 
 __version__ = "0.1.0"
 
 
+_LATER = {
+    "Exists": "qe.io.sympy",
+    "ForAll": "qe.io.sympy",
+    "Optimum": "qe.solution.optimum",
+    "Region": "qe.solution.region",
+    "Verdict": "qe.certify.verdict",
+}
+"""Public names whose modules are loaded at first use, to keep ``import qe`` short."""
+
+
 def __getattr__(name: str) -> Any:
-    """The result types of ``verify`` and ``minimize``, loaded with the modules that make them (PEP 562)."""
-    if name == "Verdict":
-        from qe.certify.verdict import Verdict
-
-        return Verdict
-    if name == "Optimum":
-        from qe.solution.optimum import Optimum
-
-        return Optimum
+    """A public name from a module that is loaded at its first use (PEP 562)."""
+    if name in _LATER:
+        return getattr(import_module(_LATER[name]), name)
     raise AttributeError(f"module 'qe' has no attribute {name!r}")
 
 

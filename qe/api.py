@@ -17,11 +17,11 @@ from qe.formula.syntax import Constant, Formula
 from qe.formula.traverse import free_variables, is_quantifier_free, polynomials, ring_of
 from qe.options import Budget, Method, Options
 from qe.progress import Event, silent
-from qe.solution.region import Region
 
 if TYPE_CHECKING:  # the checker and the optimiser are loaded where they are used
     from qe.certify.verdict import Verdict
     from qe.solution.optimum import Optimum
+    from qe.solution.region import Region
 
 Progress = Callable[[Event], None]
 AnyFormula = Any
@@ -163,6 +163,8 @@ def region(
     budget = Budget(timeout, listener=progress)
     if not is_quantifier_free(given):
         given = pipeline.solve(given, Options(), budget).formula
+    from qe.solution.region import Region
+
     return Region.of(given, None if order is None else tuple(order), budget=budget)
 
 
@@ -241,7 +243,6 @@ __all__ = [
     "Answer",
     "Certificate",
     "Guarantee",
-    "Region",
     "Status",
     "decide",
     "eliminate",
