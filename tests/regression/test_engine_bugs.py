@@ -1,0 +1,31 @@
+"""Bugs of this project's own engine that were found by comparison with the oracles; named by symptom."""
+
+from __future__ import annotations
+
+import pytest
+
+from qe import eliminate
+from qe.exact.ring import Ring
+from qe.formula.build import convert
+from qe.formula.evaluate import holds_at
+from qe.formula.traverse import atoms
+from qe.io.text import read
+from qe.options import Budget, Projection
+from tests.differential.methods import by_cad
+
+
+@pytest.mark.parametrize("projection", list(Projection), ids=lambda p: p.value)
+def test_root_isolation_over_a_quintic_point_ends(projection: Projection) -> None:
+    """The tolerance asked of the root balls was out of reach at every precision, so the precision grew for ever."""
+    formula = read("all x. not (3*a*x^2 + 2*a*x + 3*b - 3 > 0 and b*x - 2*x^2 <= 0 and a*b^2 - a*b*x - 1 = 0)")
+    answer = by_cad(projection)(formula, Budget(30))
+    ring = Ring.of(("a", "b"))
+    for a, b, expected in ((0, 0, True), (1, 1, True), (1, 2, False), (2, -1, True), (-1, -1, True), (1, -1, True)):
+        assert holds_at(convert(answer, ring), {"a": a, "b": b}) is expected, (a, b)
+
+
+def test_answer_has_one_ring() -> None:
+    """A conjunct that did not need elimination kept its large ring beside the decomposed part."""
+    found = eliminate("ex b, c. m > 0 and 1 + b > c and b + c > 1 and c + 1 > b and b*c + c + b = m*(1 + b + c)^2")
+    assert found.formula is not None
+    assert len({a.poly.ring for a in atoms(found.formula)}) == 1
