@@ -70,6 +70,7 @@ def test_bound_variables_are_not_confused_with_free_ones(
                 assert holds(part.body, point | {"x": values[2]}) if isinstance(part, Exists) else holds(part, point)
 
 
+@settings(max_examples=500, deadline=None)
 @given(ranges, ranges, rationals, rationals, st.integers(1, 4))
 def test_range_arithmetic_encloses(first, second, u, v, exponent) -> None:  # type: ignore[no-untyped-def]
     a, b = reduce(meet, first, EVERYTHING), reduce(meet, second, EVERYTHING)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 from qe.formula.syntax import FALSE, TRUE
+from qe.formula.traverse import atoms
 from qe.io.text import read
 from qe.prepare.simplify import simplify
 
@@ -43,6 +44,7 @@ CASES = [
     ("x > 1 and (x > 0 or y > 0)", "x > 1"),
     ("x > 1 and (x < 0 or y > 0)", "x > 1 and y > 0"),
     ("x > 0 and y > 0 and x + y > 0", "x > 0 and y > 0"),
+    ("x >= 0 and y >= 0 and x*y > 0", "x > 0 and y > 0"),  # such a product may be zero
     ("x > 0 and ex y. (x*y > 0 and x > -1)", "x > 0 and ex y. y > 0"),
     # a bound variable is not the free one of the same name
     ("x > 1 and ex x. (x > 0 and y*x > 1)", "x > 1 and ex x. (x > 0 and x*y > 1)"),
@@ -69,3 +71,19 @@ def test_assumptions_decide() -> None:
 
 def test_contradictory_assumptions_allow_everything() -> None:
     assert simplify(read("x > y"), read("x > 0 and x < 0")) == TRUE
+
+
+@pytest.mark.parametrize(
+    "kept",
+    [
+        "x > 1 and ex x. (x > 0 and x*y > 1)",  # the bound x is not the free one
+        "x > 1 and ex x. (x < 0 and x + y > 0)",
+        "x >= 0 and x + y >= 0 and y < 3",
+        "x^2 - 2*x*y + y^2 + z <= 0",
+    ],
+)
+def test_nothing_to_do(kept: str) -> None:
+    given = read(kept)
+    result = simplify(given)
+    assert len(list(atoms(result))) == len(list(atoms(given)))
+    assert str(result) == str(given)
