@@ -340,10 +340,11 @@ class _Run:
                 "cells": first.cells,
                 "stacks": first.stacks,
                 "nullified": first.nullified,
+                "equational constraint": first.restricted,
                 "seconds": round(time.perf_counter() - start, 6),
             },
         )
-        if self.certificate is None and formula == self.whole:
+        if self.certificate is None and formula == self.whole and not first.restricted:
             self.certificate = Certificate.cells(proof, convert(answer, Ring.of(order)))
         # back into the ring of the formula it came from: it is joined with parts of that formula
         ring = ring_of(formula)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from qe.eliminate.cad.equational import constraint_factors
 from qe.eliminate.cad.lift import Lifter
 from qe.eliminate.cad.matrix import compile_matrix, strengthened
 from qe.eliminate.cad.projection import factor_lists
@@ -19,13 +20,17 @@ from qe.options import Budget, Projection
 
 @dataclass(frozen=True, slots=True)
 class Decomposition:
-    """The table and what it cost."""
+    """The table and what it cost.
+
+    ``restricted``: an equational constraint restricted the first projection, which the checker has no theorem for.
+    """
 
     table: CellTable
     cells: int
     stacks: int
     factors: int
     nullified: bool
+    restricted: bool
 
 
 def decompose(
@@ -62,10 +67,16 @@ def _attempt(
     *,
     nullified: bool,
 ) -> Decomposition:
-    strong = strengthened(matrix)
-    levels = factor_lists(polynomials(strong), len(order), projection, budget, separated)
+    top = len(order) - 1
+    constraint = None
+    if projection is Projection.BROWN_MCCALLUM and quantifiers[top]:
+        constraint = constraint_factors(matrix, top)
+    # under a constraint the discriminants that strengthening brings in are not projection factors anyway
+    strong = matrix if constraint else strengthened(matrix)
+    levels = factor_lists(polynomials(strong), len(order), projection, budget, separated, constraint)
     places = {f: (k, j) for k, level in enumerate(levels) for j, f in enumerate(level)}
     lifter = Lifter(levels, quantifiers, projection, budget)
     root = lifter.run(Point(ring), compile_matrix(strong, places))
     table = CellTable(order, quantifiers, matrix, projection, levels, root)
-    return Decomposition(table, lifter.cells, lifter.stacks, sum(map(len, levels)), nullified)
+    restricted = constraint is not None and set(levels[top]) != constraint
+    return Decomposition(table, lifter.cells, lifter.stacks, sum(map(len, levels)), nullified, restricted)

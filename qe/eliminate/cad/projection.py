@@ -19,9 +19,18 @@ from qe.options import Budget, Projection
 Levels = tuple[tuple[Poly, ...], ...]
 
 
-def project(polys: Iterable[Poly], variable: int, operator: Projection) -> Iterator[Poly]:
-    """The (unfactored) projection of a set of irreducible polynomials with main variable ``variable``."""
+def project(
+    polys: Iterable[Poly], variable: int, operator: Projection, constraint: frozenset[Poly] | None = None
+) -> Iterator[Poly]:
+    """The (unfactored) projection of a set of irreducible polynomials with main variable ``variable``.
+
+    With the factors of an equational ``constraint`` it is restricted to them and their resultants with the others.
+    """
     listing = list(polys)
+    if constraint is not None:
+        for e in constraint:
+            yield from (e.resultant(g, variable) for g in listing if g not in constraint)
+        listing = [f for f in listing if f in constraint]
     for f in listing:
         coefficients = f.coefficients(variable)
         yield coefficients[-1]
@@ -38,11 +47,17 @@ def project(polys: Iterable[Poly], variable: int, operator: Projection) -> Itera
 
 
 def factor_lists(
-    polys: Iterable[Poly], size: int, operator: Projection, budget: Budget, separated: frozenset[int] = frozenset()
+    polys: Iterable[Poly],
+    size: int,
+    operator: Projection,
+    budget: Budget,
+    separated: frozenset[int] = frozenset(),
+    constraint: frozenset[Poly] | None = None,
 ) -> Levels:
     """The irreducible factors of ``polys``, closed under projection down to level 0, one list per level.
 
     At the levels in ``separated`` all derivatives of the factors with respect to the main variable join.
+    ``constraint`` restricts the first projection (see ``equational``).
     """
     levels: list[dict[Poly, None]] = [{} for _ in range(size)]
 
@@ -61,7 +76,7 @@ def factor_lists(
                     insert(f)
         if k == 0:
             break
-        for p in project(levels[k], k, operator):
+        for p in project(levels[k], k, operator, constraint if k == size - 1 else None):
             budget.check("project", size - k, size)
             insert(p)
     return tuple(tuple(sorted(level, key=_simplicity)) for level in levels)

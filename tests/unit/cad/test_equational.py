@@ -1,0 +1,81 @@
+"""Equational constraints: which equations count, what they save, and that answers stay the same."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import qe
+from qe.eliminate.cad.decompose import decompose
+from qe.eliminate.cad.equational import constraint_factors
+from qe.exact.ring import Ring, format_poly
+from qe.formula.build import convert
+from qe.formula.syntax import Formula
+from qe.io.text import read
+from qe.options import Budget, Projection
+
+ORDER = ("a", "x", "y")
+
+
+def _matrix(text: str) -> Formula:
+    return convert(read(text), Ring.of(ORDER))
+
+
+@pytest.mark.parametrize(
+    ("text", "factors"),
+    [
+        ("y^2 + x = 0 and y > a", {"y^2 + x"}),
+        ("y^3 - x = 0 and y - a = 0", {"y - a"}),  # the cheaper one
+        ("(y - x)*(y - a) = 0", {"y - x", "y - a"}),
+        ("x*(y - a) = 0 and y > 0", None),  # x = 0 satisfies it between the sections of y - a
+        ("x^2 - a = 0 and y > 0", None),
+        ("y = a or y > 0", None),
+        ("y >= a", None),
+    ],
+)
+def test_which_equations_restrict_the_projection(text: str, factors: set[str] | None) -> None:
+    found = constraint_factors(_matrix(text), 2)
+    if factors is None:
+        assert found is None
+    else:
+        assert found is not None
+        ring = Ring.of(ORDER)
+        assert found == {p.normal()[1] for p in (next(iter(_polys(f, ring))) for f in factors)}
+
+
+def _polys(text: str, ring: Ring) -> list:
+    from qe.formula.traverse import polynomials
+
+    return polynomials(convert(read(f"{text} = 0"), ring))
+
+
+def test_the_projection_gets_smaller() -> None:
+    matrix = _matrix("y^2 + x^2 = 1 and y^3 - a*x > 0 and y^2*x + a < 2")
+    kinds = ("", "E", "E")
+    small = decompose(matrix, ORDER, kinds, budget=Budget())
+    large = decompose(matrix, ORDER, kinds, budget=Budget(), projection=Projection.LAZARD)
+    assert small.restricted and not large.restricted
+    assert small.factors < large.factors
+
+
+terms = st.dictionaries(
+    st.tuples(st.integers(0, 1), st.integers(0, 2), st.integers(0, 2)), st.integers(-2, 2), min_size=1, max_size=4
+)
+
+
+@settings(max_examples=40)
+@given(terms, terms, terms, st.sampled_from(["<", "<=", ">", "/=", "="]))
+def test_same_truth_as_the_full_lazard_projection(e: dict, f: dict, g: dict, relation: str) -> None:
+    """ex y over (a, x): the truth at every free cell's sample agrees with an unrestricted decision at that point."""
+    ring = Ring.of(ORDER)
+    texts = [format_poly(ring.from_terms(t)) for t in (e, f, g)]
+    text = f"{texts[0]} = 0 and {texts[1]} {relation} 0 and {texts[2]} > 0"
+    restricted = qe.eliminate(f"ex y. {text}", method="cad", order=("a", "x", "y"))
+    for a in (Fraction(-1), Fraction(0), Fraction(1, 2)):
+        for x in (Fraction(-2), Fraction(0), Fraction(1), Fraction(3, 2)):
+            at = f"a = {a} and x = {x}"
+            full = qe.decide(f"ex a, x, y. {at} and {text}", method="vs")
+            assert qe.decide(f"ex a, x. {at} and ({restricted.formula})", method="vs") == full
