@@ -1,0 +1,67 @@
+"""Exact values on the way back: polynomials at algebraic points, quotients, roots, nudges."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import pytest
+
+from qe.errors import Unable
+from qe.exact.algebraic import RealAlgebraic
+from qe.exact.ring import Ring
+from qe.io.text import read
+from qe.prepare.lift import Solve, holds_at, nudge, root, sign_at, value_at
+
+RING = Ring.of(("x", "y"))
+x, y = RING.gen(0), RING.gen(1)
+SQRT2 = RealAlgebraic.from_root([-2, 0, 1], 1, 2)
+
+
+def test_signs_and_values_at_algebraic_points() -> None:
+    at = {"x": SQRT2, "y": Fraction(3, 2)}
+    assert sign_at(x**2 - 2, at) == 0
+    assert sign_at(x - y, at) == -1
+    assert value_at(x**2 * y - 1, at) == 2
+    assert isinstance(value_at(x**2 * y - 1, at), Fraction)
+    assert value_at(x + y, {"x": Fraction(1)}) == 1  # a variable without a value counts as 0
+
+
+def test_quotients() -> None:
+    rule = Solve("z", x * 3, y, Fraction(7))
+    assert rule.value({"x": SQRT2, "y": SQRT2}) == 3
+    assert rule.value({"x": SQRT2, "y": Fraction(0)}) == 7
+    with pytest.raises(Unable):
+        Solve("z", x, y).value({"x": Fraction(1), "y": Fraction(0)})
+
+
+@pytest.mark.parametrize("sign", [1, -1])
+def test_roots_pick_the_right_conjugate(sign: int) -> None:
+    lo, hi = (5, 6) if sign > 0 else (0, 1)
+    value = RealAlgebraic.from_root([4, -6, 1], lo, hi)  # 3 + sqrt(5) and 3 - sqrt(5), both positive
+    found = root(value, 2)
+    assert found > 0 and found**2 == value
+
+
+def test_rational_and_odd_roots() -> None:
+    assert root(Fraction(4, 9), 2) == Fraction(2, 3)
+    assert root(Fraction(-8), 3) == -2
+    assert root(Fraction(2), 2) == SQRT2
+    assert root(-SQRT2, 3) ** 3 == -SQRT2
+    assert root(Fraction(0), 4) == 0
+    with pytest.raises(Unable):
+        root(Fraction(-1), 2)
+
+
+def test_nudges_stay_in_the_open_part() -> None:
+    body = read("x > 0 and x < 1/1000 and x - y /= 0 and x*y /= 0")
+    start = {"x": Fraction(1, 2000), "y": Fraction(0)}
+    moved = nudge(("x", "y"), body, start)
+    assert holds_at(body, moved) and moved != start
+    assert nudge(("x",), body, moved) == moved
+    with pytest.raises(Unable):
+        nudge(("x",), read("x <= 0 and x /= 0 and x >= 0"), {"x": Fraction(0)})
+
+
+def test_quantifiers_cannot_be_evaluated() -> None:
+    with pytest.raises(Unable):
+        holds_at(read("ex y. x > y^3 + y"), {"x": Fraction(1)})
