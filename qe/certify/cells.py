@@ -23,6 +23,7 @@ from qe.evidence.cells import Cell, CellTable
 from qe.evidence.cells_json import CellEvidence
 from qe.exact.ring import Poly, Ring
 from qe.exact.triangular import ORIGIN, Coordinate
+from qe.formula.syntax import And, Atom, Constant, Formula, Or, Relation
 from qe.truth import Truth, conjunction, disjunction
 
 Path = tuple["Path", str] | str
@@ -124,11 +125,15 @@ class _Walk:
 
     def _aggregate(self, cell: Cell, level: int) -> Truth:
         assert cell.stack is not None
-        match self.table.quantifiers[level]:
+        kind = self.table.quantifiers[level]
+        cells = cell.stack.cells
+        if kind and sectors_suffice(self.table, level):
+            cells = tuple(c for position, c in enumerate(cells) if position % 2 == 0 or c.truth is not None)
+        match kind:
             case "E":
-                return disjunction(c.truth for c in cell.stack.cells)
+                return disjunction(c.truth for c in cells)
             case "A":
-                return conjunction(c.truth for c in cell.stack.cells)
+                return conjunction(c.truth for c in cells)
         return None
 
     def _child(self, sample: Sample, checked: Checked, cell: Cell, position: int, fail: Fail) -> Sample:
@@ -148,6 +153,31 @@ class _Walk:
             for at, level in enumerate(sample.polys)
         )
         return Sample(sample.point, {**sample.rationals, k: number}, polys, signs, dimensions)
+
+
+def sectors_suffice(table: CellTable, level: int) -> bool:
+    """Whether a quantified stack of this level is decided by its sectors alone.
+
+    THEOREM. If the matrix is a positive combination of atoms <, >, /= and the quantifiers from ``level`` on are all
+    existential, the values of x_level over any point that can be completed to a solution form an open set: if it
+    is not empty it meets a sector, the sections being finitely many points. Dually for atoms <=, >=, = and
+    universal quantifiers, where the exceptions form an open set.
+    """
+    later = set(table.quantifiers[level:])
+    if later == {"E"}:
+        return _positive(table.matrix, (Relation.LT, Relation.GT, Relation.NE))
+    return later == {"A"} and _positive(table.matrix, (Relation.LE, Relation.GE, Relation.EQ))
+
+
+def _positive(formula: Formula, relations: tuple[Relation, ...]) -> bool:
+    match formula:
+        case Constant():
+            return True
+        case Atom(_, relation):
+            return relation in relations
+        case And(args) | Or(args):
+            return all(_positive(a, relations) for a in args)
+    return False
 
 
 _CHARACTERS = {1: "+", -1: "-", 0: "0", None: "?"}

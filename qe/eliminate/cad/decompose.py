@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from qe.eliminate.cad.equational import constraint_factors
-from qe.eliminate.cad.lift import Lifter
+from qe.eliminate.cad.lift import Lifter, sector_levels
 from qe.eliminate.cad.matrix import compile_matrix, strengthened
 from qe.eliminate.cad.projection import factor_lists
 from qe.errors import NotWellOriented
@@ -75,7 +75,7 @@ def _attempt(
     strong = matrix if constraint else strengthened(matrix)
     levels = factor_lists(polynomials(strong), len(order), projection, budget, separated, constraint)
     places = {f: (k, j) for k, level in enumerate(levels) for j, f in enumerate(level)}
-    lifter = Lifter(levels, quantifiers, projection, budget)
+    lifter = Lifter(levels, quantifiers, projection, budget, sector_levels(matrix, quantifiers))
     root = lifter.run(Point(ring), compile_matrix(strong, places))
     table = CellTable(order, quantifiers, matrix, projection, levels, root)
     restricted = constraint is not None and set(levels[top]) != constraint

@@ -4,8 +4,8 @@ THEOREM (McCallum 1999, Theorem 2.2). Let f, g have positive degree in x_n and a
 x_n. Over a connected set S on which f is delineable and R is order-invariant, g is sign-invariant in every
 section of f. So where the matrix implies f = 0, the first projection needs leading coefficients and discriminants only
 of the irreducible factors e of f, their resultants with each other, and the resultants of each e with each other
-factor; between the sections of f the matrix is false. It is used under Brown–McCallum projection, whose lower levels give the
-order-invariance; lifting checks that no factor of f is nullified over a cell of positive dimension.
+factor; between the sections of f the matrix is false. It is used under Brown–McCallum projection, whose lower levels
+give the order-invariance; lifting checks that no factor of f is nullified over a cell of positive dimension.
 """
 
 from __future__ import annotations

@@ -15,6 +15,8 @@ from qe.errors import NotWellOriented
 from qe.evidence.cells import Cell, Stack
 from qe.exact.fibre_stack import Isolation, isolate_over
 from qe.exact.sample import Point
+from qe.formula.syntax import Atom, Formula, Not
+from qe.formula.traverse import atoms, children
 from qe.options import Budget, Projection
 
 _CHARACTER = {1: "+", -1: "-", 0: "0"}
@@ -23,12 +25,13 @@ _VALUE = {"+": 1, "-": -1, "0": 0}
 
 @dataclass(slots=True)
 class Lifter:
-    """One lifting run. ``deciders`` records the sample that decided the outermost quantified block, if any."""
+    """One lifting run. From level ``sectors_from`` on, sections need not be visited (see ``sector_levels``)."""
 
     levels: Levels
     quantifiers: tuple[str, ...]
     projection: Projection
     budget: Budget
+    sectors_from: int
     cells: int = 0
     stacks: int = 0
     _shared: dict[tuple[int, int, str], Node] = field(default_factory=dict)
@@ -80,7 +83,7 @@ class Lifter:
         if quantifier:
             stop = quantifier == "E"
             truth = not stop
-            for position in _visiting_order(size):
+            for position in _visiting_order(size, sectors_only=level >= self.sectors_from):
                 cell = self._child(point, node, used, isolation, position, texts[position], dimension)
                 cells[position] = cell
                 if cell.truth is stop:
@@ -144,7 +147,32 @@ def _sign_texts(isolation: Isolation) -> list[str]:
     return texts
 
 
-def _visiting_order(size: int) -> list[int]:
+def _visiting_order(size: int, *, sectors_only: bool) -> list[int]:
     """Sectors first (rational samples are cheap), middle ones first, then sections likewise."""
     middle = size // 2
-    return sorted(range(size), key=lambda p: (p % 2, abs(p - middle)))
+    positions = range(0, size, 2) if sectors_only else range(size)
+    return sorted(positions, key=lambda p: (p % 2, abs(p - middle)))
+
+
+def sector_levels(matrix: Formula, quantifiers: tuple[str, ...]) -> int:
+    """The first level from which on quantified stacks are decided by their sectors alone.
+
+    THEOREM. With only strict atoms (<, >, /=, no negation) and only existential quantifiers from a level on, the values
+    of its variable that can be completed to a solution over any point form an open set, which meets a
+    sector if it is not empty. Dually for weak atoms (<=, >=, =) and universal quantifiers.
+    """
+    last = quantifiers[-1]
+    relations = {a.relation for a in atoms(matrix)}
+    plain = all(isinstance(a, Atom) for a in atoms(matrix)) and not _has_negation(matrix)
+    strict = all(r.is_strict for r in relations)
+    weak = not any(r.is_strict for r in relations)
+    if not plain or not ((last == "E" and strict) or (last == "A" and weak)):
+        return len(quantifiers)
+    level = len(quantifiers)
+    while level and quantifiers[level - 1] == last:
+        level -= 1
+    return level
+
+
+def _has_negation(formula: Formula) -> bool:
+    return isinstance(formula, Not) or any(_has_negation(c) for c in children(formula))
