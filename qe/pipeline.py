@@ -44,7 +44,7 @@ SHORTEN_ABOVE = 8
 PROBE_ABOVE, PROBE_SECONDS, PROBE_SHARE, PROBE_ATOMS = 3, 1.0, 0.1, 30
 """Substitution is tried for this long before a decomposition in more variables, and taken if its answer is small."""
 
-SHORTEN_VARIABLES = 3
+SHORTEN_VARIABLES, SHORTEN_DEGREE = 3, 4
 SHORTEN_SHARE = 0.25
 SHORTEN_SECONDS = 0.7
 
@@ -288,6 +288,8 @@ class _Run:
         names = free_variables(formula)
         count = sum(1 for _ in atoms(formula))
         if count <= SHORTEN_ABOVE or not names or len(names) > SHORTEN_VARIABLES or not self._allows(Method.CAD):
+            return formula
+        if len(names) == SHORTEN_VARIABLES and max(p.total_degree for p in polynomials(formula)) > SHORTEN_DEGREE:
             return formula
         left = self.budget.remaining()
         part = Budget(SHORTEN_SECONDS if left is None else min(SHORTEN_SECONDS, SHORTEN_SHARE * left))
