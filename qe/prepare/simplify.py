@@ -20,6 +20,7 @@ from qe.prepare.factors import reduce_atom
 from qe.prepare.facts import NOTHING, Facts, atom_of, constraint, generator
 from qe.prepare.negation import positive
 from qe.prepare.ranges import EVERYTHING, Range, describe, meet
+from qe.prepare.univariate import irredundant
 
 _ROUNDS = 60  # every round removes degree, an atom or a subformula; this only guards against a bug
 
@@ -220,7 +221,17 @@ def _tidy(atoms: list[Atom], facts: Facts, conjunctive: bool) -> tuple[list[Atom
         if not changed:
             break
     kept = _emit(board, conjunctive)
+    if kept is not None:
+        kept = _in_one_variable(kept, facts, conjunctive)
     return None if kept is None else (kept, produced)
+
+
+def _in_one_variable(atoms: list[Atom], facts: Facts, conjunctive: bool) -> list[Atom] | None:
+    """The atoms (of a disjunction: dually) without those that others in the same variable make redundant."""
+    if conjunctive:
+        return irredundant(atoms, facts)
+    kept = irredundant([Atom(a.poly, a.relation.negated) for a in atoms], facts)
+    return None if kept is None else [Atom(a.poly, a.relation.negated) for a in kept]
 
 
 def _reduce(given: Atom, view: Facts, conjunctive: bool) -> Formula:

@@ -8,9 +8,12 @@ from functools import reduce
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from qe.formula.build import conj, exists, neg
+from qe.exact.algebraic import real_roots
+from qe.exact.ring import Ring
+from qe.formula.build import atom, conj, disj, exists, neg
 from qe.formula.syntax import And, Exists, Formula, Not, Relation
-from qe.formula.traverse import children
+from qe.formula.traverse import children, polynomials
+from qe.prepare.lift import holds_at
 from qe.prepare.ranges import EMPTY, EVERYTHING, add, compare, meet, multiply, power, scale
 from qe.prepare.simplify import simplify
 
@@ -82,3 +85,23 @@ def test_range_arithmetic_encloses(first, second, u, v, exponent) -> None:  # ty
     assert multiply(a, b).admits(u * v)
     assert power(a, exponent).admits(u**exponent)
     assert scale(a, Fraction(-3, 2)).admits(u * Fraction(-3, 2))
+
+
+LINE = Ring.of(("x",))
+line_polys = st.lists(st.integers(-3, 3), min_size=2, max_size=5).map(
+    lambda c: LINE.from_terms({(k,): v for k, v in enumerate(c)})
+)
+line_atoms = st.builds(atom, line_polys, st.sampled_from(Relation))
+
+
+@settings(max_examples=150, deadline=None)
+@given(st.lists(line_atoms, min_size=2, max_size=4), line_atoms, st.booleans())
+def test_one_variable_at_its_roots_and_between(found: list[Formula], extra: Formula, conjunctive: bool) -> None:
+    """The truth is the same at every real root of every polynomial and at rational points around them."""
+    inner, outer = (disj, conj) if conjunctive else (conj, disj)
+    formula = outer((*found[1:], inner((found[0], extra))))
+    result = simplify(formula)
+    cuts = [r for p in polynomials(formula) for r in real_roots(p.to_univariate(0))]
+    near = [end + d for r in cuts for end in r.interval(20) for d in (Fraction(-1, 100), Fraction(1, 100))]
+    for value in (*cuts, *near, Fraction(0), Fraction(50), Fraction(-50)):
+        assert holds_at(formula, {"x": value}) == holds_at(result, {"x": value})

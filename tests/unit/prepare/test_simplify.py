@@ -40,6 +40,14 @@ CASES = [
     # variables with a known value
     ("x = 0 and x*y + z = 0 and (z > 1 or y + x < 0)", "x = 0 and z = 0 and y < 0"),
     ("x /= 2 or x*y > 0", "x /= 2 or y > 0"),
+    # one variable: the order of the real roots
+    ("m^2 - 8*m - 2 = 0 and m > 4 and 4*m^2 - 33*m - 4 < 0", "m^2 - 8*m - 2 = 0 and m > 4"),
+    ("x^2 < 2 and x^2 - 4*x + 3 < 0 and x > 2", "false"),
+    ("x^3 > 5 and x > 1", "x^3 > 5"),
+    ("x^3 > 5 or x > 1", "x > 1"),
+    ("x^2 >= 2 or x < 3/2", "true"),
+    ("x > 0 and (x^3 > -1 or y > 0)", "x > 0"),
+    ("x^5 - x - 1 = 0 and x > 0", "x^5 - x - 1 = 0"),
     # the implicit theory reaches into subformulas
     ("x > 1 and (x > 0 or y > 0)", "x > 1"),
     ("x > 1 and (x < 0 or y > 0)", "x > 1 and y > 0"),
