@@ -86,9 +86,15 @@ def eliminate(
     given = read_formula(formula, format)
     options = _options(method, order, root_atoms, explain, progress)
     if memory is not None:
-        from qe.worker import run
+        from qe.worker import Channel, run
 
-        return run(lambda _: _answer(given, options, timeout, check), timeout=timeout, memory=memory)
+        def work(channel: Channel) -> Answer:
+            return _answer(given, options.with_(progress=channel.event), timeout, check)
+
+        try:
+            return run(work, timeout=timeout, memory=memory, progress=progress)
+        except Unable as error:
+            return Answer(Status.UNABLE, None, reason=str(error))
     return _answer(given, options, timeout, check)
 
 

@@ -19,7 +19,7 @@ import signal
 import struct
 import time
 import traceback
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from types import TracebackType
 from typing import Generic, NoReturn, TypeVar
@@ -306,15 +306,3 @@ def _ended(status: int | None, known: Known, timeout: float | None, memory: int 
     how = f"signal {number} ({signal.strsignal(number)})" if number else f"status {os.WEXITSTATUS(status)}"
     hint = "; out of memory is the likely cause" if number in (signal.SIGABRT, signal.SIGKILL) else ""
     return WorkerDied(f"the worker process ended by {how}{hint}", signal_number=number, known=known)
-
-
-def facts(known: Known) -> Mapping[str, object]:
-    """The partial results as plain data, for machines."""
-    return {**known.facts, "seconds": round(known.seconds, 3), "phases": [_in_words(e) for e in known.phases.values()]}
-
-
-def run_limited(
-    work: Callable[[], T], *, seconds: float | None, megabytes: int | None, progress: Listener = silent
-) -> T:
-    """``work()`` in a worker under hard limits; see ``run``, which also lets the work talk while it runs."""
-    return run(lambda channel: work(), timeout=seconds, memory=megabytes, progress=progress)

@@ -8,6 +8,7 @@ import time
 
 import pytest
 
+import qe
 from qe.errors import BudgetExceeded, CertificateRejected, InternalError, ParseError, Unable
 from qe.exact.ring import Ring
 from qe.formula.build import atom, exists
@@ -159,3 +160,23 @@ def test_known_is_filled_for_a_run_that_ends_well():
     run(lambda channel: channel.fact("method", "vs"), known=known)
     assert known.facts == {"method": "vs"}
     assert known.seconds > 0
+
+
+HARD = "ex a, b, c. all x, y. a*x^4*y + b*x*y^3 + c*x^2*y^2 + d*x + e*y + f > a^2*x^3 + b^2*y^5"
+
+
+def test_the_public_function_answers_unable_at_a_hard_limit():
+    answer = qe.eliminate(HARD, timeout=0.5, memory=2000)
+    assert answer.status is qe.Status.UNABLE
+    assert "limit" in answer.reason
+
+
+def test_the_public_function_brings_whole_answers_home():
+    seen: list[Event] = []
+    answer = qe.eliminate("ex x. x^3 = 2", memory=2000, progress=seen.append)
+    assert answer.truth is True
+    assert answer.witness is not None
+    assert float(answer.witness["x"]) == pytest.approx(2 ** (1 / 3))
+    formula = "ex x. x^2 + b*x + c = 0"
+    assert qe.eliminate(formula, memory=2000).formula == qe.eliminate(formula).formula
+    assert seen
