@@ -75,6 +75,23 @@ class Jet:
             return Jet(value, slope, centre, self.sides)
         return Jet(_root(self.value), None, centre, self.sides)
 
+    def over(self, divisor: int) -> Jet:
+        """Divided by a nonzero integer."""
+        return self.scaled(1 / arb(divisor))
+
+    def scaled_by(self, factor: int) -> Jet:
+        """Multiplied by an integer."""
+        return self.scaled(arb(factor))
+
+    def arcsine(self) -> Jet:
+        """asin of a function known to lie in [-1, 1]."""
+        value, centre = _arcsine(self.value), _arcsine(self.centre)
+        inside = 1 - self.value * self.value
+        if self.slope is None or not inside > 0:
+            return Jet(value, None, centre, self.sides)
+        scale = inside.rsqrt()
+        return Jet(value, tuple(d * scale for d in self.slope), centre, self.sides)
+
     def mean(self) -> arb:
         """A ball around the mean value on the box."""
         if self.slope is None or not all(d.is_finite() for d in self.slope):
@@ -84,6 +101,14 @@ class Jet:
             spread += arb(d.rad()) * side.abs_upper()
         refined = self.centre + arb(0, 1) * spread / 2
         return refined if refined.rad() < self.value.rad() else self.value
+
+
+def _arcsine(x: arb) -> arb:
+    quarter = arb.pi() / 2
+    low, high = x.lower(), x.upper()
+    return (low.asin() if low > -1 and low < 1 else -quarter if low <= -1 else quarter).union(
+        high.asin() if high < 1 and high > -1 else quarter if high >= 1 else -quarter
+    )
 
 
 def _root(x: arb) -> arb:
@@ -112,6 +137,11 @@ def constant(value: Fraction | RealAlgebraic, sides: tuple[arb, ...]) -> Jet:
     with precision(BITS):
         ball = value.ball(BITS) if isinstance(value, RealAlgebraic) else arb(fmpq(value.numerator, value.denominator))
     return Jet(ball, (arb(0),) * len(sides), ball, sides)
+
+
+def whole_number(value: int, sides: Sides) -> Jet:
+    """An integer as a jet."""
+    return Jet(arb(value), (arb(0),) * len(sides), arb(value), sides)
 
 
 def smooth_side(lo: Fraction, hi: Fraction, side: int, sides: tuple[arb, ...]) -> tuple[Jet, Jet]:

@@ -2,7 +2,8 @@
 
 A full-dimensional piece x_1 in (a, b), x_2 in (lower(x_1), upper(x_1)), … is the image of a unit cube; the integrand is
 the product of the widths. Boxes with the largest contribution to the error are halved until the enclosure is
-tight enough. The last variable is integrated exactly by its width, so the cube has one side fewer.
+tight enough. The last variable is integrated exactly by its width, so the cube has one side fewer; where
+``slices`` knows the area of a plane slice, two fewer.
 """
 
 from __future__ import annotations
@@ -15,6 +16,7 @@ from typing import TYPE_CHECKING
 from qe.errors import InputError, Unable
 from qe.exact.enclosure import Jet, Sides, box_sides, constant, ends, root_jet, smooth_side
 from qe.solution.pieces import Piece, RootFunction
+from qe.solution.slices import has_closed_slices, slice_area
 
 if TYPE_CHECKING:
     from qe.solution.region import Region
@@ -48,7 +50,8 @@ class _Sum:
         self.low = self.high = Fraction(0)
         self.count = 0
         for piece in pieces:
-            self._push(piece, ((Fraction(0), Fraction(1)),) * self.sides)
+            sides = self.sides - 1 if has_closed_slices(piece) else self.sides
+            self._push(piece, ((Fraction(0), Fraction(1)),) * sides)
 
     def refine(self, rel_error: Fraction) -> tuple[Fraction, Fraction]:
         while self.queue and self.high - self.low > rel_error * self.high:
@@ -87,6 +90,9 @@ class _Sum:
             lower, upper = _end(r.lower, at, sides), _end(r.upper, at, sides)
             if lower is None or upper is None:
                 return None
+            if i == len(box) and i < self.sides:  # the slice over what is fixed so far has a closed form
+                area = slice_area(piece, lower, upper, at, sides)
+                return None if area is None or product is None else product * area
             width = upper - lower
             product = width if product is None else product * width
             if i < self.sides:
