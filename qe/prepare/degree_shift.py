@@ -35,7 +35,7 @@ def shift_degree(variables: tuple[str, ...], body: Formula, shop: Workshop, recu
             shop.note(StepKind.DEGREE_SHIFT, f"{name}^{step}")
             shifted = rewrite(body, lambda found, n=name, k=step: _shifted(found, n, k), ())  # type: ignore[misc]
             domain = atom(ring.var(name), Relation.GE) if step % 2 == 0 else conj(())
-            return Lifted(RootOf(name, step), recur(variables, conj((domain, shifted)), shop))
+            return Lifted((RootOf(name, step),), recur(variables, conj((domain, shifted)), shop))
     return None
 
 

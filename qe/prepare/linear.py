@@ -46,6 +46,11 @@ class Pivot:
     alone: bool
 
     @property
+    def name(self) -> str:
+        """The variable to be solved for."""
+        return self.lead.ring.names[self.variable]
+
+    @property
     def guarded(self) -> bool:
         """Whether solving needs a case distinction that keeps x in one case."""
         return self.sign is None and not self.alone
@@ -63,6 +68,9 @@ def choose_pivot(parts: Sequence[Formula], variables: Sequence[str], facts: Call
         for found in atoms(part):
             for i in found.poly.variables:
                 occurrences[i] = occurrences.get(i, 0) + 1
+            if isinstance(found, RootAtom):
+                named = found.poly.ring.index[found.variable]
+                occurrences[named] = occurrences.get(named, 0) + 1
     for position, part in enumerate(parts):
         if not isinstance(part, Atom) or part.relation is not Relation.EQ:
             continue

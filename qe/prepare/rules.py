@@ -8,7 +8,7 @@ from fractions import Fraction
 
 from qe.exact.ring import format_poly
 from qe.formula.build import atom, conj, disj
-from qe.formula.syntax import FALSE, TRUE, Atom, Formula, Or, Relation
+from qe.formula.syntax import FALSE, Atom, Constant, Formula, Or, Relation
 from qe.formula.traverse import free_variables
 from qe.prepare.facts import Facts
 from qe.prepare.lift import Solve
@@ -66,50 +66,69 @@ def _components(parts: Sequence[Formula], variables: Sequence[str]) -> list[tupl
 
 
 def linear_equation(variables: tuple[str, ...], body: Formula, shop: Workshop, recur: Recur) -> Node | None:
-    """The theorem of ``qe.prepare.linear`` on the cheapest pivot of the conjunction; no guard needed."""
+    """The theorem of ``qe.prepare.linear`` on the cheapest pivots that need no guard, all in a row."""
     if StepKind.LINEAR not in shop.enabled:
         return None
-    return _solve(variables, body, shop, recur, False)
+    rules: list[Solve] = []
+    while not isinstance(body, Constant):
+        shop.budget.check("prepare")
+        parts = conjuncts(body)
+        pivot = _pivot(parts, variables, shop)
+        solved = None if pivot is None or pivot.guarded else _solved(parts, pivot)
+        if pivot is None or solved is None:
+            break
+        shop.note(StepKind.LINEAR, _told(parts, pivot))
+        rules.append(Solve(pivot.name, -pivot.rest, pivot.lead, Fraction(0) if pivot.alone else None))
+        variables = tuple(v for v in variables if v != pivot.name)
+        body = solved
+    return Lifted(tuple(rules), recur(variables, body, shop)) if rules else None
+
+
+def _solved(parts: Sequence[Formula], pivot: Pivot) -> Formula | None:
+    """What an equation without guard leaves of the conjunction."""
+    others = _others(parts, pivot)
+    if not pivot.alone:
+        return substitute(others, pivot)
+    if pivot.sign is not None:
+        return others
+    return conj((disj((_nonzero(pivot), atom(pivot.rest, Relation.EQ))), others))
 
 
 def guarded_linear_equation(variables: tuple[str, ...], body: Formula, shop: Workshop, recur: Recur) -> Node | None:
     """As ``linear_equation``, with the case distinction lead /= 0 or lead = rest = 0."""
     if StepKind.GUARDED_LINEAR not in shop.enabled:
         return None
-    return _solve(variables, body, shop, recur, True)
-
-
-def _solve(
-    variables: tuple[str, ...], body: Formula, shop: Workshop, recur: Recur, guarded: bool
-) -> Node | None:
     parts = conjuncts(body)
+    pivot = _pivot(parts, variables, shop)
+    if pivot is None or not pivot.guarded:
+        return None
+    others = _others(parts, pivot)
+    replaced = substitute(others, pivot)
+    if replaced is None or not shop.may_split(StepKind.GUARDED_LINEAR, 2):
+        return None
+    shop.note(StepKind.GUARDED_LINEAR, _told(parts, pivot), 2)
+    remaining = tuple(v for v in variables if v != pivot.name)
+    rule = Solve(pivot.name, -pivot.rest, pivot.lead)
+    regular = Lifted((rule,), recur(remaining, conj((_nonzero(pivot), replaced)), shop))
+    vanishing = (atom(pivot.lead, Relation.EQ), atom(pivot.rest, Relation.EQ), others)
+    return either([regular, recur(variables, conj(vanishing), shop)])
 
+
+def _pivot(parts: Sequence[Formula], variables: Sequence[str], shop: Workshop) -> Pivot | None:
     def facts(position: int) -> Facts:
         return shop.facts.extended(p for k, p in enumerate(parts) if k != position and isinstance(p, Atom))
 
-    pivot = choose_pivot(parts, variables, facts)
-    if pivot is None or pivot.guarded != guarded:
-        return None
-    others = conj(p for k, p in enumerate(parts) if k != pivot.position)
-    name = pivot.lead.ring.names[pivot.variable]
-    remaining = tuple(v for v in variables if v != name)
-    text = format_poly(parts[pivot.position].poly)  # type: ignore[attr-defined]
-    if pivot.alone:
-        shop.note(StepKind.LINEAR, f"{name} from {text} = 0")
-        solvable = TRUE if pivot.sign is not None else disj((_nonzero(pivot), atom(pivot.rest, Relation.EQ)))
-        child = recur(remaining, conj((solvable, others)), shop)
-        return Lifted(Solve(name, -pivot.rest, pivot.lead, Fraction(0)), child)
-    replaced = substitute(others, pivot)
-    if replaced is None or (guarded and not shop.may_split(StepKind.GUARDED_LINEAR, 2)):
-        return None
-    kind = StepKind.GUARDED_LINEAR if guarded else StepKind.LINEAR
-    shop.note(kind, f"{name} from {text} = 0", 2 if guarded else 1)
-    rule = Solve(name, -pivot.rest, pivot.lead)
-    if not guarded:
-        return Lifted(rule, recur(remaining, replaced, shop))
-    regular = Lifted(rule, recur(remaining, conj((_nonzero(pivot), replaced)), shop))
-    vanishing = (atom(pivot.lead, Relation.EQ), atom(pivot.rest, Relation.EQ), others)
-    return either([regular, recur(variables, conj(vanishing), shop)])
+    return choose_pivot(parts, variables, facts)
+
+
+def _others(parts: Sequence[Formula], pivot: Pivot) -> Formula:
+    return conj(p for k, p in enumerate(parts) if k != pivot.position)
+
+
+def _told(parts: Sequence[Formula], pivot: Pivot) -> str:
+    equation = parts[pivot.position]
+    text = format_poly(equation.poly) if isinstance(equation, Atom) else "?"
+    return f"{pivot.name} from {text} = 0"
 
 
 def _nonzero(pivot: Pivot) -> Formula:

@@ -55,7 +55,7 @@ def fix_scale(variables: tuple[str, ...], body: Formula, shop: Workshop, recur: 
     nodes: list[Node] = []
     for sign in sorted(signs, reverse=True):
         fixed = _at(body, ring.index[name], sign)
-        nodes.append(Lifted(Solve(name, ring.constant(sign), one), recur(rest, fixed, shop)))
+        nodes.append(Lifted((Solve(name, ring.constant(sign), one),), recur(rest, fixed, shop)))
     return either(nodes)
 
 

@@ -49,7 +49,7 @@ def fix_origin(variables: tuple[str, ...], body: Formula, shop: Workshop, recur:
 
     rest = tuple(v for v in variables if v != name)
     child = recur(rest, rewrite(body, change, ()), shop)
-    return Lifted(Solve(name, ring.constant(0), ring.constant(1)), child)
+    return Lifted((Solve(name, ring.constant(0), ring.constant(1)),), child)
 
 
 def _derivatives(poly: Poly, columns: Sequence[int]) -> Iterator[list[Fraction]]:

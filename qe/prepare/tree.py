@@ -34,9 +34,9 @@ class Leaf:
 
 @dataclass(frozen=True, slots=True)
 class Lifted:
-    """The child's formula; ``rule`` gives its variable a value from the child's assignment."""
+    """The child's formula; the ``rules``, last one first, give their variables values from the child's assignment."""
 
-    rule: Lift
+    rules: tuple[Lift, ...]
     child: Node
 
     @property
@@ -48,7 +48,9 @@ class Lifted:
 
     def lift(self, at: Assignment) -> dict[str, Value]:
         known = self.child.lift(at)
-        return known | {self.rule.variable: self.rule.value(known)}
+        for rule in reversed(self.rules):
+            known[rule.variable] = rule.value(known)
+        return known
 
 
 @dataclass(frozen=True, slots=True)
