@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Iterable
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
@@ -77,15 +78,16 @@ def eliminate(
 ) -> Answer:
     """Quantifier elimination over the reals: an equivalent quantifier-free formula.
 
-    ``timeout`` in seconds and ``memory`` in MB: with ``memory`` the work runs in a worker process that is killed at a
-    limit; with ``timeout`` alone the limit is checked between steps. The answer has status UNABLE, with the
+    ``timeout`` in seconds and ``memory`` in MB: with either, the work runs in a forked worker process that is killed at
+    the limit, since a single polynomial operation can take long (where processes cannot fork, ``timeout`` is only
+    checked between steps). The answer has status UNABLE, with the
     reason, when a limit was reached; it is never partial. With ``check`` the answer's certificate (if the method
     makes one) is verified by the separate checker; certificates that are a witness always are. Raises ``InputError``
     for input that cannot be read.
     """
     given = read_formula(formula, format)
     options = _options(method, order, root_atoms, explain, progress)
-    if memory is not None:
+    if (memory is not None or timeout is not None) and hasattr(os, "fork"):
         from qe.worker import Channel, run
 
         def work(channel: Channel) -> Answer:

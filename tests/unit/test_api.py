@@ -1,0 +1,55 @@
+"""The public functions: limits, guarantees, shapes of input."""
+
+from __future__ import annotations
+
+import time
+
+import pytest
+
+import qe
+
+HARD = "ex a, b, c. all x, y. a*x^4*y + b*x*y^3 + c*x^2*y^2 + d*x + e*y + f > a^2*x^3 + b^2*y^5"
+
+
+def test_a_time_limit_holds_inside_one_long_operation() -> None:
+    start = time.monotonic()
+    answer = qe.eliminate(HARD, timeout=1)
+    assert answer.status is qe.Status.UNABLE
+    assert answer.formula is None and "time" in answer.reason
+    assert time.monotonic() - start < 10  # a bound on blunders: without the hard limit it takes minutes
+
+
+def test_answers_survive_the_worker() -> None:
+    answer = qe.eliminate("ex x. x^2 = 2 and x > 0", timeout=30)
+    assert answer.truth is True and answer.witness is not None
+    assert answer.witness["x"] == qe.RealAlgebraic.from_root([-2, 0, 1], 1, 2)
+    assert answer.guarantee is qe.Guarantee.CHECKED
+
+
+def test_a_checked_answer_with_free_variables() -> None:
+    answer = qe.eliminate("all x. x^4 + p*x^2 + q > 0", check=True, method="cad")
+    assert answer.guarantee is qe.Guarantee.CHECKED
+    assert qe.equivalent(answer.formula, "q > 0 and p >= 0 or 4*q > p^2")
+
+
+@pytest.mark.parametrize(
+    ("call", "message"),
+    [
+        (lambda: qe.eliminate("x > 0", method="magic"), "method"),
+        (lambda: qe.decide("x > 0"), "free: x"),
+        (lambda: qe.region("x^2 + y^2 < 1", order=("x",)), "order"),
+        (lambda: qe.minimize("1/x", "x > 0"), "divi"),
+    ],
+)
+def test_bad_calls_get_one_line(call, message: str) -> None:
+    with pytest.raises(qe.InputError, match=message) as caught:
+        call()
+    assert "\n" not in str(caught.value)
+
+
+def test_equivalence_and_instances() -> None:
+    assert qe.equivalent("x^2 < 1", "-1 < x and x < 1")
+    assert not qe.equivalent("x^2 <= 1", "-1 < x and x < 1")
+    found = qe.find_instance("x^2 + y^2 = 1 and y = 2*x and x > 0")
+    assert found is not None and found["y"] == found["x"] * 2
+    assert qe.find_instance("x^2 + y^2 < 0") is None
