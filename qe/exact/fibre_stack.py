@@ -71,7 +71,7 @@ def isolate_over(point: Point, polys: tuple[Poly, ...], *, lazard: bool = False)
             _collect(point, var, j, shape, sections, loose)
     ordered = _separate(point, [*sections.values(), *loose])
     sectors = _sector_samples(ordered)
-    signs = tuple(_signs(shape, sectors) for shape in shapes)
+    signs = tuple(_signs(shape, j, sectors, ordered) for j, shape in enumerate(shapes))
     return Isolation(tuple(ordered), tuple(sectors), signs, tuple(nullified))
 
 
@@ -204,13 +204,20 @@ def _sector_samples(sections: list[Section]) -> list[fmpq]:
     return samples
 
 
-def _signs(shape: fmpz_poly | Fibre | None, sectors: list[fmpq]) -> tuple[int, ...]:
+def _signs(shape: fmpz_poly | Fibre | None, j: int, sectors: list[fmpq], sections: list[Section]) -> tuple[int, ...]:
+    """The signs of polynomial j at the sector samples; between two of its own roots one evaluation is enough."""
     if shape is None:
         return (0,) * len(sectors)
-    if isinstance(shape, fmpz_poly):
-        values = [shape(q) for q in sectors]
-        return tuple((v > 0) - (v < 0) for v in values)
-    return tuple(shape.value_sign(q) for q in sectors)
+    signs: list[int] = []
+    for k, q in enumerate(sectors):
+        if k and j not in sections[k - 1].members:
+            signs.append(signs[-1])
+        elif isinstance(shape, fmpz_poly):
+            value = shape(q)
+            signs.append(int(value > 0) - int(value < 0))
+        else:
+            signs.append(shape.value_sign(q))
+    return tuple(signs)
 
 
 def root_between(point: Point, f: Poly, lo: Fraction, hi: Fraction) -> fmpq | RealAlgebraic | FibreRoot:
