@@ -79,3 +79,15 @@ def test_same_truth_as_the_full_lazard_projection(e: dict, f: dict, g: dict, rel
             at = f"a = {a} and x = {x}"
             full = qe.decide(f"ex a, x, y. {at} and {text}", method="vs")
             assert qe.decide(f"ex a, x. {at} and ({restricted.formula})", method="vs") == full
+
+
+@pytest.mark.parametrize(
+    ("text", "answer"),
+    [
+        ("ex y. y^2 = x and y > 1", "x > 1"),  # the resultant with y - 1 is what separates x = 1
+        ("ex y. y^3 = x and y^2 < 2 and y > 0", "x > 0 and x^2 < 8"),
+        ("ex y. y^2 = x and y - a < 0 and y >= 0", "x >= 0 and a > 0 and a^2 > x"),
+    ],
+)
+def test_resultants_with_the_other_polynomials_are_kept(text: str, answer: str) -> None:
+    assert qe.equivalent(qe.eliminate(text, method="cad").formula, answer)
