@@ -224,7 +224,7 @@ def optimum(plan: Plan) -> Row | None:
 
 
 def _condition_text(label: str) -> str:
-    return f"{label[:-2]} on the table" if label.endswith(".z") else f"‖{label}‖ = r"
+    return f"{label[:-2]} not below the table" if label.endswith(".z") else f"‖{label}‖ ≤ r"
 
 
 def field_text(plan: Plan) -> str:
