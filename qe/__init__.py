@@ -21,6 +21,7 @@ from qe.api import (
     find_instance,
     maximize,
     minimize,
+    parametric_witnesses,
     region,
     verify,
 )
@@ -36,12 +37,13 @@ from qe.errors import (
     Unable,
 )
 from qe.exact.algebraic import RealAlgebraic
-from qe.options import Method
+from qe.options import Method, Stage
 
 if TYPE_CHECKING:
     from qe.certify.verdict import Verdict
     from qe.io.sympy import Exists, ForAll
     from qe.solution.optimum import Optimum
+    from qe.solution.parametric import ParametricWitness
     from qe.solution.region import Region
 
 __version__ = "0.1.0"
@@ -51,6 +53,7 @@ _LATER = {
     "Exists": "qe.io.sympy",
     "ForAll": "qe.io.sympy",
     "Optimum": "qe.solution.optimum",
+    "ParametricWitness": "qe.solution.parametric",
     "Region": "qe.solution.region",
     "Verdict": "qe.certify.verdict",
 }
@@ -78,10 +81,12 @@ __all__ = [
     "Method",
     "NotWellOriented",
     "Optimum",
+    "ParametricWitness",
     "ParseError",
     "QEError",
     "RealAlgebraic",
     "Region",
+    "Stage",
     "Status",
     "Unable",
     "Verdict",
@@ -91,6 +96,7 @@ __all__ = [
     "find_instance",
     "maximize",
     "minimize",
+    "parametric_witnesses",
     "region",
     "verify",
 ]

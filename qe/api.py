@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import os
+import sys
 from collections.abc import Callable, Iterable
+from enum import Enum
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from qe import pipeline
 from qe.errors import InputError, InternalError, Unable
@@ -13,17 +15,19 @@ from qe.evidence.answer import Answer, Guarantee, Status
 from qe.evidence.certificate import Certificate, Kind
 from qe.evidence.elimination import Assignment
 from qe.exact.ring import Poly
-from qe.formula.build import conj, convert, exists, iff
-from qe.formula.syntax import Constant, Formula
+from qe.formula.build import conj, convert, exists, forall, iff
+from qe.formula.syntax import Constant, Exists, ForAll, Formula
 from qe.formula.traverse import free_variables, is_quantifier_free, polynomials, ring_of
-from qe.options import Budget, Method, Options
+from qe.options import Budget, Method, Options, Stage
 from qe.progress import Event, silent
 
 if TYPE_CHECKING:  # the checker and the optimiser are loaded where they are used
     from qe.certify.verdict import Verdict
     from qe.solution.optimum import Optimum
+    from qe.solution.parametric import ParametricWitness
     from qe.solution.region import Region
 
+Choice = TypeVar("Choice", bound=Enum)
 Progress = Callable[[Event], None]
 AnyFormula = Any
 """A ``Formula``, text, or a SymPy object."""
@@ -47,20 +51,28 @@ def read_formula(given: AnyFormula, format: str = "text") -> Formula:
 
 
 def _options(
-    method: str | Method, order: Iterable[str] | None, root_atoms: bool, explain: bool, progress: Progress
+    method: str | Method,
+    order: Iterable[str] | None,
+    root_atoms: bool,
+    without: Iterable[str | Stage],
+    progress: Progress,
 ) -> Options:
-    try:
-        chosen = method if isinstance(method, Method) else Method(method)
-    except ValueError:
-        names = ", ".join(m.value for m in Method)
-        raise InputError(f"method: one of {names} expected, {method!r} found") from None
     return Options(
-        method=chosen,
+        method=_member("method", Method, method),
         order=None if order is None else tuple(order),
         root_atoms=root_atoms,
-        explain=explain,
+        without=frozenset(_member("without", Stage, stage) for stage in without),
         progress=progress,
     )
+
+
+def _member(keyword: str, choices: type[Choice], given: object) -> Choice:
+    """The member that is given, by itself or by its value."""
+    try:
+        return choices(given)
+    except ValueError:
+        names = ", ".join(str(m.value) for m in choices)
+        raise InputError(f"{keyword}: one of {names} expected, {given!r} found") from None
 
 
 def eliminate(
@@ -73,6 +85,7 @@ def eliminate(
     order: Iterable[str] | None = None,
     progress: Progress = silent,
     root_atoms: bool = False,
+    without: Iterable[str | Stage] = (),
     explain: bool = False,
     check: bool = False,
 ) -> Answer:
@@ -82,22 +95,31 @@ def eliminate(
     the limit, since a single polynomial operation can take long (where processes cannot fork, ``timeout`` is only
     checked between steps). The answer has status UNABLE, with the
     reason, when a limit was reached; it is never partial. With ``check`` the answer's certificate (if the method
-    makes one) is verified by the separate checker; certificates that are a witness always are. Raises ``InputError``
-    for input that cannot be read.
+    makes one) is verified by the separate checker; certificates that are a witness always are. ``explain`` tells on
+    stderr how the answer was found (``Answer.explanation`` holds the same text); ``without`` leaves stages of the
+    engine out (``qe.Stage``), to measure what they gain. Raises ``InputError`` for input that cannot be read.
     """
     given = read_formula(formula, format)
-    options = _options(method, order, root_atoms, explain, progress)
+    options = _options(method, order, root_atoms, without, progress)
+    answer = _limited(given, options, timeout, memory, check)
+    if explain:
+        print(answer.explanation or answer.reason, file=sys.stderr)
+    return answer
+
+
+def _limited(formula: Formula, options: Options, timeout: float | None, memory: int | None, check: bool) -> Answer:
+    """The answer, found in a worker process where a limit is to hold."""
     if (memory is not None or timeout is not None) and hasattr(os, "fork"):
         from qe.worker import Channel, run
 
         def work(channel: Channel) -> Answer:
-            return _answer(given, options.with_(progress=channel.event), timeout, check)
+            return _answer(formula, options.with_(progress=channel.event), timeout, check)
 
         try:
-            return run(work, timeout=timeout, memory=memory, progress=progress)
+            return run(work, timeout=timeout, memory=memory, progress=options.progress)
         except Unable as error:
             return Answer(Status.UNABLE, None, reason=str(error))
-    return _answer(given, options, timeout, check)
+    return _answer(formula, options, timeout, check)
 
 
 def _answer(formula: Formula, options: Options, timeout: float | None, check: bool) -> Answer:
@@ -144,6 +166,24 @@ def find_instance(formula: AnyFormula, **keywords: Any) -> Assignment | None:
     return {name: answer.witness.get(name, Fraction(0)) for name in free}
 
 
+def parametric_witnesses(
+    formula: AnyFormula, *, format: str = "text", timeout: float | None = None, progress: Progress = silent
+) -> tuple[ParametricWitness, ...]:
+    """Solutions of the outermost block as terms in the free variables, each under its guard (extended answers).
+
+    The guards together are equivalent to an existential block; for a universal block the terms are counterexamples.
+    Raises ``InputError`` for a formula without an outermost block, ``Unable`` where substitution does not apply.
+    """
+    from qe.solution.parametric import parametric_witnesses as find
+
+    given = read_formula(formula, format)
+    if isinstance(given, Exists | ForAll) and not is_quantifier_free(given.body):
+        rebuilt = exists if isinstance(given, Exists) else forall
+        inner = pipeline.solve(given.body, Options(), Budget(timeout, listener=progress)).formula
+        given = rebuilt(given.variables, inner)
+    return find(given, budget=Budget(timeout, listener=progress))
+
+
 def equivalent(left: AnyFormula, right: AnyFormula, **keywords: Any) -> bool:
     """Whether two formulas have the same solutions in all their free variables together."""
     from qe.exact.ring import Ring
@@ -153,8 +193,6 @@ def equivalent(left: AnyFormula, right: AnyFormula, **keywords: Any) -> bool:
     ring = Ring.of(dict.fromkeys(name for r in rings for name in r.names))
     f, g = convert(f, ring), convert(g, ring)
     free = dict.fromkeys((*free_variables(f), *free_variables(g)))
-    from qe.formula.build import forall
-
     return decide(forall(free, iff(f, g)), **keywords)
 
 
@@ -258,6 +296,7 @@ __all__ = [
     "find_instance",
     "maximize",
     "minimize",
+    "parametric_witnesses",
     "read_formula",
     "region",
     "verify",

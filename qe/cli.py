@@ -69,7 +69,6 @@ def eliminate(
         order=names(order),
         timeout=soft(timeout),
         root_atoms=root_atoms,
-        explain=explain,
         certificate=certificate is not None,
         json=json,
     )
@@ -99,7 +98,6 @@ def decide(
         source=read_source(formula, format),
         method=method.value,
         timeout=soft(timeout),
-        explain=explain,
         certificate=certificate is not None,
         json=json,
     )

@@ -17,6 +17,7 @@ from qe.errors import InputError, Unable
 from qe.worker import Channel
 
 if TYPE_CHECKING:
+    from qe.evidence.answer import Answer
     from qe.formula.syntax import Formula
 
 
@@ -39,7 +40,6 @@ class Request:
     order: tuple[str, ...] | None = None
     timeout: float | None = None
     root_atoms: bool = False
-    explain: bool = False
     certificate: bool = False
     json: bool = False
 
@@ -51,7 +51,6 @@ class Request:
             "order": self.order,
             "progress": channel.event,
             "root_atoms": self.root_atoms,
-            "explain": self.explain,
         }
 
 
@@ -156,22 +155,14 @@ def _point(point: Mapping[str, object] | None) -> dict[str, str] | None:
     return None if point is None else {name: str(value) for name, value in point.items()}
 
 
-def _story(answer: object, seconds: float) -> tuple[str, ...]:
+def _story(answer: Answer, seconds: float) -> tuple[str, ...]:
     """For people: the witness, the guarantee, and the steps that led to the answer."""
     lines = []
-    witness = getattr(answer, "witness", None)
-    if witness:
-        kind = "counterexample" if getattr(answer, "truth", None) is False else "witness"
-        lines.append(f"{kind}: " + ", ".join(f"{name} = {value}" for name, value in witness.items()))
-    guarantee = getattr(answer, "guarantee", None)
-    lines.append(f"{guarantee.name.lower() if guarantee else 'derived'} in {seconds:.3f} s")
-    stats = getattr(answer, "stats", None) or {}
-    lines += [f"{key}: {_brief(value)}" for key, value in stats.items()]
-    return tuple(lines)
-
-
-def _brief(value: object) -> str:
-    return json.dumps(plain(value), ensure_ascii=False) if isinstance(value, Mapping | list | tuple) else str(value)
+    if answer.witness:
+        kind = "counterexample" if answer.truth is False else "witness"
+        lines.append(f"{kind}: " + ", ".join(f"{name} = {value}" for name, value in answer.witness.items()))
+    lines.append(f"{answer.guarantee.value} in {seconds:.3f} s")
+    return (*lines, *answer.explanation.splitlines())
 
 
 def plain(value: object) -> object:

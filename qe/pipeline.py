@@ -12,28 +12,24 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 
-from qe.eliminate.cad.decompose import Decomposition, decompose
 from qe.eliminate.vs import eliminate_block, witness
 from qe.errors import Unable
 from qe.evidence.certificate import Certificate, Root
 from qe.evidence.elimination import Elimination
+from qe.evidence.story import Story
 from qe.exact.algebraic import RealAlgebraic
 from qe.exact.ring import Ring
 from qe.formula.build import conj, convert, disj, exists, forall, neg
-from qe.formula.normal import nnf, prenex, rename_apart
+from qe.formula.normal import nnf, rename_apart
 from qe.formula.syntax import FALSE, TRUE, And, Constant, Exists, ForAll, Formula, Not, Or
-from qe.formula.traverse import atoms, free_variables, is_quantifier_free, polynomials, ring_of
-from qe.options import Budget, Method, Options
+from qe.formula.traverse import atoms, free_variables, is_quantifier_free, polynomials
+from qe.options import Budget, Method, Options, Stage
+from qe.pipeline_cad import Values, decomposed
 from qe.plan.choice import Choice, choose
-from qe.plan.order import brown_order
-from qe.prepare import prepare
+from qe.prepare import Prepared, prepare
 from qe.prepare.nonzero import only_nonzero
 from qe.prepare.simplify import simplify
-from qe.solution.construct import construct
-from qe.solution.extended import extended_formula
-from qe.solution.walk import deciding_point
-
-Values = dict[str, Fraction | RealAlgebraic]
+from qe.prepare.step import ALL_STEPS, EQUATION_STEPS
 
 FIRST_SHARE = 0.4
 """The share of the remaining time that the first method gets while another one could take over."""
@@ -58,8 +54,8 @@ def solve(formula: Formula, options: Options, budget: Budget) -> Elimination:
     result, values = run.sentence_or_formula(rename_apart(formula))
     if free:
         result = convert(result, Ring.of(free))
-    run.stats["seconds"] = round(time.perf_counter() - run.started, 6)
-    return Elimination(result, values, run.certificate, run.stats)
+    run.story.stats["seconds"] = round(time.perf_counter() - run.started, 6)
+    return Elimination(result, values, run.certificate, run.story.stats)
 
 
 @dataclass(slots=True)
@@ -67,15 +63,9 @@ class _Run:
     options: Options
     budget: Budget
     started: float = field(default_factory=time.perf_counter)
-    stats: dict[str, object] = field(default_factory=dict)
+    story: Story = field(default_factory=Story)
     certificate: Certificate | None = None
     whole: Formula | None = None
-
-    def note(self, kind: str, detail: object) -> None:
-        """Add a line to the story that ``stats`` tells."""
-        story = self.stats.setdefault(kind, [])
-        assert isinstance(story, list)
-        story.append(detail)
 
     # --- the outermost shape -----------------------------------------------------------------
     def sentence_or_formula(self, formula: Formula) -> tuple[Formula, Values | None]:
@@ -91,15 +81,14 @@ class _Run:
     def existential(self, formula: Exists) -> tuple[Formula, Values | None]:
         """An existential sentence, with values for its variables if it is true."""
         self.whole = formula
-        ready = prepare(formula, budget=self.budget)
-        self.note("preparation", [f"{s.kind.value}: {s.detail}" for s in ready.steps])
+        ready = self._prepare(formula)
         answer, values = self.with_values(ready.formula)
         if answer != TRUE or values is None:
             return answer, None
         try:
             lifted = ready.lift(values)
         except Unable as error:
-            self.note("switches", f"no witness: {error}")
+            self.story.note("switches", f"no witness: {error}")
             return answer, None
         found = {name: lifted.get(name, Fraction(0)) for name in formula.variables}
         if self.certificate is None and is_quantifier_free(formula.body):
@@ -137,10 +126,14 @@ class _Run:
 
     # --- inner formulas ------------------------------------------------------------------------
     def prepared(self, formula: Formula) -> Formula:
-        ready = prepare(formula, budget=self.budget)
+        return self._prepare(formula).formula
+
+    def _prepare(self, formula: Formula) -> Prepared:
+        enabled = ALL_STEPS - EQUATION_STEPS if Stage.EQUATIONS in self.options.without else ALL_STEPS
+        ready = prepare(formula, budget=self.budget, enabled=enabled)
         if ready.steps:
-            self.note("preparation", [f"{s.kind.value}: {s.detail}" for s in ready.steps])
-        return ready.formula
+            self.story.note("preparation", [f"{s.kind.value}: {s.detail}" for s in ready.steps])
+        return ready
 
     def eliminate(self, formula: Formula, *, substitution_only: bool = False) -> Formula:
         """All quantifiers removed, innermost first; with ``substitution_only`` those that substitution can remove."""
@@ -189,10 +182,10 @@ class _Run:
         if free_variables(exists(variables, body)) and self.options.method is Method.AUTO:
             settled = only_nonzero(variables, body)
             if settled is not None:
-                self.note("plan", f"{', '.join(variables)}: only asked to be no root")
+                self.story.note("plan", f"{', '.join(variables)}: only asked to be no root")
                 return simplify(settled), None
         plan = self._plan(variables, body)
-        self.note("plan", f"{plan.methods[0].value} first for {', '.join(variables)}: {plan.reason}")
+        self.story.note("plan", f"{plan.methods[0].value} first for {', '.join(variables)}: {plan.reason}")
         if plan.methods[0] is Method.CAD and self._allows(Method.VS) and len(free_variables(body)) > PROBE_ABOVE:
             probed = self._probe(variables, body)
             if probed is not None:
@@ -211,7 +204,7 @@ class _Run:
                 if last:
                     raise
                 self.budget.check("switch")
-                self.note("switches", f"{method.value}: {error}")
+                self.story.note("switches", f"{method.value}: {error}")
         raise Unable("no method applies")
 
     def _probe(self, variables: Sequence[str], body: Formula) -> tuple[Formula, Values | None] | None:
@@ -221,7 +214,7 @@ class _Run:
         try:
             result = self._substituted(variables, body, part)
         except Unable as error:
-            self.note("switches", f"vs probe: {error}")
+            self.story.note("switches", f"vs probe: {error}")
             return None
         assert result is not None
         formula, values = result
@@ -233,21 +226,22 @@ class _Run:
         asked = self.options.method
         if asked is Method.VS:
             return Choice((Method.VS,), "asked for")
-        if asked is Method.CAD:
+        if asked is Method.CAD or not self._allows(Method.VS):
             return Choice((Method.CAD,), "asked for")
         if asked is not Method.AUTO:
             raise Unable(f"the method {asked.value} is not available for this formula")
         return choose(variables, body)
 
     def _allows(self, method: Method) -> bool:
-        return self.options.method in (Method.AUTO, method)
+        left_out = method is Method.VS and Stage.SUBSTITUTION in self.options.without
+        return self.options.method in (Method.AUTO, method) and not left_out
 
     def _substituted(
         self, variables: Sequence[str], body: Formula, budget: Budget
     ) -> tuple[Formula, Values | None] | None:
         start = time.perf_counter()
         result = eliminate_block(variables, body, budget=budget, simplify=simplify)
-        self.note(
+        self.story.note(
             "vs", {"variables": list(variables), **result.stats, "seconds": round(time.perf_counter() - start, 6)}
         )
         if result.remaining:
@@ -307,63 +301,10 @@ class _Run:
         return self._decomposed(formula, self.budget)
 
     def _decomposed(self, formula: Formula, budget: Budget) -> tuple[Formula, Values | None]:
-        start = time.perf_counter()
-        prefix, matrix = prenex(formula)
-        matrix = nnf(matrix)
-        if isinstance(matrix, Constant):
-            return matrix, {} if matrix.value else None
-        free = free_variables(formula)
-        polys = polynomials(matrix)
-        order, quantifiers = self._order(prefix, free, polys)
-
-        def table(separated: frozenset[int] = frozenset()) -> Decomposition:
-            return decompose(
-                matrix, order, quantifiers, budget=budget, projection=self.options.projection, separated=separated
-            )
-
-        first = table()
-        values: Values | None = None
-        if free:
-            answer, proof = construct(first.table, lambda levels: table(levels).table)
-            if self.options.root_atoms:
-                answer = extended_formula(proof)
-            answer = simplify(convert(answer, Ring.of(free)))
-        else:
-            truth, proof = first.table.root.truth is True, first.table
-            answer = TRUE if truth else FALSE
-            if truth is (quantifiers[0] == "E"):
-                values = deciding_point(proof, truth)
-        self.note(
-            "cad",
-            {
-                "order": list(order),
-                "projection": first.table.projection.value,
-                "factors": first.factors,
-                "cells": first.cells,
-                "stacks": first.stacks,
-                "nullified": first.nullified,
-                "equational constraint": first.restricted,
-                "seconds": round(time.perf_counter() - start, 6),
-            },
-        )
-        if self.certificate is None and formula == self.whole and not first.restricted:
-            self.certificate = Certificate.cells(proof, convert(answer, Ring.of(order)))
-        # back into the ring of the formula it came from: it is joined with parts of that formula
-        ring = ring_of(formula)
-        return answer if ring is None else convert(answer, ring), values
-
-    def _order(
-        self, prefix: Sequence[tuple[object, tuple[str, ...]]], free: Sequence[str], polys: Sequence[object]
-    ) -> tuple[tuple[str, ...], tuple[str, ...]]:
-        asked = self.options.order or ()
-        order: list[str] = []
-        quantifiers: list[str] = []
-        for kind, names in (("", tuple(free)), *((str(getattr(k, "value", k)), names) for k, names in prefix)):
-            wished = [v for v in asked if v in names]
-            chosen = wished if len(wished) == len(names) else list(brown_order(polys, names))  # type: ignore[arg-type]
-            order += chosen
-            quantifiers += [kind] * len(chosen)
-        return tuple(order), tuple(quantifiers)
+        found = decomposed(formula, self.options, budget, self.story)
+        if self.certificate is None and formula == self.whole:
+            self.certificate = found.certificate
+        return found.formula, found.values
 
 
 def _as_root(value: Fraction | RealAlgebraic) -> Fraction | Root:

@@ -9,6 +9,7 @@ from typing import Any
 
 from qe.evidence.certificate import Certificate
 from qe.evidence.elimination import Assignment
+from qe.evidence.story import told
 from qe.formula.syntax import Constant, Formula
 
 
@@ -47,6 +48,11 @@ class Answer:
     def truth(self) -> bool | None:
         """The truth value of a sentence, None for a formula with free variables."""
         return self.formula.value if isinstance(self.formula, Constant) else None
+
+    @property
+    def explanation(self) -> str:
+        """What was done and why, a sentence a line."""
+        return told(self.stats)
 
     def _written(self, format: str) -> str:
         from qe.io import formats

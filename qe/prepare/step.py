@@ -23,6 +23,7 @@ class StepKind(Enum):
 
 
 ALL_STEPS = frozenset(StepKind)
+EQUATION_STEPS = frozenset({StepKind.LINEAR, StepKind.GUARDED_LINEAR, StepKind.GROEBNER})
 
 
 @dataclass(frozen=True, slots=True)

@@ -53,3 +53,20 @@ def test_equivalence_and_instances() -> None:
     found = qe.find_instance("x^2 + y^2 = 1 and y = 2*x and x > 0")
     assert found is not None and found["y"] == found["x"] * 2
     assert qe.find_instance("x^2 + y^2 < 0") is None
+
+
+@pytest.mark.parametrize("stage", [stage.value for stage in qe.Stage])
+@pytest.mark.parametrize(
+    "text", ["ex x. x^2 + b*x + c < 0 and x > 0", "ex x, y. x^2 + y^2 = 1 and y = a*x + b", "all x. x^4 + p*x + q > 0"]
+)
+def test_leaving_a_stage_out_changes_no_answer(text: str, stage: str) -> None:
+    assert qe.equivalent(qe.eliminate(text, without=(stage,)).formula, qe.eliminate(text).formula)
+
+
+def test_the_explanation_names_what_was_done(capsys: pytest.CaptureFixture[str]) -> None:
+    answer = qe.eliminate("ex x, y. x + y = a and x^3 + y^3 < b", explain=True)
+    told = capsys.readouterr().err
+    assert told.strip() == answer.explanation
+    assert "prepared by linear equation solved" in told and "planned" in told
+    slow = qe.eliminate("ex x, y. x + y = a and x^3 + y^3 < b", without=("substitution",))
+    assert "substitution" not in slow.explanation.split("planned")[1] and "decomposition order" in slow.explanation

@@ -1,0 +1,99 @@
+"""Decomposition in the pipeline: prenex form, order, cell table, solution formula, certificate."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+
+from qe.eliminate.cad.decompose import Decomposition, decompose
+from qe.evidence.certificate import Certificate
+from qe.evidence.story import Story
+from qe.exact.algebraic import RealAlgebraic
+from qe.exact.ring import Poly, Ring
+from qe.formula.build import convert
+from qe.formula.normal import Quantifier, nnf, prenex
+from qe.formula.syntax import FALSE, TRUE, Constant, Formula
+from qe.formula.traverse import free_variables, polynomials, ring_of
+from qe.options import Budget, Options, Projection, Stage
+from qe.plan.order import brown_order
+from qe.prepare.simplify import simplify
+from qe.solution.construct import construct
+from qe.solution.extended import extended_formula
+from qe.solution.walk import deciding_point
+
+Values = dict[str, Fraction | RealAlgebraic]
+
+
+@dataclass(frozen=True, slots=True)
+class Decomposed:
+    """``formula``: equivalent to what was asked. ``values``: a witness or counterexample of a sentence's outermost
+    block, where there is one. ``certificate``: of exactly this question, where the checker has a theorem for it.
+    """
+
+    formula: Formula
+    values: Values | None = None
+    certificate: Certificate | None = None
+
+
+def decomposed(formula: Formula, options: Options, budget: Budget, story: Story) -> Decomposed:
+    """Any formula, as a whole, by cylindrical algebraic decomposition. Raises ``BudgetExceeded``."""
+    start = time.perf_counter()
+    prefix, matrix = prenex(formula)
+    matrix = nnf(matrix)
+    if isinstance(matrix, Constant):
+        return Decomposed(matrix, {} if matrix.value else None)
+    free = free_variables(formula)
+    order, quantifiers = _order(prefix, free, polynomials(matrix), options)
+    projection = Projection.LAZARD if Stage.MCCALLUM in options.without else options.projection
+
+    def table(separated: frozenset[int] = frozenset()) -> Decomposition:
+        return decompose(matrix, order, quantifiers, budget=budget, projection=projection, separated=separated)
+
+    first = table()
+    values: Values | None = None
+    if free:
+        answer, proof = construct(first.table, lambda levels: table(levels).table)
+        if options.root_atoms:
+            answer = extended_formula(proof)
+        answer = simplify(convert(answer, Ring.of(free)))
+    else:
+        truth, proof = first.table.root.truth is True, first.table
+        answer = TRUE if truth else FALSE
+        if truth is (quantifiers[0] == "E"):
+            values = deciding_point(proof, truth)
+    story.note("cad", _figures(order, first, time.perf_counter() - start))
+    certificate = None if first.restricted else Certificate.cells(proof, convert(answer, Ring.of(order)))
+    # back into the ring of the formula it came from: it is joined with parts of that formula
+    ring = ring_of(formula)
+    return Decomposed(answer if ring is None else convert(answer, ring), values, certificate)
+
+
+def _figures(order: Sequence[str], found: Decomposition, seconds: float) -> dict[str, object]:
+    return {
+        "order": list(order),
+        "projection": found.table.projection.value,
+        "factors": found.factors,
+        "cells": found.cells,
+        "stacks": found.stacks,
+        "nullified": found.nullified,
+        "equational constraint": found.restricted,
+        "seconds": round(seconds, 6),
+    }
+
+
+def _order(
+    prefix: Sequence[tuple[Quantifier, tuple[str, ...]]], free: Sequence[str], polys: Sequence[Poly], options: Options
+) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """The variables, free ones first, blocks never mixed, and the quantifier of each."""
+    asked = options.order or ()
+    order: list[str] = []
+    quantifiers: list[str] = []
+    for kind, names in (("", tuple(free)), *((k.value, names) for k, names in prefix)):
+        wished = [v for v in asked if v in names]
+        if len(wished) < len(names):
+            wished = list(names if Stage.ORDER in options.without else brown_order(polys, names))
+        order += wished
+        quantifiers += [kind] * len(wished)
+    return tuple(order), tuple(quantifiers)
