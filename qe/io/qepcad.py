@@ -13,16 +13,16 @@ from collections.abc import Callable, Iterator
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
-from qe.errors import ParseError
 from qe.formula.normal import Quantifier, prenex
 from qe.formula.syntax import Formula, Relation, RootAtom
 from qe.formula.traverse import free_variables
 from qe.io import surface as s
+from qe.io.grammar import Failing, parse, parser
 from qe.io.infix import Notation, formula_text, polynomial, positive
 from qe.io.names import Renaming
 from qe.io.surface import lower
-from qe.io.text_errors import SyntaxFailure, unexpected_token, unknown_character
-from qe.io.text_parser import TERMS, Builder, position
+from qe.io.text_errors import SyntaxFailure, unknown_character
+from qe.io.text_parser import TERMS, Builder
 
 if TYPE_CHECKING:
     from lark import Lark, Token
@@ -77,25 +77,11 @@ _TERMS = _TERMS.replace("| NAME OPEN arguments CLOSE -> call", "").replace("argu
 
 def read(text: str, *, source: str = "<text>") -> Formula:
     """The formula of a QEPCAD session or formula text. Raises ``ParseError`` with line and column."""
-    from lark.exceptions import UnexpectedToken
-
-    def fail(message: str, at: int, expected: str = "") -> ParseError:
-        line, column = position(text, max(at, 0))
-        return ParseError(message, source=source, line=line, column=column, expected=expected)
-
+    fail = Failing(text, source)
     session = _SESSION.fullmatch(text)
     body, start = (session["formula"], session.start("formula")) if session else (text.rstrip().removesuffix("."), 0)
-    padded = " " * start + body
-    try:
-        node = _parser().parse(padded)
-    except UnexpectedToken as error:
-        token = error.token
-        at = len(padded) if token.type == "$END" else token.start_pos or 0
-        failed = unexpected_token(padded, token.type, str(token), at, error.accepts or error.expected)
-        raise fail(failed.message, failed.at, failed.expected) from None
-    except SyntaxFailure as error:
-        raise fail(error.message, error.at, error.expected) from None
-    formula = lower(node, fail, names=_session_names(session, fail) if session else None)  # type: ignore[arg-type]
+    node = parse(_parser(), " " * start + body, fail)
+    formula = lower(node, fail, names=_session_names(session, fail) if session else None)
     if session:
         _check_session(session, node, fail)
     return formula
@@ -124,19 +110,7 @@ def _check_session(session: re.Match[str], node: object, fail: s.Fail) -> None:
 
 @cache
 def _parser() -> Lark:
-    from lark import Lark, Token
-    from lark.lexer import Lexer
-
-    class SessionLexer(Lexer):
-        """One compiled pattern for all tokens; quantifiers are recognised only in front."""
-
-        def __init__(self, lexer_conf: Any) -> None:
-            pass
-
-        def lex(self, text: str) -> Iterator[Token]:  # type: ignore[override]
-            return _tokens(text, Token)
-
-    return Lark(_FORMULAS + _TERMS, parser="lalr", lexer=SessionLexer, transformer=_Builder(), maybe_placeholders=False)
+    return parser(_FORMULAS + _TERMS, _tokens, _Builder())
 
 
 def _tokens(text: str, token: Callable[..., Token]) -> Iterator[Token]:

@@ -12,14 +12,15 @@ from collections.abc import Callable, Iterator
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
-from qe.errors import InputError, ParseError
+from qe.errors import InputError
 from qe.formula.syntax import Formula, Relation, RootAtom
 from qe.io import surface as s
+from qe.io.grammar import Failing, parse, parser
 from qe.io.infix import Notation, formula_text
 from qe.io.names import Renaming
 from qe.io.surface import lower
-from qe.io.text_errors import SyntaxFailure, unexpected_token, unknown_character
-from qe.io.text_parser import TERMS, Builder, position
+from qe.io.text_errors import SyntaxFailure, unknown_character
+from qe.io.text_parser import TERMS, Builder
 
 if TYPE_CHECKING:
     from lark import Lark, Token
@@ -105,39 +106,13 @@ _RESERVED = re.compile(
 
 def read(text: str, *, source: str = "<text>") -> Formula:
     """The formula that a Redlog text means. Raises ``ParseError`` with line and column."""
-    from lark.exceptions import UnexpectedToken
-
-    def fail(message: str, at: int, expected: str = "") -> ParseError:
-        line, column = position(text, max(at, 0))
-        return ParseError(message, source=source, line=line, column=column, expected=expected)
-
-    try:
-        node = _parser().parse(text)
-    except UnexpectedToken as error:
-        token = error.token
-        at = len(text) if token.type == "$END" else token.start_pos or 0
-        failed = unexpected_token(text, token.type, str(token), at, error.accepts or error.expected)
-        raise fail(failed.message, failed.at, failed.expected) from None
-    except SyntaxFailure as error:
-        raise fail(error.message, error.at, error.expected) from None
-    return lower(node, fail)  # type: ignore[arg-type]
+    fail = Failing(text, source)
+    return lower(parse(_parser(), text, fail), fail)
 
 
 @cache
 def _parser() -> Lark:
-    from lark import Lark, Token
-    from lark.lexer import Lexer
-
-    class RedlogLexer(Lexer):
-        """One compiled pattern for all tokens."""
-
-        def __init__(self, lexer_conf: Any) -> None:
-            pass
-
-        def lex(self, text: str) -> Iterator[Token]:  # type: ignore[override]
-            return _tokens(text, Token)
-
-    return Lark(_FORMULAS + TERMS, parser="lalr", lexer=RedlogLexer, transformer=_Builder(), maybe_placeholders=False)
+    return parser(_FORMULAS + TERMS, _tokens, _Builder())
 
 
 def _tokens(text: str, token: Callable[..., Token]) -> Iterator[Token]:

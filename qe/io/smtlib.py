@@ -14,15 +14,15 @@ from __future__ import annotations
 
 import re
 
-from qe.errors import InputError, ParseError
+from qe.errors import InputError
 from qe.formula.syntax import And, Atom, Constant, Exists, ForAll, Formula, Not, Or, Relation
 from qe.formula.traverse import children, free_variables, is_quantifier_free
+from qe.io.grammar import Failing
 from qe.io.infix import Monomial, digits, oriented
 from qe.io.names import Renaming
 from qe.io.smtlib_parser import parse
 from qe.io.smtlib_script import Script
 from qe.io.surface import MAX_DEPTH, lower
-from qe.io.text_parser import position
 
 _SIMPLE = re.compile(r"[A-Za-z~!@$%^&*_+=<>.?/-][A-Za-z0-9~!@$%^&*_+=<>.?/-]*")
 _RESERVED = re.compile(
@@ -37,10 +37,7 @@ _OPERATORS = {Relation.EQ: "=", Relation.LT: "<", Relation.LE: "<=", Relation.GT
 def read(text: str, *, source: str = "<text>") -> Formula:
     """The conjunction of the assertions of a script. Raises ``ParseError`` with line and column."""
 
-    def fail(message: str, at: int) -> ParseError:
-        line, column = position(text, max(at, 0))
-        return ParseError(message, source=source, line=line, column=column)
-
+    fail = Failing(text, source)
     try:
         script = Script(fail)
         node = script.run(parse(text, fail))

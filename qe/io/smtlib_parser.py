@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator
 from functools import cache
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
+from qe.io.grammar import parser
 from qe.io.surface import Fail
 
 if TYPE_CHECKING:
@@ -72,19 +73,7 @@ def parse(text: str, fail: Fail) -> list[Expression]:
 
 @cache
 def _parser() -> Lark:
-    from lark import Lark, Token
-    from lark.lexer import Lexer
-
-    class ScriptLexer(Lexer):
-        """One compiled pattern for all tokens."""
-
-        def __init__(self, lexer_conf: Any) -> None:
-            pass
-
-        def lex(self, text: str) -> Iterator[Token]:  # type: ignore[override]
-            return _tokens(text, Token)
-
-    return Lark(_GRAMMAR, parser="lalr", lexer=ScriptLexer, transformer=_Builder(), maybe_placeholders=False)
+    return parser(_GRAMMAR, _tokens, _Builder())
 
 
 def _tokens(text: str, token: Callable[..., Token]) -> Iterator[Token]:

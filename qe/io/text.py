@@ -11,11 +11,11 @@ from __future__ import annotations
 
 import re
 
-from qe.errors import ParseError
 from qe.formula.syntax import Formula, RootAtom
+from qe.io.grammar import Failing, parse
 from qe.io.infix import Notation, formula_text, polynomial, positive
 from qe.io.surface import lower
-from qe.io.text_parser import KEYWORDS, WORD, parse, position
+from qe.io.text_parser import KEYWORDS, WORD, text_parser
 
 _PLAIN = re.compile(WORD)
 
@@ -25,12 +25,8 @@ def read(text: str, *, source: str = "<text>") -> Formula:
 
     Raises ``ParseError`` (one line with line, column and what was expected).
     """
-
-    def fail(message: str, at: int) -> ParseError:
-        line, column = position(text, max(at, 0))
-        return ParseError(message, source=source, line=line, column=column)
-
-    return lower(parse(text, source), fail)
+    fail = Failing(text, source)
+    return lower(parse(text_parser(), text, fail), fail)
 
 
 def write(formula: Formula) -> str:

@@ -7,11 +7,11 @@ from collections.abc import Callable, Iterator
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
-from qe.errors import ParseError
 from qe.formula.syntax import Relation
 from qe.io import surface as s
+from qe.io.grammar import parser
 from qe.io.terms import TermError, decimal
-from qe.io.text_errors import SyntaxFailure, unexpected_token, unknown_character
+from qe.io.text_errors import SyntaxFailure, unknown_character
 
 if TYPE_CHECKING:
     from lark import Lark, Token
@@ -101,42 +101,10 @@ arguments: sum | arguments COMMA sum
 """
 
 
-def parse(text: str, source: str) -> s.Node:
-    """The surface tree of ``text``; raises ``ParseError``."""
-    from lark.exceptions import UnexpectedToken
-
-    try:
-        return _parser().parse(text)  # type: ignore[return-value]
-    except UnexpectedToken as error:
-        token = error.token
-        at = len(text) if token.type == "$END" else token.start_pos or 0
-        failed = unexpected_token(text, token.type, str(token), at, error.accepts or error.expected)
-    except SyntaxFailure as error:
-        failed = error
-    line, column = position(text, failed.at)
-    raise ParseError(failed.message, source=source, line=line, column=column, expected=failed.expected) from None
-
-
-def position(text: str, at: int) -> tuple[int, int]:
-    """Line and column, from 1, of an offset."""
-    return text.count("\n", 0, at) + 1, at - text.rfind("\n", 0, at)
-
-
 @cache
-def _parser() -> Lark:
-    from lark import Lark, Token
-    from lark.lexer import Lexer
-
-    class TextLexer(Lexer):
-        """One compiled pattern instead of one per terminal; keywords and operators by table."""
-
-        def __init__(self, lexer_conf: Any) -> None:
-            pass
-
-        def lex(self, text: str) -> Iterator[Token]:  # type: ignore[override]
-            return _tokens(text, Token)
-
-    return Lark(_FORMULAS + TERMS, parser="lalr", lexer=TextLexer, transformer=Builder(), maybe_placeholders=False)
+def text_parser() -> Lark:
+    """The parser of the text syntax."""
+    return parser(_FORMULAS + TERMS, _tokens, Builder())
 
 
 def _tokens(text: str, token: Callable[..., Token]) -> Iterator[Token]:

@@ -7,11 +7,11 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from qe.formula.build import conj, disj
+from qe.formula.normal import nnf
 from qe.formula.syntax import And, Exists, ForAll, Formula, Or
 from qe.options import Budget
 from qe.prepare.block import reduce_block
 from qe.prepare.lift import Assignment, Value
-from qe.prepare.negation import positive
 from qe.prepare.simplify import simplify
 from qe.prepare.step import ALL_STEPS, Step, StepKind
 from qe.prepare.tree import Node
@@ -53,15 +53,15 @@ def prepare(formula: Formula, *, budget: Budget | None = None, enabled: Collecti
     """
     steps: list[Step] = []
     shop = Workshop(budget or Budget(), frozenset(enabled), steps=steps)
-    current = positive(formula)
+    current = nnf(formula)
     if StepKind.SIMPLIFY in shop.enabled:
         current = simplify(current)
     if not isinstance(current, Exists | ForAll):
         return Prepared(_finish(_inside(current, shop), shop), tuple(steps))
     universal = isinstance(current, ForAll)
-    body = _inside(positive(current.body, universal), shop)
+    body = _inside(nnf(current.body, negate=universal), shop)
     tree = reduce_block(current.variables, body, shop)
-    result = _finish(positive(tree.formula, universal), shop)
+    result = _finish(nnf(tree.formula, negate=universal), shop)
     outer = formula.variables if isinstance(formula, Exists | ForAll) else current.variables
     return Prepared(result, tuple(steps), tree, universal, outer)
 
@@ -81,6 +81,6 @@ def _inside(formula: Formula, shop: Workshop) -> Formula:
         case Exists(variables, body) | ForAll(variables, body):
             universal = isinstance(formula, ForAll)
             fresh = replace(shop, facts=shop.facts.without(variables))
-            tree = reduce_block(variables, positive(_inside(body, fresh), universal), replace(fresh))
-            return positive(tree.formula, universal)
+            tree = reduce_block(variables, nnf(_inside(body, fresh), negate=universal), replace(fresh))
+            return nnf(tree.formula, negate=universal)
     return formula

@@ -13,12 +13,12 @@ from collections.abc import Iterable
 
 from qe.exact.ring import Poly
 from qe.formula.build import atom, conj, disj, exists, forall
+from qe.formula.normal import nnf
 from qe.formula.syntax import FALSE, TRUE, And, Atom, Constant, Exists, ForAll, Formula, Not, Or, RootAtom
 from qe.formula.traverse import free_variables, ring_of
 from qe.prepare.absorb import absorb
 from qe.prepare.factors import reduce_atom
 from qe.prepare.facts import NOTHING, Facts, atom_of, constraint, generator
-from qe.prepare.negation import positive
 from qe.prepare.ranges import EVERYTHING, Range, describe, meet
 from qe.prepare.univariate import irredundant
 
@@ -42,7 +42,7 @@ def simplify(formula: Formula, assumptions: Formula = TRUE) -> Formula:
 
 def simplify_under(formula: Formula, facts: Facts) -> Formula:
     """As ``simplify``, with the assumptions given as facts."""
-    current = positive(formula)
+    current = nnf(formula)
     for _ in range(_ROUNDS):
         previous, current = current, _node(current, facts)
         if current == previous:
