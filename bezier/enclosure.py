@@ -1,0 +1,120 @@
+"""Numbers known to lie between two rational ends, and the largest value of a rational function on [0, 1]."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
+from fractions import Fraction
+from math import isqrt
+from typing import Any
+
+from bezier import bernstein as bs
+from bezier.scalar import is_zero, rational
+from qe.errors import InputError, Unable
+
+BITS = 192
+MAX_PIECES = 20_000
+
+
+@dataclass(frozen=True, slots=True)
+class Enclosure:
+    """A real number x with low <= x <= high; ``high`` is None when x is infinite. Invariant: low <= high."""
+
+    low: Fraction
+    high: Fraction | None
+
+    def __post_init__(self) -> None:
+        if self.high is not None and self.high < self.low:
+            raise InputError("an enclosure needs low <= high")
+
+    @property
+    def is_bounded(self) -> bool:
+        """Whether the number is finite."""
+        return self.high is not None
+
+    def __add__(self, other: Enclosure) -> Enclosure:
+        high = None if self.high is None or other.high is None else self.high + other.high
+        return Enclosure(self.low + other.low, high)
+
+    def __float__(self) -> float:
+        return float("inf") if self.high is None else float((self.low + self.high) / 2)
+
+    def to_json(self, digits: int = 12) -> dict[str, str]:
+        """``{"low", "high"}`` as decimals rounded outwards; ``high`` is "inf" for an infinite number."""
+        return {"low": _decimal(self.low, digits, ROUND_FLOOR), "high": _decimal(self.high, digits, ROUND_CEILING)}
+
+
+def _decimal(value: Fraction | None, digits: int, rounding: str) -> str:
+    if value is None:
+        return "inf"
+    context = Context(prec=digits, rounding=rounding)
+    return f"{context.divide(Decimal(value.numerator), Decimal(value.denominator)):f}"
+
+
+def bounds(value: Any, bits: int = BITS) -> tuple[Fraction, Fraction]:
+    """Rational numbers low <= value <= high: equal for a rational value, else ``bits`` good bits."""
+    number = rational(value)
+    if number is not None:
+        return number, number
+    low, high = value.interval(bits)
+    return Fraction(low), Fraction(high)
+
+
+def root_below(square: Fraction, bits: int = BITS) -> Fraction:
+    """The square root of ``square`` >= 0 if that is rational, else a rational number at most 2^-bits below it."""
+    return Fraction(isqrt((square.numerator * square.denominator) << 2 * bits), square.denominator << bits)
+
+
+def root_above(square: Fraction, bits: int = BITS) -> Fraction:
+    """The square root of ``square`` >= 0 if that is rational, else a rational number at most 2^-bits above it."""
+    below = root_below(square, bits)
+    return below if below * below == square else below + Fraction(1, square.denominator << bits)
+
+
+def root_enclosure(low: Fraction, high: Fraction) -> Enclosure:
+    """The square root of a number in [low, high], low >= 0."""
+    return Enclosure(root_below(low), root_above(high))
+
+
+def maximum(numerator: Sequence[Any], denominator: Sequence[Any], rel: Fraction) -> Enclosure:
+    """The largest value on [0, 1] of N(t)/D(t), N and D in Bernstein form, N >= 0 somewhere and D > 0 on [0, 1].
+
+    high - low <= rel * high. If c D - N has nonnegative Bernstein coefficients on a piece, N/D <= c there. With c a
+    little above the largest value seen, a piece is left when that holds and halved otherwise; near the maximum the
+    coefficients approach c D - N >= (c - max) D > 0 with quadratic speed, so the halving ends. Irrational coefficients
+    are replaced by rational ones with an error that is carried along.
+
+    Raises ``Unable`` beyond ``MAX_PIECES`` pieces.
+    """
+    if all(map(is_zero, numerator)):
+        return Enclosure(Fraction(0), Fraction(0))
+    degree = max(len(numerator), len(denominator)) - 1
+    n, n_error = _rationals(bs.elevate(numerator, degree))
+    d, d_error = _rationals(bs.elevate(denominator, degree))
+    best = Fraction(0)
+
+    def seen(top: Fraction, bottom: Fraction) -> Fraction:
+        return max(best, (top - n_error) / (bottom + d_error))
+
+    best = seen(n[0], d[0])
+    best = seen(n[-1], d[-1])
+    todo, pieces = [(n, d)], 0
+    while todo:
+        n, d = todo.pop()
+        ceiling = best * (1 + rel)
+        if all(ceiling * (below - d_error) >= above + n_error for above, below in zip(n, d, strict=True)):
+            continue
+        pieces += 1
+        if pieces > MAX_PIECES:
+            raise Unable("the maximum of a rational function was not enclosed within the subdivision limit")
+        (n_left, n_right), (d_left, d_right) = bs.split(n), bs.split(d)
+        best = seen(n_right[0], d_right[0])
+        todo += [(n_right, d_right), (n_left, d_left)]
+    return Enclosure(best, best * (1 + rel))
+
+
+def _rationals(values: Sequence[Any]) -> tuple[tuple[Fraction, ...], Fraction]:
+    """Rational numbers near the values, and how far they are off at most."""
+    ends = [bounds(v) for v in values]
+    return tuple((low + high) / 2 for low, high in ends), max((high - low for low, high in ends)) / 2

@@ -1,0 +1,64 @@
+"""Rigorous integrals of square roots of polynomials (Petras' algorithm in ball arithmetic).
+
+FLINT integrates functions that are analytic near the path by Gauss-Legendre quadrature on adaptively bisected
+pieces, with an error bound from their size on an ellipse around each piece (Johansson, "Numerical integration in
+arbitrary-precision ball arithmetic", ICMS 2018); elsewhere a piece counts with the range of the function on it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+
+from flint import acb, acb_poly, arb, fmpq
+
+from qe.errors import Unable
+from qe.exact.balls import hull, lower_end, precision, upper_end
+
+FIRST_BITS = 96
+MAX_BITS = 768
+
+Interval = tuple[Fraction, Fraction]
+
+
+def root_integral(
+    factor: Sequence[Interval], radicand: Sequence[Interval], low: Fraction, high: Fraction, rel: Fraction
+) -> Interval:
+    """Enclosure of the integral over [low, high] of |f(t)| sqrt(q(t)), no wider than ``rel`` times its upper end.
+
+    ``factor``, ``radicand``: enclosures of the coefficients of 1, t, t^2, ... of f and q. Promised: f does not change
+    its sign and q > 0 on [low, high]. Raises ``Unable`` when the integral is not found that closely.
+    """
+    bits, goal = FIRST_BITS, rel / 16  # the goal bounds single pieces; their sum may miss it by a small factor
+    while bits <= MAX_BITS:
+        below, above = _attempt(factor, radicand, (low, high), goal, bits)
+        if above - below <= rel * above:
+            return below, above
+        bits, goal = bits * 2, goal / 256
+    raise Unable(f"the integral of a square root was not enclosed within {float(rel):g}")
+
+
+def _attempt(
+    factor: Sequence[Interval], radicand: Sequence[Interval], over: Interval, rel: Fraction, bits: int
+) -> Interval:
+    with precision(bits):
+        f, q = _polynomial(factor), _polynomial(radicand)
+
+        def value(z: acb, analytic: bool) -> acb:
+            return f(z) * q(z).sqrt(analytic=analytic)
+
+        ends = [acb(arb(_rational(t))) for t in over]
+        found = acb.integral(value, *ends, rel_tol=arb(_rational(rel)), abs_tol=arb(2) ** (-8 * bits)).real
+        total = abs(found)
+        if not total.is_finite():
+            return Fraction(0), Fraction(1)
+        low, high = lower_end(total), upper_end(total)
+    return max(Fraction(int(low.p), int(low.q)), Fraction(0)), Fraction(int(high.p), int(high.q))
+
+
+def _polynomial(coefficients: Sequence[Interval]) -> acb_poly:
+    return acb_poly([acb(hull(_rational(low), _rational(high))) for low, high in coefficients])
+
+
+def _rational(value: Fraction) -> fmpq:
+    return fmpq(value.numerator, value.denominator)
