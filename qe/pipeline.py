@@ -34,8 +34,10 @@ from qe.prepare.step import ALL_STEPS, EQUATION_STEPS
 FIRST_SHARE = 0.4
 """The share of the remaining time that the first method gets while another one could take over."""
 
-SHORTEN_ABOVE = 8
-"""Answers of substitution with more atoms than this are shortened by decomposition of parameter space."""
+SHORTEN_ABOVE, SHORTEN_PLANE = 8, 4
+"""Answers with more atoms than this, or joined from parts, are shortened by decomposition of parameter space: the
+second bound is for one and two parameters, where that takes some hundredths of a second.
+"""
 
 PROBE_ABOVE, PROBE_SECONDS, PROBE_SHARE, PROBE_ATOMS = 3, 1.0, 0.1, 30
 """Substitution is tried for this long before a decomposition in more variables, and taken if its answer is small."""
@@ -76,7 +78,8 @@ class _Run:
         if isinstance(formula, Exists) and not free_variables(formula):
             return self.existential(formula)
         self.whole = formula
-        return self.eliminate(self.prepared(formula)), None
+        answer = self.eliminate(self.prepared(formula))
+        return (answer if self.certificate else self._shortened(answer)), None
 
     def existential(self, formula: Exists) -> tuple[Formula, Values | None]:
         """An existential sentence, with values for its variables if it is true."""
@@ -281,7 +284,7 @@ class _Run:
         """A shorter equivalent of a long quantifier-free answer, read off a decomposition, if that is quick."""
         names = free_variables(formula)
         count = sum(1 for _ in atoms(formula))
-        if count <= SHORTEN_ABOVE or not names or len(names) > SHORTEN_VARIABLES or not self._allows(Method.CAD):
+        if count <= (SHORTEN_ABOVE if len(names) == SHORTEN_VARIABLES else SHORTEN_PLANE) or not names or len(names) > SHORTEN_VARIABLES or not self._allows(Method.CAD):
             return formula
         if len(names) == SHORTEN_VARIABLES and max(p.total_degree for p in polynomials(formula)) > SHORTEN_DEGREE:
             return formula
