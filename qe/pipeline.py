@@ -30,6 +30,7 @@ from qe.prepare import Prepared, prepare
 from qe.prepare.nonzero import only_nonzero
 from qe.prepare.simplify import simplify
 from qe.prepare.step import ALL_STEPS, EQUATION_STEPS
+from qe.solution.linear_proof import substitution_certificate
 
 FIRST_SHARE = 0.4
 """The share of the remaining time that the first method gets while another one could take over."""
@@ -79,7 +80,10 @@ class _Run:
             return self.existential(formula)
         self.whole = formula
         answer = self.eliminate(self.prepared(formula))
-        return (answer if self.certificate else self._shortened(answer)), None
+        if self.certificate is None:
+            answer = self._shortened(answer)
+            self.certificate = substitution_certificate(formula, answer)
+        return answer, None
 
     def existential(self, formula: Exists) -> tuple[Formula, Values | None]:
         """An existential sentence, with values for its variables if it is true."""
@@ -284,7 +288,8 @@ class _Run:
         """A shorter equivalent of a long quantifier-free answer, read off a decomposition, if that is quick."""
         names = free_variables(formula)
         count = sum(1 for _ in atoms(formula))
-        if count <= (SHORTEN_ABOVE if len(names) == SHORTEN_VARIABLES else SHORTEN_PLANE) or not names or len(names) > SHORTEN_VARIABLES or not self._allows(Method.CAD):
+        least = SHORTEN_ABOVE if len(names) == SHORTEN_VARIABLES else SHORTEN_PLANE
+        if count <= least or not 0 < len(names) <= SHORTEN_VARIABLES or not self._allows(Method.CAD):
             return formula
         if len(names) == SHORTEN_VARIABLES and max(p.total_degree for p in polynomials(formula)) > SHORTEN_DEGREE:
             return formula

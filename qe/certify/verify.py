@@ -5,13 +5,19 @@ from __future__ import annotations
 from qe.certify.cells import check_cells
 from qe.certify.containment import check_containment
 from qe.certify.optimum import check_optimum
+from qe.certify.substitution import check_substitution
 from qe.certify.verdict import Verdict
 from qe.certify.witness import check_witness
 from qe.errors import CertificateRejected, InputError
 from qe.evidence.cells_json import CellEvidence
 from qe.evidence.certificate import Certificate, Kind
 
-_CHECKERS = {Kind.OPTIMUM: check_optimum, Kind.WITNESS: check_witness, Kind.CONTAINMENT: check_containment}
+_CHECKERS = {
+    Kind.OPTIMUM: check_optimum,
+    Kind.WITNESS: check_witness,
+    Kind.SUBSTITUTION: check_substitution,
+    Kind.CONTAINMENT: check_containment,
+}
 
 
 def verify(certificate: Certificate) -> Verdict:

@@ -17,7 +17,7 @@ from qe.errors import CertificateRejected, InputError
 from qe.evidence.cells import CellTable
 from qe.evidence.cells_json import CellEvidence, cells_from_json, cells_to_json
 from qe.evidence.entry import Entry, Json, formula_to_json
-from qe.exact.ring import Ring, format_poly
+from qe.exact.ring import Poly, Ring, format_poly
 from qe.formula.syntax import Formula
 
 FORMAT, VERSION = "bezier-qe certificate", 1
@@ -28,13 +28,15 @@ class Kind(Enum):
 
     CELLS: truth values on the cells of a (partial) cylindrical algebraic decomposition, and the formula that
     follows. OPTIMUM: an optimal point of a convex problem, or that there is none. WITNESS: that an assignment
-    satisfies a quantifier-free formula. CONTAINMENT: that a Bezier curve stays in a ball or half-space.
+    satisfies a quantifier-free formula. SUBSTITUTION: that linear equations eliminate an existential block.
+    CONTAINMENT: that a Bezier curve stays in a ball or half-space.
     BUNDLE: several certificates with labels.
     """
 
     CELLS = "cells"
     OPTIMUM = "optimum"
     WITNESS = "witness"
+    SUBSTITUTION = "substitution"
     CONTAINMENT = "containment"
     BUNDLE = "bundle"
 
@@ -89,6 +91,20 @@ class Certificate:
         numbers: list[Json] = [_value_to_json(v, name) for v, name in zip(values, order, strict=True)]
         payload: dict[str, Json] = {"order": list(order), "matrix": formula_to_json(matrix), "values": numbers}
         return Certificate(Kind.WITNESS, payload)
+
+    @staticmethod
+    def substitution(
+        matrix: Formula, order: Sequence[str], solved: Sequence[tuple[str, Poly]], answer: Formula
+    ) -> Certificate:
+        """That the existential variables ``solved`` (with their equations, in order of use) give ``answer``."""
+        payload: dict[str, Json] = {
+            "order": list(order),
+            "variables": [name for name, _ in solved],
+            "matrix": formula_to_json(matrix),
+            "solved": [[name, format_poly(equation)] for name, equation in solved],
+            "answer": formula_to_json(answer),
+        }
+        return Certificate(Kind.SUBSTITUTION, payload)
 
     def to_data(self) -> dict[str, Json]:
         """Kind and payload as JSON data."""
