@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from enum import Enum
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -184,6 +184,24 @@ def parametric_witnesses(
     return find(given, budget=Budget(timeout, listener=progress))
 
 
+def check_witness(sentence: AnyFormula, witness: Mapping[str, AnyFormula], **keywords: Any) -> bool:
+    """Whether existential variables can be given by these polynomials in the variables quantified further outside.
+
+    The polynomials (text, ``Poly`` or SymPy) are put in and the stronger sentence is decided: True proves the
+    sentence, False says only that this witness does not work everywhere. Raises ``InputError`` for a name that is not
+    existentially quantified, or a polynomial in variables that are not known at its place.
+    """
+    from qe.exact.ring import Ring
+    from qe.solution.polynomial_witness import Term, instantiate
+
+    given = read_formula(sentence, keywords.pop("format", "text"))
+    read = {name: _polynomial(term, f"witness: {name}") for name, term in witness.items()}
+    rings = [r for r in (ring_of(given), *(poly.ring for poly, _ in read.values())) if r is not None]
+    ring = Ring.of(dict.fromkeys(name for r in rings for name in r.names))
+    terms = {name: Term.of(poly.convert(ring), scale) for name, (poly, scale) in read.items()}
+    return decide(instantiate(convert(given, ring), terms), **keywords)
+
+
 def equivalent(left: AnyFormula, right: AnyFormula, **keywords: Any) -> bool:
     """Whether two formulas have the same solutions in all their free variables together."""
     from qe.exact.ring import Ring
@@ -228,7 +246,7 @@ def minimize(
     """
     from qe.solution.optimum import minimize as solve
 
-    poly, scale = _objective(objective)
+    poly, scale = _polynomial(objective, "objective")
     return solve(poly, _constraints(constraints), scale=scale, budget=Budget(timeout, listener=progress))
 
 
@@ -242,7 +260,7 @@ def maximize(
     """The exact maximum; see ``minimize``."""
     from qe.solution.optimum import maximize as solve
 
-    poly, scale = _objective(objective)
+    poly, scale = _polynomial(objective, "objective")
     return solve(poly, _constraints(constraints), scale=scale, budget=Budget(timeout, listener=progress))
 
 
@@ -257,11 +275,11 @@ def _constraints(given: AnyFormula) -> Formula:
     return read_formula(given)
 
 
-def _objective(given: AnyFormula) -> tuple[Poly, Fraction]:
-    """The objective as a polynomial p and a rational s: it is s*p. A slack name makes the sign readable."""
+def _polynomial(given: AnyFormula, what: str) -> tuple[Poly, Fraction]:
+    """The given term as a polynomial p and a rational s: it is s*p. A slack name makes the sign readable."""
     if isinstance(given, Poly):
         return given, Fraction(1)
-    slack = "objective_value"
+    slack = "polynomial_value"
     if isinstance(given, str):
         relation = read_formula(f"{slack} = {given}")
     else:
@@ -269,12 +287,12 @@ def _objective(given: AnyFormula) -> tuple[Poly, Fraction]:
 
         relation = read_formula(sympy.Eq(sympy.Symbol(slack), given, evaluate=False))
     if isinstance(relation, Constant) or len(polynomials(relation)) != 1:
-        raise InputError("objective: a polynomial expected")
+        raise InputError(f"{what}: a polynomial expected")
     (equation,) = polynomials(relation)
     i = equation.ring.index[slack]
     rest, coefficient = equation.coefficients(i)
     if not coefficient.is_constant or len(equation.coefficients(i)) != 2:
-        raise InputError("objective: a polynomial expected")
+        raise InputError(f"{what}: a polynomial expected")
     return rest, Fraction(-1, coefficient.constant_value())
 
 
@@ -290,6 +308,7 @@ __all__ = [
     "Certificate",
     "Guarantee",
     "Status",
+    "check_witness",
     "decide",
     "eliminate",
     "equivalent",
