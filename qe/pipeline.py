@@ -31,6 +31,7 @@ from qe.prepare.nonzero import only_nonzero
 from qe.prepare.simplify import simplify
 from qe.prepare.step import ALL_STEPS, EQUATION_STEPS
 from qe.solution.linear_proof import substitution_certificate
+from qe.solution.polynomial_witness import find as polynomial_witnesses
 
 FIRST_SHARE = 0.4
 """The share of the remaining time that the first method gets while another one could take over."""
@@ -73,6 +74,8 @@ class _Run:
     # --- the outermost shape -----------------------------------------------------------------
     def sentence_or_formula(self, formula: Formula) -> tuple[Formula, Values | None]:
         """The answer; for sentences that begin with a quantifier also a witness or counterexample."""
+        if isinstance(formula, ForAll) and self._by_witness(formula):
+            return TRUE, None
         if isinstance(formula, ForAll) and not free_variables(formula):
             answer, values = self.existential(Exists(formula.variables, nnf(formula.body, negate=True)))
             return neg(answer), values
@@ -84,6 +87,19 @@ class _Run:
             answer = self._shortened(answer)
             self.certificate = substitution_certificate(formula, answer)
         return answer, None
+
+    def _by_witness(self, formula: ForAll) -> bool:
+        """Whether polynomials in the universal variables solve the blocks inside; ``False`` says nothing."""
+        if is_quantifier_free(formula.body) or self.options.method is not Method.AUTO:
+            return False
+        try:
+            found = polynomial_witnesses(formula, budget=self.budget.share(PROBE_SHARE))
+        except Unable as error:
+            self.story.note("switches", f"witness in the parameters: {error}")
+            return False
+        for proof in found or ():
+            self.story.note("plan", f"witness in the parameters: {proof}")
+        return found is not None
 
     def existential(self, formula: Exists) -> tuple[Formula, Values | None]:
         """An existential sentence, with values for its variables if it is true."""
