@@ -137,9 +137,9 @@ class Smoothness(IntEnum):
 class Join:
     """Where one curve ends and the next begins.
 
-    ``smoothness``: the highest of C0, C1, C2 that holds exactly, for spans of equal duration. ``jumps``: the
-    difference of value, first and second derivative. ``same_direction``: whether both velocities are non-zero
-    and point the same way (G1).
+    ``smoothness``: the highest of C0, C1, C2 that holds exactly, for the durations of the spans. ``jumps``: the
+    difference of value, first and second derivative with respect to time. ``same_direction``: whether both
+    velocities are non-zero and point the same way (G1).
     """
 
     smoothness: Smoothness
@@ -147,9 +147,16 @@ class Join:
     same_direction: bool
 
 
-def join(first: Bezier, second: Bezier) -> Join:
-    """Compare value and derivatives of ``first`` at 1 and of ``second`` at 0, exactly."""
-    ends = [(first.derivative(k, Fraction(1)), second.derivative(k, Fraction(0))) for k in range(3)]
+def join(first: Bezier, second: Bezier, durations: tuple[Fraction, Fraction] = (Fraction(1), Fraction(1))) -> Join:
+    """Compare value and derivatives with respect to time of ``first`` at 1 and of ``second`` at 0, exactly.
+
+    ``durations``: how long each curve takes, its parameter being proportional to time.
+    """
+    one, two = durations
+    ends = [
+        (scale(one**-k, first.derivative(k, Fraction(1))), scale(two**-k, second.derivative(k, Fraction(0))))
+        for k in range(3)
+    ]
     smoothness = Smoothness.GAP
     for level, (left, right) in enumerate(ends):
         if not same(left, right):

@@ -12,10 +12,11 @@ from fractions import Fraction
 from pathlib import Path as FilePath
 from typing import Any
 
+from bezier.methods import method_of
 from bezier.path import Path
 from bezier.plan import Outcome, Plan
-from bezier.problem import Problem
-from bezier.scalar import decimal_text, described, rational
+from bezier.problem import to_json
+from bezier.scalar import decimal_text, described, rational, scale
 from qe.errors import InputError
 
 SAMPLES = 51
@@ -69,54 +70,31 @@ def _move(fresh: FilePath, target: FilePath) -> None:
 
 def summary(plan: Plan, files: list[str], seconds: float) -> dict[str, Any]:
     """The object that ``bezier plan --json`` prints."""
+    problem, method = plan.problem, method_of(plan.problem.method)
     found: dict[str, Any] = {
         "status": plan.outcome.value,
-        "method": plan.problem.method.value,
-        "workspace": plan.problem.workspace.kind.value,
+        "method": problem.method.value,
+        "workspace": problem.workspace.kind.value,
         "radius": {
-            "exact": plan.problem.workspace.radius_text,
-            "decimal": f"{float(plan.problem.workspace.radius_squared) ** 0.5:.12g}",
+            "exact": problem.workspace.radius_text,
+            "decimal": f"{float(problem.workspace.radius_squared) ** 0.5:.12g}",
         },
-        "objective": described(plan.optimum.value) if plan.optimum else None,
+        "objective": None if plan.objective is None else described(plan.objective),
         "points": {name: [described(c) for c in p] for name, p in plan.path.points.items()} if plan.path else {},
         "active": list(plan.active),
         "certified": plan.certified,
-        "leaves_hemisphere": {"allowed": plan.gap.can_leave, "chosen": bool(_dips(plan))},
-        "problem": problem_json(plan.problem),
-        "notes": list(plan.problem.notes),
+        **method.entries(plan),
+        "problem": to_json(problem),
+        "notes": [*problem.notes, *plan.remarks],
         "files": files,
         "seconds": {**{name: round(s, 6) for name, s in plan.seconds.items()}, "total": round(seconds, 6)},
     }
     if plan.outcome is Outcome.INFEASIBLE:
-        found["reason"] = reason(plan)
-        found["suggestion"] = 'method = "cubic"'
+        found["reason"] = method.reason(plan)
     return found
 
 
-def _dips(plan: Plan) -> list[str]:
-    from bezier.containment import Leaves
-
-    return [proof.curve for proof in plan.gap.chosen if isinstance(proof.outcome, Leaves)]
-
-
-def reason(plan: Plan) -> str:
-    """Why there is no control point, in one sentence with the numbers."""
-    balls = plan.balls
-    radius = plan.problem.workspace.radius_text
-    if balls.meet:
-        return (
-            "no control point exists: the three balls meet, but nowhere do all control points also have z >= 0"
-            " (the certificate shows it)"
-        )
-    shape = "acute" if balls.is_acute else "right or obtuse or flat"
-    return (
-        f"no control point exists: the balls of radius r = {_sized(radius, balls.radius_squared)} about O, 2 Q0 and"
-        f" 2 R0 have no common point; the triangle O, Q0, R0 is {shape}, so r would have to be at least"
-        f" {_sized(balls.needed_text, balls.needed_squared)}"
-    )
-
-
-def _sized(exact: str, square: Fraction) -> str:
+def sized(exact: str, square: Fraction) -> str:
     """An exact root with its decimal; the decimal alone when the exact text would fill the line."""
     decimal = f"{float(square) ** 0.5:.6g}"
     if len(exact) > 40:
@@ -134,7 +112,7 @@ def path_json(plan: Plan, path: Path) -> dict[str, Any]:
         "format": "bezier-qe path",
         "version": 1,
         "unit": "mm",
-        "problem": problem_json(plan.problem),
+        "problem": to_json(plan.problem),
         "field": _field(path),
         "points": {name: [_coordinate(c) for c in point] for name, point in path.points.items()},
         "curves": {name: [_name(path, p) for p in curve.points] for name, curve in path.curves.items()},
@@ -151,18 +129,6 @@ def path_json(plan: Plan, path: Path) -> dict[str, Any]:
 
 def _name(path: Path, point: Any) -> str:
     return next(name for name, other in path.points.items() if other == point)
-
-
-def problem_json(problem: Problem) -> dict[str, Any]:
-    """The problem in exact numbers."""
-    return {
-        "method": problem.method.value,
-        "workspace": problem.workspace.kind.value,
-        "radius_squared": str(problem.workspace.radius_squared),
-        "start": [str(c) for c in problem.start],
-        "via": [[str(c) for c in p] for p in problem.via],
-        "goal": [str(c) for c in problem.goal],
-    }
 
 
 def _coordinate(value: Any) -> dict[str, Any]:
@@ -186,28 +152,29 @@ def _field(path: Path) -> dict[str, Any] | None:
 
 HEADER = """\
 # Path of the end effector: three curves one after the other, positions in mm.
-# t: time with one unit per curve; u: parameter of the curve, 0 to 1; segment: the curve;
-# x, y, z: position in mm; vx, vy, vz: derivative with respect to u, in mm per unit of u.
+# t: time, the middle curve taking one unit; u: parameter of the curve, 0 to 1; segment: the curve;
+# x, y, z: position in mm; vx, vy, vz: velocity, the derivative with respect to t, in mm per unit of time.
 t,x,y,z,vx,vy,vz,segment,u
 """
 
 
 def path_csv(path: Path) -> str:
     """``path.csv``: positions and velocities at equally spaced parameters, computed exactly and then rounded."""
-    rows = [HEADER]
-    for index, (name, curve) in enumerate(path.curves.items()):
-        slope = curve.hodograph()
+    rows, begin = [HEADER], Fraction(0)
+    for name, curve in path.curves.items():
+        slope, duration = curve.hodograph(), path.duration(name)
         for k in range(SAMPLES):
             u = Fraction(k, SAMPLES - 1)
-            values = [index + u, *curve.point(u), *slope.point(u)]
+            values = [begin + duration * u, *curve.point(u), *scale(1 / duration, slope.point(u))]
             numbers = ",".join(decimal_text(v, 10) for v in values)
             rows.append(f"{numbers},{name},{decimal_text(u, 10)}\n")
+        begin += duration
     return "".join(rows)
 
 
 def write_data(plan: Plan, folder: FilePath) -> list[str]:
     """The files that carry exact data; returns their names."""
-    texts = {"region.json": plan.region.to_json(), "certificate.json": plan.certificate.to_json()}
+    texts = {"certificate.json": plan.certificate.to_json(), **method_of(plan.problem.method).files(plan)}
     if plan.path is not None:
         texts["path.json"] = json.dumps(path_json(plan, plan.path), indent=1, ensure_ascii=False) + "\n"
         texts["path.csv"] = path_csv(plan.path)

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
 from itertools import pairwise
 from typing import Any
 
 from bezier.containment import Inside, Leaves, Outcome, examine_all
 from bezier.curve import Bezier, Join, Smoothness, join
-from bezier.scalar import Vector
+from bezier.scalar import Vector, scale
 from bezier.workspace import Condition, Workspace
 
 
@@ -37,12 +38,24 @@ class Proof:
 
 @dataclass(frozen=True, slots=True)
 class Path:
-    """The curves in order, the control points by name, the joins, and the containment proofs."""
+    """The curves in order, the control points by name, the joins, and the containment proofs.
+
+    ``durations``: the time that a curve takes, where it is not 1.
+    """
 
     curves: Mapping[str, Bezier]
     points: Mapping[str, Vector]
     joins: tuple[ProvedJoin, ...]
     proofs: tuple[Proof, ...]
+    durations: Mapping[str, Fraction] = field(default_factory=dict)
+
+    def duration(self, curve: str) -> Fraction:
+        """The time that a curve takes."""
+        return self.durations.get(curve, Fraction(1))
+
+    def with_proofs(self, more: tuple[Proof, ...]) -> Path:
+        """The path with further containment proofs."""
+        return replace(self, proofs=self.proofs + more)
 
     @property
     def is_inside(self) -> bool:
@@ -56,14 +69,23 @@ class Path:
 
     @property
     def smoothness(self) -> Smoothness:
-        """The smoothness that every join has (spans of equal duration)."""
+        """The smoothness that every join has with respect to time."""
         return min((j.join.smoothness for j in self.joins), default=Smoothness.C2)
 
 
-def assemble(curves: Mapping[str, Bezier], points: Mapping[str, Vector], workspace: Workspace) -> Path:
+def assemble(
+    curves: Mapping[str, Bezier],
+    points: Mapping[str, Vector],
+    workspace: Workspace,
+    *,
+    durations: Mapping[str, Fraction] | None = None,
+) -> Path:
     """Examine joins and containment of the curves, exactly."""
-    joins = tuple(ProvedJoin(a, b, join(curves[a], curves[b])) for a, b in pairwise(curves))
-    return Path(dict(curves), dict(points), joins, prove(curves, workspace.conditions))
+    path = Path(dict(curves), dict(points), (), prove(curves, workspace.conditions), durations or {})
+    joins = [
+        ProvedJoin(a, b, join(curves[a], curves[b], (path.duration(a), path.duration(b)))) for a, b in pairwise(curves)
+    ]
+    return replace(path, joins=tuple(joins))
 
 
 def prove(curves: Mapping[str, Bezier], conditions: tuple[Condition, ...]) -> tuple[Proof, ...]:
@@ -72,9 +94,10 @@ def prove(curves: Mapping[str, Bezier], conditions: tuple[Condition, ...]) -> tu
 
 
 def speed_at_joins(path: Path) -> dict[str, Vector]:
-    """The common velocity P'(1) = Q'(0) at each join that is at least C1, by the name of the join."""
+    """The common velocity at each join that is at least C1, by the name of the join."""
     found: dict[str, Any] = {}
     for item in path.joins:
         if item.join.smoothness >= Smoothness.C1:
-            found[f"{item.first}-{item.second}"] = path.curves[item.second].derivative(1, 0)
+            slope = path.curves[item.second].derivative(1, Fraction(0))
+            found[f"{item.first}-{item.second}"] = scale(1 / path.duration(item.second), slope)
     return found

@@ -10,7 +10,10 @@ import numpy as np
 
 from bezier.curve import Bezier
 from bezier.mesh import Array, RegionMesh, region_mesh, sampled
-from bezier.workspace import Condition
+from bezier.path import Path
+from bezier.problem import Problem
+from bezier.scalar import same
+from bezier.workspace import Condition, WorkspaceKind
 
 COLOURS = {"P": "#2364aa", "Q": "#d1495b", "R": "#2e9e6b"}
 """One colour per curve, used for its control points and for the region's boundary that keeps them in."""
@@ -55,6 +58,41 @@ class PathPicture:
     marks: Mapping[str, Array]
     region: RegionPicture | None = None
     extra: Mapping[str, RegionPicture] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True)
+class Drawing:
+    """The pictures of a plan: what the page shows, and the files written.
+
+    ``views``: the coordinate views, ``charts``: further drawings, both as SVG text.
+    """
+
+    picture: PathPicture
+    views: str
+    files: tuple[str, ...]
+    charts: str = ""
+
+
+def path_picture(
+    problem: Problem,
+    path: Path | None,
+    given: Mapping[str, Sequence[Any]],
+    *,
+    region: RegionPicture | None,
+    extra: Mapping[str, RegionPicture] | None = None,
+) -> PathPicture:
+    """The picture of a path, or of the given points alone; a place with two names is marked by one."""
+    points: dict[str, Sequence[Any]] = dict(given)
+    if path is not None:  # the last point of a curve has two names, of which the given one is shown
+        points |= {name: p for name, p in path.points.items() if not any(same(p, other) for other in given.values())}
+    return PathPicture(
+        radius=float(problem.workspace.radius_squared) ** 0.5,
+        has_floor=problem.workspace.kind is WorkspaceKind.HEMISPHERE,
+        curves=curve_pictures(path.curves) if path else (),
+        marks={name: numbers([point])[0] for name, point in points.items()},
+        region=region,
+        extra=extra or {},
+    )
 
 
 def curve_pictures(curves: Mapping[str, Bezier], count: int = 61) -> tuple[CurvePicture, ...]:

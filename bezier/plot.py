@@ -15,10 +15,10 @@ VIEWS = (("top view", 0, 1), ("front view", 0, 2), ("side view", 1, 2))
 AXES = ("x", "y", "z")
 
 
-def save_region(picture: PathPicture, path: Path) -> None:
+def save_region(picture: PathPicture, path: Path, title: str) -> None:
     """``region.png``: the possible places of Q1 from two sides in space, and the three coordinate views."""
     figure = _figure(11, 8)
-    figure.suptitle(r"Where $\hat{Q}_1$ may be: the region of formula (8)", fontsize=14, color=INK, y=0.995)
+    figure.suptitle(title, fontsize=14, color=INK, y=0.995)
     region = picture.region
     if region is None:
         axis = figure.add_axes((0.0, 0.0, 1.0, 1.0))

@@ -1,22 +1,22 @@
-"""Planning problems: four points, a workspace and a method, read exactly from a TOML file."""
+"""Planning problems: four points, a workspace, a method and further wishes, read exactly from a TOML file."""
 
 from __future__ import annotations
 
 import itertools
-import re
-import tomllib
+from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import Enum
 from fractions import Fraction
 from pathlib import Path
+from typing import Any
 
-from bezier.numbers import NUMBER, Literal, NotANumber, describe, read, read_squared
+from bezier.numbers import NotANumber, describe, read_squared
 from bezier.scalar import Vector, dot, is_zero, same
-from bezier.workspace import Workspace, WorkspaceKind, root_text
+from bezier.toml_table import POINT, Table
+from bezier.workspace import HalfSpace, Workspace, WorkspaceKind, root_text
 from qe.errors import InputError
 
 MAX_BYTES = 1_000_000
-DIMENSION = 3
 
 
 class PlanMethod(Enum):
@@ -27,12 +27,26 @@ class PlanMethod(Enum):
     SINGLE = "single"
 
 
+INNER = {PlanMethod.QUADRATIC: ("P1", "Q1", "R1"), PlanMethod.CUBIC: ("P1", "P2", "Q1", "Q2", "R1", "R2")}
+"""The control points that a method has to find, in the order in which its formula bounds them."""
+
+
+@dataclass(frozen=True, slots=True)
+class PointCondition:
+    """A half-space that some inner control points have to lie in: one ``[[half_space]]``."""
+
+    half_space: HalfSpace
+    points: tuple[str, ...]
+
+
 @dataclass(frozen=True, slots=True)
 class Problem:
     """A planning problem. All coordinates and the radius are in one unit of length (millimetres in the paper).
 
     ``via``: the two points Q0 and R0 between which the obstacle is avoided. ``radius_is_auto``: the radius is
-    the paper's maximum of the four norms. ``notes``: remarks for the reader about the input.
+    the paper's maximum of the four norms. ``half_spaces``: further conditions on control points. ``ratio``: the
+    duration of the outer spans, the middle one taking 1. ``join_speed``: the least speed at the joins that is
+    asked for, 0 for none. ``notes``: remarks for the reader about the input.
     """
 
     method: PlanMethod
@@ -43,6 +57,9 @@ class Problem:
     radius_is_auto: bool
     notes: tuple[str, ...] = ()
     source: str = "<problem>"
+    half_spaces: tuple[PointCondition, ...] = ()
+    ratio: Fraction = Fraction(1)
+    join_speed: Fraction = Fraction(0)
 
     @property
     def named_points(self) -> dict[str, Vector]:
@@ -50,85 +67,40 @@ class Problem:
         return {"start": self.start, "via[0]": self.via[0], "via[1]": self.via[1], "goal": self.goal}
 
 
-class _Reader:
-    """One TOML table with its source, for messages that name file, line and key."""
-
-    def __init__(self, text: str, source: str) -> None:
-        self.source, self.lines = source, text.splitlines()
-        try:
-            self.table = tomllib.loads(text, parse_float=Literal)
-        except tomllib.TOMLDecodeError as error:
-            raise InputError(self._syntax(str(error))) from None
-        except (ValueError, RecursionError) as error:
-            raise InputError(f"{source}: expected a TOML file, found: {' '.join(str(error).split())}") from None
-
-    def _syntax(self, message: str) -> str:
-        place = re.search(r"\(at (?:line (\d+), column (\d+)|end of document)\)", message)
-        body = re.sub(r"\s*\(at .*\)", "", message)
-        line = place[1] if place and place[1] else str(len(self.lines))
-        column = f":{place[2]}" if place and place[2] else ""
-        return f"{self.source}:{line}{column}: expected a TOML file, found a syntax error: {body}"
-
-    def error(self, key: str, expected: str, found: str, hint: str = "") -> InputError:
-        """The one line that every bad input gets."""
-        name = re.escape(key.split("[")[0])
-        pattern = re.compile(rf"""\s*\[*\s*["']?{name}["']?\s*[=.\]]""")
-        line = next((f":{i}" for i, text in enumerate(self.lines, start=1) if pattern.match(text)), "")
-        return InputError(f"{self.source}{line}: {key}: expected {expected}, found {found}{hint}")
-
-    def choice(self, key: str, choices: type[Enum], default: Enum) -> Enum:
-        """A word out of an enumeration."""
-        raw = self.table.get(key, default.value)
-        words = [str(member.value) for member in choices]
-        if not isinstance(raw, str) or raw not in words:
-            raise self.error(key, " or ".join(f'"{word}"' for word in words), describe(raw))
-        return choices(raw)
-
-    def required(self, key: str, expected: str) -> object:
-        """A value that must be there."""
-        if key not in self.table:
-            raise InputError(f"{self.source}: {key}: expected {expected}, found no such key")
-        return self.table[key]
-
-    def point(self, key: str, raw: object) -> Vector:
-        """A point of three exact numbers."""
-        if not isinstance(raw, list) or len(raw) != DIMENSION:
-            raise self.error(key, f"a point of {DIMENSION} numbers", describe(raw))
-        values = []
-        for i, entry in enumerate(raw):
-            try:
-                values.append(read(entry))
-            except NotANumber as error:
-                raise self.error(f"{key}[{i}]", NUMBER, str(error)) from None
-        return tuple(values)
-
-
-_KEYS = ("method", "workspace", "start", "via", "goal", "radius")
+_KEYS = ("method", "workspace", "start", "via", "goal", "radius", "half_space", "ratio", "join_speed")
 
 
 def read_problem(text: str, source: str = "<problem>") -> Problem:
     """Read a problem from TOML text. Raises ``InputError`` with file, line, key, what was expected and found."""
-    reader = _Reader(text, source)
-    for key in reader.table:
-        if key not in _KEYS:
-            raise reader.error(key, f"one of the keys {', '.join(_KEYS)}", f'the unknown key "{key}"')
-    method = PlanMethod(reader.choice("method", PlanMethod, PlanMethod.QUADRATIC))
-    kind = WorkspaceKind(reader.choice("workspace", WorkspaceKind, WorkspaceKind.BALL))
-    expected = f"a point of {DIMENSION} numbers"
-    start = reader.point("start", reader.required("start", expected))
-    raw_via = reader.required("via", f"two points of {DIMENSION} numbers")
-    if not isinstance(raw_via, list) or len(raw_via) != 2 or not all(isinstance(p, list) for p in raw_via):
-        raise reader.error("via", f"two points of {DIMENSION} numbers", describe(raw_via))
-    via = reader.point("via[0]", raw_via[0]), reader.point("via[1]", raw_via[1])
-    goal = reader.point("goal", reader.required("goal", expected))
-    raw_radius = reader.table.get("radius", "auto")
+    return problem_of(Table.parse(text, source))
+
+
+def problem_of(table: Table) -> Problem:
+    """The problem that a table of keys and values describes."""
+    table.only(_KEYS)
+    method = table.choice("method", PlanMethod, PlanMethod.QUADRATIC)
+    kind = table.choice("workspace", WorkspaceKind, WorkspaceKind.BALL)
+    start, via, goal = table.point("start"), _via(table), table.point("goal")
+    raw_radius = table.values.get("radius", "auto")
     auto = raw_radius == "auto"
     points = {"start": start, "via[0]": via[0], "via[1]": via[1], "goal": goal}
-    _check_distinct(reader, points)
-    squared = max(dot(p, p) for p in points.values()) if auto else _radius(reader, raw_radius)
-    workspace = Workspace(kind, squared, DIMENSION)
-    _check_inside(reader, points, workspace)
-    return Problem(method, workspace, start, via, goal, auto, _notes(points, via), source)
+    _check_distinct(table, points)
+    squared = max(dot(p, p) for p in points.values()) if auto else _radius(table, raw_radius)
+    workspace = Workspace(kind, squared)
+    _check_inside(table, points, workspace)
+    return Problem(
+        method=method,
+        workspace=workspace,
+        start=start,
+        via=via,
+        goal=goal,
+        radius_is_auto=auto,
+        notes=_notes(points, via),
+        source=table.source,
+        half_spaces=_half_spaces(table, method),
+        ratio=_for_cubic(table, method, "ratio", Fraction(1)),
+        join_speed=_for_cubic(table, method, "join_speed", Fraction(0)),
+    )
 
 
 def load_problem(path: Path) -> Problem:
@@ -145,35 +117,64 @@ def load_problem(path: Path) -> Problem:
     return read_problem(text, str(path))
 
 
-def _radius(reader: _Reader, raw: object) -> Fraction:
+def _via(table: Table) -> tuple[Vector, Vector]:
+    expected = "two points of 3 numbers"
+    raw = table.required("via", expected)
+    if not isinstance(raw, list) or len(raw) != 2 or not all(isinstance(p, list) for p in raw):
+        raise table.error("via", expected, describe(raw))
+    return table.as_point("via[0]", raw[0]), table.as_point("via[1]", raw[1])
+
+
+def _radius(table: Table, raw: object) -> Fraction:
     expected = 'a positive number, "sqrt(27)" or "auto"'
     try:
         squared = read_squared(raw)
     except NotANumber as error:
-        raise reader.error("radius", expected, str(error)) from None
+        raise table.error("radius", expected, str(error)) from None
     if squared == 0:
-        raise reader.error("radius", expected, "zero")
+        raise table.error("radius", expected, "zero")
     return squared
 
 
-def _check_distinct(reader: _Reader, points: dict[str, Vector]) -> None:
-    names = list(points)
-    for first, second in itertools.pairwise(names):
+def _half_spaces(table: Table, method: PlanMethod) -> tuple[PointCondition, ...]:
+    """``[[half_space]]``: normal . p >= offset for the control points named."""
+    found = []
+    for i, entry in enumerate(table.tables("half_space")):
+        if method not in INNER:
+            raise table.error("half_space", 'no such key with this method', "a table")
+        entry.only(("normal", "offset", "points"))
+        normal, offset = entry.point("normal"), entry.number("offset")
+        if all(map(is_zero, normal)):
+            raise entry.error("normal", f"{POINT}, not all zero", "the zero vector")
+        points = entry.words("points", INNER[method], "control points")
+        found.append(PointCondition(HalfSpace(normal, -offset, f"half_space[{i}]"), points))
+    return tuple(found)
+
+
+def _for_cubic(table: Table, method: PlanMethod, key: str, default: Fraction) -> Fraction:
+    """A positive number that only the cubic method knows."""
+    if key in table.values and method is not PlanMethod.CUBIC:
+        raise table.error(key, 'this key with method = "cubic" only', f'method = "{method.value}"')
+    return table.positive(key) if key in table.values else default
+
+
+def _check_distinct(table: Table, points: Mapping[str, Vector]) -> None:
+    for first, second in itertools.pairwise(points):
         if same(points[first], points[second]):
             text = ", ".join(map(str, points[first]))
-            raise reader.error(second, f"a point other than {first}", f"the same point ({text})")
+            raise table.error(second, f"a point other than {first}", f"the same point ({text})")
 
 
-def _check_inside(reader: _Reader, points: dict[str, Vector], workspace: Workspace) -> None:
+def _check_inside(table: Table, points: Mapping[str, Vector], workspace: Workspace) -> None:
     for name, point in points.items():
         if workspace.ball.margin(point) < 0:
             needed = root_text(dot(point, point))
-            raise reader.error("radius", f"at least {needed}, the norm of {name}", workspace.radius_text)
+            raise table.error("radius", f"at least {needed}, the norm of {name}", workspace.radius_text)
         if workspace.kind is WorkspaceKind.HEMISPHERE and workspace.floor.margin(point) < 0:
-            raise reader.error(name, "a point with z >= 0 in the hemisphere", f"z = {point[-1]}")
+            raise table.error(name, "a point with z >= 0 in the hemisphere", f"z = {point[-1]}")
 
 
-def _notes(points: dict[str, Vector], via: tuple[Vector, Vector]) -> tuple[str, ...]:
+def _notes(points: Mapping[str, Vector], via: tuple[Vector, Vector]) -> tuple[str, ...]:
     notes = []
     different = [axis for axis, a, b in zip("xyz", *via, strict=True) if axis != "x" and not is_zero(a - b)]
     if different:
@@ -182,3 +183,39 @@ def _notes(points: dict[str, Vector], via: tuple[Vector, Vector]) -> tuple[str, 
         if all(map(is_zero, point)):
             notes.append(f"{name} is the origin, where the paper's arm cannot put its end effector")
     return tuple(notes)
+
+
+def to_json(problem: Problem) -> dict[str, Any]:
+    """The problem in exact numbers, with the keys of the TOML file, the radius by its square."""
+    found: dict[str, Any] = {
+        "method": problem.method.value,
+        "workspace": problem.workspace.kind.value,
+        "radius_squared": str(problem.workspace.radius_squared),
+        "start": _texts(problem.start),
+        "via": [_texts(p) for p in problem.via],
+        "goal": _texts(problem.goal),
+    }
+    if problem.half_spaces:
+        found["half_space"] = [
+            {
+                "normal": _texts(item.half_space.normal),
+                "offset": str(-item.half_space.offset),
+                "points": list(item.points),
+            }
+            for item in problem.half_spaces
+        ]
+    if problem.ratio != 1:
+        found["ratio"] = str(problem.ratio)
+    if problem.join_speed:
+        found["join_speed"] = str(problem.join_speed)
+    return found
+
+
+def from_json(stored: Mapping[str, Any], source: str) -> Problem:
+    """The problem that ``to_json`` wrote. Raises ``InputError`` like ``read_problem``."""
+    values = {key: value for key, value in stored.items() if key != "radius_squared"}
+    return problem_of(Table({**values, "radius": f"sqrt({stored.get('radius_squared')})"}, source))
+
+
+def _texts(point: Vector) -> list[str]:
+    return [str(c) for c in point]

@@ -5,61 +5,50 @@ from __future__ import annotations
 import json
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path as FilePath
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 
-from bezier import mathml, quadratic
+from bezier import mathml
 from bezier import report_parts as parts
-from bezier.picture import PathPicture
+from bezier.methods import method_of
 from bezier.plan import Plan
-from bezier.workspace import WorkspaceKind
+
+if TYPE_CHECKING:
+    from bezier.picture import Drawing, PathPicture
 
 
-def render(plan: Plan, *, picture: PathPicture | None, views: str, seconds: float) -> str:
-    """The page. Without ``picture`` there are no drawings and no script."""
+def render(plan: Plan, drawing: Drawing | None) -> str:
+    """The page. Without ``drawing`` there are no pictures and no script."""
     environment = Environment(loader=PackageLoader("bezier"), autoescape=True, undefined=StrictUndefined)
     environment.trim_blocks = True
-    template = environment.get_template("report.html.j2")
-    return template.render(context(plan, picture, views, seconds))
+    method = method_of(plan.problem.method)
+    template = environment.get_template(method.template)
+    return template.render(_common(plan, drawing) | method.sections(plan))
 
 
-def context(plan: Plan, picture: PathPicture | None, views: str, seconds: float) -> dict[str, Any]:
-    """Everything the template shows."""
+def _common(plan: Plan, drawing: Drawing | None) -> dict[str, Any]:
+    """What the pages of all methods show."""
     problem = plan.problem
     return {
-        "title": "Three quadratic Bézier curves over an obstacle",
-        "subtitle": f"{FilePath(problem.source).name}: exact region, best control point, proved path",
-        "cards": parts.cards(plan, seconds),
-        "infeasible": parts.infeasibility(plan),
-        "given": parts.given(plan),
+        "file": FilePath(problem.source).name,
+        "names": {f"{p}{i}": parts.shown(mathml.name(f"{p}{i}")) for p in "PQR" for i in range(4)},
+        "cards": parts.cards(plan),
         "workspace": parts.workspace_text(plan),
         "radius": parts.shown("<mi>r</mi><mo>=</mo>" + mathml.number_text(problem.workspace.radius_text)),
         "radius_note": ", the maximum of the norms" if problem.radius_is_auto else "",
-        "notes": problem.notes,
-        "names": parts.names(),
-        "question": parts.question(plan),
-        "extra_conditions": ", 3 conditions z ≥ 0" if problem.workspace.kind is WorkspaceKind.HEMISPHERE else "",
+        "notes": (*problem.notes, *plan.remarks),
         "formula_text": plan.formula,
         "answer": [Markup(line) for line in mathml.conjunction_lines(plan.answer.formula)],
         "answer_text": str(plan.answer.formula),
-        "answer_story": "",
-        "region": {
-            "sentence": parts.region_sentence(plan),
-            "bounds": parts.bounds(plan.region, quadratic.FREE),
-            "cells": parts.cells(plan.region),
-        },
-        "optimum": parts.optimum(plan),
-        "path": {"proofs": parts.proofs(plan.path.proofs) if plan.path else [], "joins": parts.joins(plan)},
-        "gap": parts.gap(plan),
-        "certificates": parts.certificates(plan),
+        "path": {"proofs": parts.proofs(plan.path.proofs if plan.path else ()), "joins": parts.joins(plan.path)},
         "timings": parts.timings(plan.seconds),
-        "views": Markup(views),
-        "figures": figures(picture),
-        "plotly_script": _script(picture),
+        "views": Markup(drawing.views if drawing else ""),
+        "charts": Markup(drawing.charts if drawing else ""),
+        "figures": figures(drawing.picture if drawing else None),
+        "plotly_script": _script(drawing),
         "version": _version(),
-        "source": FilePath(problem.source).name,
     }
 
 
@@ -81,8 +70,8 @@ def figures(picture: PathPicture | None) -> dict[str, Any]:
     return {**shown, "any": bool(found), "json": Markup(text)}
 
 
-def _script(picture: PathPicture | None) -> Markup:
-    if picture is None:
+def _script(drawing: Drawing | None) -> Markup:
+    if drawing is None:
         return Markup("")
     from bezier.scene import plotly_script
 

@@ -78,6 +78,11 @@ def rational(value: Any) -> Fraction | None:
     return Fraction(value.as_fraction()) if value.is_rational else None
 
 
+def exactly(value: Any) -> Fraction:
+    """The value of a coordinate that is known to be rational."""
+    return Fraction(value)
+
+
 def exact_text(value: Any) -> str:
     """Exact text: ``-3/4`` for a rational number, the field's own notation otherwise."""
     number = rational(value)

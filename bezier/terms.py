@@ -1,19 +1,21 @@
-"""Conditions on Q1 as polynomials: how the entries of a certificate are matched with those of the problem."""
+"""The conditions of a system as polynomials: how the entries of a certificate are matched with those of the problem."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
+from itertools import pairwise
 from typing import Any
 
-from bezier import quadratic
-from bezier.problem import Problem
-from bezier.scalar import dot, sign
-from bezier.workspace import Ball, Condition, HalfSpace
-from qe.errors import InputError
+from bezier.control import OnPoint, System
+from bezier.scalar import exactly, sign
+from bezier.workspace import Ball, HalfSpace
+from qe.errors import InternalError
 
 Terms = dict[tuple[int, ...], Fraction]
-"""Coefficient by exponents of q1x, q1y, q1z."""
+"""Coefficient by exponents of the free coordinates, in the order of ``Shape.variables``."""
+Linear = tuple[Fraction, tuple[Fraction, ...]]
+"""A constant and the coefficients of the free coordinates."""
 
 
 def terms_of(listed: Sequence[Any]) -> Terms:
@@ -21,35 +23,76 @@ def terms_of(listed: Sequence[Any]) -> Terms:
     return {tuple(exponents): Fraction(coefficient) for coefficient, exponents in listed}
 
 
-def _clean(terms: Mapping[tuple[int, ...], Any]) -> Terms:
-    return {e: Fraction(c) for e, c in terms.items() if c}
+def objective_terms(system: System) -> Terms:
+    """The objective: the sum of |b - a|^2 along the route."""
+    squares = []
+    for a, b in pairwise(system.shape.route):
+        for i in range(3):
+            squares.append(_squared(_minus(_coordinate(system, b, i), _coordinate(system, a, i))))
+    return _total(squares)
 
 
-def objective_terms(problem: Problem) -> Terms:
-    """|Q1 - Q0|^2 + |R0 - Q1|^2."""
-    q0, r0 = problem.via
-    found: dict[tuple[int, ...], Any] = {(0, 0, 0): dot(q0, q0) + dot(r0, r0)}
-    for i in range(3):
-        found[_power(i, 1)] = -2 * (q0[i] + r0[i])
-        found[_power(i, 2)] = 2
-    return _clean(found)
-
-
-def condition_terms(condition: Condition) -> Terms:
+def condition_terms(system: System, item: OnPoint) -> Terms:
     """The polynomial p with p <= 0 exactly on the condition."""
+    condition = item.condition
+    at = [_coordinate(system, item.point, i) for i in range(3)]
     if isinstance(condition, Ball):
-        constant = dot(condition.centre, condition.centre) - condition.radius_squared
-        found: dict[tuple[int, ...], Any] = {(0, 0, 0): constant}
-        for i, c in enumerate(condition.centre):
-            found |= {_power(i, 1): -2 * c, _power(i, 2): 1}
-        return _clean(found)
+        squares = [_squared((c - exactly(o), w)) for (c, w), o in zip(at, condition.centre, strict=True)]
+        return _total([*squares, _affine((-condition.radius_squared, _zeros(system)))])
     if isinstance(condition, HalfSpace):
-        return _clean({(0, 0, 0): -condition.offset, **{_power(i, 1): -n for i, n in enumerate(condition.normal)}})
-    raise InputError(f"unknown condition {condition.name}")
+        parts = [_affine((-n * c, tuple(-n * k for k in w))) for n, (c, w) in zip(condition.normal, at, strict=True)]
+        return _total([*parts, _affine((-condition.offset, _zeros(system)))])
+    raise InternalError(f"no polynomial for the condition {condition.name}")
 
 
-def _power(i: int, exponent: int) -> tuple[int, ...]:
-    return tuple(exponent if k == i else 0 for k in range(3))
+def _coordinate(system: System, point: str, i: int) -> Linear:
+    """Coordinate i of a control point as a linear function of the free coordinates."""
+    constant, weights = Fraction(0), list(_zeros(system))
+    for coefficient, name in system.shape.combination(point):
+        if name in system.shape.free:
+            weights[3 * system.shape.free.index(name) + i] += coefficient
+        else:
+            constant += coefficient * exactly(system.given[name][i])
+    return constant, tuple(weights)
+
+
+def _zeros(system: System) -> tuple[Fraction, ...]:
+    return (Fraction(0),) * len(system.shape.variables)
+
+
+def _minus(a: Linear, b: Linear) -> Linear:
+    return a[0] - b[0], tuple(x - y for x, y in zip(a[1], b[1], strict=True))
+
+
+def _affine(form: Linear) -> Terms:
+    constant, weights = form
+    size = len(weights)
+    return {_power(size): constant} | {_power(size, k): w for k, w in enumerate(weights)}
+
+
+def _squared(form: Linear) -> Terms:
+    constant, weights = form
+    size = len(weights)
+    found: Terms = {_power(size): constant * constant}
+    for k, w in enumerate(weights):
+        if w:
+            found |= {_power(size, k): 2 * constant * w, _power(size, k, k): w * w}
+            found |= {_power(size, k, m): 2 * w * weights[m] for m in range(k + 1, size)}
+    return found
+
+
+def _power(size: int, *variables: int) -> tuple[int, ...]:
+    """The exponents of a product of variables."""
+    return tuple(variables.count(k) for k in range(size))
+
+
+def _total(parts: Iterable[Mapping[tuple[int, ...], Fraction]]) -> Terms:
+    """The sum, without zero coefficients."""
+    found: Terms = {}
+    for part in parts:
+        for exponents, coefficient in part.items():
+            found[exponents] = found.get(exponents, Fraction(0)) + coefficient
+    return {e: c for e, c in found.items() if c}
 
 
 def multiple_of(a: Terms, b: Terms) -> Fraction | None:
@@ -66,30 +109,32 @@ def fixed_values(constraints: Sequence[Mapping[str, Any]]) -> dict[int, Fraction
     found = {}
     for constraint in constraints:
         terms = terms_of(constraint["terms"])
-        linear = [i for i in range(3) if _power(i, 1) in terms]
-        if constraint["relation"] == "=" and len(linear) == 1 and terms.keys() <= {(0, 0, 0), _power(linear[0], 1)}:
-            found[linear[0]] = -terms.get((0, 0, 0), Fraction(0)) / terms[_power(linear[0], 1)]
+        if constraint["relation"] == "=" and all(sum(exponents) <= 1 for exponents in terms):
+            used = [exponents for exponents in terms if any(exponents)]
+            if len(used) == 1:
+                constant = terms.get((0,) * len(used[0]), Fraction(0))
+                found[used[0].index(1)] = -constant / terms[used[0]]
     return found
 
 
 def reduced(terms: Terms, fixed: Mapping[int, Fraction]) -> Terms:
     """The polynomial with fixed variables replaced by their values."""
-    found: Terms = {}
+    parts = []
     for exponents, coefficient in terms.items():
         left = tuple(0 if i in fixed else k for i, k in enumerate(exponents))
         for i, value in fixed.items():
             coefficient = coefficient * value ** exponents[i]
-        found[left] = found.get(left, Fraction(0)) + coefficient
-    return _clean(found)
+        parts.append({left: coefficient})
+    return _total(parts)
 
 
-def named_multipliers(problem: Problem, optimum: Any) -> list[tuple[str, Any]]:
+def named_multipliers(system: System, optimum: Any) -> list[tuple[str, Any]]:
     """(label, multiplier) for each condition with a non-zero multiplier.
 
     The multiplier belongs to the condition in the form |P1|^2 - r^2 <= 0 (or -z <= 0 for the table), whatever
     positive multiple of it the engine worked with.
     """
-    known = [(item.label, condition_terms(item.condition)) for item in quadratic.as_conditions_on_q1(problem)]
+    known = [(item.label, condition_terms(system, item)) for item in system.conditions]
     stated = optimum.certificate.payload["problem"]["constraints"]
     fixed = fixed_values(stated)
     found = []

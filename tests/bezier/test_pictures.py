@@ -24,15 +24,16 @@ def example(root):
 
 @pytest.fixture(scope="module")
 def picture(example):
-    conditions = [item.condition for item in quadratic.as_conditions_on_q1(example)]
+    conditions = quadratic.as_conditions_on_q1(quadratic.system(example))
     q1 = (Fraction(0), Fraction(3), Fraction(3))
-    curves = quadratic.curves(example, q1)
-    marks = {name: numbers([p])[0] for name, p in quadratic.control_points(example, q1).items()}
+    points = quadratic.system(example).points([q1])
+    curves = quadratic.system(example).curves(points)
+    marks = {name: numbers([p])[0] for name, p in points.items()}
     return PathPicture(4.7, False, curve_pictures(curves, 9), marks, region_picture(conditions, conditions, q1, 2))
 
 
 def test_the_mesh_is_the_boundary(example):
-    conditions = [item.condition for item in quadratic.as_conditions_on_q1(example)]
+    conditions = quadratic.as_conditions_on_q1(quadratic.system(example))
     surface = mesh.region_mesh(conditions, 3)
     margins = np.array([[float(c.margin(tuple(map(Fraction, v)))) for c in conditions] for v in surface.vertices])
     assert abs(margins.min(axis=1)).max() < 1e-6

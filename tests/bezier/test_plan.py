@@ -30,8 +30,8 @@ def problem_of(q0, r0, r2, kind=WorkspaceKind.BALL, method=PlanMethod.QUADRATIC)
 @given(POINT, POINT, st.integers(1, 24), st.lists(points(), min_size=8, max_size=8), st.sampled_from(WorkspaceKind))
 def test_the_answer_is_the_conditions(q0, r0, r2, candidates, kind):
     problem = problem_of(q0, r0, r2, kind)
-    answer = qe.eliminate(quadratic.formula(problem)).formula
-    conditions = [item.condition for item in quadratic.as_conditions_on_q1(problem)]
+    answer = qe.eliminate(quadratic.system(problem).formula()).formula
+    conditions = quadratic.as_conditions_on_q1(quadratic.system(problem))
     for q1 in [*candidates, q0, r0]:
         expected = all(condition.margin(q1) >= 0 for condition in conditions)
         assert holds_at(answer, dict(zip(quadratic.FREE, q1, strict=True))) == expected
@@ -46,15 +46,15 @@ def test_plans_exist_exactly_when_the_balls_meet(q0, r0, more):
     assert plan.certified
     assert (plan.outcome is Outcome.SOLVED) == quadratic.three_balls(problem).meet
     if plan.path is None:
-        assert plan.infeasibility is not None and plan.region.is_empty
+        assert not plan.optimum.is_optimal and plan.region.is_empty
         return
-    q1 = plan.path.points["Q1"]
-    assert sign(plan.optimum.value - quadratic.objective_at(problem, q1)) == 0
+    assert sign(plan.objective - plan.system.objective_at(plan.path.points)) == 0
     assert plan.path.is_inside and plan.path.smoothness >= 1
     for sample in plan.region.sample_points():
-        other = tuple(sample[name] for name in quadratic.FREE)
-        assert float(quadratic.objective_at(problem, other)) >= float(plan.optimum.value) - 1e-9
-    assert {label for label, _ in named_multipliers(problem, plan.optimum)} <= set(plan.active) | {"another condition"}
+        other = plan.system.points([tuple(sample[name] for name in quadratic.FREE)])
+        assert float(plan.system.objective_at(other)) >= float(plan.optimum.value) - 1e-9
+    labels = {label for label, _ in named_multipliers(plan.system, plan.optimum)}
+    assert labels <= set(plan.active) | {"another condition"}
 
 
 @pytest.mark.deep
@@ -74,7 +74,7 @@ def test_many_plans(q0, r0, more, kind, tight):
 
 
 def test_symbolic_points_leave_no_quantifier():
-    answer = qe.eliminate(quadratic.symbolic_formula()).formula
+    answer = qe.eliminate(quadratic.SHAPE.symbolic_formula()).formula
     numbers = dict(zip([f"q0{a}" for a in "xyz"] + [f"r0{a}" for a in "xyz"], (-1, 3, 3, 1, 3, 3), strict=True))
     for r, q1, expected in ((6, (0, 3, 3), True), (6, (0, 0, 0), False), (3, (0, 3, 3), False), (-6, (0, 3, 3), False)):
         place = {**numbers, "r": r, **dict(zip(quadratic.FREE, q1, strict=True))}
@@ -83,10 +83,10 @@ def test_symbolic_points_leave_no_quantifier():
 
 def test_kkt_of_the_irrational_example(root):
     plan = make_plan(load_problem(root / "examples" / "tight_radius.toml"))
-    multipliers = dict(named_multipliers(plan.problem, plan.optimum))
+    multipliers = dict(named_multipliers(plan.system, plan.optimum))
     q1 = plan.path.points["Q1"]
     assert set(multipliers) == {"P1", "R1"} == set(plan.active)
-    centres = {item.label: item.condition.centre for item in quadratic.as_conditions_on_q1(plan.problem)}
+    centres = {item.name: item.centre for item in quadratic.as_conditions_on_q1(plan.system)}
     q0, r0 = plan.problem.via
     for i in range(3):
         gradient = 2 * (q1[i] - q0[i]) + 2 * (q1[i] - r0[i])
@@ -99,7 +99,7 @@ def test_the_hemisphere_gap_is_the_one_of_the_paper(root):
     assert plan.gap.can_leave and plan.gap.region is plan.region
     below = [name for name, point in plan.gap.example.items() if sign(point[2]) < 0]
     assert below and all(sign(plan.problem.workspace.ball.margin(p)) >= 0 for p in plan.gap.example.values())
-    printed = qe.region(qe.eliminate(quadratic.printed_formula(plan.problem)).formula)
+    printed = qe.region(qe.eliminate(quadratic.printed(plan.problem).formula()).formula)
     paper = dict(zip(quadratic.FREE, (0, 1, 1), strict=True))
     assert printed.contains(paper) and not plan.region.contains(paper)
 

@@ -1,6 +1,5 @@
 """Formula (8): what is written, what follows from Q1, and the three-ball condition."""
 
-from dataclasses import replace
 from fractions import Fraction
 
 import pytest
@@ -27,7 +26,7 @@ MAIN = problem((-1, 3, 3), (1, 3, 3), 27)
 
 
 def test_formula_8_as_printed():
-    formula = text.read(quadratic.printed_formula(MAIN))
+    formula = text.read(quadratic.printed(MAIN).formula())
     assert formula.variables == quadratic.QUANTIFIED and len(formula.variables) == 6
     relations = [part.relation.value for part in formula.body.args]
     assert relations == ["="] * 6 + ["<="] * 3
@@ -37,13 +36,14 @@ def test_formula_8_as_printed():
 
 def test_the_hemisphere_adds_three_conditions():
     upper = problem((-1, 3, 3), (1, 3, 3), 27, WorkspaceKind.HEMISPHERE)
-    assert quadratic.formula(upper) == quadratic.printed_formula(upper) + " and p1z >= 0 and q1z >= 0 and r1z >= 0"
-    assert quadratic.formula(MAIN) == quadratic.printed_formula(MAIN)
-    assert quadratic.corrected_formula(MAIN) == quadratic.formula(upper)
+    above = " and p1z >= 0 and q1z >= 0 and r1z >= 0"
+    assert quadratic.system(upper).formula() == quadratic.printed(upper).formula() + above
+    assert quadratic.system(MAIN).formula() == quadratic.printed(MAIN).formula()
+    assert quadratic.corrected(MAIN).formula() == quadratic.system(upper).formula()
 
 
 def test_symbolic_formula_has_seven_parameters():
-    formula = text.read(quadratic.symbolic_formula())
+    formula = text.read(quadratic.SHAPE.symbolic_formula())
     used = {part.poly.ring.names[i] for part in formula.body.args for i in part.poly.variables}
     assert used - set(quadratic.QUANTIFIED) - set(quadratic.FREE) == {f"{p}0{a}" for p in "qr" for a in "xyz"} | {"r"}
 
@@ -55,36 +55,37 @@ def test_leaving_formula_is_a_sentence():
 
 @given(points(), points(), points(), st.sampled_from(list(WorkspaceKind)))
 def test_the_conditions_on_q1_are_those_on_the_control_points(q0, r0, q1, kind):
-    given_problem = problem(q0, r0, 5, kind)
-    control = quadratic.control_points(given_problem, q1)
-    moved = quadratic.as_conditions_on_q1(given_problem)
-    for direct, on_q1 in zip(quadratic.point_conditions(given_problem.workspace), moved, strict=True):
-        assert direct.label == on_q1.label == on_q1.condition.name
-        assert direct.condition.margin(control[direct.point]) == on_q1.condition.margin(q1)
+    system = quadratic.system(problem(q0, r0, 5, kind))
+    control = system.points([q1])
+    moved = quadratic.as_conditions_on_q1(system)
+    for direct, on_q1 in zip(system.conditions, moved, strict=True):
+        assert direct.label == on_q1.name
+        assert direct.condition.margin(control[direct.point]) == on_q1.margin(q1)
 
 
 @given(points(), points(), points())
 def test_the_curves_are_c1_and_their_names_fit(q0, r0, q1):
-    given_problem = problem(q0, r0, 100)
-    path = assemble(quadratic.curves(given_problem, q1), quadratic.control_points(given_problem, q1), MAIN.workspace)
+    system = quadratic.system(problem(q0, r0, 100))
+    control = system.points([q1])
+    path = assemble(system.curves(control), control, MAIN.workspace)
     assert path.smoothness >= Smoothness.C1
     assert path.points["P2"] == path.points["Q0"] == q0 and path.points["Q2"] == path.points["R0"] == r0
 
 
 @given(points(), points(), points(), small)
 def test_the_objective_is_least_at_the_midpoint(q0, r0, q1, shift):
-    given_problem = problem(q0, r0, 100)
+    system = quadratic.system(problem(q0, r0, 100))
     middle = scale(Fraction(1, 2), tuple(a + b for a, b in zip(q0, r0, strict=True)))
     away = subtract(q1, middle)
-    expected = quadratic.objective_at(given_problem, middle) + 2 * dot(away, away)
-    assert quadratic.objective_at(given_problem, q1) == expected
+    expected = system.objective_at(system.points([middle])) + 2 * dot(away, away)
+    assert system.objective_at(system.points([q1])) == expected
 
 
 def test_active_conditions_are_exact():
-    at = problem((0, 1, 1), (0, 2, 1), 4, WorkspaceKind.HEMISPHERE)
-    assert quadratic.active(at, (Fraction(0), Fraction(2), Fraction(0))) == ("P1", "Q1", "Q1.z")
+    system = quadratic.system(problem((0, 1, 1), (0, 2, 1), 4, WorkspaceKind.HEMISPHERE))
+    assert system.active(system.points([(Fraction(0), Fraction(2), Fraction(0))])) == ("P1", "Q1", "Q1.z")
     near = (Fraction(0), Fraction(2) - Fraction(1, 10**20), Fraction(0))
-    assert quadratic.active(at, near) == ("Q1.z",)
+    assert system.active(system.points([near])) == ("Q1.z",)
 
 
 def meet_numerically(q0, r0, r2):
@@ -121,7 +122,7 @@ def test_a_flat_triangle_needs_its_longest_side():
 
 
 def test_conditions_can_be_told_apart():
-    labels = [item.label for item in quadratic.as_conditions_on_q1(replace(MAIN))]
+    labels = [item.name for item in quadratic.as_conditions_on_q1(quadratic.system(MAIN))]
     assert labels == ["P1", "Q1", "R1"]
-    first = quadratic.as_conditions_on_q1(MAIN)[0].condition
+    first = quadratic.as_conditions_on_q1(quadratic.system(MAIN))[0]
     assert isinstance(first, Ball) and first.centre == (-2, 6, 6) and sign(first.margin((0, 3, 3))) > 0
