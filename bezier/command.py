@@ -11,7 +11,7 @@ from bezier.methods import method_of
 from bezier.outputs import summary, write_data
 from bezier.plan import Clock, Outcome, Plan, make_plan
 from bezier.problem import Problem
-from bezier.scalar import decimal_text, exact_text
+from bezier.scalar import brief
 from qe.cli_shell import OK, UNABLE
 from qe.worker import Channel
 
@@ -71,9 +71,7 @@ def in_words(made: Plan, target: FilePath, files: list[str], seconds: float) -> 
         lines.append(method.reason(made))
     lines += method.words(made)
     if made.objective is not None:
-        value = made.objective
-        about = "" if exact_text(value) == decimal_text(value, 8) else f" (about {decimal_text(value, 8)})"
-        lines.append(f"objective {exact_text(value)}{about}, active: {', '.join(made.active) or 'nothing'}")
+        lines.append(f"objective {brief(made.objective)}, active: {', '.join(made.active) or 'nothing'}")
     if made.path is not None:
         inside = "proved to lie in the workspace" if made.path.is_inside else "which LEAVES the workspace"
         lines.append(f"path: {made.path.smoothness.name} at both joins, {inside}")

@@ -59,5 +59,9 @@ def method_of(choice: PlanMethod) -> Method[Any]:
             from bezier.quadratic_method import QUADRATIC
 
             return QUADRATIC
+        case PlanMethod.CUBIC:
+            from bezier.cubic_method import CUBIC
+
+            return CUBIC
         case _:
-            raise Unable(f'method "{choice.value}" is not there yet; method "quadratic" is')
+            raise Unable(f'method "{choice.value}" is not there yet; "quadratic" and "cubic" are')

@@ -11,13 +11,14 @@ import numpy as np
 from bezier.mesh import Array, best_view, direction, hull
 from bezier.picture import FLOOR, INK, PALE, PathPicture, RegionPicture
 
+CONTROL = {f"{curve}{i}" for curve in "PQR" for i in range(4)}
 VIEWS = (("top view", 0, 1), ("front view", 0, 2), ("side view", 1, 2))
 AXES = ("x", "y", "z")
 
 
 def save_region(picture: PathPicture, path: Path, title: str) -> None:
     """``region.png``: the possible places of Q1 from two sides in space, and the three coordinate views."""
-    figure = _figure(11, 8)
+    figure = new_figure(11, 8)
     figure.suptitle(title, fontsize=14, color=INK, y=0.995)
     region = picture.region
     if region is None:
@@ -42,7 +43,7 @@ def save_region(picture: PathPicture, path: Path, title: str) -> None:
 
 def save_path(picture: PathPicture, path: Path) -> None:
     """``path.png``: the three curves with control polygons in the workspace, and the coordinate views."""
-    figure = _figure(10, 9)
+    figure = new_figure(10, 9)
     axis = figure.add_axes((0.1, 0.385, 0.8, 0.62), projection="3d")
     _draw_workspace(axis, picture)
     for curve in picture.curves:
@@ -64,11 +65,16 @@ def save_path(picture: PathPicture, path: Path) -> None:
 
 def views_svg(picture: PathPicture) -> str:
     """The three coordinate views as one SVG element for the report."""
-    from matplotlib.backends.backend_svg import FigureCanvasSVG
-
-    figure = _figure(12, 4.2)
+    figure = new_figure(12, 4.2)
     for column, (title, i, j) in enumerate(VIEWS):
         _path_view(figure.add_axes((0.045 + 0.33 * column, 0.12, 0.275, 0.78)), picture, title, i, j)
+    return svg_text(figure)
+
+
+def svg_text(figure: Any) -> str:
+    """A figure as one SVG element."""
+    from matplotlib.backends.backend_svg import FigureCanvasSVG
+
     buffer = io.StringIO()
     FigureCanvasSVG(figure).print_svg(buffer, metadata={"Date": None, "Creator": None})
     text = buffer.getvalue()
@@ -80,7 +86,7 @@ def mathematical(name: str) -> str:
     return f"$\\hat{{{name[0]}}}_{{{name[1:]}}}$" if name[:1] in "PQR" and name[1:].isdigit() else name
 
 
-def _figure(width: float, height: float) -> Any:
+def new_figure(width: float, height: float) -> Any:
     """An empty figure in inches; without pyplot, whose windows and state are not needed."""
     import matplotlib
     import mpl_toolkits.mplot3d  # noqa: F401  (registers the 3-D projection)
@@ -163,7 +169,7 @@ def boundary_name(label: str) -> str:
     """A boundary surface in mathematical letters."""
     if label.endswith(".z"):
         return f"{mathematical(label[:2])} on the table"
-    return rf"$\|${mathematical(label)}$\| = r$" if label[:1] in "PQR" else label
+    return rf"$\|${mathematical(label)}$\| = r$" if label in CONTROL else label
 
 
 def _region_view(axis: Any, region: RegionPicture, title: str, i: int, j: int) -> None:

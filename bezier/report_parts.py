@@ -25,6 +25,12 @@ CONTRADICTION = (
     " control points. The sum of these functions with the multipliers below is positive everywhere, so the conditions"
     " cannot hold together."
 )
+SMOOTHNESS = {
+    Smoothness.C2: "C² (value, first, second derivative)",
+    Smoothness.C1: "C¹ (value, first derivative)",
+    Smoothness.C0: "C⁰ (value)",
+    Smoothness.GAP: "apart",
+}
 
 
 def shown(body: str) -> Markup:
@@ -197,7 +203,8 @@ def objective_formula(route: Sequence[str]) -> Markup:
 def on_point(label: str) -> str:
     """A condition on a control point in words."""
     point, _, condition = label.partition(".")
-    return {"": f"‖{point}‖ ≤ r", "z": f"{point} not below the table"}.get(condition, f"{point} in {condition}")
+    known = {"": f"‖{point}‖ ≤ r", "z": f"{point} not below the table", "speed": f"speed at the join next to {point}"}
+    return known.get(condition, f"{point} in {condition}")
 
 
 def field_text(path: Path) -> str:
@@ -257,7 +264,6 @@ def joins(path: Path | None) -> list[Row]:
     if path is None:
         return []
     speeds = speed_at_joins(path)
-    text = {Smoothness.C2: "C² (value, first, second derivative)", Smoothness.C1: "C¹ (value, first derivative)"}
     rows = []
     for item in path.joins:
         at = path.curves[item.second].points[0]
@@ -267,7 +273,7 @@ def joins(path: Path | None) -> list[Row]:
         rows.append(
             {
                 "at": shown(mathml.name(label)),
-                "smoothness": text.get(level, level.name),
+                "smoothness": SMOOTHNESS[level],
                 "velocity": shown(mathml.vector(velocity)) if velocity else "",
                 "jump": "none" if all(map(is_zero, jump)) else shown(mathml.vector(jump)),
             }

@@ -95,6 +95,14 @@ def decimal_text(value: Any, digits: int = 12) -> str:
     return f"{float(value if number is None else number):.{digits}g}"
 
 
+def brief(value: Any) -> str:
+    """The exact text with a decimal where they differ, the decimal alone where the exact text would fill the line."""
+    exact, decimal = exact_text(value), decimal_text(value, 8)
+    if len(exact) > 40:
+        return f"about {decimal}"
+    return exact if exact == decimal else f"{exact} (about {decimal})"
+
+
 def described(value: Any) -> dict[str, str]:
     """``{"exact": ..., "decimal": ...}``, the form in which numbers leave the program."""
     return {"exact": exact_text(value), "decimal": decimal_text(value)}

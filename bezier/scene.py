@@ -82,7 +82,7 @@ def _region_traces(region: RegionPicture, opacity: float, legend: bool) -> list[
 def _boundary(label: str) -> str:
     if label.endswith(".z"):
         return f"{hatted(label[:-2])} on the table"
-    return f"‖{hatted(label)}‖ = r" if label[:1] in "PQR" else label
+    return f"‖{hatted(label)}‖ = r" if len(label) == 2 else label
 
 
 def _workspace_traces(picture: PathPicture) -> list[Trace]:

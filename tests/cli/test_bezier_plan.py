@@ -197,8 +197,8 @@ def test_files_and_folders_that_cannot_be_used(root: Path, tmp_path: Path) -> No
 
 
 def test_what_is_not_there_yet(root: Path, tmp_path: Path) -> None:
-    (tmp_path / "p.toml").write_text(PROBLEM.replace("quadratic", "cubic"))
-    refused(run("plan", tmp_path / "p.toml", "--out", tmp_path / "out"), 3, "cubic", "not there yet")
+    (tmp_path / "p.toml").write_text(PROBLEM.replace("quadratic", "single"))
+    refused(run("plan", tmp_path / "p.toml", "--out", tmp_path / "out"), 3, "single", "not there yet")
     refused(run("compare", root / "examples" / "three_balls.toml"), 3, "not there yet")
     assert not (tmp_path / "out").exists()
 
