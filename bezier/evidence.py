@@ -42,14 +42,18 @@ def containment(curve: Bezier, inside: Inside) -> Certificate | None:
     breaks = _breaks(curve, inside)
     if breaks is None:
         return None
-    values = [c for p in curve.points for c in p]
     payload: dict[str, Any] = {
-        "field": _field(values),
-        "points": [[_coefficients(c) for c in p] for p in curve.points],
+        **curve_payload(curve),
         "condition": _condition(inside.condition),
         "breaks": [str(t) for t in breaks],
     }
     return Certificate(Kind.CONTAINMENT, payload)
+
+
+def curve_payload(curve: Bezier) -> dict[str, Any]:
+    """The control points of a curve over one number field, as every certificate about a curve holds them."""
+    values = [c for p in curve.points for c in p]
+    return {"field": _field(values), "points": [[_coefficients(c) for c in p] for p in curve.points]}
 
 
 def _breaks(curve: Bezier, inside: Inside) -> list[Fraction] | None:

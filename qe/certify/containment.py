@@ -9,18 +9,13 @@ points, the condition and the breaks; everything else is computed here.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from fractions import Fraction
-from itertools import pairwise
-from math import comb
 
+from qe.certify.bernstein import Vector, product, read_points, restricted, total
 from qe.certify.numbers import read_field, read_number
-from qe.certify.residue import ZERO, Residue, RootField, add, of_rationals, scale
+from qe.certify.residue import Residue, RootField, add, of_rationals, scale
 from qe.errors import CertificateRejected
 from qe.evidence.entry import Entry, Json
-
-Vector = list[Residue]
-MAX_DEGREE = 64
 
 
 def check_containment(payload: dict[str, Json]) -> None:
@@ -29,19 +24,13 @@ def check_containment(payload: dict[str, Json]) -> None:
         "field", "points", "condition", "breaks"
     )
     field = read_field(numbers)
-    points = [[read_number(c, field) for c in p.items()] for p in points_entry.items()]
-    if not 1 <= len(points) <= MAX_DEGREE + 1 or not points[0] or len({len(p) for p in points}) != 1:
-        raise points_entry.fail(f"expected at most {MAX_DEGREE + 1} points of one dimension")
+    points = read_points(points_entry, field)
     breaks = [b.rational() for b in breaks_entry.items()]
     if len(breaks) < 2 or breaks[0] != 0 or breaks[-1] != 1 or breaks != sorted(set(breaks)):
         raise breaks_entry.fail("expected ascending numbers from 0 to 1")
     margin = _margin(condition, points, field)
     for i in range(1, len(breaks)):
-        piece = margin
-        if breaks[i] != 1:
-            piece = _left(piece, breaks[i])
-        if breaks[i - 1]:
-            piece = list(reversed(_left(list(reversed(piece)), 1 - breaks[i - 1] / breaks[i])))
+        piece = restricted(margin, breaks[i - 1], breaks[i])
         if any(field.sign(c) < 0 for c in piece):
             raise CertificateRejected(f"payload.breaks[{i}]", "a Bernstein coefficient before this break is negative")
 
@@ -56,40 +45,13 @@ def _margin(condition: Entry, points: list[Vector], field: RootField) -> list[Re
         if len(a) != len(points[0]):
             raise normal.fail(f"expected {len(points[0])} numbers")
         b = of_rationals([offset.rational()])
-        along = [_sum([scale(x, -c) for c, x in zip(a, p, strict=True)]) for p in points]
+        along = [total([scale(x, -c) for c, x in zip(a, p, strict=True)]) for p in points]
         return [add(b, s) for s in along]
     centre, radius = condition.fields("centre", "radius_squared")
     c = [x.rational() for x in centre.items()]
     if len(c) != len(points[0]):
         raise centre.fail(f"expected {len(points[0])} numbers")
     moved = [[add(x, of_rationals([-s])) for x, s in zip(p, c, strict=True)] for p in points]
-    squares = _squares(moved, field)
     r = read_number(radius, field)
-    return [add(r, scale(s, Fraction(-1))) for s in squares]
-
-
-def _squares(points: list[Vector], field: RootField) -> list[Residue]:
-    n = len(points) - 1
-    out = [ZERO] * (2 * n + 1)
-    for i, p in enumerate(points):
-        for j, q in enumerate(points):
-            product = _sum([field.multiply(x, y) for x, y in zip(p, q, strict=True)])
-            weight = Fraction(comb(n, i) * comb(n, j), comb(2 * n, i + j))
-            out[i + j] = add(out[i + j], scale(product, weight))
-    return out
-
-
-def _sum(values: Sequence[Residue]) -> Residue:
-    total = ZERO
-    for value in values:
-        total = add(total, value)
-    return total
-
-
-def _left(coefficients: list[Residue], t: Fraction) -> list[Residue]:
-    """De Casteljau: the coefficients on [0, t], mapped to [0, 1]."""
-    row, out = list(coefficients), [coefficients[0]]
-    while len(row) > 1:
-        row = [add(scale(x, 1 - t), scale(y, t)) for x, y in pairwise(row)]
-        out.append(row[0])
-    return out
+    squares = [product(x, x, field) for x in zip(*moved, strict=True)]
+    return [add(r, scale(total(row), Fraction(-1))) for row in zip(*squares, strict=True)]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from qe.certify.cells import check_cells
+from qe.certify.clearance import check_clearance
 from qe.certify.containment import check_containment
 from qe.certify.optimum import check_optimum
 from qe.certify.substitution import check_substitution
@@ -17,6 +18,7 @@ _CHECKERS = {
     Kind.WITNESS: check_witness,
     Kind.SUBSTITUTION: check_substitution,
     Kind.CONTAINMENT: check_containment,
+    Kind.CLEARANCE: check_clearance,
 }
 
 

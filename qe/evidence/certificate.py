@@ -29,7 +29,7 @@ class Kind(Enum):
     CELLS: truth values on the cells of a (partial) cylindrical algebraic decomposition, and the formula that
     follows. OPTIMUM: an optimal point of a convex problem, or that there is none. WITNESS: that an assignment
     satisfies a quantifier-free formula. SUBSTITUTION: that linear equations eliminate an existential block.
-    CONTAINMENT: that a Bezier curve stays in a ball or half-space.
+    CONTAINMENT: that a Bezier curve stays in a ball or half-space. CLEARANCE: that one never meets an obstacle.
     BUNDLE: several certificates with labels.
     """
 
@@ -38,6 +38,7 @@ class Kind(Enum):
     WITNESS = "witness"
     SUBSTITUTION = "substitution"
     CONTAINMENT = "containment"
+    CLEARANCE = "clearance"
     BUNDLE = "bundle"
 
 

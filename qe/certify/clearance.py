@@ -1,0 +1,96 @@
+"""Checker for certificates of kind "clearance": a whole Bezier curve never meets an obstacle.
+
+The obstacle is a union of pieces {f_1 >= 0, ..., f_m >= 0} (> 0 where strict) in the coordinates of the curve. THEOREM.
+The curve misses a piece if [0, 1] is covered by intervals on each of which one f_i(P(t)) has only negative Bernstein
+coefficients, or only nonpositive ones where f_i > 0 is strict. The certificate names the intervals and the i; the
+polynomials f_i(P(t)) and their coefficients on the intervals are computed here.
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+from qe.certify.bernstein import MAX_DEGREE, Vector, constant, product, read_points, restricted
+from qe.certify.numbers import read_field
+from qe.certify.residue import Residue, RootField, add, scale
+from qe.errors import CertificateRejected
+from qe.evidence.entry import Entry, Json
+
+Constraint = tuple[list[Residue], bool]
+
+
+def check_clearance(payload: dict[str, Json]) -> None:
+    """Accept silently, or raise ``CertificateRejected`` naming the entry that fails."""
+    numbers, points_entry, pieces = Entry(payload, "payload").fields("field", "points", "pieces")
+    field = read_field(numbers)
+    curve = _Curve(read_points(points_entry, field), field)
+    found = list(pieces.items())
+    if not found:
+        raise pieces.fail("expected at least one piece")
+    for piece in found:
+        constraints, spans = piece.fields("constraints", "spans")
+        _check_cover([_along(c, curve) for c in constraints.items()], spans, field)
+
+
+class _Curve:
+    """The coordinates of a curve as polynomials in Bernstein form, with their powers."""
+
+    def __init__(self, points: list[Vector], field: RootField) -> None:
+        self.field, self.dimension, self.degree = field, len(points[0]), len(points) - 1
+        self.coordinates = [[p[i] for p in points] for i in range(self.dimension)]
+        self.monomials: dict[tuple[int, ...], list[Residue]] = {(0,) * self.dimension: constant(Fraction(1), 0)}
+
+    def monomial(self, exponents: tuple[int, ...]) -> list[Residue]:
+        """x^i y^j ... along the curve."""
+        if exponents not in self.monomials:
+            axis = next(i for i, e in enumerate(exponents) if e)
+            lower = tuple(e - (i == axis) for i, e in enumerate(exponents))
+            self.monomials[exponents] = product(self.monomial(lower), self.coordinates[axis], self.field)
+        return self.monomials[exponents]
+
+
+def _along(entry: Entry, curve: _Curve) -> Constraint:
+    """f(P(t)) in Bernstein form, and whether f > 0 is meant instead of f >= 0."""
+    terms, strict = entry.fields("terms", "strict")
+    read: dict[tuple[int, ...], Fraction] = {}
+    for term in terms.items():
+        parts = list(term.items())
+        if len(parts) != 2:
+            raise term.fail("expected exponents and a coefficient")
+        exponents = tuple(e.integer() for e in parts[0].items())
+        if len(exponents) != curve.dimension or exponents in read:
+            raise parts[0].fail(f"expected {curve.dimension} exponents, each combination once")
+        read[exponents] = parts[1].rational()
+    degree = max((sum(e) for e in read), default=0) * curve.degree
+    if degree > MAX_DEGREE:
+        raise terms.fail(f"expected a degree of at most {MAX_DEGREE} along the curve")
+    total = constant(Fraction(0), degree)
+    for exponents, coefficient in read.items():
+        one = constant(Fraction(1), degree - sum(exponents) * curve.degree)
+        raised = product(curve.monomial(exponents), one, curve.field)
+        total = [add(a, scale(b, coefficient)) for a, b in zip(total, raised, strict=True)]
+    truth = strict.truth()
+    if truth is None:
+        raise strict.fail("expected true or false")
+    return total, truth
+
+
+def _check_cover(constraints: list[Constraint], spans: Entry, field: RootField) -> None:
+    """The spans follow one another from 0 to 1, and on each the constraint it names fails."""
+    reached = Fraction(0)
+    for span in spans.items():
+        low, high, index = (list(span.items()) + [None] * 3)[:3]
+        if low is None or high is None or index is None or len(list(span.items())) != 3:
+            raise span.fail("expected low, high and the index of a constraint")
+        start, end, i = low.rational(), high.rational(), index.integer()
+        if start != reached or not start < end <= 1:
+            raise span.fail(f"expected an interval from {reached}")
+        if i >= len(constraints):
+            raise index.fail(f"expected one of {len(constraints)} constraints")
+        form, strict = constraints[i]
+        largest = max(field.sign(c) for c in restricted(form, start, end))
+        if largest > 0 or (largest == 0 and not strict):
+            raise CertificateRejected(span.path, "the constraint does not fail on this interval")
+        reached = end
+    if reached != 1:
+        raise spans.fail("the intervals do not reach 1")
