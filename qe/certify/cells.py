@@ -7,12 +7,15 @@ where no factor is nullified on a cell of positive dimension). So a formula that
 from these signs has that truth value on the whole cell, and a quantifier over a decomposed cell ranges exactly
 over its stack (Collins, Hong 1991): the truth values, and the answer formula compared with them, hold for all
 points and not for the samples only.
+
+Where an equational constraint restricts a level, the other factors are invariant on the constraint's sections alone
+(McCallum 1999, 2001; ``closure``). A sector is then a leaf, and its truth value has to follow from the signs of
+the constraint's factors: that the matrix implies the constraint is thus proved where it is used.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from fractions import Fraction
 
 from qe.certify.closure import check_closure
 from qe.certify.matrix import Situation, Test, compiled, strengthened
@@ -21,8 +24,8 @@ from qe.certify.stacks import Checked, Fail, Sample, StackChecker
 from qe.errors import CertificateRejected
 from qe.evidence.cells import Cell, CellTable
 from qe.evidence.cells_json import CellEvidence
-from qe.exact.ring import Poly, Ring
-from qe.exact.triangular import ORIGIN, Coordinate
+from qe.exact.ring import Ring
+from qe.exact.triangular import ORIGIN
 from qe.formula.syntax import And, Atom, Constant, Formula, Or, Relation
 from qe.truth import Truth, conjunction, disjunction
 
@@ -36,14 +39,15 @@ def check_cells(evidence: CellEvidence) -> None:
     free = _check_header(table)
     check_lists(ring, table.factors)
     lists = FactorLists(ring, table.factors)
-    matrix = strengthened(table.matrix, lists, "payload.matrix")
+    closure = check_closure(lists, table.projection, table.constraints)
+    matrix = strengthened(table.matrix, lists, closure, "payload.matrix")
     answer = None if evidence.answer is None else compiled(evidence.answer, lists, "payload.answer")
-    checker = StackChecker(lists, check_closure(lists, table.projection), table.projection)
+    checker = StackChecker(lists, closure, table.projection)
     walk = _Walk(table, free, checker, matrix, answer)
     sample = Sample(ORIGIN, {}, lists.lists, [], (0,))
     if table.root.signs:
         raise CertificateRejected("payload.root.signs", "the whole space has no signs")
-    walk.cell(table.root, sample, Situation([], [], [], []), "payload.root")
+    walk.cell(table.root, sample, Situation([], [], [], [], []), "payload.root")
 
 
 def _check_header(table: CellTable) -> int:
@@ -107,6 +111,7 @@ class _Walk:
         below = Situation(  # filled in for one child after the other; deeper levels copy what they need
             [*situation.signs, []],
             [*situation.sections, stack.sections],
+            [*situation.isolated, frozenset(checked.branches)],
             [*situation.nullified, checked.nullified],
             [*situation.positions, 0],
         )
@@ -116,6 +121,8 @@ class _Walk:
             expected = "".join([_CHARACTERS[row[i]] for i in stack.used])
             if child.signs != expected:
                 raise fail(f"cells[{position}].signs", f"said to be {child.signs!r}, found {expected!r}")
+            if child.stack is not None and checked.restricted and position % 2 == 0:
+                raise fail(f"cells[{position}].stack", "only the sections of a constraint may be decomposed")
             deeper = None if child.stack is None else self._child(sample, checked, cell, position, fail)
             self.cell(child, deeper, below, (here, f".cells[{position}]"))
         value = self._aggregate(cell, sample.depth)
@@ -137,22 +144,14 @@ class _Walk:
         return None
 
     def _child(self, sample: Sample, checked: Checked, cell: Cell, position: int, fail: Fail) -> Sample:
-        stack, k = cell.stack, sample.depth
+        stack = cell.stack
         assert stack is not None
-        number: Fraction | Coordinate
-        if position % 2 == 0:
-            number = stack.sectors[position // 2]
-        else:
+        if position // 2 in checked.places and position % 2:
+            return checked.places[position // 2]
+        if position % 2:
             number = self.checker.section_coordinate(checked, stack, position // 2, fail)
-        dimensions = (*sample.dimensions, sample.dimensions[-1] + (position % 2 == 0))
-        signs = [*sample.signs, checked.signs[position]]
-        if isinstance(number, Coordinate):
-            return Sample(sample.point.extended(number), sample.rationals, sample.polys, signs, dimensions)
-        polys = tuple(
-            tuple(_substituted(f, k, number) for f in level) if at > k else level
-            for at, level in enumerate(sample.polys)
-        )
-        return Sample(sample.point, {**sample.rationals, k: number}, polys, signs, dimensions)
+            return sample.extended(number, checked.signs[position], sector=False)
+        return sample.extended(stack.sectors[position // 2], checked.signs[position], sector=True)
 
 
 def sectors_suffice(table: CellTable, level: int) -> bool:
@@ -181,10 +180,6 @@ def _positive(formula: Formula, relations: tuple[Relation, ...]) -> bool:
 
 
 _CHARACTERS = {1: "+", -1: "-", 0: "0", None: "?"}
-
-
-def _substituted(f: Poly, k: int, number: Fraction) -> Poly:
-    return f.at_rational(k, number) if f.degree(k) else f
 
 
 def _text(path: Path) -> str:

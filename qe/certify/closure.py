@@ -6,6 +6,13 @@ discriminants, pairwise resultants, with a condition on every cell that ``stacks
 polynomials of a level to be squarefree and pairwise coprime, which nonzero discriminants and resultants prove.
 Level 0 needs nothing: its stack is checked root by root.
 
+Brown-McCallum with an equational constraint e_1*...*e_m = 0 on level k: only its sections are decomposed further, so
+the other factors g need to be invariant on these sections alone. On the last level sign-invariance is enough: leading
+coefficients and discriminants of the e_i, resultants of the e_i with each other and with every g (McCallum 1999,
+theorem 2.2). Below it order-invariance is needed: leading coefficients and discriminants of the g as well (McCallum
+2001); only the resultants of two g are not. Nothing about the matrix is needed here: that the formula is decided
+between the sections is checked cell by cell.
+
 Each resultant and discriminant is compared with a Sylvester determinant at an integer point, a second route to
 the same value.
 """
@@ -13,6 +20,7 @@ the same value.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 from qe.certify.products import FactorLists, Product
 from qe.errors import CertificateRejected
@@ -23,36 +31,61 @@ from qe.options import Projection
 
 @dataclass(frozen=True, slots=True)
 class Closure:
-    """For each level: leading coefficients and discriminants of its factors, and resultants of pairs i < j.
+    """For each level: leading coefficients and discriminants of its factors (by index), and resultants of pairs i < j.
 
-    ``discriminants[0]`` and ``resultants[0]`` are empty: they are constants, and are not needed.
+    ``discriminants[0]`` and ``resultants[0]`` are empty: they are constants, and are not needed. ``constraints[k]``:
+    the factors whose sections alone are decomposed on level k (empty: all are). What a constraint makes unnecessary
+    is missing.
     """
 
-    leading: tuple[tuple[Product, ...], ...]
-    discriminants: tuple[tuple[Product, ...], ...]
+    leading: tuple[dict[int, Product], ...]
+    discriminants: tuple[dict[int, Product], ...]
     resultants: tuple[dict[tuple[int, int], Product], ...]
+    constraints: tuple[frozenset[int], ...]
 
 
-def check_closure(lists: FactorLists, projection: Projection) -> Closure:
-    """The products, or ``CertificateRejected`` naming the factor whose projection is not covered."""
+def check_closure(lists: FactorLists, projection: Projection, listed: tuple[tuple[int, ...], ...] = ()) -> Closure:
+    """The products, or ``CertificateRejected`` naming the factor whose projection is not covered.
+
+    ``listed``: the constraints as the certificate has them.
+    """
     if projection not in (Projection.LAZARD, Projection.BROWN_MCCALLUM):
         raise CertificateRejected("payload.projection", "an operator that this checker has no theorem for")
+    constraints = _check_constraints(lists, projection, listed)
     leading, discriminants, resultants = [], [], []
     for k, level in enumerate(lists.lists):
-        leading.append(tuple(_covered(lists, f.leading(k), k, i, "leading coefficient") for i, f in enumerate(level)))
-        found: list[Product] = []
+        core = constraints[k] or frozenset(range(len(level)))
+        own = core if k == len(lists.lists) - 1 else range(len(level))
+        leading.append({i: _covered(lists, level[i].leading(k), k, i, "leading coefficient") for i in own})
+        found: dict[int, Product] = {}
         pairs: dict[tuple[int, int], Product] = {}
         if k > 0:
             for i, f in enumerate(level):
                 if projection is Projection.LAZARD:
                     _trailing(lists, f, k, i)
-                found.append(_covered(lists, _discriminant(lists, f, k, i), k, i, "discriminant"))
+                if i in own:
+                    found[i] = _covered(lists, _discriminant(lists, f, k, i), k, i, "discriminant")
                 for j in range(i):
-                    what = f"resultant with payload.factors[{k}][{j}]"
-                    pairs[j, i] = _covered(lists, _resultant(lists, level[j], f, k, i), k, i, what)
-        discriminants.append(tuple(found))
+                    if i in core or j in core:
+                        what = f"resultant with payload.factors[{k}][{j}]"
+                        pairs[j, i] = _covered(lists, checked_resultant(lists, level[j], f, k, i), k, i, what)
+        discriminants.append(found)
         resultants.append(pairs)
-    return Closure(tuple(leading), tuple(discriminants), tuple(resultants))
+    return Closure(tuple(leading), tuple(discriminants), tuple(resultants), constraints)
+
+
+def _check_constraints(
+    lists: FactorLists, projection: Projection, listed: tuple[tuple[int, ...], ...]
+) -> tuple[frozenset[int], ...]:
+    """The constraint of every level: ascending indices of some of its factors, under Brown-McCallum projection."""
+    if listed and len(listed) != len(lists.lists):
+        raise CertificateRejected("payload.constraints", "expected one list per variable, or none")
+    for k, own in enumerate(listed):
+        if any(a >= b for a, b in pairwise(own)) or (own and not 0 <= own[0] <= own[-1] < len(lists.lists[k])):
+            raise CertificateRejected(f"payload.constraints[{k}]", "not an ascending list of factors of this level")
+        if own and projection is not Projection.BROWN_MCCALLUM:
+            raise CertificateRejected("payload.projection", "no theorem restricts this operator by constraints")
+    return tuple(frozenset(own) for own in listed) if listed else (frozenset(),) * len(lists.lists)
 
 
 def _covered(lists: FactorLists, p: Poly, k: int, i: int, what: str) -> Product:
@@ -87,7 +120,8 @@ def _discriminant(lists: FactorLists, f: Poly, k: int, i: int) -> Poly:
     return discriminant
 
 
-def _resultant(lists: FactorLists, f: Poly, g: Poly, k: int, i: int) -> Poly:
+def checked_resultant(lists: FactorLists, f: Poly, g: Poly, k: int, i: int) -> Poly:
+    """The resultant with respect to variable k, compared with its second computation."""
     resultant = f.resultant(g, k)
     other = sylvester_determinant(coefficients_at(f, k, lists.point), coefficients_at(g, k, lists.point))
     if value_at_integers(resultant, lists.point) != other:

@@ -5,21 +5,23 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from qe.certify.closure import Closure, checked_resultant
 from qe.certify.products import FactorLists, Product, Signs, possible_signs, sign
 from qe.errors import CertificateRejected
 from qe.exact.ring import Poly, format_poly
-from qe.formula.build import atom
+from qe.formula.build import atom, neg
 from qe.formula.syntax import And, Atom, Constant, Formula, Not, Or, Relation, RootAtom
 from qe.truth import Truth
 
 
 @dataclass(slots=True)
 class Situation:
-    """Where a cell is: the signs known on it; for each level the sections of its stack, the factors nullified
-    there, and its position in the stack."""
+    """Where a cell is: the signs known on it; for each level the sections of its stack, the factors whose roots
+    they show, the factors nullified there, and its position in the stack."""
 
     signs: Signs
     sections: list[tuple[tuple[int, ...], ...]]
+    isolated: list[frozenset[int]]
     nullified: list[frozenset[int]]
     positions: list[int]
 
@@ -100,7 +102,7 @@ def _root_atom(formula: RootAtom, lists: FactorLists, step: str) -> Test:
             return False
         if level >= len(situation.positions):
             return False if abs(formula.k) > most(situation) else None
-        if any(situation.signs[level][index] is None for index in here):
+        if not here <= situation.isolated[level]:
             return None
         sections, position = situation.sections[level], situation.positions[level]
         roots = [2 * j + 1 for j, section in enumerate(sections) if here & set(section)]
@@ -132,27 +134,50 @@ def _most_roots(factors: list[Poly], level: int, lists: FactorLists) -> Callable
     return run
 
 
-def strengthened(matrix: Formula, lists: FactorLists, step: str) -> Test:
+def strengthened(matrix: Formula, lists: FactorLists, closure: Closure, step: str) -> Test:
     """The matrix together with the conditions it implies on fewer variables.
 
     Rule: over R, a*z^2 + b*z + c <= 0 with a constant a > 0 has a solution z only if b^2 - 4ac >= 0, and
-    a*z^2 + b*z + c < 0 only if b^2 - 4ac > 0 (complete the square). Each conjunct gives such a condition on the
-    other variables, applied again to what it gives. A condition whose factors are not listed is left out.
+    a*z^2 + b*z + c < 0 only if b^2 - 4ac > 0 (complete the square). Rule: f = 0 and g = 0 only if their resultant,
+    which is a combination of f and g, is zero. Each conjunct gives such conditions on the other variables, applied
+    again to what they give. A condition whose factors are not listed is left out, and resultants are formed with
+    equational constraints only. A disjunction is treated as the negated conjunction of its negated parts.
     """
-    tests = [compiled(matrix, lists, step)]
-    pending = list(matrix.args) if isinstance(matrix, And) else [matrix]
+    tests, dual = [compiled(matrix, lists, step)], isinstance(matrix, Or)
+    pending = list(matrix.args) if isinstance(matrix, And | Or) else [matrix]
+    equations: list[Poly] = []
     while pending:
-        conjunct = pending.pop()
-        if isinstance(conjunct, Atom):
-            implied = implied_condition(conjunct)
-            if isinstance(implied, Atom):
-                product = lists.decompose(implied.poly)
+        part = pending.pop()
+        if not isinstance(part, Atom):
+            continue
+        conjunct = Atom(part.poly, part.relation.negated) if dual else part
+        implied = [implied_condition(conjunct)]
+        if conjunct.relation is Relation.EQ:
+            implied += [_eliminated(conjunct.poly, other, lists, closure) for other in equations]
+            equations.append(conjunct.poly)
+        for condition in implied:
+            found = neg(condition) if dual and condition is not None else condition
+            if isinstance(found, Constant):
+                tests.append(compiled(found, lists, step))
+            elif isinstance(found, Atom):
+                product = lists.decompose(found.poly)
                 if product is not None:
-                    tests.append(_atom(product, implied.relation))
-                    pending.append(implied)
-            elif isinstance(implied, Constant):
-                tests.append(compiled(implied, lists, step))
-    return _combined(tests, False)
+                    tests.append(_atom(product, found.relation))
+                    pending.append(found)
+    return _combined(tests, dual)
+
+
+def _eliminated(f: Poly, g: Poly, lists: FactorLists, closure: Closure) -> Formula | None:
+    """The resultant of two equations with one main variable, one of them made of the factors of a constraint."""
+    level = f.level
+    if level < 1 or g.level != level:
+        return None
+    allowed = {(level, index) for index in closure.constraints[level]}
+    for p in (f, g):
+        product = lists.decompose(p)
+        if product is not None and all((at, index) in allowed for at, index, _ in product.powers):
+            return atom(checked_resultant(lists, f, g, level, 0), Relation.EQ)
+    return None
 
 
 def implied_condition(conjunct: Atom) -> Formula | None:

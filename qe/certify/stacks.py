@@ -4,7 +4,8 @@ The counting differs from the producers': a sign change between neighbouring sec
 root, and the total number of distinct real roots comes from the sign of the discriminant (already proved on the
 cell) or from Sturm's theorem. If every listed section shows a sign change and the total equals the number of
 listed sections, each holds exactly one root and there are no others. A root of even order shows no sign change;
-it does in the squarefree part.
+it does in the squarefree part. At a level with an equational constraint the sections are the roots of the constraint's
+factors; the signs of the other factors are computed at the sections and are unknown between them.
 """
 
 from __future__ import annotations
@@ -45,6 +46,17 @@ class Sample:
     def depth(self) -> int:
         return len(self.dimensions) - 1
 
+    def extended(self, number: Fraction | Coordinate, signs: list[int | None], *, sector: bool) -> Sample:
+        """The sample of a cell of the stack over this one, with the signs proved there."""
+        k, dimensions = self.depth, (*self.dimensions, self.dimensions[-1] + sector)
+        if isinstance(number, Coordinate):
+            return Sample(self.point.extended(number), self.rationals, self.polys, [*self.signs, signs], dimensions)
+        polys = tuple(
+            tuple(f.at_rational(k, number) if f.degree(k) else f for f in level) if at >= k else level
+            for at, level in enumerate(self.polys)
+        )
+        return Sample(self.point, {**self.rationals, k: number}, polys, [*self.signs, signs], dimensions)
+
 
 @dataclass(slots=True)
 class Branch:
@@ -59,11 +71,16 @@ class Branch:
 
 @dataclass(frozen=True, slots=True)
 class Checked:
-    """A stack found correct: the signs on every cell (per factor of the level), and its branches."""
+    """A stack found correct: the signs on every cell (per factor of the level), and its branches.
+
+    ``restricted``: only the sections, those of a constraint, may be decomposed further; ``places``: their samples.
+    """
 
     signs: list[list[int | None]]
     branches: dict[int, Branch]
     nullified: frozenset[int]
+    restricted: bool
+    places: dict[int, Sample]
 
 
 class StackChecker:
@@ -82,19 +99,56 @@ class StackChecker:
         for j, section in enumerate(stack.sections):
             for i in section:
                 listed[i].append(j)
-        branches = {i: self._branch(i, sample, at, listed[i], fail) for i in stack.used}
+        constraint = self.closure.constraints[k]
+        first = [i for i in stack.used if i in constraint]
+        branches = {i: self._branch(i, sample, at, listed[i], fail) for i in first}
+        restricted = bool(first) and not any(b.nullified for b in branches.values())
+        if not restricted:
+            if constraint and sample.dimensions[-1]:
+                raise fail("used", "the constraint does not restrict the stack, and it stands over more than a point")
+            branches |= {i: self._branch(i, sample, at, listed[i], fail) for i in stack.used if i not in branches}
         for j, section in enumerate(stack.sections):
             for other in section[1:]:
                 if not self._share(branches[section[0]], branches[other], sample, at[j : j + 2]):
                     raise fail(f"sections[{j}]", f"factors {section[0]} and {other} have no common root there")
         nullified = frozenset(i for i, b in branches.items() if b.nullified)
-        return Checked(_sign_rows(stack, branches, len(self.lists.lists[k])), branches, nullified)
+        signs, places = _sign_rows(stack, branches, len(self.lists.lists[k])), dict[int, Sample]()
+        checked = Checked(signs, branches, nullified, restricted, places)
+        if restricted:
+            self._fill_sections(checked, stack, sample, fail)
+        return checked
+
+    def _fill_sections(self, checked: Checked, stack: Stack, sample: Sample, fail: Fail) -> None:
+        """The signs of the factors beside the constraint, at the sample of every section."""
+        k = sample.depth
+        others = [i for i in stack.used if i not in checked.branches]
+        for i in others:
+            for j, section in enumerate(stack.sections):
+                if i in section:
+                    raise fail(f"sections[{j}]", f"factor {i} is none of the constraint's")
+            if k < len(self.lists.lists) - 1:
+                self._check_not_nullified(i, sample, fail)
+        for j in range(len(stack.sections)):
+            row = checked.signs[2 * j + 1]
+            number = self.section_coordinate(checked, stack, j, fail)
+            place = checked.places[j] = sample.extended(number, row, sector=False)
+            for i in others:
+                row[i] = place.point.sign(place.polys[k][i])
+
+    def _check_not_nullified(self, i: int, sample: Sample, fail: Fail) -> None:
+        """McCallum 2001 needs the factors beside a constraint delineable too, except on the last level."""
+        k = sample.depth
+        if not sign(self.closure.leading[k][i], sample.signs):
+            if fibre(sample.point, sample.polys[k][i], k).degree < 0:
+                raise fail("used", f"factor {i} vanishes identically over the sample: not well-oriented")
+            self._check_nowhere_nullified(i, sample, fail)
 
     # --- one factor ------------------------------------------------------------------------
     def _branch(self, i: int, sample: Sample, at: Values, listed: list[int], fail: Fail) -> Branch:
         k = sample.depth
         poly = sample.polys[k][i]
-        lead = sign(self.closure.leading[k][i], sample.signs)
+        known = self.closure.leading[k].get(i)  # None beside a constraint, over a single point
+        lead = sign(known, sample.signs) if known else None
         f = fibre(sample.point, poly, k, leading_nonzero=bool(lead))
         nullified = f.degree < 0
         if nullified:
@@ -112,7 +166,7 @@ class StackChecker:
         if 0 in signs:
             raise fail(f"sectors[{signs.index(0)}]", f"factor {i} is zero at this sector sample")
         discriminant = None
-        if k > 0 and not nullified:
+        if i in self.closure.discriminants[k] and not nullified:
             discriminant = sign(self.closure.discriminants[k][i], sample.signs)
             if not discriminant and f.degree != self.lists.lists[k][i].degree(k):
                 discriminant = None  # it is zero because the degree drops, which says nothing about multiple roots
@@ -178,11 +232,11 @@ class StackChecker:
     def _resultant_zero(self, a: Branch, b: Branch, sample: Sample) -> bool:
         """Whether the resultant is zero on the cell for a reason other than two vanishing leading coefficients."""
         k = sample.depth
-        if k == 0 or a.nullified or b.nullified:
-            return False
         i, j = sorted((a.index, b.index))
+        if (i, j) not in self.closure.resultants[k] or a.nullified or b.nullified:
+            return False
         leading = self.closure.leading[k]
-        if not (sign(leading[i], sample.signs) or sign(leading[j], sample.signs)):
+        if not any(sign(leading[n], sample.signs) for n in (i, j) if n in leading):
             return False
         return sign(self.closure.resultants[k][i, j], sample.signs) == 0
 

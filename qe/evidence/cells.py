@@ -26,7 +26,9 @@ class Stack:
     ``used``: indices into the level's factor list of the factors isolated here. Below the last level it
     is always the whole list; at the last level it may leave out factors that no longer matter there.
     ``sectors``: m+1 ascending rational sample values. ``sections``: for each of the m sections the
-    indices (ascending) of the used factors that vanish on it. ``cells``: 2m+1 cells.
+    indices (ascending) of the used factors that vanish on it. ``cells``: 2m+1 cells. At a level with an equational
+    constraint the sections are those of the constraint's factors and list only these, unless one of them is zero on
+    the whole line over the sample.
     """
 
     used: tuple[int, ...]
@@ -41,8 +43,9 @@ class Cell:
 
     ``signs``: for the cell at depth k+1, one character of ``+-0`` per factor of level k that its parent's
     stack used, in the order of ``Stack.used`` (empty for the root). A factor that is nullified over the
-    parent's sample has sign 0 on the whole stack. ``truth``: the truth value of the formula (with its
-    quantified variables above this depth) on the cell; None only for a cell that was not needed because
+    parent's sample has sign 0 on the whole stack. In a sector between the sections of an equational constraint
+    the signs of the other factors are open (``?``), and the cell is a leaf. ``truth``: the truth value of the formula
+    (with its quantified variables above this depth) on the cell; None only for a cell that was not needed because
     its quantifier was already decided by a sibling, or for a cell over free variables that was decomposed.
     ``stack`` is None for a leaf.
     """
@@ -59,6 +62,8 @@ class CellTable:
     ``order``: all variables, free ones first. ``quantifiers``: for each level "" (free), "E" or "A".
     ``matrix``: the quantifier-free part, over a ring whose names are ``order``. ``factors[k]``: the
     irreducible polynomials of level k. ``projection``: the operator under which the lists are closed.
+    ``constraints[k]``: indices of the factors of the equational constraint by which level k is restricted (none: it
+    is not); ``()`` where no level is.
     """
 
     order: tuple[str, ...]
@@ -67,3 +72,4 @@ class CellTable:
     projection: Projection
     factors: tuple[tuple[Poly, ...], ...]
     root: Cell
+    constraints: tuple[tuple[int, ...], ...] = ()

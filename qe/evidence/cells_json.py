@@ -35,6 +35,7 @@ def cells_to_json(evidence: CellEvidence) -> Json:
         "answer": None if evidence.answer is None else formula_to_json(evidence.answer),
         "projection": table.projection.value,
         "factors": [[format_poly(f) for f in level] for level in table.factors],
+        "constraints": [list(level) for level in table.constraints],
         "root": _cell_to_json(table.root),
     }
 
@@ -62,8 +63,8 @@ def _cell_to_json(cell: Cell) -> Json:
 
 def cells_from_json(entry: Entry) -> CellEvidence:
     """The evidence; ``CertificateRejected`` names the first malformed entry."""
-    order, quantifiers, matrix, answer, projection, factors, root = entry.fields(
-        "order", "quantifiers", "matrix", "answer", "projection", "factors", "root"
+    order, quantifiers, matrix, answer, projection, factors, constraints, root = entry.fields(
+        "order", "quantifiers", "matrix", "answer", "projection", "factors", "constraints", "root"
     )
     names = tuple(e.text() for e in order.items())
     if len(set(names)) != len(names):
@@ -81,6 +82,7 @@ def cells_from_json(entry: Entry) -> CellEvidence:
         projection=operator,
         factors=tuple(tuple(f.polynomial(ring) for f in level.items()) for level in levels),
         root=_cell_from_json(root, len(names)),
+        constraints=tuple(tuple(e.integer() for e in level.items()) for level in constraints.items()),
     )
     return CellEvidence(table, None if answer.value is None else formula_from_json(answer, ring))
 

@@ -21,6 +21,8 @@ from qe.exact.lazard import lazard_evaluation
 from qe.exact.ring import Poly, from_univariate
 from qe.exact.sample import Fibre, FibreRoot, Point, common_fibre
 
+_CHARACTER = {1: "+", -1: "-", 0: "0"}
+
 
 @dataclass(slots=True)
 class Section:
@@ -46,6 +48,20 @@ class Isolation:
     sectors: tuple[fmpq, ...]
     signs: tuple[tuple[int, ...], ...]
     nullified: tuple[int, ...] = field(default=())
+
+    def sign_texts(self) -> list[str]:
+        """The signs of the polynomials on every cell of the stack from below, one character of ``+-0`` each."""
+        rows = [[_CHARACTER[sign] for sign in row] for row in self.signs]
+        columns = list(zip(*rows, strict=True)) if rows else [()] * len(self.sectors)
+        texts: list[str] = []
+        for sector, column in enumerate(columns):
+            texts.append("".join(column))
+            if sector < len(self.sections):
+                own = list(column)
+                for j in self.sections[sector].members:
+                    own[j] = "0"
+                texts.append("".join(own))
+        return texts
 
 
 def isolate_over(point: Point, polys: tuple[Poly, ...], *, lazard: bool = False) -> Isolation:

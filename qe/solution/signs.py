@@ -35,7 +35,7 @@ def free_cells(table: CellTable) -> Iterator[FreeCell]:
             yield FreeCell(path, signs, cell.truth)
             return
         for position, below in enumerate(cell.stack.cells):
-            own = {j: _VALUE[c] for j, c in zip(cell.stack.used, below.signs, strict=True)}
+            own = {j: _VALUE[c] for j, c in zip(cell.stack.used, below.signs, strict=True) if c != "?"}
             yield from walk(below, (*path, position), (*signs, own))
 
     return walk(table.root, (), ())

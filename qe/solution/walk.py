@@ -120,4 +120,5 @@ def free_part(table: CellTable) -> CellTable:
 
     ring = Ring.of(table.order[:free])
     factors = tuple(tuple(f.convert(ring) for f in level) for level in table.factors[:free])
-    return CellTable(table.order[:free], ("",) * free, table.matrix, table.projection, factors, cut(table.root, 0))
+    root, constraints = cut(table.root, 0), table.constraints[:free]
+    return CellTable(table.order[:free], ("",) * free, table.matrix, table.projection, factors, root, constraints)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from qe.eliminate.cad.equational import constraint_factors
+from qe.eliminate.cad.equational import Constraints, equational_constraints
 from qe.eliminate.cad.lift import Lifter, sector_levels
 from qe.eliminate.cad.matrix import compile_matrix, strengthened
 from qe.eliminate.cad.projection import factor_lists
@@ -20,17 +20,31 @@ from qe.options import Budget, Projection
 
 @dataclass(frozen=True, slots=True)
 class Decomposition:
-    """The table and what it cost.
-
-    ``restricted``: an equational constraint restricted the first projection, which the checker has no theorem for.
-    """
+    """The table and what it cost. ``nullified``: Lazard projection had to take over."""
 
     table: CellTable
     cells: int
     stacks: int
     factors: int
     nullified: bool
-    restricted: bool
+
+    @property
+    def restricted(self) -> tuple[str, ...]:
+        """The variables at whose levels an equational constraint restricted projection and lifting."""
+        return tuple(v for v, own in zip(self.table.order, self.table.constraints, strict=False) if own)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Tactics:
+    """Which of its shortcuts a decomposition takes; the answers are equivalent.
+
+    ``constraints``: projection and lifting restricted by equational constraints. ``partial``: nothing is decomposed
+    where the truth is known already. ``open_only``: sectors only where all atoms are strict.
+    """
+
+    constraints: bool = True
+    partial: bool = True
+    open_only: bool = True
 
 
 def decompose(
@@ -41,6 +55,7 @@ def decompose(
     budget: Budget,
     projection: Projection = Projection.BROWN_MCCALLUM,
     separated: frozenset[int] = frozenset(),
+    tactics: Tactics = Tactics(),
 ) -> Decomposition:
     """The cell table of Q_k x_k … Q_n x_n. matrix over the variables ``order`` (free ones first).
 
@@ -48,35 +63,42 @@ def decompose(
     with Lazard projection and Lazard evaluation together. ``separated``: see ``factor_lists``.
     Raises ``BudgetExceeded``.
     """
-    ring = Ring.of(order)
-    matrix = convert(matrix, ring)
+    job = _Job(convert(matrix, Ring.of(order)), order, quantifiers, budget, separated, tactics)
     try:
-        return _attempt(matrix, order, quantifiers, budget, projection, ring, separated, nullified=False)
+        return job.attempt(projection, nullified=False)
     except NotWellOriented:
-        return _attempt(matrix, order, quantifiers, budget, Projection.LAZARD, ring, separated, nullified=True)
+        return job.attempt(Projection.LAZARD, nullified=True)
 
 
-def _attempt(
-    matrix: Formula,
-    order: tuple[str, ...],
-    quantifiers: tuple[str, ...],
-    budget: Budget,
-    projection: Projection,
-    ring: Ring,
-    separated: frozenset[int],
-    *,
-    nullified: bool,
-) -> Decomposition:
-    top = len(order) - 1
-    constraint = None
-    if projection is Projection.BROWN_MCCALLUM and quantifiers[top]:
-        constraint = constraint_factors(matrix, top)
-    # under a constraint the discriminants that strengthening brings in are not projection factors anyway
-    strong = matrix if constraint else strengthened(matrix)
-    levels = factor_lists(polynomials(strong), len(order), projection, budget, separated, constraint)
-    places = {f: (k, j) for k, level in enumerate(levels) for j, f in enumerate(level)}
-    lifter = Lifter(levels, quantifiers, projection, budget, sector_levels(matrix, quantifiers))
-    root = lifter.run(Point(ring), compile_matrix(strong, places))
-    table = CellTable(order, quantifiers, matrix, projection, levels, root)
-    restricted = constraint is not None and set(levels[top]) != constraint
-    return Decomposition(table, lifter.cells, lifter.stacks, sum(map(len, levels)), nullified, restricted)
+@dataclass(frozen=True, slots=True)
+class _Job:
+    matrix: Formula
+    order: tuple[str, ...]
+    quantifiers: tuple[str, ...]
+    budget: Budget
+    separated: frozenset[int]
+    tactics: Tactics
+
+    def attempt(self, projection: Projection, *, nullified: bool) -> Decomposition:
+        size = len(self.order)
+        constraints = Constraints()
+        if self.tactics.constraints and projection is Projection.BROWN_MCCALLUM and self.quantifiers[-1]:
+            constraints = equational_constraints(self.matrix, size)
+        levels = factor_lists(
+            polynomials(self.matrix), size, projection, self.budget, self.separated, constraints.factors
+        )
+        places = {f: (k, j) for k, level in enumerate(levels) for j, f in enumerate(level)}
+        strong = strengthened(self.matrix, constraints.implied, places)
+        indices = {
+            k: frozenset(places[f][1] for f in own)
+            for k, own in constraints.factors.items()
+            if len(own) < len(levels[k])  # a constraint made of all factors restricts nothing
+        }
+        sectors_from = sector_levels(self.matrix, self.quantifiers) if self.tactics.open_only else size
+        lifter = Lifter(
+            levels, self.quantifiers, projection, self.budget, sectors_from, indices, self.tactics.partial
+        )
+        root = lifter.run(Point(Ring.of(self.order)), compile_matrix(strong, places))
+        listed = tuple(tuple(sorted(indices.get(k, ()))) for k in range(size)) if indices else ()
+        table = CellTable(self.order, self.quantifiers, self.matrix, projection, levels, root, listed)
+        return Decomposition(table, lifter.cells, lifter.stacks, sum(map(len, levels)), nullified)

@@ -6,32 +6,37 @@ that decides it; at the last level only the factors that the formula still depen
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
-from fractions import Fraction
 
+from qe.eliminate.cad.layers import Layers, is_nullified, layers_over, restricted_layers
 from qe.eliminate.cad.matrix import Node, mentioned, specialise
 from qe.eliminate.cad.projection import Levels
-from qe.errors import NotWellOriented
+from qe.errors import InternalError, NotWellOriented
 from qe.evidence.cells import Cell, Stack
-from qe.exact.fibre_stack import Isolation, isolate_over
 from qe.exact.sample import Point
 from qe.formula.syntax import Atom, Formula, Not
 from qe.formula.traverse import atoms, children
 from qe.options import Budget, Projection
 
-_CHARACTER = {1: "+", -1: "-", 0: "0"}
 _VALUE = {"+": 1, "-": -1, "0": 0}
 
 
 @dataclass(slots=True)
 class Lifter:
-    """One lifting run. From level ``sectors_from`` on, sections need not be visited (see ``sector_levels``)."""
+    """One lifting run. From level ``sectors_from`` on, sections need not be visited (see ``sector_levels``).
+
+    ``constraints``: indices of the factors of equational constraints by level (see ``equational``). Without
+    ``partial`` cells are decomposed also where the formula is decided, and every cell of a stack is visited.
+    """
 
     levels: Levels
     quantifiers: tuple[str, ...]
     projection: Projection
     budget: Budget
     sectors_from: int
+    constraints: Mapping[int, frozenset[int]] = field(default_factory=dict)
+    partial: bool = True
     cells: int = 0
     stacks: int = 0
     _shared: dict[tuple[int, int, str], Node] = field(default_factory=dict)
@@ -45,76 +50,80 @@ class Lifter:
 
     def _cell(self, point: Point, node: Node, signs: str, dimension: int) -> Cell:
         """The cell whose sample is ``point`` (``dimension`` of its coordinates are sectors)."""
-        if isinstance(node, bool):
+        if isinstance(node, bool) and (self.partial or point.depth == len(self.levels)):
             return Cell(signs, node)
         level = point.depth
         used = self._used(node, level)
-        isolation = isolate_over(
-            point, tuple(self.levels[level][j] for j in used), lazard=self.projection is Projection.LAZARD
-        )
-        self._check_orientation(isolation, level, dimension)
+        layers = self._layers(point, used, dimension)
         self.stacks += 1
-        count = 2 * len(isolation.sections) + 1
+        count = len(layers.texts)
         self.cells += count
         self.budget.used_cells += count
         self.budget.check("lift", self.cells)
-        return self._stack(point, node, signs, dimension, used, isolation)
+        return self._stack(point, node, signs, dimension, used, layers)
 
     def _used(self, node: Node, level: int) -> tuple[int, ...]:
-        if level < len(self.levels) - 1:
+        if level < len(self.levels) - 1 or not self.partial:
             return tuple(range(len(self.levels[level])))
-        return tuple(sorted(mentioned(node, level)))
+        return tuple(sorted(mentioned(node, level) | self.constraints.get(level, frozenset())))
 
-    def _check_orientation(self, isolation: Isolation, level: int, dimension: int) -> None:
-        """Brown 2001 needs factors that are not nullified, except over single points on the last level."""
-        harmless = dimension == 0 and level == len(self.levels) - 1
-        if isolation.nullified and self.projection is not Projection.LAZARD and not harmless:
+    def _layers(self, point: Point, used: tuple[int, ...], dimension: int) -> Layers:
+        """The stack over a cell, by the sections of the level's constraint alone if it has one.
+
+        Brown–McCallum projection needs factors that are not nullified (Brown 2001), except over single points on the
+        last level, where the stack is then made of all factors, and but for factors beside a constraint on the last
+        level (McCallum 1999).
+        """
+        level = point.depth
+        factors, constraint = self.levels[level], self.constraints.get(level)
+        last = level == len(self.levels) - 1
+        if constraint is not None:
+            layers = restricted_layers(point, factors, used, constraint)
+            nullified = layers.nullified
+            if not last:
+                nullified += tuple(j for j in used if j not in constraint and is_nullified(point, factors[j]))
+            if not nullified:
+                return layers
+        layers = layers_over(point, factors, used, lazard=self.projection is Projection.LAZARD)
+        if layers.nullified and self.projection is not Projection.LAZARD and not (last and dimension == 0):
             raise NotWellOriented(f"a factor of level {level} is nullified over a cell of dimension {dimension}")
+        return layers
 
     def _stack(
-        self, point: Point, node: Node, signs: str, dimension: int, used: tuple[int, ...], isolation: Isolation
+        self, point: Point, node: Node, signs: str, dimension: int, used: tuple[int, ...], layers: Layers
     ) -> Cell:
         level = point.depth
         quantifier = self.quantifiers[level]
-        size = 2 * len(isolation.sections) + 1
-        texts = _sign_texts(isolation)
+        size = len(layers.texts)
         cells: list[Cell | None] = [None] * size
         truth: bool | None = None
         if quantifier:
             stop = quantifier == "E"
             truth = not stop
             for position in _visiting_order(size, sectors_only=level >= self.sectors_from):
-                cell = self._child(point, node, used, isolation, position, texts[position], dimension)
+                cell = self._child(point, node, used, layers, position, dimension)
                 cells[position] = cell
                 if cell.truth is stop:
                     truth = stop
-                    break
+                    if self.partial:
+                        break
         else:
             for position in range(size):
-                cells[position] = self._child(point, node, used, isolation, position, texts[position], dimension)
-        complete = tuple(Cell(texts[p], None) if c is None else c for p, c in enumerate(cells))
-        sectors = tuple(Fraction(int(q.p), int(q.q)) for q in isolation.sectors)
-        sections = tuple(tuple(sorted(used[j] for j in s.members)) for s in isolation.sections)
-        return Cell(signs, truth, Stack(used, sectors, sections, complete))
+                cells[position] = self._child(point, node, used, layers, position, dimension)
+        complete = tuple(Cell(layers.texts[p], None) if c is None else c for p, c in enumerate(cells))
+        return Cell(signs, truth, Stack(used, layers.sectors, layers.sections, complete))
 
     def _child(
-        self,
-        point: Point,
-        node: Node,
-        used: tuple[int, ...],
-        isolation: Isolation,
-        position: int,
-        text: str,
-        dimension: int,
+        self, point: Point, node: Node, used: tuple[int, ...], layers: Layers, position: int, dimension: int
     ) -> Cell:
+        text = layers.texts[position]
         child = self._specialised(node, point.depth, used, text)
-        if isinstance(child, bool):
+        off_constraint = layers.restricted and position % 2 == 0
+        if isinstance(child, bool) and (self.partial or off_constraint):
             return Cell(text, child)
-        if position % 2:
-            value = isolation.sections[position // 2].value
-        else:
-            value = isolation.sectors[position // 2]
-        return self._cell(point.extend(value), child, text, dimension + (position % 2 == 0))
+        if off_constraint:
+            raise InternalError("the matrix is undecided off an equational constraint")
+        return self._cell(layers.sample(point, position), child, text, dimension + (position % 2 == 0))
 
     def _specialised(self, node: Node, level: int, used: tuple[int, ...], text: str) -> Node:
         """``specialise`` by the signs in ``text``; equal nodes are one object, and equal questions are asked once."""
@@ -126,25 +135,10 @@ class Lifter:
         key = (id(node), level, spoken)
         stored = self._shared.get(key)
         if stored is None:
-            signs = {j: _VALUE[c] for j, c in zip(relevant, spoken, strict=True)}
+            signs = {j: _VALUE[c] for j, c in zip(relevant, spoken, strict=True) if c != "?"}
             found = specialise(node, level, signs)
             stored = self._shared[key] = self._interned.setdefault(found, found)
         return stored
-
-
-def _sign_texts(isolation: Isolation) -> list[str]:
-    """The signs of the used factors on every cell of the stack, one character per factor."""
-    rows = [[_CHARACTER[sign] for sign in row] for row in isolation.signs]
-    columns = list(zip(*rows, strict=True)) if rows else [()] * len(isolation.sectors)
-    texts: list[str] = []
-    for sector, column in enumerate(columns):
-        texts.append("".join(column))
-        if sector < len(isolation.sections):
-            own = list(column)
-            for j in isolation.sections[sector].members:
-                own[j] = "0"
-            texts.append("".join(own))
-    return texts
 
 
 def _visiting_order(size: int, *, sectors_only: bool) -> list[int]:

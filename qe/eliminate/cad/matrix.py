@@ -131,35 +131,42 @@ def mentioned(node: Node, level: int) -> set[int]:
     return found
 
 
-def strengthened(matrix: Formula) -> Formula:
-    """The matrix with atoms of lower level that its top-level conjuncts imply; an equivalent formula.
+def strengthened(matrix: Formula, implied: Iterable[Poly], places: Mapping[Poly, tuple[int, int]]) -> Formula:
+    """The matrix with conditions of lower level that it implies and whose factors are in ``places``; equivalent.
 
-    Rule Q: a*z^2 + b*z + c <= 0 with a constant a > 0 implies b^2 - 4*a*c >= 0 (strictly for <; for =, >=);
-    mirrored for a < 0. The discriminants are projection factors already, so they cost nothing, and cells
-    where one is negative need no stack.
+    ``implied``: polynomials that are zero wherever the matrix holds. Rule Q: a*z^2 + b*z + c <= 0 with a constant a > 0
+    implies b^2 - 4*a*c >= 0 (strictly for <; for =, >=); mirrored for a < 0. Where the discriminants are projection
+    factors, they cost nothing, and cells where one is negative need no stack. For a disjunction, what the negated
+    matrix implies is added negated.
     """
-    conjuncts = list(matrix.args) if isinstance(matrix, And) else [matrix]
-    for conjunct in conjuncts:  # grows while it is read: implied atoms imply further ones
-        if isinstance(conjunct, Atom):
-            implied = _solvability(conjunct)
-            if implied is not None and implied not in conjuncts:
-                conjuncts.append(implied)
-    return And(tuple(conjuncts)) if len(conjuncts) > 1 else matrix
+    dual = isinstance(matrix, Or)
+    parts = list(matrix.args) if isinstance(matrix, And | Or) else [matrix]
+    parts += [atom(p, Relation.NE if dual else Relation.EQ) for p in implied]
+    for part in parts:  # grows while it is read: implied atoms imply further ones
+        if isinstance(part, Atom):
+            found = _solvability(part, dual)
+            if found is not None and found not in parts and all(f in places for f, _ in found.poly.factors()[1]):
+                parts.append(found)
+    if len(parts) == 1:
+        return matrix
+    return Or(tuple(parts)) if dual else And(tuple(parts))
 
 
-def _solvability(found: Atom) -> Formula | None:
+def _solvability(found: Atom, dual: bool) -> Atom | None:
+    """What the atom implies about the other variables; with ``dual``, what implies the atom."""
     poly, level = found.poly, found.poly.level
     if level < 1 or poly.degree(level) != 2:
         return None
     c, b, a = poly.coefficients(level)
     if not a.is_constant:
         return None
-    below, above = (Relation.LT, Relation.LE), (Relation.GT, Relation.GE)
-    strict, weak = below if a.constant_value() > 0 else above
-    if found.relation is strict:
-        relation = Relation.GT
-    elif found.relation in (weak, Relation.EQ):
-        relation = Relation.GE
+    relation = found.relation.negated if dual else found.relation
+    facing = relation if a.constant_value() > 0 else relation.flipped
+    if facing is Relation.LT:
+        needed = Relation.GT
+    elif facing in (Relation.LE, Relation.EQ):
+        needed = Relation.GE
     else:
         return None
-    return atom(b * b - 4 * (a * c), relation)
+    condition = atom(b * b - 4 * (a * c), needed.negated if dual else needed)
+    return condition if isinstance(condition, Atom) else None

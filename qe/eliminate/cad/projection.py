@@ -10,8 +10,9 @@ Both expect irreducible, pairwise coprime polynomials of positive degree in the 
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from itertools import combinations
+from types import MappingProxyType
 
 from qe.exact.ring import Poly
 from qe.options import Budget, Projection
@@ -20,18 +21,21 @@ Levels = tuple[tuple[Poly, ...], ...]
 
 
 def project(
-    polys: Iterable[Poly], variable: int, operator: Projection, constraint: frozenset[Poly] | None = None
+    polys: Iterable[Poly],
+    variable: int,
+    operator: Projection,
+    constraint: frozenset[Poly] | None = None,
+    *,
+    first: bool = False,
 ) -> Iterator[Poly]:
     """The (unfactored) projection of a set of irreducible polynomials with main variable ``variable``.
 
-    With the factors of an equational ``constraint`` it is restricted to them and their resultants with the others.
+    With the factors of an equational ``constraint``, resultants of two other polynomials are left out (McCallum
+    2001), and in the ``first`` projection their leading coefficients and discriminants too (McCallum 1999).
     """
     listing = list(polys)
-    if constraint is not None:
-        for e in constraint:
-            yield from (e.resultant(g, variable) for g in listing if g not in constraint)
-        listing = [f for f in listing if f in constraint]
-    for f in listing:
+    core = listing if constraint is None else [f for f in listing if f in constraint]
+    for f in core if first else listing:
         coefficients = f.coefficients(variable)
         yield coefficients[-1]
         if operator is Projection.LAZARD:
@@ -42,8 +46,11 @@ def project(
             yield from coefficients[:-1]
         if f.degree(variable) >= 2:
             yield f.discriminant(variable)
-    for f, g in combinations(listing, 2):
+    for f, g in combinations(core, 2):
         yield f.resultant(g, variable)
+    if constraint is not None:
+        for e in core:
+            yield from (e.resultant(g, variable) for g in listing if g not in constraint)
 
 
 def factor_lists(
@@ -52,12 +59,12 @@ def factor_lists(
     operator: Projection,
     budget: Budget,
     separated: frozenset[int] = frozenset(),
-    constraint: frozenset[Poly] | None = None,
+    constraints: Mapping[int, frozenset[Poly]] = MappingProxyType({}),
 ) -> Levels:
     """The irreducible factors of ``polys``, closed under projection down to level 0, one list per level.
 
     At the levels in ``separated`` all derivatives of the factors with respect to the main variable join.
-    ``constraint`` restricts the first projection (see ``equational``).
+    ``constraints`` holds the factors of equational constraints by level (see ``equational``).
     """
     levels: list[dict[Poly, None]] = [{} for _ in range(size)]
 
@@ -76,7 +83,7 @@ def factor_lists(
                     insert(f)
         if k == 0:
             break
-        for p in project(levels[k], k, operator, constraint if k == size - 1 else None):
+        for p in project(levels[k], k, operator, constraints.get(k), first=k == size - 1):
             budget.check("project", size - k, size)
             insert(p)
     return tuple(tuple(sorted(level, key=_simplicity)) for level in levels)
