@@ -142,11 +142,15 @@ def divide(a: Sequence[Any], b: Sequence[Any]) -> tuple[Coefficients, Coefficien
 
 
 def gcd(a: Sequence[Any], b: Sequence[Any]) -> Coefficients:
-    """The monic greatest common divisor of power forms, by Euclid."""
-    x, y = trim(a), trim(b)
+    """The monic greatest common divisor of power forms, by Euclid with monic remainders, which keeps them short."""
+    x, y = trim(a), _monic(trim(b))
     while y:
-        x, y = y, divide(x, y)[1]
-    return tuple(c / x[-1] for c in x)
+        x, y = y, _monic(divide(x, y)[1])
+    return _monic(x)
+
+
+def _monic(p: Coefficients) -> Coefficients:
+    return tuple(c / p[-1] for c in p)
 
 
 def power_derivative(p: Sequence[Any]) -> Coefficients:

@@ -21,6 +21,8 @@ from qe.errors import InternalError, Unable
 Interval = tuple[Fraction, Fraction]
 UNIT: Interval = (Fraction(0), Fraction(1))
 QUICK_DEPTH = 5
+"""Bisections before roots are split off. Over Q, where bisecting is cheap and long numbers make gcds slow: 16."""
+QUICK_DEPTH_RATIONAL = 16
 MAX_BOXES = 20_000
 
 
@@ -63,7 +65,8 @@ def decide(b: Sequence[Any]) -> Nonnegative | Negative:
     whole = tuple(b)
     if all(map(is_zero, whole)):
         return Nonnegative(0, 0, (Fraction(1),), whole, (UNIT,), (UNIT,))
-    outcome = _subdivide(whole, QUICK_DEPTH)
+    is_rational = all(isinstance(c, (int, Fraction)) for c in whole)
+    outcome = _subdivide(whole, QUICK_DEPTH_RATIONAL if is_rational else QUICK_DEPTH)
     if isinstance(outcome, Negative):
         return outcome
     if outcome is not None:

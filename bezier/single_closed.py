@@ -1,0 +1,218 @@
+"""Method 1*: problem (4) with the conditions that it lacks, for all t, by constraint generation in exact arithmetic.
+
+    for all t in [t_a, t_b]: P_y(t) >= h_y and P_z(t) >= h_z;   for all t in [0, 1]: |P(t)|^2 <= r^2 (and P_z(t) >= 0)
+
+A linear program over Q holds (4) and cuts at finitely many t (``bezier.single_cuts``); its exact optimum is a proved
+lower bound (Kelley 1960). First the cuts' common slack is maximised until a curve is proved to satisfy everything or
+the program contradicts itself, which proves that there is no such curve. Then the sum is minimised; as an optimum that
+is only approached from outside is never feasible, the answer is the best proved curve on the segments from the
+first one to the optima of the programs (Veinott 1967), with the bound that its sum cannot fall below.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from math import floor, log10
+
+from bezier.curve import Bezier
+from bezier.simplex import (
+    Check,
+    Contradiction,
+    Duals,
+    LinearOptimum,
+    LinearProgram,
+    Outcome,
+    Row,
+    certificate,
+    solve,
+)
+from bezier.single import Task, Values, curve, program
+from bezier.single_cuts import Cut, Model
+from bezier.workspace import Workspace
+from qe.errors import BudgetExceeded, Unable
+from qe.evidence.certificate import Certificate
+
+MAX_ROUNDS = 60
+TOLERANCE = Fraction(1, 1000)
+"""The sum may exceed the proved lower bound by this part of it."""
+BISECTIONS = 7
+SIMPLE_STEPS = 5
+"""So many decimal steps are tried for shorter numbers, from about a hundredth of the radius down."""
+
+
+@dataclass(frozen=True, slots=True)
+class ProvedCurve:
+    """A curve for which everything is proved for all t. ``value``: its sum over p+1..q of all raised axes.
+
+    ``bound``: no curve has a smaller sum, by ``certificate`` about the linear program of (4) and ``cuts``.
+    """
+
+    values: dict[str, Values]
+    curve: Bezier
+    value: Fraction
+    bound: Fraction
+    cuts: tuple[Cut, ...]
+    certificate: Certificate
+    rounds: int
+
+    @property
+    def is_optimal(self) -> bool:
+        """Whether the sum is proved to be the least possible."""
+        return self.value == self.bound
+
+
+@dataclass(frozen=True, slots=True)
+class NoCurve:
+    """No curve of this degree: the linear program of (4) and ``cuts`` contradicts itself, by ``certificate``."""
+
+    cuts: tuple[Cut, ...]
+    certificate: Certificate
+    rounds: int
+
+
+def close(task: Task, workspace: Workspace, *, check: Check = lambda: None) -> ProvedCurve | NoCurve:
+    """Method 1* for this task. ``check`` is called between steps and may raise.
+
+    Raises ``BudgetExceeded`` after ``MAX_ROUNDS`` rounds without a proof, also where curves exist but all of them touch
+    the boundary somewhere else than (4) forces them to.
+    """
+    return _Search(Model.of(task, workspace), check).run()
+
+
+class _Search:
+    """The rounds of constraint generation, with the cuts so far."""
+
+    def __init__(self, model: Model, check: Check) -> None:
+        self.model, self.check, self.cuts, self.rounds = model, check, model.initial(), 0
+        self.slack = (*(Fraction(0) for _ in model.costs[1:]), Fraction(-1))
+
+    def run(self) -> ProvedCurve | NoCurve:
+        """Slack first, then the sum."""
+        inner = self.inner_point()
+        if isinstance(inner, Contradiction):
+            return NoCurve(tuple(self.cuts), self.certificate(inner), self.rounds)
+        best, outcome = inner, self.outcome([self.model.costs, self.slack])
+        for _ in self.counted():
+            found = self.violations(outcome.point)
+            if not found:
+                best = outcome.point
+                break
+            candidate, outside = self.last_feasible(inner, outcome.point)
+            best = min(best, candidate, key=self.sum_of)
+            if self.sum_of(best) - outcome.value <= TOLERANCE * abs(outcome.value):
+                break
+            self.cuts += [*found, *self.violations(outside)]
+            outcome = self.outcome([self.model.costs, self.slack])
+        best = self.simplified(best, outcome.value)
+        values = self.model.values(best)
+        return ProvedCurve(
+            values,
+            curve(self.model.task, values),
+            self.sum_of(best),
+            outcome.value,
+            tuple(self.cuts),
+            self.certificate(outcome),
+            self.rounds,
+        )
+
+    def inner_point(self) -> Values | Contradiction:
+        """A curve proved to satisfy everything, with the largest slack that the cuts allow."""
+        for _ in self.counted():
+            outcome = solve(self.model.program(self.cuts), [self.slack], check=self.check)
+            if isinstance(outcome, Contradiction):
+                return outcome
+            found = self.violations(outcome.point)
+            if not found:
+                return outcome.point
+            self.cuts += found
+        raise BudgetExceeded(f"Method 1*: no curve proved or excluded after {MAX_ROUNDS} rounds", limit="rounds")
+
+    def counted(self) -> Iterator[int]:
+        """Rounds, at most ``MAX_ROUNDS`` for each of the two stages."""
+        for k in range(MAX_ROUNDS):
+            self.rounds += 1
+            yield k
+
+    def outcome(self, objectives: Sequence[Values]) -> LinearOptimum:
+        """The optimum of a program that is known to have a point."""
+        found = solve(self.model.program(self.cuts), objectives, check=self.check)
+        if isinstance(found, Contradiction):
+            raise Unable("a linear program lost the point that was proved to satisfy it")
+        return found
+
+    def violations(self, point: Sequence[Fraction]) -> list[Cut]:
+        """New cuts against this point; none if its curve is proved to satisfy everything."""
+        self.check()
+        return self.model.violations(self.model.values(point))
+
+    def sum_of(self, point: Sequence[Fraction]) -> Fraction:
+        """The objective."""
+        return sum((c * x for c, x in zip(self.model.costs, point, strict=True)), Fraction(0))
+
+    def last_feasible(self, inner: Values, outer: Values) -> tuple[Values, Values]:
+        """Points of the segment from ``inner`` to ``outer``: the last proved inside, and one outside just beyond."""
+        low, high = Fraction(0), Fraction(1)
+        for _ in range(BISECTIONS):
+            middle = (low + high) / 2
+            low, high = (low, middle) if self.violations(_between(inner, outer, middle)) else (middle, high)
+        return _between(inner, outer, low), _between(inner, outer, high)
+
+    def simplified(self, point: Values, bound: Fraction) -> Values:
+        """A point with shorter numbers that is proved as well and whose sum is as close to the bound."""
+        allowed = max(self.sum_of(point), bound + (self.sum_of(point) > bound) * TOLERANCE * abs(bound))
+        largest = Fraction(10) ** (floor(log10(self.model.workspace.radius_squared) / 2) - 2)
+        for k in () if self.model.tangents() else range(SIMPLE_STEPS):
+            candidate = _rounded(self.model.task, point, largest / 10**k)
+            if candidate is None or self.sum_of(candidate) > allowed or self.violations(candidate):
+                continue
+            return candidate
+        return point
+
+    def certificate(self, outcome: Outcome) -> Certificate:
+        """The outcome for the program without the slack: its column is zero there, and its multipliers go with it."""
+        whole = self.model.program(self.cuts)
+        kept = len(whole.rows) - 1
+        plain = LinearProgram(
+            whole.names[:-1],
+            whole.lower[:-1],
+            tuple(Row(row.coefficients[:-1], row.bound, row.equation) for row in whole.rows[:kept]),
+        )
+        return certificate(plain, self.model.costs[:-1], _without_slack(outcome, kept))
+
+
+def _between(inner: Values, outer: Values, share: Fraction) -> Values:
+    return tuple(a + share * (b - a) for a, b in zip(inner, outer, strict=True))
+
+
+def _without_slack(outcome: Outcome, rows: int) -> Outcome:
+    """The outcome without the last variable and the last row: where s has a part in a proof, s = 0 gives another."""
+    duals = Duals(outcome.duals.rows[:rows], outcome.duals.bounds[:-1])
+    if isinstance(outcome, Contradiction):
+        return Contradiction(duals)
+    return replace(outcome, point=outcome.point[:-1], duals=duals)
+
+
+def _rounded(task: Task, point: Values, step: Fraction) -> Values | None:
+    """The point with multiples of ``step``, but two coordinates per axis solved from P(t_a) = P(t_b) = h.
+
+    None where that breaks a lower bound of (4). The last entry, the slack, becomes zero.
+    """
+    found: list[Fraction] = []
+    size = task.degree - 1
+    beside = [i for i in (task.p, task.q + 1, task.p - 1, task.q) if 1 <= i <= size][:2]
+    for k, axis in enumerate(task.raised):
+        base = program(task, axis)
+        given = zip(point[k * size : (k + 1) * size], base.lower, strict=True)
+        values = [low if v == low else max(low, round(v / step) * step) for v, low in given]
+        i, j = (index - 1 for index in beside)
+        values[i] = values[j] = Fraction(0)
+        first, second = base.rows
+        a, b, c, d = (row.coefficients[index] for row in (first, second) for index in (i, j))
+        u, v = -first.at(values), -second.at(values)
+        values[i], values[j] = (u * d - b * v) / (a * d - b * c), (a * v - u * c) / (a * d - b * c)
+        if any(v < low for v, low in zip(values, base.lower, strict=True)):
+            return None
+        found += values
+    return (*found, Fraction(0))
