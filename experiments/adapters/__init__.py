@@ -1,0 +1,1 @@
+"""One module per kind of solver: a formula of this project goes in, an answer in the text syntax comes out."""

@@ -1,0 +1,144 @@
+"""The command ``experiments``: run suites of problems through solvers, and make tables, figures and a page of them.
+
+Exit status as in ``qe.cli_shell``; ``run`` ends with 1 when our engine gave a wrong answer.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from experiments.adapters.answer import Limits
+from experiments.problem import ROOT
+from experiments.results import Log, Status, read_log
+from experiments.solvers import OURS, solver
+from experiments.suites import suite
+from qe.cli_shell import BUG, OK, enter
+
+app = typer.Typer(
+    add_completion=False,
+    pretty_exceptions_enable=False,
+    rich_markup_mode=None,
+    help="Experiments: run solvers on suites of problems; results are lines of JSON that are only ever added to.",
+)
+
+RESULTS = ROOT / "out" / "corpus.jsonl"
+Results = Annotated[list[Path] | None, typer.Option("--results", help="Result files [default: out/corpus.jsonl].")]
+
+
+@app.command()
+def run(
+    suites: Annotated[list[str], typer.Option("--suite", help="paper, classics, literature, scaling or ablation.")],
+    solvers: Annotated[list[str] | None, typer.Option("--solver", help="A solver; default: ours.")] = None,
+    limit: Annotated[float, typer.Option(help="Seconds of solving time for each problem.")] = 15.0,
+    memory: Annotated[int, typer.Option(help="MiB for each problem.")] = 2048,
+    repeat: Annotated[int, typer.Option(help="Repetitions; the median counts.", min=1)] = 1,
+    jobs: Annotated[int, typer.Option(help="Problems at a time.", min=1)] = 1,
+    seed: Annotated[int, typer.Option(help="Of the random order.")] = 1,
+    only: Annotated[str, typer.Option(help="Problems whose name or set contains this.")] = "",
+    again: Annotated[bool, typer.Option("--again", help="Run again what has a result already.")] = False,
+    results: Annotated[Path, typer.Option(help="The file to which results are added.")] = RESULTS,
+) -> int:
+    """Run suites through solvers. A second call goes on where an interrupted one stopped."""
+    from experiments.session import Session
+
+    chosen = [suite(name) for name in suites]
+    work = [
+        (
+            [p for p in s.problems() if only in p.id or only in p.set],
+            [solver(name) for name in (solvers or s.solvers)],
+        )
+        for s in chosen
+    ]
+    session = Session(results, Limits(limit, memory), workers=jobs, again=again)
+    _warn(session.log)
+    session.run(work, repeat=repeat, seed=seed)
+    wrong = [r for r in session.log.results.values() if r.status is Status.WRONG]
+    for row in wrong:
+        print(f"WRONG ANSWER: {row.solver} on {row.set} {row.id}: {row.answer[:200]}")
+    return BUG if any(row.solver.startswith(OURS) for row in wrong) else OK
+
+
+@app.command()
+def table(
+    results: Results = None,
+    out: Annotated[Path, typer.Option(help="The Markdown page.")] = ROOT / "docs" / "benchmarks.md",
+) -> None:
+    """Write the tables from result files."""
+    _write_table(_read(results), out, figures_beside=out.parent / "images" / "benchmarks")
+
+
+@app.command()
+def figures(
+    results: Results = None,
+    out: Annotated[Path, typer.Option(help="The folder for SVG files.")] = ROOT / "docs" / "images" / "benchmarks",
+) -> None:
+    """Draw the figures from result files."""
+    _write_figures(_read(results), out)
+
+
+@app.command()
+def html(
+    results: Results = None,
+    out: Annotated[Path, typer.Option(help="The page.")] = ROOT / "out" / "benchmarks.html",
+) -> None:
+    """Write one self-contained page with tables and figures."""
+    _write_html(_read(results), out)
+
+
+@app.command()
+def report(results: Results = None) -> None:
+    """Everything: docs/benchmarks.md with its figures, and out/benchmarks.html."""
+    log = _read(results)
+    docs = ROOT / "docs"
+    _write_figures(log, docs / "images" / "benchmarks")
+    _write_table(log, docs / "benchmarks.md", figures_beside=docs / "images" / "benchmarks")
+    _write_html(log, ROOT / "out" / "benchmarks.html")
+
+
+def _write_table(log: Log, out: Path, figures_beside: Path) -> None:
+    from experiments.tables import page
+
+    found = sorted(figures_beside.glob("*.svg"))
+    pictures = [(path.stem, str(path.relative_to(out.parent))) for path in found]
+    _write(out, page(log, pictures))
+
+
+def _write_figures(log: Log, folder: Path) -> None:
+    from experiments.figures import pictures
+
+    for picture in pictures(log):
+        _write(folder / f"{picture.name}.svg", picture.svg())
+
+
+def _write_html(log: Log, out: Path) -> None:
+    from experiments import figures as drawing
+    from experiments.page import html as page
+
+    _write(out, page(log, list(drawing.pictures(log))))
+
+
+def _write(path: Path, text: str) -> None:
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(text)
+    print(path)
+
+
+def _read(results: list[Path] | None) -> Log:
+    log = read_log(results or [RESULTS])
+    _warn(log)
+    return log
+
+
+def _warn(log: Log) -> None:
+    for line in log.bad:
+        print(f"experiments: {line}", file=sys.stderr)
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """The console script."""
+    return enter(app, argv, name="experiments")

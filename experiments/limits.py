@@ -1,0 +1,121 @@
+"""A program under limits on time and memory, in a process group of its own that is ended as a whole."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import signal
+import subprocess
+import tempfile
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import Enum
+from pathlib import Path
+from typing import IO
+
+POLL = 0.01
+LOOK_AT_MEMORY = 0.1
+MIB = 1 << 20
+
+# The shell sets the limits and then becomes the program, so that nothing runs between fork and exec here.
+LIMITING = 'ulimit -c 0; ulimit -v "$1" 2>/dev/null; shift; exec "$@"'
+ADDRESS_SPACE = 4
+"""The address space of one process may be this many times the memory limit: a backstop where it grows by leaps."""
+
+
+class Ending(Enum):
+    """How a run ended: by itself, or at a limit."""
+
+    FINISHED = "finished"
+    TIME = "time"
+    MEMORY = "memory"
+
+
+@dataclass(frozen=True, slots=True)
+class Run:
+    """``code`` is the exit status (negative: the signal); ``wall`` in seconds; ``peak`` resident MiB of the group."""
+
+    ending: Ending
+    code: int
+    out: str
+    err: str
+    wall: float
+    peak: float
+
+
+def run_limited(
+    command: Sequence[str], text: str, *, seconds: float, memory: int, start_up: float = 0.0, folder: Path | None = None
+) -> Run:
+    """Run a program on this standard input.
+
+    ``seconds`` count from its first output, and for a silent program after ``start_up`` seconds; ``memory`` is in MiB
+    for all processes of the group together. Where there is no /proc only the address space is limited.
+    """
+    with tempfile.TemporaryFile() as source, tempfile.TemporaryFile() as out, tempfile.TemporaryFile() as err:
+        source.write(text.encode())
+        source.seek(0)
+        start = time.perf_counter()
+        child = subprocess.Popen(
+            ["/bin/sh", "-c", LIMITING, "sh", str(ADDRESS_SPACE * memory * 1024), *command],
+            stdin=source,
+            stdout=out,
+            stderr=err,
+            cwd=folder,
+            start_new_session=True,
+        )
+        try:
+            ending, peak = _watch(child, out, start, seconds, memory, start_up)
+        finally:
+            with contextlib.suppress(ProcessLookupError):  # also ends what the program left behind
+                os.killpg(child.pid, signal.SIGKILL)
+            code = child.wait()
+        wall = time.perf_counter() - start
+        return Run(ending, code, _text(out), _text(err), wall, peak)
+
+
+def _watch(
+    child: subprocess.Popen[bytes], out: IO[bytes], start: float, seconds: float, memory: int, start_up: float
+) -> tuple[Ending, float]:
+    """Wait for the end or a limit; (what it was, peak memory)."""
+    peak, deadline, look = 0.0, start + start_up + seconds, 0.0
+    while True:
+        status, usage = _reap(child)
+        now = time.perf_counter()
+        if status:
+            return Ending.FINISHED, max(peak, usage)
+        if now >= look:
+            look = now + LOOK_AT_MEMORY
+            peak = max(peak, group_memory(child.pid))
+            if peak > memory:
+                return Ending.MEMORY, peak
+        if start_up and os.fstat(out.fileno()).st_size:
+            start_up, deadline = 0.0, min(deadline, now + seconds)
+        if now > deadline:
+            return Ending.TIME, peak
+        time.sleep(POLL)
+
+
+def _reap(child: subprocess.Popen[bytes]) -> tuple[bool, float]:
+    """Whether the child has ended, and its peak of resident memory in MiB."""
+    pid, status, usage = os.wait4(child.pid, os.WNOHANG)
+    if not pid:
+        return False, 0.0
+    child.returncode = os.waitstatus_to_exitcode(status)
+    return True, usage.ru_maxrss / 1024
+
+
+def group_memory(group: int) -> float:
+    """Resident MiB of all processes of a group, 0 where there is no /proc."""
+    pages = 0
+    for entry in Path("/proc").glob("[0-9]*/stat"):
+        with contextlib.suppress(OSError):  # it has just ended
+            fields = entry.read_text().rpartition(")")[2].split()
+            if int(fields[2]) == group:
+                pages += int(fields[21])
+    return pages * os.sysconf("SC_PAGE_SIZE") / MIB
+
+
+def _text(stream: IO[bytes]) -> str:
+    stream.seek(0)
+    return stream.read().decode(errors="replace")

@@ -1,0 +1,35 @@
+"""The problem suites by name."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from experiments.problem import Problem
+from experiments.solvers import ABLATIONS
+from experiments.suites import corpus, paper, scaling
+from qe.errors import InputError
+
+
+@dataclass(frozen=True, slots=True)
+class Suite:
+    """``problems`` makes the list; ``solvers`` are those that run it when the caller names none."""
+
+    problems: Callable[[], list[Problem]]
+    solvers: tuple[str, ...] = ("ours",)
+
+
+SUITES = {
+    "paper": Suite(paper.problems),
+    "classics": Suite(corpus.classics),
+    "literature": Suite(corpus.literature),
+    "scaling": Suite(scaling.problems),
+    "ablation": Suite(corpus.ablation, ("ours", *ABLATIONS)),
+}
+
+
+def suite(name: str) -> Suite:
+    """The suite of this name. Raises ``InputError``, naming the suites there are."""
+    if name not in SUITES:
+        raise InputError(f"--suite: one of {', '.join(SUITES)} expected, {name!r} found")
+    return SUITES[name]

@@ -1,0 +1,62 @@
+"""Suites read from files: the project's corpus, and problem sets of the literature in a folder beside the project."""
+
+from __future__ import annotations
+
+import json
+import tomllib
+from pathlib import Path
+
+from experiments.problem import ROOT, Problem
+from experiments.suites import paper
+from qe.errors import InputError
+
+CORPUS = ROOT / "tests" / "corpus"
+LITERATURE = ROOT.parent / "shared" / "corpora"
+
+
+def records() -> list[dict[str, object]]:
+    """The raw records of the project's corpus."""
+    return [r for path in sorted(CORPUS.glob("*.toml")) for r in tomllib.loads(path.read_text())["problem"]]
+
+
+def _problem(record: dict[str, object]) -> Problem:
+    keys = ("formula", "expected", "assume")
+    return Problem("project", str(record["id"]), **{key: record[key] for key in keys if key in record})  # type: ignore[arg-type]
+
+
+def classics() -> list[Problem]:
+    """The project's own corpus: classics of the field, odd shapes, wrong answers that systems have given."""
+    return [_problem(record) for record in records()]
+
+
+def timing_ids() -> list[str]:
+    """The problems of the corpus on which systems are timed."""
+    return [str(record["id"]) for record in records() if "timing" in record["tags"]]  # type: ignore[operator]
+
+
+def ablation() -> list[Problem]:
+    """Problems on which stages of the engine matter: the timing problems of the corpus, and the paper's formulas."""
+    timing = set(timing_ids())
+    return [p for p in classics() if p.id in timing] + [p for p in paper.problems() if p.id.endswith("-0")]
+
+
+def literature(folder: Path = LITERATURE) -> list[Problem]:
+    """The literature sets ``public``, ``realgeom`` and ``classics``. Raises ``InputError`` where they are absent."""
+    if not folder.is_dir():
+        raise InputError(f"--suite literature: expected a folder {folder.parent.name}/{folder.name} beside the project")
+    found = [
+        _of_literature(name, json.loads(line))
+        for name, file in (("public", "public.jsonl"), ("realgeom", "timed_realgeom.jsonl"))
+        for line in (folder / file).read_text().splitlines()
+        if line.strip()
+    ]
+    named = json.loads((folder / "classics.json").read_text())["problems"]
+    return found + [Problem("classics", r["name"], r["formula"], r.get("expected")) for r in named]
+
+
+def _of_literature(name: str, record: dict[str, str]) -> Problem:
+    """Assumptions are stated in QEPCAD's square brackets."""
+    assume = record.get("assume")
+    if assume is not None:
+        assume = assume.replace("[", "(").replace("]", ")")
+    return Problem(name, record["id"], record["formula"], record.get("expected"), assume)
