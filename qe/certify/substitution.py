@@ -58,6 +58,8 @@ def _without(body: Formula, i: int, equation: Poly, entry: Entry) -> Formula:
     def replaced(found: Atom | RootAtom) -> Formula:
         if isinstance(found, RootAtom):
             raise entry.fail("no substitution into root atoms")
+        if not found.poly.degree(i):
+            return found
         return atom(_replaced(found.poly, i, equation), found.relation)
 
     return conj(map_atoms(c, replaced) for c in conjuncts if c != needed)

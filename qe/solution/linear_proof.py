@@ -50,9 +50,8 @@ def _replaced(body: Formula, i: int, equation: Poly) -> Formula:
     value, scale = (-rest, c) if c > 0 else (rest, -c)
 
     def change(found: Atom | RootAtom) -> Formula:
-        if isinstance(found, RootAtom):
+        if isinstance(found, RootAtom) or not (degree := found.poly.degree(i)):
             return found
-        degree = found.poly.degree(i)
         terms = (p * value**k * scale ** (degree - k) for k, p in enumerate(found.poly.coefficients(i)))
         return atom(sum(terms, start=found.poly.ring.constant(0)), found.relation)
 
