@@ -3,20 +3,29 @@
 from __future__ import annotations
 
 import random
-from collections.abc import Iterator
+import re
+from collections.abc import Collection, Iterator
+from dataclasses import replace
 from fractions import Fraction
 
-from bezier import quadratic
+from bezier import cubic, quadratic, single, single_formula
+from bezier.control import number
 from bezier.problem import Problem as PlanningProblem
 from bezier.problem import read_problem
+from bezier.single_formula import Symbol
 from experiments import formulas
 from experiments.problem import Problem
 
 SEED = 2024
 FAMILY = 6
 
-PLANE = ((-3, 2), (2, 2), 27)
-"""Q0, R0 and r^2 of the plane instance of (7) with two active constraints at its optimum."""
+TWO_ACTIVE = """
+via = [[-3, 2, 0], [2, 2, 0]]
+start = [-5, 0, 0]
+goal = [5, 0, 0]
+radius = "sqrt(27)"
+"""
+
 
 Point = tuple[int, int, int]
 
@@ -84,27 +93,39 @@ def _quadratic(i: int, problem: PlanningProblem) -> Iterator[Problem]:
 
 def _cubic(i: int, problem: PlanningProblem) -> Iterator[Problem]:
     """Formula (7): as printed, its truth (true: Q1 = Q0, Q2 = R0), in the plane, Q1 fixed, and the region of Q1."""
-    q0, r0 = (tuple(map(Fraction, p)) for p in problem.via)
-    radius = Fraction(problem.workspace.radius_squared)
-    conditions = formulas.cubic_conditions(q0, r0, radius)
-    block = ", ".join(v for name in ("q1", "q2") for v in formulas.coordinates(name))
-    yield _problem("formula-7", i, formulas.formula7(q0, r0, radius), conditions)
+    system = cubic.system(problem)
+    conditions = system.conditions_text()
+    yield _problem("formula-7", i, system.formula(), conditions)
+    block = ", ".join(system.shape.variables)
     yield _problem("formula-7-feasible", i, f"ex {block}. {conditions}", "true")
-    flat = formulas.cubic_conditions(q0[:2], r0[:2], radius)
-    block = ", ".join(v for name in ("q1", "q2") for v in formulas.coordinates(name, 2))
-    yield _problem("formula-7-plane", i, f"ex {block}. {flat}", "true")
-    q1 = (f"q1{axis} = {formulas.number(2 * a - b)}" for axis, a, b in zip("xy", q0, r0, strict=False))
-    outward = f"ex {block}. {' and '.join(q1)} and {flat}"
-    yield _problem("formula-7-outward", i, outward)
-    block = ", ".join(formulas.coordinates("q2", 2))
+    flat = in_plane(problem)
+    yield _problem("formula-7-plane", i, f"ex q1x, q1y, q2x, q2y. {flat}", "true")
+    outward = [
+        f"q1{axis} = {number(2 * Fraction(a) - Fraction(b))}" for axis, a, b in zip("xy", *problem.via, strict=False)
+    ]
+    yield _problem("formula-7-outward", i, f"ex q1x, q1y, q2x, q2y. {' and '.join(outward)} and {flat}")
     if i == 0:
-        yield _problem("formula-7-region", i, f"ex {block}. {formulas.cubic_conditions(*PLANE)}")
+        yield _problem("formula-7-region", i, f"ex q2x, q2y. {in_plane(read_problem(TWO_ACTIVE))}")
+
+
+def in_plane(problem: PlanningProblem) -> str:
+    """What (7) says of Q1 and Q2 when all points lie in the plane z = 0 (the first two coordinates are kept)."""
+    flat = [(Fraction(p[0]), Fraction(p[1]), Fraction(0)) for p in problem.via]
+    text = cubic.system(replace(problem, via=(flat[0], flat[1]))).conditions_text()
+    return re.sub(r"\bq[12]z\b", "0", text)
+
+
+def single_curve(degree: int, symbols: Collection[Symbol] = ()) -> str:
+    """(4) for a curve from (0, 0) to (1, 0) that keeps the height 1, or h, from x = 2/5 to x = 3/5."""
+    zero, one = Fraction(0), Fraction(1)
+    axis = single.Axis("y", zero, zero, one)
+    given = single.task(degree, (zero, one), (Fraction(2, 5), Fraction(3, 5)), [axis])
+    conditions = " and ".join(single_formula.constraints(given, axis, symbols))
+    return f"ex {', '.join(single.variables(given, axis))}. {conditions}"
 
 
 def _single() -> Iterator[Problem]:
     """(4) with numbers and with the height of the obstacle as a parameter."""
-    a, b = Fraction(2, 5), Fraction(3, 5)
     for i, degree in enumerate((4, 5, 6)):
-        yield _problem("formula-4", i, formulas.single_curve(degree, a, b), "true")
-        text = formulas.single_curve(degree, a, b, "h")
-        yield _problem("formula-4-height", i, text, "h >= 0")
+        yield _problem("formula-4", i, single_curve(degree), "true")
+        yield _problem("formula-4-height", i, single_curve(degree, (Symbol.HEIGHT,)), "h >= 0")

@@ -8,6 +8,7 @@ from fractions import Fraction
 
 from experiments import formulas
 from experiments.problem import Problem
+from experiments.suites import paper
 
 SEED = 7
 DEGREES = (4, 6, 8, 10, 12)
@@ -25,7 +26,7 @@ def problems() -> list[Problem]:
 def _degrees() -> Iterator[Problem]:
     """Feasibility of (4) for growing degree of the curve: n - 1 variables."""
     for n in DEGREES:
-        text = formulas.single_curve(n, Fraction(2, 5), Fraction(3, 5))
+        text = paper.single_curve(n)
         yield Problem("scaling/degree", f"degree-{n}", text, "true", size=n)
 
 
