@@ -46,7 +46,7 @@ def system(problem: Problem) -> System:
     of_method = shape(problem.ratio)
     given = dict(zip(("P0", "Q0", "R0", "R3"), problem.named_points.values(), strict=True))
     conditions = [OnPoint(point, c) for c in problem.workspace.conditions for point in of_method.inner]
-    conditions += [OnPoint(point, item.half_space) for item in problem.half_spaces for point in item.points]
+    conditions += [OnPoint(point, item.half_space) for item in problem.point_conditions for point in item.points]
     conditions += join_speed(problem)
     return System(of_method, given, tuple(conditions))
 

@@ -11,7 +11,7 @@ Lengths are in the unit of the problem (millimetres in the paper).
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import Enum
 from fractions import Fraction
 from typing import Any
@@ -19,7 +19,6 @@ from typing import Any
 from bezier.bodies import Body, Cylinder, HalfSpaceBody, Rounded
 from bezier.polyhedron import Facet, Point, Polytope
 from bezier.scalar import dot, sign, subtract
-from bezier.workspace import HalfSpace
 
 Exponents = tuple[int, int, int]
 Box = tuple[Point, Point]
@@ -77,7 +76,8 @@ class Piece:
 class Obstacle:
     """The union of ``pieces``. ``body``: the convex body it is, where it is one; ``box``: a box around everything.
 
-    ``margin`` is already included in the pieces and in the body.
+    ``margin`` is already included in the pieces and in the body. ``stated``: the table of the problem file, with exact
+    numbers.
     """
 
     name: str
@@ -86,6 +86,14 @@ class Obstacle:
     body: Body | None = None
     box: Box | None = None
     margin: Fraction = ZERO
+    stated: Mapping[str, Any] = field(default_factory=dict, compare=False)
+
+    @property
+    def top(self) -> Fraction | None:
+        """The height of its highest point, None where there is none or where it is not known."""
+        if isinstance(self.body, Cylinder):
+            return None if self.body.top is None else self.body.top + self.body.radius
+        return None if self.box is None else self.box[1][2]
 
     def contains(self, p: Sequence[Any]) -> bool:
         """Exact membership."""
@@ -237,11 +245,8 @@ def _hull(corners: Sequence[Point], radius: Fraction) -> Box:
     return low, tuple(max(c[i] for c in corners) + radius for i in range(3))
 
 
-def from_body(name: str, kind: ObstacleKind, body: Body, margin: Fraction = ZERO) -> Obstacle:
+def from_body(
+    name: str, kind: ObstacleKind, body: Body, margin: Fraction = ZERO, stated: Mapping[str, Any] | None = None
+) -> Obstacle:
     """The obstacle that is this body (which already includes the margin)."""
-    return Obstacle(name, kind, pieces_of(body), body, body.box, margin)
-
-
-def outside(wall: HalfSpace, name: str) -> Obstacle:
-    """What a half-space in which the path must stay leaves out, its boundary plane included."""
-    return from_body(name, ObstacleKind.HALF_SPACE, HalfSpaceBody(wall.normal, -wall.offset))
+    return Obstacle(name, kind, pieces_of(body), body, body.box, margin, stated or {})

@@ -54,7 +54,7 @@ def durations(problem: Problem) -> dict[str, Fraction]:
 def _whole_curves(problem: Problem, system: System, path: Path) -> tuple[Proof, ...]:
     """A condition on all inner points of a curve holds on the whole curve if its ends satisfy it too."""
     found: list[Proof] = []
-    for item in problem.half_spaces:
+    for item in problem.point_conditions:
         for name, listed in system.shape.curves.items():
             if set(listed) & set(system.shape.inner) <= set(item.points):
                 found += prove({name: path.curves[name]}, (item.half_space,))

@@ -12,6 +12,7 @@ from fractions import Fraction
 from pathlib import Path as FilePath
 from typing import Any
 
+from bezier import avoid
 from bezier.methods import method_of
 from bezier.path import Path
 from bezier.plan import Outcome, Plan
@@ -84,6 +85,7 @@ def summary(plan: Plan, files: list[str], seconds: float) -> dict[str, Any]:
         "active": list(plan.active),
         "certified": plan.certified,
         **method.entries(plan),
+        **avoid.entries(plan),
         "problem": to_json(problem),
         "notes": [*problem.notes, *plan.remarks],
         "files": files,

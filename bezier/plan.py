@@ -20,6 +20,8 @@ from qe.progress import Event, Listener, silent
 
 if TYPE_CHECKING:
     import qe
+    from bezier.avoid import Attempt
+    from bezier.survey import Finding
 
 Note = Callable[[str, object], None]
 
@@ -29,6 +31,8 @@ class Outcome(Enum):
 
     SOLVED = "solved"
     INFEASIBLE = "infeasible"
+    BLOCKED = "blocked"
+    """There is a path, but an obstacle is in its way."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -37,7 +41,8 @@ class Plan:
 
     ``formula``: as handed to the engine; ``answer``: its quantifier-free answer; ``active``: labels of the
     conditions that hold with equality; ``certificate``: all certificates, labelled; ``checks``: what the
-    independent checker says of them; ``seconds``: the time of each step; ``remarks``: for the reader.
+    independent checker says of them; ``seconds``: the time of each step; ``remarks``: for the reader;
+    ``findings``: each curve and each obstacle; ``attempts``: what was tried to get around the obstacles.
     """
 
     problem: Problem
@@ -51,12 +56,15 @@ class Plan:
     checks: Mapping[str, qe.Verdict]
     seconds: Mapping[str, float]
     remarks: tuple[str, ...] = ()
+    findings: tuple[Finding, ...] = ()
+    attempts: tuple[Attempt, ...] = ()
 
     @property
     def certified(self) -> bool:
-        """Whether the checker accepted every certificate and the whole path is proved inside."""
+        """Whether the checker accepted every certificate and the whole path is proved inside and clear of obstacles."""
         accepted = all(verdict.accepted for verdict in self.checks.values())
-        return accepted and (self.path is None or self.path.is_inside)
+        clear = all(finding.is_clear for finding in self.findings)
+        return accepted and clear and (self.path is None or self.path.is_inside)
 
 
 @dataclass(slots=True)
@@ -96,10 +104,13 @@ class Clock:
 
 def make_plan(problem: Problem, clock: Clock | None = None) -> Plan:
     """Plan a path. Raises ``Unable`` for methods that are not there yet, and at limits with what is known by then."""
-    from bezier.methods import method_of  # the methods need ``Plan``
+    from bezier.avoid import avoiding  # these need ``Plan``
+    from bezier.methods import method_of
 
     watch = clock or Clock()
     try:
+        if problem.obstacles:
+            return avoiding(problem, watch)
         plan: Plan = method_of(problem.method).make(problem, watch)
         return plan
     except BudgetExceeded as error:

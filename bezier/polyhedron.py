@@ -51,8 +51,10 @@ class Polytope:
         """The point of the body nearest to ``p``: p itself, or its projection to a facet, an edge or a corner."""
         if self.facets and all(dot(f.normal, p) <= f.offset for f in self.facets):
             return p
-        candidates = [*self.corners, *self._on_edges(p), *self._on_facets(p)]
-        return min(candidates, key=lambda q: dot(subtract(p, q), subtract(p, q)))
+        above = self._on_facet(p)
+        if above is not None:
+            return above
+        return min((*self.corners, *self._on_edges(p)), key=lambda q: dot(subtract(p, q), subtract(p, q)))
 
     def _on_edges(self, p: Point) -> list[Point]:
         found = []
@@ -63,14 +65,14 @@ class Polytope:
                 found.append(tuple(x + share * d for x, d in zip(a, along, strict=True)))
         return found
 
-    def _on_facets(self, p: Point) -> list[Point]:
-        found = []
+    def _on_facet(self, p: Point) -> Point | None:
+        """The projection of an outer point to a facet right below it; then no other point of the body is as near."""
         for facet in self.facets:
             excess = dot(facet.normal, p) - facet.offset
             if excess > 0 and all(dot(n, p) <= c for n, c in self.walls(facet)):
                 share = excess / dot(facet.normal, facet.normal)
-                found.append(tuple(x - share * n for x, n in zip(p, facet.normal, strict=True)))
-        return found
+                return tuple(x - share * n for x, n in zip(p, facet.normal, strict=True))
+        return None
 
     def walls(self, facet: Facet) -> list[tuple[Point, Fraction]]:
         """(n, c) for each side of the facet: n . p <= c says that p is on the facet's side of the upright plane."""

@@ -11,8 +11,11 @@ from pathlib import Path
 from typing import Any
 
 from bezier.numbers import NotANumber, describe, read_squared
+from bezier.obstacle_reader import read_obstacles
+from bezier.obstacles import Obstacle
 from bezier.scalar import Vector, dot, is_zero, same
 from bezier.toml_table import POINT, Table
+from bezier.via import via_over
 from bezier.workspace import HalfSpace, Workspace, WorkspaceKind, root_text
 from qe.errors import InputError
 
@@ -46,7 +49,8 @@ class Problem:
     ``via``: the two points Q0 and R0 between which the obstacle is avoided. ``radius_is_auto``: the radius is
     the paper's maximum of the four norms. ``half_spaces``: further conditions on control points. ``ratio``: the
     duration of the outer spans, the middle one taking 1. ``join_speed``: the least speed at the joins that is
-    asked for, 0 for none. ``notes``: remarks for the reader about the input.
+    asked for, 0 for none. ``obstacles``: what the whole path has to stay clear of. ``notes``: remarks for the reader
+    about the input.
     """
 
     method: PlanMethod
@@ -60,6 +64,13 @@ class Problem:
     half_spaces: tuple[PointCondition, ...] = ()
     ratio: Fraction = Fraction(1)
     join_speed: Fraction = Fraction(0)
+    obstacles: tuple[Obstacle, ...] = ()
+    above: tuple[PointCondition, ...] = ()
+
+    @property
+    def point_conditions(self) -> tuple[PointCondition, ...]:
+        """The half-spaces for control points: those given and those above the top of an obstacle."""
+        return self.half_spaces + self.above
 
     @property
     def named_points(self) -> dict[str, Vector]:
@@ -67,7 +78,7 @@ class Problem:
         return {"start": self.start, "via[0]": self.via[0], "via[1]": self.via[1], "goal": self.goal}
 
 
-_KEYS = ("method", "workspace", "start", "via", "goal", "radius", "half_space", "ratio", "join_speed")
+_KEYS = ("method", "workspace", "start", "via", "goal", "radius", "half_space", "ratio", "join_speed", "obstacle")
 
 
 def read_problem(text: str, source: str = "<problem>") -> Problem:
@@ -80,7 +91,8 @@ def problem_of(table: Table) -> Problem:
     table.only(_KEYS)
     method = table.choice("method", PlanMethod, PlanMethod.QUADRATIC)
     kind = table.choice("workspace", WorkspaceKind, WorkspaceKind.BALL)
-    start, via, goal = table.point("start"), _via(table), table.point("goal")
+    start, goal, obstacles = table.point("start"), table.point("goal"), read_obstacles(table)
+    via = _via(table, start, goal, obstacles)
     raw_radius = table.values.get("radius", "auto")
     auto = raw_radius == "auto"
     points = {"start": start, "via[0]": via[0], "via[1]": via[1], "goal": goal}
@@ -100,6 +112,8 @@ def problem_of(table: Table) -> Problem:
         half_spaces=_half_spaces(table, method),
         ratio=_for_cubic(table, method, "ratio", Fraction(1)),
         join_speed=_for_cubic(table, method, "join_speed", Fraction(0)),
+        obstacles=obstacles,
+        above=_above(table, method, obstacles),
     )
 
 
@@ -117,8 +131,14 @@ def load_problem(path: Path) -> Problem:
     return read_problem(text, str(path))
 
 
-def _via(table: Table) -> tuple[Vector, Vector]:
+def _via(table: Table, start: Vector, goal: Vector, obstacles: tuple[Obstacle, ...]) -> tuple[Vector, Vector]:
+    """The via points given, or those over the obstacles (``bezier.via``)."""
     expected = "two points of 3 numbers"
+    if "via" not in table.values and obstacles:
+        try:
+            return via_over(start, goal, obstacles)
+        except InputError as error:
+            raise table.error("obstacle", "obstacles that via points can be found for", str(error)) from None
     raw = table.required("via", expected)
     if not isinstance(raw, list) or len(raw) != 2 or not all(isinstance(p, list) for p in raw):
         raise table.error("via", expected, describe(raw))
@@ -141,13 +161,26 @@ def _half_spaces(table: Table, method: PlanMethod) -> tuple[PointCondition, ...]
     found = []
     for i, entry in enumerate(table.tables("half_space")):
         if method not in INNER:
-            raise table.error("half_space", 'no such key with this method', "a table")
+            raise table.error("half_space", "no such key with this method", "a table")
         entry.only(("normal", "offset", "points"))
         normal, offset = entry.point("normal"), entry.number("offset")
         if all(map(is_zero, normal)):
             raise entry.error("normal", f"{POINT}, not all zero", "the zero vector")
         points = entry.words("points", INNER[method], "control points")
         found.append(PointCondition(HalfSpace(normal, -offset, f"half_space[{i}]"), points))
+    return tuple(found)
+
+
+def _above(table: Table, method: PlanMethod, obstacles: tuple[Obstacle, ...]) -> tuple[PointCondition, ...]:
+    """``above`` of an obstacle: the control points named lie at the height of its top or higher."""
+    found = []
+    for entry, obstacle in zip(table.tables("obstacle"), obstacles, strict=True):
+        if "above" in entry.values:
+            if obstacle.top is None:
+                raise entry.error("above", "this key for an obstacle with a top", "one without")
+            points = entry.words("above", INNER.get(method, ()), "control points")
+            up = (Fraction(0), Fraction(0), Fraction(1))
+            found.append(PointCondition(HalfSpace(up, -obstacle.top, f"above {obstacle.name}"), points))
     return tuple(found)
 
 
@@ -204,6 +237,8 @@ def to_json(problem: Problem) -> dict[str, Any]:
             }
             for item in problem.half_spaces
         ]
+    if problem.obstacles:
+        found["obstacle"] = [dict(item.stated) for item in problem.obstacles]
     if problem.ratio != 1:
         found["ratio"] = str(problem.ratio)
     if problem.join_speed:

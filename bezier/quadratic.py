@@ -28,7 +28,7 @@ QUANTIFIED = SHAPE.quantified
 
 def system(problem: Problem) -> System:
     """The control points of this problem with all conditions on them."""
-    extra = [OnPoint(name, item.half_space) for item in problem.half_spaces for name in item.points]
+    extra = [OnPoint(name, item.half_space) for item in problem.point_conditions for name in item.points]
     return _with_conditions(problem, (*on_inner_points(problem.workspace), *extra))
 
 

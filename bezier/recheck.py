@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from pathlib import Path as FilePath
 from typing import Any
 
-from bezier import stored
+from bezier import stored, survey
 from bezier.curve import Bezier, Smoothness
 from bezier.methods import method_of
 from bezier.optimal_path import durations
@@ -45,6 +45,7 @@ def recheck(channel: Channel, folder: FilePath) -> list[str]:
     _check_points(points, claim.points)
     path = assemble(_curves(found, points), points, problem.workspace, durations=durations(problem))
     _check_path(path, found, claim.smoothness)
+    lines += _check_clearance(path, problem)
     return [*lines, f"path.json: {path.smoothness.name} at every join, every curve proved to lie in the workspace"]
 
 
@@ -98,3 +99,12 @@ def _check_path(path: Path, found: Mapping[str, Any], least: Smoothness) -> None
     claimed = [entry.get("smoothness") for entry in stored.entry(found, "joins", list)]
     if claimed != [item.join.smoothness.name for item in path.joins] or path.smoothness < least:
         raise CertificateRejected("joins", "not as smooth as stated")
+
+
+def _check_clearance(path: Path, problem: Problem) -> list[str]:
+    """The whole path is clear of every obstacle, proved again."""
+    if not problem.obstacles:
+        return []
+    for finding in survey.contacts(survey.survey(path.curves, problem.obstacles, distances=False)):
+        raise CertificateRejected(f"curves.{finding.name}", survey.in_words(finding))
+    return [f"path.json: every curve proved clear of {len(problem.obstacles)} obstacles"]
