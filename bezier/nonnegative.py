@@ -123,7 +123,7 @@ def _factored(b: bs.Coefficients) -> Nonnegative | Negative:
     if outcome is None:
         raise InternalError("unlimited subdivision stopped early")
     touches = [(Fraction(0), Fraction(0))] if at_start else []
-    touches += [_recognised(bs.from_power(square), interval) for interval in isolate(bs.from_power(square))]
+    touches += [located(bs.from_power(square), interval) for interval in isolate(bs.from_power(square))]
     touches += [(Fraction(1), Fraction(1))] if at_end else []
     return Nonnegative(at_start, at_end, bs.from_power(square), rest, outcome, tuple(touches))
 
@@ -172,11 +172,11 @@ def _square_free(b: Sequence[Any]) -> bs.Coefficients:
     return bs.from_power(bs.divide(power, common)[0])
 
 
-def _recognised(b: bs.Coefficients, interval: Interval) -> Interval:
-    """The interval, shrunk to the root itself if that is a rational number of moderate size."""
+def located(b: bs.Coefficients, interval: Interval) -> Interval:
+    """An isolating interval of a root, made narrow; equal ends for a rational root of moderate size."""
     low, high = refine(_square_free(b), interval, Fraction(1, 2**40))
     guess = ((low + high) / 2).limit_denominator(10**5)
-    return (guess, guess) if low <= guess <= high and is_zero(bs.value(b, guess)) else interval
+    return (guess, guess) if low <= guess <= high and is_zero(bs.value(b, guess)) else (low, high)
 
 
 def refine(b: Sequence[Any], interval: Interval, width: Fraction) -> Interval:

@@ -17,6 +17,8 @@ from bezier.workspace import Condition, WorkspaceKind
 
 COLOURS = {"P": "#2364aa", "Q": "#d1495b", "R": "#2e9e6b"}
 """One colour per curve, used for its control points and for the region's boundary that keeps them in."""
+SECOND = {"P2": "#6fb1e8", "Q2": "#e79aa4", "R2": "#8fd3b6"}
+"""For the second inner control point of a cubic curve."""
 INK, PALE, FLOOR = "#22303c", "#9aa7b1", "#b08d57"
 
 
@@ -45,7 +47,9 @@ class RegionPicture:
     def colour(self, index: int) -> str:
         """The colour of a boundary surface."""
         label = self.labels[index]
-        return FLOOR if label.endswith(".z") else COLOURS.get(label[:1], PALE)
+        if label.endswith(".z"):
+            return FLOOR
+        return SECOND.get(label, COLOURS.get(label[:1], PALE) if len(label) == 2 else PALE)
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,7 +8,7 @@ from fractions import Fraction
 
 from bezier.curve import Bezier
 from bezier.enclosure import Enclosure, maximum, root_above, root_below
-from bezier.nonnegative import UNIT, Interval, isolate
+from bezier.nonnegative import UNIT, Interval, isolate, located
 from bezier.path import Path
 from bezier.scalar import is_zero
 
@@ -35,7 +35,7 @@ def slowest(curve: Bezier, duration: Fraction = Fraction(1)) -> Slowest:
     if all(map(is_zero, squared)):
         return Slowest(zero, (UNIT,))
     ends = [(t, t) for t, value in zip(UNIT, (squared[0], squared[-1]), strict=True) if is_zero(value)]
-    stops = sorted([*ends, *isolate(squared)])
+    stops = sorted([*ends, *(located(squared, interval) for interval in isolate(squared))])
     if stops:
         return Slowest(zero, tuple(stops))
     # the least of p > 0 is one over the largest of 1/p
