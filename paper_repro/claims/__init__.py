@@ -1,0 +1,15 @@
+"""All claims of the paper, in its order."""
+
+from paper_repro.claim import Claim
+from paper_repro.claims import conclusions, cubic, curves, introduction, joins, method_one, quadratic, workspace
+
+CLAIMS: tuple[Claim, ...] = (
+    *introduction.CLAIMS,
+    *workspace.CLAIMS,
+    *curves.CLAIMS,
+    *method_one.CLAIMS,
+    *joins.CLAIMS,
+    *cubic.CLAIMS,
+    *quadratic.CLAIMS,
+    *conclusions.CLAIMS,
+)

@@ -1,0 +1,244 @@
+"""Section 4.2: three cubic curves, formula (7), and the choice of Q1 and Q2."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from fractions import Fraction
+from typing import Any
+
+import qe
+from bezier.curve import Bezier, Smoothness, join
+from bezier.scalar import dot, is_zero, sign
+from paper_repro.ask import decided, eliminated, optimised
+from paper_repro.claim import Evidence, Fact, Picture, Table, Verdict, claim
+from paper_repro.figures.curves import curvature
+from paper_repro.figures.curves import path as drawn_path
+from paper_repro.figures.workspace import dips_below_floor
+from paper_repro.written import SEVEN, Points
+
+SPACE: Points = {"q0": (-1, 3, 3), "r0": (1, 3, 3)}
+PLANE: Points = {"q0": (-1, 1), "r0": (1, 1)}
+LETTERS: Points = {"q0": ("q0x", "q0y", "q0z"), "r0": ("r0x", "r0y", "r0z")}
+ENDS = ((-2, 0), (2, 0))
+"""Start and goal for the pictures in the plane."""
+
+TILTED: tuple[Points, Points] = (
+    {"q0": (-3, 5), "r0": (1, 5)},
+    {"q0": (-3, 3, 4), "r0": (1, 3, 4)},
+)
+"""Two via points in the plane, and the same ones turned about the first axis by an angle with cosine 3/5."""
+
+
+def curves(given: Points, q1: Sequence[Any], q2: Sequence[Any], ends: Sequence[Sequence[Any]]) -> Mapping[str, Bezier]:
+    """The three cubic curves by (6)."""
+    rows = list(zip(given["q0"], given["r0"], q1, q2))
+    p1, p2 = [4 * q - 4 * a + b for q, _, a, b in rows], [2 * q - a for q, _, a, _ in rows]
+    r1, r2 = [2 * r - b for _, r, _, b in rows], [a - 4 * b + 4 * r for _, r, a, b in rows]
+    q0, r0 = given["q0"], given["r0"]
+    return {
+        "P": Bezier.of((ends[0], p1, p2, q0)),
+        "Q": Bezier.of((q0, q1, q2, r0)),
+        "R": Bezier.of((r0, r1, r2, ends[1])),
+    }
+
+
+def chosen(found: qe.Optimum, axes: str) -> tuple[list[Any], list[Any]]:
+    """Q1 and Q2 of an optimum."""
+    first, second = ([found.point[f"{p}{axis}"] for axis in axes] for p in SEVEN.chosen)
+    return first, second
+
+
+@claim(
+    key="eq-7",
+    place="Section 4.2, formula (7) and the paragraph after it",
+    title="Elimination for formula (7)",
+    says="Quantifier elimination for (7) is computationally expensive and has not yet been successful.",
+    verdict=Verdict.DIFFERS,
+    finding="It succeeds in milliseconds, with numbers and with all of $Q_0, R_0, r$ as letters. All equations are "
+    "linear, so "
+    "elimination substitutes; what remains are six ball conditions on $(Q_1, Q_2)$, a convex set.",
+)
+def equation_7() -> Iterator[Evidence]:
+    """(7) is written in coordinates exactly as printed (18 variables, 12 of them quantified, 12 equations, 6 norms)
+    and given to the engine; the answer is compared with the six conditions written out by hand."""
+    yield eliminated(
+        "with $Q_0 = (-1,3,3)$, $R_0 = (1,3,3)$, $r^2 = 27$",
+        SEVEN.text("xyz", SPACE, 27),
+        SEVEN.substituted("xyz", SPACE, 27),
+    )
+    yield eliminated(
+        "with letters for $Q_0$, $R_0$ and $r$",
+        SEVEN.text("xyz", LETTERS, "r^2"),
+        SEVEN.substituted("xyz", LETTERS, "r^2"),
+    )
+    yield decided("and there are control points for the numbers", SEVEN.satisfiable("xyz", SPACE, 27))
+
+
+@claim(
+    key="eq-7-always",
+    place="Section 4.2, formula (7)",
+    title="When does (7) have a solution?",
+    says="Finding $Q_1, Q_2$ that satisfy (7) is the problem to be solved; whether there are any is left open.",
+    verdict=Verdict.CORRECTED,
+    finding="Always: $Q_1 = Q_0$, $Q_2 = R_0$ is a solution for all points and the radius of the paper, since then "
+    "every control "
+    "point is $Q_0$ or $R_0$. But this solution is of no use: the velocity at both joins is zero and the path turns "
+    "back there in a "
+    "cusp. A plan needs the objective (or a condition on the speed at the joins).",
+)
+def always_satisfiable() -> Iterator[Evidence]:
+    """The choice is put into (7) with letters for everything, and the sentence is decided for all points and radii. The
+    velocity and the direction at the joins follow from the control points."""
+    norms = " and ".join(" + ".join(f"{v}0{axis}^2" for axis in "xyz") + " <= r^2" for v in "qr")
+    block = ", ".join((*LETTERS["q0"], *LETTERS["r0"], "r"))
+    trivial = SEVEN.text("xyz", LETTERS, "r^2").replace("q1", "q0").replace("q2", "r0")
+    yield decided(
+        "for all $Q_0, R_0, r$ with norms at most $r$ this choice satisfies (7)", f"all {block}. {norms} -> ({trivial})"
+    )
+    some = SEVEN.satisfiable("xyz", LETTERS, "r^2")
+    yield decided(
+        "the engine finds this itself, when it is not told the choice", f"all {block}. {norms} and r >= 0 -> ({some})"
+    )
+    path = curves(PLANE, PLANE["q0"], PLANE["r0"], ENDS)
+    velocity = [c.derivative(1, t) for c, t in zip(path.values(), (1, 1, 0))]
+    yield Fact("the velocity at both joins is zero", all(not any(v) for v in velocity))
+    before, after = path["P"].derivative(2, 1), path["Q"].derivative(2, 0)
+    yield Fact(
+        "the second derivative there is not zero and equal on both sides, so the path reverses: a cusp",
+        before == after and any(after),
+    )
+    yield Picture(
+        "The solution $Q_1 = Q_0$, $Q_2 = R_0$: the curve doubles back on the segment from $Q_0$ to $R_0$.",
+        drawn_path(path, 2, "always possible, never wanted"),
+    )
+
+
+@claim(
+    key="eq-7-choice",
+    place="Section 4.2, after (7)",
+    title="Choosing $Q_1$ and $Q_2$",
+    says="$Q_1$ and $Q_2$ are chosen such that $\\|Q_1 - Q_0\\|^2 + \\|Q_2 - Q_1\\|^2 + \\|R_0 - Q_2\\|^2$ is as "
+    "small as possible under (7); this gives "
+    "a path through the two points (the positions were not obtained).",
+    verdict=Verdict.DIFFERS,
+    finding="The positions are obtained, as exact algebraic numbers with a certificate of optimality. The problem is "
+    "convex and its "
+    "optimum unique. Without active conditions $Q_1 = (2Q_0 + R_0)/3$, $Q_2 = (Q_0 + 2R_0)/3$; this is the optimum "
+    "exactly if "
+    "$\\|5Q_0 - 2R_0\\| \\le 3r$ and $\\|5R_0 - 2Q_0\\| \\le 3r$.",
+)
+def choice() -> Iterator[Evidence]:
+    """Exact convex optimisation for $Q_0 = (-1,1)$, $R_0 = (1,1)$ in the plane and several radii, and for an instance
+    in space. The joins are compared exactly; the threshold is decided by putting the interior solution into (7)."""
+    rows = []
+    for radius in (Fraction(13, 5), Fraction(2), Fraction(17, 10), Fraction(3, 2)):
+        found = qe.minimize(SEVEN.objective("xy", PLANE), SEVEN.substituted("xy", PLANE, radius**2))
+        accepted = qe.verify(found.certificate).accepted
+        yield Fact(
+            f"$r = {radius}$: optimum found, unique, certificate accepted",
+            found.is_optimal and found.unique is True and accepted,
+        )
+        q1, _ = chosen(found, "xy")
+        names = ", ".join(active(found, radius**2)) or "none"
+        rows.append((str(radius), f"{float(found.value):.5f}", f"({float(q1[0]):.5f}, {float(q1[1]):.5f})", names))
+    yield Table(("r", "objective", "Q1 (Q2 is its mirror image)", "active conditions"), rows)
+    exact, best = optimised(
+        "$r = 3/2$, exactly", SEVEN.objective("xy", PLANE), SEVEN.substituted("xy", PLANE, "9/4"), "5 - 2*sqrt(2)"
+    )
+    yield exact
+    q1, q2 = chosen(best, "xy")
+    yield Table(("point", "x", "y"), [(n, str(p[0]), str(p[1])) for n, p in (("Q1", q1), ("Q2", q2))])
+    space, _ = optimised(
+        "in space, $r^2 = 27$", SEVEN.objective("xyz", SPACE), SEVEN.substituted("xyz", SPACE, 27), "4/3"
+    )
+    yield space
+    thirds = {"q1": "(2*q0 + r0)/3", "q2": "(q0 + 2*r0)/3"}
+    interior = SEVEN.substituted("x", {"q0": ("q",), "r0": ("s",)}, "r^2")
+    for name, value in thirds.items():
+        interior = interior.replace(f"{name}x", "(" + value.replace("q0", "q").replace("r0", "s") + ")")
+    yield decided(
+        "on a line: the thirds satisfy (7) exactly if the two conditions hold, for $|Q_0|, |R_0| \\le r$",
+        f"all q, s, r. q^2 <= r^2 and s^2 <= r^2 -> ({interior} <-> (5*q - 2*s)^2 <= 9*r^2 and (5*s - 2*q)^2 <= 9*r^2)",
+    )
+    path = curves(PLANE, q1, q2, ENDS)
+    smooth = [join(path[a], path[b]).smoothness for a, b in ("PQ", "QR")]
+    yield Fact("the three curves join $C^2$, exactly", all(s is Smoothness.C2 for s in smooth))
+    yield Picture(
+        "The optimal path for $r = 3/2$ (start and goal are free choices).",
+        drawn_path(path, 2, "$Q_0 = (-1, 1)$, $R_0 = (1, 1)$, control points within $r = 3/2$"),
+    )
+    yield Picture("Its curvature is continuous at the joins.", curvature(path))
+
+
+def active(found: qe.Optimum, radius_squared: Fraction) -> list[str]:
+    """Names of the inner control points whose norm is exactly r at an optimum in the plane."""
+    q1, q2 = chosen(found, "xy")
+    path = curves(PLANE, q1, q2, ENDS)
+    inner = {f"{name}{i}": item.points[i] for name, item in path.items() for i in (1, 2)}
+    return [name for name, p in inner.items() if is_zero(dot(p, p) - radius_squared)]
+
+
+@claim(
+    key="eq-7-hemisphere",
+    place="Section 4.2, after (6)",
+    title="All control points lie in the hemisphere",
+    says="With the norm conditions of (7), all remaining control points lie in the hemisphere of radius $r$ with $z "
+    "> 0$.",
+    verdict=Verdict.CORRECTED,
+    finding="They lie in the ball. The condition on $z$ is missing in (7), and it matters: for $Q_0 = (-1, 0, 1)$, "
+    "$R_0 = (1, 0, 1)$, $r = 3/2$ "
+    "even the optimum of (7) has $P_1$ and $R_2$ below the table. Adding $z \\ge 0$ for the six points keeps the "
+    "problem convex.",
+)
+def hemisphere() -> Iterator[Evidence]:
+    """The optimum for $r = 3/2$ in the plane $y = 0$ of the arm is computed exactly, without and with $z \\ge 0$; the
+    sign of the height is exact."""
+    given = {name: (p[0], 0, p[1]) for name, p in PLANE.items()}
+    printed, best = optimised(
+        "(7) as printed", SEVEN.objective("xyz", given), SEVEN.substituted("xyz", given, "9/4"), "5 - 2*sqrt(2)"
+    )
+    yield printed
+    path = curves(given, *chosen(best, "xyz"), [(x, 0, z) for x, z in ENDS])
+    heights = {f"{name}{i}": item.points[i][2] for name, item in path.items() for i in (1, 2)}
+    yield Table(("control point", "z, exactly", "z"), [(n, str(z), f"{float(z):.4f}") for n, z in heights.items()])
+    yield Fact("$P_1$ and $R_2$ are below the table", [n for n, z in heights.items() if sign(z) < 0] == ["P1", "R2"])
+    above = qe.minimize(SEVEN.objective("xyz", given), SEVEN.substituted("xyz", given, "9/4", above=True))
+    kept = curves(given, *chosen(above, "xyz"), [(x, 0, z) for x, z in ENDS])
+    floor = min(sign(item.points[i][2]) for item in kept.values() for i in (1, 2))
+    yield Fact(
+        f"with $z \\ge 0$ the optimum is {float(above.value):.5f}, certificate accepted, and no point is below",
+        floor >= 0 and qe.verify(above.certificate).accepted,
+    )
+    yield Picture(
+        "Side view: the optimum of (7) as printed, with two control points below the table.",
+        dips_below_floor(path, 1.5, (0, 2), "norm conditions only, $r = 3/2$"),
+    )
+
+
+@claim(
+    key="eq-7-plane",
+    place="Section 4.2, formula (7) (not in the paper)",
+    title="Formula (7) is a problem in the plane of $O$, $Q_0$, $R_0$",
+    says="(7) is stated with points in space: six free and twelve quantified variables.",
+    verdict=Verdict.REPRODUCED,
+    finding="Orthogonal projection onto a plane through $O, Q_0, R_0$ makes none of the six norms and no term of the "
+    "objective larger, so "
+    "existence, optimum and its value can be computed in the plane with four variables. Not so once heights or "
+    "obstacles enter.",
+)
+def planar_reduction() -> Iterator[Evidence]:
+    """The same numbers are solved in space and in the plane; the argument itself is decided for one norm: dropping the
+    component orthogonal to the plane does not increase it."""
+    values = []
+    for axes, given in zip(("xy", "xyz"), TILTED):
+        found = qe.minimize(SEVEN.objective(axes, given), SEVEN.substituted(axes, given, 36))
+        yield Fact(
+            f"{len(axes)} coordinates: certificate accepted", found.is_optimal and qe.verify(found.certificate).accepted
+        )
+        values.append(found.value)
+    yield Table(("", "least objective"), [("plane", f"{float(values[0]):.6f}"), ("space", f"{float(values[1]):.6f}")])
+    yield Fact("the two values are equal, exactly", values[0] == values[1])
+    yield decided("projection does not increase a norm", "all x, y, z, r. x^2 + y^2 + z^2 <= r^2 -> x^2 + y^2 <= r^2")
+
+
+CLAIMS = (equation_7, always_satisfiable, choice, hemisphere, planar_reduction)
