@@ -30,6 +30,7 @@ from qe.prepare import Prepared, prepare
 from qe.prepare.nonzero import only_nonzero
 from qe.prepare.simplify import simplify
 from qe.prepare.step import ALL_STEPS, EQUATION_STEPS
+from qe.solution.convex_sentence import decide_convex
 from qe.solution.linear_proof import substitution_certificate
 from qe.solution.polynomial_witness import find as polynomial_witnesses
 
@@ -43,6 +44,9 @@ second bound is for one and two parameters, where that takes some hundredths of 
 
 PROBE_ABOVE, PROBE_SECONDS, PROBE_SHARE, PROBE_ATOMS = 3, 1.0, 0.1, 30
 """Substitution is tried for this long before a decomposition in more variables, and taken if its answer is small."""
+
+CONVEX_FROM = 4
+"""Existential sentences in so many variables are first tried as convex problems; with fewer, the others are faster."""
 
 SHORTEN_VARIABLES, SHORTEN_DEGREE = 3, 4
 SHORTEN_SHARE = 0.25
@@ -104,20 +108,43 @@ class _Run:
     def existential(self, formula: Exists) -> tuple[Formula, Values | None]:
         """An existential sentence, with values for its variables if it is true."""
         self.whole = formula
-        ready = self._prepare(formula)
-        answer, values = self.with_values(ready.formula)
-        if answer != TRUE or values is None:
-            return answer, None
-        try:
-            lifted = ready.lift(values)
-        except Unable as error:
-            self.story.note("switches", f"no witness: {error}")
+        answer, lifted = self._by_convexity(formula) or self._prepared_sentence(formula)
+        if answer != TRUE or lifted is None:
             return answer, None
         found = {name: lifted.get(name, Fraction(0)) for name in formula.variables}
         if self.certificate is None and is_quantifier_free(formula.body):
             matrix = convert(formula.body, Ring.of(tuple(found)))
             self.certificate = Certificate.witness(matrix, tuple(found), [_as_root(v) for v in found.values()])
         return answer, found
+
+    def _by_convexity(self, formula: Exists) -> tuple[Formula, Values | None] | None:
+        """A sentence in many variables about a convex set, if it is one."""
+        if len(formula.variables) < CONVEX_FROM or self.options.method is not Method.AUTO:
+            return None
+        try:
+            found = decide_convex(formula, budget=self.budget.share(FIRST_SHARE))
+        except Unable as error:
+            self.story.note("switches", f"convexity: {error}")
+            return None
+        if found is None:
+            return None
+        self.story.note("plan", f"convex optimisation: {len(formula.variables)} variables, a convex set")
+        if found.values is None:
+            self.certificate = found.certificate
+            return FALSE, None
+        return TRUE, dict(found.values)
+
+    def _prepared_sentence(self, formula: Exists) -> tuple[Formula, Values | None]:
+        """Prepared, decided, and the values carried back."""
+        ready = self._prepare(formula)
+        answer, values = self.with_values(ready.formula)
+        if answer != TRUE or values is None:
+            return answer, None
+        try:
+            return answer, ready.lift(values)
+        except Unable as error:
+            self.story.note("switches", f"no witness: {error}")
+            return answer, None
 
     def with_values(self, formula: Formula) -> tuple[Formula, Values | None]:
         """A sentence of existential blocks under conjunction and disjunction, with values when true."""

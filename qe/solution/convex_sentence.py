@@ -1,0 +1,50 @@
+"""Existential sentences about convex sets: decided by convex optimisation, however many variables there are."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+
+from qe.evidence.certificate import Certificate
+from qe.evidence.multipliers import OptimumStatus
+from qe.exact.algebraic import RealAlgebraic
+from qe.exact.field import FieldElement
+from qe.formula.syntax import Exists
+from qe.formula.traverse import ring_of
+from qe.options import Budget
+from qe.solution.optimum import Optimum, minimize
+from qe.solution.optimum_problem import NotConvex
+
+
+@dataclass(frozen=True, slots=True)
+class ConvexDecision:
+    """``values``: a point of the set; None when it is empty, which ``certificate`` then proves."""
+
+    values: Mapping[str, Fraction | RealAlgebraic] | None
+    certificate: Certificate
+
+
+def decide_convex(sentence: Exists, *, budget: Budget) -> ConvexDecision | None:
+    """Whether convex quadratic inequalities and linear equations have a common solution; None for other sentences.
+
+    The minimum of the constant 0 over the set: an optimal point is a solution, and there is none iff nonnegative
+    multipliers combine the constraints to a contradiction (up to facial reduction; see ``qe.solution.optimum_core``).
+    Raises ``Unable`` when neither was proved.
+    """
+    ring = ring_of(sentence.body)
+    if ring is None:
+        return None
+    try:
+        found = minimize(ring.constant(0), sentence.body, budget=budget)
+    except NotConvex:
+        return None
+    if found.status is OptimumStatus.INFEASIBLE:
+        return ConvexDecision(None, found.certificate)
+    return ConvexDecision(_attained(found), found.certificate) if found.attained is not False else None
+
+
+def _attained(found: Optimum) -> dict[str, Fraction | RealAlgebraic]:
+    return {
+        name: value.to_algebraic() if isinstance(value, FieldElement) else value for name, value in found.point.items()
+    }
