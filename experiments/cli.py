@@ -13,10 +13,12 @@ from typing import Annotated
 import typer
 
 from experiments.adapters.answer import Limits
+from experiments.display import progress
 from experiments.problem import ROOT
-from experiments.results import Log, Status, read_log
+from experiments.results import BadLine, Log, Status, read_log
 from experiments.solvers import OURS, solver
 from experiments.suites import suite
+from experiments.sweep.grid import Method
 from qe.cli_shell import BUG, OK, enter
 
 app = typer.Typer(
@@ -55,7 +57,7 @@ def run(
         for s in chosen
     ]
     session = Session(results, Limits(limit, memory), workers=jobs, again=again)
-    _warn(session.log)
+    _warn(session.log.bad)
     session.run(work, repeat=repeat, seed=seed)
     wrong = [r for r in session.log.results.values() if r.status is Status.WRONG]
     for row in wrong:
@@ -100,6 +102,39 @@ def report(results: Results = None) -> None:
     _write_html(log, ROOT / "out" / "benchmarks.html")
 
 
+@app.command()
+def sweep(
+    half_width: Annotated[str, typer.Option(help="d of the via points (-d, 0, k), (d, 0, k).")] = "1/12:3:36",
+    height: Annotated[str, typer.Option(help="k of the via points; A,B,... or FIRST:LAST:COUNT.")] = "1/12:3:36",
+    radius: Annotated[str, typer.Option(help="Radii of the workspace.")] = "3",
+    methods: Annotated[list[Method] | None, typer.Option("--method", help="Default: both.")] = None,
+    scheduler: Annotated[str | None, typer.Option(help="Address of a Dask scheduler; default: workers here.")] = None,
+    workers: Annotated[int, typer.Option(help="Worker processes here.", min=1)] = 2,
+    timeout: Annotated[float, typer.Option(help="Seconds for each problem.")] = 30.0,
+    out: Annotated[Path, typer.Option(help="Folder for results and pictures.")] = ROOT / "out" / "sweep",
+) -> None:
+    """Solve a grid of planning problems with many workers and draw the atlas. A second call goes on after a stop."""
+    from experiments.sweep.atlas import atlas
+    from experiments.sweep.cluster import sweep as solve_all
+    from experiments.sweep.grid import grid, values
+    from experiments.sweep.store import Store
+
+    axes = values(half_width, "--half-width"), values(height, "--height"), values(radius, "--radius")
+    tasks = grid(*axes, methods or list(Method))
+    store = Store(out)
+    _warn(store.bad)
+    with progress("problems", len(tasks)) as (_, advance):
+        advance(sum(task.key in store.outcomes for task in tasks))
+        solve_all(tasks, store, scheduler=scheduler, workers=workers, timeout=timeout, note=lambda row: advance(1))
+    print(store.path)
+    print(store.write_parquet())
+    wanted = {task.key for task in tasks}
+    for picture in atlas(row for key, row in store.outcomes.items() if key in wanted):
+        _write(out / f"{picture.name}.svg", picture.svg())
+    failed = [row for key, row in store.outcomes.items() if key in wanted and not row.solved]
+    print(f"{len(wanted) - len(failed)} of {len(wanted)} problems solved")
+
+
 def _write_table(log: Log, out: Path, figures_beside: Path) -> None:
     from experiments.tables import page
 
@@ -130,12 +165,12 @@ def _write(path: Path, text: str) -> None:
 
 def _read(results: list[Path] | None) -> Log:
     log = read_log(results or [RESULTS])
-    _warn(log)
+    _warn(log.bad)
     return log
 
 
-def _warn(log: Log) -> None:
-    for line in log.bad:
+def _warn(bad: Sequence[BadLine]) -> None:
+    for line in bad:
         print(f"experiments: {line}", file=sys.stderr)
 
 

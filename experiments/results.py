@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import asdict, dataclass, field
 from enum import StrEnum
 from pathlib import Path
@@ -130,18 +130,25 @@ def read_log(paths: Iterable[Path]) -> Log:
     """Read result files; files that do not exist are empty."""
     log = Log()
     for path in paths:
-        if not path.exists():
-            continue
-        for number, line in enumerate(path.read_text(errors="replace").splitlines(), start=1):
-            if not line.strip():
-                continue
-            try:
-                log.add(json.loads(line))
-            except json.JSONDecodeError as error:
-                log.bad.append(BadLine(path, number, f"not JSON ({error.msg})"))
-            except (KeyError, TypeError, ValueError, AttributeError) as error:
-                log.bad.append(BadLine(path, number, f"not a record ({error})"))
+        log.bad += read_records(path, log.add)
     return log
+
+
+def read_records(path: Path, add: Callable[[Mapping[str, Any]], None]) -> list[BadLine]:
+    """Hand every line to ``add``; the lines that are not JSON, or that ``add`` refuses."""
+    bad: list[BadLine] = []
+    if not path.exists():
+        return bad
+    for number, line in enumerate(path.read_text(errors="replace").splitlines(), start=1):
+        if not line.strip():
+            continue
+        try:
+            add(json.loads(line))
+        except json.JSONDecodeError as error:
+            bad.append(BadLine(path, number, f"not JSON ({error.msg})"))
+        except (KeyError, TypeError, ValueError, AttributeError) as error:
+            bad.append(BadLine(path, number, f"not a record ({error})"))
+    return bad
 
 
 class Appender:

@@ -9,10 +9,9 @@ from __future__ import annotations
 import json
 import random
 import sys
-from collections.abc import Collection, Iterator, Sequence
-from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
+from collections.abc import Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import dataclass
-from itertools import islice
 
 from experiments.adapters.answer import Limits
 from experiments.environment import now
@@ -60,24 +59,15 @@ def is_done(job: Job, log: Log, limits: Limits) -> bool:
     return row is not None and (row.is_solved or row.limit >= limits.seconds or row.status is Status.WRONG)
 
 
-def run_jobs(
-    jobs: Collection[Job], limits: Limits, *, workers: int = 1, environment: str = ""
-) -> Iterator[tuple[Job, Result]]:
-    """Results as they come; at most ``workers`` jobs run at a time, and none is started before it can run."""
-    todo = iter(jobs)
+def run_jobs(jobs: Sequence[Job], limits: Limits, *, workers: int = 1, environment: str = "") -> Iterator[Result]:
+    """Results as they come; at most ``workers`` jobs run at a time."""
     with ThreadPoolExecutor(workers) as pool:
-        running: dict[Future[Result], Job] = {}
-
-        def start(count: int) -> None:
-            for job in islice(todo, count):
-                running[pool.submit(run_one, job, limits, environment)] = job
-
-        start(workers)
-        while running:
-            done, _ = wait(running, return_when=FIRST_COMPLETED)
-            for future in done:
-                yield running.pop(future), future.result()
-                start(1)
+        futures = [pool.submit(run_one, job, limits, environment) for job in jobs]
+        try:
+            for future in as_completed(futures):
+                yield future.result()
+        finally:  # after an interruption: what has not begun does not begin
+            pool.shutdown(wait=False, cancel_futures=True)
 
 
 def run_one(job: Job, limits: Limits, environment: str = "") -> Result:

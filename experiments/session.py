@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
 from experiments.adapters.answer import Limits
 from experiments.crosscheck import crosscheck
+from experiments.display import progress
 from experiments.environment import fingerprint
 from experiments.measures import par2
 from experiments.problem import Problem
@@ -29,38 +30,30 @@ class Session:
 
     def run(self, work: Work, *, repeat: int = 1, seed: int = 1) -> None:
         """Run what has no result yet, then compare answers of problems without an expected one."""
-        from rich.console import Console
-        from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
-
-        file = Appender(self.path)
-        console = Console(file=sys.stdout, soft_wrap=True, highlight=False, markup=False)
         jobs = [job for problems, solvers in work for job in plan(problems, solvers, repeat=repeat, seed=seed)]
         todo = [job for job in jobs if self.again or not is_done(job, self.log, self.limits)]
-        usable = self._usable({job.solver for job in todo}, console.print)
+        usable = self._usable({job.solver for job in todo})
         todo = [job for job in todo if job.solver in usable]
         record = fingerprint(limit=self.limits.seconds, memory=self.limits.memory, jobs=self.workers)
+        file = Appender(self.path)
         if todo:
             file.write(record)
             self.log.add(record)
-        columns = TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn()
-        with Progress(*columns, console=console, disable=not console.is_terminal, transient=True) as display:
-            task = display.add_task("runs", total=len(todo))
-            for _, row in run_jobs(todo, self.limits, workers=self.workers, environment=record["name"]):
+        with progress("runs", len(todo)) as (note, advance):
+            for row in run_jobs(todo, self.limits, workers=self.workers, environment=record["name"]):
                 file.result(row)
                 self.log.results[row.key] = row
-                display.advance(task)
-                console.print(line(row))
-        for comparison in crosscheck(
-            [p for problems, _ in work for p in problems], self.log, memory=self.limits.memory
-        ):
-            file.comparison(comparison)
-            if comparison.verdict == "different":
-                c = comparison
-                console.print(f"DISAGREEMENT: {c.left} and {c.right} on {c.set} {c.id}")
-        for text in summary(self.log.results[job.key] for job in jobs if job.key in self.log.results):
-            console.print(text)
+                advance(1)
+                note(line(row))
+            problems = [p for listed, _ in work for p in listed]
+            for c in crosscheck(problems, self.log, memory=self.limits.memory):
+                file.comparison(c)
+                if c.verdict == "different":
+                    note(f"DISAGREEMENT: {c.left} and {c.right} on {c.set} {c.id}")
+            for text in summary(self.log.results[job.key] for job in jobs if job.key in self.log.results):
+                note(text)
 
-    def _usable(self, solvers: Iterable[Solver], note: Callable[[str], None]) -> set[Solver]:
+    def _usable(self, solvers: Iterable[Solver]) -> set[Solver]:
         """Run the warm-up problem, unrecorded: it fills caches and shows which solvers are there."""
         found = set()
         for solver in sorted(solvers, key=lambda s: s.name):
@@ -68,9 +61,8 @@ class Session:
             if row.status in (Status.SOLVED, Status.TIMEOUT, Status.MEMORY):
                 found.add(solver)
             else:
-                note(
-                    f"{solver.name} is left out: {row.status.value} on the warm-up problem: {row.message or row.answer}"
-                )
+                why = f"{row.status.value} on the warm-up problem: {row.message or row.answer}"
+                print(f"experiments: {solver.name} is left out: {why}", file=sys.stderr)
         return found
 
 

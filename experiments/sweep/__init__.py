@@ -1,0 +1,1 @@
+"""Sweeps: a grid of planning problems solved by many workers, and the atlas drawn from it."""
