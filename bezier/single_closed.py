@@ -14,7 +14,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from math import floor, log10
+from math import ceil, floor, log10
 
 from bezier.curve import Bezier
 from bezier.simplex import (
@@ -29,7 +29,7 @@ from bezier.simplex import (
     solve,
 )
 from bezier.single import Task, Values, curve, program
-from bezier.single_cuts import Cut, Model
+from bezier.single_cuts import Cut, CutKind, Family, Model
 from bezier.workspace import Workspace
 from qe.errors import BudgetExceeded, Unable
 from qe.evidence.certificate import Certificate
@@ -38,6 +38,7 @@ MAX_ROUNDS = 60
 TOLERANCE = Fraction(1, 1000)
 """The sum may exceed the proved lower bound by this part of it."""
 BISECTIONS = 7
+SHARE_BITS = 20
 SIMPLE_STEPS = 5
 """So many decimal steps are tried for shorter numbers, from about a hundredth of the radius down."""
 
@@ -86,6 +87,7 @@ class _Search:
 
     def __init__(self, model: Model, check: Check) -> None:
         self.model, self.check, self.cuts, self.rounds = model, check, model.initial(), 0
+        self.rigid: set[Family] = set()
         self.slack = (*(Fraction(0) for _ in model.costs[1:]), Fraction(-1))
 
     def run(self) -> ProvedCurve | NoCurve:
@@ -93,19 +95,22 @@ class _Search:
         inner = self.inner_point()
         if isinstance(inner, Contradiction):
             return NoCurve(tuple(self.cuts), self.certificate(inner), self.rounds)
-        best, outcome = inner, self.outcome([self.model.costs, self.slack])
+        inner = best = self.simplified(inner)
+        outcome = self.outcome([self.model.costs, self.slack])
         for _ in self.counted():
             found = self.violations(outcome.point)
             if not found:
                 best = outcome.point
                 break
-            candidate, outside = self.last_feasible(inner, outcome.point)
+            enough = outcome.value + TOLERANCE * abs(outcome.value)
+            candidate, outside = self.last_feasible(inner, outcome.point, enough)
             best = min(best, candidate, key=self.sum_of)
-            if self.sum_of(best) - outcome.value <= TOLERANCE * abs(outcome.value):
+            if self.sum_of(best) <= enough:
                 break
-            self.cuts += [*found, *self.violations(outside)]
+            self.cuts += [*found, *outside]
             outcome = self.outcome([self.model.costs, self.slack])
-        best = self.simplified(best, outcome.value)
+        exact = self.sum_of(best) == outcome.value
+        best = self.simplified(best, outcome.value if exact else self.sum_of(best) + TOLERANCE * abs(outcome.value))
         values = self.model.values(best)
         return ProvedCurve(
             values,
@@ -120,14 +125,27 @@ class _Search:
     def inner_point(self) -> Values | Contradiction:
         """A curve proved to satisfy everything, with the largest slack that the cuts allow."""
         for _ in self.counted():
-            outcome = solve(self.model.program(self.cuts), [self.slack], check=self.check)
+            outcome = solve(self.program(), [self.slack], check=self.check)
             if isinstance(outcome, Contradiction):
                 return outcome
             found = self.violations(outcome.point)
             if not found:
                 return outcome.point
             self.cuts += found
+            if outcome.value == 0:
+                self.rigid |= self.tight(outcome)
         raise BudgetExceeded(f"Method 1*: no curve proved or excluded after {MAX_ROUNDS} rounds", limit="rounds")
+
+    def program(self) -> LinearProgram:
+        """The program of the cuts so far."""
+        return self.model.program(self.cuts, self.rigid)
+
+    def tight(self, outcome: LinearOptimum) -> set[Family]:
+        """The families of cuts that leave no slack at all, by the duals."""
+        cuts = (*self.model.tangents, *self.cuts)
+        equations = len(self.model.task.raised) * 2
+        duals = outcome.duals.rows[equations:]
+        return {cut.family for cut, dual in zip(cuts, duals, strict=False) if dual and cut.kind is not CutKind.TANGENT}
 
     def counted(self) -> Iterator[int]:
         """Rounds, at most ``MAX_ROUNDS`` for each of the two stages."""
@@ -137,7 +155,7 @@ class _Search:
 
     def outcome(self, objectives: Sequence[Values]) -> LinearOptimum:
         """The optimum of a program that is known to have a point."""
-        found = solve(self.model.program(self.cuts), objectives, check=self.check)
+        found = solve(self.program(), objectives, check=self.check)
         if isinstance(found, Contradiction):
             raise Unable("a linear program lost the point that was proved to satisfy it")
         return found
@@ -151,28 +169,38 @@ class _Search:
         """The objective."""
         return sum((c * x for c, x in zip(self.model.costs, point, strict=True)), Fraction(0))
 
-    def last_feasible(self, inner: Values, outer: Values) -> tuple[Values, Values]:
-        """Points of the segment from ``inner`` to ``outer``: the last proved inside, and one outside just beyond."""
+    def last_feasible(self, inner: Values, outer: Values, enough: Fraction) -> tuple[Values, list[Cut]]:
+        """A point of the segment whose curve is proved, with a sum of at most ``enough`` or close to ``outer``, and
+        cuts against a point just beyond."""
+        least, most = self.sum_of(outer), self.sum_of(inner)
         low, high = Fraction(0), Fraction(1)
+        middle = _short((most - enough) / (most - least)) if most > enough else low
+        cuts: list[Cut] = []
         for _ in range(BISECTIONS):
+            found = self.violations(_between(inner, outer, middle))
+            if found:
+                high, cuts = middle, found
+            else:
+                low = middle
+                if most - low * (most - least) <= enough:
+                    break
             middle = (low + high) / 2
-            low, high = (low, middle) if self.violations(_between(inner, outer, middle)) else (middle, high)
-        return _between(inner, outer, low), _between(inner, outer, high)
+        return _between(inner, outer, low), cuts
 
-    def simplified(self, point: Values, bound: Fraction) -> Values:
-        """A point with shorter numbers that is proved as well and whose sum is as close to the bound."""
-        allowed = max(self.sum_of(point), bound + (self.sum_of(point) > bound) * TOLERANCE * abs(bound))
+    def simplified(self, point: Values, allowed: Fraction | None = None) -> Values:
+        """A point with shorter numbers that is proved as well, with a sum of at most ``allowed`` if that is given."""
         largest = Fraction(10) ** (floor(log10(self.model.workspace.radius_squared) / 2) - 2)
-        for k in () if self.model.tangents() else range(SIMPLE_STEPS):
+        for k in () if self.model.tangents else range(SIMPLE_STEPS):
             candidate = _rounded(self.model.task, point, largest / 10**k)
-            if candidate is None or self.sum_of(candidate) > allowed or self.violations(candidate):
+            if candidate is None or (allowed is not None and self.sum_of(candidate) > allowed):
                 continue
-            return candidate
+            if not self.violations(candidate):
+                return candidate
         return point
 
     def certificate(self, outcome: Outcome) -> Certificate:
         """The outcome for the program without the slack: its column is zero there, and its multipliers go with it."""
-        whole = self.model.program(self.cuts)
+        whole = self.program()
         kept = len(whole.rows) - 1
         plain = LinearProgram(
             whole.names[:-1],
@@ -180,6 +208,12 @@ class _Search:
             tuple(Row(row.coefficients[:-1], row.bound, row.equation) for row in whole.rows[:kept]),
         )
         return certificate(plain, self.model.costs[:-1], _without_slack(outcome, kept))
+
+
+def _short(share: Fraction) -> Fraction:
+    """A share a little larger with a short number, if that is below 1."""
+    longer = Fraction(ceil(share * 2**SHARE_BITS), 2**SHARE_BITS)
+    return longer if longer < 1 else share
 
 
 def _between(inner: Values, outer: Values, share: Fraction) -> Values:

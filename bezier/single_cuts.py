@@ -12,11 +12,12 @@ bounds of (4) by the convex hull property. A cut at t is S(t) >= s h, or, for an
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from enum import Enum
 from fractions import Fraction
 from math import comb, prod
+from typing import Any
 
 from bezier import bernstein as bs
 from bezier.curve import Bezier
@@ -30,7 +31,7 @@ ZERO, ONE = Fraction(0), Fraction(1)
 GRID = 32
 """Proposals for violated parameters are multiples of 1/GRID^2."""
 NOISE = 1e-12
-PLANE_DENOMINATOR = 2**20
+PLANE_BITS = 20
 
 
 class CutKind(Enum):
@@ -52,6 +53,14 @@ class Cut:
     t: Fraction
     axis: str = ""
     plane: Vector = ()
+
+    @property
+    def family(self) -> Family:
+        """The cuts that say the same at other parameters: those of one height, those of the ball."""
+        return self.axis
+
+
+Family = str
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,20 +106,23 @@ class Model:
         inner = (tuple(point[k * size : (k + 1) * size]) for k in range(len(self.task.raised)))
         return {axis.name: (axis.start, *part, axis.goal) for axis, part in zip(self.task.raised, inner, strict=True)}
 
-    def program(self, cuts: Sequence[Cut]) -> LinearProgram:
-        """(4) on all raised axes, 0 <= s <= 1, and the cuts."""
+    def program(self, cuts: Sequence[Cut], rigid: Collection[Family] = ()) -> LinearProgram:
+        """(4) on all raised axes, the cuts, and 0 <= s <= 1. Cuts of the ``rigid`` families have no slack."""
         size, axes = self.task.degree - 1, self.task.raised
         single = [program(self.task, axis) for axis in axes]
         rows = []
         for k, part in enumerate(single):
             before, after = (ZERO,) * (size * k), (ZERO,) * (size * (len(axes) - 1 - k) + 1)
             rows += [Row((*before, *row.coefficients, *after), row.bound, True) for row in part.rows]
-        rows += [self.row(cut) for cut in (*self.tangents(), *cuts)]
+        for cut in (*self.tangents, *cuts):
+            row = self.row(cut)
+            rows.append(replace(row, coefficients=(*row.coefficients[:-1], ZERO)) if cut.family in rigid else row)
         rows.append(Row((*(ZERO,) * (size * len(axes)), ONE), ONE))
         return LinearProgram(self.names, (*(v for part in single for v in part.lower), ZERO), tuple(rows))
 
     # --- the sphere ----------------------------------------------------------------------------------------------
 
+    @property
     def tangents(self) -> tuple[Cut, ...]:
         """Where P(t_a) or P(t_b) is on the sphere it must not cross it there: P.P' = 0."""
         return tuple(
@@ -222,11 +234,13 @@ class Model:
         if t == 1 and self.touches[1]:
             return Cut(CutKind.GOAL, t)
         t, place = self._beside(path, t)
-        shrink = (float(self.workspace.radius_squared) / float(dot(place, place))) ** 0.5
-        plane = tuple(Fraction(round(float(c) * shrink * PLANE_DENOMINATOR), PLANE_DENOMINATOR) for c in place)
-        excluded = 2 * dot(plane, place) > dot(plane, plane) + self.workspace.radius_squared
-        return Cut(CutKind.BALL, t, plane=plane if excluded else place)
-
+        squared = self.workspace.radius_squared
+        shrink = (float(squared) / float(dot(place, place))) ** 0.5
+        plane = _short((Fraction(float(c) * shrink) for c in place), PLANE_BITS)
+        bits = PLANE_BITS
+        while 2 * dot(plane, place) <= dot(plane, plane) + squared:  # |place - plane|^2 >= |place|^2 - r^2
+            plane, bits = _short(place, bits), 2 * bits
+        return Cut(CutKind.BALL, t, plane=plane)
 
     def _beside(self, path: Bezier, t: Fraction) -> tuple[Fraction, Vector]:
         """t and P(t) outside the ball; a parameter beside t where t is one of those that (4) puts on the sphere."""
@@ -234,6 +248,11 @@ class Model:
         while sign(self.workspace.ball.margin(path.point(at))) >= 0:
             at, step = t + step, -step / 2
         return at, path.point(at)
+
+
+def _short(values: Iterable[Any], bits: int) -> tuple[Fraction, ...]:
+    """Multiples of 2^-bits close to the values."""
+    return tuple(Fraction(round(v * 2**bits), 2**bits) for v in values)
 
 
 def _ends_only(task: Task, axis: Axis) -> Values:
