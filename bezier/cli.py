@@ -1,4 +1,4 @@
-"""The command ``bezier``: plan, check, compare.
+"""The command ``bezier``: plan, check, clearance, compare.
 
 Exit status: 0 answered, 2 bad input, 3 unable or no solution, 4 certificate rejected, 1 a bug. An error is one
 line on stderr.
@@ -65,6 +65,25 @@ def check(folder: Annotated[Path, typer.Argument(metavar="DIR", show_default=Fal
 
     for line in limited(partial(recheck, folder=folder), timeout=None, memory=None, plain=True):
         print(line)
+    return OK
+
+
+@app.command()
+def clearance(
+    source: Annotated[Path, typer.Argument(metavar="DIR|PROBLEM.toml|CURVES.toml", show_default=False)],
+    obstacles: Annotated[Path | None, typer.Option("--obstacles", help="A file with [[obstacle]] tables.")] = None,
+    certificate: Annotated[Path | None, typer.Option("--certificate", help="Write the certificates here.")] = None,
+    json: Json = False,
+    timeout: Timeout = None,
+    memory: Memory = None,
+) -> int:
+    """Prove each curve clear of each obstacle for all t, or say where it first meets it."""
+    from bezier.clearance_command import Request
+    from bezier.clearance_command import clearance as examine
+
+    check_limits(timeout, memory)
+    request = Request(source=source, obstacles=obstacles, certificate=certificate, json=json, timeout=timeout)
+    print(limited(partial(examine, request=request), timeout=timeout, memory=memory, plain=json))
     return OK
 
 

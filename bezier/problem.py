@@ -119,16 +119,20 @@ def problem_of(table: Table) -> Problem:
 
 def load_problem(path: Path) -> Problem:
     """Read a problem file. Raises ``InputError`` also when the file cannot be read."""
+    return read_problem(read_text(path), str(path))
+
+
+def read_text(path: Path) -> str:
+    """The text of a file of at most ``MAX_BYTES``. Raises ``InputError`` when it cannot be read."""
     try:
         data = path.read_bytes()
         if len(data) > MAX_BYTES:
             raise InputError(f"{path}: expected a problem of at most {MAX_BYTES} bytes, found {len(data)}")
-        text = data.decode("utf-8-sig")
+        return data.decode("utf-8-sig")
     except OSError as error:
         raise InputError(f"{path}: expected a readable file, found: {error.strerror or error}") from None
     except UnicodeDecodeError as error:
         raise InputError(f"{path}: expected UTF-8 text, found byte {data[error.start]:#04x} at {error.start}") from None
-    return read_problem(text, str(path))
 
 
 def _via(table: Table, start: Vector, goal: Vector, obstacles: tuple[Obstacle, ...]) -> tuple[Vector, Vector]:

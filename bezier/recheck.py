@@ -49,6 +49,11 @@ def recheck(channel: Channel, folder: FilePath) -> list[str]:
     return [*lines, f"path.json: {path.smoothness.name} at every join, every curve proved to lie in the workspace"]
 
 
+def stored_path(found: Mapping[str, Any]) -> tuple[Problem, dict[str, Bezier]]:
+    """The problem and the curves in the table of a ``path.json``."""
+    return _problem(stored.entry(found, "problem", dict)), _curves(found, _points(found))
+
+
 def _problem(table: Mapping[str, Any]) -> Problem:
     try:
         return from_json(table, "problem")

@@ -1,0 +1,148 @@
+"""``[[obstacle]]`` tables: every kind, formulas with and without quantifiers, and one clear line for bad ones."""
+
+from fractions import Fraction
+
+import pytest
+
+from bezier.obstacle_reader import read_obstacles
+from bezier.obstacles import ObstacleKind
+from bezier.problem import from_json, read_problem, to_json
+from bezier.toml_table import Table
+from qe.errors import InputError
+from tests.bezier.bodies import at
+
+
+def read(text: str):
+    return read_obstacles(Table.parse(text, "f.toml"))
+
+
+def one(body: str):
+    return read(f"[[obstacle]]\n{body}")[0]
+
+
+@pytest.mark.parametrize(
+    ("body", "inside", "outside"),
+    [
+        ('kind="ball"\ncentre=[1,0,0]\nradius="1/2"', (1.5, 0, 0), (1.6, 0, 0)),
+        ('kind="ball"\ncentre=[1,0,0]\nradius="1/2"\nmargin=0.1', (1.6, 0, 0), (1.61, 0, 0)),
+        ('kind="box"\nlow=[0,0,0]\nhigh=[1,2,3]', (1, 2, 3), (1, 2, 3.01)),
+        ('kind="box"\nlow=[0,0,0]\nhigh=[1,2,3]\nmargin=0.5', (1.3, 2.4, 3), (1.3, 2.41, 3)),
+        ('kind="box"\ncorner=[0,0,0]\nedges=[[3,4,0],[-4,3,0],[0,0,1]]', (-1, 7, 1), (-1.01, 7, 1)),
+        ('kind="half_space"\nnormal=[0,0,2]\noffset=3', (9, 9, 1.5), (0, 0, 1.51)),
+        ('kind="half_space"\nnormal=[0,3,4]\noffset=0\nmargin=1', (5, 0.6, 0.8), (5, 0.61, 0.8)),
+        ('kind="cylinder"\ncentre=[1,1]\nradius=1\nbottom=0', (2, 1, 99), (2, 1, -0.01)),
+        ('kind="capsule"\nstart=[0,0,0]\nend=[0,0,2]\nradius=1', (0, 0, 3), (1, 0, 3)),
+        ('kind="polyhedron"\nvertices=[[0,0,0],[2,0,0],[0,2,0],[0,0,2]]', (0, 1, 1), (1, 1, 1)),
+        ('kind="polyhedron"\nhalf_spaces=[[-1,0,0,0],[0,-1,0,0],[0,0,-1,0],[1,1,1,2]]', (0, 1, 1), (1, 1, 1)),
+        ('kind="formula"\nformula="x*y >= 1 or z = 5"', (1, 1, 0), (1, 0, 0)),
+        ('kind="formula"\nformula="not (x /= 0) and 2*y < z"', (0, 1, 3), (0, 1, 2)),
+        ('kind="formula"\nformula="ex u. x = u^2 and y = u and z > 0"', (4, -2, 1), (4, -1, 1)),
+    ],
+)
+def test_every_kind(body, inside, outside):
+    found = one(body)
+    assert found.contains(at(*map(str, inside))) and not found.contains(at(*map(str, outside)))
+
+
+def test_names_and_tops():
+    first, second, third = read(
+        '[[obstacle]]\nkind="ball"\ncentre=[0,0,1]\nradius=1\n'
+        '[[obstacle]]\nkind="cylinder"\nname="pole"\ncentre=[0,0]\nradius=1\ntop=4\nmargin=1\n'
+        '[[obstacle]]\nkind="half_space"\nnormal=[0,0,1]\noffset=0\n'
+    )
+    assert (first.name, second.name, third.kind) == ("ball 1", "pole", ObstacleKind.HALF_SPACE)
+    assert (first.top, second.top, third.top) == (2, 5, None)
+
+
+BALL = 'kind="ball"\ncentre=[0,0,0]\n'
+
+
+@pytest.mark.parametrize(
+    ("body", "said"),
+    [
+        ('kind="cone"', 'f.toml:2: obstacle[0].kind: expected "ball" or'),
+        ("radius=1", "obstacle[0].kind: expected"),
+        (BALL + "radius=-1", "f.toml:4: obstacle[0].radius: expected a number above zero, found -1"),
+        (BALL + "radius=0", "expected a number above zero, found 0"),
+        (BALL + 'radius="big"', "obstacle[0].radius: expected an integer, a decimal or a fraction"),
+        (BALL + "radius=1\nmargin=-0.5", "margin: expected a number that is not negative, found -1/2"),
+        (BALL + "radius=1\nheight=2", "expected one of the keys kind, name, margin, above, centre, radius"),
+        (BALL + 'radius=1\nname=""', 'name: expected a name, found ""'),
+        ('kind="ball"\ncentre=[0,0]\nradius=1', "centre: expected a point of 3 numbers, found an array of 2 values"),
+        ('kind="box"\nlow=[0,0,0]\nhigh=[1,0,1]', "high: expected every coordinate above that of low, found (1, 0, 1)"),
+        ('kind="box"\ncorner=[0,0,0]\nedges=[[1,0,0],[1,1,0],[0,0,1]]', "edges: expected three orthogonal vectors"),
+        ('kind="box"\ncorner=[0,0,0]\nedges=[[1,0,0],[0,1,0]]', "edges: expected three vectors"),
+        ('kind="box"\nlow=[0,0,0]\ncorner=[0,0,0]', "low: expected either low and high, or corner and edges"),
+        ('kind="half_space"\nnormal=[0,0,0]\noffset=1', "normal: expected a point of 3 numbers, not all zero"),
+        (
+            'kind="cylinder"\ncentre=[0,0]\nradius=1\nbottom=2\ntop=1',
+            "top: expected a number above bottom = 2, found 1",
+        ),
+        ('kind="cylinder"\ncentre=[0,0,0]\nradius=1', "centre: expected the x and y of the axis"),
+        ('kind="capsule"\nstart=[0,0,0]\nend=[0,0,0]\nradius=1', "end: expected a point other than start"),
+        ('kind="polyhedron"\nhalf_spaces=[[0,0,1,1],[0,0,-1,1]]', "expected a bounded polyhedron with interior"),
+        ('kind="polyhedron"\nvertices=[[0,0,0],[1,0,0],[0,1,0]]', "found a flat set of corners"),
+        ('kind="polyhedron"', "expected either half_spaces or vertices"),
+        ('kind="polyhedron"\nhalf_spaces=[[0,0,0,1]]', "a half-space with normal zero"),
+        ('kind="formula"\nformula="x >"', "formula: expected a formula in x, y, z, found formula:1:4"),
+        ('kind="formula"\nformula="x + w > 0"', "expected no free variables but x, y, z, found w"),
+        ('kind="formula"\nformula="1 > 2"', "expected a set that is not empty"),
+        ('kind="formula"\nformula="x > 0"\nmargin=1', "expected no margin for a formula"),
+        ('kind="formula"\nformula=3', "formula: expected a formula in x, y, z, found 3"),
+    ],
+)
+def test_bad_obstacles_get_one_clear_line(body, said):
+    with pytest.raises(InputError) as error:
+        one(body)
+    assert said in str(error.value) and "\n" not in str(error.value)
+
+
+def test_two_obstacles_of_one_name():
+    with pytest.raises(InputError, match="a name of its own"):
+        read(f'[[obstacle]]\nname="a"\n{BALL}radius=1\n[[obstacle]]\nname="a"\n{BALL}radius=2')
+
+
+PROBLEM = """
+method = "quadratic"
+start = [-4, 2, 1]
+goal = [4, 2, 1]
+radius = 6
+[[obstacle]]
+kind = "box"
+name = "crate"
+low = [-1, 1, 0]
+high = [1, 3, 2]
+margin = 0.1
+above = ["Q1"]
+"""
+
+
+def test_via_points_come_from_the_obstacle_in_the_way():
+    found = read_problem(PROBLEM)
+    height = Fraction(21, 10) + Fraction(22, 10) / 10
+    assert found.via == ((Fraction(-11, 10), 2, height), (Fraction(11, 10), 2, height))
+    beside = PROBLEM.replace("[-1, 1, 0]", "[-1, 4, 0]").replace("[1, 3, 2]", "[1, 5, 2]")
+    assert read_problem(beside).via == ((Fraction(-4, 3), 2, 1), (Fraction(4, 3), 2, 1))
+
+
+def test_a_start_under_the_obstacle_needs_via_points():
+    with pytest.raises(InputError, match="obstacle: expected obstacles that via points can be found for"):
+        read_problem(PROBLEM.replace("start = [-4, 2, 1]", "start = [0, 2, 5]"))
+
+
+def test_above_becomes_a_condition_on_control_points():
+    (condition,) = read_problem(PROBLEM).point_conditions
+    assert condition.points == ("Q1",) and condition.half_space.margin(at(0, 0, "21/10")) == 0
+    with pytest.raises(InputError, match=r"obstacle\[0\].above\[0\]: expected a list of control points"):
+        read_problem(PROBLEM.replace('["Q1"]', '["Q7"]'))
+    endless = PROBLEM.replace("low = [-1, 1, 0]\nhigh = [1, 3, 2]", "centre = [0, 0]\nradius = 1").replace(
+        "box", "cylinder"
+    )
+    with pytest.raises(InputError, match="above: expected this key for an obstacle with a top"):
+        read_problem(endless)
+
+
+def test_a_problem_with_obstacles_survives_json():
+    found = read_problem(PROBLEM)
+    again = from_json(to_json(found), "stored")
+    assert (again.obstacles, again.via, again.above) == (found.obstacles, found.via, found.above)
