@@ -111,12 +111,12 @@ class System:
 
     def formula(self) -> str:
         """The problem's formula: joins and conditions, the dependent points quantified."""
-        atoms = [_atom(item.condition, coordinates(item.point)) for item in self.conditions]
+        atoms = [atom_text(item.condition, coordinates(item.point)) for item in self.conditions]
         return self.shape.closed([*self.shape.equations(self._text), *atoms])
 
     def conditions_text(self) -> str:
         """The conditions with the dependent points put in terms of the free ones."""
-        return " and ".join(_atom(item.condition, self._in_free(item.point)) for item in self.conditions)
+        return " and ".join(atom_text(item.condition, self._in_free(item.point)) for item in self.conditions)
 
     def objective(self) -> str:
         """The paper's objective as text in the free coordinates."""
@@ -203,7 +203,7 @@ def _norm(point: Sequence[str]) -> str:
     return " + ".join(f"{c}^2" for c in point)
 
 
-def _atom(condition: Condition, point: Sequence[str]) -> str:
+def atom_text(condition: Condition, point: Sequence[str]) -> str:
     """The condition about a point whose coordinates are given as text."""
     if isinstance(condition, Ball):
         away = [c if not o else f"({c} - {number(o)})" for c, o in zip(point, condition.centre, strict=True)]
