@@ -10,16 +10,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from fractions import Fraction
 from functools import lru_cache
-from itertools import pairwise
 from math import comb, lcm
 from typing import Any
 
-from bezier import bernstein as bs
 from bezier.curve import Bezier
 from bezier.enclosure import bounds
+from bezier.halving import Numbers
 from bezier.obstacles import Box, Constraint, Exponents
-
-Numbers = tuple[Any, ...]
 
 
 class Along:
@@ -99,21 +96,3 @@ def _weights(n: int) -> tuple[int, ...]:
     row = _binomials(n)
     common = lcm(*row)
     return tuple(common // c for c in row)
-
-
-def halves(b: Numbers) -> tuple[Numbers, Numbers]:
-    """Positive multiples of the Bernstein coefficients on [0, 1/2] and [1/2, 1]; integers stay integers."""
-    if not all(isinstance(c, int) for c in b):
-        return bs.split(b)
-    n = len(b) - 1
-    row, left, right = list(b), [b[0] << n], [b[-1] << n]
-    for k in range(1, n + 1):
-        row = [x + y for x, y in pairwise(row)]
-        left.append(row[0] << (n - k))
-        right.append(row[-1] << (n - k))
-    return tuple(left), tuple(reversed(right))
-
-
-def exact(b: Numbers) -> Numbers:
-    """The same numbers ready for division: integers as fractions."""
-    return tuple(Fraction(c) if isinstance(c, int) else c for c in b)

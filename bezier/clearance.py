@@ -17,9 +17,10 @@ from fractions import Fraction
 from itertools import pairwise
 
 from bezier import bernstein as bs
-from bezier.along import Along, Numbers, exact, halves
+from bezier.along import Along
 from bezier.curve import Bezier
 from bezier.enclosure import Enclosure, bounds
+from bezier.halving import Numbers, exact, halves
 from bezier.nonnegative import Interval, isolate, refine
 from bezier.obstacles import Box, Constraint, Obstacle, Piece
 from bezier.scalar import Vector, is_zero, sign

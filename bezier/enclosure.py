@@ -6,10 +6,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
 from fractions import Fraction
-from math import isqrt
+from math import ceil, isqrt, lcm
 from typing import Any
 
 from bezier import bernstein as bs
+from bezier.halving import Numbers, halves
 from bezier.scalar import is_zero, rational
 from qe.errors import InputError, Unable
 
@@ -90,31 +91,59 @@ def maximum(numerator: Sequence[Any], denominator: Sequence[Any], rel: Fraction)
     if all(map(is_zero, numerator)):
         return Enclosure(Fraction(0), Fraction(0))
     degree = max(len(numerator), len(denominator)) - 1
-    n, n_error = _rationals(bs.elevate(numerator, degree))
-    d, d_error = _rationals(bs.elevate(denominator, degree))
-    best = Fraction(0)
-
-    def seen(top: Fraction, bottom: Fraction) -> Fraction:
-        return max(best, (top - n_error) / (bottom + d_error))
-
-    best = seen(n[0], d[0])
-    best = seen(n[-1], d[-1])
-    todo, pieces = [(n, d)], 0
+    todo, pieces, best = [_Quotient.of(bs.elevate(numerator, degree), bs.elevate(denominator, degree))], 0, Fraction(0)
     while todo:
-        n, d = todo.pop()
-        ceiling = best * (1 + rel)
-        if all(ceiling * (below - d_error) >= above + n_error for above, below in zip(n, d, strict=True)):
+        piece = todo.pop()
+        best = max(best, piece.at_start(), piece.at_end())
+        if piece.is_at_most(best * (1 + rel)):
             continue
         pieces += 1
         if pieces > MAX_PIECES:
             raise Unable("the maximum of a rational function was not enclosed within the subdivision limit")
-        (n_left, n_right), (d_left, d_right) = bs.split(n), bs.split(d)
-        best = seen(n_right[0], d_right[0])
-        todo += [(n_right, d_right), (n_left, d_left)]
+        todo += piece.halves()
     return Enclosure(best, best * (1 + rel))
 
 
-def _rationals(values: Sequence[Any]) -> tuple[tuple[Fraction, ...], Fraction]:
-    """Rational numbers near the values, and how far they are off at most."""
-    ends = [bounds(v) for v in values]
-    return tuple((low + high) / 2 for low, high in ends), max((high - low for low, high in ends)) / 2
+@dataclass(frozen=True, slots=True)
+class _Quotient:
+    """N/D on a piece: integers over a common factor, each wrong by at most ``error``."""
+
+    above: Numbers
+    below: Numbers
+    error: int
+
+    @staticmethod
+    def of(numerator: Sequence[Any], denominator: Sequence[Any]) -> _Quotient:
+        """Rational coefficients exactly, others to ``BITS`` binary places of the largest one."""
+        values = [*numerator, *denominator]
+        if all(rational(v) is not None for v in values):
+            exact = [Fraction(rational(v) or 0) for v in values]
+            scale = lcm(*(v.denominator for v in exact))
+            whole, error = [int(v * scale) for v in exact], 0
+        else:
+            ends = [bounds(v) for v in values]
+            factor = (1 << BITS) / max(abs(end) for pair in ends for end in pair)
+            whole = [round((low + high) / 2 * factor) for low, high in ends]
+            error = 1 + ceil(max(high - low for low, high in ends) * factor)
+        size = len(numerator)
+        return _Quotient(tuple(whole[:size]), tuple(whole[size:]), error)
+
+    def at_start(self) -> Fraction:
+        """A lower bound of the value at the start."""
+        return Fraction(self.above[0] - self.error, self.below[0] + self.error)
+
+    def at_end(self) -> Fraction:
+        """A lower bound of the value at the end."""
+        return Fraction(self.above[-1] - self.error, self.below[-1] + self.error)
+
+    def is_at_most(self, ceiling: Fraction) -> bool:
+        """Whether the Bernstein coefficients of c D - N are nonnegative."""
+        top, bottom, e = ceiling.numerator, ceiling.denominator, self.error
+        return all(top * (d - e) >= bottom * (n + e) for n, d in zip(self.above, self.below, strict=True))
+
+    def halves(self) -> list[_Quotient]:
+        """Both halves, the left one last."""
+        error = self.error << (len(self.above) - 1)
+        pairs = zip(halves(self.above), halves(self.below), strict=True)
+        left, right = (_Quotient(above, below, error) for above, below in pairs)
+        return [right, left]
