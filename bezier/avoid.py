@@ -44,8 +44,8 @@ def avoiding(problem: Problem, clock: Clock) -> Plan:
     if first.outcome is Outcome.SOLVED:
         return first
     attempts = first.attempts
-    for what, changed in _alternatives(problem, first):
-        plan = _attempted(what, changed, clock)
+    for what, candidate in _alternatives(problem, first):
+        plan = _attempted(what, candidate, clock)
         attempts += plan.attempts
         if plan.outcome is Outcome.SOLVED:
             return replace(plan, attempts=attempts)
@@ -114,9 +114,9 @@ def _alternatives(problem: Problem, first: Plan) -> Iterator[tuple[str, Problem]
         for share in (Fraction(0), *RAISES) if named else RAISES:
             lift = share * height
             raised = f"via points raised by {lift}" if lift else ""
-            changed = _changed(problem, method, lift)
-            if changed is not None:
-                yield ", ".join(filter(None, (named, raised))), changed
+            candidate = changed(problem, method, lift)
+            if candidate is not None:
+                yield ", ".join(filter(None, (named, raised))), candidate
 
 
 def _height(problem: Problem, plan: Plan) -> Fraction:
@@ -126,7 +126,7 @@ def _height(problem: Problem, plan: Plan) -> Fraction:
     return max(heights, default=Fraction(int(float(problem.workspace.radius_squared) ** 0.5 * 1000), 10_000))
 
 
-def _changed(problem: Problem, method: PlanMethod, lift: Fraction) -> Problem | None:
+def changed(problem: Problem, method: PlanMethod, lift: Fraction) -> Problem | None:
     """The problem with another method and higher via points; None when these do not fit into the workspace."""
     table = to_json(problem)
     radius = table.pop("radius_squared")
