@@ -52,8 +52,8 @@ def draw(plan: CubicPlan, folder: FilePath) -> Drawing:
     if plan.path is not None:
         conditions = plan.system.seen_by("Q1", plan.path.points)
         region = region_picture(conditions, conditions, plan.path.points["Q1"])
-    picture = path_picture(plan.problem, plan.path, plan.system.given, region=region)
-    title = r"Where $\hat{Q}_1$ may be while $\hat{Q}_2$ stays at its optimum: a slice of the region of formula (7)"
+    picture = path_picture(plan.problem, plan.path, plan.system.given, region=region, hats=False)
+    title = r"Where $Q_1$ may be while $Q_2$ stays at its optimum: a slice of the region of formula (7)"
     plot.save_region(picture, folder / "region.png", title)
     plot.save_path(picture, folder / "path.png")
     written = ("region.png", "path.png")
@@ -81,6 +81,7 @@ CUBIC: Method[CubicPlan] = Method(
     entries=entries,
     files=files,
     draw=draw,
+    hats=False,
     template="cubic.html.j2",
     sections=cubic_report.sections,
     claim=claim,

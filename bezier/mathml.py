@@ -18,6 +18,7 @@ from qe.formula.syntax import And, Atom, Constant, Formula, Not, Or, Relation
 
 _RELATIONS = {Relation.EQ: "=", Relation.NE: "≠", Relation.LT: "&lt;", Relation.LE: "≤"}
 _RELATIONS |= {Relation.GT: "&gt;", Relation.GE: "≥"}
+_HATTED = re.compile(r'<mover accent="true"><mi>(.)</mi><mo>\^</mo></mover>')
 _POINT = re.compile(r"([pqr])([0-9])([xyz])")
 
 
@@ -37,6 +38,11 @@ def name(text: str) -> str:
 
 def _indexed(letter: str, index: str) -> str:
     return f'<msub><mover accent="true"><mi>{letter}</mi><mo>^</mo></mover>{index}</msub>'
+
+
+def without_hats(page: str) -> str:
+    """A page with the names of points as in the paper's formula (7), where only the quadratic curves have hats."""
+    return _HATTED.sub(r"<mi>\1</mi>", page).replace("\\u0302", "")
 
 
 def number(value: Any) -> str:

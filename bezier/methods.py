@@ -11,7 +11,6 @@ from bezier.curve import Smoothness
 from bezier.plan import Clock, Plan
 from bezier.problem import PlanMethod, Problem
 from bezier.scalar import Vector
-from qe.errors import Unable
 from qe.evidence.certificate import Certificate
 
 if TYPE_CHECKING:
@@ -24,11 +23,12 @@ Section = dict[str, Any]
 @dataclass(frozen=True, slots=True)
 class Claim:
     """What certificates show about a problem: the control points (None: there are none), how smooth the joins must be,
-    and a line for people about each thing that was checked."""
+    the names of the curves, and a line for people about each thing that was checked."""
 
     lines: tuple[str, ...]
     points: Mapping[str, Vector] | None
     smoothness: Smoothness
+    curves: tuple[str, ...] = ("P", "Q", "R")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -37,8 +37,9 @@ class Method(Generic[P]):
 
     ``make``: the plan. ``reason``: why there is no path, in one sentence. ``words``: its lines in the summary for
     people. ``entries``: its further entries in the summary as JSON. ``files``: its further data files, by name.
-    ``draw``: writes the pictures into a folder. ``template`` and ``sections``: its page, and the values that the page
-    shows beyond those of every method. ``claim``: what the certificates in a folder show, or ``CertificateRejected``.
+    ``draw``: writes the pictures into a folder. ``hats``: whether the paper writes its points with hats. ``template``
+    and ``sections``: its page, and the values that the page shows beyond those of every method. ``claim``: what the
+    certificates in a folder show, or ``CertificateRejected``.
     """
 
     make: Callable[[Problem, Clock], P]
@@ -47,13 +48,14 @@ class Method(Generic[P]):
     entries: Callable[[P], dict[str, Any]]
     files: Callable[[P], dict[str, str]]
     draw: Callable[[P, FilePath], Drawing]
+    hats: bool
     template: str
     sections: Callable[[P], Section]
     claim: Callable[[Problem, Certificate], Claim]
 
 
 def method_of(choice: PlanMethod) -> Method[Any]:
-    """The method of this name, loaded when it is needed. Raises ``Unable`` for one that is not there yet."""
+    """The method of this name, loaded when it is needed."""
     match choice:
         case PlanMethod.QUADRATIC:
             from bezier.quadratic_method import QUADRATIC
@@ -63,5 +65,7 @@ def method_of(choice: PlanMethod) -> Method[Any]:
             from bezier.cubic_method import CUBIC
 
             return CUBIC
-        case _:
-            raise Unable(f'method "{choice.value}" is not there yet; "quadratic" and "cubic" are')
+        case PlanMethod.SINGLE:
+            from bezier.single_method import SINGLE
+
+            return SINGLE

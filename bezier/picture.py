@@ -54,7 +54,7 @@ class RegionPicture:
 
 @dataclass(frozen=True, slots=True)
 class PathPicture:
-    """The path in its workspace. ``marks``: named points."""
+    """The path in its workspace. ``marks``: named points; ``hats``: whether their names get hats."""
 
     radius: float
     has_floor: bool
@@ -62,6 +62,7 @@ class PathPicture:
     marks: Mapping[str, Array]
     region: RegionPicture | None = None
     extra: Mapping[str, RegionPicture] = field(default_factory=dict)
+    hats: bool = True
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,6 +85,7 @@ def path_picture(
     *,
     region: RegionPicture | None,
     extra: Mapping[str, RegionPicture] | None = None,
+    hats: bool = True,
 ) -> PathPicture:
     """The picture of a path, or of the given points alone; a place with two names is marked by one."""
     points: dict[str, Sequence[Any]] = dict(given)
@@ -96,6 +98,7 @@ def path_picture(
         marks={name: numbers([point])[0] for name, point in points.items()},
         region=region,
         extra=extra or {},
+        hats=hats,
     )
 
 

@@ -101,6 +101,7 @@ QUADRATIC: Method[QuadraticPlan] = Method(
     entries=entries,
     files=files,
     draw=draw,
+    hats=True,
     template="quadratic.html.j2",
     sections=quadratic_report.sections,
     claim=claim,

@@ -25,7 +25,8 @@ def render(plan: Plan, drawing: Drawing | None) -> str:
     environment.trim_blocks = True
     method = method_of(plan.problem.method)
     template = environment.get_template(method.template)
-    return template.render(_common(plan, drawing) | method.sections(plan))
+    page = template.render(_common(plan, drawing) | method.sections(plan))
+    return page if method.hats else mathml.without_hats(page)
 
 
 def _common(plan: Plan, drawing: Drawing | None) -> dict[str, Any]:
