@@ -149,22 +149,22 @@ def _prove(formula: Formula, known: Formula, budget: Budget) -> tuple[Polynomial
             proofs = (_prove(a, extended, budget) for a in args if not is_quantifier_free(a))
             return next((p for p in proofs if p is not None), None)
         case Exists():
-            found = _witness(formula, known, budget)
+            ready = prepare(formula, budget=budget).formula
+            if not isinstance(ready, Exists):
+                return _prove(ready, known, budget)
+            found = _witness(ready, known, budget) if is_quantifier_free(ready.body) else None
             return None if found is None else (found,)
     return None
 
 
 def _witness(block: Exists, known: Formula, budget: Budget) -> PolynomialWitness | None:
-    ready = prepare(block, budget=budget).formula
-    if not isinstance(ready, Exists) or not is_quantifier_free(ready.body):
-        return None
-    names = dict.fromkeys((*free_variables(known), *free_variables(ready)))
+    names = dict.fromkeys((*free_variables(known), *free_variables(block)))
     probes = list(_probes(known, names))
-    for terms in _candidates(ready):
+    for terms in _candidates(block):
         budget.check("polynomial witness")
-        claim = substituted(ready.body, terms)
+        claim = substituted(block.body, terms)
         if all(holds_at(claim, probe) for probe in probes) and simplify(claim, known) == TRUE:
-            return PolynomialWitness(terms, known, ready.body)
+            return PolynomialWitness(terms, known, block.body)
     return None
 
 
