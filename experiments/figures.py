@@ -77,7 +77,8 @@ def cactus_figure(name: str, table: measures.Table) -> Any:
     for i, (solver, rows) in enumerate(table.items()):
         times = measures.solved_over_time(rows.values())
         if times:
-            axes.step(times, range(1, len(times) + 1), where="post", label=solver, **_style(i))
+            every = max(1, len(times) // 15)
+            axes.step(times, range(1, len(times) + 1), where="post", label=solver, markevery=every, **_style(i))
     axes.set_ylim(bottom=0)
     axes.legend(fontsize=8)
     return figure

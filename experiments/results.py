@@ -10,7 +10,7 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import asdict, dataclass, field
+from dataclasses import dataclass, field
 from enum import StrEnum
 from pathlib import Path
 from typing import Any
@@ -167,9 +167,3 @@ class Appender:
         """Add one line; it is in the file when this returns."""
         with self.path.open("a") as file:
             file.write(json.dumps(record, ensure_ascii=False) + "\n")
-
-    def result(self, row: Result) -> None:
-        self.write(asdict(row))
-
-    def comparison(self, item: Comparison) -> None:
-        self.write({"kind": "comparison", **asdict(item)})

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import asdict
 from pathlib import Path
+from typing import Any
 
 from experiments.adapters.answer import Limits
 from experiments.crosscheck import crosscheck
@@ -27,6 +29,7 @@ class Session:
     def __init__(self, path: Path, limits: Limits, *, workers: int = 1, again: bool = False) -> None:
         self.path, self.limits, self.workers, self.again = path, limits, workers, again
         self.log = read_log([path])
+        self._file = Appender(path)
 
     def run(self, work: Work, *, repeat: int = 1, seed: int = 1) -> None:
         """Run what has no result yet, then compare answers of problems without an expected one."""
@@ -35,33 +38,34 @@ class Session:
         usable = self._usable({job.solver for job in todo})
         todo = [job for job in todo if job.solver in usable]
         record = fingerprint(limit=self.limits.seconds, memory=self.limits.memory, jobs=self.workers)
-        file = Appender(self.path)
         if todo:
-            file.write(record)
-            self.log.add(record)
+            self._keep(record)
         with progress("runs", len(todo)) as (note, advance):
             for row in run_jobs(todo, self.limits, workers=self.workers, environment=record["name"]):
-                file.result(row)
-                self.log.results[row.key] = row
+                self._keep(asdict(row))
                 advance(1)
                 note(line(row))
             problems = [p for listed, _ in work for p in listed]
             for c in crosscheck(problems, self.log, memory=self.limits.memory):
-                file.comparison(c)
+                self._keep({"kind": "comparison", **asdict(c)})
                 if c.verdict == "different":
                     note(f"DISAGREEMENT: {c.left} and {c.right} on {c.set} {c.id}")
             for text in summary(self.log.results[job.key] for job in jobs if job.key in self.log.results):
                 note(text)
+
+    def _keep(self, record: Mapping[str, Any]) -> None:
+        self._file.write(record)
+        self.log.add(record)
 
     def _usable(self, solvers: Iterable[Solver]) -> set[Solver]:
         """Run the warm-up problem, unrecorded: it fills caches and shows which solvers are there."""
         found = set()
         for solver in sorted(solvers, key=lambda s: s.name):
             row = run_one(Job(WARM_UP, solver, 0), self.limits)
-            if row.status in (Status.SOLVED, Status.TIMEOUT, Status.MEMORY):
+            if row.status not in (Status.UNSUPPORTED, Status.CRASH):
                 found.add(solver)
             else:
-                why = f"{row.status.value} on the warm-up problem: {row.message or row.answer}"
+                why = f"{row.status.value} on the warm-up problem: {row.message}"
                 print(f"experiments: {solver.name} is left out: {why}", file=sys.stderr)
         return found
 

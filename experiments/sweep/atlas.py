@@ -49,6 +49,9 @@ def _figure(radius: Fraction, rows: Sequence[Outcome]) -> Any:
         axes = figure.add_subplot(1, len(panels), i + 1)
         _panel(figure, axes, title, cells)
         axes.plot(*boundary(float(radius)), color="black", linewidth=1.6, label="$d^2 + k^2 = r k$; $d = r/2$ below")
+        axes.set_xlim(0, float(radius))
+        axes.set_ylim(0, float(radius))
+        axes.set_aspect("equal")
         axes.legend(fontsize=8, loc="upper right")
     return figure
 

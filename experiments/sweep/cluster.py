@@ -22,6 +22,9 @@ WINDOW = 4
 """Tasks under way per worker."""
 
 ATTEMPTS = 3
+CONNECTING = 5.0
+"""Seconds to wait for a scheduler."""
+
 PATIENCE = 60.0
 """Seconds to wait for the first worker."""
 
@@ -99,7 +102,7 @@ def _client(scheduler: str | None, workers: int) -> Iterator[Any]:
             yield client
         return
     try:
-        remote = Client(scheduler, timeout=10)
+        remote = Client(scheduler, timeout=CONNECTING)
     except (OSError, ValueError) as error:
         raise InputError(f"--scheduler: a Dask scheduler at {scheduler} expected, none found ({error})") from None
     with remote as client:
