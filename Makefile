@@ -13,7 +13,7 @@ PYTHON ?= $(shell for p in python3 python3.14 python3.13 python3.12 python3.11; 
 CORE := $(VENV)/.core-installed
 DEV := $(VENV)/.dev-installed
 
-.PHONY: help setup plan test deep lint bench clean
+.PHONY: help setup plan paper test deep lint bench clean
 .DEFAULT_GOAL := help
 
 help: ## list the targets
@@ -33,6 +33,9 @@ setup: $(DEV) ## create .venv with every dependency
 
 plan: $(CORE) ## plan the example path; the report is out/report.html
 	$(BIN)/bezier plan examples/three_balls.toml --out $(OUT)
+
+paper: $(CORE) ## check every claim of the paper; the page is out/paper/index.html
+	$(BIN)/python -m paper_repro --out $(OUT)/paper
 
 test: $(DEV) ## all tests but the long ones
 	$(BIN)/python -m pytest -n $(WORKERS) -q

@@ -24,10 +24,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser = argparse.ArgumentParser("paper_repro", description="The paper, claim by claim.")
     parser.add_argument("--out", type=Path, default=Path("out/paper"), help="folder for the page (default: out/paper)")
     parser.add_argument("--only", metavar="KEY", action="append", help="only this entry (may be given several times)")
-    parser.add_argument("--list", action="store_true", help="list the entries and stop")
+    parser.add_argument("--list", action="store_true", help="list the entries as a table and stop")
     options = parser.parse_args(arguments)
     if options.list:
-        print("\n".join(f"{c.key:24}{c.place}: {c.title}" for c in CLAIMS))
+        print("\n".join(markdown.summary(CLAIMS)))
         return 0
     try:
         entries = examine_all(_chosen(options.only), _tell)

@@ -22,7 +22,7 @@ def eliminated(text: str, question: Any, expected: str) -> Asked:
     seconds = time.perf_counter() - start
     as_expected = answer.formula is not None and qe.equivalent(answer.formula, expected, timeout=LIMIT)
     shown = tex(answer) if answer.formula is not None else rf"\text{{{answer.reason}}}"
-    return Asked(text, str(question), shown, as_expected, seconds)
+    return Asked(text, str(question), shown, as_expected, seconds, expected=expected)
 
 
 def decided(text: str, sentence: Any, expected: bool = True) -> Asked:

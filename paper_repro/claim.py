@@ -8,6 +8,7 @@ import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from enum import Enum
+from textwrap import dedent
 
 from qe import Certificate
 
@@ -33,7 +34,8 @@ class Fact:
 @dataclass(frozen=True, slots=True)
 class Asked:
     """A question put to the engine. ``answer``: LaTeX; ``holds``: the answer is the expected one and its certificate,
-    if there is one, was accepted by the separate checker; ``seconds``: elapsed time.
+    if there is one, was accepted by the separate checker; ``expected``: the formula to which it was found equivalent;
+    ``seconds``: elapsed time.
     """
 
     text: str
@@ -42,6 +44,12 @@ class Asked:
     holds: bool
     seconds: float
     certificate: Certificate | None = None
+    expected: str = ""
+
+    @property
+    def is_short(self) -> bool:
+        """Whether the answer is a word or a few, such as "true"."""
+        return self.answer.startswith(r"\text")
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,7 +96,7 @@ class Claim:
     @property
     def code(self) -> str:
         """The source of the check, without the data above it and the docstring."""
-        lines = inspect.getsource(self.check).splitlines()
+        lines = dedent(inspect.getsource(self.check)).splitlines()
         function = ast.parse("\n".join(lines)).body[0]
         assert isinstance(function, ast.FunctionDef)
         described = function.body[0]

@@ -22,8 +22,8 @@ def render(entries: Sequence[Entry], made: str) -> str:
 
 def summary(claims: Sequence[Claim]) -> list[str]:
     """The claims with their verdicts as the lines of a table."""
-    rows = [f"| {c.place} | {c.title} | {c.verdict.value} |" for c in claims]
-    return ["| where | claim | verdict |", "|---|---|---|", *rows]
+    rows = [f"| `{c.key}` | {c.place} | {c.title} | {c.verdict.value} |" for c in claims]
+    return ["| key | where | claim | verdict |", "|---|---|---|---|", *rows]
 
 
 def _entry(entry: Entry) -> list[str]:

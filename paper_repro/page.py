@@ -89,7 +89,11 @@ def _extra(entry: Entry, item: Evidence) -> dict[str, Any]:
     match item:
         case Asked():
             file = certificate_name(entry, item) if item.certificate is not None else ""
-            return {"answer": Markup(tex.math(item.answer, display=True)), "time": _time(item.seconds), "file": file}
+            return {
+                "answer": Markup(tex.math(item.answer, display=not item.is_short)),
+                "time": _time(item.seconds),
+                "file": file,
+            }
         case Picture():
             return {"svg": Markup(item.svg)}
         case Fact() | Table():

@@ -6,12 +6,15 @@ import re
 from dataclasses import dataclass
 from html import escape
 
-_TOKEN = re.compile(r"\\[A-Za-z]+|\\.|\d+(?:\.\d+)?|\S")
+_TOKEN = re.compile(r"\\[A-Za-z]+|\\.|\d+(?:\.\d+)?|:=|\S")
 _OPERATORS = {
     **dict(zip((r"\le", r"\leq", r"\ge", r"\geq", r"\ne", r"\neq", r"\in", "-", "<", ">"), "≤≤≥≥≠≠∈−<>")),
     **dict(zip((r"\land", r"\lor", r"\exists", r"\forall", r"\colon", r"\sum", r"\|"), "∧∨∃∀:∑‖")),
-    **dict(zip((r"\dots", r"\cdot", r"\times", r"\mp", r"\{", r"\}"), "…·×∓{}")),
+    **dict(zip((r"\dots", r"\cdot", r"\times", r"\mp"), "…·×∓")),
 }
+_FENCES = {"(": "prefix", ")": "postfix", "[": "prefix", "]": "postfix", r"\{": "prefix", r"\}": "postfix"}
+_BEFORE_A_SIGN = ("(", "[", "{", ",", "=", "<", ">", r"\le", r"\ge")
+_TIGHT = ("/", "|", r"\|")
 _LETTERS = {r"\top": "true", r"\bot": "false", r"\max": "max", r"\min": "min"}
 _SPACES = {r"\,": "0.17em", r"\;": "0.28em", r"\quad": "1em", r"\ ": "0.3em"}
 
@@ -98,7 +101,10 @@ class _Reader:
         return f"<msub>{base}{below}</msub>" if below else f"<msup>{base}{above}</msup>" if above else base
 
     def _atom(self) -> str:
+        before = self.tokens[self.at - 1] if self.at else "("
         token = self._next()
+        if token == "-" and before in _BEFORE_A_SIGN:
+            return '<mo form="prefix">−</mo>'
         if token == "{":
             return self.row("}")
         if token in (r"\left", r"\right"):
@@ -111,6 +117,10 @@ class _Reader:
             return f'<mspace width="{_SPACES[token]}"/>'
         if token in _LETTERS:
             return f"<mi>{_LETTERS[token]}</mi>"
+        if token in _FENCES:
+            return f'<mo form="{_FENCES[token]}" stretchy="false">{token[-1]}</mo>'
+        if token in _TIGHT:
+            return f'<mo stretchy="false" lspace="0" rspace="0">{_OPERATORS.get(token, token)}</mo>'
         if token in _OPERATORS:
             return f"<mo>{escape(_OPERATORS[token])}</mo>"
         if token.startswith("\\"):

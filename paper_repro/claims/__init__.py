@@ -1,7 +1,17 @@
 """All claims of the paper, in its order."""
 
 from paper_repro.claim import Claim
-from paper_repro.claims import conclusions, cubic, curves, introduction, joins, method_one, quadratic, workspace
+from paper_repro.claims import (
+    conclusions,
+    cubic,
+    curves,
+    introduction,
+    joins,
+    method_one,
+    quadratic,
+    quadratic_gaps,
+    workspace,
+)
 
 CLAIMS: tuple[Claim, ...] = (
     *introduction.CLAIMS,
@@ -11,5 +21,6 @@ CLAIMS: tuple[Claim, ...] = (
     *joins.CLAIMS,
     *cubic.CLAIMS,
     *quadratic.CLAIMS,
+    *quadratic_gaps.CLAIMS,
     *conclusions.CLAIMS,
 )

@@ -7,9 +7,11 @@ from fractions import Fraction
 from typing import Any
 
 import qe
+from bezier.containment import Leaves, examine
 from bezier.curve import Bezier, Smoothness, join
 from bezier.scalar import dot, is_zero, sign
-from paper_repro.ask import decided, eliminated, optimised
+from bezier.workspace import Workspace, WorkspaceKind
+from paper_repro.ask import decided, eliminated, number, optimised
 from paper_repro.claim import Evidence, Fact, Picture, Table, Verdict, claim
 from paper_repro.figures.curves import curvature
 from paper_repro.figures.curves import path as drawn_path
@@ -19,8 +21,8 @@ from paper_repro.written import SEVEN, Points
 SPACE: Points = {"q0": (-1, 3, 3), "r0": (1, 3, 3)}
 PLANE: Points = {"q0": (-1, 1), "r0": (1, 1)}
 LETTERS: Points = {"q0": ("q0x", "q0y", "q0z"), "r0": ("r0x", "r0y", "r0z")}
-ENDS = ((-2, 0), (2, 0))
-"""Start and goal for the pictures in the plane."""
+ENDS = ((Fraction(-3, 2), 0), (Fraction(3, 2), 0))
+"""Start and goal in the plane, which make the radius 3/2."""
 
 TILTED: tuple[Points, Points] = (
     {"q0": (-3, 5), "r0": (1, 5)},
@@ -109,7 +111,7 @@ def always_satisfiable() -> Iterator[Evidence]:
     )
     yield Picture(
         "The solution $Q_1 = Q_0$, $Q_2 = R_0$: the curve doubles back on the segment from $Q_0$ to $R_0$.",
-        drawn_path(path, 2, "always possible, never wanted"),
+        drawn_path(path, 1.5, "always possible, never wanted"),
     )
 
 
@@ -147,7 +149,7 @@ def choice() -> Iterator[Evidence]:
     )
     yield exact
     q1, q2 = chosen(best, "xy")
-    yield Table(("point", "x", "y"), [(n, str(p[0]), str(p[1])) for n, p in (("Q1", q1), ("Q2", q2))])
+    yield Table(("point", "x", "y"), [(n, *(f"${number(c)}$" for c in p)) for n, p in (("Q1", q1), ("Q2", q2))])
     space, _ = optimised(
         "in space, $r^2 = 27$", SEVEN.objective("xyz", SPACE), SEVEN.substituted("xyz", SPACE, 27), "4/3"
     )
@@ -165,7 +167,7 @@ def choice() -> Iterator[Evidence]:
     yield Fact("the three curves join $C^2$, exactly", all(s is Smoothness.C2 for s in smooth))
     yield Picture(
         "The optimal path for $r = 3/2$ (start and goal are free choices).",
-        drawn_path(path, 2, "$Q_0 = (-1, 1)$, $R_0 = (1, 1)$, control points within $r = 3/2$"),
+        drawn_path(path, 1.5, "$Q_0 = (-1, 1)$, $R_0 = (1, 1)$, control points within $r = 3/2$"),
     )
     yield Picture("Its curvature is continuous at the joins.", curvature(path))
 
@@ -186,9 +188,8 @@ def active(found: qe.Optimum, radius_squared: Fraction) -> list[str]:
     "> 0$.",
     verdict=Verdict.CORRECTED,
     finding="They lie in the ball. The condition on $z$ is missing in (7), and it matters: for $Q_0 = (-1, 0, 1)$, "
-    "$R_0 = (1, 0, 1)$, $r = 3/2$ "
-    "even the optimum of (7) has $P_1$ and $R_2$ below the table. Adding $z \\ge 0$ for the six points keeps the "
-    "problem convex.",
+    "$R_0 = (1, 0, 1)$, $r = 3/2$ even the optimum of (7) has $P_1$ and $R_2$ below the table, and the curve with "
+    "them. Adding $z \\ge 0$ for the six points keeps the problem convex.",
 )
 def hemisphere() -> Iterator[Evidence]:
     """The optimum for $r = 3/2$ in the plane $y = 0$ of the arm is computed exactly, without and with $z \\ge 0$; the
@@ -200,14 +201,18 @@ def hemisphere() -> Iterator[Evidence]:
     yield printed
     path = curves(given, *chosen(best, "xyz"), [(x, 0, z) for x, z in ENDS])
     heights = {f"{name}{i}": item.points[i][2] for name, item in path.items() for i in (1, 2)}
-    yield Table(("control point", "z, exactly", "z"), [(n, str(z), f"{float(z):.4f}") for n, z in heights.items()])
+    yield Table(
+        ("control point", "z, exactly", "z"), [(n, f"${number(z)}$", f"{float(z):.4f}") for n, z in heights.items()]
+    )
+    floor = Workspace(WorkspaceKind.HEMISPHERE, Fraction(9, 4)).floor
+    yield Fact("the curve $P(t)$ itself is below it at some $t$", isinstance(examine(path["P"], floor), Leaves))
     yield Fact("$P_1$ and $R_2$ are below the table", [n for n, z in heights.items() if sign(z) < 0] == ["P1", "R2"])
     above = qe.minimize(SEVEN.objective("xyz", given), SEVEN.substituted("xyz", given, "9/4", above=True))
     kept = curves(given, *chosen(above, "xyz"), [(x, 0, z) for x, z in ENDS])
-    floor = min(sign(item.points[i][2]) for item in kept.values() for i in (1, 2))
+    lowest = min(sign(item.points[i][2]) for item in kept.values() for i in (1, 2))
     yield Fact(
         f"with $z \\ge 0$ the optimum is {float(above.value):.5f}, certificate accepted, and no point is below",
-        floor >= 0 and qe.verify(above.certificate).accepted,
+        lowest >= 0 and qe.verify(above.certificate).accepted,
     )
     yield Picture(
         "Side view: the optimum of (7) as printed, with two control points below the table.",

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import io
 import re
-from collections.abc import Sequence
-from typing import Any
+from collections.abc import Callable, Sequence
+from functools import wraps
+from typing import Any, ParamSpec
 
 import matplotlib
 import mpl_toolkits.mplot3d  # noqa: F401  (registers the 3-D projection)
@@ -15,7 +16,22 @@ from bezier.curve import Bezier
 from bezier.mesh import Array, sampled
 from bezier.picture import COLOURS, FLOOR, INK, PALE
 
-__all__ = ["COLOURS", "FLOOR", "INK", "PALE", "Array", "Figure", "circle", "curve", "label", "plane", "space", "svg"]
+__all__ = [
+    "COLOURS",
+    "FLOOR",
+    "INK",
+    "PALE",
+    "Array",
+    "Figure",
+    "circle",
+    "curve",
+    "drawing",
+    "label",
+    "plane",
+    "space",
+]
+
+P = ParamSpec("P")
 
 STYLE = {
     "font.size": 10,
@@ -31,9 +47,8 @@ STYLE = {
 
 def plane(width: float, height: float, count: int = 1) -> tuple[Figure, list[Any]]:
     """A figure with ``count`` plane drawings side by side, of equal scale on both axes."""
-    with matplotlib.rc_context(STYLE):
-        figure = Figure(figsize=(width, height), layout="constrained")
-        axes = [figure.add_subplot(1, count, k + 1) for k in range(count)]
+    figure = Figure(figsize=(width, height), layout="constrained")
+    axes = [figure.add_subplot(1, count, k + 1) for k in range(count)]
     for axis in axes:
         axis.set_aspect("equal", adjustable="datalim")
         axis.spines[["top", "right"]].set_visible(False)
@@ -44,19 +59,23 @@ def plane(width: float, height: float, count: int = 1) -> tuple[Figure, list[Any
 
 def space(width: float, height: float) -> tuple[Figure, Any]:
     """A figure with one drawing in space."""
-    with matplotlib.rc_context(STYLE):
-        figure = Figure(figsize=(width, height))
-        axis = figure.add_axes((0, 0, 1, 1), projection="3d")
-    return figure, axis
+    figure = Figure(figsize=(width, height))
+    return figure, figure.add_axes((0, 0, 1, 1), projection="3d")
 
 
-def svg(figure: Figure) -> str:
-    """The figure as one ``<svg>`` element that scales with the page and can be saved as a file of its own."""
-    buffer = io.StringIO()
-    with matplotlib.rc_context(STYLE):
-        figure.savefig(buffer, format="svg", metadata={"Date": None, "Creator": None, "Format": None, "Type": None})
-    text = buffer.getvalue()
-    return re.sub(r"\s*<metadata>.*?</metadata>", "", text[text.index("<svg") :], flags=re.DOTALL)
+def drawing(make: Callable[P, Figure]) -> Callable[P, str]:
+    """Make SVG text of a figure drawn in this package's style: one ``<svg>`` element, also a file of its own."""
+
+    @wraps(make)
+    def drawn(*given: P.args, **named: P.kwargs) -> str:
+        buffer = io.StringIO()
+        with matplotlib.rc_context(STYLE):
+            figure = make(*given, **named)
+            figure.savefig(buffer, format="svg", metadata={"Date": None, "Creator": None, "Format": None, "Type": None})
+        text = buffer.getvalue()
+        return re.sub(r"\s*<metadata>.*?</metadata>", "", text[text.index("<svg") :], flags=re.DOTALL)
+
+    return drawn
 
 
 def label(axis: Any, text: str, at: Sequence[Any], offset: tuple[float, float] = (4, 6), **style: Any) -> None:

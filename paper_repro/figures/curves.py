@@ -10,10 +10,11 @@ import numpy as np
 
 from bezier.curve import Bezier
 from bezier.mesh import sampled
-from paper_repro.figures.canvas import COLOURS, INK, PALE, Array, circle, curve, label, plane, svg
+from paper_repro.figures.canvas import COLOURS, INK, PALE, Array, Figure, circle, curve, drawing, label, plane
 
 
-def de_casteljau(points: Sequence[Sequence[Any]], levels: Sequence[Sequence[Sequence[Any]]]) -> str:
+@drawing
+def de_casteljau(points: Sequence[Sequence[Any]], levels: Sequence[Sequence[Sequence[Any]]]) -> Figure:
     """Figure 3: the points of every level of the construction for one t, and the curve they run along."""
     figure, (axis,) = plane(6.4, 3.9)
     curve(axis, Bezier.of(points), COLOURS["Q"], polygon=False)
@@ -23,22 +24,25 @@ def de_casteljau(points: Sequence[Sequence[Any]], levels: Sequence[Sequence[Sequ
         axis.plot(*spots.T, "-o", color=colours[k], linewidth=1.1, markersize=5)
         for i, spot in enumerate(spots):
             name = f"$P_{i}$" if k == 0 else f"$Q_{i}^{{({k})}}$"
-            label(axis, name, spot, (5, -15) if k == len(levels) else (5, 6), color=colours[k])
+            offset = (5, -17) if k == len(levels) else (-28, 4) if k and not i else (5, 6)
+            label(axis, name, spot, offset, color=colours[k])
     axis.margins(0.1)
-    return svg(figure)
+    return figure
 
 
-def loose_hull(given: Bezier, radius: float) -> str:
+@drawing
+def loose_hull(given: Bezier, radius: float) -> Figure:
     """A curve inside a disc although a control point is outside."""
     figure, (axis,) = plane(5.2, 3.6)
     circle(axis, (0, 0), radius, PALE, fill=True, facecolor="#eef4fa")
     curve(axis, given, COLOURS["Q"])
     for i, point in enumerate(given.points):
         label(axis, f"$P_{i}$", point)
-    return svg(figure)
+    return figure
 
 
-def heights(controls: Sequence[tuple[Any, Any]], interval: tuple[Any, Any], height: Any, p: int, q: int) -> str:
+@drawing
+def heights(controls: Sequence[tuple[Any, Any]], interval: tuple[Any, Any], height: Any, p: int, q: int) -> Figure:
     """Figure 4: one coordinate of Method 1 over x, with the points (a, h) and (b, h) that the curve must meet."""
     figure, (axis,) = plane(6.6, 4.0)
     _heights(axis, controls, interval, height)
@@ -52,10 +56,11 @@ def heights(controls: Sequence[tuple[Any, Any]], interval: tuple[Any, Any], heig
         x, y = map(float, controls[i])
         axis.plot([x, x], [bottom, y], ":", color=PALE, linewidth=0.9)
     axis.set_ylim(bottom=bottom)
-    return svg(figure)
+    return figure
 
 
-def dip(controls: Sequence[tuple[Any, Any]], interval: tuple[Any, Any], height: Any) -> str:
+@drawing
+def dip(controls: Sequence[tuple[Any, Any]], interval: tuple[Any, Any], height: Any) -> Figure:
     """A tuple that (4) allows, and how the curve dips below h between a and b (right: enlarged)."""
     figure, (axis, close) = plane(9.6, 3.8, 2)
     _heights(axis, controls, interval, height)
@@ -68,7 +73,7 @@ def dip(controls: Sequence[tuple[Any, Any]], interval: tuple[Any, Any], height: 
     close.set_xlim(a - 0.4 * (b - a), b + 0.4 * (b - a))
     close.set_ylim(low - 0.6 * (h - low), h + (h - low))
     close.set_title("between $a$ and $b$", fontsize=10)
-    return svg(figure)
+    return figure
 
 
 def _heights(axis: Any, controls: Sequence[tuple[Any, Any]], interval: tuple[Any, Any], height: Any) -> Array:
@@ -78,13 +83,14 @@ def _heights(axis: Any, controls: Sequence[tuple[Any, Any]], interval: tuple[Any
     axis.axhline(h, color=COLOURS["R"], linewidth=1, linestyle="-.")
     for name, x in zip("ab", interval):
         axis.plot([float(x)], [h], "o", color=COLOURS["Q"], markersize=7, zorder=5)
-        label(axis, f"$({name}, h_y)$", (x, h), (-52, 6) if name == "a" else (6, 6), color=COLOURS["Q"])
+        label(axis, f"$({name}, h_y)$", (x, h), (-48, -16) if name == "a" else (6, -16), color=COLOURS["Q"])
     axis.set_xlabel("$x$")
     axis.set_ylabel("$y$")
     return points
 
 
-def path(curves: Mapping[str, Bezier], radius: float, title: str, axes: tuple[int, int] = (0, 1)) -> str:
+@drawing
+def path(curves: Mapping[str, Bezier], radius: float, title: str, axes: tuple[int, int] = (0, 1)) -> Figure:
     """A plane view of three joined curves in the disc of radius r."""
     figure, (axis,) = plane(6.4, 4.2)
     circle(axis, (0, 0), radius, PALE, fill=True, facecolor="#f3f7fb")
@@ -95,13 +101,15 @@ def path(curves: Mapping[str, Bezier], radius: float, title: str, axes: tuple[in
         for i, point in enumerate(flat.points):
             seen.setdefault((round(float(point[0]), 6), round(float(point[1]), 6)), []).append(f"{name}_{i}")
     for place, found in seen.items():
-        label(axis, "$" + r"{=}".join(found) + "$", place, (5, 7), fontsize=9)
+        names = found[1:] if len(found) == 2 else found  # where two curves meet, the second one's name will do
+        label(axis, "$" + r"{=}".join(names) + "$", place, (5, 7), fontsize=9)
     axis.set_title(title, fontsize=10)
     axis.legend(frameon=False, loc="lower right")
-    return svg(figure)
+    return figure
 
 
-def curvature(curves: Mapping[str, Bezier]) -> str:
+@drawing
+def curvature(curves: Mapping[str, Bezier]) -> Figure:
     """Signed curvature over the joined parameter, span after span."""
     figure, (axis,) = plane(6.4, 3.0)
     axis.set_aspect("auto")
@@ -115,4 +123,4 @@ def curvature(curves: Mapping[str, Bezier]) -> str:
     axis.set_xlabel("parameter, one unit per curve")
     axis.set_ylabel("curvature")
     axis.legend(frameon=False)
-    return svg(figure)
+    return figure

@@ -10,10 +10,11 @@ from typing import Any
 import numpy as np
 
 import qe
-from paper_repro.figures.canvas import COLOURS, INK, PALE, circle, label, plane, svg
+from paper_repro.figures.canvas import COLOURS, INK, PALE, Figure, circle, drawing, label, plane
 
 
-def three_discs(via: Sequence[Sequence[Any]], radii: Sequence[float], titles: Sequence[str]) -> str:
+@drawing
+def three_discs(via: Sequence[Sequence[Any]], radii: Sequence[float], titles: Sequence[str]) -> Figure:
     """The discs about O, 2 Q0 and 2 R0 in the plane of O, Q0, R0, for several radii."""
     figure, axes = plane(9.6, 4.4, len(radii))
     q0, r0 = ([float(c) for c in p] for p in via)
@@ -23,15 +24,13 @@ def three_discs(via: Sequence[Sequence[Any]], radii: Sequence[float], titles: Se
             ("P_1", [2 * c for c in q0], "P"),
             ("R_1", [2 * c for c in r0], "R"),
         ):
-            style = {"fill": True, "facecolor": COLOURS[colour], "alpha": 0.16}
-            circle(axis, centre, radius, COLOURS[colour], **style)
-            circle(axis, centre, radius, COLOURS[colour])
+            circle(axis, centre, radius, COLOURS[colour], fill=True, facecolor=(COLOURS[colour], 0.16))
             label(axis, rf"$\|\hat{{{name[0]}}}_1\| \leq r$", centre, (-20, -3), color=COLOURS[colour], fontsize=10)
         for name, point in (("O", (0.0, 0.0)), (r"\hat{Q}_0", q0), (r"\hat{R}_0", r0)):
             axis.plot([point[0]], [point[1]], "o", color=INK, markersize=5)
             label(axis, f"${name}$", point, (5, 6) if name != "O" else (5, -14))
         axis.set_title(title, fontsize=10)
-    return svg(figure)
+    return figure
 
 
 def region(found: qe.Region) -> str:
@@ -43,9 +42,10 @@ def region(found: qe.Region) -> str:
     return text[text.index("<svg") :]
 
 
+@drawing
 def two_regions(
     inner: Sequence[tuple[Sequence[Any], float]], outer: Any, window: tuple[float, float, float, float]
-) -> str:
+) -> Figure:
     """Where control points may be by the polygon test (the common part of discs) and by the exact test on the curves.
 
     ``outer``: a function that is nonnegative exactly on the larger region.
@@ -63,4 +63,4 @@ def two_regions(
     axis.legend(frameon=False, loc="lower center", fontsize=9)
     axis.set_xlabel("$x$")
     axis.set_ylabel("$y$")
-    return svg(figure)
+    return figure

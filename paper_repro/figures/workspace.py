@@ -9,10 +9,11 @@ from typing import Any
 import numpy as np
 
 from bezier.curve import Bezier
-from paper_repro.figures.canvas import COLOURS, FLOOR, INK, PALE, circle, curve, label, plane, space, svg
+from paper_repro.figures.canvas import COLOURS, FLOOR, INK, PALE, Figure, circle, curve, drawing, label, plane, space
 
 
-def feasible_region(radius: float) -> str:
+@drawing
+def feasible_region(radius: float) -> Figure:
     """Figure 1: the surface and the interior of a hemisphere about the base of the arm."""
     figure, axis = space(5.4, 3.9)
     turn, height = np.meshgrid(np.linspace(0, 2 * np.pi, 49), np.linspace(0, np.pi / 2, 15))
@@ -33,10 +34,11 @@ def feasible_region(radius: float) -> str:
     axis.set_ylim(-1.3 * radius, 1.3 * radius)
     axis.set_zlim(0, 1.3 * radius)
     axis.view_init(elev=18, azim=-58)
-    return svg(figure)
+    return figure
 
 
-def radius_rule(points: Mapping[str, Sequence[Any]], farthest: str) -> str:
+@drawing
+def radius_rule(points: Mapping[str, Sequence[Any]], farthest: str) -> Figure:
     """Figure 2: the radius is the distance of the farthest of the given points from O."""
     figure, (axis,) = plane(6.0, 3.6)
     radius = sqrt(sum(float(c) ** 2 for c in points[farthest]))
@@ -50,7 +52,7 @@ def radius_rule(points: Mapping[str, Sequence[Any]], farthest: str) -> str:
     label(axis, "$r$", (x, y), (-13, 2), color=COLOURS["Q"])
     label(axis, "$O$", (0, 0), (-4, -14))
     axis.set_ylim(-0.14 * radius, 1.14 * radius)
-    return svg(figure)
+    return figure
 
 
 def _half_disc(axis: Any, radius: float) -> None:
@@ -61,7 +63,8 @@ def _half_disc(axis: Any, radius: float) -> None:
     axis.plot([0], [0], "o", color=INK, markersize=5)
 
 
-def spline_outside(spans: Sequence[Bezier], radius: float, outside: Sequence[Any]) -> str:
+@drawing
+def spline_outside(spans: Sequence[Bezier], radius: float, outside: Sequence[Any]) -> Figure:
     """A natural cubic spline through points of the half-disc that leaves it."""
     figure, (axis,) = plane(6.0, 3.8)
     _half_disc(axis, radius)
@@ -70,17 +73,18 @@ def spline_outside(spans: Sequence[Bezier], radius: float, outside: Sequence[Any
     for point in [spans[0].points[0], *(s.points[-1] for s in spans)]:
         axis.plot([float(point[0])], [float(point[1])], "o", color=INK, markersize=6)
     axis.plot([float(outside[0])], [float(outside[1])], "s", color=COLOURS["Q"], markersize=7)
-    label(axis, "outside", outside, (-10, 10), color=COLOURS["Q"])
-    return svg(figure)
+    label(axis, "outside", outside, (9, -4), color=COLOURS["Q"])
+    return figure
 
 
-def dips_below_floor(curves: Mapping[str, Bezier], radius: float, axes: tuple[int, int], title: str) -> str:
+@drawing
+def dips_below_floor(curves: Mapping[str, Bezier], radius: float, axes: tuple[int, int], title: str) -> Figure:
     """A path whose control points keep the norm condition while one of them lies below the table z = 0."""
     figure, (axis,) = plane(6.4, 4.4)
     circle(axis, (0, 0), radius, PALE)
     axis.axhspan(-2 * radius, 0, color="#f7efe2", zorder=0)
     axis.axhline(0, color=FLOOR, linewidth=1.6)
-    label(axis, "table $z = 0$", (0.45 * radius, 0), (0, -14), color=FLOOR)
+    label(axis, "table $z = 0$", (-0.2 * radius, 0), (0, -14), color=FLOOR)
     for name, item in curves.items():
         flat = Bezier.of([[p[k] for k in axes] for p in item.points])
         curve(axis, flat, COLOURS[name], text=f"${name}(t)$")
@@ -90,4 +94,4 @@ def dips_below_floor(curves: Mapping[str, Bezier], radius: float, axes: tuple[in
     axis.set_ylim(-0.75 * radius, 1.1 * radius)
     axis.set_title(title, fontsize=10)
     axis.legend(frameon=False, loc="upper left")
-    return svg(figure)
+    return figure
