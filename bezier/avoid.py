@@ -19,6 +19,7 @@ from typing import Any
 import qe
 from bezier import survey
 from bezier.clearance import Argument, Clear
+from bezier.enclosure import root_below
 from bezier.plan import Clock, Outcome, Plan
 from bezier.problem import INNER, PlanMethod, Problem, problem_of, to_json
 from bezier.scalar import Vector, add
@@ -123,7 +124,7 @@ def _height(problem: Problem, plan: Plan) -> Fraction:
     """The height of the highest obstacle met, or of the highest one at all; without any, a tenth of the radius."""
     met = [finding.obstacle for finding in survey.contacts(plan.findings)]
     heights = [o.box[1][2] - o.box[0][2] for o in met or problem.obstacles if o.box is not None]
-    return max(heights, default=Fraction(int(float(problem.workspace.radius_squared) ** 0.5 * 1000), 10_000))
+    return max(heights, default=root_below(problem.workspace.radius_squared, bits=10) / 10)
 
 
 def changed(problem: Problem, method: PlanMethod, lift: Fraction) -> Problem | None:

@@ -7,7 +7,7 @@ import time
 from dataclasses import dataclass
 from pathlib import Path as FilePath
 
-from bezier import avoid
+from bezier import avoid, motion
 from bezier.methods import method_of
 from bezier.outputs import summary, write_data
 from bezier.plan import Clock, Outcome, Plan, make_plan
@@ -76,6 +76,7 @@ def in_words(made: Plan, target: FilePath, files: list[str], seconds: float) -> 
     if made.path is not None:
         inside = "proved to lie in the workspace" if made.path.is_inside else "which LEAVES the workspace"
         lines.append(f"path: {made.path.smoothness.name} at both joins, {inside}")
+    lines += motion.words(made)
     lines += avoid.words(made)
     accepted = all(verdict.accepted for verdict in made.checks.values())
     lines.append(f"certificates: {'accepted' if accepted else 'REJECTED'}")

@@ -12,7 +12,7 @@ from fractions import Fraction
 from pathlib import Path as FilePath
 from typing import Any
 
-from bezier import avoid
+from bezier import avoid, motion
 from bezier.methods import method_of
 from bezier.path import Path
 from bezier.plan import Outcome, Plan
@@ -85,6 +85,7 @@ def summary(plan: Plan, files: list[str], seconds: float) -> dict[str, Any]:
         "active": list(plan.active),
         "certified": plan.certified,
         **method.entries(plan),
+        **motion.entries(plan),
         **avoid.entries(plan),
         "problem": to_json(problem),
         "notes": [*problem.notes, *plan.remarks],
@@ -180,6 +181,7 @@ def write_data(plan: Plan, folder: FilePath) -> list[str]:
     if plan.path is not None:
         texts["path.json"] = json.dumps(path_json(plan, plan.path), indent=1, ensure_ascii=False) + "\n"
         texts["path.csv"] = path_csv(plan.path)
+    texts |= motion.files(plan)
     for name, text in texts.items():
         (folder / name).write_text(text, encoding="utf-8")
     return list(texts)

@@ -9,7 +9,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from enum import Enum
 from typing import TYPE_CHECKING, Any
 
@@ -21,6 +21,7 @@ from qe.progress import Event, Listener, silent
 if TYPE_CHECKING:
     import qe
     from bezier.avoid import Attempt
+    from bezier.motion import Quality
     from bezier.survey import Finding
 
 Note = Callable[[str, object], None]
@@ -42,7 +43,8 @@ class Plan:
     ``formula``: as handed to the engine; ``answer``: its quantifier-free answer; ``active``: labels of the
     conditions that hold with equality; ``certificate``: all certificates, labelled; ``checks``: what the
     independent checker says of them; ``seconds``: the time of each step; ``remarks``: for the reader;
-    ``findings``: each curve and each obstacle; ``attempts``: what was tried to get around the obstacles.
+    ``findings``: each curve and each obstacle; ``attempts``: what was tried to get around the obstacles;
+    ``quality``: lengths, curvatures and the motion in time.
     """
 
     problem: Problem
@@ -58,6 +60,7 @@ class Plan:
     remarks: tuple[str, ...] = ()
     findings: tuple[Finding, ...] = ()
     attempts: tuple[Attempt, ...] = ()
+    quality: Quality | None = None
 
     @property
     def certified(self) -> bool:
@@ -106,13 +109,15 @@ def make_plan(problem: Problem, clock: Clock | None = None) -> Plan:
     """Plan a path. Raises ``Unable`` for methods that are not there yet, and at limits with what is known by then."""
     from bezier.avoid import avoiding  # these need ``Plan``
     from bezier.methods import method_of
+    from bezier.motion import quality_of
 
     watch = clock or Clock()
     try:
-        if problem.obstacles:
-            return avoiding(problem, watch)
-        plan: Plan = method_of(problem.method).make(problem, watch)
-        return plan
+        plan: Plan = avoiding(problem, watch) if problem.obstacles else method_of(problem.method).make(problem, watch)
+        if plan.path is None:
+            return plan
+        with watch.step("quality"):
+            return replace(plan, quality=quality_of(plan.path, problem.timing))
     except BudgetExceeded as error:
         known = "; ".join(f"{name}: {value}" for name, value in watch.facts.items()) or "nothing yet"
         raise BudgetExceeded(f"{error}; known so far: {known}", limit=error.limit) from None
