@@ -125,19 +125,31 @@ def _line(region: Region, axes: Any) -> None:
     axes.set_xlabel(region.order[0])
 
 
+def bands(region: Region) -> list[tuple[list[float], list[float], list[float]]]:
+    """A region in two variables as areas between curves: values of the first variable, and both ends over them."""
+    spans = _span(region, region.order[0]), _span(region, region.order[1])
+    return [_band(piece, *spans) for piece in region.cells if not piece.ranges[0].is_point]
+
+
+def _band(
+    piece: Piece, x_span: tuple[float, float], y_span: tuple[float, float]
+) -> tuple[list[float], list[float], list[float]]:
+    lo, hi = _ends(piece, 0, {}, x_span)
+    xs = [lo] if piece.ranges[0].is_point else list(lo + (hi - lo) * _inner_grid(SAMPLES_2D))
+    ends = [_ends(piece, 1, {0: x}, y_span) for x in xs]
+    return xs, [low for low, _ in ends], [high for _, high in ends]
+
+
 def _plane(region: Region, axes: Any) -> None:
     seams = _seams(region.cells)
     x_span, y_span = _span(region, region.order[0]), _span(region, region.order[1])
     for piece in region.cells:
-        lo, hi = _ends(piece, 0, {}, x_span)
-        xs = [lo] if piece.ranges[0].is_point else list(lo + (hi - lo) * _inner_grid(SAMPLES_2D))
-        bounds = [_ends(piece, 1, {0: x}, y_span) for x in xs]
-        low, high = [b[0] for b in bounds], [b[1] for b in bounds]
+        xs, low, high = _band(piece, x_span, y_span)
         if len(xs) == 1:
             first = piece.ranges[0].lower
             width = 0.4 if first is not None and first.value in seams else 1.2
             marker = "o" if piece.ranges[1].is_point and width > 1 else None
-            axes.plot([lo, lo], [low[0], high[0]], color=EDGE, marker=marker, markersize=5, linewidth=width)
+            axes.plot([xs[0], xs[0]], [low[0], high[0]], color=EDGE, marker=marker, markersize=5, linewidth=width)
             continue
         axes.fill_between(xs, low, high, color=FILL, alpha=0.55, linewidth=0)
         up = piece.ranges[1]
