@@ -25,6 +25,7 @@ from qe.formula.syntax import FALSE, TRUE, And, Constant, Exists, ForAll, Formul
 from qe.formula.traverse import atoms, free_variables, is_quantifier_free, polynomials
 from qe.options import Budget, Method, Options, Stage
 from qe.pipeline_cad import Values, decomposed
+from qe.pipeline_critical import by_critical_values
 from qe.plan.choice import Choice, choose
 from qe.prepare import Prepared, prepare
 from qe.prepare.nonzero import only_nonzero
@@ -97,7 +98,7 @@ class _Run:
         if is_quantifier_free(formula.body) or self.options.method is not Method.AUTO:
             return False
         try:
-            found = polynomial_witnesses(formula, budget=self.budget.share(PROBE_SHARE))
+            found = polynomial_witnesses(formula, budget=self.budget.share(FIRST_SHARE))
         except Unable as error:
             self.story.note("switches", f"witness in the parameters: {error}")
             return False
@@ -205,7 +206,7 @@ class _Run:
     def _quantified(
         self, variables: Sequence[str], body: Formula, *, universal: bool, substitution_only: bool
     ) -> Formula:
-        inner = self.eliminate(body, substitution_only=True)
+        inner = self.eliminate(body, substitution_only=self.options.method is not Method.CRITICAL)
         rebuilt = (forall if universal else exists)(variables, inner)
         if not is_quantifier_free(inner):
             return rebuilt if substitution_only else self.decomposed(rebuilt)[0]
@@ -246,6 +247,8 @@ class _Run:
             try:
                 if method is Method.VS:
                     return self._by_substitution(variables, body, share)
+                if method is Method.CRITICAL:
+                    return self._by_critical_values(variables, body, share), None
                 if universal:
                     answer, values = self._decomposed(forall(variables, nnf(body, negate=True)), share)
                     return nnf(answer, negate=True), values
@@ -278,6 +281,8 @@ class _Run:
             return Choice((Method.VS,), "asked for")
         if asked is Method.CAD or not self._allows(Method.VS):
             return Choice((Method.CAD,), "asked for")
+        if asked is Method.CRITICAL:
+            return Choice((Method.CRITICAL,), "asked for")
         if asked is not Method.AUTO:
             raise Unable(f"the method {asked.value} is not available for this formula")
         return choose(variables, body)
@@ -343,6 +348,12 @@ class _Run:
         except Unable:
             return formula
         return shorter if sum(1 for _ in atoms(shorter)) < count else formula
+
+    def _by_critical_values(self, variables: Sequence[str], body: Formula, budget: Budget) -> Formula:
+        def decompose(formula: Formula, part: Budget) -> Formula:
+            return self._decomposed(formula, part)[0]
+
+        return by_critical_values(variables, body, self.options, budget, self.story, decompose)
 
     # --- decomposition -----------------------------------------------------------------------------
     def decomposed(self, formula: Formula) -> tuple[Formula, Values | None]:
