@@ -73,3 +73,15 @@ class CellTable:
     factors: tuple[tuple[Poly, ...], ...]
     root: Cell
     constraints: tuple[tuple[int, ...], ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class FreeCell:
+    """A cell of free-variable space with a truth value; ``signs[k]`` maps factor index to sign at level k.
+
+    ``path`` are the positions from the root. A cell left undecomposed at a lower depth stands for its cylinder.
+    """
+
+    path: tuple[int, ...]
+    signs: tuple[dict[int, int], ...]
+    truth: bool

@@ -8,15 +8,18 @@ polynomial and its derivatives separate its roots, so this ends.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 from qe.errors import InternalError
-from qe.evidence.cells import CellTable
+from qe.evidence.cells import CellTable, FreeCell
+from qe.exact.ring import Poly
 from qe.formula.build import atom, conj, disj, neg
 from qe.formula.normal import nnf
-from qe.formula.syntax import FALSE, TRUE, Formula
-from qe.solution.signs import FreeCell, Literal, SignTable, free_cells
+from qe.formula.syntax import FALSE, TRUE, Formula, Relation
+from qe.formula.traverse import map_atoms
+from qe.solution.signs import Literal, SignTable, free_cells
 
+Factors = Sequence[Sequence[Poly]]
 Refine = Callable[[frozenset[int]], CellTable]
 
 
@@ -28,17 +31,27 @@ def construct(table: CellTable, refine: Refine) -> tuple[Formula, CellTable]:
     levels: frozenset[int] = frozenset()
     while True:
         cells = list(free_cells(table))
-        if all(c.truth for c in cells):
-            return TRUE, table
-        if not any(c.truth for c in cells):
-            return FALSE, table
         clash = _clash(cells)
         if clash is None:
-            return _shortest(table, cells), table
+            return _shortest(table.factors[: _free(table)], cells), table
         if clash in levels:
             raise InternalError("derivatives do not separate the cells, against Thom's lemma")
         levels |= {clash}
         table = refine(levels)
+
+
+def closed_formula(factors: Factors, cells: list[FreeCell]) -> Formula:
+    """A formula of weak atoms without negation, true on the true open cells and false on the false ones.
+
+    ``cells``: all open cells of a decomposition; true and false ones differ in the sign of a factor. The solutions
+    form a closed set, so they hold the closure of the true cells; beyond it they may hold points where factors vanish.
+    """
+    weak = {Relation.LT: Relation.LE, Relation.GT: Relation.GE}
+    return map_atoms(_shortest(factors, cells), lambda a: atom(a.poly, weak.get(a.relation, a.relation)))
+
+
+def _free(table: CellTable) -> int:
+    return sum(q == "" for q in table.quantifiers)
 
 
 def _clash(cells: list[FreeCell]) -> int | None:
@@ -66,11 +79,15 @@ def _clash(cells: list[FreeCell]) -> int | None:
     return None
 
 
-def _shortest(table: CellTable, cells: list[FreeCell]) -> Formula:
+def _shortest(factors: Factors, cells: list[FreeCell]) -> Formula:
     """The shorter of a disjunction for the true cells and the negation of one for the false cells."""
-    positive = _cover(SignTable(table, cells))
+    if all(c.truth for c in cells):
+        return TRUE
+    if not any(c.truth for c in cells):
+        return FALSE
+    positive = _cover(SignTable(factors, cells))
     flipped = [FreeCell(c.path, c.signs, not c.truth) for c in cells]
-    negative = _cover(SignTable(table, flipped))
+    negative = _cover(SignTable(factors, flipped))
     if _size(negative) < _size(positive):
         return nnf(neg(_formula(negative)))
     return _formula(positive)

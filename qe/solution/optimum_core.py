@@ -22,11 +22,12 @@ from qe.evidence.multipliers import (
     derived_equations,
 )
 from qe.exact.field import NumberField
-from qe.exact.quadratic_form import Number, Quadratic, combine, solve_linear
+from qe.exact.quadratic_form import Number, Quadratic, solve_linear
 from qe.exact.system import MAX_DEGREE, Flat, HighDegree, Point
 from qe.options import Budget
 from qe.solution.optimum_kkt import Kkt, kkt_point, sign
 from qe.solution.optimum_proposal import interior_point
+from qe.solution.violation import height, rounded_contradiction, violation_forms
 
 _ZERO, _ONE = Fraction(0), Fraction(1)
 _SIMPLE_DEGREE = 4  # of the least violation: beyond, rounded multipliers are tried before an exact answer
@@ -106,15 +107,17 @@ def _without_multipliers(
 ) -> OptimumEvidence | _State:
     """Phase one: infeasible, degenerate (a smaller flat) or unbounded."""
     size = len(state.flat.basis)
-    extended, scales = _violation_forms(list(forms.values()), size)
-    height = Quadratic(((_ZERO,) * (size + 1),) * (size + 1), (_ZERO,) * size + (_ONE,), _ZERO)
-    found = _least(height, extended, budget, _SIMPLE_DEGREE)
+    extended, scales = violation_forms(list(forms.values()), size)
+    found = _least(height(size), extended, budget, _SIMPLE_DEGREE)
     if found is None:
-        contradiction = _rounded_contradiction(forms, height, extended, scales)
+        proposal = interior_point(height(size), extended, [0.0] * (size + 1))
+        clear = proposal.residual < 1e-3 and proposal.point[-1] > 0
+        contradiction = rounded_contradiction(proposal, list(forms.values()), scales) if clear else None
         if contradiction is not None:
-            point, rational = contradiction
+            point, rounded = contradiction
+            rational: dict[int, Number] = {i: w for i, w in zip(forms, rounded, strict=True) if w}
             return _close(task, state, NumberField.rationals(), state.flat.lift(point), rational, infeasible=True)
-        found = _least(height, extended, budget, MAX_DEGREE)
+        found = _least(height(size), extended, budget, MAX_DEGREE)
     if found is None:
         raise Unable("the largest violation of the constraints could not be minimised exactly")
     violation, keys = sign(found.point[-1]), list(forms)
@@ -127,55 +130,11 @@ def _without_multipliers(
     return _recede(task, state, found.field, point, budget)
 
 
-def _least(height: Quadratic, extended: Sequence[Quadratic], budget: Budget, max_degree: int) -> Kkt | None:
+def _least(objective: Quadratic, extended: Sequence[Quadratic], budget: Budget, max_degree: int) -> Kkt | None:
     try:
-        return kkt_point(height, extended, budget=budget, max_degree=max_degree)
+        return kkt_point(objective, extended, budget=budget, max_degree=max_degree)
     except HighDegree:
         return None
-
-
-def _rounded_contradiction(
-    forms: dict[int, Quadratic], height: Quadratic, extended: Sequence[Quadratic], scales: Sequence[Fraction]
-) -> tuple[Point, dict[int, Number]] | None:
-    """Rational weights w >= 0 with sum w_i p_i > 0 everywhere, and the point where that sum is least.
-
-    Being infeasible with room to spare is an open condition: the multipliers of the least violation may be rounded.
-    """
-    proposal = interior_point(height, extended, [0.0] * height.size)
-    if not proposal.residual < 1e-3 or not proposal.point[-1] > 0:
-        return None
-    keys = list(forms)
-    for denominator in (10, 10**3, 10**6):
-        rounded = [Fraction(m).limit_denominator(denominator) for m in proposal.multipliers[: len(keys)]]
-        weights: list[Fraction] = [m * s for m, s in zip(rounded, scales, strict=True)]
-        if not any(weights):
-            continue
-        total = combine(weights, [forms[i] for i in keys])
-        solution = solve_linear(total.hessian, [-b for b in total.gradient], total.size)
-        if solution is not None and total.value(solution.particular) > 0:
-            return solution.particular, {i: w for i, w in zip(keys, weights, strict=True) if w}
-    return None
-
-
-def violation_form(form: Quadratic) -> tuple[Quadratic, Fraction]:
-    """(scale * form - t with t a further, last coordinate; scale > 0 rational, one over the largest coefficient).
-
-    Quadratic coefficients decide where there are any, so that balls stay balls of one kind and the least violation
-    of balls is a rational problem.
-    """
-    size = form.size
-    largest = max((abs(h) for row in form.hessian for h in row), default=_ZERO)
-    scale = 1 / (largest or max((abs(b) for b in form.gradient), default=_ZERO) or _ONE)
-    hessian = (*((*(h * scale for h in row), _ZERO) for row in form.hessian), (_ZERO,) * (size + 1))
-    return Quadratic(hessian, (*(b * scale for b in form.gradient), -_ONE), form.constant * scale), scale
-
-
-def _violation_forms(forms: Sequence[Quadratic], size: int) -> tuple[list[Quadratic], list[Fraction]]:
-    """Each form's violation form <= 0, and -1 - t <= 0 so that t is bounded below."""
-    pairs = [violation_form(form) for form in forms]
-    nothing = ((_ZERO,) * (size + 1),) * (size + 1)
-    bound = Quadratic(nothing, (_ZERO,) * size + (-_ONE,), -_ONE)
-    return [*(form for form, _ in pairs), bound], [scale for _, scale in pairs]
 
 
 def _rational(values: Sequence[Number]) -> tuple[Fraction, ...] | None:

@@ -9,8 +9,9 @@ from qe.errors import Unable
 from qe.evidence.multipliers import Face, FormRelation, OptimumEvidence, OptimumStatus
 from qe.exact.quadratic_form import Number, Quadratic
 from qe.options import Budget
-from qe.solution.optimum_core import Task, solve, violation_form
+from qe.solution.optimum_core import Task, solve
 from qe.solution.optimum_kkt import sign
+from qe.solution.violation import violation_form
 
 _ZERO = Fraction(0)
 

@@ -2,27 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
-from qe.evidence.cells import Cell, CellTable
+from qe.evidence.cells import Cell, CellTable, FreeCell
 from qe.exact.ring import Poly
 from qe.formula.syntax import Relation
 
 _VALUE = {"+": 1, "-": -1, "0": 0}
 _WEAK_FIRST = (Relation.LE, Relation.GE, Relation.NE, Relation.EQ, Relation.LT, Relation.GT)
-
-
-@dataclass(frozen=True, slots=True)
-class FreeCell:
-    """A cell of free-variable space with a truth value; ``signs[k]`` maps factor index to sign at level k.
-
-    ``path`` are the positions from the root. A cell left undecomposed at a lower depth stands for its cylinder.
-    """
-
-    path: tuple[int, ...]
-    signs: tuple[dict[int, int], ...]
-    truth: bool
 
 
 def free_cells(table: CellTable) -> Iterator[FreeCell]:
@@ -55,14 +43,13 @@ class Literal:
 class SignTable:
     """Bit masks over the true cells and over the false cells, one bit each."""
 
-    def __init__(self, table: CellTable, cells: Iterable[FreeCell]) -> None:
+    def __init__(self, factors: Sequence[Sequence[Poly]], cells: Iterable[FreeCell]) -> None:
         listing = list(cells)
         self.true = [c for c in listing if c.truth]
         self.false = [c for c in listing if not c.truth]
-        free = sum(q == "" for q in table.quantifiers)
         self.literals: list[Literal] = []
-        for level in range(free):
-            for j, factor in enumerate(table.factors[level]):
+        for level, polys in enumerate(factors):
+            for j, factor in enumerate(polys):
                 self._add(level, j, factor)
 
     def _add(self, level: int, j: int, factor: Poly) -> None:

@@ -1,0 +1,7 @@
+"""Critical-value elimination: one existential block over bounded fibres."""
+
+from qe.eliminate.critical.block import ConvexBody, Disjunct, Tabulated, eliminate_block
+from qe.eliminate.critical.helpers import Helpers, Proposal
+from qe.eliminate.critical.open_cells import OpenCell
+
+__all__ = ["ConvexBody", "Disjunct", "Helpers", "OpenCell", "Proposal", "Tabulated", "eliminate_block"]

@@ -1,0 +1,87 @@
+"""Hypersurfaces of parameter space that contain the boundary of the truth set of a block.
+
+THEOREM (after Fritz John 1948). Let the fibres {y : g_i(p, y) <= 0, h_j(p, y) = 0} be bounded locally uniformly in p.
+If p is a boundary point of the truth set of ``exists y`` (any g_i may be strict), then some y with all h_j = 0 and
+g_i <= 0 over p has numbers lambda_i >= 0, mu_j, not all zero and lambda_i = 0 where g_i < 0, with
+sum lambda_i grad g_i + sum mu_j grad h_j = 0 (gradients in y).
+PROOF. Otherwise at every y of the closed fibre the gradients of h are independent, and some direction d has
+grad h . d = 0 and grad g_i . d < 0 for all active i (Motzkin); by the implicit function theorem strictly feasible
+solutions persist for all p' near p. So p is interior if the closed fibre is not empty; if it is empty, compactness
+keeps it empty nearby. A guard in p alone is the case of a condition with gradient zero.
+
+By Caratheodory's theorem the lambda_i > 0 may be taken on a set I with |I| + |h| <= m + 1 for m variables y. For every
+such set y is eliminated from g_I = h = 0, together with the vanishing of the maximal minors of their Jacobian matrix
+in y when |I| + |h| <= m.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from functools import reduce
+from itertools import combinations
+
+from qe.eliminate.critical.system import System
+from qe.errors import Unable
+from qe.exact.groebner import groebner_basis
+from qe.exact.ring import Poly
+from qe.options import Budget
+
+
+def critical_hypersurfaces(system: System, *, thin_parts: bool, budget: Budget) -> frozenset[Poly]:
+    """Irreducible polynomials in the parameters whose zero sets together contain the boundary.
+
+    Without ``thin_parts`` pieces of codimension two or more may be missing. Raises ``Unable`` when the critical points
+    lie over all of parameter space, or elimination is too large.
+    """
+    found: set[Poly] = {f for a in system.guards for f, _ in a.poly.factors()[1]}
+    for polys in _critical_systems(system):
+        budget.check("critical sets", len(found))
+        for p in _eliminated(polys, system, thin_parts):
+            found |= {f for f, _ in p.factors()[1]}
+    return frozenset(found)
+
+
+def _critical_systems(system: System) -> Iterator[list[Poly]]:
+    """For every set of active conditions the equations of its Fritz John points."""
+    equations, inequalities = list(system.equations), system.inequalities
+    size = len(system.bound)
+    most = max(0, size + 1 - len(equations))
+    for count in range(min(most, len(inequalities)) + 1):
+        for chosen in combinations(inequalities, count):
+            active = [*equations, *chosen]
+            if active:
+                yield [*active, *_minors(active, system.bound)]
+
+
+def _minors(active: Sequence[Poly], bound: Sequence[int]) -> list[Poly]:
+    """The maximal minors of the Jacobian matrix in the quantified variables; none if it has more rows than columns."""
+    if len(active) > len(bound):
+        return []
+    rows = [[f.derivative(i) for i in bound] for f in active]
+    columns = combinations(range(len(bound)), len(active))
+    return [minor for chosen in columns if (minor := _determinant([[row[c] for c in chosen] for row in rows]))]
+
+
+def _determinant(rows: Sequence[Sequence[Poly]]) -> Poly:
+    """By expansion along the first row; the matrices have a few rows."""
+    if len(rows) == 1:
+        return rows[0][0]
+    total = rows[0][0].ring.constant(0)
+    for c, entry in enumerate(rows[0]):
+        if entry:
+            minor = _determinant([[*row[:c], *row[c + 1 :]] for row in rows[1:]])
+            total = total + (-1) ** c * entry * minor
+    return total
+
+
+def _eliminated(polys: Sequence[Poly], system: System, thin_parts: bool) -> tuple[Poly, ...]:
+    """Polynomials in the parameters that all vanish wherever the given ones have a common zero y."""
+    bound = system.bound
+    order = tuple(sorted(range(system.ring.size), reverse=True))
+    basis = groebner_basis(polys, variables=order, heavy=len(bound))
+    if basis is None:
+        raise Unable("critical-value elimination: the elimination of a critical set is too large")
+    outside = basis.free_of(bound)
+    if not outside:
+        raise Unable("critical-value elimination: critical points over all of parameter space")
+    return outside if thin_parts else (reduce(Poly.gcd, outside),)

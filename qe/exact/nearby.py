@@ -1,0 +1,125 @@
+"""A rational point beside an algebraic one, in the same piece of space between the zeros of given polynomials."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+from math import lcm
+
+from flint import arb, fmpq
+
+from qe.errors import Unable
+from qe.exact.balls import lower_end, precision, upper_end
+from qe.exact.isolate import simplest_between
+from qe.exact.ring import Poly, Ring
+from qe.exact.sample import Point
+
+_FIRST_BITS = 64
+_MOST_BITS = 8192
+Balls = list[arb]
+
+
+def nearby(
+    point: Point, polys: Sequence[Poly], vanishing: frozenset[Poly], centre: Sequence[Fraction] | None
+) -> tuple[Fraction, ...]:
+    """A rational point r such that no polynomial vanishes on a connected set that joins r with the start of a segment.
+
+    The segment is (point, point + t (centre - point)] for all small t > 0; ``vanishing`` are the polynomials known to
+    vanish at the point. Without such polynomials the point itself is joined with r, and no centre is needed. Raises
+    ``Unable`` if a polynomial vanishes on the whole segment.
+    """
+    bits = _FIRST_BITS
+    segment = None
+    if vanishing:
+        assert centre is not None
+        segment = _Segment(point, polys, vanishing, centre)
+    while bits <= _MOST_BITS:
+        with precision(bits + 16):
+            start: Balls | None = _coordinates(point, bits)
+            if segment is not None and start is not None:
+                start = segment.entered(start)
+            found = None if start is None else _inside_box(polys, start, bits)
+        if found is not None:
+            return found
+        bits *= 2
+    raise Unable("no rational point beside an algebraic one was found")
+
+
+def _coordinates(point: Point, bits: int) -> Balls:
+    balls = []
+    for i in range(point.depth):
+        value = point.coordinate(i)
+        balls.append(arb(value) if isinstance(value, fmpq) else point.ball(i, bits))
+    return balls
+
+
+def _value(f: Poly, at: Balls) -> arb:
+    """A ball around f at a box (all variables of f are given), by nested Horner evaluation."""
+    if f.is_constant:
+        return arb(f.constant_value())
+    i = f.level
+    total = arb(0)
+    for c in reversed(f.coefficients(i)):
+        total = total * at[i] + _value(c, at)
+    return total
+
+
+def _inside_box(polys: Sequence[Poly], at: Balls, bits: int) -> tuple[Fraction, ...] | None:
+    """A simple rational point of the largest box around the balls that is seen to hold no zero."""
+    for size in range(2, bits // 2, 3):
+        half = arb(2) ** -size
+        box = [x + arb(0, half) for x in at]
+        if not any(_value(f, box).contains(0) for f in polys):
+            return tuple(_simplest(x) for x in box)
+    return None
+
+
+def _simplest(x: arb) -> Fraction:
+    q = simplest_between(lower_end(x), upper_end(x))
+    return Fraction(int(q.p), int(q.q))
+
+
+class _Segment:
+    """The polynomials along x + t (centre - x), as coefficients of powers of t over the point.
+
+    t is counted in units of one over the common denominator of the centre.
+    """
+
+    def __init__(
+        self, point: Point, polys: Sequence[Poly], vanishing: frozenset[Poly], centre: Sequence[Fraction]
+    ) -> None:
+        self.unit = lcm(*(c.denominator for c in centre))
+        self.goal = [int(c * self.unit) for c in centre]
+        ring = point.ring
+        longer = Ring.of((*ring.names, "along segment"))
+        t = longer.gen(ring.size)
+        moved = {i: longer.gen(i) + t * (g - self.unit * longer.gen(i)) for i, g in enumerate(self.goal)}
+        self.rows: list[list[Poly]] = []
+        for f in polys:
+            row = [c.convert(ring) for c in f.convert(longer).compose(moved).coefficients(ring.size)]
+            first = 1 if f in vanishing else 0
+            while first < len(row) and point.vanishes(point.reduce(row[first])):
+                first += 1
+            if first == len(row):
+                raise Unable("a boundary polynomial vanishes on a whole segment")
+            self.rows.append(row[first:])
+
+    def entered(self, at: Balls) -> Balls | None:
+        """The point at a t > 0 up to which (0 excluded) no polynomial vanishes; None if the balls are too wide."""
+        values = [[_value(c, at) for c in row] for row in self.rows]
+        if any(row[0].contains(0) for row in values):
+            return None
+        step = Fraction(1, 4 * self.unit)
+        while any(_on(row, step).contains(0) for row in values):
+            step /= 4
+        return [x + arb(fmpq(step.numerator, step.denominator)) * (g - self.unit * x) for x, g in zip(at, self.goal)]
+
+
+def _on(row: Sequence[arb], step: Fraction) -> arb:
+    """The values of a polynomial in t on [0, step]."""
+    half = fmpq(step.numerator, 2 * step.denominator)
+    interval = arb(half, half)
+    total = arb(0)
+    for c in reversed(row):
+        total = total * interval + c
+    return total

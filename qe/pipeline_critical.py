@@ -1,0 +1,164 @@
+"""Critical-value elimination in the pipeline: what it needs from its neighbours, and the formula of its tables."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Sequence
+from fractions import Fraction
+from itertools import permutations
+
+from qe.eliminate.cad.decompose import decompose
+from qe.eliminate.cad.over_point import over_point
+from qe.eliminate.cad.projection import factor_lists
+from qe.eliminate.critical import ConvexBody, Disjunct, Helpers, OpenCell, Proposal, eliminate_block
+from qe.evidence.cells import FreeCell
+from qe.evidence.story import Story
+from qe.exact.ring import Poly, Ring
+from qe.exact.sample import Point
+from qe.formula.build import atom, conj, convert, disj, exists
+from qe.formula.syntax import FALSE, TRUE, Formula, Relation
+from qe.formula.traverse import free_variables, polynomials, ring_of
+from qe.options import Budget, Options, Projection, Stage
+from qe.plan.order import brown_order
+from qe.prepare.simplify import simplify
+from qe.solution.closure import describes_closure
+from qe.solution.construct import closed_formula, construct
+from qe.solution.feasible import feasible
+from qe.solution.violation import proposed
+
+Decompose = Callable[[Formula, Budget], Formula]
+
+
+def by_critical_values(
+    variables: Sequence[str],
+    body: Formula,
+    options: Options,
+    budget: Budget,
+    story: Story,
+    otherwise: Decompose,
+) -> Formula:
+    """``exists variables. body`` (quantifier-free, positive) by ``qe.eliminate.critical``.
+
+    ``otherwise`` eliminates the block on hypersurfaces that the method leaves open. Raises ``Unable`` where the
+    method's side conditions are not met.
+    """
+    start = time.perf_counter()
+    parameters = _order(variables, body, options)
+    found = eliminate_block(variables, body, parameters, helpers=_helpers(budget), budget=budget)
+    parts = (_formula(variables, parameters, part, options, budget, otherwise) for part in found)
+    formula = simplify(disj(parts))
+    seconds = round(time.perf_counter() - start, 6)
+    stats = [part.stats for part in found]
+    story.note("critical", {"order": list(parameters), "disjuncts": stats, "seconds": seconds})
+    ring = ring_of(body)
+    return formula if ring is None else convert(formula, ring)
+
+
+def _order(variables: Sequence[str], body: Formula, options: Options) -> tuple[str, ...]:
+    names = free_variables(exists(variables, body))
+    wished = tuple(v for v in options.order or () if v in names)
+    if len(wished) == len(names):
+        return wished
+    return names if Stage.ORDER in options.without else brown_order(polynomials(body), names)
+
+
+def _helpers(budget: Budget) -> Helpers:
+    def propose(forms: Sequence[object]) -> Proposal:
+        return Proposal(*proposed(forms))  # type: ignore[arg-type]
+
+    def decide(matrix: Formula, order: tuple[str, ...], free: int) -> Callable[[Point], bool]:
+        lifted: list[Callable[[Point], bool]] = []
+
+        def at(point: Point) -> bool:
+            if point.algebraic:
+                if not lifted:
+                    lifted.append(over_point(matrix, order, free, budget=budget))
+                return lifted[0](point)
+            values = {i: Fraction(str(point.number(i))) for i in range(point.depth)}
+            return _decided(matrix, order[free:], values, budget)
+
+        return at
+
+    return Helpers(
+        project=lambda polys, size, projection, part, separated: factor_lists(
+            polys, size, projection, part, separated
+        ),
+        propose=propose,
+        feasible=lambda forms, relations: feasible(forms, relations, budget=budget),
+        decide=decide,
+    )
+
+
+def _decided(matrix: Formula, variables: tuple[str, ...], values: dict[int, Fraction], budget: Budget) -> bool:
+    """The truth of ``exists variables. matrix`` at rational values of the other variables, by decomposition."""
+    from qe.formula.traverse import map_atoms
+
+    def put(found: object) -> Formula:
+        poly = found.poly  # type: ignore[attr-defined]
+        for i, value in values.items():
+            poly = poly.at_rational(i, value)
+        return atom(poly, found.relation)  # type: ignore[attr-defined]
+
+    rest = map_atoms(matrix, put)
+    if rest in (TRUE, FALSE):
+        return rest == TRUE
+    order = brown_order(polynomials(rest), variables)
+    return decompose(rest, order, ("E",) * len(order), budget=budget).table.root.truth is True
+
+
+def _formula(
+    variables: Sequence[str],
+    parameters: tuple[str, ...],
+    part: Disjunct,
+    options: Options,
+    budget: Budget,
+    otherwise: Decompose,
+) -> Formula:
+    """The quantifier-free formula of one disjunct, over the ring of the parameters."""
+    match part.found:
+        case bool():
+            return TRUE if part.found else FALSE
+        case ConvexBody():
+            return _of_body(part.found, parameters, options, budget)
+    formula, _ = construct(part.found.table, part.found.refine)
+    if not part.found.unsettled:
+        return formula
+    surfaces = [exists(variables, conj((atom(f, Relation.EQ), part.body))) for f in part.found.unsettled]
+    ring = Ring.of(parameters)
+    return disj((formula, *(convert(otherwise(on_surface, budget), ring) for on_surface in surfaces)))
+
+
+def _of_body(body: ConvexBody, parameters: tuple[str, ...], options: Options, budget: Budget) -> Formula:
+    """A formula read from the open cells and confirmed on the others; from the whole table where that fails."""
+    ring = Ring.of(parameters)
+    if len(parameters) <= 2:
+        factors, cells = body.cells()
+        formula = convert(closed_formula(factors, [_free_cell(c) for c in cells]), ring)
+        order = cheapest_order(polynomials(formula), parameters, budget)
+        table = decompose(formula, order, ("",) * len(order), budget=budget).table
+
+        def holds(values: tuple[Fraction, ...]) -> bool:
+            named = dict(zip(order, values, strict=True))
+            return body.holds(tuple(named[name] for name in parameters))
+
+        if describes_closure(table, holds, bounded=body.bounded):
+            return formula
+    whole = body.tabulate()
+    return construct(whole.table, whole.refine)[0]
+
+
+def _free_cell(cell: OpenCell) -> FreeCell:
+    signs = tuple({j: 1 if c == "+" else -1 for j, c in enumerate(text)} for text in cell.signs)
+    return FreeCell(tuple(2 * k for k in cell.path), signs, cell.truth)
+
+
+def cheapest_order(polys: Sequence[Poly], names: tuple[str, ...], budget: Budget) -> tuple[str, ...]:
+    """The order of one or two variables whose last projection has the least degree in all."""
+    if len(names) != 2 or not polys:
+        return names
+
+    def cost(order: tuple[str, ...]) -> int:
+        moved = [f.convert(Ring.of(order)) for f in polys]
+        return sum(f.total_degree for f in factor_lists(moved, 2, Projection.BROWN_MCCALLUM, budget)[0])
+
+    return min(permutations(names), key=cost)
