@@ -10,10 +10,12 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
+from bezier.motion import Timing, read_timing
 from bezier.numbers import NotANumber, describe, read_squared
 from bezier.obstacle_reader import read_obstacles
 from bezier.obstacles import Obstacle
 from bezier.scalar import Vector, dot, is_zero, same
+from bezier.single_reader import SingleCurve, Via, read_single, stated_via
 from bezier.toml_table import POINT, Table
 from bezier.via import via_over
 from bezier.workspace import HalfSpace, Workspace, WorkspaceKind, root_text
@@ -49,8 +51,9 @@ class Problem:
     ``via``: the two points Q0 and R0 between which the obstacle is avoided. ``radius_is_auto``: the radius is
     the paper's maximum of the four norms. ``half_spaces``: further conditions on control points. ``ratio``: the
     duration of the outer spans, the middle one taking 1. ``join_speed``: the least speed at the joins that is
-    asked for, 0 for none. ``obstacles``: what the whole path has to stay clear of. ``notes``: remarks for the reader
-    about the input.
+    asked for, 0 for none. ``obstacles``: what the whole path has to stay clear of; ``above``: what follows from them
+    for control points. ``timing``: what is asked of the motion in time. ``single``: what Method 1 is given, None for
+    the other methods. ``notes``: remarks for the reader about the input.
     """
 
     method: PlanMethod
@@ -66,6 +69,8 @@ class Problem:
     join_speed: Fraction = Fraction(0)
     obstacles: tuple[Obstacle, ...] = ()
     above: tuple[PointCondition, ...] = ()
+    timing: Timing | None = None
+    single: SingleCurve | None = None
 
     @property
     def point_conditions(self) -> tuple[PointCondition, ...]:
@@ -78,7 +83,9 @@ class Problem:
         return {"start": self.start, "via[0]": self.via[0], "via[1]": self.via[1], "goal": self.goal}
 
 
-_KEYS = ("method", "workspace", "start", "via", "goal", "radius", "half_space", "ratio", "join_speed", "obstacle")
+_POINTS = ("start", "via", "goal")
+_WISHES = ("half_space", "ratio", "join_speed", "obstacle", "timing", "single")
+_KEYS = ("method", "workspace", *_POINTS, "radius", *_WISHES)
 
 
 def read_problem(text: str, source: str = "<problem>") -> Problem:
@@ -92,7 +99,7 @@ def problem_of(table: Table) -> Problem:
     method = table.choice("method", PlanMethod, PlanMethod.QUADRATIC)
     kind = table.choice("workspace", WorkspaceKind, WorkspaceKind.BALL)
     start, goal, obstacles = table.point("start"), table.point("goal"), read_obstacles(table)
-    via = _via(table, start, goal, obstacles)
+    via = stated_via(table, start, goal) or _via(table, start, goal, obstacles)
     raw_radius = table.values.get("radius", "auto")
     auto = raw_radius == "auto"
     points = {"start": start, "via[0]": via[0], "via[1]": via[1], "goal": goal}
@@ -114,6 +121,8 @@ def problem_of(table: Table) -> Problem:
         join_speed=_for_cubic(table, method, "join_speed", Fraction(0)),
         obstacles=obstacles,
         above=_above(table, method, obstacles),
+        timing=read_timing(table),
+        single=_single(table, method, start, via, goal),
     )
 
 
@@ -195,6 +204,15 @@ def _for_cubic(table: Table, method: PlanMethod, key: str, default: Fraction) ->
     return table.positive(key) if key in table.values else default
 
 
+def _single(table: Table, method: PlanMethod, start: Vector, via: Via, goal: Vector) -> SingleCurve | None:
+    """What Method 1 is given: the table [single], which other methods do not know."""
+    if method is PlanMethod.SINGLE:
+        return read_single(table, start, via, goal)
+    if "single" in table.values:
+        raise table.error("single", 'this table with method = "single" only', f'method = "{method.value}"')
+    return None
+
+
 def _check_distinct(table: Table, points: Mapping[str, Vector]) -> None:
     for first, second in itertools.pairwise(points):
         if same(points[first], points[second]):
@@ -229,9 +247,12 @@ def to_json(problem: Problem) -> dict[str, Any]:
         "workspace": problem.workspace.kind.value,
         "radius_squared": str(problem.workspace.radius_squared),
         "start": _texts(problem.start),
-        "via": [_texts(p) for p in problem.via],
         "goal": _texts(problem.goal),
     }
+    if problem.single is None or not problem.single.states_via:
+        found["via"] = [_texts(p) for p in problem.via]
+    if problem.single is not None:
+        found["single"] = dict(problem.single.stated)
     if problem.half_spaces:
         found["half_space"] = [
             {
@@ -243,6 +264,8 @@ def to_json(problem: Problem) -> dict[str, Any]:
         ]
     if problem.obstacles:
         found["obstacle"] = [dict(item.stated) for item in problem.obstacles]
+    if problem.timing is not None:
+        found["timing"] = problem.timing.to_json()
     if problem.ratio != 1:
         found["ratio"] = str(problem.ratio)
     if problem.join_speed:

@@ -11,8 +11,8 @@ from pathlib import Path as FilePath
 from typing import Any
 
 from bezier import stored, survey
-from bezier.curve import Bezier, Smoothness
-from bezier.methods import method_of
+from bezier.curve import Bezier
+from bezier.methods import Claim, method_of
 from bezier.optimal_path import durations
 from bezier.path import Path, assemble
 from bezier.problem import Problem, from_json
@@ -44,7 +44,7 @@ def recheck(channel: Channel, folder: FilePath) -> list[str]:
     points = _points(found)
     _check_points(points, claim.points)
     path = assemble(_curves(found, points), points, problem.workspace, durations=durations(problem))
-    _check_path(path, found, claim.smoothness)
+    _check_path(path, found, claim)
     lines += _check_clearance(path, problem)
     return [*lines, f"path.json: {path.smoothness.name} at every join, every curve proved to lie in the workspace"]
 
@@ -96,13 +96,13 @@ def _check_points(points: Mapping[str, Vector], certified: Mapping[str, Vector])
             raise CertificateRejected(f"points.{name}", "not the point of the certificate")
 
 
-def _check_path(path: Path, found: Mapping[str, Any], least: Smoothness) -> None:
-    if list(path.curves) != ["P", "Q", "R"]:
-        raise CertificateRejected("curves", "expected the curves P, Q, R")
+def _check_path(path: Path, found: Mapping[str, Any], claim: Claim) -> None:
+    if tuple(path.curves) != claim.curves:
+        raise CertificateRejected("curves", f"expected the curves {', '.join(claim.curves)}")
     for proof in path.violations:
         raise CertificateRejected(f"curves.{proof.curve}", f"leaves the {proof.condition.name}")
     claimed = [entry.get("smoothness") for entry in stored.entry(found, "joins", list)]
-    if claimed != [item.join.smoothness.name for item in path.joins] or path.smoothness < least:
+    if claimed != [item.join.smoothness.name for item in path.joins] or path.smoothness < claim.smoothness:
         raise CertificateRejected("joins", "not as smooth as stated")
 
 

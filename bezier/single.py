@@ -104,9 +104,7 @@ def task(
     return Task(degree, x_ends, interval, tuple(axes), *index_pair(degree, x_ends, interval))
 
 
-def index_pair(
-    degree: int, x_ends: tuple[Fraction, Fraction], interval: tuple[Fraction, Fraction]
-) -> tuple[int, int]:
+def index_pair(degree: int, x_ends: tuple[Fraction, Fraction], interval: tuple[Fraction, Fraction]) -> tuple[int, int]:
     """p and q with x_p < a <= x_{p+1} <= x_q <= b < x_{q+1} and 1 <= p < q+1 <= n; ``InputError`` says why not."""
     (low, high), (a, b) = x_ends, interval
     if not low < high:
@@ -118,19 +116,23 @@ def index_pair(
     found = _indices(degree, x_ends, interval)
     if found is None:
         reason = _refusal(equally_spaced(degree, *x_ends), interval)
-        works = (n for n in range(2, MAX_DEGREE + 1) if _indices(n, x_ends, interval))
-        least = next((f"; the least degree that works is {n}" for n in works), "")
-        raise InputError(f"degree {degree}: {reason}{least}")
+        raise InputError(f"degree {degree}: {reason}; the least degree that works is {least_degree(x_ends, interval)}")
     return found
+
+
+def least_degree(x_ends: tuple[Fraction, Fraction], interval: tuple[Fraction, Fraction], least: int = 2) -> int:
+    """The least degree from ``least`` on that has p and q; ``MAX_DEGREE`` when none has."""
+    works = (n for n in range(least, MAX_DEGREE) if _indices(n, x_ends, interval))
+    return next(works, MAX_DEGREE)
 
 
 def _indices(
     degree: int, x_ends: tuple[Fraction, Fraction], interval: tuple[Fraction, Fraction]
 ) -> tuple[int, int] | None:
     xs = equally_spaced(degree, *x_ends)
-    p = max(i for i, x in enumerate(xs) if x < interval[0])
-    q = max(i for i, x in enumerate(xs) if x <= interval[1])
-    return (p, q) if 1 <= p < q else None
+    p = sum(x < interval[0] for x in xs) - 1
+    q = sum(x <= interval[1] for x in xs) - 1
+    return (p, q) if 1 <= p < q < degree else None
 
 
 def _refusal(xs: Values, interval: tuple[Fraction, Fraction]) -> str:
