@@ -109,18 +109,29 @@ def make_plan(problem: Problem, clock: Clock | None = None) -> Plan:
     """Plan a path. Raises ``Unable`` for methods that are not there yet, and at limits with what is known by then."""
     from bezier.avoid import avoiding  # these need ``Plan``
     from bezier.methods import method_of
-    from bezier.motion import quality_of
 
     watch = clock or Clock()
     try:
         plan: Plan = avoiding(problem, watch) if problem.obstacles else method_of(problem.method).make(problem, watch)
-        if plan.path is None:
-            return plan
         with watch.step("quality"):
-            return replace(plan, quality=quality_of(plan.path, problem.timing))
+            return _with_quality(plan)
     except BudgetExceeded as error:
         known = "; ".join(f"{name}: {value}" for name, value in watch.facts.items()) or "nothing yet"
         raise BudgetExceeded(f"{error}; known so far: {known}", limit=error.limit) from None
+
+
+def _with_quality(plan: Plan) -> Plan:
+    """The plan with lengths and curvatures; without them, and a remark, if they were not found and not asked for."""
+    from bezier.motion import quality_of
+
+    if plan.path is None:
+        return plan
+    try:
+        return replace(plan, quality=quality_of(plan.path, plan.problem.timing))
+    except Unable as error:
+        if isinstance(error, BudgetExceeded) or plan.problem.timing is not None:
+            raise
+        return replace(plan, remarks=(*plan.remarks, f"lengths and curvatures are left out: {error}"))
 
 
 def answered(answer: Any) -> Any:

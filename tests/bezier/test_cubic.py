@@ -33,7 +33,7 @@ def at(*coordinates):
 
 def problem(q0, r0, r2, kind=WorkspaceKind.BALL, **more):
     q0, r0 = at(*q0), at(*r0)
-    return Problem(PlanMethod.CUBIC, Workspace(kind, Fraction(r2)), q0, (q0, r0), r0, False, **more)
+    return Problem(PlanMethod.CUBIC, Workspace(kind, Fraction(r2)), at(0, 0, 0), (q0, r0), at(0, 0, 0), False, **more)
 
 
 def embedded(x, k):
@@ -263,6 +263,16 @@ def test_a_half_space_lifts_the_middle_curve():
     below = make_plan(replace(asked, half_spaces=(floor_at(1, "Q1", "Q2"),)))
     proved = {(proof.curve, proof.condition.name) for proof in below.path.proofs}
     assert ("Q", "half_space[0]") in proved and ("P", "half_space[0]") not in proved
+
+
+def test_a_redundant_condition_makes_multipliers_ambiguous_and_changes_nothing():
+    asked = problem(embedded(-3, 4), embedded(3, 4), 26)
+    plan = make_plan(asked)
+    q2 = plan.path.points["Q2"]  # rational and on the sphere: the half-space touches the ball there
+    tangent = PointCondition(HalfSpace(scale(-1, q2), Fraction(26), "half_space[0]"), ("Q2",))
+    again = make_plan(replace(asked, half_spaces=(tangent,)))
+    assert again.certified and again.objective == plan.objective == Fraction(534, 25)
+    assert set(again.active) == {*plan.active, "Q2.half_space[0]"} and again.path.points == plan.path.points
 
 
 def test_contradictory_half_spaces_are_refuted_with_a_certificate():

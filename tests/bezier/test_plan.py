@@ -1,5 +1,6 @@
 """Planning in process: the engine's answers against the three-ball condition and against exact evaluation."""
 
+from dataclasses import replace
 from fractions import Fraction
 
 import pytest
@@ -13,7 +14,7 @@ from bezier.problem import PlanMethod, Problem, load_problem
 from bezier.scalar import dot, sign
 from bezier.terms import named_multipliers
 from bezier.workspace import Workspace, WorkspaceKind
-from qe.errors import BudgetExceeded, Unable
+from qe.errors import BudgetExceeded, CertificateRejected, Unable
 from qe.formula.evaluate import holds_at
 from tests.bezier.numbers import points
 
@@ -55,6 +56,20 @@ def test_plans_exist_exactly_when_the_balls_meet(q0, r0, more):
         assert float(plan.system.objective_at(other)) >= float(plan.optimum.value) - 1e-9
     labels = {label for label, _ in named_multipliers(plan.system, plan.optimum)}
     assert labels <= set(plan.active) | {"another condition"}
+
+
+def test_a_half_space_for_a_quadratic_plan(root):
+    from bezier.problem import PointCondition
+    from bezier.quadratic_method import claim
+    from bezier.workspace import HalfSpace
+
+    problem = load_problem(root / "examples" / "three_balls.toml")
+    up = HalfSpace((Fraction(0), Fraction(0), Fraction(1)), Fraction(-13, 4), "half_space[0]")
+    plan = make_plan(replace(problem, half_spaces=(PointCondition(up, ("Q1",)),)))
+    assert plan.certified and plan.active == ("Q1.half_space[0]",) and plan.path.points["Q1"][2] == Fraction(13, 4)
+    assert claim(plan.problem, plan.certificate).points == plan.path.points
+    with pytest.raises(CertificateRejected):
+        claim(problem, plan.certificate)
 
 
 @pytest.mark.deep
