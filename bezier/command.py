@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import json
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path as FilePath
+from typing import TYPE_CHECKING
 
 from bezier import avoid, motion
 from bezier.methods import method_of
@@ -16,7 +17,10 @@ from bezier.scalar import brief
 from qe.cli_shell import OK, UNABLE
 from qe.worker import Channel
 
-REPORT, SUMMARY = "report.html", "summary.json"
+if TYPE_CHECKING:
+    from bezier.picture import Drawing
+
+REPORT, SUMMARY, CLEARANCE = "report.html", "summary.json", "clearance.png"
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,7 +51,9 @@ def plan(channel: Channel, request: Request) -> Reply:
     drawing = None
     if request.plots:
         with clock.step("pictures"):
-            drawing = method_of(request.problem.method).draw(made, request.folder)
+            drawing = method_of(made.problem.method).draw(made, request.folder)
+            if made.findings:
+                drawing = _with_clearances(drawing, made, request.folder)
         files += drawing.files
     with clock.step("report"):
         from bezier.report import render
@@ -61,6 +67,14 @@ def plan(channel: Channel, request: Request) -> Reply:
     (request.folder / SUMMARY).write_text(text + "\n", encoding="utf-8")
     code = OK if made.outcome is Outcome.SOLVED else UNABLE
     return Reply(text if request.json else in_words(made, request.target, files, total), code)
+
+
+def _with_clearances(drawing: Drawing, made: Plan, folder: FilePath) -> Drawing:
+    """The drawing with the chart of heights and distances to the obstacles."""
+    from bezier.obstacle_picture import save_chart
+
+    chart = save_chart(made.findings, drawing.picture.obstacles, folder / CLEARANCE)
+    return replace(drawing, clearance=chart, files=(*drawing.files, CLEARANCE))
 
 
 def in_words(made: Plan, target: FilePath, files: list[str], seconds: float) -> str:

@@ -79,7 +79,7 @@ def region_mesh(conditions: Sequence[Condition], level: int = 3) -> RegionMesh |
     boundary = _cast(shapes, centre, directions @ spread.T)
     edges = _edges(shapes, scale=float(np.ptp(boundary, axis=0).max()))
     vertices = np.concatenate([boundary, *edges])
-    faces = _hull_faces(vertices, centre)
+    faces = hull_faces(vertices, centre)
     middle = vertices[faces].mean(axis=1) - centre
     middle /= np.linalg.norm(middle, axis=1, keepdims=True)
     owner = np.stack([_ray(s, centre, middle) for s in shapes]).argmin(axis=0)
@@ -93,7 +93,7 @@ def _cast(shapes: Sequence[Shape], centre: Array, directions: Array) -> Array:
     return np.asarray(centre + units * lengths[:, None])
 
 
-def _hull_faces(vertices: Array, centre: Array) -> Indices:
+def hull_faces(vertices: Array, centre: Array) -> Indices:
     """Triangles of the convex hull, all seen counter-clockwise from outside.
 
     A convex region's boundary points and edge points give its surface.

@@ -10,6 +10,7 @@ import numpy as np
 
 from bezier.curve import Bezier
 from bezier.mesh import Array, RegionMesh, region_mesh, sampled
+from bezier.obstacle_picture import ObstaclePicture, obstacle_pictures
 from bezier.path import Path
 from bezier.problem import Problem
 from bezier.scalar import same
@@ -63,19 +64,22 @@ class PathPicture:
     region: RegionPicture | None = None
     extra: Mapping[str, RegionPicture] = field(default_factory=dict)
     hats: bool = True
+    obstacles: tuple[ObstaclePicture, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
 class Drawing:
     """The pictures of a plan: what the page shows, and the files written.
 
-    ``views``: the coordinate views, ``charts``: further drawings, both as SVG text.
+    ``views``: the coordinate views, ``charts``: further drawings, ``clearance``: heights and distances to the
+    obstacles, all as SVG text.
     """
 
     picture: PathPicture
     views: str
     files: tuple[str, ...]
     charts: str = ""
+    clearance: str = ""
 
 
 def path_picture(
@@ -91,14 +95,16 @@ def path_picture(
     points: dict[str, Sequence[Any]] = dict(given)
     if path is not None:  # the last point of a curve has two names, of which the given one is shown
         points |= {name: p for name, p in path.points.items() if not any(same(p, other) for other in given.values())}
+    reach = float(problem.workspace.radius_squared) ** 0.5
     return PathPicture(
-        radius=float(problem.workspace.radius_squared) ** 0.5,
+        radius=reach,
         has_floor=problem.workspace.kind is WorkspaceKind.HEMISPHERE,
         curves=curve_pictures(path.curves) if path else (),
         marks={name: numbers([point])[0] for name, point in points.items()},
         region=region,
         extra=extra or {},
         hats=hats,
+        obstacles=obstacle_pictures(problem.obstacles, reach),
     )
 
 

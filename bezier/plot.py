@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from bezier.mesh import Array, best_view, direction, hull
+from bezier.obstacle_picture import ObstaclePicture
 from bezier.picture import FLOOR, INK, PALE, PathPicture, RegionPicture
 
 CONTROL = {f"{curve}{i}" for curve in "PQR" for i in range(4)}
@@ -52,6 +53,8 @@ def save_path(picture: PathPicture, path: Path) -> None:
         axis.plot(*curve.points.T, color=curve.colour, linewidth=3, label=f"$\\hat{{{curve.name}}}(t)$")
     if picture.region is not None:
         _draw_region(axis, picture.region, alpha=0.25)
+    for obstacle in picture.obstacles:
+        _draw_obstacle(axis, obstacle)
     for name, point in picture.marks.items():
         axis.text(*(point * 1.04), mathematical(name), fontsize=10, color=INK)
     if picture.curves:
@@ -138,6 +141,16 @@ def _draw_region(axis: Any, region: RegionPicture, alpha: float, view: tuple[flo
         axis.plot(*edge.T, color=INK, linewidth=1.2, alpha=min(1.0, alpha + 0.3))
 
 
+def _draw_obstacle(axis: Any, obstacle: ObstaclePicture) -> None:
+    from mpl_toolkits.mplot3d.art3d import Poly3DCollection
+
+    if obstacle.faces is None:
+        axis.scatter(*obstacle.vertices.T, color=obstacle.colour, s=4, alpha=0.5)
+        return
+    triangles = obstacle.vertices[obstacle.faces]
+    axis.add_collection3d(Poly3DCollection(triangles, facecolors=obstacle.colour, alpha=0.3, linewidths=0))
+
+
 def _draw_workspace(axis: Any, picture: PathPicture) -> None:
     angle = np.linspace(0, 2 * np.pi, 121)
     heights = np.radians([0, 30, 60] if picture.has_floor else [-60, -30, 0, 30, 60])
@@ -202,6 +215,12 @@ def _path_view(axis: Any, picture: PathPicture, title: str, i: int, j: int) -> N
     if picture.region is not None:
         outline = hull(picture.region.mesh.vertices[:, [i, j]])
         axis.fill(*outline.T, color="#e9edf1", zorder=0)
+    for obstacle in picture.obstacles:
+        silhouette = obstacle.outline(i, j)
+        if silhouette is None:
+            axis.plot(obstacle.vertices[:, i], obstacle.vertices[:, j], ".", color=obstacle.colour, markersize=2)
+        else:
+            axis.fill(*silhouette.T, color=obstacle.colour, alpha=0.35)
     for curve in picture.curves:
         style = {"color": curve.colour}
         axis.plot(curve.polygon[:, i], curve.polygon[:, j], "--o", linewidth=0.8, markersize=3, alpha=0.8, **style)

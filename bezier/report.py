@@ -7,10 +7,10 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path as FilePath
 from typing import TYPE_CHECKING, Any
 
-from jinja2 import Environment, PackageLoader, StrictUndefined
+from jinja2 import Environment, PackageLoader, StrictUndefined, Template
 from markupsafe import Markup
 
-from bezier import mathml
+from bezier import mathml, obstacle_report
 from bezier import report_parts as parts
 from bezier.methods import method_of
 from bezier.plan import Plan
@@ -21,12 +21,16 @@ if TYPE_CHECKING:
 
 def render(plan: Plan, drawing: Drawing | None) -> str:
     """The page. Without ``drawing`` there are no pictures and no script."""
+    method = method_of(plan.problem.method)
+    page = template(method.template).render(_common(plan, drawing) | method.sections(plan))
+    return page if method.hats else mathml.without_hats(page)
+
+
+def template(name: str) -> Template:
+    """A page's template."""
     environment = Environment(loader=PackageLoader("bezier"), autoescape=True, undefined=StrictUndefined)
     environment.trim_blocks = True
-    method = method_of(plan.problem.method)
-    template = environment.get_template(method.template)
-    page = template.render(_common(plan, drawing) | method.sections(plan))
-    return page if method.hats else mathml.without_hats(page)
+    return environment.get_template(name)
 
 
 def _common(plan: Plan, drawing: Drawing | None) -> dict[str, Any]:
@@ -47,9 +51,11 @@ def _common(plan: Plan, drawing: Drawing | None) -> dict[str, Any]:
         "timings": parts.timings(plan.seconds),
         "views": Markup(drawing.views if drawing else ""),
         "charts": Markup(drawing.charts if drawing else ""),
+        "clearance_chart": Markup(drawing.clearance if drawing else ""),
+        **obstacle_report.sections(plan),
         "figures": figures(drawing.picture if drawing else None),
         "plotly_script": _script(drawing),
-        "version": _version(),
+        "version": package_version(),
     }
 
 
@@ -79,7 +85,8 @@ def _script(drawing: Drawing | None) -> Markup:
     return Markup(plotly_script().replace("</script", "<\\/script"))
 
 
-def _version() -> str:
+def package_version() -> str:
+    """The version of this package, as installed."""
     try:
         return version("bezier-qe")
     except PackageNotFoundError:

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from bezier.mesh import Array, best_view, direction
+from bezier.obstacle_picture import ObstaclePicture
 from bezier.picture import INK, PALE, PathPicture, RegionPicture
 
 Trace = dict[str, Any]
@@ -49,6 +50,7 @@ def path_figure(picture: PathPicture) -> dict[str, Any]:
         traces.append(_line(curve.points, curve.colour, 9) | {"name": f"{hatted(curve.name)}(t)", "showlegend": True})
     if picture.region is not None:
         traces += _region_traces(picture.region, opacity=0.35, legend=False)
+    traces += [_obstacle_trace(obstacle) for obstacle in picture.obstacles]
     traces.append(_marks(picture.marks, size=3))
     reach = picture.radius
     return _figure(traces, np.array([[-reach, -reach, 0.0 if picture.has_floor else -reach], [reach] * 3]))
@@ -77,6 +79,16 @@ def _region_traces(region: RegionPicture, opacity: float, legend: bool) -> list[
     for edge in mesh.edges:
         traces.append(_line(edge[::4] if len(edge) > 40 else edge, INK, 3))
     return traces
+
+
+def _obstacle_trace(obstacle: ObstaclePicture) -> Trace:
+    x, y, z = obstacle.vertices.T
+    trace: Trace = {"x": _short(x), "y": _short(y), "z": _short(z), "name": obstacle.name, "showlegend": True}
+    trace["hoverinfo"] = "name"
+    if obstacle.faces is None:
+        return trace | {"type": "scatter3d", "mode": "markers", "marker": {"size": 2, "color": obstacle.colour}}
+    i, j, k = obstacle.faces.T.tolist()
+    return trace | {"type": "mesh3d", "i": i, "j": j, "k": k, "color": obstacle.colour, "opacity": 0.45}
 
 
 def _boundary(label: str) -> str:
