@@ -211,6 +211,13 @@ def choose(given: Task, axis: Axis) -> Chosen:
     return Chosen(axis, base, cost, replace(outcome, point=outcome.point[:size], duals=duals))
 
 
+def lowest(given: Task, axis: Axis, t: Fraction) -> Values | None:
+    """Among the solutions of (4) with the least sum one that is lowest at ``t``: what (4) allows just as well."""
+    height = weights_at(given.degree, t)[1:-1]
+    outcome = solve(program(given, axis), [objective(given), height])
+    return None if isinstance(outcome, Contradiction) else (axis.start, *outcome.point, axis.goal)
+
+
 def curve(given: Task, values: Mapping[str, Values]) -> Bezier:
     """The curve with these coordinates of the raised axes; the other axes are equally spaced."""
     columns = [values.get(axis.name, equally_spaced(given.degree, axis.start, axis.goal)) for axis in given.axes]

@@ -12,7 +12,7 @@ from bezier.methods import Claim, Method
 from bezier.problem import Problem
 from bezier.scalar import Vector, brief, described
 from bezier.simplex import Contradiction, certificate
-from bezier.single import TIE_BREAK, Task, choose, curve
+from bezier.single import TIE_BREAK, Dip, Task, choose, curve
 from bezier.single_closed import ProvedCurve, close
 from bezier.single_plan import CLOSED, NAME, SinglePlan, above_label, of_axis, points_of, task_of
 from qe.errors import CertificateRejected
@@ -45,11 +45,13 @@ def entries(plan: SinglePlan) -> dict[str, Any]:
         "least_sums": {name: described(value) for name, value in plan.least_sums.items()},
         "piecewise": {name: str(piece.least) for name, piece in plan.pieces.items()},
         "dips": [],
+        "dips_allowed": [],
         "leaves": [],
         "closed": None,
     }
     if plan.printed is not None:
-        found["dips"] = [{"axis": dip.axis.name, "t": str(dip.t), **described(dip.value)} for dip in plan.printed.dips]
+        found["dips"] = [_dip(dip) for dip in plan.printed.dips]
+        found["dips_allowed"] = [_dip(dip) for dip in plan.printed.allowed]
         found["leaves"] = [proof.condition.name for proof in plan.printed.leaving]
     if isinstance(closed, ProvedCurve):
         found["closed"] = {
@@ -60,6 +62,10 @@ def entries(plan: SinglePlan) -> dict[str, Any]:
             "attainable": plan.attainable,
         }
     return found
+
+
+def _dip(dip: Dip) -> dict[str, str]:
+    return {"axis": dip.axis.name, "t": str(dip.t), **described(dip.value)}
 
 
 def files(plan: SinglePlan) -> dict[str, str]:
@@ -77,7 +83,9 @@ def draw(plan: SinglePlan, folder: FilePath) -> Drawing:
     plot.save_path(picture, folder / "path.png")
     curves = {"chosen": plan.path.curves[NAME]} if plan.path else {}
     if plan.printed is not None and not plan.printed.holds:
-        curves["as printed"] = plan.printed.curve
+        curves["(4) as printed"] = plan.printed.curve
+    elif plan.printed is not None and plan.printed.allowed:
+        curves["allowed by (4), same sum"] = plan.printed.lowest
     plot_profile.save(plan.task, curves, folder / "profile.png")
     charts = plot_profile.svg(plan.task, curves)
     return Drawing(picture, plot.views_svg(picture), ("path.png", "profile.png"), charts)

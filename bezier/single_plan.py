@@ -17,7 +17,7 @@ from bezier.plan import Clock, Outcome, Plan, answered
 from bezier.problem import Problem
 from bezier.scalar import Vector
 from bezier.simplex import LinearOptimum, certificate
-from bezier.single import Chosen, Dip, Task, Values, choose, curve, dips
+from bezier.single import Chosen, Dip, Task, Values, choose, curve, dips, lowest
 from bezier.single_closed import NoCurve, ProvedCurve, close
 from bezier.single_formula import Piecewise, Symbol
 from bezier.workspace import HalfSpace
@@ -33,12 +33,18 @@ ELIMINATION_DEGREE = 4
 
 @dataclass(frozen=True, slots=True)
 class Printed:
-    """The curve that (4) as printed gives: ``dips`` below a height in (t_a, t_b), ``leaving`` the workspace."""
+    """The curve that (4) as printed gives: ``dips`` below a height in (t_a, t_b), ``leaving`` the workspace.
+
+    ``lowest``: of the curves that (4) allows just as well, with the same least sums, the one that is lowest halfway
+    between t_a and t_b; ``allowed``: where that one dips.
+    """
 
     values: Mapping[str, Values]
     curve: Bezier
     dips: tuple[Dip, ...]
     leaving: tuple[Proof, ...]
+    lowest: Bezier
+    allowed: tuple[Dip, ...]
 
     @property
     def holds(self) -> bool:
@@ -152,7 +158,10 @@ def _printed(problem: Problem, given: Task, chosen: tuple[Chosen, ...]) -> Print
     drawn = curve(given, values)
     proofs = prove({NAME: drawn}, problem.workspace.conditions)
     leaving = tuple(proof for proof in proofs if isinstance(proof.outcome, Leaves))
-    return Printed(values, drawn, dips(given, drawn), leaving)
+    halfway = sum(given.times, Fraction(0)) / 2
+    lower = {axis.name: row for axis in given.raised if (row := lowest(given, axis, halfway)) is not None}
+    other = curve(given, lower)
+    return Printed(values, drawn, dips(given, drawn), leaving, other, dips(given, other))
 
 
 def path_of(problem: Problem, given: Task, values: Mapping[str, Values]) -> Path:

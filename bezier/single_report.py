@@ -11,7 +11,7 @@ from bezier.containment import Leaves
 from bezier.report_parts import Row, shown, tone
 from bezier.scalar import brief, decimal_text
 from bezier.simplex import Contradiction, LinearOptimum
-from bezier.single import TIE_BREAK, Axis, Chosen, Task
+from bezier.single import TIE_BREAK, Axis, Chosen, Dip, Task
 from bezier.single_closed import ProvedCurve
 from bezier.single_plan import CLOSED, SinglePlan, above_label, of_axis
 
@@ -42,19 +42,27 @@ def holes(plan: SinglePlan) -> list[str]:
     """What the printed method left open here, and what became of it, in words."""
     if plan.printed is None:
         return []
-    if plan.printed.holds:
-        return ["the curve of (4) as printed keeps its heights between a and b and stays in the workspace, for all t"]
     lines = [
-        f"the curve of (4) as printed DIPS: {dip.axis.name} = {decimal_text(dip.value, 8)} < {dip.axis.height}"
-        f" at t = {brief(dip.t)}"
+        f"the curve of (4) as printed DIPS: {_dip_text(dip)} < {dip.axis.height} at t = {brief(dip.t)}"
         for dip in plan.printed.dips
     ]
     for proof in plan.printed.leaving:
         at = f", e.g. at t = {brief(proof.outcome.t)}" if isinstance(proof.outcome, Leaves) else ""
         lines.append(f"the curve of (4) as printed LEAVES the {proof.condition.name}{at}")
+    if plan.printed.holds:
+        lines.append("the curve of (4) keeps its heights between a and b and stays in the workspace, for all t")
+        lines += [
+            f"with the same least sum (4) also allows a curve that dips: {_dip_text(dip)} < {dip.axis.height}"
+            f" at t = {brief(dip.t)}"
+            for dip in plan.printed.allowed
+        ]
     if isinstance(plan.closed, ProvedCurve):
         lines.append(f"Method 1*: {_quality(plan.closed)}")
     return lines
+
+
+def _dip_text(dip: Dip) -> str:
+    return f"{dip.axis.name} = {decimal_text(dip.value, 8)}"
 
 
 def _quality(closed: ProvedCurve) -> str:
