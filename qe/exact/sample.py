@@ -124,20 +124,28 @@ class Point:
 
     def sign_reduced(self, g: Poly) -> int:
         """The sign of a polynomial in the algebraic coordinates only."""
+        sign = self._ball_sign(g, FIRST_PRECISION, EXACT_FROM)
+        if sign is None:
+            sign = 0 if self.is_zero(g) else self._ball_sign(g, 2 * EXACT_FROM, None)
+        assert sign is not None
+        return sign
+
+    def apparent_sign(self, f: Poly) -> int | None:
+        """The sign of f at the point where ball arithmetic of moderate precision settles it, or None."""
+        return self._ball_sign(self.reduce(f), FIRST_PRECISION, EXACT_FROM)
+
+    def _ball_sign(self, g: Poly, bits: int, last: int | None) -> int | None:
+        """The sign by balls of doubling precision up to ``last``."""
         if g.is_constant:
             value = g.constant_value()
             return (value > 0) - (value < 0)
-        bits, proved = FIRST_PRECISION, False
-        while True:
+        while last is None or bits <= last:
             with precision(bits + 16):
                 sign = ball_sign(self.enclose(g, bits))
             if sign is not None:
                 return sign
-            if bits >= EXACT_FROM and not proved:
-                if self.is_zero(g):
-                    return 0
-                proved = True
             bits *= 2
+        return None
 
     def is_zero(self, g: Poly) -> bool:
         """Whether a polynomial in the algebraic coordinates vanishes, by its normal form."""

@@ -18,7 +18,19 @@ SOLID = ("x^2 + y^2 + z^2 <= 4", "x y z")
 CUSP = ("x^2 - y^3 = 0 and y < 2", "x y")
 QUADRATIC = ("x^2 + b*x + c = 0", "b c x", "..E")
 SENTENCE = ("x^2 + y^2 < 4 -> y < 2", "x y", "AA")
-CASES = {"lens": LENS, "solid": SOLID, "cusp": CUSP, "quadratic": QUADRATIC, "sentence": SENTENCE}
+CONSTRAINED = ("y^2 = x and y^3 > 1", "x y", ".E")
+TWO_CONSTRAINTS = ("x^2 + y^2 = 4 and x*y = 1 and y > x + 5", "x y", "EE")
+IMPLICATION = ("x^2 + y^2 /= 4 or x*y /= 1 or y < x + 5", "x y", "AA")
+CASES = {
+    "lens": LENS,
+    "solid": SOLID,
+    "cusp": CUSP,
+    "quadratic": QUADRATIC,
+    "sentence": SENTENCE,
+    "constrained": CONSTRAINED,
+    "two constraints": TWO_CONSTRAINTS,
+    "implication": IMPLICATION,
+}
 
 
 def _whole(case: tuple[str, ...]) -> Any:

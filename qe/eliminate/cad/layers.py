@@ -14,7 +14,7 @@ from qe.exact.fibre_stack import Isolation, isolate_over
 from qe.exact.ring import Poly
 from qe.exact.sample import Point
 
-_CHARACTER = {1: "+", -1: "-", 0: "0"}
+_CHARACTER = {1: "+", -1: "-", 0: "0", None: "?"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,19 +55,37 @@ def restricted_layers(
     point: Point, factors: Sequence[Poly], used: tuple[int, ...], constraint: frozenset[int]
 ) -> Layers:
     """The stack of the constraint's factors alone, with the signs of all used factors on its sections."""
-    core = layers_over(point, factors, tuple(j for j in used if j in constraint), lazard=False)
+    own = tuple(j for j in used if j in constraint)
+    others = [j for j in used if j not in constraint]
+    core = layers_over(point, factors, own, lazard=False)
+    known = {position: core.sample(point, position) for position in range(1, len(core.texts), 2)}
+    signs = {j: [place.apparent_sign(factors[j]) for place in known.values()] for j in others}
+    unsettled = [j for j in others if None in signs[j]]
+    if unsettled and not core.nullified:
+        signs |= _common_stack(point, factors, own, unsettled)
     texts: list[str] = []
-    known: dict[int, Point] = {}
     for position, text in enumerate(core.texts):
-        own = iter(text)
-        if position % 2 == 0:
-            texts.append("".join([next(own) if j in constraint else "?" for j in used]))
-        else:
-            place = known[position] = core.sample(point, position)
-            texts.append(
-                "".join([next(own) if j in constraint else _CHARACTER[place.sign(factors[j])] for j in used])
-            )
+        characters = dict(zip(own, text, strict=True))
+        for j in others:
+            characters[j] = _CHARACTER[signs[j][position // 2]] if position % 2 else "?"
+        texts.append("".join([characters[j] for j in used]))
     return Layers(core.isolation, texts, core.sections, core.nullified, known, True)
+
+
+def _common_stack(
+    point: Point, factors: Sequence[Poly], own: tuple[int, ...], others: Sequence[int]
+) -> dict[int, list[int | None]]:
+    """The signs of ``others`` on the sections of ``own``, from the stack of them all: no coordinate above the point
+    has to be computed with to prove a zero.
+    """
+    fine = isolate_over(point, tuple(factors[j] for j in (*own, *others)))
+    found: dict[int, list[int | None]] = {j: [] for j in others}
+    for sector, section in enumerate(fine.sections):
+        if min(section.members) < len(own):
+            for place, j in enumerate(others, start=len(own)):
+                # a factor without a root on the section has the same sign on it as in the sector below
+                found[j].append(0 if place in section.members else fine.signs[place][sector])
+    return found
 
 
 def is_nullified(point: Point, factor: Poly) -> bool:
