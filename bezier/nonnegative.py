@@ -145,6 +145,8 @@ def isolate(b: Sequence[Any]) -> list[Interval]:
     (Mourrain, Rouillier and Roy 2005): no sign change, no root; one sign change, one root. Equal ends mean
     that the root is that rational number.
     """
+    if _keeps_sign(tuple(b), QUICK_DEPTH):  # this spares the square-free part, which is slow in large number fields
+        return []
     found: list[Interval] = []
     todo = [(_square_free(b), Fraction(0), Fraction(1))]
     while todo:
@@ -161,6 +163,16 @@ def isolate(b: Sequence[Any]) -> list[Interval]:
             found.append((middle, middle))
         todo += [(left, low, middle), (right, middle, high)]
     return sorted(found)
+
+
+def _keeps_sign(b: bs.Coefficients, depth: int) -> bool:
+    """Whether ``depth`` bisections show that the polynomial has no root in [0, 1]."""
+    signs = {sign(c) for c in b}
+    if len(signs) == 1:
+        return 0 not in signs
+    if depth == 0 or is_zero(b[0]) or is_zero(b[-1]):
+        return False
+    return all(_keeps_sign(part, depth - 1) for part in bs.split(b))
 
 
 def _square_free(b: Sequence[Any]) -> bs.Coefficients:

@@ -30,11 +30,11 @@ class Literal:
     text: str
 
 
-def parse(text: str) -> Fraction:
-    """The exact value of an integer, decimal or fraction. Raises ``NotANumber``."""
+def parse(text: str, limit: int = MAX_CHARACTERS) -> Fraction:
+    """The exact value of an integer, decimal or fraction of at most ``limit`` characters. Raises ``NotANumber``."""
     body = text.strip()
-    if len(body) > MAX_CHARACTERS:
-        raise NotANumber(f"a number of {len(body)} characters (at most {MAX_CHARACTERS})")
+    if len(body) > limit:
+        raise NotANumber(f"a number of {len(body)} characters (at most {limit})")
     if _INTEGER.fullmatch(body):
         return Fraction(int(body))
     if match := _FRACTION.fullmatch(body):

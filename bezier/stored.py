@@ -19,6 +19,8 @@ from qe.errors import CertificateRejected, InputError
 from qe.evidence.certificate import Certificate, Kind
 
 MAX_BYTES = 200_000_000
+MAX_CHARACTERS = 4000
+"""Of one number: algebraic numbers of high degree have long coefficients, and Python reads up to 4300 digits."""
 
 
 def text(path: FilePath) -> str:
@@ -55,7 +57,7 @@ def entry(table: Mapping[str, Any], key: str, kind: type) -> Any:
 def rational(raw: object, place: str) -> Fraction:
     """An exact number given as text."""
     try:
-        return parse(raw if isinstance(raw, str) else "")
+        return parse(raw if isinstance(raw, str) else "", MAX_CHARACTERS)
     except NotANumber as error:
         raise CertificateRejected(place, f"expected an exact number, found {error}") from None
 
