@@ -4,7 +4,8 @@ Tried in this order until a whole path is proved clear:
 
 1. the problem as given;
 2. the same with both via points raised by 1/4, 1/2 and 1 times the height of the highest obstacle in the way;
-3. for the quadratic method: the cubic one, as given and raised likewise.
+3. for the quadratic method: the cubic one, as given and raised likewise;
+4. for both: the single curve of Method 1*, as given and raised likewise.
 
 The objective knows nothing of the obstacles, so a path that is blocked does not mean that none exists.
 """
@@ -25,17 +26,19 @@ from bezier.problem import INNER, PlanMethod, Problem, problem_of, to_json
 from bezier.scalar import Vector, add
 from bezier.survey import Finding
 from bezier.toml_table import Table
-from qe.errors import InputError
+from qe.errors import BudgetExceeded, InputError, Unable
 
 RAISES = (Fraction(1, 4), Fraction(1, 2), Fraction(1))
+METHODS = (PlanMethod.QUADRATIC, PlanMethod.CUBIC, PlanMethod.SINGLE)
+"""Those after the one asked for are tried in this order."""
 
 
 @dataclass(frozen=True, slots=True)
 class Attempt:
-    """One problem that was tried. ``detail``: how it ended, in words."""
+    """One problem that was tried. ``outcome``: None when planning was unable; ``detail``: how it ended, in words."""
 
     what: str
-    outcome: Outcome
+    outcome: Outcome | None
     detail: str
 
 
@@ -46,7 +49,13 @@ def avoiding(problem: Problem, clock: Clock) -> Plan:
         return first
     attempts = first.attempts
     for what, candidate in _alternatives(problem, first):
-        plan = _attempted(what, candidate, clock)
+        try:
+            plan = _attempted(what, candidate, clock)
+        except BudgetExceeded:
+            raise
+        except Unable as error:
+            attempts += (Attempt(what, None, str(error)),)
+            continue
         attempts += plan.attempts
         if plan.outcome is Outcome.SOLVED:
             return replace(plan, attempts=attempts)
@@ -107,10 +116,7 @@ def _detail(plan: Plan) -> str:
 def _alternatives(problem: Problem, first: Plan) -> Iterator[tuple[str, Problem]]:
     """What to try after the first plan, in order."""
     height = _height(problem, first)
-    methods = [problem.method]
-    if problem.method is PlanMethod.QUADRATIC:
-        methods.append(PlanMethod.CUBIC)
-    for method in methods:
+    for method in METHODS[METHODS.index(problem.method) :]:
         named = "" if method is problem.method else f'method "{method.value}"'
         for share in (Fraction(0), *RAISES) if named else RAISES:
             lift = share * height
@@ -128,7 +134,12 @@ def _height(problem: Problem, plan: Plan) -> Fraction:
 
 
 def changed(problem: Problem, method: PlanMethod, lift: Fraction) -> Problem | None:
-    """The problem with another method and higher via points; None when these do not fit into the workspace."""
+    """The problem with another method and higher via points.
+
+    None when these do not fit into the workspace, or when the problem states what the other method does not know.
+    """
+    if problem.single is not None and problem.single.states_via:
+        return None
     table = to_json(problem)
     radius = table.pop("radius_squared")
     table["radius"] = "auto" if problem.radius_is_auto else f"sqrt({radius})"
@@ -137,7 +148,8 @@ def changed(problem: Problem, method: PlanMethod, lift: Fraction) -> Problem | N
     for entry in (*table.get("half_space", ()), *table.get("obstacle", ())):
         for key in ("points", "above"):
             if key in entry and method is not problem.method:
-                entry[key] = [name for name in INNER[method] if name[0] + "1" in entry[key] or name in entry[key]]
+                known = INNER.get(method, ())
+                entry[key] = [name for name in known if name[0] + "1" in entry[key] or name in entry[key]]
     try:
         return problem_of(Table(table, problem.source))
     except InputError:
@@ -167,5 +179,8 @@ def entries(plan: Plan) -> dict[str, Any]:
     """The entries of the JSON summary about obstacles."""
     if not plan.problem.obstacles:
         return {}
-    tried = [{"what": a.what, "outcome": a.outcome.value, "detail": a.detail} for a in plan.attempts]
+    tried = [
+        {"what": a.what, "outcome": a.outcome.value if a.outcome else "unable", "detail": a.detail}
+        for a in plan.attempts
+    ]
     return {"clearance": [survey.to_json(finding) for finding in plan.findings], "attempts": tried}

@@ -27,6 +27,11 @@ CONTRADICTION = (
     " control points. The sum of these functions with the multipliers below is positive everywhere, so the conditions"
     " cannot hold together."
 )
+RESULTS = {
+    Outcome.SOLVED: "path found",
+    Outcome.INFEASIBLE: "no control point exists",
+    Outcome.BLOCKED: "an obstacle is in the way",
+}
 SMOOTHNESS = {
     Smoothness.C2: "C² (value, first, second derivative)",
     Smoothness.C1: "C¹ (value, first derivative)",
@@ -75,8 +80,7 @@ def norm(point: Sequence[Any]) -> Markup:
 
 def cards(plan: Plan) -> list[Row]:
     """The figures at the top of the page."""
-    solved = plan.outcome is Outcome.SOLVED
-    found = [card("result", "path found" if solved else "no control point exists", tone(solved))]
+    found = [card("result", RESULTS[plan.outcome], tone(plan.outcome is Outcome.SOLVED))]
     found.append(card("radius", f"{float(plan.problem.workspace.radius_squared) ** 0.5:.6g} mm"))
     if plan.objective is not None:
         found.append(card("objective", f"{decimal_text(plan.objective, 8)} mm²"))

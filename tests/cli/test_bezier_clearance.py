@@ -1,0 +1,61 @@
+"""``bezier clearance`` and plans with obstacles, as a user runs them."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+from tests.cli.test_bezier_plan import QE, refused, run
+
+CURVES = """\
+[[curve]]
+name = "arch"
+points = [[-2, 0, 0], [0, 0, 4], [2, 0, 0]]
+
+[[obstacle]]
+name = "under"
+kind = "ball"
+centre = [0, 0, 0]
+radius = 1
+"""
+
+
+def test_every_kind_of_obstacle(root: Path) -> None:
+    process = run("clearance", root / "examples" / "obstacle_curves.toml")
+    assert process.returncode == 0, process.stderr
+    lines = process.stdout.splitlines()
+    assert lines[0] == "arch: touches balloon, first at t = 1/2, (0, 0, 2)"
+    assert lines[-2].startswith("arch: enters saddle, first at t = 3/8")
+    assert lines[-1] == "2 of 8 pairs meet; certificates of clearance: accepted"
+
+
+def test_json_and_certificate(tmp_path: Path) -> None:
+    curves, certificate = tmp_path / "curves.toml", tmp_path / "clearance.json"
+    curves.write_text(CURVES)
+    process = run("clearance", curves, "--json", "--certificate", certificate)
+    told = json.loads(process.stdout)
+    assert told["clear"] is True and told["certificates"] == "accepted"
+    assert told["findings"][0]["distance"]["low"].startswith("0.73205")
+    assert run("check", certificate, program=QE).returncode == 0
+
+
+def test_a_planned_folder_and_other_obstacles(root: Path, tmp_path: Path) -> None:
+    out, others = tmp_path / "out", tmp_path / "others.toml"
+    problem = root / "examples" / "obstacle_box.toml"
+    planned = run("plan", problem, "--out", out, "--no-plots")
+    assert planned.returncode == 0 and "P: clear of crate for all t" in planned.stdout
+    checked = run("check", out)
+    assert checked.returncode == 0 and "every curve proved clear of every obstacle (1)" in checked.stdout
+    others.write_text(CURVES.split("\n\n")[1].replace("[0, 0, 0]", "[0, 2, 3]"))
+    assert "Q: enters under, first at t = " in run("clearance", out, "--obstacles", others).stdout
+    found = json.loads((out / "path.json").read_text())
+    found["problem"]["obstacle"][0]["high"] = [1, 3, 3]
+    (out / "path.json").write_text(json.dumps(found))
+    refused(run("check", out), 4, "different problems")
+
+
+def test_bad_input_is_one_line(root: Path, tmp_path: Path) -> None:
+    bad = tmp_path / "bad.toml"
+    bad.write_text(CURVES.replace("radius = 1", "radius = -1"))
+    refused(run("clearance", bad), 2, "obstacle[0].radius: expected a number above zero, found -1")
+    refused(run("clearance", root / "examples" / "three_balls.toml"), 2, "expected [[obstacle]] tables, found none")
