@@ -94,13 +94,14 @@ def eliminate(
     ``timeout`` in seconds and ``memory`` in MB: with either, the work runs in a forked worker process that is killed at
     the limit, since a single polynomial operation can take long (where processes cannot fork, ``timeout`` is only
     checked between steps). The answer has status UNABLE, with the
-    reason, when a limit was reached; it is never partial. With ``check`` the answer's certificate (if the method
-    makes one) is verified by the separate checker; certificates that are a witness always are. ``explain`` tells on
+    reason, when a limit was reached; it is never partial. With ``check`` the answer comes with a certificate where
+    one can be had (if the method makes none, by a decomposition of the whole formula), verified by the separate
+    checker; certificates that are a witness always are. ``explain`` tells on
     stderr how the answer was found (``Answer.explanation`` holds the same text); ``without`` leaves stages of the
     engine out (``qe.Stage``), to measure what they gain. Raises ``InputError`` for input that cannot be read.
     """
     given = read_formula(formula, format)
-    options = _options(method, order, root_atoms, without, progress)
+    options = _options(method, order, root_atoms, without, progress).with_(certify=check)
     answer = _limited(given, options, timeout, memory, check)
     if explain:
         print(answer.explanation or answer.reason, file=sys.stderr)

@@ -51,6 +51,7 @@ class Request:
             "order": self.order,
             "progress": channel.event,
             "root_atoms": self.root_atoms,
+            "check": self.certificate,
         }
 
 

@@ -99,6 +99,7 @@ class Options:
     memory: int | None = None
     root_atoms: bool = False
     without: frozenset[Stage] = frozenset()
+    certify: bool = False
     progress: Listener = field(default=silent)
 
     def with_(self, **changes: object) -> Options:

@@ -60,7 +60,10 @@ def solve(formula: Formula, options: Options, budget: Budget) -> Elimination:
     Raises ``Unable`` (``BudgetExceeded`` at a limit) when no method finished.
     """
     run, free = _Run(options, budget), free_variables(formula)
-    result, values = run.sentence_or_formula(rename_apart(formula))
+    renamed = rename_apart(formula)
+    result, values = run.sentence_or_formula(renamed)
+    if options.certify and run.certificate is None:
+        result = run.certified(renamed, result)
     if free:
         result = convert(result, Ring.of(free))
     run.story.stats["seconds"] = round(time.perf_counter() - run.started, 6)
@@ -174,6 +177,18 @@ class _Run:
                     return self.block(variables, inner)
                 return self.decomposed(exists(variables, inner))
         return self.eliminate(formula), None
+
+    def certified(self, formula: Formula, answer: Formula) -> Formula:
+        """The answer of a decomposition of the whole formula, which has a certificate, where it ends in time."""
+        try:
+            found = decomposed(formula, self.options, self.budget, self.story)
+        except Unable as error:
+            self.story.note("switches", f"no certificate: {error}")
+            return answer
+        if found.certificate is None:
+            return answer
+        self.certificate = found.certificate
+        return found.formula
 
     # --- inner formulas ------------------------------------------------------------------------
     def prepared(self, formula: Formula) -> Formula:

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from qe.eliminate.cad.decompose import Decomposition, decompose
+from qe.eliminate.cad.decompose import Decomposition, Tactics, decompose
 from qe.evidence.certificate import Certificate
 from qe.evidence.story import Story
 from qe.exact.algebraic import RealAlgebraic
@@ -29,12 +29,12 @@ Values = dict[str, Fraction | RealAlgebraic]
 @dataclass(frozen=True, slots=True)
 class Decomposed:
     """``formula``: equivalent to what was asked. ``values``: a witness or counterexample of a sentence's outermost
-    block, where there is one. ``certificate``: of exactly this question, where the checker has a theorem for it.
+    block, where there is one. ``certificate``: of exactly this question.
     """
 
     formula: Formula
     values: Values | None = None
-    certificate: Certificate | None = None
+    certificate: Certificate | None = None  # none where there is nothing to decompose
 
 
 def decomposed(formula: Formula, options: Options, budget: Budget, story: Story) -> Decomposed:
@@ -48,8 +48,16 @@ def decomposed(formula: Formula, options: Options, budget: Budget, story: Story)
     order, quantifiers = _order(prefix, free, polynomials(matrix), options)
     projection = Projection.LAZARD if Stage.MCCALLUM in options.without else options.projection
 
+    tactics = Tactics(
+        constraints=Stage.CONSTRAINTS not in options.without,
+        partial=Stage.PARTIAL not in options.without,
+        open_only=Stage.OPEN not in options.without,
+    )
+
     def table(separated: frozenset[int] = frozenset()) -> Decomposition:
-        return decompose(matrix, order, quantifiers, budget=budget, projection=projection, separated=separated)
+        return decompose(
+            matrix, order, quantifiers, budget=budget, projection=projection, separated=separated, tactics=tactics
+        )
 
     first = table()
     values: Values | None = None
@@ -64,7 +72,7 @@ def decomposed(formula: Formula, options: Options, budget: Budget, story: Story)
         if truth is (quantifiers[0] == "E"):
             values = deciding_point(proof, truth)
     story.note("cad", _figures(order, first, time.perf_counter() - start))
-    certificate = None if first.restricted else Certificate.cells(proof, convert(answer, Ring.of(order)))
+    certificate = Certificate.cells(proof, convert(answer, Ring.of(order)))
     # back into the ring of the formula it came from: it is joined with parts of that formula
     ring = ring_of(formula)
     return Decomposed(answer if ring is None else convert(answer, ring), values, certificate)
@@ -78,7 +86,7 @@ def _figures(order: Sequence[str], found: Decomposition, seconds: float) -> dict
         "cells": found.cells,
         "stacks": found.stacks,
         "nullified": found.nullified,
-        "equational constraint": found.restricted,
+        "equational constraints": list(found.restricted),
         "seconds": round(seconds, 6),
     }
 

@@ -70,3 +70,22 @@ def test_the_explanation_names_what_was_done(capsys: pytest.CaptureFixture[str])
     assert "prepared by linear equation solved" in told and "planned" in told
     slow = qe.eliminate("ex x, y. x + y = a and x^3 + y^3 < b", without=("substitution",))
     assert "substitution" not in slow.explanation.split("planned")[1] and "decomposition order" in slow.explanation
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "ex x. a*x + b > 0 and x < c",
+        "ex x, y. x*y = a and x + y = b",
+        "ex x. all y. y^2 + x > b and x < 3",
+        "all x. x > 0 -> x^2 + a*x + 1 > 0",
+        "all x. ex y. y^3 + x*y = 1",
+        "a > 0 and (ex x. x^2 = a) or b = 3",
+    ],
+)
+def test_check_gets_a_certificate_whatever_the_method(text: str) -> None:
+    answer = qe.eliminate(text, check=True)
+    assert answer.certificate is not None
+    assert answer.guarantee is qe.Guarantee.CHECKED
+    plain = qe.eliminate(text)
+    assert answer.truth is plain.truth and (answer.truth is not None or qe.equivalent(answer.formula, plain.formula))
