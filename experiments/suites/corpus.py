@@ -7,10 +7,11 @@ import tomllib
 from pathlib import Path
 
 from experiments.problem import ROOT, Problem
-from experiments.suites import paper
+from experiments.suites import paper, scaling
 from qe.errors import InputError
 
 CORPUS = ROOT / "tests" / "corpus"
+MIDDLE_SIZES = ("degree-8", "via-6", "balls-2d-6", "balls-3d-6", "bits-64", "tower-3")
 LITERATURE = ROOT.parent / "shared" / "corpora"
 
 
@@ -35,9 +36,11 @@ def timing_ids() -> list[str]:
 
 
 def ablation() -> list[Problem]:
-    """Problems on which stages of the engine matter: the timing problems of the corpus, and the paper's formulas."""
+    """Problems on which stages of the engine matter: timing problems, the paper's formulas, middle sizes of scaling."""
     timing = set(timing_ids())
-    return [p for p in classics() if p.id in timing] + [p for p in paper.problems() if p.id.endswith("-0")]
+    found = [p for p in classics() if p.id in timing]
+    found += [p for p in paper.problems() if p.id.endswith("-0")]
+    return found + [p for p in scaling.problems() if p.id in MIDDLE_SIZES]
 
 
 def literature(folder: Path = LITERATURE) -> list[Problem]:
