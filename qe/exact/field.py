@@ -101,10 +101,11 @@ class FieldElement:
     Arithmetic between different fields raises ``InputError``; equality between them is decided exactly.
     """
 
-    __slots__ = ("field", "value")
+    __slots__ = ("_algebraic", "field", "value")
 
     def __init__(self, field: NumberField, value: fmpq_poly) -> None:
         self.field, self.value = field, value
+        self._algebraic: RealAlgebraic | None = None  # a cache, since minimal polynomials take long in large fields
 
     # --- access ----------------------------------------------------------------------------
     @property
@@ -241,6 +242,11 @@ class FieldElement:
     # --- conversion ------------------------------------------------------------------------
     def to_algebraic(self) -> RealAlgebraic:
         """The number with its own minimal polynomial and root index."""
+        if self._algebraic is None:
+            self._algebraic = self._as_algebraic()
+        return self._algebraic
+
+    def _as_algebraic(self) -> RealAlgebraic:
         if self.is_rational:
             return RealAlgebraic.rational(self.value[0])
         p = self._minimal_polynomial()
