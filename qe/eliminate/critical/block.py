@@ -10,13 +10,14 @@ from qe.eliminate.critical.boundary import critical_hypersurfaces
 from qe.eliminate.critical.bounded import has_bounded_fibres
 from qe.eliminate.critical.fibres import Fibres
 from qe.eliminate.critical.helpers import Helpers, Levels
-from qe.eliminate.critical.open_cells import OpenCell, Walls, open_cells
+from qe.eliminate.critical.open_cells import OpenCell, OpenCells
 from qe.eliminate.critical.separate import separated
 from qe.eliminate.critical.system import System, systems
 from qe.eliminate.critical.table import Shape, TableBuilder, Truth
 from qe.errors import NotWellOriented, Unable
 from qe.evidence.cells import CellTable
 from qe.exact.nearby import nearby
+from qe.exact.quadratic_form import quadratic
 from qe.exact.ring import Poly, Ring
 from qe.exact.sample import Point
 from qe.formula.build import convert
@@ -122,14 +123,15 @@ class _Run:
         neighbourhood outside.
         """
         surfaces = critical_hypersurfaces(self.system, thin_parts=False, budget=self.budget)
-        walls = Walls(self._levels(surfaces), self.fibres.hold_at, self.budget)
-        walls.explore(Point(self.system.ring))
-        self.stats.update({"hypersurfaces": len(surfaces), "open cells": walls.cells})
-        if not walls.inside:
+        origin, hint = Point(self.system.ring), self._hint()
+        exploration = OpenCells(self._levels(surfaces), self.fibres.hold_at, self.budget, hint)
+        exploration.explore(origin)
+        self.stats.update({"hypersurfaces": len(surfaces), "cells decided": exploration.decided})
+        if not exploration.inside:
             return None
-        boundary = frozenset(walls.walls | {f for f in surfaces if f.level < self.system.free - 1})
+        boundary = frozenset(exploration.walls() | {f for f in surfaces if f.level < self.system.free - 1})
         self.stats["boundary"] = len(boundary)
-        centre = walls.inside[len(walls.inside) // 2]
+        centre = exploration.inside[len(exploration.inside) // 2]
 
         def truth(point: Point, vanishing: frozenset[Poly]) -> bool:
             if not vanishing and not point.algebraic:
@@ -137,8 +139,9 @@ class _Run:
             return self.fibres.hold_at(nearby(point, tuple(boundary), vanishing, centre))
 
         def explored(polys: frozenset[Poly]) -> tuple[Levels, list[OpenCell]]:
-            levels = self._levels(polys)
-            return levels, open_cells(levels, self.fibres.hold_at, Point(self.system.ring), self.budget)
+            found = OpenCells(self._levels(polys), self.fibres.hold_at, self.budget, centre)
+            found.explore(origin)
+            return found.levels, list(found.cells(origin))
 
         return ConvexBody(
             boundary,
@@ -147,6 +150,14 @@ class _Run:
             has_bounded_fibres(self.system.without_parameters()),
             lambda: self._tabulated(boundary, Shape.CONVEX, truth),
         )
+
+    def _hint(self) -> tuple[Fraction, ...]:
+        """A point of the truth set, if one is proposed; the origin otherwise."""
+        size = self.system.ring.size
+        conditions = self.system.without_parameters().conditions
+        forms = [form for c in conditions if (form := quadratic(c.poly, range(size))) is not None]
+        witness = self.helpers.propose(forms).witness
+        return (witness or (Fraction(0),) * size)[: self.system.free]
 
     def _levels(self, polys: frozenset[Poly]) -> Levels:
         return self.helpers.project(polys, self.system.free, Projection.BROWN_MCCALLUM, self.budget, frozenset())

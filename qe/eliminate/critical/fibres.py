@@ -49,6 +49,7 @@ class Fibres:
         self.witnesses: list[Values] = []
         self.separations: list[Separation] = []
         self.decided: dict[str, int] = {}
+        self._truths: dict[Values, bool] = {}
 
     @cached_property
     def _forms(self) -> list[ParametricForm] | None:
@@ -71,7 +72,13 @@ class Fibres:
         return self.helpers.decide(self.system.inner, self.system.ring.names, self.system.free)
 
     def hold_at(self, parameters: Values) -> bool:
-        """Whether the block is true over a rational point."""
+        """Whether the block is true over a rational point; remembered."""
+        stored = self._truths.get(parameters)
+        if stored is None:
+            stored = self._truths[parameters] = self._hold_at(parameters)
+        return stored
+
+    def _hold_at(self, parameters: Values) -> bool:
         values = (*parameters, *(Fraction(0) for _ in self.system.bound))
         for guard in self.system.guards:
             value = guard.poly.evaluate(values)

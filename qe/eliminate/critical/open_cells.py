@@ -12,55 +12,18 @@ there); so a boundary point over B is an end of that interval and separates a tr
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 
 from qe.eliminate.critical.helpers import Levels
-from qe.exact.fibre_stack import Section, isolate_over
+from qe.exact.fibre_stack import Isolation, isolate_over
 from qe.exact.ring import Poly
 from qe.exact.sample import Point
 from qe.options import Budget
 
 Values = tuple[Fraction, ...]
 Holds = Callable[[Values], bool]
-
-
-@dataclass(slots=True)
-class Walls:
-    """One exploration for a closed convex set. ``inside``: samples of true open cells; ``walls``: see the theorem."""
-
-    levels: Levels
-    holds: Holds
-    budget: Budget
-    cells: int = 0
-    inside: list[Values] = field(default_factory=list)
-    walls: set[Poly] = field(default_factory=set)
-
-    def explore(self, point: Point, values: Values = ()) -> bool:
-        """Whether some open cell over the point is true. Beyond the end of a true run all are false by convexity."""
-        level = point.depth
-        if level == len(self.levels):
-            self.cells += 1
-            self.budget.check("open cells", self.cells)
-            if not self.holds(values):
-                return False
-            self.inside.append(values)
-            return True
-        isolation = isolate_over(point, self.levels[level])
-        before: bool | None = None
-        entered = False
-        for k, q in enumerate(isolation.sectors):
-            here = self.explore(point.extend(q), (*values, Fraction(int(q.p), int(q.q))))
-            if level == len(self.levels) - 1 and before is not None and here is not before:
-                self._wall(isolation.sections[k - 1], level)
-            if entered and not here:
-                break
-            entered, before = entered or here, here
-        return entered
-
-    def _wall(self, section: Section, level: int) -> None:
-        self.walls |= {self.levels[level][j] for j in section.members}
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,18 +37,86 @@ class OpenCell:
     truth: bool
 
 
-def open_cells(levels: Levels, holds: Holds, origin: Point, budget: Budget) -> list[OpenCell]:
-    """All open cells of the decomposition for factor lists closed under projection."""
+@dataclass(slots=True)
+class OpenCells:
+    """The open cells for a closed convex set T and factor lists closed under projection.
 
-    def over(point: Point, path: tuple[int, ...], signs: tuple[str, ...], values: Values) -> Iterator[OpenCell]:
-        if point.depth == len(levels):
-            budget.check("open cells")
-            yield OpenCell(path, signs, values, holds(values))
+    By convexity the sectors of a stack over which T has interior points follow one another, so that only the ends of
+    that run are looked for; ``hint`` says where to begin (a point of T, or any). ``inside``: samples of true cells.
+    """
+
+    levels: Levels
+    holds: Holds
+    budget: Budget
+    hint: Values
+    decided: int = 0
+    inside: list[Values] = field(default_factory=list)
+    _stacks: dict[tuple[int, ...], tuple[Isolation, range]] = field(default_factory=dict)
+    _near: list[Fraction] = field(default_factory=list)
+
+    def explore(self, origin: Point) -> bool:
+        """Visit the stacks that can hold true cells; whether there is one."""
+        self._near = list(self.hint)
+        return self._any_true(origin, (), ())
+
+    def _any_true(self, point: Point, path: tuple[int, ...], values: Values) -> bool:
+        level = point.depth
+        if level == len(self.levels):
+            self.decided += 1
+            self.budget.check("open cells", self.decided)
+            if self.holds(values):
+                self.inside.append(values)
+                return True
+            return False
+        isolation = isolate_over(point, self.levels[level])
+        samples = [Fraction(int(q.p), int(q.q)) for q in isolation.sectors]
+
+        def test(k: int) -> bool:
+            return self._any_true(point.extend(isolation.sectors[k]), (*path, k), (*values, samples[k]))
+
+        run = _run(samples, self._near[level], test)
+        if run:
+            self._near[level] = samples[(run.start + run.stop) // 2]
+        self._stacks[path] = isolation, run
+        return bool(run)
+
+    def walls(self) -> set[Poly]:
+        """The polynomials of the last level that vanish between a true and a false sector."""
+        found: set[Poly] = set()
+        last = len(self.levels) - 1
+        for path, (isolation, run) in self._stacks.items():
+            if len(path) == last and run:
+                ends = [k for k in (run.start - 1, run.stop - 1) if 0 <= k < len(isolation.sections)]
+                found |= {self.levels[last][j] for k in ends for j in isolation.sections[k].members}
+        return found
+
+    def cells(self, point: Point, path: tuple[int, ...] = ()) -> Iterator[OpenCell]:
+        """All open cells, after ``explore``."""
+        return self._cells(point, path, (), (), True)
+
+    def _cells(
+        self, point: Point, path: tuple[int, ...], signs: tuple[str, ...], values: Values, possible: bool
+    ) -> Iterator[OpenCell]:
+        if point.depth == len(self.levels):
+            yield OpenCell(path, signs, values, possible)
             return
-        isolation = isolate_over(point, levels[point.depth])
+        self.budget.check("open cells")
+        isolation, run = self._stacks.get(path) or (isolate_over(point, self.levels[point.depth]), range(0))
         texts = isolation.sign_texts()
         for k, q in enumerate(isolation.sectors):
             value = Fraction(int(q.p), int(q.q))
-            yield from over(point.extend(q), (*path, k), (*signs, texts[2 * k]), (*values, value))
+            here = possible and k in run
+            yield from self._cells(point.extend(q), (*path, k), (*signs, texts[2 * k]), (*values, value), here)
 
-    return list(over(origin, (), (), ()))
+
+def _run(samples: Sequence[Fraction], near: Fraction, test: Callable[[int], bool]) -> range:
+    """The indices with a true test, which follow one another; sought from the sample nearest to a number."""
+    first = next((k for k in sorted(range(len(samples)), key=lambda k: abs(samples[k] - near)) if test(k)), None)
+    if first is None:
+        return range(0)
+    start, stop = first, first + 1
+    while start > 0 and test(start - 1):
+        start -= 1
+    while stop < len(samples) and test(stop):
+        stop += 1
+    return range(start, stop)

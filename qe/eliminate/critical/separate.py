@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from fractions import Fraction
 
 from qe.eliminate.critical.helpers import Levels
 from qe.eliminate.critical.open_cells import OpenCell
 from qe.errors import InternalError
-from qe.exact.ring import Poly, Ring
+from qe.exact.ring import Poly
 
 Clash = tuple[OpenCell, OpenCell]
+
+MOST_PLANES = 6
+"""Planes in later variables that are tried before derivatives, which bring many more cells (measured: ten times)."""
 
 
 def separated(
@@ -18,45 +20,53 @@ def separated(
 ) -> tuple[Levels, list[OpenCell]]:
     """Factor lists with those of ``polys``, by whose signs no true open cell looks like a false one, and the cells.
 
-    ``cells(polys)`` gives the factor lists closed under projection and all their open cells. Cells over different
-    sectors of the first variable are told apart by a rational value between; a sector lies between, since neighbouring
-    ones differ in the sign of a factor. Others part over a common sample at some level, where by Thom's lemma a
-    derivative of a factor of that level has different signs (Basu, Pollack, Roy 2006, Proposition 2.27). There are
-    finitely many of both kinds, so this ends.
+    ``cells(polys)`` gives the factor lists closed under projection and all their open cells. Two cells that look alike
+    part at some level over a common sample, with sectors between them, since neighbouring ones differ in the sign of a
+    factor. A rational value of such a sector tells them apart, for good at the first level; at later levels that is
+    only so over the sample, so after ``MOST_PLANES`` of them derivatives are taken: by Thom's lemma one of a factor of
+    that level has different signs (Basu, Pollack, Roy 2006, Proposition 2.27). There are finitely many, so this ends.
     """
+    planes = 0
     while True:
         levels, listing = cells(polys)
-        clash = _clash(listing)
-        if clash is None:
+        new = set()
+        for clash in _clashes(listing):
+            level = next(k for k, (a, b) in enumerate(zip(clash[0].path, clash[1].path, strict=True)) if a != b)
+            if level == 0 or planes < MOST_PLANES:
+                new.add(_plane(clash, level, levels, listing))
+                planes += level > 0
+            else:
+                new.add(_derivative(clash, level, levels))
+        if not new:
             return levels, listing
-        polys |= {_separator(clash, levels, listing)}
+        polys |= new
 
 
-def _clash(listing: list[OpenCell]) -> Clash | None:
+def _clashes(listing: list[OpenCell]) -> list[Clash]:
+    """One pair of a true and a false cell for each sign vector that both have."""
     seen: dict[tuple[str, ...], OpenCell] = {}
+    found: dict[tuple[str, ...], Clash] = {}
     for cell in listing:
         other = seen.setdefault(cell.signs, cell)
         if other.truth is not cell.truth:
-            return other, cell
-    return None
+            found.setdefault(cell.signs, (other, cell))
+    return list(found.values())
 
 
-def _separator(clash: Clash, levels: Levels, listing: list[OpenCell]) -> Poly:
+def _plane(clash: Clash, level: int, levels: Levels, listing: list[OpenCell]) -> Poly:
+    """x_level = the sample of the middle sector between two cells."""
     left, right = clash
-    level = next(k for k, (a, b) in enumerate(zip(left.path, right.path, strict=True)) if a != b)
+    middle = (*left.path[:level], (left.path[level] + right.path[level]) // 2)
+    value = next(c.values[level] for c in listing if c.path[: level + 1] == middle)
     ring = next(f.ring for factors in levels for f in factors)
-    if level == 0:
-        low, high = sorted((left.path[0], right.path[0]))
-        middle = (low + high) // 2
-        return _plane(ring, next(c.values[0] for c in listing if c.path[0] == middle))
+    return value.denominator * ring.gen(level) - value.numerator
+
+
+def _derivative(clash: Clash, level: int, levels: Levels) -> Poly:
     for f in _derivatives(levels[level], level):
-        if _sign(f, left) * _sign(f, right) < 0:
+        if _sign(f, clash[0]) * _sign(f, clash[1]) < 0:
             return f
     raise InternalError("derivatives do not separate the cells, against Thom's lemma")
-
-
-def _plane(ring: Ring, value: Fraction) -> Poly:
-    return value.denominator * ring.gen(0) - value.numerator
 
 
 def _derivatives(factors: tuple[Poly, ...], level: int) -> Iterator[Poly]:
