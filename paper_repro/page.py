@@ -21,6 +21,7 @@ SECTIONS = {
     "1": "1 Introduction",
     "2": "2 The feasible region and its radius",
     "3": "3 Bézier curves",
+    "4": "4 Path planning: assumptions",
     "4.1": "4.1 Method 1: one curve of degree n",
     "4.2": "4.2 Method 2: three cubic curves",
     "4.2.1": "4.2.1 Three curves of degree 2",
