@@ -9,6 +9,7 @@ from bezier.clearance import Search
 from bezier.curve import Bezier
 from bezier.evidence import curve_payload
 from bezier.obstacles import Constraint, Obstacle, Piece
+from qe.certify.bernstein import MAX_DEGREE
 from qe.errors import InputError
 from qe.evidence.certificate import Certificate, Kind
 
@@ -20,9 +21,12 @@ def clearance_certificate(curve: Bezier, obstacle: Obstacle) -> Certificate | No
     """The certificate that the curve never meets the obstacle.
 
     For closed obstacles the compactness of [0, 1] makes the subdivision end. None when the obstacle is given by strict
-    inequalities and the curve touches its boundary, or when it comes closer than ``DEEP`` halvings can tell.
+    inequalities and the curve touches its boundary, when it comes closer than ``DEEP`` halvings can tell, or when a
+    polynomial along the curve has a degree beyond what the checker takes.
     Raises ``InputError`` when the curve does meet the obstacle.
     """
+    if max(c.degree for piece in obstacle.pieces for c in piece.constraints) * curve.degree > MAX_DEGREE:
+        return None
     along = Along(curve)
     pieces = []
     for piece in obstacle.pieces:

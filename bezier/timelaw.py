@@ -6,8 +6,8 @@ sigma = D s(tau). With X(tau) the position, velocity and acceleration are X'(tau
 largest norms for T = 1 say everything.
 
 Between the breaks of the law and the passages from one curve to the next, |X'|^2 and |X''|^2 are polynomials in tau,
-whose maxima are enclosed (``bezier.enclosure.maximum``). A passage at an irrational tau is enclosed too, and both
-curves are examined up to the farther end.
+whose maxima are enclosed (``bezier.enclosure.maximum``). A passage at an irrational tau is enclosed too; what both
+curves reach inside that interval counts for the upper bounds only.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from typing import Any
 
 from bezier import bernstein as bs
 from bezier.curve import Bezier
-from bezier.enclosure import Enclosure, maximum, root_above, root_enclosure
+from bezier.enclosure import Enclosure, bounds, maximum, root_above, root_enclosure
 from bezier.path import Path
 from qe.errors import InputError
 
@@ -99,28 +99,32 @@ def _value(polynomial: Power, t: Fraction) -> Any:
 
 @dataclass(frozen=True, slots=True)
 class Stretch:
-    """A time interval in which a curve is run through by one polynomial: ``parameter`` is u as a power form of tau."""
+    """A time interval in which a curve is run through by one polynomial: ``parameter`` is u as a power form of tau.
+
+    ``certain``: whether the curve is on its way in all of it; otherwise the passage to its neighbour lies in it.
+    """
 
     curve: str
     low: Fraction
     high: Fraction
     parameter: Power
+    certain: bool
 
 
 def stretches(path: Path, law: TimeLaw) -> Iterator[Stretch]:
     """The stretches of a motion in order; neighbours overlap by at most ``PASSAGE_WIDTH``."""
     total = sum((path.duration(name) for name in path.curves), ZERO)
-    begin = ZERO
+    begin, start = ZERO, (ZERO, ZERO)
     for name in path.curves:
         length = path.duration(name)
-        start = law.passage(begin / total)[0] if begin else ZERO
-        begin += length
-        end = law.passage(begin / total)[1] if begin < total else ONE
-        for low, high, polynomial in zip(law.breaks, law.breaks[1:], law.polynomials, strict=False):
-            if max(low, start) < min(high, end):
-                shifted = (polynomial[0] - (begin - length) / total, *polynomial[1:])
-                scaled = tuple(c * total / length for c in shifted)
-                yield Stretch(name, max(low, start), min(high, end), scaled)
+        end = law.passage((begin + length) / total) if begin + length < total else (ONE, ONE)
+        for low, high, certain in ((*start, False), (start[1], end[0], True), (*end, False)):
+            for first, last, polynomial in zip(law.breaks, law.breaks[1:], law.polynomials, strict=False):
+                if max(low, first) < min(high, last):
+                    shifted = (polynomial[0] - begin / total, *polynomial[1:])
+                    scaled = tuple(c * total / length for c in shifted)
+                    yield Stretch(name, max(low, first), min(high, last), scaled, certain)
+        begin, start = begin + length, end
 
 
 @dataclass(frozen=True, slots=True)
@@ -169,6 +173,8 @@ def _largest_norm(vector: list[Power], stretch: Stretch, rel: Fraction) -> Enclo
     for p in vector:
         moved = bs.from_power(_composed(p, (stretch.low, stretch.high - stretch.low)))
         square = bs.add(square, bs.multiply(moved, moved))
+    if not stretch.certain:
+        return root_enclosure(ZERO, max(bounds(c)[1] for c in square))
     top = maximum(square, (ONE,), rel)
     assert top.high is not None
     return root_enclosure(top.low, top.high)
