@@ -8,16 +8,17 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from qe.eliminate.cad.decompose import Decomposition, Tactics, decompose
+from qe.eliminate.cad.pilot import choose_order
 from qe.evidence.certificate import Certificate
 from qe.evidence.story import Story
 from qe.exact.algebraic import RealAlgebraic
-from qe.exact.ring import Poly, Ring
+from qe.exact.ring import Ring
 from qe.formula.build import convert
 from qe.formula.normal import Quantifier, nnf, prenex
 from qe.formula.syntax import FALSE, TRUE, Constant, Formula
-from qe.formula.traverse import free_variables, polynomials, ring_of
+from qe.formula.traverse import free_variables, ring_of
 from qe.options import Budget, Options, Projection, Stage
-from qe.plan.order import brown_order
+from qe.plan.order import OrderRule
 from qe.prepare.simplify import simplify
 from qe.solution.construct import construct
 from qe.solution.extended import extended_formula
@@ -45,7 +46,7 @@ def decomposed(formula: Formula, options: Options, budget: Budget, story: Story)
     if isinstance(matrix, Constant):
         return Decomposed(matrix, {} if matrix.value else None)
     free = free_variables(formula)
-    order, quantifiers = _order(prefix, free, polynomials(matrix), options)
+    order, quantifiers, reason = _order(prefix, free, matrix, options, budget)
     projection = Projection.LAZARD if Stage.MCCALLUM in options.without else options.projection
 
     tactics = Tactics(
@@ -71,16 +72,17 @@ def decomposed(formula: Formula, options: Options, budget: Budget, story: Story)
         answer = TRUE if truth else FALSE
         if truth is (quantifiers[0] == "E"):
             values = deciding_point(proof, truth)
-    story.note("cad", _figures(order, first, time.perf_counter() - start))
+    story.note("cad", _figures(order, reason, first, time.perf_counter() - start))
     certificate = Certificate.cells(proof, convert(answer, Ring.of(order)))
     # back into the ring of the formula it came from: it is joined with parts of that formula
     ring = ring_of(formula)
     return Decomposed(answer if ring is None else convert(answer, ring), values, certificate)
 
 
-def _figures(order: Sequence[str], found: Decomposition, seconds: float) -> dict[str, object]:
+def _figures(order: Sequence[str], reason: str, found: Decomposition, seconds: float) -> dict[str, object]:
     return {
         "order": list(order),
+        "order by": reason,
         "projection": found.table.projection.value,
         "factors": found.factors,
         "cells": found.cells,
@@ -92,16 +94,18 @@ def _figures(order: Sequence[str], found: Decomposition, seconds: float) -> dict
 
 
 def _order(
-    prefix: Sequence[tuple[Quantifier, tuple[str, ...]]], free: Sequence[str], polys: Sequence[Poly], options: Options
-) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """The variables, free ones first, blocks never mixed, and the quantifier of each."""
-    asked = options.order or ()
-    order: list[str] = []
-    quantifiers: list[str] = []
-    for kind, names in (("", tuple(free)), *((k.value, names) for k, names in prefix)):
-        wished = [v for v in asked if v in names]
-        if len(wished) < len(names):
-            wished = list(names if Stage.ORDER in options.without else brown_order(polys, names))
-        order += wished
-        quantifiers += [kind] * len(wished)
-    return tuple(order), tuple(quantifiers)
+    prefix: Sequence[tuple[Quantifier, tuple[str, ...]]],
+    free: Sequence[str],
+    matrix: Formula,
+    options: Options,
+    budget: Budget,
+) -> tuple[tuple[str, ...], tuple[str, ...], str]:
+    """The variables, free ones first, blocks never mixed; the quantifier of each; and why this order."""
+    parts = [("", tuple(free)), *((kind.value, names) for kind, names in prefix)]
+    blocks: list[tuple[str, ...]] = []
+    for _, names in parts:
+        wished = [v for v in options.order or () if v in names]
+        blocks += [(v,) for v in wished] if len(wished) == len(names) else [names]
+    rule = OrderRule.WRITTEN if Stage.ORDER in options.without else OrderRule.PILOT
+    order, reason = choose_order(matrix, blocks, rule=rule, budget=budget)
+    return order, tuple(kind for kind, names in parts for _ in names), reason

@@ -1,10 +1,36 @@
-"""Variable orders for cylindrical algebraic decomposition, chosen within quantifier blocks only."""
+"""Variable orders for cylindrical algebraic decomposition, chosen within quantifier blocks only.
+
+Heuristics: Brown (tutorial at ISSAC 2004) reads the degrees of the input; greedy (Dolzmann, Seidl, Sturm, ISSAC 2004)
+projects one variable at a time, the one whose projection is smallest. Size is ``sotd``, the sum of the total degrees of
+all terms (the same paper). Where the two disagree, their whole projections are compared (``preferred``).
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from enum import Enum
 
 from qe.exact.ring import Poly
+
+
+class OrderRule(Enum):
+    """How the variables of a block are ordered. ``PILOT``: by Brown and greedy, and a comparison if they disagree."""
+
+    WRITTEN = "as written"
+    BROWN = "brown"
+    GREEDY = "greedy"
+    PILOT = "pilot"
+
+
+@dataclass(frozen=True, slots=True)
+class Candidate:
+    """An order with the size of its projection: ``sotd`` of all factors, and the distinct real ``roots`` of level 0."""
+
+    order: tuple[str, ...]
+    rule: OrderRule
+    sotd: int
+    roots: int
 
 
 def brown_order(polys: Sequence[Poly], variables: Iterable[str]) -> tuple[str, ...]:
@@ -24,3 +50,33 @@ def brown_order(polys: Sequence[Poly], variables: Iterable[str]) -> tuple[str, .
         return max((p.degree(i) for p in polys), default=0), max((sum(e) for e in inside), default=0), len(inside), name
 
     return tuple(sorted(variables, key=weight, reverse=True))
+
+
+def greedy_order(
+    polys: Sequence[Poly], blocks: Sequence[Sequence[str]], project: Callable[[Sequence[Poly], str], list[Poly]]
+) -> tuple[str, ...]:
+    """The variables of the blocks, outermost block first; within a block the one projected first comes last.
+
+    ``project(polys, v)``: the factors that remain when v has been projected away. Ties keep Brown's order.
+    """
+    order: list[str] = []
+    for block in reversed(blocks):
+        left = list(reversed(brown_order(polys, block)))
+        while left:
+            after = {v: project(polys, v) for v in left} if len(left) > 1 else {left[0]: []}
+            first = min(left, key=lambda v: sotd(after[v]))
+            left.remove(first)
+            order.append(first)
+            if left or block is not blocks[0]:
+                polys = after[first] or project(polys, first)
+    return tuple(reversed(order))
+
+
+def sotd(polys: Iterable[Poly]) -> int:
+    """The sum of the total degrees of all terms."""
+    return sum(sum(exponents) for p in polys for exponents, _ in p.terms())
+
+
+def preferred(candidates: Sequence[Candidate]) -> Candidate:
+    """The candidate with the smallest projection; of equal ones the one with fewest roots, then the first."""
+    return min(candidates, key=lambda c: (c.sotd, c.roots))

@@ -1,0 +1,90 @@
+"""Choosing a variable order by projecting: greedy steps, and whole projections of the candidates for comparison."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from qe.eliminate.cad.equational import equational_constraints
+from qe.eliminate.cad.projection import factor_lists, project
+from qe.errors import BudgetExceeded
+from qe.exact.algebraic import real_roots
+from qe.exact.ring import Poly, Ring
+from qe.formula.build import convert
+from qe.formula.syntax import Formula
+from qe.formula.traverse import polynomials
+from qe.options import Budget, Projection
+from qe.plan.order import Candidate, OrderRule, brown_order, greedy_order, preferred, sotd
+
+PILOT_SHARE = 0.05
+"""The part of the remaining time that trial projections may take."""
+
+HEAVY = 20_000
+"""Resultants of more than this (degrees times numbers of terms) are not tried: one cannot be interrupted."""
+
+ROOTS_UP_TO = 300
+"""Roots are counted where the polynomials of level 0 have degrees up to this in all."""
+
+
+def choose_order(
+    matrix: Formula, blocks: Sequence[Sequence[str]], *, rule: OrderRule = OrderRule.PILOT, budget: Budget
+) -> tuple[tuple[str, ...], str]:
+    """The order of all variables (free block first, blocks never mixed) and why it was taken.
+
+    A part of the order that is asked for is written as blocks of one variable.
+
+    Raises ``BudgetExceeded`` only where ``budget`` is spent; a comparison that takes too long is given up.
+    """
+    polys = polynomials(matrix)
+    if rule is OrderRule.WRITTEN or all(len(block) < 2 for block in blocks):
+        return tuple(v for block in blocks for v in block), OrderRule.WRITTEN.value
+    brown = tuple(v for block in blocks for v in brown_order(polys, block))
+    if rule is OrderRule.BROWN:
+        return brown, rule.value
+    part = budget.share(PILOT_SHARE)
+    try:
+        greedy = greedy_order(polys, blocks, lambda found, v: _projected(found, v, part))
+        if rule is OrderRule.GREEDY or greedy == brown:
+            return greedy, rule.value if rule is OrderRule.GREEDY else "brown and greedy agree"
+        found = [_measured(matrix, brown, OrderRule.BROWN, part), _measured(matrix, greedy, OrderRule.GREEDY, part)]
+    except BudgetExceeded:
+        budget.check("order")
+        return brown, "brown (a comparison took too long)"
+    best = preferred(found)
+    figures = ", ".join(f"{c.rule.value} {c.sotd} with {c.roots} roots" for c in found)
+    return best.order, f"{best.rule.value} (size of projection: {figures})"
+
+
+def _projected(polys: Sequence[Poly], name: str, budget: Budget) -> list[Poly]:
+    """The irreducible factors left without the variable; raises ``BudgetExceeded`` rather than start a heavy step."""
+    if not polys or name not in polys[0].ring.index:
+        return list(polys)
+    i = polys[0].ring.index[name]
+    factors = dict.fromkeys(f for p in polys for f, _ in p.factors()[1])
+    inside = [f for f in factors if f.degree(i)]
+    if _effort(inside, i) > HEAVY:
+        raise BudgetExceeded("a trial projection is too heavy", limit="effort")
+    left = {f: None for f in factors if not f.degree(i)}
+    for p in project(inside, i, Projection.BROWN_MCCALLUM):
+        budget.check("order")
+        if p:
+            left.update(dict.fromkeys(f for f, _ in p.factors()[1]))
+    return list(left)
+
+
+def _effort(polys: Sequence[Poly], i: int) -> int:
+    """The size of the largest resultant or discriminant in variable i."""
+    sizes = sorted(((f.degree(i), f.term_count()) for f in polys), reverse=True)
+    return max(((m + n) * s * t for k, (m, s) in enumerate(sizes) for n, t in sizes[k:]), default=0)
+
+
+def _measured(matrix: Formula, order: tuple[str, ...], rule: OrderRule, budget: Budget) -> Candidate:
+    """The size of the whole projection."""
+    matrix = convert(matrix, Ring.of(order))
+    constraints = equational_constraints(matrix, len(order))
+    levels = factor_lists(
+        polynomials(matrix), len(order), Projection.BROWN_MCCALLUM, budget, constraints=constraints.factors
+    )
+    roots = 0
+    if levels and sum(f.degree(0) for f in levels[0]) <= ROOTS_UP_TO:
+        roots = sum(len(real_roots(f.to_univariate(0))) for f in levels[0])
+    return Candidate(order, rule, sum(sotd(level) for level in levels), roots)
