@@ -51,6 +51,16 @@ def chain(via: Sequence[Point], radius_squared: Number) -> str:
     return f"ex {bound}. " + " and ".join([*equations, *(within(point, radius_squared) for point in points)])
 
 
+def chain_region(via: Sequence[Point], radius_squared: Number) -> str:
+    """What ``chain`` says of the first control point: c(i) is c0 or -c0, shifted, and lies in the ball."""
+    first = coordinates("c0_", len(via[0]))
+    side, shift, parts = 1, [Fraction(0)] * len(first), [within(first, radius_squared)]
+    for point in via:
+        side, shift = -side, [2 * v - s for v, s in zip(point, shift, strict=True)]
+        parts.append(within([f"{number(s)} + {number(side)}*{c}" for c, s in zip(first, shift)], radius_squared))
+    return " and ".join(parts)
+
+
 def whole_curve(start: Point, control: Sequence[str], end: Point, radius_squared: Number) -> str:
     """The quadratic curve itself, not only its control points, stays in the ball (a condition on ``control``)."""
     terms = [

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import math
 import os
 import signal
 import subprocess
@@ -19,9 +20,10 @@ LOOK_AT_MEMORY = 0.1
 MIB = 1 << 20
 
 # The shell sets the limits and then becomes the program, so that nothing runs between fork and exec here.
-LIMITING = 'ulimit -c 0; ulimit -v "$1" 2>/dev/null; shift; exec "$@"'
-ADDRESS_SPACE = 4
-"""The address space of one process may be this many times the memory limit: a backstop where it grows by leaps."""
+LIMITING = 'ulimit -c 0; ulimit -v "$1" 2>/dev/null; ulimit -t "$2"; shift 2; exec "$@"'
+BACKSTOP = 4
+"""One process may have this many times the memory as address space, in case it grows by leaps, and this many times the
+time as processor time, in case nobody is left to end it."""
 
 
 class Ending(Enum):
@@ -56,8 +58,9 @@ def run_limited(
         source.write(text.encode())
         source.seek(0)
         start = time.perf_counter()
+        backstops = str(BACKSTOP * memory * 1024), str(math.ceil(BACKSTOP * (seconds + start_up)))
         child = subprocess.Popen(
-            ["/bin/sh", "-c", LIMITING, "sh", str(ADDRESS_SPACE * memory * 1024), *command],
+            ["/bin/sh", "-c", LIMITING, "sh", *backstops, *command],
             stdin=source,
             stdout=out,
             stderr=err,

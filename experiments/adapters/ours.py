@@ -7,28 +7,23 @@ from collections.abc import Callable
 
 from experiments.adapters.answer import Answer, Limits
 from experiments.solvers import OURS, WITHOUT
-from qe.errors import Unable
 from qe.formula.syntax import Formula
 from qe.io.text import write
-
-MEMORY_SHARE = 0.9
-"""Of the runner's limit, so that the engine ends by itself and says so."""
+from qe.options import Budget, Method, Options, Stage
+from qe.pipeline import solve
 
 
 def ours(name: str) -> Callable[[Formula, Limits], Answer]:
-    """The adapter for ``ours``, ``ours-METHOD`` or ``ours-without-STAGE``."""
-    without = (name.removeprefix(WITHOUT),) if name.startswith(WITHOUT) else ()
-    method = "auto" if without or name == OURS else name.removeprefix(f"{OURS}-")
+    """The adapter for ``ours``, ``ours-METHOD`` or ``ours-without-STAGE``.
 
-    def solve(formula: Formula, limits: Limits) -> Answer:
-        import qe
+    It asks the pipeline itself: the hard limits, for which ``qe.eliminate`` would fork a worker, are the runner's.
+    """
+    without = frozenset([Stage(name.removeprefix(WITHOUT))]) if name.startswith(WITHOUT) else frozenset()
+    method = Method.AUTO if without or name == OURS else Method(name.removeprefix(f"{OURS}-"))
 
+    def adapter(formula: Formula, limits: Limits) -> Answer:
         start = time.perf_counter()
-        memory = int(MEMORY_SHARE * limits.memory)
-        answer = qe.eliminate(formula, timeout=limits.seconds, memory=memory, method=method, without=without)
-        seconds = time.perf_counter() - start
-        if answer.formula is None:
-            raise Unable(answer.reason or "no reason given")
-        return Answer(write(answer.formula), seconds)
+        found = solve(formula, Options(method=method, without=without), Budget(limits.seconds))
+        return Answer(write(found.formula), time.perf_counter() - start)
 
-    return solve
+    return adapter

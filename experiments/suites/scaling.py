@@ -11,11 +11,11 @@ from experiments.problem import Problem
 from experiments.suites import paper
 
 SEED = 7
-DEGREES = (4, 6, 8, 10, 12)
+DEGREES = (4, 8, 12, 16, 24, 32)
 VIA_POINTS = (2, 3, 4, 6, 8, 12)
 BALLS = range(2, 9)
-BITS = (8, 16, 32, 64, 128, 256)
-HEIGHTS = (1, 2, 3, 4)
+BITS = (16, 64, 256, 1024, 4096)
+HEIGHTS = (1, 2, 3, 4, 5)
 
 
 def problems() -> list[Problem]:
@@ -34,7 +34,9 @@ def _via_points() -> Iterator[Problem]:
     """The analogue of (8) for more via points on a slight bend: 3 variables for each are eliminated."""
     for k in VIA_POINTS:
         via = [(Fraction(i), Fraction(3 + i % 2), Fraction(3)) for i in range(k)]
-        yield Problem("scaling/via", f"via-{k}", formulas.chain(via, 200 + 4 * k * k), size=k)
+        radius = 200 + 4 * k * k
+        region = formulas.chain_region(via, radius)
+        yield Problem("scaling/via", f"via-{k}", formulas.chain(via, radius), region, size=k)
 
 
 def _balls(dimension: int) -> Iterator[Problem]:

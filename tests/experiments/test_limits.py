@@ -75,3 +75,9 @@ def test_a_helper_that_stays_behind_is_ended(after):
 def test_the_memory_of_a_group_is_seen():
     assert group_memory(os.getpgrp()) > 10
     assert group_memory(2**22 + 1) == 0
+
+
+def test_a_run_ends_even_when_nobody_watches():
+    """Processor time has a limit of its own, some times the one that is watched."""
+    body = "import resource\nprint(resource.getrlimit(resource.RLIMIT_CPU)[0], flush=True)"
+    assert run(fake("watched", body), seconds=2.0, start_up=3.0).out.splitlines()[1] == "20"
