@@ -97,14 +97,6 @@ def summary(plan: Plan, files: list[str], seconds: float) -> dict[str, Any]:
     return found
 
 
-def sized(exact: str, square: Fraction) -> str:
-    """An exact root with its decimal; the decimal alone when the exact text would fill the line."""
-    decimal = f"{float(square) ** 0.5:.6g}"
-    if len(exact) > 40:
-        return f"about {decimal}"
-    return exact if exact == decimal else f"{exact} (about {decimal})"
-
-
 def path_json(plan: Plan, path: Path) -> dict[str, Any]:
     """``path.json``: the problem and the exact control points, enough to check the path again.
 

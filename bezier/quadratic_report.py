@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from typing import Any
 
 from bezier import mathml, quadratic
 from bezier import report_parts as parts
 from bezier.containment import Leaves
-from bezier.outputs import sized
 from bezier.quadratic_plan import QuadraticPlan
 from bezier.report_parts import Row, exact, norm, shown
-from bezier.scalar import decimal_text
+from bezier.scalar import decimal_text, with_decimal
 from bezier.workspace import root_text
 
 NAMES = ("P0", "Q0", "R0", "R2")
@@ -49,10 +49,14 @@ def reason(plan: QuadraticPlan) -> str:
         )
     shape = "acute" if balls.is_acute else "right or obtuse or flat"
     return (
-        f"no control point exists: the balls of radius r = {sized(radius, balls.radius_squared)} about O, 2 Q0 and"
+        f"no control point exists: the balls of radius r = {_root(radius, balls.radius_squared)} about O, 2 Q0 and"
         f" 2 R0 have no common point; the triangle O, Q0, R0 is {shape}, so r would have to be at least"
-        f" {sized(balls.needed_text, balls.needed_squared)}"
+        f" {_root(balls.needed_text, balls.needed_squared)}"
     )
+
+
+def _root(exact: str, square: Fraction) -> str:
+    return with_decimal(exact, f"{float(square) ** 0.5:.6g}")
 
 
 def _claims(plan: QuadraticPlan) -> dict[str, str]:

@@ -96,8 +96,12 @@ def decimal_text(value: Any, digits: int = 12) -> str:
 
 
 def brief(value: Any) -> str:
-    """The exact text with a decimal where they differ, the decimal alone where the exact text would fill the line."""
-    exact, decimal = exact_text(value), decimal_text(value, 8)
+    """The exact text of a number as far as it is short, with a decimal."""
+    return with_decimal(exact_text(value), decimal_text(value, 8))
+
+
+def with_decimal(exact: str, decimal: str) -> str:
+    """Exact text with a decimal where they differ, the decimal alone where the exact text would fill the line."""
     if len(exact) > 40:
         return f"about {decimal}"
     return exact if exact == decimal else f"{exact} (about {decimal})"

@@ -13,7 +13,7 @@ from bezier import cubic
 from bezier.curve import Smoothness
 from bezier.path import speed_at_joins
 from bezier.plan import Outcome, make_plan
-from bezier.problem import PlanMethod, PointCondition, Problem
+from bezier.problem import INNER, PlanMethod, PointCondition, Problem
 from bezier.scalar import dot, scale, sign
 from bezier.terms import named_multipliers
 from bezier.workspace import HalfSpace, Workspace, WorkspaceKind
@@ -238,6 +238,34 @@ def test_a_via_point_on_the_sphere_leaves_only_the_cusp():
     plan = make_plan(problem((3, 0, 0), (1, 2, 2), 9))
     assert plan.certified and plan.path.points["Q1"] == (3, 0, 0) and plan.path.points["Q2"] == (1, 2, 2)
     assert plan.slowest["Q"].stops == ((0, 0), (1, 1)) and plan.slowest["P"].stops[-1] == (1, 1)
+
+
+@pytest.mark.deep
+@settings(max_examples=300)
+@given(
+    st.tuples(points(), points()).filter(lambda via: via[0] != via[1]),
+    st.sampled_from([0, 0, 1, 2, 5]),
+    st.sampled_from(WorkspaceKind),
+    RATIO,
+    st.sampled_from([0, 0, Fraction(1, 2), 2]),
+    st.lists(st.tuples(POINT.filter(any), COORDINATE, st.sampled_from(INNER[PlanMethod.CUBIC])), max_size=2),
+)
+def test_many_plans_and_what_their_certificates_show(via, more, kind, ratio, speed, half_spaces):
+    from bezier.cubic_method import claim
+    from qe.evidence.certificate import Certificate
+
+    if kind is WorkspaceKind.HEMISPHERE:
+        via = tuple((*p[:2], abs(p[2])) for p in via)
+        assume(via[0] != via[1])
+    conditions = tuple(
+        PointCondition(HalfSpace(normal, offset, f"half_space[{i}]"), (name,))
+        for i, (normal, offset, name) in enumerate(half_spaces)
+    )
+    squared = max(*(dot(p, p) for p in via), Fraction(1)) + more
+    asked = problem(*via, squared, kind, ratio=ratio, join_speed=Fraction(speed), half_spaces=conditions)
+    plan = make_plan(asked)
+    shown = claim(asked, Certificate.from_json(plan.certificate.to_json()))
+    assert plan.certified and shown.points == (None if plan.path is None else plan.path.points)
 
 
 # --- further conditions ------------------------------------------------------------------------------
