@@ -89,7 +89,8 @@ def in_words(made: Plan, target: FilePath, files: list[str], seconds: float) -> 
         lines.append(f"objective {brief(made.objective)}, active: {', '.join(made.active) or 'nothing'}")
     if made.path is not None:
         inside = "proved to lie in the workspace" if made.path.is_inside else "which LEAVES the workspace"
-        lines.append(f"path: {made.path.smoothness.name} at both joins, {inside}")
+        joins = f"{made.path.smoothness.name} at both joins, " if made.path.joins else ""
+        lines.append(f"path: {joins}{inside}")
     lines += motion.words(made)
     lines += avoid.words(made)
     accepted = all(verdict.accepted for verdict in made.checks.values())

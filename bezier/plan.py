@@ -63,6 +63,11 @@ class Plan:
     quality: Quality | None = None
 
     @property
+    def unit(self) -> str:
+        """The unit of the objective."""
+        return "mm²"
+
+    @property
     def certified(self) -> bool:
         """Whether the checker accepted every certificate and the whole path is proved inside and clear of obstacles."""
         accepted = all(verdict.accepted for verdict in self.checks.values())
@@ -106,7 +111,7 @@ class Clock:
 
 
 def make_plan(problem: Problem, clock: Clock | None = None) -> Plan:
-    """Plan a path. Raises ``Unable`` for methods that are not there yet, and at limits with what is known by then."""
+    """Plan a path. Raises ``Unable`` where no answer is reached, at limits with what is known by then."""
     from bezier.avoid import avoiding  # these need ``Plan``
     from bezier.methods import method_of
 

@@ -83,7 +83,7 @@ def cards(plan: Plan) -> list[Row]:
     found = [card("result", RESULTS[plan.outcome], tone(plan.outcome is Outcome.SOLVED))]
     found.append(card("radius", f"{float(plan.problem.workspace.radius_squared) ** 0.5:.6g} mm"))
     if plan.objective is not None:
-        found.append(card("objective", f"{decimal_text(plan.objective, 8)} mm²"))
+        found.append(card("objective", f"{decimal_text(plan.objective, 8)} {plan.unit}"))
         found.append(card("active conditions", ", ".join(plan.active) or "none"))
     found.append(card("certified", "yes" if plan.certified else "not everything", tone(plan.certified)))
     found.append(card("computed in", f"{sum(plan.seconds.values()):.2f} s"))
@@ -324,6 +324,7 @@ def certificates(plan: Plan, claims: Mapping[str, str]) -> list[Row]:
         result = "proved" if inside else "refuted"
         claim = "The whole path stays in the workspace (see the proofs above)"
         rows.append({"claim": claim, "how": how, "result": result, "tone": tone(inside)})
+    if plan.path is not None and plan.path.joins:
         smooth = plan.path.smoothness
         claim = f"Both joins are {'C²' if smooth is Smoothness.C2 else 'C¹'}"
         rows.append({"claim": claim, "how": how, "result": "proved", "tone": tone(smooth >= Smoothness.C1)})
@@ -331,6 +332,7 @@ def certificates(plan: Plan, claims: Mapping[str, str]) -> list[Row]:
 
 
 def tone(good: bool) -> str:
+    """The class of a good or a bad result."""
     return "good" if good else "bad"
 
 

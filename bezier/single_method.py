@@ -79,7 +79,7 @@ def draw(plan: SinglePlan, folder: FilePath) -> Drawing:
     from bezier.picture import Drawing, path_picture
 
     ends = {f"{NAME}0": plan.problem.start, f"{NAME}{plan.task.degree}": plan.problem.goal}
-    picture = path_picture(plan.problem, plan.path, ends, region=None)
+    picture = path_picture(plan.problem, plan.path, ends, region=None, hats=False)
     plot.save_path(picture, folder / "path.png")
     curves = {"chosen": plan.path.curves[NAME]} if plan.path else {}
     if plan.printed is not None and not plan.printed.holds:

@@ -70,6 +70,11 @@ class SinglePlan(Plan):
     above: Mapping[str, Inside]
 
     @property
+    def unit(self) -> str:
+        """The unit of the sum."""
+        return "mm"
+
+    @property
     def least_sums(self) -> dict[str, Fraction]:
         """The least sum of (4) by axis, where there is one."""
         return {c.axis.name: c.outcome.value for c in self.chosen if isinstance(c.outcome, LinearOptimum)}

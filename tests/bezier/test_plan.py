@@ -14,7 +14,7 @@ from bezier.problem import PlanMethod, Problem, load_problem
 from bezier.scalar import dot, sign
 from bezier.terms import named_multipliers
 from bezier.workspace import Workspace, WorkspaceKind
-from qe.errors import BudgetExceeded, CertificateRejected, Unable
+from qe.errors import BudgetExceeded, CertificateRejected
 from qe.formula.evaluate import holds_at
 from tests.bezier.numbers import points
 
@@ -117,11 +117,6 @@ def test_the_hemisphere_gap_is_the_one_of_the_paper(root):
     printed = qe.region(qe.eliminate(quadratic.printed(plan.problem).formula()).formula)
     paper = dict(zip(quadratic.FREE, (0, 1, 1), strict=True))
     assert printed.contains(paper) and not plan.region.contains(paper)
-
-
-def test_a_method_that_is_not_there():
-    with pytest.raises(Unable, match="not there yet"):
-        make_plan(problem_of((Fraction(1),) * 3, (Fraction(2),) * 3, 20, method=PlanMethod.SINGLE))
 
 
 def test_the_clock_stops_at_its_limit():

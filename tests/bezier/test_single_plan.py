@@ -1,0 +1,187 @@
+"""Planning with Method 1: the examples, what the table [single] may say, and folders that must be rejected."""
+
+import json
+from fractions import Fraction
+
+import pytest
+
+import qe
+from bezier.outputs import write_data
+from bezier.plan import Outcome, make_plan
+from bezier.problem import from_json, load_problem, read_problem, to_json
+from bezier.scalar import dot
+from bezier.single_closed import NoCurve
+from bezier.single_cuts import Model
+from bezier.single_method import SINGLE, certified_curve
+from bezier.single_plan import CLOSED, task_of
+from qe.errors import CertificateRejected, InputError
+from qe.evidence.certificate import Certificate
+
+F = Fraction
+EXAMPLES = ("single", "single_leaves", "single_dip")
+
+
+@pytest.fixture(scope="module")
+def plans(root):
+    """The plans of the examples, with their problems."""
+    return {name: make_plan(load_problem(root / "examples" / f"{name}.toml")) for name in EXAMPLES}
+
+
+@pytest.mark.parametrize("name", EXAMPLES)
+def test_everything_is_certified_and_found_again(plans, name):
+    plan = plans[name]
+    assert plan.certified and all(verdict.accepted for verdict in plan.checks.values())
+    stored = Certificate.from_json(plan.certificate.to_json())
+    claim = SINGLE.claim(plan.problem, stored)
+    assert (claim.points is None) == (plan.outcome is Outcome.INFEASIBLE)
+    if plan.path is not None:
+        assert claim.points == plan.path.points and claim.curves == ("P",)
+        assert set(plan.above) == {axis.name for axis in plan.task.raised}
+
+
+def test_the_printed_curve_that_holds(plans):
+    plan = plans["single"]
+    assert plan.printed.holds and plan.closed is None and plan.objective == 5
+    assert {dip.axis.name for dip in plan.printed.allowed} == {"y", "z"}
+    assert all(plan.printed.lowest.point(dip.t) != plan.printed.curve.point(dip.t) for dip in plan.printed.allowed)
+
+
+def test_the_printed_curve_that_leaves(plans):
+    plan = plans["single_leaves"]
+    assert [proof.condition.name for proof in plan.printed.leaving] == ["ball"] and not plan.printed.dips
+    assert plan.objective == plan.closed.bound == F(2027, 160) and plan.gap == 0
+    words = "\n".join(SINGLE.words(plan))
+    assert "LEAVES the ball" in words and "least possible sum, 2027/160" in words
+
+
+def test_the_printed_curve_that_dips(plans):
+    plan = plans["single_dip"]
+    assert isinstance(plan.closed, NoCurve) and plan.outcome is Outcome.INFEASIBLE
+    (dip,) = plan.printed.dips
+    assert dip.t == F(4, 5) and dip.value < 3
+    assert "contradict each other" in SINGLE.reason(plan)
+
+
+@pytest.mark.parametrize("name", EXAMPLES)
+def test_the_problem_is_written_and_read_again(plans, name):
+    problem = plans[name].problem
+    again = from_json(json.loads(json.dumps(to_json(problem))), "again")
+    assert again.single.task == problem.single.task and again.via == problem.via
+
+
+def test_one_axis_and_a_small_degree_are_also_solved_by_elimination():
+    """The goal and the end of the interval are on the sphere: the curve has to touch it there."""
+    plan = make_plan(
+        read_problem(
+            'method = "single"\nstart = [0, 2, 0]\ngoal = [10, 0, 0]\nradius = 10\n'
+            "[single]\ndegree = 4\na = 3\nb = 6\nheight_y = 8"
+        )
+    )
+    assert plan.printed.leaving and plan.objective == plan.closed.bound == F(4589, 504)
+    assert qe.decide(f"all v. v = {plan.objective} -> ({plan.attainable})")
+    assert qe.decide(f"all v. ({plan.attainable}) -> v >= {plan.closed.bound}")
+    (tangent,) = (cut for cut in Model.of(plan.task, plan.problem.workspace).tangents)
+    assert tangent.t == F(3, 5) and dot(plan.path.curves["P"].point(tangent.t), (6, 8, 0)) == 100
+    assert dot(plan.path.curves["P"].derivative(1, tangent.t), (6, 8, 0)) == 0
+
+
+# --- the table [single] ------------------------------------------------------------------------------
+
+
+def problem_text(
+    via="via = [[4, 10, 1], [7, 10, 1]]", single="degree = 6", method="single", goal="[10, 5, 0]", radius="sqrt(155)"
+):
+    """A problem file."""
+    table = f"[single]\n{single}\n" if single is not None else ""
+    return f'method = "{method}"\nstart = [0, 0, 0]\n{via}\ngoal = {goal}\nradius = "sqrt(155)"\n{table}'
+
+
+def test_the_via_points_say_the_interval_and_the_heights():
+    task = task_of(read_problem(problem_text()))
+    assert task.interval == (4, 7) and [axis.height for axis in task.axes] == [10, 1]
+    stated = task_of(
+        read_problem(problem_text(via="", single="a = 4\nb = 7\nheight_y = 10\nheight_z = '1'\np = 2\nq = 4"))
+    )
+    assert stated == task
+    assert task_of(read_problem(problem_text(single=None))) == task
+
+
+def test_without_a_degree_the_least_one_from_six_on_is_taken():
+    narrow = "via = [['61/10', 10, 1], ['62/10', 10, 1]]"
+    task = task_of(read_problem(problem_text(via=narrow, single=None)))
+    assert task.degree == 13
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"single": "degree = 4\na = 4\nb = 7\nheight_y = 10"}, "via: expected no via points beside a, b and heights"),
+        ({"single": "degree = 2"}, "single.degree: expected what Method 1 needs, found degree 2: no p >= 1"),
+        ({"single": "degree = 65"}, "single.degree: expected a whole number from 0 to 64, found 65"),
+        ({"single": "degree = 6.5"}, "single.degree: expected a whole number"),
+        ({"single": "degree = 6\np = 1"}, "single.p: expected 2, which follows from a and b, found 1"),
+        ({"single": "order = 6"}, "single.order: expected one of the keys degree, a, b"),
+        ({"single": "degree = 6", "method": "cubic"}, 'single: expected this table with method = "single" only'),
+        ({"via": "via = [[4, 10, 1], [7, 9, 1]]"}, "via: expected two points with the same y above zero"),
+        ({"via": "via = [[4, 10, 0], [7, 10, 0]]"}, "via: expected two points with the same z above zero"),
+        ({"via": "", "single": "a = 4\nb = 7"}, "a: expected what Method 1 needs, found expected a positive height"),
+        ({"via": "", "single": "a = 4\nheight_y = 10"}, "single.b: expected an integer"),
+        (
+            {"via": "", "single": "a = 4\nb = 7\nheight_y = -1"},
+            "single.height_y: expected a number above zero, found -1",
+        ),
+        ({"via": "", "single": "a = 4\nb = 7\nheight_y = 1", "goal": "[0, 1, 0]"}, "goal: expected a goal beyond"),
+    ],
+)
+def test_bad_tables_get_one_clear_line(change, message):
+    with pytest.raises(InputError) as caught:
+        read_problem(problem_text(**change), "p.toml")
+    assert message in str(caught.value) and "\n" not in str(caught.value)
+
+
+# --- folders that must be rejected -------------------------------------------------------------------
+
+
+def members(plan):
+    return [(member.label, member.certificate) for member in plan.certificate.payload]
+
+
+@pytest.mark.parametrize("label", ["problem (4) for y", CLOSED, "P in ball"])
+def test_a_missing_certificate_is_noticed(plans, label):
+    plan = plans["single_leaves"]
+    left = [(name, certificate) for name, certificate in members(plan) if name != label]
+    assert len(left) == len(members(plan)) - 1
+    if label == CLOSED:  # then the curve is claimed to be one of (4) only, which it is
+        assert SINGLE.claim(plan.problem, Certificate.bundle(left)).points == plan.path.points
+        return
+    with pytest.raises(CertificateRejected):
+        SINGLE.claim(plan.problem, Certificate.bundle(left))
+
+
+@pytest.mark.parametrize("name", ["single", "single_leaves"])
+def test_certificates_of_another_problem_are_rejected(plans, name):
+    other = plans["single_leaves" if name == "single" else "single"]
+    with pytest.raises(CertificateRejected):
+        SINGLE.claim(plans[name].problem, other.certificate)
+
+
+def test_an_altered_curve_is_rejected(plans):
+    plan = plans["single_leaves"]
+    for k, label in enumerate(label for label, _ in members(plan)):
+        if label != "P in ball":
+            continue
+        payload = json.loads(json.dumps(plan.certificate.payload[k].certificate.payload))
+        for point, axis, value in ((1, 0, "-1"), (2, 1, "1"), (3, 1, "3"), (0, 2, "1")):
+            changed = json.loads(json.dumps(payload))
+            changed["points"][point][axis] = [value]
+            certificate = Certificate(plan.certificate.payload[k].certificate.kind, changed)
+            with pytest.raises(CertificateRejected):
+                certified_curve(plan.task, Certificate.bundle([(label, certificate)]))
+
+
+def test_the_files(plans, tmp_path):
+    assert set(write_data(plans["single_leaves"], tmp_path)) == {"certificate.json", "path.json", "path.csv"}
+    stored = json.loads((tmp_path / "path.json").read_text())
+    assert stored["curves"] == {"P": [f"P{i}" for i in range(7)]} and stored["joins"] == []
+    rows = (tmp_path / "path.csv").read_text().splitlines()
+    assert rows[-1].split(",")[:4] == ["1", "3", "0", "0"]
