@@ -12,6 +12,7 @@ import sys
 from collections.abc import Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import dataclass
+from typing import Any
 
 from experiments.adapters.answer import Limits
 from experiments.environment import now
@@ -115,7 +116,7 @@ def _outcome(run: Run, limits: Limits) -> tuple[Status, float, str, str]:
     return status, seconds, report.get("answer", ""), report.get("message", "")
 
 
-def _report(out: str) -> dict[str, object] | None:
+def _report(out: str) -> dict[str, Any] | None:
     """The last line that is a report."""
     for line in reversed(out.splitlines()):
         if line.startswith("{") and "status" in (report := json.loads(line)):

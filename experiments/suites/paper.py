@@ -12,6 +12,7 @@ from bezier import cubic, quadratic, single, single_formula
 from bezier.control import number
 from bezier.problem import Problem as PlanningProblem
 from bezier.problem import read_problem
+from bezier.scalar import exactly
 from bezier.single_formula import Symbol
 from experiments import formulas
 from experiments.problem import Problem
@@ -76,7 +77,7 @@ def _symbolic() -> Problem:
 def _quadratic(i: int, problem: PlanningProblem) -> Iterator[Problem]:
     """Formula (8), with z >= 0, its feasibility, its shadow on an axis, and the whole-curve condition."""
     conditions = quadratic.system(problem).conditions_text()
-    above = " and ".join(f"{a} >= 0" for a in ("q1z", *(f"2*{p[2]} - q1z" for p in problem.via)))
+    above = " and ".join(f"{a} >= 0" for a in ("q1z", *(f"2*{number(p[2])} - q1z" for p in problem.via)))
     x, y, z = quadratic.FREE
     yield _problem("formula-8", i, quadratic.printed(problem).formula(), conditions)
     corrected = quadratic.corrected(problem).formula()
@@ -84,10 +85,9 @@ def _quadratic(i: int, problem: PlanningProblem) -> Iterator[Problem]:
     meet = str(quadratic.three_balls(problem).meet).lower()
     yield _problem("formula-8-feasible", i, f"ex {x}, {y}, {z}. {conditions}", meet)
     yield _problem("formula-8-shadow", i, f"ex {y}, {z}. {conditions}")
-    middle = [str((Fraction(a) + Fraction(b)) / 2) for a, b in zip(*problem.via, strict=True)]
-    radius = Fraction(problem.workspace.radius_squared)
-    q0, r0 = (tuple(map(Fraction, p)) for p in problem.via)
-    height = formulas.whole_curve(q0, [*middle[:2], "h"], r0, radius)
+    q0, r0 = (tuple(map(exactly, p)) for p in problem.via)
+    middle = [number((a + b) / 2) for a, b in zip(q0[:2], r0[:2], strict=True)]
+    height = formulas.whole_curve(q0, [*middle, "h"], r0, problem.workspace.radius_squared)
     yield _problem("whole-curve", i, height)
 
 
@@ -100,9 +100,8 @@ def _cubic(i: int, problem: PlanningProblem) -> Iterator[Problem]:
     yield _problem("formula-7-feasible", i, f"ex {block}. {conditions}", "true")
     flat = in_plane(problem)
     yield _problem("formula-7-plane", i, f"ex q1x, q1y, q2x, q2y. {flat}", "true")
-    outward = [
-        f"q1{axis} = {number(2 * Fraction(a) - Fraction(b))}" for axis, a, b in zip("xy", *problem.via, strict=False)
-    ]
+    q0, r0 = problem.via
+    outward = [f"q1{axis} = {number(2 * exactly(a) - exactly(b))}" for axis, a, b in zip("xy", q0, r0, strict=False)]
     yield _problem("formula-7-outward", i, f"ex q1x, q1y, q2x, q2y. {' and '.join(outward)} and {flat}")
     if i == 0:
         yield _problem("formula-7-region", i, f"ex q2x, q2y. {in_plane(read_problem(TWO_ACTIVE))}")
@@ -110,8 +109,8 @@ def _cubic(i: int, problem: PlanningProblem) -> Iterator[Problem]:
 
 def in_plane(problem: PlanningProblem) -> str:
     """What (7) says of Q1 and Q2 when all points lie in the plane z = 0 (the first two coordinates are kept)."""
-    flat = [(Fraction(p[0]), Fraction(p[1]), Fraction(0)) for p in problem.via]
-    text = cubic.system(replace(problem, via=(flat[0], flat[1]))).conditions_text()
+    q0, r0 = ((p[0], p[1], Fraction(0)) for p in problem.via)
+    text = cubic.system(replace(problem, via=(q0, r0))).conditions_text()
     return re.sub(r"\bq[12]z\b", "0", text)
 
 
