@@ -171,15 +171,52 @@ def _equal(point: Point, a: Section, b: Section) -> bool:
     left, right = _as_fibre_root(point, a.value), _as_fibre_root(point, b.value)
     if left.fibre is right.fibre:
         return left.index == right.index
+    bits = EXACT_FROM
+    if _meet_once(left.fibre, right.fibre):
+        while True:
+            pairs = _overlaps(left.fibre.roots(bits), right.fibre.roots(bits))
+            if len(pairs) == 1:
+                return pairs[0] == (left.index, right.index)
+            bits *= 2
     common = common_fibre(left.fibre, right.fibre)
     if common is None:
         return False
-    bits = EXACT_FROM
     while True:
         matches = _matches(common.roots(bits), left.fibre.roots(bits), right.fibre.roots(bits))
         if matches is not None:
             return (left.index, right.index) in matches
         bits *= 2
+
+
+def _meet_once(f: Fibre, g: Fibre) -> bool:
+    """Whether two fibres over a point with one algebraic coordinate are seen to have exactly one common root.
+
+    THEOREM. Let F, G be polynomials in x and y whose leading coefficients in y do not vanish at x = a, and let the real
+    number a be a simple root of res_y(F, G). Then F(a, y) and G(a, y) have exactly one common root, and it is real.
+    PROOF. The Sylvester matrix over a loses as much rank as the degree of their greatest common divisor (Basu, Pollack,
+    Roy 2006, section 4.2), and the order of its determinant at a is at least that; a common root that is not real
+    comes with its conjugate.
+    """
+    point, var = f.point, f.var
+    if len(point.algebraic) != 1:
+        return False
+    (i,) = point.algebraic
+    value = point.coordinate(i)
+    left, right = (Fibre(point, var, h.source).polynomial() for h in (f, g))
+    if not isinstance(value, RealAlgebraic) or any(point.vanishes(h.leading(var)) for h in (left, right)):
+        return False
+    key = ("resultant", left, right)
+    resultant = point.ring.cache.get(key)
+    if resultant is None:
+        resultant = left.resultant(right, var)
+        point.ring.remember(key, resultant)
+    assert isinstance(resultant, Poly)
+    once, rest = divmod(resultant.to_univariate(i), value.poly) if resultant else (resultant, True)
+    return not rest and bool(once % value.poly)
+
+
+def _overlaps(left: list[arb], right: list[arb]) -> list[tuple[int, int]]:
+    return [(i, j) for i, x in enumerate(left) for j, y in enumerate(right) if x.overlaps(y)]
 
 
 def _matches(common: list[arb], left: list[arb], right: list[arb]) -> set[tuple[int, int]] | None:

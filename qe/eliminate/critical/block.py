@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import Protocol
 
 from qe.eliminate.critical.boundary import critical_hypersurfaces
 from qe.eliminate.critical.bounded import has_bounded_fibres
@@ -87,17 +88,27 @@ def _eliminated(system: System, helpers: Helpers, budget: Budget) -> Disjunct:
     stats: dict[str, object] = {"decided": fibres.decided}
     if not system.free:
         return Disjunct(system.formula, fibres.hold_at(()), stats)
-    run = _Run(system, fibres, helpers, budget, stats)
+    run = Run(system, fibres, helpers, budget, stats)
     body = run.convex() if system.is_convex and system.is_closed else None
     return Disjunct(system.formula, run.general() if body is None else body, stats)
 
 
+class Oracle(Protocol):
+    """Membership in a truth set."""
+
+    def hold_at(self, parameters: tuple[Fraction, ...]) -> bool:
+        """Whether a rational point belongs to it."""
+
+    def hold_over(self, point: Point) -> bool:
+        """Whether any point belongs to it."""
+
+
 @dataclass(frozen=True, slots=True)
-class _Run:
-    """The work on one disjunct."""
+class Run:
+    """The work on one truth set over the parameters of ``system``."""
 
     system: System
-    fibres: Fibres
+    fibres: Oracle
     helpers: Helpers
     budget: Budget
     stats: dict[str, object]
@@ -116,14 +127,18 @@ class _Run:
         return self._tabulated(boundary, shape, truth)
 
     def convex(self) -> ConvexBody | None:
-        """A closed convex truth set, if it has interior points.
+        """A closed convex truth set, if it has interior points."""
+        surfaces = critical_hypersurfaces(self.system, thin_parts=False, budget=self.budget)
+        return self.body(surfaces, self._hint())
+
+    def body(self, surfaces: frozenset[Poly], hint: tuple[Fraction, ...]) -> ConvexBody | None:
+        """The closed convex truth set with its boundary in the zeros of ``surfaces``, if it has interior points.
 
         A point p on a boundary polynomial belongs to such a set T iff the segment from p to an interior point c
         begins in it: then all of (p, c] is interior (Rockafellar 1970, Theorem 6.1), and otherwise p has a
         neighbourhood outside.
         """
-        surfaces = critical_hypersurfaces(self.system, thin_parts=False, budget=self.budget)
-        origin, hint = Point(self.system.ring), self._hint()
+        origin = Point(self.system.ring)
         exploration = OpenCells(self._levels(surfaces), self.fibres.hold_at, self.budget, hint)
         exploration.explore(origin)
         self.stats.update({"hypersurfaces": len(surfaces), "cells decided": exploration.decided})
@@ -147,7 +162,7 @@ class _Run:
             boundary,
             lambda: separated(boundary, explored),
             self.fibres.hold_at,
-            has_bounded_fibres(self.system.without_parameters()),
+            exploration.is_bounded(),
             lambda: self._tabulated(boundary, Shape.CONVEX, truth),
         )
 

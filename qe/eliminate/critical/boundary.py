@@ -59,17 +59,17 @@ def _minors(active: Sequence[Poly], bound: Sequence[int]) -> list[Poly]:
         return []
     rows = [[f.derivative(i) for i in bound] for f in active]
     columns = combinations(range(len(bound)), len(active))
-    return [minor for chosen in columns if (minor := _determinant([[row[c] for c in chosen] for row in rows]))]
+    return [minor for chosen in columns if (minor := determinant([[row[c] for c in chosen] for row in rows]))]
 
 
-def _determinant(rows: Sequence[Sequence[Poly]]) -> Poly:
-    """By expansion along the first row; the matrices have a few rows."""
+def determinant(rows: Sequence[Sequence[Poly]]) -> Poly:
+    """The determinant, by expansion along the first row; the matrices have a few rows."""
     if len(rows) == 1:
         return rows[0][0]
     total = rows[0][0].ring.constant(0)
     for c, entry in enumerate(rows[0]):
         if entry:
-            minor = _determinant([[*row[:c], *row[c + 1 :]] for row in rows[1:]])
+            minor = determinant([[*row[:c], *row[c + 1 :]] for row in rows[1:]])
             total = total + (-1) ** c * entry * minor
     return total
 
@@ -77,6 +77,8 @@ def _determinant(rows: Sequence[Sequence[Poly]]) -> Poly:
 def _eliminated(polys: Sequence[Poly], system: System, thin_parts: bool) -> tuple[Poly, ...]:
     """Polynomials in the parameters that all vanish wherever the given ones have a common zero y."""
     bound = system.bound
+    if len(bound) == 1 and (found := _resultants(polys, bound[0])):
+        return found
     order = tuple(sorted(range(system.ring.size), reverse=True))
     basis = groebner_basis(polys, variables=order, heavy=len(bound))
     if basis is None:
@@ -85,3 +87,13 @@ def _eliminated(polys: Sequence[Poly], system: System, thin_parts: bool) -> tupl
     if not outside:
         raise Unable("critical-value elimination: critical points over all of parameter space")
     return outside if thin_parts else (reduce(Poly.gcd, outside),)
+
+
+def _resultants(polys: Sequence[Poly], variable: int) -> tuple[Poly, ...]:
+    """The same for one eliminated variable: f and f' have a common zero only where the discriminant of f vanishes."""
+    first, *others = polys
+    if others == [first.derivative(variable)] and first.degree(variable) > 1:
+        found = [first.discriminant(variable)]
+    else:
+        found = [first.resultant(other, variable) for other in others if first.degree(variable)]
+    return tuple(f for f in found if f)

@@ -8,6 +8,11 @@ A piece of the boundary over lower polynomials' zeros lies in the zeros of a pol
 Elsewhere, over an open cell B of the last but one space, the fibre of T over each point of B is an interval with
 interior points (otherwise no open cell over B would be true, while T, if it meets B x R at all, has interior points
 there); so a boundary point over B is an end of that interval and separates a true from a false sector.
+
+THEOREM. Such a T is bounded iff no true open cell lies over or in the first or last sector of a stack.
+PROOF. If T is unbounded, it has a direction d of recession (Rockafellar 1970, Theorem 8.4). Let d_k be its first
+nonzero coordinate and p an interior point of T over an open cell: p + s d is interior for all s >= 0 and has the first
+k - 1 coordinates of p, so it ends in an outermost sector of level k over them. The converse is clear.
 """
 
 from __future__ import annotations
@@ -89,6 +94,10 @@ class OpenCells:
                 ends = [k for k in (run.start - 1, run.stop - 1) if 0 <= k < len(isolation.sections)]
                 found |= {self.levels[last][j] for k in ends for j in isolation.sections[k].members}
         return found
+
+    def is_bounded(self) -> bool:
+        """Whether T is bounded, by the second theorem."""
+        return all(not run or (run.start and run.stop <= len(i.sections)) for i, run in self._stacks.values())
 
     def cells(self, point: Point, path: tuple[int, ...] = ()) -> Iterator[OpenCell]:
         """All open cells, after ``explore``."""
