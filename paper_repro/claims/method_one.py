@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 
+from bezier import single
 from paper_repro.ask import decided, eliminated, optimised
 from paper_repro.claim import Evidence, Fact, Picture, Table, Verdict, claim
 from paper_repro.figures.curves import heights
@@ -144,10 +145,17 @@ def equation_4() -> Iterator[Evidence]:
         "the optimiser's": [found.point[v] for v in Y],
     }
     yield Table(("optimal tuple", *Y), [(name, *map(str, values)) for name, values in tuples.items()])
-    drawing = heights(placed((0, equal, equal, 1, equal, equal, 0)), (A, B), 1, P, Q)
+    axes = (single.Axis("y", Fraction(0), Fraction(1, 2), Fraction(1)),)
+    task = single.task(8, (Fraction(0), Fraction(8)), (Fraction(5, 2), Fraction(11, 2)), axes)
+    chosen = single.choose(task, axes[0]).values
+    yield Fact(
+        "for another instance ($n = 8$) `bezier.single` finds the sum 3, the least possible with $y_3, y_4, y_5 \\ge "
+        "1$",
+        sum(chosen[i] for i in task.middle) == 3,
+    )
     yield Picture(
-        "Figure 4, redrawn: the position of $(a, h_y)$ and $(b, h_y)$; the optimal tuple with equal outer ordinates.",
-        drawing,
+        "Figure 4, redrawn: the position of $(a, h_y)$ and $(b, h_y)$; here $n = 8$, $x_i = i$, $a = 5/2$, $b = 11/2$.",
+        heights(list(zip(task.abscissae, chosen)), task.interval, 1, task.p, task.q),
     )
 
 

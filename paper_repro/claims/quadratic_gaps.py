@@ -188,15 +188,17 @@ def _keeps(path: Mapping[str, Bezier], radius_squared: int) -> bool:
 
 
 def _depth(given: Points, x: Any, y: Any) -> Any:
-    """r^2 less the largest squared distance from O along the three curves, for drawing: nonnegative where they stay
-    in."""
-    t = np.linspace(0, 1, 41)[:, None, None]
-    worst = 0.0
+    """The least of (r^2 - |p(t)|^2) / (t (1 - t)) along the curves, for drawing: nonnegative where they stay in.
+
+    The division keeps the ends, which may lie on the boundary, from hiding what happens beside them.
+    """
+    t = np.linspace(0, 1, 42)[1:-1, None, None]
+    found = []
     for item in curves(given, (x, y), (-3, 0), (3, 0)).values():
         a, b, c = item.points
         at = [(1 - t) ** 2 * float(u) + 2 * t * (1 - t) * v + t**2 * float(w) for u, v, w in zip(a, b, c)]
-        worst = np.maximum(worst, (at[0] ** 2 + at[1] ** 2).max(axis=0))
-    return 9 - worst
+        found.append(((9 - at[0] ** 2 - at[1] ** 2) / (t * (1 - t))).min(axis=0))
+    return np.min(found, axis=0)
 
 
 CLAIMS = (infeasible, hemisphere, sufficient_only)

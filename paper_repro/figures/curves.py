@@ -48,8 +48,6 @@ def heights(controls: Sequence[tuple[Any, Any]], interval: tuple[Any, Any], heig
     _heights(axis, controls, interval, height)
     bottom = axis.get_ylim()[0]
     names = {0: "x_0", p: "x_p", p + 1: "x_{p+1}", q: "x_q", q + 1: "x_{q+1}", len(controls) - 1: "x_n"}
-    if q == p + 1:
-        names[q] = r"x_{p+1}{=}x_q"
     axis.set_xticks([float(controls[i][0]) for i in names], [f"${n}$" for n in names.values()])
     axis.tick_params(axis="x", colors=INK, labelsize=11)
     for i in names:
@@ -103,7 +101,7 @@ def path(curves: Mapping[str, Bezier], radius: float, title: str, axes: tuple[in
     for place, found in seen.items():
         names = found[1:] if len(found) == 2 else found  # where two curves meet, the second one's name will do
         label(axis, "$" + r"{=}".join(names) + "$", place, (5, 7), fontsize=9)
-    axis.set_title(title, fontsize=10)
+    axis.set_title(title, fontsize=10, pad=14)
     axis.legend(frameon=False, loc="lower right")
     return figure
 

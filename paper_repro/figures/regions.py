@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 import qe
-from paper_repro.figures.canvas import COLOURS, INK, PALE, Figure, circle, drawing, label, plane
+from paper_repro.figures.canvas import COLOURS, INK, Figure, circle, drawing, label, plane
 
 
 @drawing
@@ -59,8 +59,7 @@ def two_regions(
     axis.contour(x, y, depth, levels=[0], colors=[COLOURS["P"]], linewidths=1.6)
     axis.plot([], [], color=COLOURS["P"], label="control points in the disc: formula (8)")
     axis.plot([], [], color=COLOURS["Q"], label="whole curves in the disc: (8*)")
-    axis.plot([], [], color=PALE)
-    axis.legend(frameon=False, loc="lower center", fontsize=9)
+    axis.legend(frameon=False, loc="upper right", fontsize=9)
     axis.set_xlabel("$x$")
     axis.set_ylabel("$y$")
     return figure
