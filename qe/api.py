@@ -28,6 +28,9 @@ if TYPE_CHECKING:  # the checker and the optimiser are loaded where they are use
     from qe.solution.region import Region
 
 Choice = TypeVar("Choice", bound=Enum)
+TABLE_VARIABLES = 3
+"""In more variables than this, convex regions are not decomposed unless that is asked for."""
+
 Progress = Callable[[Event], None]
 AnyFormula = Any
 """A ``Formula``, text, or a SymPy object."""
@@ -223,14 +226,29 @@ def region(
     timeout: float | None = None,
     progress: Progress = silent,
 ) -> Region:
-    """The solution set as a cylindrical description with a certificate; quantifiers are eliminated first."""
+    """The solution set of a formula in its free variables (or in ``order``, which may name more).
+
+    A cylindrical description with a certificate; quantifiers are eliminated first. For a conjunction of convex
+    quadratic conditions in four or more variables, or with existential quantifiers before it, membership, fibres
+    and bounds are found by exact optimisation, and the description only when it is asked for.
+    """
     given = read_formula(formula, format)
     budget = Budget(timeout, listener=progress)
-    if not is_quantifier_free(given):
-        given = pipeline.solve(given, Options(), budget).formula
+    names = None if order is None else tuple(order)
+    quantified = not is_quantifier_free(given)
+
+    def eliminated(part: Formula) -> Formula:
+        return pipeline.solve(part, Options(), budget).formula
+
+    if quantified or len(free_variables(given)) > TABLE_VARIABLES:
+        from qe.solution.convex_region import ConvexRegion, shadow_of
+
+        shadow = shadow_of(given, eliminated)
+        if shadow is not None:
+            return ConvexRegion(shadow, names, budget=budget)
     from qe.solution.region import Region
 
-    return Region.of(given, None if order is None else tuple(order), budget=budget)
+    return Region.of(eliminated(given) if quantified else given, names, budget=budget)
 
 
 def minimize(

@@ -10,15 +10,26 @@ from itertools import permutations
 from qe.eliminate.cad.decompose import decompose
 from qe.eliminate.cad.over_point import over_point
 from qe.eliminate.cad.projection import factor_lists
-from qe.eliminate.critical import ConvexBody, Disjunct, Helpers, OpenCell, Proposal, eliminate_block
+from qe.eliminate.critical import (
+    ConvexBody,
+    Disjunct,
+    Helpers,
+    OpenCell,
+    Proposal,
+    eliminate_block,
+    eliminate_universal,
+)
 from qe.evidence.cells import FreeCell
 from qe.evidence.story import Story
+from qe.exact.nearby import rational_values
 from qe.exact.ring import Poly, Ring
 from qe.exact.sample import Point
 from qe.formula.build import atom, conj, convert, disj, exists
-from qe.formula.syntax import FALSE, TRUE, Formula, Relation
-from qe.formula.traverse import free_variables, polynomials, ring_of
-from qe.options import Budget, Options, Projection, Stage
+from qe.formula.evaluate import substituted
+from qe.formula.normal import nnf
+from qe.formula.syntax import FALSE, TRUE, ForAll, Formula, Relation
+from qe.formula.traverse import free_variables, is_quantifier_free, polynomials, ring_of
+from qe.options import Budget, Method, Options, Projection, Stage
 from qe.plan.order import brown_order
 from qe.prepare.simplify import simplify
 from qe.solution.closure import describes_closure
@@ -45,8 +56,44 @@ def by_critical_values(
     start = time.perf_counter()
     parameters = _order(variables, body, options)
     found = eliminate_block(variables, body, parameters, helpers=_helpers(budget), budget=budget)
-    parts = (_formula(variables, parameters, part, options, budget, otherwise) for part in found)
-    formula = simplify(disj(parts))
+    parts = [_formula(variables, parameters, part, options, budget, otherwise) for part in found]
+    return _told(simplify(disj(parts)), body, parameters, found, story, start)
+
+
+def convex_universal(formula: Formula, options: Options, budget: Budget, story: Story) -> Formula | None:
+    """The formula of a universal block in one or two parameters whose truth set is seen to be convex with interior.
+
+    None where that is not seen, where another method is asked for, and, unless this one is, where substitution can do
+    it (degree up to 2). To be asked before preparation splits the conjuncts: the whole set has fewer boundary pieces.
+    Raises ``Unable`` where the method's side conditions are not met.
+    """
+    if options.method not in (Method.AUTO, Method.CRITICAL) or not isinstance(formula, ForAll):
+        return None
+    if not is_quantifier_free(formula.body) or not 0 < len(free_variables(formula)) <= 2:
+        return None
+    start = time.perf_counter()
+    negated = simplify(nnf(formula.body, negate=True))
+    if options.method is Method.AUTO and _degree(negated, formula.variables) <= 2:
+        return None
+    parameters = _order(formula.variables, negated, options)
+    found = eliminate_universal(formula.variables, negated, parameters, helpers=_helpers(budget), budget=budget)
+    if found is None:
+        return None
+    assert isinstance(found.found, ConvexBody)
+    answer = simplify(_of_body(found.found, parameters, options, budget))
+    return _told(answer, negated, parameters, [found], story, start)
+
+
+def _degree(formula: Formula, variables: Sequence[str]) -> int:
+    """The highest degree of one of the variables."""
+    named = [(p, p.ring.index[v]) for p in polynomials(formula) for v in variables if v in p.ring.index]
+    return max((p.degree(i) for p, i in named), default=0)
+
+
+def _told(
+    formula: Formula, body: Formula, parameters: tuple[str, ...], found: list[Disjunct], story: Story, start: float
+) -> Formula:
+    """The formula over the ring of the body; what was done goes into the story."""
     seconds = round(time.perf_counter() - start, 6)
     stats = [part.stats for part in found]
     story.note("critical", {"order": list(parameters), "disjuncts": stats, "seconds": seconds})
@@ -74,8 +121,7 @@ def _helpers(budget: Budget) -> Helpers:
                 if not lifted:
                     lifted.append(over_point(matrix, order, free, budget=budget))
                 return lifted[0](point)
-            values = {i: Fraction(str(point.number(i))) for i in range(point.depth)}
-            return _decided(matrix, order[free:], values, budget)
+            return _decided(matrix, order[free:], dict(zip(order, rational_values(point), strict=False)), budget)
 
         return at
 
@@ -89,17 +135,9 @@ def _helpers(budget: Budget) -> Helpers:
     )
 
 
-def _decided(matrix: Formula, variables: tuple[str, ...], values: dict[int, Fraction], budget: Budget) -> bool:
+def _decided(matrix: Formula, variables: tuple[str, ...], values: dict[str, Fraction], budget: Budget) -> bool:
     """The truth of ``exists variables. matrix`` at rational values of the other variables, by decomposition."""
-    from qe.formula.traverse import map_atoms
-
-    def put(found: object) -> Formula:
-        poly = found.poly  # type: ignore[attr-defined]
-        for i, value in values.items():
-            poly = poly.at_rational(i, value)
-        return atom(poly, found.relation)  # type: ignore[attr-defined]
-
-    rest = map_atoms(matrix, put)
+    rest = substituted(matrix, values)
     if rest in (TRUE, FALSE):
         return rest == TRUE
     order = brown_order(polynomials(rest), variables)

@@ -19,6 +19,12 @@ _MOST_BITS = 8192
 Balls = list[arb]
 
 
+def rational_values(point: Point) -> tuple[Fraction, ...]:
+    """The coordinates of a point all of whose coordinates are rational."""
+    values = (point.number(i) for i in range(point.depth))
+    return tuple(value for value in values if isinstance(value, Fraction))
+
+
 def nearby(
     point: Point, polys: Sequence[Poly], vanishing: frozenset[Poly], centre: Sequence[Fraction] | None
 ) -> tuple[Fraction, ...]:

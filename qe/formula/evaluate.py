@@ -8,8 +8,9 @@ from fractions import Fraction
 from qe.errors import InputError
 from qe.exact.algebraic import RealAlgebraic, real_roots
 from qe.exact.ring import Poly
+from qe.formula.build import atom
 from qe.formula.syntax import And, Atom, Constant, Formula, Not, Or, RootAtom
-from qe.formula.traverse import free_variables, ring_of
+from qe.formula.traverse import free_variables, map_atoms, ring_of
 from qe.truth import Truth, conjunction, disjunction, negation
 
 SignOracle = Callable[[Poly], int | None]
@@ -36,6 +37,22 @@ def holds_at(formula: Formula, point: Mapping[str, Fraction | int]) -> bool:
     if truth is None:
         raise InputError("only a quantifier-free formula has a truth value at a point")
     return truth
+
+
+def substituted(formula: Formula, values: Mapping[str, Fraction | int]) -> Formula:
+    """A quantifier-free formula without root atoms, with rational numbers for variables; its ring stays the same."""
+
+    def put(found: Atom | RootAtom) -> Formula:
+        poly = found.poly
+        if isinstance(found, RootAtom):
+            raise InputError("numbers are not put into root atoms")
+        for i in poly.variables:
+            name = poly.ring.names[i]
+            if name in values:
+                poly = poly.at_rational(i, Fraction(values[name]))
+        return atom(poly, found.relation)
+
+    return map_atoms(formula, put)
 
 
 def truth_under(formula: Formula, sign: SignOracle, root: RootOracle | None = None) -> Truth:

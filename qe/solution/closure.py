@@ -7,7 +7,7 @@ from fractions import Fraction
 
 from qe.evidence.cells import Cell, CellTable
 from qe.exact.fibre_stack import isolate_over
-from qe.exact.nearby import nearby
+from qe.exact.nearby import nearby, rational_values
 from qe.exact.ring import Poly
 from qe.exact.sample import Point
 from qe.formula.evaluate import truth_under
@@ -79,7 +79,7 @@ def _over_section(table: CellTable, point: Point, holds: Holds, sides: int, boun
         return bounded and sides > 0
     ends = [point.extend(isolation.sectors[p // 2]) for p in {first + 1, last - 1}]
     if not point.algebraic:
-        return all(holds(tuple(Fraction(str(end.number(i))) for i in range(2))) for end in ends)
+        return all(holds(rational_values(end)) for end in ends)
     return sides == 2 and all(holds(nearby(end, factors, frozenset(), None)) for end in ends)
 
 

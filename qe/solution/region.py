@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from pathlib import Path
 
@@ -20,34 +19,19 @@ from qe.formula.normal import nnf
 from qe.formula.syntax import Formula
 from qe.formula.traverse import free_variables
 from qe.options import Budget
+from qe.solution.fibres import any_true, fibre_of
+from qe.solution.interval import Coordinate, Interval, Number, number_of
 from qe.solution.pieces import Piece, merge
 from qe.solution.walk import coordinates, free_part, leaves
-
-Number = Fraction | RealAlgebraic
-Coordinate = int | Fraction | str | RealAlgebraic
-
-
-@dataclass(frozen=True, slots=True)
-class Interval:
-    """Exact bounds of a variable: ``lower``/``upper`` are None when unbounded; ``*_closed``: attained."""
-
-    lower: Number | None
-    upper: Number | None
-    lower_closed: bool
-    upper_closed: bool
-
-    def __iter__(self) -> Iterator[Number | None]:
-        yield self.lower
-        yield self.upper
 
 
 class Region:
     """The set of real points that satisfy ``formula``; ``table`` proves where it is true."""
 
-    __slots__ = ("_bounds", "_pieces", "formula", "order", "table")
+    __slots__ = ("_bounds", "_formula", "_pieces", "_table", "order")
 
-    def __init__(self, formula: Formula, table: CellTable) -> None:
-        self.formula, self.table, self.order = formula, table, table.order
+    def __init__(self, formula: Formula | None, table: CellTable | None, order: tuple[str, ...]) -> None:
+        self._formula, self._table, self.order = formula, table, order
         self._pieces: list[Piece] | None = None
         self._bounds: dict[str, Interval] = {}
 
@@ -57,19 +41,27 @@ class Region:
 
         Raises ``InputError`` when ``order`` misses a free variable.
         """
-        free = free_variables(formula)
-        chosen = free if order is None else order
-        missing = [v for v in free if v not in chosen]
-        if missing or len(set(chosen)) != len(chosen):
-            raise InputError(f"order: each of {', '.join(free)} once expected, {', '.join(chosen)} found")
+        chosen = checked_order(free_variables(formula), order)
         matrix = nnf(convert(formula, Ring.of(chosen)))
         done = decompose(matrix, chosen, ("",) * len(chosen), budget=budget or Budget())
-        return Region(matrix, done.table)
+        return Region(matrix, done.table, chosen)
 
     # --- what it is --------------------------------------------------------------------------
     @property
+    def formula(self) -> Formula:
+        """The defining quantifier-free formula."""
+        assert self._formula is not None
+        return self._formula
+
+    @property
+    def table(self) -> CellTable:
+        """The decomposition that proves where the formula is true."""
+        assert self._table is not None
+        return self._table
+
+    @property
     def is_empty(self) -> bool:
-        return not _any_true(self.table.root)
+        return not any_true(self.table.root)
 
     @property
     def cells(self) -> list[Piece]:
@@ -86,15 +78,36 @@ class Region:
 
     def contains(self, point: Mapping[str, Coordinate]) -> bool:
         """Exact membership. Coordinates: int, Fraction, decimal or fraction text, RealAlgebraic."""
-        values = []
-        for name in self.order:
+        return self._holds(self._values(point, len(self.order)))
+
+    def _values(self, point: Mapping[str, Coordinate], count: int) -> list[Number]:
+        """The numbers given for the first ``count`` variables."""
+        for name in self.order[:count]:
             if name not in point:
                 raise InputError(f"point: a value for {name} expected")
-            values.append(_number(point[name], name))
+        return [number_of(point[name], name) for name in self.order[:count]]
+
+    def _holds(self, values: list[Number]) -> bool:
         place = Point.of(Ring.of(self.order), values)
         truth = truth_under(self.formula, place.sign)
         assert truth is not None
         return truth
+
+    def fibre(self, prefix: Mapping[str, Coordinate] | Sequence[Coordinate] = ()) -> list[Interval]:
+        """The exact set still possible for the next variable of ``order`` when the first ones have these values.
+
+        ``prefix``: values by name (of the first variables of ``order``) or in order. Disjoint intervals, ascending;
+        at most one for a convex set, none when no point begins like that. A walk that takes each value from the
+        interval it is offered ends in a point of the region.
+        """
+        named = prefix if isinstance(prefix, Mapping) else dict(zip(self.order, prefix, strict=False))
+        if len(named) < len(prefix) or len(named) >= len(self.order) or set(named) != set(self.order[: len(named)]):
+            expected = ", ".join(self.order[:-1])
+            raise InputError(f"prefix: values for the first variables of {expected} expected")
+        return self._fibre(self._values(named, len(named)))
+
+    def _fibre(self, values: list[Number]) -> list[Interval]:
+        return fibre_of(self.table, values)
 
     def sample_points(self) -> list[dict[str, Number]]:
         """One exact point in every true cell of the decomposition."""
@@ -152,7 +165,7 @@ class Region:
         payload = Certificate.from_json(text).payload
         if not isinstance(payload, CellEvidence) or any(payload.table.quantifiers):
             raise InputError("a region in JSON expected")
-        return Region(payload.table.matrix, payload.table)
+        return Region(payload.table.matrix, payload.table, payload.table.order)
 
     def plot(self, path: str | Path) -> None:
         """Write a picture (PNG, SVG or PDF by the ending) of a region in one to three variables."""
@@ -164,26 +177,20 @@ class Region:
         return f"Region({', '.join(self.order)}: {self.formula})"
 
 
+def checked_order(free: tuple[str, ...], order: tuple[str, ...] | None) -> tuple[str, ...]:
+    """The order asked for, else that of the free variables; ``InputError`` when it misses one or repeats a name."""
+    chosen = free if order is None else order
+    missing = [v for v in free if v not in chosen]
+    if missing or len(set(chosen)) != len(chosen):
+        raise InputError(f"order: each of {', '.join(free)} once expected, {', '.join(chosen)} found")
+    return chosen
+
+
 def _is_true(cell: Cell) -> bool:
     return cell.stack is None and cell.truth is True
-
-
-def _any_true(cell: Cell) -> bool:
-    if cell.stack is None:
-        return cell.truth is True
-    return any(_any_true(c) for c in cell.stack.cells)
 
 
 def _value(number: RealAlgebraic | None) -> Number | None:
     if number is None:
         return None
     return number.as_fraction() if number.is_rational else number
-
-
-def _number(value: Coordinate, name: str) -> Fraction | RealAlgebraic:
-    if isinstance(value, RealAlgebraic):
-        return value
-    try:
-        return Fraction(value)
-    except (ValueError, ZeroDivisionError, TypeError):
-        raise InputError(f"point: an exact number for {name} expected, {value!r} found") from None

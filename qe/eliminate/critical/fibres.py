@@ -12,6 +12,7 @@ from qe.eliminate.critical.helpers import Decide, Helpers
 from qe.eliminate.critical.system import System
 from qe.errors import Unable
 from qe.evidence.multipliers import FormRelation
+from qe.exact.nearby import rational_values
 from qe.exact.quadratic_form import Definiteness, Quadratic, combine, definiteness, solve_linear
 from qe.exact.sample import Point
 
@@ -95,7 +96,7 @@ class Fibres:
     def hold_over(self, point: Point) -> bool:
         """Whether the block is true over any point, exactly; slow where coordinates are algebraic."""
         if not point.algebraic:
-            return self.hold_at(tuple(Fraction(point.number(i)) for i in range(point.depth)))  # type: ignore[arg-type]
+            return self.hold_at(rational_values(point))
         if not all(g.relation.holds(point.sign(g.poly)) for g in self.system.guards):
             return False
         return self._exactly(point) if self.system.conditions else True
