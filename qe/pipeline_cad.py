@@ -9,6 +9,7 @@ from fractions import Fraction
 
 from qe.eliminate.cad.decompose import Decomposition, Tactics, decompose
 from qe.eliminate.cad.pilot import choose_order
+from qe.evidence.cells import CellTable
 from qe.evidence.certificate import Certificate
 from qe.evidence.story import Story
 from qe.exact.algebraic import RealAlgebraic
@@ -16,7 +17,7 @@ from qe.exact.ring import Ring
 from qe.formula.build import convert
 from qe.formula.normal import Quantifier, nnf, prenex
 from qe.formula.syntax import FALSE, TRUE, Constant, Formula
-from qe.formula.traverse import free_variables, ring_of
+from qe.formula.traverse import free_variables, polynomials, ring_of
 from qe.options import Budget, Options, Projection, Stage
 from qe.plan.order import OrderRule
 from qe.prepare.simplify import simplify
@@ -30,12 +31,13 @@ Values = dict[str, Fraction | RealAlgebraic]
 @dataclass(frozen=True, slots=True)
 class Decomposed:
     """``formula``: equivalent to what was asked. ``values``: a witness or counterexample of a sentence's outermost
-    block, where there is one. ``certificate``: of exactly this question.
+    block, where there is one. ``certificate``: of exactly this question
+    and answer; None where nothing was decomposed, or where simplifying brought in other polynomials.
     """
 
     formula: Formula
     values: Values | None = None
-    certificate: Certificate | None = None  # none where there is nothing to decompose
+    certificate: Certificate | None = None
 
 
 def decomposed(formula: Formula, options: Options, budget: Budget, story: Story) -> Decomposed:
@@ -66,17 +68,26 @@ def decomposed(formula: Formula, options: Options, budget: Budget, story: Story)
         answer, proof = construct(first.table, lambda levels: table(levels).table)
         if options.root_atoms:
             answer = extended_formula(proof)
-        answer = simplify(convert(answer, Ring.of(free)))
+        shorter = simplify(convert(answer, Ring.of(free)))
+        if not options.certify or _is_listed(shorter, proof):
+            answer = shorter
     else:
         truth, proof = first.table.root.truth is True, first.table
         answer = TRUE if truth else FALSE
         if truth is (quantifiers[0] == "E"):
             values = deciding_point(proof, truth)
     story.note("cad", _figures(order, reason, first, time.perf_counter() - start))
-    certificate = Certificate.cells(proof, convert(answer, Ring.of(order)))
+    certificate = Certificate.cells(proof, convert(answer, Ring.of(order))) if _is_listed(answer, proof) else None
     # back into the ring of the formula it came from: it is joined with parts of that formula
     ring = ring_of(formula)
     return Decomposed(answer if ring is None else convert(answer, ring), values, certificate)
+
+
+def _is_listed(answer: Formula, table: CellTable) -> bool:
+    """Whether the answer's polynomials are products of the table's factors, as the checker wants them."""
+    factors = {f for level in table.factors for f in level}
+    ring = Ring.of(table.order)
+    return all(f in factors for p in polynomials(answer) for f, _ in p.convert(ring).factors()[1])
 
 
 def _figures(order: Sequence[str], reason: str, found: Decomposition, seconds: float) -> dict[str, object]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from qe import eliminate
+from qe import Guarantee, eliminate, equivalent
 from qe.exact.ring import Ring
 from qe.formula.build import convert
 from qe.formula.evaluate import holds_at
@@ -29,3 +29,14 @@ def test_answer_has_one_ring() -> None:
     found = eliminate("ex b, c. m > 0 and 1 + b > c and b + c > 1 and c + 1 > b and b*c + c + b = m*(1 + b + c)^2")
     assert found.formula is not None
     assert len({a.poly.ring for a in atoms(found.formula)}) == 1
+
+
+def test_a_simplified_answer_is_never_certified_with_polynomials_that_the_table_does_not_list() -> None:
+    """The answer a2^2 + a1^2 <= 0 is written a1 = 0 and a2 = 0: no factors of the table, so the checker refused it."""
+    text = (
+        "ex e, x. e < 0 and 2*a^2*b^2*x^2 + 2*a^4*x^2 + 2*a^2*x^2 - 4*e*a*b^2*x - 4*e*a^3*x + 2*e^2*b^4"
+        " + 4*e^2*a^2*b^2 - a^2*b^2 + 2*e^2*b^2 + 2*e^2*a^4 - a^4 + 2*e^2*a^2 - a^2 = 0"
+    )
+    answer = eliminate(text, check=True)
+    assert answer.guarantee is Guarantee.CHECKED
+    assert equivalent(answer.formula, "a /= 0 or b = 0")
