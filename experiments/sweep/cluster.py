@@ -95,7 +95,7 @@ def _client(scheduler: str | None, workers: int) -> Iterator[Any]:
         quiet = logging.CRITICAL
         with (
             LocalCluster(
-                n_workers=workers, threads_per_worker=1, processes=True, dashboard_address=None, silence_logs=quiet
+                n_workers=workers, threads_per_worker=1, processes=True, dashboard_address=":0", silence_logs=quiet
             ) as cluster,
             Client(cluster) as client,
         ):

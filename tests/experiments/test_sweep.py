@@ -120,6 +120,36 @@ def test_a_killed_worker_loses_nothing_and_repeats_nothing(tmp_path):
     assert len(seen) == len(tasks)
 
 
+@pytest.fixture
+def scheduler():
+    """The address of a cluster that runs already, with one worker in a thread."""
+    from distributed import LocalCluster
+
+    with LocalCluster(n_workers=1, threads_per_worker=1, processes=False, dashboard_address=":0") as cluster:
+        yield cluster.scheduler_address
+
+
+def test_a_cluster_that_is_there(tmp_path, scheduler):
+    tasks = [task(1, k, 3, Method.CUBIC) for k in (1, 2)]
+    store = Store(tmp_path)
+    sweep(tasks, store, scheduler=scheduler)
+    assert set(store.outcomes) == {t.key for t in tasks}
+
+
+def test_a_task_that_always_fails_is_recorded(tmp_path, scheduler, monkeypatch):
+    def broken(given, timeout):
+        if given.height == 2:
+            raise RuntimeError("no luck")
+        return solve(given, timeout)
+
+    monkeypatch.setattr("experiments.sweep.cluster.solve", broken)
+    good, bad = task(1, 1, 3, Method.CUBIC), task(1, 2, 3, Method.CUBIC)
+    store = Store(tmp_path)
+    sweep([bad, good], store, scheduler=scheduler)
+    assert store.outcomes[good.key].solved and not store.outcomes[bad.key].solved
+    assert store.outcomes[bad.key].message == "RuntimeError: no luck"
+
+
 def test_no_scheduler_gives_one_line(tmp_path, capsys, monkeypatch):
     monkeypatch.setattr("experiments.sweep.cluster.CONNECTING", 0.5)
     grid_options = ["--half-width", "1", "--height", "1", "--out", str(tmp_path)]
