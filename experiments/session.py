@@ -33,11 +33,12 @@ class Session:
 
     def run(self, work: Work, *, repeat: int = 1, seed: int = 1) -> None:
         """Run what has no result yet, then compare answers of problems without an expected one."""
-        jobs = [job for problems, solvers in work for job in plan(problems, solvers, repeat=repeat, seed=seed)]
+        planned = (job for problems, solvers in work for job in plan(problems, solvers, repeat=repeat, seed=seed))
+        jobs = list({job.key: job for job in planned}.values())  # two suites may share problems
         todo = [job for job in jobs if self.again or not is_done(job, self.log, self.limits)]
         usable = self._usable({job.solver for job in todo})
         todo = [job for job in todo if job.solver in usable]
-        record = fingerprint(limit=self.limits.seconds, memory=self.limits.memory, jobs=self.workers)
+        record = fingerprint(limit=self.limits.seconds, memory=self.limits.memory, jobs=self.workers, seed=seed)
         if todo:
             self._keep(record)
         with progress("runs", len(todo)) as (note, advance):

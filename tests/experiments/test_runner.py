@@ -104,7 +104,7 @@ def test_a_session_goes_on_where_it_stopped(tmp_path, capsys):
     path = tmp_path / "r.jsonl"
     solver = fakes.answering("right", "true")
     work = [([TRUE], [solver])]
-    Session(path, LIMITS).run(work)
+    Session(path, LIMITS).run(work * 2)
     once = path.read_text()
     Session(path, LIMITS).run(work)
     assert path.read_text() == once
