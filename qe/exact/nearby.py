@@ -9,6 +9,7 @@ from math import lcm
 from flint import arb, fmpq
 
 from qe.errors import Unable
+from qe.exact.algebraic import RealAlgebraic
 from qe.exact.balls import lower_end, precision, upper_end
 from qe.exact.isolate import simplest_between
 from qe.exact.ring import Poly, Ring
@@ -23,6 +24,29 @@ def rational_values(point: Point) -> tuple[Fraction, ...]:
     """The coordinates of a point all of whose coordinates are rational."""
     values = (point.number(i) for i in range(point.depth))
     return tuple(value for value in values if isinstance(value, Fraction))
+
+
+def rational_between(lower: Fraction | RealAlgebraic | None, upper: Fraction | RealAlgebraic | None) -> Fraction:
+    """A simple rational number between two different numbers, None standing for infinity."""
+    bits = _FIRST_BITS
+    while True:
+        low, high = _end(lower, bits, 1), _end(upper, bits, 0)
+        if low is None:
+            low = fmpq(-1) if high is None or high > 0 else fmpq(high.floor() - 2)
+        if high is None:
+            high = fmpq(1) if low < 0 else fmpq(low.ceil() + 2)
+        if low < high:
+            found = simplest_between(low, high)
+            return Fraction(int(found.p), int(found.q))
+        bits *= 2
+
+
+def _end(value: Fraction | RealAlgebraic | None, bits: int, side: int) -> fmpq | None:
+    """A rational bound of a number, from below (0) or above (1)."""
+    if value is None:
+        return None
+    bound = value if isinstance(value, Fraction) else value.interval(bits)[side]
+    return fmpq(bound.numerator, bound.denominator)
 
 
 def nearby(

@@ -9,6 +9,7 @@ from fractions import Fraction
 from qe.errors import InputError
 from qe.evidence.certificate import Certificate
 from qe.exact.algebraic import RealAlgebraic
+from qe.exact.nearby import rational_between
 
 Number = Fraction | RealAlgebraic
 Coordinate = int | Fraction | str | RealAlgebraic
@@ -36,30 +37,11 @@ class Interval:
         below = self.upper is None or value < self.upper or (self.upper_closed and self.upper == value)
         return above and below
 
-    def simplest(self) -> Fraction | RealAlgebraic:
+    def simplest(self) -> Number:
         """A number of the interval that is easy to compute with: rational inside, the end of a single point."""
         if self.lower is not None and self.lower == self.upper:
             return self.lower
-        low, high = self.lower, self.upper
-        if low is None or high is None:
-            if low is not None and low >= 0:
-                return Fraction(_ceiling(low) + 1)
-            return Fraction(0) if high is None or high > 0 else Fraction(-_ceiling(-high) - 1)
-        denominator = 1
-        while True:
-            numerator = _ceiling(low * denominator)
-            for candidate in (Fraction(numerator, denominator), Fraction(numerator + 1, denominator)):
-                if low < candidate < high:
-                    return candidate
-            denominator *= 2
-
-
-def _ceiling(value: Number) -> int:
-    """An integer >= value and < value + 2."""
-    if isinstance(value, Fraction):
-        return -(-value.numerator // value.denominator)
-    _, high = value.interval()
-    return int(-(-high.numerator // high.denominator))
+        return rational_between(self.lower, self.upper)
 
 
 def number_of(value: Coordinate, name: str) -> Number:
