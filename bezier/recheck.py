@@ -48,7 +48,8 @@ def recheck(channel: Channel, folder: FilePath) -> list[str]:
     path = assemble(_curves(found, points), points, problem.workspace, durations=durations(problem))
     _check_path(path, found, claim)
     lines += _check_clearance(path, problem, summary.get("status") == Outcome.BLOCKED.value)
-    return [*lines, f"path.json: {path.smoothness.name} at every join, every curve proved to lie in the workspace"]
+    joins = f"{path.smoothness.name} at every join, " if path.joins else ""
+    return [*lines, f"path.json: {joins}every curve proved to lie in the workspace"]
 
 
 def stored_path(found: Mapping[str, Any]) -> tuple[Problem, dict[str, Bezier]]:

@@ -1,14 +1,15 @@
 """The table [single] of a problem file: the degree, and the interval and heights unless the via points say them.
 
 The via points of the paper are (a, h_y, h_z) and (b, h_y, h_z). Either they are given, and [single] says at most the
-degree; or ``a``, ``b`` and ``height_y`` or ``height_z`` are, and the via points follow. Then a coordinate without a
-height is equally spaced from start to goal. ``p`` and ``q`` may be stated; they have to be the ones that a and b give.
+degree; or ``a``, ``b`` and ``height_y`` or ``height_z`` are, and the via points follow. A coordinate without a height
+is equally spaced from start to goal; given via points have none where they are on that straight way. ``p`` and ``q``
+may be stated; they have to be the ones that a and b give.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
 
@@ -99,11 +100,18 @@ def _axis(single: Table, i: int, start: Vector, goal: Vector) -> Axis:
 
 
 def _via_axis(table: Table, i: int, start: Vector, via: Via, goal: Vector) -> Axis:
+    """The axis with the height of both via points, or without one where they are on the way from start to goal."""
     name, heights = AXES[i], (_exact(via[0][i]), _exact(via[1][i]))
-    if heights[0] != heights[1] or heights[0] <= 0:
-        expected = f"two points with the same {name} above zero for Method 1"
+    axis = Axis(name, _exact(start[i]), _exact(goal[i]), None)
+    if heights[0] == heights[1] > 0:
+        return replace(axis, height=heights[0])
+    rise, length = axis.goal - axis.start, _exact(goal[0] - start[0])
+    if any(
+        (h - axis.start) * length != _exact(point[0] - start[0]) * rise for point, h in zip(via, heights, strict=True)
+    ):
+        expected = f"two points with the same {name} above zero, or with {name} as on the way to the goal"
         raise table.error("via", expected, f"{name} = {heights[0]} and {heights[1]}")
-    return Axis(name, _exact(start[i]), _exact(goal[i]), heights[0])
+    return axis
 
 
 def _exact(value: Any) -> Fraction:

@@ -275,3 +275,9 @@ def test_the_parts_of_the_program(given_task):
     built = program(given_task, of)
     assert len(built.names) == len(objective(given_task)) == given_task.degree - 1
     assert [i + 1 for i, c in enumerate(objective(given_task)) if c] == list(given_task.middle)
+
+
+def test_the_documented_lines_run(root, capsys):
+    page = (root / "docs" / "single.md").read_text()
+    exec(page.split("```python\n")[1].split("```")[0], {})
+    assert "v" in capsys.readouterr().out

@@ -106,6 +106,11 @@ def test_the_via_points_say_the_interval_and_the_heights():
     assert task_of(read_problem(problem_text(single=None))) == task
 
 
+def test_via_points_on_the_way_ask_for_no_height():
+    task = task_of(read_problem(problem_text(via="via = [[4, 2, 1], [7, '7/2', 1]]")))
+    assert [axis.height for axis in task.axes] == [None, 1]
+
+
 def test_without_a_degree_the_least_one_from_six_on_is_taken():
     narrow = "via = [['61/10', 10, 1], ['62/10', 10, 1]]"
     task = task_of(read_problem(problem_text(via=narrow, single=None)))
@@ -122,8 +127,8 @@ def test_without_a_degree_the_least_one_from_six_on_is_taken():
         ({"single": "degree = 6\np = 1"}, "single.p: expected 2, which follows from a and b, found 1"),
         ({"single": "order = 6"}, "single.order: expected one of the keys degree, a, b"),
         ({"single": "degree = 6", "method": "cubic"}, 'single: expected this table with method = "single" only'),
-        ({"via": "via = [[4, 10, 1], [7, 9, 1]]"}, "via: expected two points with the same y above zero"),
-        ({"via": "via = [[4, 10, 0], [7, 10, 0]]"}, "via: expected two points with the same z above zero"),
+        ({"via": "via = [[4, 10, 1], [7, 9, 1]]"}, "via: expected two points with the same y above zero, or"),
+        ({"via": "via = [[4, 10, 0], [7, 10, -1]]"}, "found z = 0 and -1"),
         ({"via": "", "single": "a = 4\nb = 7"}, "a: expected what Method 1 needs, found expected a positive height"),
         ({"via": "", "single": "a = 4\nheight_y = 10"}, "single.b: expected an integer"),
         (
