@@ -9,10 +9,11 @@ import itertools
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from fractions import Fraction
 from math import comb
+from typing import Any
 
-Number = int | str | Fraction
+Number = Any
+"""An integer, a fraction, or text such as the name of a variable."""
 Points = Mapping[str, Sequence[Number]]
 _NAME = re.compile(r"\b[pqr]\d\b")
 

@@ -14,12 +14,10 @@ from paper_repro.written import EIGHT, SEVEN
     place="Section 5, first paragraph",
     title="Method 1 avoids obstacles with a minimal curve",
     says="The first method avoids obstacles with a minimum curve that matches position and size of the obstacle, but "
-    "does not guarantee that "
-    "the curve stays in the feasible region.",
+    "does not guarantee that the curve stays in the feasible region.",
     verdict=Verdict.DIFFERS,
     finding="The second half is right. The first is not: the curve may dip below the height between $a$ and $b$, and "
-    "what is minimised is a sum of "
-    "inner ordinates, whose optimum is not unique; it says little about the curve.",
+    "what is minimised is a sum of inner ordinates, whose optimum is not unique; it says little about the curve.",
     rests_on=("eq-4", "eq-4-dip", "method-1-leaves"),
 )
 def method_1() -> Iterator[Evidence]:
@@ -33,9 +31,8 @@ def method_1() -> Iterator[Evidence]:
     title="Method 2 keeps the curve in the feasible region",
     says="The second method guarantees that the curve does not go outside the feasible region.",
     verdict=Verdict.CORRECTED,
-    finding="True for the ball. For the hemisphere, which is the feasible region of the paper, the conditions $z "
-    "\\ge 0$ on the control points have to be "
-    "added, to (7) as to (8); then it is guaranteed.",
+    finding="True for the ball. For the hemisphere, which is the feasible region of the paper, the conditions "
+    "$z \\ge 0$ on the control points have to be added, to (7) as to (8); then it is guaranteed.",
     rests_on=("convex-hull", "feasible-region", "eq-7-hemisphere", "eq-8-hemisphere"),
 )
 def guarantee() -> Iterator[Evidence]:
@@ -43,8 +40,8 @@ def guarantee() -> Iterator[Evidence]:
     in the half-disc keep the height of the curve nonnegative."""
     yield decided(
         "nonnegative heights of the control points give a nonnegative height of the curve",
-        "all t, a, b, c, d. 0 <= t and t <= 1 and a >= 0 and b >= 0 and c >= 0 and d >= 0 "
-        "-> (1 - t)^3*a + 3*t*(1 - t)^2*b + 3*t^2*(1 - t)*c + t^3*d >= 0",
+        "all t, a, b, c, d. 0 <= t and t <= 1 and a >= 0 and b >= 0 and c >= 0 and d >= 0 -> (1 - t)^3*a + 3*t*(1 - "
+        "t)^2*b + 3*t^2*(1 - t)*c + t^3*d >= 0",
     )
 
 
@@ -88,12 +85,10 @@ def practical() -> Iterator[Evidence]:
     place="Section 5, last two paragraphs; also Section 1, fifth paragraph",
     title="Novelty and future work",
     says="Bézier curves have hardly been used in trajectory planning with computer algebra; better constraints, "
-    "efficiency and joint sequences are "
-    "the next steps.",
+    "efficiency and joint sequences are the next steps.",
     verdict=Verdict.NOT_TESTABLE,
     finding="Statements about the literature and about plans. Of the plans this project takes up better constraints "
-    "(heights, obstacles, whole-curve "
-    "tests) and efficiency.",
+    "(heights, obstacles, whole-curve tests) and efficiency.",
     rests_on=(),
 )
 def future() -> Iterator[Evidence]:

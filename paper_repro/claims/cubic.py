@@ -9,7 +9,7 @@ from typing import Any
 import qe
 from bezier.containment import Leaves, examine
 from bezier.curve import Bezier, Smoothness, join
-from bezier.scalar import dot, is_zero, sign
+from bezier.scalar import decimal_text, dot, is_zero, sign
 from bezier.workspace import Workspace, WorkspaceKind
 from paper_repro.ask import decided, eliminated, number, optimised
 from paper_repro.claim import Evidence, Fact, Picture, Table, Verdict, claim
@@ -57,8 +57,7 @@ def chosen(found: qe.Optimum, axes: str) -> tuple[list[Any], list[Any]]:
     says="Quantifier elimination for (7) is computationally expensive and has not yet been successful.",
     verdict=Verdict.DIFFERS,
     finding="It succeeds in milliseconds, with numbers and with all of $Q_0, R_0, r$ as letters. All equations are "
-    "linear, so "
-    "elimination substitutes; what remains are six ball conditions on $(Q_1, Q_2)$, a convex set.",
+    "linear, so elimination substitutes; what remains are six ball conditions on $(Q_1, Q_2)$, a convex set.",
 )
 def equation_7() -> Iterator[Evidence]:
     """(7) is written in coordinates exactly as printed (18 variables, 12 of them quantified, 12 equations, 6 norms)
@@ -83,10 +82,8 @@ def equation_7() -> Iterator[Evidence]:
     says="Finding $Q_1, Q_2$ that satisfy (7) is the problem to be solved; whether there are any is left open.",
     verdict=Verdict.CORRECTED,
     finding="Always: $Q_1 = Q_0$, $Q_2 = R_0$ is a solution for all points and the radius of the paper, since then "
-    "every control "
-    "point is $Q_0$ or $R_0$. But this solution is of no use: the velocity at both joins is zero and the path turns "
-    "back there in a "
-    "cusp. A plan needs the objective (or a condition on the speed at the joins).",
+    "every control point is $Q_0$ or $R_0$. But this solution is of no use: the velocity at both joins is zero and "
+    "the path turns back there in a cusp. A plan needs the objective (or a condition on the speed at the joins).",
 )
 def always_satisfiable() -> Iterator[Evidence]:
     """The choice is put into (7) with letters for everything, and the sentence is decided for all points and radii. The
@@ -120,14 +117,11 @@ def always_satisfiable() -> Iterator[Evidence]:
     place="Section 4.2, after (7)",
     title="Choosing $Q_1$ and $Q_2$",
     says="$Q_1$ and $Q_2$ are chosen such that $\\|Q_1 - Q_0\\|^2 + \\|Q_2 - Q_1\\|^2 + \\|R_0 - Q_2\\|^2$ is as "
-    "small as possible under (7); this gives "
-    "a path through the two points (the positions were not obtained).",
+    "small as possible under (7); this gives a path through the two points (the positions were not obtained).",
     verdict=Verdict.DIFFERS,
     finding="The positions are obtained, as exact algebraic numbers with a certificate of optimality. The problem is "
-    "convex and its "
-    "optimum unique. Without active conditions $Q_1 = (2Q_0 + R_0)/3$, $Q_2 = (Q_0 + 2R_0)/3$; this is the optimum "
-    "exactly if "
-    "$\\|5Q_0 - 2R_0\\| \\le 3r$ and $\\|5R_0 - 2Q_0\\| \\le 3r$.",
+    "convex and its optimum unique. Without active conditions $Q_1 = (2Q_0 + R_0)/3$, $Q_2 = (Q_0 + 2R_0)/3$; this "
+    "is the optimum exactly if $\\|5Q_0 - 2R_0\\| \\le 3r$ and $\\|5R_0 - 2Q_0\\| \\le 3r$.",
 )
 def choice() -> Iterator[Evidence]:
     """Exact convex optimisation for $Q_0 = (-1,1)$, $R_0 = (1,1)$ in the plane and several radii, and for an instance
@@ -142,7 +136,7 @@ def choice() -> Iterator[Evidence]:
         )
         q1, _ = chosen(found, "xy")
         names = ", ".join(active(found, radius**2)) or "none"
-        rows.append((str(radius), f"{float(found.value):.5f}", f"({float(q1[0]):.5f}, {float(q1[1]):.5f})", names))
+        rows.append((str(radius), decimal_text(found.value, 7), f"({float(q1[0]):.5f}, {float(q1[1]):.5f})", names))
     yield Table(("r", "objective", "Q1 (Q2 is its mirror image)", "active conditions"), rows)
     exact, best = optimised(
         "$r = 3/2$, exactly", SEVEN.objective("xy", PLANE), SEVEN.substituted("xy", PLANE, "9/4"), "5 - 2*sqrt(2)"
@@ -184,8 +178,8 @@ def active(found: qe.Optimum, radius_squared: Fraction) -> list[str]:
     key="eq-7-hemisphere",
     place="Section 4.2, after (6)",
     title="All control points lie in the hemisphere",
-    says="With the norm conditions of (7), all remaining control points lie in the hemisphere of radius $r$ with $z "
-    "> 0$.",
+    says="With the norm conditions of (7), all remaining control points lie in the hemisphere of radius $r$ with "
+    "$z > 0$.",
     verdict=Verdict.CORRECTED,
     finding="They lie in the ball. The condition on $z$ is missing in (7), and it matters: for $Q_0 = (-1, 0, 1)$, "
     "$R_0 = (1, 0, 1)$, $r = 3/2$ even the optimum of (7) has $P_1$ and $R_2$ below the table, and the curve with "
@@ -211,7 +205,7 @@ def hemisphere() -> Iterator[Evidence]:
     kept = curves(given, *chosen(above, "xyz"), [(x, 0, z) for x, z in ENDS])
     lowest = min(sign(item.points[i][2]) for item in kept.values() for i in (1, 2))
     yield Fact(
-        f"with $z \\ge 0$ the optimum is {float(above.value):.5f}, certificate accepted, and no point is below",
+        f"with $z \\ge 0$ the optimum is {decimal_text(above.value, 6)}, certificate accepted, and no point is below",
         lowest >= 0 and qe.verify(above.certificate).accepted,
     )
     yield Picture(
@@ -227,9 +221,8 @@ def hemisphere() -> Iterator[Evidence]:
     says="(7) is stated with points in space: six free and twelve quantified variables.",
     verdict=Verdict.REPRODUCED,
     finding="Orthogonal projection onto a plane through $O, Q_0, R_0$ makes none of the six norms and no term of the "
-    "objective larger, so "
-    "existence, optimum and its value can be computed in the plane with four variables. Not so once heights or "
-    "obstacles enter.",
+    "objective larger, so existence, optimum and its value can be computed in the plane with four variables. Not so "
+    "once heights or obstacles enter.",
 )
 def planar_reduction() -> Iterator[Evidence]:
     """The same numbers are solved in space and in the plane; the argument itself is decided for one norm: dropping the
@@ -241,7 +234,7 @@ def planar_reduction() -> Iterator[Evidence]:
             f"{len(axes)} coordinates: certificate accepted", found.is_optimal and qe.verify(found.certificate).accepted
         )
         values.append(found.value)
-    yield Table(("", "least objective"), [("plane", f"{float(values[0]):.6f}"), ("space", f"{float(values[1]):.6f}")])
+    yield Table(("", "least objective"), [(name, decimal_text(v, 7)) for name, v in zip(("plane", "space"), values)])
     yield Fact("the two values are equal, exactly", values[0] == values[1])
     yield decided("projection does not increase a norm", "all x, y, z, r. x^2 + y^2 + z^2 <= r^2 -> x^2 + y^2 <= r^2")
 

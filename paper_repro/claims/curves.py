@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from fractions import Fraction
+from typing import Any
 
 import qe
 from bezier.curve import Bezier
@@ -24,8 +25,8 @@ FIGURE = ((0, 0), (1, 3), (5, 4), (7, 1))
     says="$P(t) = \\sum_{i=0}^n \\binom{n}{i} t^i (1-t)^{n-i} P_i$ for $0 \\le t \\le 1$ starts at $P_0$ and ends at "
     "$P_n$.",
     verdict=Verdict.REPRODUCED,
-    finding="Proved for $n = 1, \\dots, 6$ with arbitrary control points; in general all terms but the first vanish at "
-    "$t = 0$ and all but the last at $t = 1$. That the points are different is not needed.",
+    finding="Proved for $n = 1, \\dots, 6$ with arbitrary control points; in general all terms but the first vanish "
+    "at $t = 0$ and all but the last at $t = 1$. That the points are different is not needed.",
 )
 def end_points() -> Iterator[Evidence]:
     """One coordinate suffices, since the sum is taken in each coordinate alone."""
@@ -42,9 +43,8 @@ def end_points() -> Iterator[Evidence]:
     says="The curve does not pass through the control points except for the first and the last one.",
     verdict=Verdict.CORRECTED,
     finding="It usually does not, but it can. A curve of degree 2 meets $P_1$ exactly if $P_1$ lies on the open "
-    "segment from "
-    "$P_0$ to $P_2$ (or all points coincide); a cubic curve can do so with different points, no three of them on a "
-    "line.",
+    "segment from $P_0$ to $P_2$ (or all points coincide); a cubic curve can do so with different points, no three "
+    "of them on a line.",
 )
 def inner_points() -> Iterator[Evidence]:
     """Degree 2: $t$ is eliminated from $P(t) = P_1$, with $P_1$ in the origin. Degree 3: the engine looks for a
@@ -57,7 +57,9 @@ def inner_points() -> Iterator[Evidence]:
     )
     x, y = curve([0, 1, 1, "x"], "(1/2)"), curve([0, 0, 1, "y"], "(1/2)")
     found = qe.find_instance(f"{x} = 1 and {y} = 0")
-    yield Fact("with $P_2 = (1,1)$ the point is $P_3 = (2,-3)$", found == {"x": 2, "y": -3})
+    yield Fact(
+        "with $P_2 = (1,1)$ the point is $P_3 = (2,-3)$", found is not None and found["x"] == 2 and found["y"] == -3
+    )
     points = ((0, 0), (1, 0), (1, 1), (2, -3))
     yield Fact("then $P(1/2) = P_1$", Bezier.of(points).point(Fraction(1, 2)) == (1, 0))
 
@@ -67,12 +69,10 @@ def inner_points() -> Iterator[Evidence]:
     place="Section 3, construction; Figure 3",
     title="De Casteljau's construction",
     says="Dividing the sides of the control polygon in the ratio $t : 1-t$, then the sides of the polygon so found, "
-    "and so on "
-    "$n$ times, leads to the point $P(t)$ of Definition 1.",
+    "and so on $n$ times, leads to the point $P(t)$ of Definition 1.",
     verdict=Verdict.REPRODUCED,
     finding="Proved for $n = 1, \\dots, 5$ with arbitrary control points; in general it is Pascal's rule for the "
-    "binomial "
-    "coefficients.",
+    "binomial coefficients.",
 )
 def de_casteljau() -> Iterator[Evidence]:
     """The construction is written out with variables for all intermediate points and eliminated; what remains must be
@@ -89,7 +89,7 @@ def de_casteljau() -> Iterator[Evidence]:
         sentence = f"all t, x, {', '.join(rows[0])}. ({reached}) <-> x = {curve(rows[0])}"
         yield decided(f"the construction gives Definition 1 for $n = {n}$", sentence)
     t = Fraction(2, 5)
-    levels = [FIGURE]
+    levels: list[Sequence[Sequence[Any]]] = [FIGURE]
     while len(levels[-1]) > 1:
         row = levels[-1]
         levels.append([tuple((1 - t) * a + t * b for a, b in zip(p, q)) for p, q in itertools.pairwise(row)])
@@ -110,9 +110,9 @@ def de_casteljau() -> Iterator[Evidence]:
     title="The convex hull property",
     says="Every point of a Bézier curve lies in the convex hull of its control points.",
     verdict=Verdict.REPRODUCED,
-    finding="Proved by the engine in the plane for $n \\le 3$ and arbitrary control points. In general: the Bernstein "
-    "polynomials are nonnegative on $[0,1]$ and their sum is 1, so $P(t)$ is a convex combination of the $P_i$ in "
-    "any dimension.",
+    finding="Proved by the engine in the plane for $n \\le 3$ and arbitrary control points. In general: the "
+    "Bernstein polynomials are nonnegative on $[0,1]$ and their sum is 1, so $P(t)$ is a convex combination of the "
+    "$P_i$ in any dimension.",
 )
 def convex_hull() -> Iterator[Evidence]:
     """The hull is the common part of all half-planes that hold the control points, so it suffices that each such
@@ -140,8 +140,8 @@ def convex_hull() -> Iterator[Evidence]:
         f"{hull} and x = {combined[0]} and y = {combined[1]}",
         "y >= 0 and y <= 2 and 2*x - y >= 0 and 2*x + y <= 8",
     )
-    x, y = (curve([p[k] for p in corners]) for k in (0, 1))
-    inside = f"{y} >= 0 and {y} <= 2 and 2*({x}) - ({y}) >= 0 and 2*({x}) + {y} <= 8"
+    u, v = (curve([p[k] for p in corners]) for k in (0, 1))
+    inside = f"{v} >= 0 and {v} <= 2 and 2*({u}) - ({v}) >= 0 and 2*({u}) + {v} <= 8"
     yield decided("the curve with these control points stays in it", f"all t. 0 <= t and t <= 1 -> {inside}")
 
 
@@ -152,8 +152,7 @@ def convex_hull() -> Iterator[Evidence]:
     says="If the polyhedron of the control points lies in the feasible region, so does the curve.",
     verdict=Verdict.CORRECTED,
     finding="The test is sufficient, since the region is convex; it is not necessary: a curve can stay in the disc "
-    "while a "
-    "control point is outside. Methods that rest on it give away paths; see (8*) below.",
+    "while a control point is outside. Methods that rest on it give away paths; see (8*) below.",
 )
 def polyhedron_test() -> Iterator[Evidence]:
     """A curve of degree 2 in the unit disc with its middle control point outside."""

@@ -45,9 +45,8 @@ def equal_heights() -> Iterator[Evidence]:
     "$x$.",
     verdict=Verdict.CORRECTED,
     finding="Neither (7) nor (8) contains the heights: both allow middle curves that sink below the points to pass. "
-    "The best "
-    "choice may run straight from $Q_0$ to $R_0$, exactly at their height. Heights of the control points of $Q(t)$ as "
-    "further conditions repair this; they keep the problem convex.",
+    "The best choice may run straight from $Q_0$ to $R_0$, exactly at their height. Heights of the control points of "
+    "$Q(t)$ as further conditions repair this; they keep the problem convex.",
 )
 def method_2_height() -> Iterator[Evidence]:
     """For $Q_0 = (-1,3,3)$, $R_0 = (1,3,3)$, $r^2 = 27$ the engine looks for allowed control points whose curve is

@@ -75,7 +75,7 @@ def _natural(f: Sequence[Fraction]) -> list[tuple[Fraction, ...]]:
     ends."""
     left, right = (6 * (f[i - 1] - 2 * f[i] + f[i + 1]) for i in (1, 2))
     m = (Fraction(0), (4 * left - right) / 15, (4 * right - left) / 15, Fraction(0))
-    spans = []
+    spans: list[tuple[Fraction, ...]] = []
     for i in range(3):
         rise = f[i + 1] - f[i]
         begin, end = rise - (2 * m[i] + m[i + 1]) / 6, rise + (m[i] + 2 * m[i + 1]) / 6

@@ -35,9 +35,8 @@ def smooth(n: int, order: int) -> sympy.Basic:
     key="smooth-joins",
     place="Section 4.2, after (5)",
     title="Conditions for smooth joins of cubic curves",
-    says="$P(1) = Q(0)$ means $P_3 = Q_0$; then $P'(1) = Q'(0)$ means $2 Q_0 = P_2 + Q_1$, and then $P''(1) = "
-    "Q''(0)$ means "
-    "$2 (Q_1 - P_2) = Q_2 - P_1$; likewise for $Q$ and $R$.",
+    says="$P(1) = Q(0)$ means $P_3 = Q_0$; then $P'(1) = Q'(0)$ means $2 Q_0 = P_2 + Q_1$, and then "
+    "$P''(1) = Q''(0)$ means $2 (Q_1 - P_2) = Q_2 - P_1$; likewise for $Q$ and $R$.",
     verdict=Verdict.REPRODUCED,
     finding="Each condition is derived from Definition 1 by differentiation and elimination, and found necessary and "
     "sufficient.",
@@ -67,8 +66,7 @@ def smooth_joins() -> Iterator[Evidence]:
     says="$P_1 = 4Q_0 - 4Q_1 + Q_2$, $P_2 = 2Q_0 - Q_1$, $R_1 = 2R_0 - Q_2$, $R_2 = Q_1 - 4Q_2 + 4R_0$.",
     verdict=Verdict.REPRODUCED,
     finding="Derived: from the six equations for values, first and second derivatives at the two joins, elimination "
-    "leaves exactly "
-    "(6). It says that $P, Q, R$ are three consecutive spans of a uniform cubic B-spline.",
+    "leaves exactly (6). It says that $P, Q, R$ are three consecutive spans of a uniform cubic B-spline.",
 )
 def equation_6() -> Iterator[Evidence]:
     """The join conditions come from Definition 1 by differentiation, not from the paper's intermediate equations. The
@@ -93,12 +91,10 @@ def equation_6() -> Iterator[Evidence]:
     says="Curves of degree 3 are used because it is the smallest degree whose curvature can be controlled.",
     verdict=Verdict.REPRODUCED,
     finding="What can be proved: a line has no curvature; a curve of degree 2 is fixed by its ends and the tangents "
-    "there, and so "
-    "is its curvature, which moreover never changes sign; three joined curves of degree 2 can be $C^2$ only if the "
-    "four given points "
-    "satisfy $R_2 - 3R_0 + 3Q_0 - P_0 = 0$. With degree 3, ends and tangents leave a two-dimensional choice of end "
-    "curvatures, "
-    "each of them may be any number alone, and $C^2$ joins are possible for all points (6).",
+    "there, and so is its curvature, which moreover never changes sign; three joined curves of degree 2 can be $C^2$ "
+    "only if the four given points satisfy $R_2 - 3R_0 + 3Q_0 - P_0 = 0$. With degree 3, ends and tangents leave a "
+    "two-dimensional choice of end curvatures, each of them may be any number alone, and $C^2$ joins are possible "
+    "for all points (6).",
 )
 def smallest_degree() -> Iterator[Evidence]:
     """$P' \\times P''$ decides about curvature. For degree 3 the ends are $(0,0)$ and $(1,0)$, the tangents there have
@@ -128,8 +124,10 @@ def smallest_degree() -> Iterator[Evidence]:
     both = qe.eliminate(f"ex a, b. a > 0 and b > 0 and {ends}")
     pairs = qe.region(both.formula, order=("k", "m"))
     yield Fact("degree 3: the possible pairs of end curvatures fill a region of dimension 2", pairs.dimension == 2)
-    inside = [{"k": "1/2", "m": "1/2"}, {"k": -1, "m": "1/4"}, {"k": "-1/4", "m": "-1/4"}]
-    yield Fact("such as $(1/2, 1/2)$, $(-1, 1/4)$ and $(-1/4, -1/4)$", all(pairs.contains(p) for p in inside))
+    inside = [("1/2", "1/2"), ("-1", "1/4"), ("-1/4", "-1/4")]
+    yield Fact(
+        "such as $(1/2, 1/2)$, $(-1, 1/4)$ and $(-1/4, -1/4)$", all(pairs.contains({"k": k, "m": m}) for k, m in inside)
+    )
     yield Picture(
         "The pairs of curvatures at the two ends (turning towards the chord is positive) that a cubic curve can have.",
         region(pairs),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
+from typing import Any
 
 from bezier import single
 from paper_repro.ask import decided, eliminated, optimised
@@ -37,8 +38,7 @@ STARTED = "y0 = 0 and y6 = 0 and h = 1"
     says="With $x_i = ((n-i) x_0 + i x_n)/n$ the first coordinate is $P_x(t) = (1-t) x_0 + t x_n$.",
     verdict=Verdict.REPRODUCED,
     finding="Proved for $n = 1, \\dots, 8$; in general it is the linear precision of Bernstein polynomials. The "
-    "converse holds "
-    "as well: no other abscissae make $P_x$ this linear polynomial (derived for $n = 2, 3, 4$).",
+    "converse holds as well: no other abscissae make $P_x$ this linear polynomial (derived for $n = 2, 3, 4$).",
 )
 def equation_2() -> Iterator[Evidence]:
     """The identity is decided for arbitrary $x_0, x_n$ and all real $t$; for the converse $t$ is eliminated."""
@@ -47,9 +47,9 @@ def equation_2() -> Iterator[Evidence]:
         yield decided(f"(2) for $n = {n}$", f"all x0, x{n}, t. {curve(spaced)} = (1 - t)*x0 + t*x{n}")
     for n in (2, 3, 4):
         x = names("x", n)
-        spaced = " and ".join(f"{n}*x{i} = {n - i}*x0 + {i}*x{n}" for i in range(1, n))
+        equal = " and ".join(f"{n}*x{i} = {n - i}*x0 + {i}*x{n}" for i in range(1, n))
         question = f"all t. 0 <= t and t <= 1 -> {curve(x)} = (1 - t)*x0 + t*x{n}"
-        yield eliminated(f"abscissae that give (2), $n = {n}$", question, spaced)
+        yield eliminated(f"abscissae that give (2), $n = {n}$", question, equal)
 
 
 @claim(
@@ -77,12 +77,12 @@ def equation_3() -> Iterator[Evidence]:
     key="index-condition",
     place="Section 4.1, before Figure 4",
     title="The indices p and q",
-    says="The interval $[a, b]$ defines $p$ and $q$ with $x_p < a \\le x_{p+1} \\le x_q \\le b < x_{q+1}$ and $1 "
-    "\\le p < q + 1 \\le n$.",
+    says="The interval $[a, b]$ defines $p$ and $q$ with $x_p < a \\le x_{p+1} \\le x_q \\le b < x_{q+1}$ and "
+    "$1 \\le p < q + 1 \\le n$.",
     verdict=Verdict.CORRECTED,
     finding="The printed range allows $p = q$, which the inequalities exclude: $p < q$ is meant. And such indices "
-    "need not "
-    "exist: some abscissa must lie in $[a, b]$, for instance because $b - a \\ge (x_n - x_0)/n$, and $x_1 < a$.",
+    "need not exist: some abscissa must lie in $[a, b]$, for instance because $b - a \\ge (x_n - x_0)/n$, and "
+    "$x_1 < a$.",
 )
 def index_condition() -> Iterator[Evidence]:
     """$p = q$ is put into the inequalities; an interval between two neighbouring abscissae has no indices; an
@@ -111,15 +111,12 @@ def _fits(n: int, a: Fraction, b: Fraction, p: int, q: int) -> bool:
     place="Section 4.1, problem (4); Figure 4",
     title="Choosing the inner control points",
     says="Among the $y_1, \\dots, y_{n-1}$ with $P_y(t_a) = P_y(t_b) = h_y$ and the lower bounds of (4), the one "
-    "with the "
-    "smallest sum $y_{p+1} + \\dots + y_q$ is taken; $z$ likewise.",
+    "with the smallest sum $y_{p+1} + \\dots + y_q$ is taken; $z$ likewise.",
     verdict=Verdict.CORRECTED,
     finding="The problem is linear and is solved exactly, with a certificate; with symbolic height and ends the "
-    "engine says "
-    "when it has a solution. But the optimum is often trivial and not unique: the outer $y_i$ have no upper bound "
-    "and do not count "
-    "in the sum, so $y_{p+1} = \\dots = y_q = h_y$ can be optimal with infinitely many outer values. A second "
-    "criterion is needed.",
+    "engine says when it has a solution. But the optimum is often trivial and not unique: the outer $y_i$ have no "
+    "upper bound and do not count in the sum, so $y_{p+1} = \\dots = y_q = h_y$ can be optimal with infinitely many "
+    "outer values. A second criterion is needed.",
 )
 def equation_4() -> Iterator[Evidence]:
     """The instance is $n = 6$, $x_0 = 0$, $x_6 = 1$, $a = 2/5$, $b = 3/5$, hence $p = 2$, $q = 3$. The five unknowns
@@ -148,9 +145,10 @@ def equation_4() -> Iterator[Evidence]:
     axes = (single.Axis("y", Fraction(0), Fraction(1, 2), Fraction(1)),)
     task = single.task(8, (Fraction(0), Fraction(8)), (Fraction(5, 2), Fraction(11, 2)), axes)
     chosen = single.choose(task, axes[0]).values
+    assert chosen is not None
     yield Fact(
-        "for another instance ($n = 8$) `bezier.single` finds the sum 3, the least possible with $y_3, y_4, y_5 \\ge "
-        "1$",
+        "for another instance ($n = 8$) `bezier.single` finds the sum 3, the least possible with "
+        "$y_3, y_4, y_5 \\ge 1$",
         sum(chosen[i] for i in task.middle) == 3,
     )
     yield Picture(
@@ -159,7 +157,7 @@ def equation_4() -> Iterator[Evidence]:
     )
 
 
-def placed(y: Sequence[Fraction | int]) -> list[tuple[Fraction, Fraction | int]]:
+def placed(y: Sequence[Any]) -> list[tuple[Fraction, Any]]:
     """Ordinates over the equally spaced abscissae."""
     return [(Fraction(i, N), v) for i, v in enumerate(y)]
 

@@ -27,9 +27,9 @@ from paper_repro.written import curve, names
     "is to ensure it.",
     verdict=Verdict.DIFFERS,
     finding="(4) forces the height at $a$ and $b$ and of the control points between them, not of the curve between "
-    "them. Even an "
-    "optimal tuple can let the curve dip below $h_y$, here by more than 8 percent. If $y_0, y_n < h_y$ and the numbers "
-    "$y_i - h_y$ change sign only twice, the curve keeps the height; in general it is a question about all $t$.",
+    "them. Even an optimal tuple can let the curve dip below $h_y$, here by more than 8 percent. If $y_0, y_n < h_y$ "
+    "and the numbers $y_i - h_y$ change sign only twice, the curve keeps the height; in general it is a question "
+    "about all $t$.",
 )
 def dips() -> Iterator[Evidence]:
     """Among the optimal tuples of the instance above (least $y_3$) the one with the lowest point half-way is found by
@@ -68,8 +68,8 @@ def dips() -> Iterator[Evidence]:
     says="It is not guaranteed that the curve lies in the feasible region.",
     verdict=Verdict.REPRODUCED,
     finding="A solution of (4) for $y$ and $z$ with the least sums leaves the ball of the radius rule. It cannot "
-    "sink below the "
-    "table, though: if $z_0, z_n, h_z \\ge 0$ then (4) makes all control points, hence the curve, stay above it.",
+    "sink below the table, though: if $z_0, z_n, h_z \\ge 0$ then (4) makes all control points, hence the curve, "
+    "stay above it.",
 )
 def leaves() -> Iterator[Evidence]:
     """The optimal tuple found above, scaled to the height 2, is used for $y$ and $z$ over $-3 \\le x \\le 3$; the
@@ -100,9 +100,9 @@ def leaves() -> Iterator[Evidence]:
     title="Method 1 improved: new constraints that keep the curve in the region",
     says="Improvements are required, such as new constraints so that the curve is included in the feasible region.",
     verdict=Verdict.REPRODUCED,
-    finding="Done. With the conditions $P_y(t) \\ge h_y$ and $P_z(t) \\ge h_z$ on $[t_a, t_b]$ and $\\|P(t)\\| \\le "
-    "r$, "
-    "$P_z(t) \\ge 0$ on $[0, 1]$, for all $t$, the same instance has a proved curve, with the same least sums.",
+    finding="Done. With the conditions $P_y(t) \\ge h_y$ and $P_z(t) \\ge h_z$ on $[t_a, t_b]$ and "
+    "$\\|P(t)\\| \\le r$, $P_z(t) \\ge 0$ on $[0, 1]$, for all $t$, the same instance has a proved curve, with the "
+    "same least sums.",
 )
 def closed() -> Iterator[Evidence]:
     """The instance of the entry above, degree 6 and height 2. Cuts at finitely many $t$ are added to (4) until the

@@ -35,12 +35,11 @@ def curves(given: Points, q1: Sequence[Any], start: Sequence[Any], goal: Sequenc
     key="quadratic-joins",
     place="Section 4.2.1, before (8)",
     title="Smooth joins of curves of degree 2",
-    says="Equal first derivatives at the joins mean $2\\hat Q_0 = \\hat P_1 + \\hat Q_1$ and $2\\hat R_0 = \\hat Q_1 "
-    "+ \\hat R_1$.",
+    says="Equal first derivatives at the joins mean $2\\hat Q_0 = \\hat P_1 + \\hat Q_1$ and "
+    "$2\\hat R_0 = \\hat Q_1 + \\hat R_1$.",
     verdict=Verdict.REPRODUCED,
     finding="Derived by elimination from Definition 1. What the relaxation gives up is the second derivative: the "
-    "curves join $C^1$, "
-    "and $C^2$ only in special position (see the entry on the smallest degree).",
+    "curves join $C^1$, and $C^2$ only in special position (see the entry on the smallest degree).",
 )
 def quadratic_joins() -> Iterator[Evidence]:
     """Values and first derivatives at both joins, differentiated symbolically; $\\hat P_2$ and $\\hat Q_2$ are
@@ -55,9 +54,8 @@ def quadratic_joins() -> Iterator[Evidence]:
     title="The region of $\\hat Q_1$ by quantifier elimination",
     says="Quantifier elimination gives the possible region of $\\hat Q_1$; then three curves are obtained.",
     verdict=Verdict.REPRODUCED,
-    finding="The answer is short: $\\hat Q_1$ lies in the balls of radius $r$ about $O$, $2\\hat Q_0$ and $2\\hat "
-    "R_0$. The best point, the curves, "
-    "and proofs that the whole curves stay in the ball follow exactly.",
+    finding="The answer is short: $\\hat Q_1$ lies in the balls of radius $r$ about $O$, $2\\hat Q_0$ and "
+    "$2\\hat R_0$. The best point, the curves, and proofs that the whole curves stay in the ball follow exactly.",
 )
 def equation_8() -> Iterator[Evidence]:
     """(8) is written in coordinates exactly as printed and eliminated, with numbers and with letters; then the
@@ -135,8 +133,7 @@ def radius_typo() -> Iterator[Evidence]:
     says="The computation took about 15.4 s (Mathematica 13.3.1, Intel Core i3-8130U 2.20 GHz, 8 GB, Windows 11).",
     verdict=Verdict.NOT_TESTABLE,
     finding="Neither that program nor that machine is at hand, and the paper does not give the points. What can be "
-    "said: here formula (8) as "
-    "printed takes milliseconds, on whatever machine made this page.",
+    "said: here formula (8) as printed takes milliseconds, on whatever machine made this page.",
 )
 def timing() -> Iterator[Evidence]:
     """Median of five runs on this machine, in the running process: (8) with numbers, (8) with letters, existence,

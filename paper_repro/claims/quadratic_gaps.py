@@ -29,8 +29,8 @@ from paper_repro.written import EIGHT, Points, curve
     "none is not mentioned.",
     verdict=Verdict.CORRECTED,
     finding="(8) can be infeasible. $\\|Q_0 - R_0\\| \\le r$ is necessary; the exact condition is that the smallest "
-    "circle around $O, Q_0, R_0$ has "
-    "radius at most $r/2$. For $Q_0 = (-d, k)$, $R_0 = (d, k)$ with $k > d > 0$ it reads $d^2 + k^2 \\le r k$.",
+    "circle around $O, Q_0, R_0$ has radius at most $r/2$. For $Q_0 = (-d, k)$, $R_0 = (d, k)$ with $k > d > 0$ it "
+    "reads $d^2 + k^2 \\le r k$.",
 )
 def infeasible() -> Iterator[Evidence]:
     """An instance without solution is decided and refuted with multipliers that the checker multiplies out; the
@@ -87,9 +87,9 @@ def infeasible() -> Iterator[Evidence]:
     says="The norm conditions of (8) require that all remaining control points lie in the hemisphere.",
     verdict=Verdict.CORRECTED,
     finding="They lie in the ball: $z \\ge 0$ is dropped. For $Q_0 = (0, 1, 1/10)$, $R_0 = (1/10, 1, 1/10)$, $r = 2$ "
-    "the choice $\\hat Q_1 = (0,1,1)$ satisfies (8) "
-    "and puts $\\hat P_1$ at height $-4/5$. With $0 \\le z(\\hat Q_1) \\le 2 z(\\hat Q_0), 2 z(\\hat R_0)$ added, "
-    "the region is the same with three planes cut off.",
+    "the choice $\\hat Q_1 = (0,1,1)$ satisfies (8) and puts $\\hat P_1$ at height $-4/5$. With "
+    "$0 \\le z(\\hat Q_1) \\le 2 z(\\hat Q_0), 2 z(\\hat R_0)$ added, the region is the same with three planes cut "
+    "off.",
 )
 def hemisphere() -> Iterator[Evidence]:
     """The engine is asked for control points that (8) allows and that are below the table; the example is put into
@@ -124,8 +124,8 @@ def hemisphere() -> Iterator[Evidence]:
     says="The region of $\\hat Q_1$ is defined by control points in the ball, which guarantees that the curves stay "
     "in it.",
     verdict=Verdict.CORRECTED,
-    finding="It is sufficient only. Asking the same of the whole curves, (8*): $\\|\\hat P(t)\\|, \\|\\hat Q(t)\\|, "
-    "\\|\\hat R(t)\\| \\le r$ for all $t$, gives a larger region; there are "
+    finding="It is sufficient only. Asking the same of the whole curves, (8*): "
+    "$\\|\\hat P(t)\\|, \\|\\hat Q(t)\\|, \\|\\hat R(t)\\| \\le r$ for all $t$, gives a larger region; there are "
     "points for which (8) has no solution and (8*) has one.",
 )
 def sufficient_only() -> Iterator[Evidence]:

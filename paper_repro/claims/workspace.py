@@ -19,9 +19,9 @@ GIVEN = {"S": (-4, 1), "C1": (-2, 3), "C2": (2, 4), "G": (4, 1)}
     says="The end effector reaches every point of the hemisphere about the base (surface and interior, $z$ "
     "positive), except the origin itself.",
     verdict=Verdict.REPRODUCED,
-    finding="Taken as the model it is. The hemisphere is convex, which the later arguments need; leaving out $O$ makes "
-    "it non-convex, but does no harm: a curve that starts above the table and whose control points are not below it "
-    "never meets $O$ before its end.",
+    finding="Taken as the model it is. The hemisphere is convex, which the later arguments need; leaving out $O$ "
+    "makes it non-convex, but does no harm: a curve that starts above the table and whose control points are not "
+    "below it never meets $O$ before its end.",
 )
 def feasible_region_is_convex() -> Iterator[Evidence]:
     """Convexity is decided in the plane through $O$ and two points of the region. For the origin: the height of a
@@ -68,8 +68,8 @@ def radius() -> Iterator[Evidence]:
     says="With the radius so defined, the end effector can of course reach every point that is nearer to $O$.",
     verdict=Verdict.DIFFERS,
     finding="This follows from the hemisphere model, not from the arm. For the arm of the authors' earlier work "
-    "($L = 120$ mm, references [9] and [10]) the point $(0, 0, 300)$ can be reached and the nearer point $(290, 0, "
-    "0)$ cannot.",
+    "($L = 120$ mm, references [9] and [10]) the point $(0, 0, 300)$ can be reached and the nearer point "
+    "$(290, 0, 0)$ cannot.",
 )
 def nearer_is_reachable() -> Iterator[Evidence]:
     """The arm has two moving links of length $\\sqrt{18752}$ and 120 in a vertical plane that turns about the $z$
