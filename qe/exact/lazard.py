@@ -8,8 +8,6 @@ coordinates so far, is not identically zero in the later variables.
 
 from __future__ import annotations
 
-from flint import fmpq
-
 from qe.exact.ring import Poly
 from qe.exact.sample import Point
 
@@ -19,15 +17,16 @@ def lazard_evaluation(point: Point, f: Poly) -> Poly:
 
     Variables 0..depth-1 that are rational are substituted; algebraic ones stay, to be evaluated.
     """
-    current = f
+    return point.reduce(lazard_derivative(point, f))
+
+
+def lazard_derivative(point: Point, f: Poly) -> Poly:
+    """The partial derivative of f whose value at the point is a nonzero multiple of the Lazard evaluation of f."""
     for i in range(point.depth):
         prefix = point.ancestor(i + 1)
-        candidate = current
-        while _identically_zero(prefix, candidate):
-            candidate = candidate.derivative(i)
-        value = prefix.value
-        current = prefix.reduce(candidate) if isinstance(value, fmpq) else candidate
-    return current
+        while _identically_zero(prefix, f):
+            f = f.derivative(i)
+    return f
 
 
 def _identically_zero(prefix: Point, f: Poly) -> bool:

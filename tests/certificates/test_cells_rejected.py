@@ -20,6 +20,7 @@ QUADRATIC = ("x^2 + b*x + c = 0", "b c x", "..E")
 SENTENCE = ("x^2 + y^2 < 4 -> y < 2", "x y", "AA")
 CONSTRAINED = ("y^2 = x and y^3 > 1", "x y", ".E")
 TWO_CONSTRAINTS = ("x^2 + y^2 = 4 and x*y = 1 and y > x + 5", "x y", "EE")
+TWO_LEVELS = ("y^2 = x and y*z = 1", "x y z", ".EE")
 IMPLICATION = ("x^2 + y^2 /= 4 or x*y /= 1 or y < x + 5", "x y", "AA")
 CASES = {
     "lens": LENS,
@@ -29,6 +30,7 @@ CASES = {
     "sentence": SENTENCE,
     "constrained": CONSTRAINED,
     "two constraints": TWO_CONSTRAINTS,
+    "two levels": TWO_LEVELS,
     "implication": IMPLICATION,
 }
 

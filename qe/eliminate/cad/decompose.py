@@ -10,7 +10,7 @@ from qe.eliminate.cad.matrix import compile_matrix, strengthened
 from qe.eliminate.cad.projection import factor_lists
 from qe.errors import NotWellOriented
 from qe.evidence.cells import CellTable
-from qe.exact.ring import Ring
+from qe.exact.ring import Poly, Ring
 from qe.exact.sample import Point
 from qe.formula.build import convert
 from qe.formula.syntax import Formula
@@ -60,7 +60,8 @@ def decompose(
     """The cell table of Q_k x_k … Q_n x_n. matrix over the variables ``order`` (free ones first).
 
     Where the projection asked for meets a nullified factor that its theorem does not allow, the work is redone
-    with Lazard projection and Lazard evaluation together. ``separated``: see ``factor_lists``.
+    with Lazard projection and Lazard evaluation together. ``separated``: levels at which two cells over the same cell
+    differ in signs (derivatives join the factors: see ``factor_lists``, and ``Lifter.lacking`` for nullified ones).
     Raises ``BudgetExceeded``.
     """
     job = _Job(convert(matrix, Ring.of(order)), order, quantifiers, budget, separated, tactics)
@@ -79,14 +80,14 @@ class _Job:
     separated: frozenset[int]
     tactics: Tactics
 
-    def attempt(self, projection: Projection, *, nullified: bool) -> Decomposition:
+    def attempt(self, projection: Projection, *, nullified: bool, added: tuple[Poly, ...] = ()) -> Decomposition:
+        """``added``: polynomials in the factor lists beside those of the matrix."""
         size = len(self.order)
         constraints = Constraints()
         if self.tactics.constraints and projection is Projection.BROWN_MCCALLUM and self.quantifiers[-1]:
             constraints = equational_constraints(self.matrix, size)
-        levels = factor_lists(
-            polynomials(self.matrix), size, projection, self.budget, self.separated, constraints.factors
-        )
+        listed = [*polynomials(self.matrix), *added]
+        levels = factor_lists(listed, size, projection, self.budget, self.separated, constraints.factors)
         places = {f: (k, j) for k, level in enumerate(levels) for j, f in enumerate(level)}
         strong = strengthened(self.matrix, constraints.implied, places)
         indices = {
@@ -96,9 +97,18 @@ class _Job:
         }
         sectors_from = sector_levels(self.matrix, self.quantifiers) if self.tactics.open_only else size
         lifter = Lifter(
-            levels, self.quantifiers, projection, self.budget, sectors_from, indices, self.tactics.partial
+            levels,
+            self.quantifiers,
+            projection,
+            self.budget,
+            sectors_from,
+            indices,
+            self.tactics.partial,
+            self.separated,
         )
         root = lifter.run(Point(Ring.of(self.order)), compile_matrix(strong, places))
-        listed = tuple(tuple(sorted(indices.get(k, ()))) for k in range(size)) if indices else ()
-        table = CellTable(self.order, self.quantifiers, self.matrix, projection, levels, root, listed)
+        if lifter.lacking:
+            return self.attempt(projection, nullified=nullified, added=(*added, *lifter.lacking))
+        restricted = tuple(tuple(sorted(indices.get(k, ()))) for k in range(size)) if indices else ()
+        table = CellTable(self.order, self.quantifiers, self.matrix, projection, levels, root, restricted)
         return Decomposition(table, lifter.cells, lifter.stacks, sum(map(len, levels)), nullified)

@@ -14,6 +14,8 @@ from qe.eliminate.cad.matrix import Node, mentioned, specialise
 from qe.eliminate.cad.projection import Levels
 from qe.errors import InternalError, NotWellOriented
 from qe.evidence.cells import Cell, Stack
+from qe.exact.lazard import lazard_derivative
+from qe.exact.ring import Poly
 from qe.exact.sample import Point
 from qe.formula.syntax import Atom, Formula, Not
 from qe.formula.traverse import atoms, children
@@ -28,6 +30,8 @@ class Lifter:
 
     ``constraints``: indices of the factors of equational constraints by level (see ``equational``). Without
     ``partial`` cells are decomposed also where the formula is decided, and every cell of a stack is visited.
+    ``lacking``: where a factor of a level in ``separated`` is nullified, its signs and derivatives do not tell the
+    sections of its Lazard evaluation apart; the partial derivatives that do are collected here if they are not listed.
     """
 
     levels: Levels
@@ -37,6 +41,8 @@ class Lifter:
     sectors_from: int
     constraints: Mapping[int, frozenset[int]] = field(default_factory=dict)
     partial: bool = True
+    separated: frozenset[int] = frozenset()
+    lacking: dict[Poly, None] = field(default_factory=dict)
     cells: int = 0
     stacks: int = 0
     _shared: dict[tuple[int, int, str], Node] = field(default_factory=dict)
@@ -87,6 +93,11 @@ class Lifter:
         layers = layers_over(point, factors, used, lazard=self.projection is Projection.LAZARD)
         if layers.nullified and self.projection is not Projection.LAZARD and not (last and dimension == 0):
             raise NotWellOriented(f"a factor of level {level} is nullified over a cell of dimension {dimension}")
+        if level in self.separated and self.projection is Projection.LAZARD:
+            for j in layers.nullified:
+                derivative = lazard_derivative(point, factors[j])
+                if any(f.level == level and f not in factors for f, _ in derivative.factors()[1]):
+                    self.lacking[derivative] = None
         return layers
 
     def _stack(

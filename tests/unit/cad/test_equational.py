@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from fractions import Fraction
 
 import pytest
@@ -9,8 +10,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import qe
-from qe.eliminate.cad.decompose import decompose
+from qe.certify.verify import verify
+from qe.eliminate.cad.decompose import Tactics, decompose
 from qe.eliminate.cad.equational import equational_constraints
+from qe.evidence.cells import Cell
+from qe.evidence.certificate import Certificate
 from qe.exact.ring import Ring, format_poly
 from qe.formula.build import convert
 from qe.formula.syntax import Formula
@@ -91,3 +95,57 @@ def test_same_truth_as_the_full_lazard_projection(e: dict, f: dict, g: dict, rel
 )
 def test_resultants_with_the_other_polynomials_are_kept(text: str, answer: str) -> None:
     assert qe.equivalent(qe.eliminate(text, method="cad").formula, answer)
+
+
+@pytest.mark.parametrize(
+    ("text", "quantifiers", "restricted"),
+    [
+        ("x^2 + y^2 = 4 and x*y = 1", ("E", "E", "E"), ("x", "y")),  # the resultant restricts x
+        ("y^2 = a and y = x^2 - 1 and x > 0", ("", "", "E"), ("x", "y")),  # a free variable as well
+        ("y^2 + x = 0 and y > a", ("", "E", "E"), ("y",)),
+        ("x^2 + y^2 /= 4 or x*y /= 1", ("A", "A", "A"), ("x", "y")),  # dually
+        ("(y = x or y = 1 - x) and y > a", ("E", "E", "E"), ("y",)),  # one of two
+        ("(y = x and y > 3 or y^2 = 2) and y > a", ("E", "E", "E"), ("y",)),
+        ("y = x or y > a", ("E", "E", "E"), ()),  # nothing is implied, and two conditions would be needed to deny
+        ("y^2 = x and y > a", ("", "", ""), ()),  # a region keeps all its cells
+        ("y^2 = x", ("E", "E", "E"), ()),  # all factors are the constraint's
+    ],
+)
+def test_which_levels_are_restricted(text: str, quantifiers: tuple[str, ...], restricted: tuple[str, ...]) -> None:
+    found = decompose(_matrix(text), ORDER, quantifiers, budget=Budget())
+    assert found.restricted == restricted
+    assert verify(Certificate.cells(found.table)).accepted
+
+
+def test_two_constraints_leave_fewer_factors_and_cells() -> None:
+    matrix = _matrix("x^2 + y^2 = a and x^3*y = 1 and y^3 - a*x > 0 and x^2*y + y > 2")
+    first = decompose(matrix, ORDER, ("E", "E", "E"), budget=Budget())
+    none = decompose(matrix, ORDER, ("E", "E", "E"), budget=Budget(), tactics=Tactics(constraints=False))
+    assert first.restricted == ("x", "y")
+    assert first.factors < none.factors
+    assert first.table.root.truth is none.table.root.truth
+
+
+def test_signs_beside_a_constraint_are_open_between_its_sections() -> None:
+    table = decompose(_matrix("y^2 = 2 and y > a + x"), ORDER, ("", "", "E"), budget=Budget()).table
+    stack = next(c.stack for c in _cells(table.root) if c.stack is not None and len(c.stack.used) == 2)
+    constraint = stack.used.index(table.constraints[2][0])
+    for position, below in enumerate(stack.cells):
+        assert below.signs[constraint] == ("0" if position % 2 else "+-+"[position // 2])
+        assert (below.signs[1 - constraint] == "?") is (position % 2 == 0)
+        assert below.truth is not None or position % 2
+
+
+def _cells(cell: Cell) -> Iterator[Cell]:
+    yield cell
+    for below in cell.stack.cells if cell.stack else ():
+        yield from _cells(below)
+
+
+def test_a_constraint_that_vanishes_on_a_line_restricts_nothing_there() -> None:
+    """a*y + x is zero for every y over a = x = 0."""
+    found = decompose(_matrix("a*y + x = 0 and y^2 > 2"), ORDER, ("E", "E", "E"), budget=Budget())
+    assert found.table.root.truth is True
+    whole = decompose(_matrix("a*y + x = 0 and y^2 > 2 and x^2 + a^2 <= 0"), ORDER, ("E",) * 3, budget=Budget())
+    assert whole.table.root.truth is True
+    assert verify(Certificate.cells(whole.table)).accepted
