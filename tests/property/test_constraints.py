@@ -1,0 +1,129 @@
+"""Restricted projection and lifting: the same answers as without, and as the reference elimination; certificates hold.
+
+The formulas are conjunctions with equations, or disjunctions with inequations (the dual), in two and three variables.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from fractions import Fraction
+
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from qe import reference
+from qe.certify.verify import verify
+from qe.eliminate.cad.decompose import Decomposition, Tactics, decompose
+from qe.errors import BudgetExceeded
+from qe.evidence.cells import Cell
+from qe.evidence.certificate import Certificate
+from qe.exact.ring import Ring
+from qe.formula.build import atom, conj, convert, disj, exists, forall
+from qe.formula.evaluate import holds_at
+from qe.formula.syntax import Constant, Formula, Relation
+from qe.options import Budget, Projection
+from qe.solution.construct import construct
+from tests.differential.generate import at_point
+from tests.strategies import RELATIONS, polynomials
+
+NAMES = ("x", "y", "z")
+SPACE, PLANE = Ring.of(NAMES), Ring.of(NAMES[:2])
+PREFIXES = [("E", "E", "E"), ("A", "A", "A"), ("A", "E", "E"), ("E", "A", "E"), ("E", "E", "A")]
+
+
+@st.composite
+def constrained(draw: st.DrawFn, ring: Ring, *, max_degree: int) -> Formula:
+    """One to three equations and up to two other atoms conjoined, or the dual disjunction."""
+    dual = draw(st.booleans())
+    relation = Relation.NE if dual else Relation.EQ
+    poly = polynomials(ring, max_degree=max_degree, max_terms=3, max_coefficient=3)
+    equations = [atom(draw(poly), relation) for _ in range(draw(st.integers(1, 3)))]
+    others = [atom(draw(poly), draw(RELATIONS)) for _ in range(draw(st.integers(0, 2)))]
+    found = (disj if dual else conj)(equations + others)
+    assume(not isinstance(found, Constant))
+    return found
+
+
+def _decomposed(matrix: Formula, quantifiers: tuple[str, ...], tactics: Tactics) -> Decomposition:
+    try:
+        return decompose(matrix, NAMES[: len(quantifiers)], quantifiers, budget=Budget(2), tactics=tactics)
+    except BudgetExceeded:
+        assume(False)
+        raise
+
+
+def _flipped_leaves(cell: Cell) -> list[Cell]:
+    """The cell with one decided leaf below it saying the opposite, for each of the first few leaves."""
+    if cell.stack is None:
+        return [] if cell.truth is None else [replace(cell, truth=not cell.truth)]
+    stack, found = cell.stack, []
+    for i, below in enumerate(stack.cells):
+        for other in _flipped_leaves(below)[:2]:
+            found.append(replace(cell, stack=replace(stack, cells=(*stack.cells[:i], other, *stack.cells[i + 1 :]))))
+    return found[:6]
+
+
+@settings(max_examples=60)
+@given(constrained(SPACE, max_degree=3), st.sampled_from(PREFIXES))
+def test_sentences_in_space(matrix: Formula, quantifiers: tuple[str, ...]) -> None:
+    found = _decomposed(matrix, quantifiers, Tactics())
+    plain = _decomposed(matrix, quantifiers, Tactics(constraints=False))
+    assert found.table.root.truth is plain.table.root.truth
+    assert str(verify(Certificate.cells(found.table))) == "accepted"
+    for other in _flipped_leaves(found.table.root):
+        assert not verify(Certificate.cells(replace(found.table, root=other))).accepted
+
+
+@settings(max_examples=60)
+@given(constrained(PLANE, max_degree=2), st.sampled_from([("E", "E"), ("A", "A"), ("A", "E"), ("E", "A")]))
+def test_sentences_in_the_plane_against_the_reference(matrix: Formula, quantifiers: tuple[str, ...]) -> None:
+    found = _decomposed(matrix, quantifiers, Tactics())
+    sentence = matrix
+    for name, kind in reversed(list(zip(NAMES, quantifiers, strict=False))):
+        sentence = (exists if kind == "E" else forall)([name], sentence)
+    try:
+        assert found.table.root.truth is reference.decide(sentence, budget=Budget(1))
+    except BudgetExceeded:
+        assume(False)
+
+
+@settings(max_examples=40)
+@given(constrained(SPACE, max_degree=2), st.sampled_from(["E", "A"]), st.sampled_from([1, 2]))
+def test_answers_over_free_variables(matrix: Formula, kind: str, free: int) -> None:
+    """The formula agrees with the reference at rational points; also where a free level is restricted."""
+    quantifiers = ("",) * free + (kind,) * (3 - free)
+
+    def table(separated: frozenset[int] = frozenset()) -> object:
+        return decompose(matrix, NAMES, quantifiers, budget=Budget(3), separated=separated).table
+
+    try:
+        answer, proof = construct(table(), table)  # type: ignore[arg-type]
+    except BudgetExceeded:
+        assume(False)
+        raise
+    assert str(verify(Certificate.cells(proof, convert(answer, SPACE)))) == "accepted"
+    formula = (exists if kind == "E" else forall)(NAMES[free:], matrix)
+    for values in [(0, 0), (1, -1), (Fraction(1, 2), 2)]:
+        point = {name: Fraction(v) for name, v in zip(NAMES[:free], values, strict=False)}
+        try:
+            expected = reference.decide(at_point(formula, point), budget=Budget(0.5))
+        except BudgetExceeded:
+            continue
+        assert holds_at(answer, point) is expected
+
+
+@pytest.mark.deep
+@settings(max_examples=1000)
+@given(constrained(SPACE, max_degree=3), st.sampled_from(PREFIXES), st.sampled_from(list(Projection)))
+def test_many_sentences_in_space(matrix: Formula, quantifiers: tuple[str, ...], projection: Projection) -> None:
+    found = _decomposed(matrix, quantifiers, Tactics())
+    try:
+        plain = decompose(
+            matrix, NAMES, quantifiers, budget=Budget(5), projection=projection, tactics=Tactics(constraints=False)
+        )
+    except BudgetExceeded:
+        assume(False)
+        raise
+    assert found.table.root.truth is plain.table.root.truth
+    assert str(verify(Certificate.cells(found.table))) == "accepted"
