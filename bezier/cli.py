@@ -7,6 +7,7 @@ line on stderr.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import nullcontext
 from functools import partial
 from pathlib import Path
 from typing import Annotated
@@ -15,7 +16,6 @@ import typer
 
 from qe.cli import check_limits
 from qe.cli_shell import OK, enter, limited
-from qe.errors import Unable
 
 app = typer.Typer(
     add_completion=False,
@@ -88,12 +88,29 @@ def clearance(
 
 
 @app.command()
-def compare(problem: ProblemFile) -> int:
-    """Quadratic and cubic side by side (not there yet)."""
+def compare(
+    problem: ProblemFile,
+    out: Annotated[Path | None, typer.Option("--out", help="Folder for the page, the pictures and the data.")] = None,
+    json: Json = False,
+    no_plots: NoPlots = False,
+    timeout: Timeout = None,
+    memory: Memory = None,
+) -> int:
+    """Quadratic and cubic curves on one problem, side by side."""
+    from bezier.outputs import all_or_none
     from bezier.problem import load_problem
 
-    load_problem(problem)
-    raise Unable("compare is not there yet; plan is")
+    check_limits(timeout, memory)
+    read = load_problem(problem)
+    with nullcontext() if out is None else all_or_none(out) as folder:
+        from bezier import compare_command
+
+        request = compare_command.Request(
+            problem=read, folder=folder, target=out, plots=not no_plots, json=json, timeout=timeout
+        )
+        reply = limited(partial(compare_command.run, request=request), timeout=timeout, memory=memory, plain=json)
+    print(reply.text)
+    return reply.code
 
 
 def main(argv: Sequence[str] | None = None) -> int:

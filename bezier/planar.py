@@ -29,7 +29,7 @@ class Plane:
 
     @staticmethod
     def through(problem: Problem) -> Plane:
-        """The plane through O, Q0 and R0, its first axis along R0 - Q0; any plane through them if they are on a line."""
+        """The plane through O, Q0 and R0, its first axis along R0 - Q0; one of them if the three are on a line."""
         q0, r0 = problem.via
         first = _along(subtract(r0, q0))
         others = [q0, problem.start, problem.goal, *(tuple(Fraction(i == k) for i in range(3)) for k in (2, 1, 0))]
