@@ -8,9 +8,10 @@ body is quantifier-free, together with the quantifiers inside it otherwise. This
 from __future__ import annotations
 
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
+from typing import Any
 
 from qe.eliminate.vs import eliminate_block, witness
 from qe.errors import Unable
@@ -25,7 +26,7 @@ from qe.formula.syntax import FALSE, TRUE, And, Constant, Exists, ForAll, Formul
 from qe.formula.traverse import atoms, free_variables, is_quantifier_free, polynomials
 from qe.options import Budget, Method, Options, Stage
 from qe.pipeline_cad import Values, decomposed
-from qe.pipeline_critical import by_critical_values
+from qe.pipeline_critical import by_critical_values, convex_universal
 from qe.plan.choice import Choice, choose
 from qe.prepare import Prepared, prepare
 from qe.prepare.nonzero import only_nonzero
@@ -45,6 +46,9 @@ second bound is for one and two parameters, where that takes some hundredths of 
 
 PROBE_ABOVE, PROBE_SECONDS, PROBE_SHARE, PROBE_ATOMS = 3, 1.0, 0.1, 30
 """Substitution is tried for this long before a decomposition in more variables, and taken if its answer is small."""
+
+CERTIFY_SHARE = 0.4
+"""The share of the time left after the answer that a decomposition may take for nothing but its certificate."""
 
 CONVEX_FROM = 4
 """Existential sentences in so many variables are first tried as convex problems; with fewer, the others are faster."""
@@ -90,7 +94,8 @@ class _Run:
         if isinstance(formula, Exists) and not free_variables(formula):
             return self.existential(formula)
         self.whole = formula
-        answer = self.eliminate(self.prepared(formula))
+        answer = self._tried("convex set", lambda part: convex_universal(formula, self.options, part, self.story))
+        answer = answer or self.eliminate(self.prepared(formula))
         if self.certificate is None:
             answer = self._shortened(answer)
             self.certificate = substitution_certificate(formula, answer)
@@ -100,11 +105,7 @@ class _Run:
         """Whether polynomials in the universal variables solve the blocks inside; ``False`` says nothing."""
         if is_quantifier_free(formula.body) or self.options.method is not Method.AUTO:
             return False
-        try:
-            found = polynomial_witnesses(formula, budget=self.budget.share(FIRST_SHARE))
-        except Unable as error:
-            self.story.note("switches", f"witness in the parameters: {error}")
-            return False
+        found = self._tried("witness in the parameters", lambda part: polynomial_witnesses(formula, budget=part))
         for proof in found or ():
             self.story.note("plan", f"witness in the parameters: {proof}")
         return found is not None
@@ -181,7 +182,7 @@ class _Run:
     def certified(self, formula: Formula, answer: Formula) -> Formula:
         """The answer of a decomposition of the whole formula, which has a certificate, where it ends in time."""
         try:
-            found = decomposed(formula, self.options, self.budget, self.story)
+            found = decomposed(formula, self.options, self.budget.share(CERTIFY_SHARE), self.story)
         except Unable as error:
             self.story.note("switches", f"no certificate: {error}")
             return answer
@@ -363,6 +364,14 @@ class _Run:
         except Unable:
             return formula
         return shorter if sum(1 for _ in atoms(shorter)) < count else formula
+
+    def _tried(self, what: str, work: Callable[[Budget], Any]) -> Any:
+        """A shortcut, with a share of the time; None where it does not lead to an answer."""
+        try:
+            return work(self.budget.share(FIRST_SHARE))
+        except Unable as error:
+            self.story.note("switches", f"{what}: {error}")
+            return None
 
     def _by_critical_values(self, variables: Sequence[str], body: Formula, budget: Budget) -> Formula:
         def decompose(formula: Formula, part: Budget) -> Formula:
