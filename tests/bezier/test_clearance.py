@@ -127,9 +127,20 @@ def test_arguments_are_named_by_what_was_needed():
 @settings(max_examples=60, deadline=None)
 @given(bodies, control_points(1, 4))
 def test_proofs_agree_with_dense_exact_sampling(body, points):
+    agrees_with_sampling(body, points, GRID)
+
+
+@pytest.mark.deep
+@settings(max_examples=1500, deadline=None)
+@given(bodies, control_points(1, 6))
+def test_proofs_agree_with_denser_sampling(body, points):
+    agrees_with_sampling(body, points, [Fraction(k, 97) for k in range(98)])
+
+
+def agrees_with_sampling(body, points, grid):
     curve, thing = Bezier.of(points), obstacle(body)
     found = examine(curve, thing)
-    inside = [t for t in GRID if thing.contains(curve.point(t))]
+    inside = [t for t in grid if thing.contains(curve.point(t))]
     if isinstance(found, Clear):
         assert not inside
         certificate = clearance_certificate(curve, thing)

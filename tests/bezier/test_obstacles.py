@@ -34,6 +34,15 @@ def test_a_cylinder_with_margin_is_the_points_within_the_margin(body, p):
         assert obstacle(body).contains(p) == (excess < 0)
 
 
+@pytest.mark.parametrize("turn", [(1, 0), (0, 1), (-1, 0), (0, -1)])
+def test_the_rim_of_a_cylinder_is_rounded_all_around(turn):
+    body = Cylinder((Fraction(5), Fraction(-3)), Fraction(1), Fraction(0), Fraction(1), Fraction(1, 2))
+    thing = obstacle(body)
+    for away, inside in ((Fraction(13, 10), True), (Fraction(7, 5), False)):  # 0.3 and 0.4 beyond the rim, both ways
+        x, y = 5 + away * turn[0], -3 + away * turn[1]
+        assert thing.contains((x, y, away)) is inside and thing.contains((x, y, 1 - away)) is inside
+
+
 def test_a_rim_with_a_margin_beyond_the_axis():
     body = Cylinder((Fraction(0), Fraction(0)), Fraction(1), Fraction(0), Fraction(1), Fraction(3))
     assert len(pieces_of(body)) == 6

@@ -76,6 +76,13 @@ def test_what_is_said_about_it(over_the_crate, tmp_path):
     assert "<h2>Obstacles</h2>" in page and "clear for all t" in page and "Quality of the path" in page
 
 
+@pytest.mark.parametrize("method", ["cubic", "single"])
+def test_the_other_methods_get_over_it_too(method):
+    plan = planned(START.replace("quadratic", method), CRATE)
+    assert plan.outcome is Outcome.SOLVED and plan.certified and plan.problem.method.value == method
+    assert all(finding.is_clear for finding in plan.findings)
+
+
 def test_a_blocked_path_is_raised_and_every_attempt_is_listed():
     plan = planned(START, 'via = [[-1, 2, "5/2"], [1, 2, "5/2"]]\n', BALLOON)
     assert plan.outcome is Outcome.SOLVED and plan.certified

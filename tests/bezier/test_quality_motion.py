@@ -111,6 +111,23 @@ def test_velocity_is_continuous_where_the_joins_are():
     assert same(velocity, (Fraction(3, 4), 0, 0))  # P'(1) = (2, 0, 0), sigma' = 2 * 15/8 / 10
 
 
+@pytest.mark.parametrize("law", list(Law))
+def test_velocity_and_acceleration_are_the_derivatives_of_the_position(law):
+    path = path_of(
+        [(-2, 0, 0), (-1, 3, 1), (0, 1, 0)], [(0, 1, 0), (1, -1, 0), (2, 0, 4)], durations={"P": Fraction(2)}
+    )
+    motion = motion_of(path, Timing(law, QUARTER, Fraction(3)))
+    step = Fraction(1, 10**4)
+    for tau in (Fraction(1, 5), Fraction(2, 5), Fraction(17, 20)):
+        before, here, after = (state(path, motion, t)[2] for t in (tau - step, tau, tau + step))
+        seconds = step * 3
+        for i in range(3):
+            velocity = (after[0][i] - before[0][i]) / (2 * seconds)
+            acceleration = (after[0][i] - 2 * here[0][i] + before[0][i]) / seconds**2
+            assert abs(velocity - here[1][i]) < Fraction(1, 1000)
+            assert abs(acceleration - here[2][i]) < Fraction(1, 100)
+
+
 def test_the_table_of_the_motion():
     motion = motion_of(LINE, Timing(Law.QUINTIC, QUARTER, Fraction(10)))
     lines = [line for line in motion_csv(LINE, motion).splitlines() if not line.startswith("#")]
