@@ -51,7 +51,7 @@ def two_regions(
     ``outer``: a function that is nonnegative exactly on the larger region.
     """
     figure, (axis,) = plane(6.4, 4.2)
-    x, y = np.meshgrid(np.linspace(window[0], window[1], 401), np.linspace(window[2], window[3], 401))
+    x, y = np.meshgrid(np.linspace(window[0], window[1], 241), np.linspace(window[2], window[3], 241))
     depth = np.min([r * r - (x - float(c[0])) ** 2 - (y - float(c[1])) ** 2 for c, r in inner], axis=0)
     axis.contourf(x, y, outer(x, y), levels=[0, np.inf], colors=["#f4c7cd"])
     axis.contourf(x, y, depth, levels=[0, np.inf], colors=["#bcd3ea"])

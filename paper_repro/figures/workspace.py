@@ -51,6 +51,7 @@ def radius_rule(points: Mapping[str, Sequence[Any]], farthest: str) -> Figure:
     x, y = (float(c) / 2 for c in points[farthest])
     label(axis, "$r$", (x, y), (-13, 2), color=COLOURS["Q"])
     label(axis, "$O$", (0, 0), (-4, -14))
+    axis.set_aspect("equal", adjustable="box")
     axis.set_ylim(-0.14 * radius, 1.14 * radius)
     return figure
 
@@ -91,6 +92,8 @@ def dips_below_floor(curves: Mapping[str, Bezier], radius: float, axes: tuple[in
         for i, point in enumerate(flat.points[1:-1], 1):
             low = float(point[1]) < 0
             label(axis, f"${name}_{i}$", point, (5, -14 if low else 6), color=COLOURS[name])
+    axis.set_aspect("equal", adjustable="box")
+    axis.set_xlim(-1.4 * radius, 1.4 * radius)
     axis.set_ylim(-0.75 * radius, 1.1 * radius)
     axis.set_title(title, fontsize=10)
     axis.legend(frameon=False, loc="upper left")
