@@ -312,7 +312,11 @@ def joins(path: Path | None) -> list[Row]:
 
 def certificates(plan: Plan, claims: Mapping[str, str]) -> list[Row]:
     """What was checked by whom; ``claims``: what each certificate of the method says."""
-    claims = {"path": "Every curve stays in the workspace, by its Bernstein coefficients", **claims}
+    claims = {
+        "path": "Every curve stays in the workspace, by its Bernstein coefficients",
+        "clearance": "Every curve stays clear of every obstacle, by Bernstein coefficients",
+        **claims,
+    }
     rows = []
     for name, verdict in plan.checks.items():
         text = "accepted" if verdict.accepted else f"rejected at {verdict.step}: {verdict.reason}"
