@@ -7,6 +7,7 @@ import re
 from collections.abc import Collection, Iterator
 from dataclasses import replace
 from fractions import Fraction
+from math import comb
 
 from bezier import cubic, quadratic, single, single_formula
 from bezier.control import number
@@ -54,7 +55,7 @@ def _planning_problem(q0: Point, r0: Point, start: Point, goal: Point) -> Planni
 
 def problems() -> list[Problem]:
     """Every formula of the paper for every instance; families are named after the formulas."""
-    found = [_symbolic()]
+    found = [_symbolic(), *_identities()]
     for i, instance in enumerate(planning_problems()):
         found += _quadratic(i, instance)
         found += _cubic(i, instance)
@@ -72,6 +73,27 @@ def _symbolic() -> Problem:
     points = (q1, *([f"2*{v} - {u}" for u, v in zip(q1, via, strict=True)] for via in (q0, r0)))
     balls = " and ".join(formulas.within(point, "r^2") for point in points)
     return Problem("paper/formula-8", "formula-8-symbolic", quadratic.SHAPE.symbolic_formula(), f"r >= 0 and {balls}")
+
+
+def _identities() -> Iterator[Problem]:
+    """What holds for all curves: (2), (3), (6) from the smoothness of the joins, and the convex hull property.
+
+    The hull is the intersection of half-spaces; the property says that a curve lies in every half-space in which its
+    control points lie, and that is a statement about one coordinate.
+    """
+    for i, degree in enumerate((2, 3, 4)):
+        yield _problem("formula-2", i, single_formula.linearity(degree), "true")
+    yield _problem("formula-3", 0, single_formula.INVERSE, "true")
+    names = "q0, q1, q2, r0, p1, p2, r1, r2"
+    smooth = "2*q0 = p2 + q1 and 2*r0 = q2 + r1 and 2*(q1 - p2) = q2 - p1 and 2*(r1 - q2) = r2 - q1"
+    six = "p1 = 4*q0 - 4*q1 + q2 and p2 = 2*q0 - q1 and r1 = 2*r0 - q2 and r2 = q1 - 4*q2 + 4*r0"
+    yield _problem("formula-6", 0, f"all {names}. {smooth} <-> {six}", "true")
+    for i, degree in enumerate((1, 2, 3)):
+        points = [f"c{k}" for k in range(degree + 1)]
+        curve = " + ".join(f"{comb(degree, k)}*t^{k}*(1 - t)^{degree - k}*c{k}" for k in range(degree + 1))
+        inside = " and ".join(f"{point} >= 0" for point in points)
+        hull = f"all t, {', '.join(points)}. t >= 0 and t <= 1 and {inside} -> {curve} >= 0"
+        yield _problem("convex-hull", i, hull, "true")
 
 
 def _quadratic(i: int, problem: PlanningProblem) -> Iterator[Problem]:
