@@ -217,7 +217,7 @@ def _rounded(core: Polytope, radius: Fraction) -> list[Piece]:
 
 
 def _prism(core: Polytope, facet: Facet, radius: Fraction) -> Piece:
-    sides = tuple(half_space(normal, offset) for normal, offset in core.walls(facet))
+    sides = tuple(half_space(normal, offset) for normal, offset in facet.walls)
     corners = [core.corners[i] for i in facet.corners]
     return Piece((slab(facet.normal, facet.offset, radius), *sides), _hull(corners, radius))
 

@@ -25,11 +25,13 @@ class Facet:
     """A face of dimension 2: ``normal`` . p <= ``offset`` holds in the body, with equality exactly at ``corners``.
 
     ``normal`` has coprime integer entries and points outwards; ``corners`` are indices, in order around the facet.
+    ``walls``: (n, c) for each side; n . p <= c says that p is on the facet's side of the upright plane there.
     """
 
     normal: Point
     offset: Fraction
     corners: tuple[int, ...]
+    walls: tuple[tuple[Point, Fraction], ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,23 +71,10 @@ class Polytope:
         """The projection of an outer point to a facet right below it; then no other point of the body is as near."""
         for facet in self.facets:
             excess = dot(facet.normal, p) - facet.offset
-            if excess > 0 and all(dot(n, p) <= c for n, c in self.walls(facet)):
+            if excess > 0 and all(dot(n, p) <= c for n, c in facet.walls):
                 share = excess / dot(facet.normal, facet.normal)
                 return tuple(x - share * n for x, n in zip(p, facet.normal, strict=True))
         return None
-
-    def walls(self, facet: Facet) -> list[tuple[Point, Fraction]]:
-        """(n, c) for each side of the facet: n . p <= c says that p is on the facet's side of the upright plane."""
-        found = []
-        size = len(facet.corners)
-        for k in range(size):
-            a, b = (self.corners[facet.corners[i % size]] for i in (k, k + 1))
-            normal = cross(subtract(b, a), facet.normal)
-            inner = self.corners[facet.corners[(k + 2) % size]]
-            if dot(normal, inner) > dot(normal, a):
-                normal = tuple(-x for x in normal)
-            found.append((normal, Fraction(dot(normal, a))))
-        return found
 
 
 def point(p: Point) -> Polytope:
@@ -161,7 +150,8 @@ def _with_edges(points: list[Point], planes: dict[tuple[Point, Fraction], tuple[
     facets = []
     for (normal, offset), on in planes.items():
         sides = [(i, j) for i, j in pairs if i in on and j in on]
-        facets.append(Facet(normal, offset, tuple(place[i] for i in _around(sides))))
+        loop = _around(sides)
+        facets.append(Facet(normal, offset, tuple(place[i] for i in loop), _walls(normal, [points[i] for i in loop])))
     corners = tuple(points[i] for i in extreme)
     return Polytope(corners, tuple((place[i], place[j]) for i, j in pairs), tuple(facets))
 
@@ -174,6 +164,18 @@ def _around(sides: list[tuple[int, int]]) -> list[int]:
         left.remove(following)
         order.append(following[0] if following[1] == order[-1] else following[1])
     return order[:-1]
+
+
+def _walls(normal: Point, corners: Sequence[Point]) -> tuple[tuple[Point, Fraction], ...]:
+    """The upright planes over the sides of a facet, its inner side where n . p <= c."""
+    found = []
+    for k, a in enumerate(corners):
+        b, inner = corners[(k + 1) % len(corners)], corners[(k + 2) % len(corners)]
+        n = cross(subtract(b, a), normal)
+        if dot(n, inner) > dot(n, a):
+            n = tuple(-x for x in n)
+        found.append((n, Fraction(dot(n, a))))
+    return tuple(found)
 
 
 def cross(a: Sequence[Fraction], b: Sequence[Fraction]) -> Point:
