@@ -17,6 +17,7 @@ from fractions import Fraction
 from math import ceil, floor, log10
 
 from bezier.curve import Bezier
+from bezier.scalar import sign
 from bezier.simplex import (
     Check,
     Contradiction,
@@ -29,9 +30,9 @@ from bezier.simplex import (
     solve,
 )
 from bezier.single import Task, Values, curve, program
-from bezier.single_cuts import Cut, CutKind, Family, Model
-from bezier.workspace import Workspace
-from qe.errors import BudgetExceeded, Unable
+from bezier.single_cuts import Cut, CutKind, Model
+from bezier.workspace import Workspace, WorkspaceKind
+from qe.errors import BudgetExceeded, InputError, InternalError
 from qe.evidence.certificate import Certificate
 
 MAX_ROUNDS = 60
@@ -76,10 +77,13 @@ class NoCurve:
 def close(task: Task, workspace: Workspace, *, check: Check = lambda: None) -> ProvedCurve | NoCurve:
     """Method 1* for this task. ``check`` is called between steps and may raise.
 
-    Raises ``BudgetExceeded`` after ``MAX_ROUNDS`` rounds without a proof, also where curves exist but all of them touch
-    the boundary somewhere else than (4) forces them to.
+    Raises ``InputError`` for ends below the table, and ``BudgetExceeded`` after ``MAX_ROUNDS`` rounds without a proof,
+    also where curves exist but all of them touch the boundary somewhere else than (4) forces them to.
     """
-    return _Search(Model.of(task, workspace), check).run()
+    model = Model.of(task, workspace)
+    if workspace.kind is WorkspaceKind.HEMISPHERE and any(sign(workspace.floor.margin(end)) < 0 for end in model.ends):
+        raise InputError("expected a start and a goal with z >= 0 in the hemisphere")
+    return _Search(model, check).run()
 
 
 class _Search:
@@ -87,7 +91,7 @@ class _Search:
 
     def __init__(self, model: Model, check: Check) -> None:
         self.model, self.check, self.cuts, self.rounds = model, check, model.initial(), 0
-        self.rigid: set[Family] = set()
+        self.rigid: set[str] = set()
         self.slack = (*(Fraction(0) for _ in model.costs[1:]), Fraction(-1))
 
     def run(self) -> ProvedCurve | NoCurve:
@@ -95,22 +99,9 @@ class _Search:
         inner = self.inner_point()
         if isinstance(inner, Contradiction):
             return NoCurve(tuple(self.cuts), self.certificate(inner), self.rounds)
-        inner = best = self.simplified(inner)
-        outcome = self.outcome([self.model.costs, self.slack])
-        for _ in self.counted():
-            found = self.violations(outcome.point)
-            if not found:
-                best = outcome.point
-                break
-            enough = outcome.value + TOLERANCE * abs(outcome.value)
-            candidate, outside = self.last_feasible(inner, outcome.point, enough)
-            best = min(best, candidate, key=self.sum_of)
-            if self.sum_of(best) <= enough:
-                break
-            self.cuts += [*found, *outside]
-            outcome = self.outcome([self.model.costs, self.slack])
+        best, outcome = self.least_sum(self.simplified(inner))
         exact = self.sum_of(best) == outcome.value
-        best = self.simplified(best, outcome.value if exact else self.sum_of(best) + TOLERANCE * abs(outcome.value))
+        best = self.simplified(best, outcome.value if exact else max(self.sum_of(best), _enough(outcome)))
         values = self.model.values(best)
         return ProvedCurve(
             values,
@@ -121,6 +112,21 @@ class _Search:
             self.certificate(outcome),
             self.rounds,
         )
+
+    def least_sum(self, inner: Values) -> tuple[Values, LinearOptimum]:
+        """A proved curve with a small sum, from the proved curve ``inner`` on, and the optimum of the cuts so far."""
+        best = inner
+        for _ in self.counted():
+            outcome = self.optimum()
+            found = self.violations(outcome.point)
+            if not found:
+                return outcome.point, outcome
+            candidate, outside = self.last_feasible(inner, outcome)
+            best = min(best, candidate, key=self.sum_of)
+            if self.sum_of(best) <= _enough(outcome):
+                return best, outcome
+            self.cuts += [*found, *outside]
+        return best, self.optimum()
 
     def inner_point(self) -> Values | Contradiction:
         """A curve proved to satisfy everything, with the largest slack that the cuts allow."""
@@ -140,12 +146,12 @@ class _Search:
         """The program of the cuts so far."""
         return self.model.program(self.cuts, self.rigid)
 
-    def tight(self, outcome: LinearOptimum) -> set[Family]:
-        """The families of cuts that leave no slack at all, by the duals."""
+    def tight(self, outcome: LinearOptimum) -> set[str]:
+        """The axes (empty: the ball) whose cuts leave no slack at all, by the duals."""
         cuts = (*self.model.tangents, *self.cuts)
         equations = len(self.model.task.raised) * 2
         duals = outcome.duals.rows[equations:]
-        return {cut.family for cut, dual in zip(cuts, duals, strict=False) if dual and cut.kind is not CutKind.TANGENT}
+        return {cut.axis for cut, dual in zip(cuts, duals, strict=False) if dual and cut.kind is not CutKind.TANGENT}
 
     def counted(self) -> Iterator[int]:
         """Rounds, at most ``MAX_ROUNDS`` for each of the two stages."""
@@ -153,11 +159,11 @@ class _Search:
             self.rounds += 1
             yield k
 
-    def outcome(self, objectives: Sequence[Values]) -> LinearOptimum:
-        """The optimum of a program that is known to have a point."""
-        found = solve(self.program(), objectives, check=self.check)
+    def optimum(self) -> LinearOptimum:
+        """The least sum, then the largest slack, of a program that is known to have a point."""
+        found = solve(self.program(), [self.model.costs, self.slack], check=self.check)
         if isinstance(found, Contradiction):
-            raise Unable("a linear program lost the point that was proved to satisfy it")
+            raise InternalError("a linear program without the point that was proved to satisfy it")
         return found
 
     def violations(self, point: Sequence[Fraction]) -> list[Cut]:
@@ -169,12 +175,13 @@ class _Search:
         """The objective."""
         return sum((c * x for c, x in zip(self.model.costs, point, strict=True)), Fraction(0))
 
-    def last_feasible(self, inner: Values, outer: Values, enough: Fraction) -> tuple[Values, list[Cut]]:
-        """A point of the segment whose curve is proved, with a sum of at most ``enough`` or close to ``outer``, and
-        cuts against a point just beyond."""
-        least, most = self.sum_of(outer), self.sum_of(inner)
-        low, high = Fraction(0), Fraction(1)
-        middle = _short((most - enough) / (most - least)) if most > enough else low
+    def last_feasible(self, inner: Values, outcome: LinearOptimum) -> tuple[Values, list[Cut]]:
+        """A point of the segment from ``inner`` to the optimum whose curve is proved, with a small enough sum or close
+        to the last such point, and cuts against a point just beyond."""
+        outer, enough = outcome.point, _enough(outcome)
+        most, low, high = self.sum_of(inner), Fraction(0), Fraction(1)
+        fall = most - outcome.value
+        middle = _short((most - enough) / fall) if most > enough else low
         cuts: list[Cut] = []
         for _ in range(BISECTIONS):
             found = self.violations(_between(inner, outer, middle))
@@ -182,7 +189,7 @@ class _Search:
                 high, cuts = middle, found
             else:
                 low = middle
-                if most - low * (most - least) <= enough:
+                if most - low * fall <= enough:
                     break
             middle = (low + high) / 2
         return _between(inner, outer, low), cuts
@@ -208,6 +215,11 @@ class _Search:
             tuple(Row(row.coefficients[:-1], row.bound, row.equation) for row in whole.rows[:kept]),
         )
         return certificate(plain, self.model.costs[:-1], _without_slack(outcome, kept))
+
+
+def _enough(outcome: LinearOptimum) -> Fraction:
+    """A sum that is close enough to the bound."""
+    return outcome.value + TOLERANCE * abs(outcome.value)
 
 
 def _short(share: Fraction) -> Fraction:

@@ -22,7 +22,7 @@ from typing import Any
 from bezier import bernstein as bs
 from bezier.curve import Bezier
 from bezier.nonnegative import Negative, decide
-from bezier.scalar import Vector, dot, sign
+from bezier.scalar import Vector, dot, scale, sign
 from bezier.simplex import LinearProgram, Row
 from bezier.single import Axis, Task, Values, curve, objective, program, weights_at
 from bezier.workspace import Workspace
@@ -47,20 +47,12 @@ class CutKind(Enum):
 
 @dataclass(frozen=True, slots=True)
 class Cut:
-    """A condition at the parameter ``t``: ``axis`` for heights, ``plane`` the vector c of a ball cut."""
+    """A condition at the parameter ``t``: ``axis`` for heights, empty otherwise; ``plane``: the vector c of BALL."""
 
     kind: CutKind
     t: Fraction
     axis: str = ""
     plane: Vector = ()
-
-    @property
-    def family(self) -> Family:
-        """The cuts that say the same at other parameters: those of one height, those of the ball."""
-        return self.axis
-
-
-Family = str
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,8 +98,8 @@ class Model:
         inner = (tuple(point[k * size : (k + 1) * size]) for k in range(len(self.task.raised)))
         return {axis.name: (axis.start, *part, axis.goal) for axis, part in zip(self.task.raised, inner, strict=True)}
 
-    def program(self, cuts: Sequence[Cut], rigid: Collection[Family] = ()) -> LinearProgram:
-        """(4) on all raised axes, the cuts, and 0 <= s <= 1. Cuts of the ``rigid`` families have no slack."""
+    def program(self, cuts: Sequence[Cut], rigid: Collection[str] = ()) -> LinearProgram:
+        """(4) on all raised axes, the cuts, and 0 <= s <= 1. Cuts whose axis is among ``rigid`` have no slack."""
         size, axes = self.task.degree - 1, self.task.raised
         single = [program(self.task, axis) for axis in axes]
         rows = []
@@ -116,7 +108,7 @@ class Model:
             rows += [Row((*before, *row.coefficients, *after), row.bound, True) for row in part.rows]
         for cut in (*self.tangents, *cuts):
             row = self.row(cut)
-            rows.append(replace(row, coefficients=(*row.coefficients[:-1], ZERO)) if cut.family in rigid else row)
+            rows.append(replace(row, coefficients=(*row.coefficients[:-1], ZERO)) if cut.axis in rigid else row)
         rows.append(Row((*(ZERO,) * (size * len(axes)), ONE), ONE))
         return LinearProgram(self.names, (*(v for part in single for v in part.lower), ZERO), tuple(rows))
 
@@ -159,21 +151,14 @@ class Model:
 
     def _height_row(self, cut: Cut) -> Row:
         """h - P(t) + s h (t - t_a)(t_b - t) <= 0, or, at t_a and t_b, its derivative inwards."""
-        task = self.task
-        k = next(k for k, axis in enumerate(task.raised) if axis.name == cut.axis)
-        axis = task.raised[k]
-        height, (t_a, t_b) = Fraction(axis.height or 0), task.times
+        height = next(Fraction(axis.height or 0) for axis in self.task.raised if axis.name == cut.axis)
+        down = (ZERO, *(Fraction(-(axis.name == cut.axis)) for axis in self.task.axes))
+        degree, (t_a, t_b) = self.task.degree, self.task.times
         if cut.t in (t_a, t_b):
-            side = -1 if cut.t == t_a else 1
-            weights = tuple(side * w for w in _slope_weights(task.degree, cut.t))
-            slack, bound = height * (t_b - t_a), ZERO
-        else:
-            weights = tuple(-w for w in weights_at(task.degree, cut.t))
-            slack, bound = height * (cut.t - t_a) * (t_b - cut.t), -height
-        size = task.degree - 1
-        before, after = (ZERO,) * (k * size), (ZERO,) * (size * (len(task.raised) - 1 - k))
-        bound -= weights[0] * axis.start + weights[-1] * axis.goal
-        return Row((*before, *weights[1:-1], *after, slack), bound)
+            inwards = down if cut.t == t_a else scale(-1, down)
+            return self._plane_row(inwards, _slope_weights(degree, cut.t), ZERO, height * (t_b - t_a))
+        slack = height * (cut.t - t_a) * (t_b - cut.t)
+        return self._plane_row(down, weights_at(degree, cut.t), -height, slack)
 
     def _plane_row(
         self, normal: Vector, weights: Values, bound: Fraction, slack: Fraction, equation: bool = False
@@ -245,7 +230,7 @@ class Model:
     def _beside(self, path: Bezier, t: Fraction) -> tuple[Fraction, Vector]:
         """t and P(t) outside the ball; a parameter beside t where t is one of those that (4) puts on the sphere."""
         step, at = Fraction(1, GRID), t
-        while sign(self.workspace.ball.margin(path.point(at))) >= 0:
+        while not 0 <= at <= 1 or sign(self.workspace.ball.margin(path.point(at))) >= 0:
             at, step = t + step, -step / 2
         return at, path.point(at)
 

@@ -17,7 +17,7 @@ from bezier.single_closed import TOLERANCE, NoCurve, ProvedCurve, close
 from bezier.single_cuts import CutKind, Model, violated
 from bezier.single_formula import VALUE
 from bezier.workspace import Workspace, WorkspaceKind
-from qe.errors import Unable
+from qe.errors import InputError, Unable
 from tests.bezier.singles import FLAT, axis, tasks, unit_task
 
 F = Fraction
@@ -165,6 +165,29 @@ def test_the_limit_stops_the_work():
 
     with pytest.raises(Unable, match="stopped"):
         close(unit_task(6, "2/5", "3/5", axis("y", 0, 0, 1), FLAT), Workspace(WorkspaceKind.BALL, F(2)), check=stop)
+
+
+def test_ends_below_the_table_are_refused():
+    given_task = unit_task(6, "2/5", "3/5", axis("y", 0, 0, 1), axis("z", -1, 0))
+    with pytest.raises(InputError, match="z >= 0"):
+        close(given_task, Workspace(WorkspaceKind.HEMISPHERE, F(9)))
+    assert isinstance(close(given_task, Workspace(WorkspaceKind.BALL, F(9))), ProvedCurve)
+
+
+def test_given_points_outside_the_ball():
+    given_task = unit_task(6, "2/5", "3/5", axis("y", 0, 0, 1), FLAT)
+    for squared in (F(9, 10), F(11, 10)):  # P(1) and P(t_b), or only P(t_b), are outside
+        found = close(given_task, Workspace(WorkspaceKind.BALL, squared))
+        assert isinstance(found, NoCurve) and qe.verify(found.certificate).accepted
+
+
+def test_a_parameter_beside_a_point_on_the_sphere_stays_in_the_curve():
+    """P(t_b) is on the sphere and t_b close to 1: the condition is not asked for beyond t = 1."""
+    given_task = unit_task(40, "1/2", "99/100", axis("y", 0, 0, 1), FLAT)
+    model = Model.of(given_task, Workspace(WorkspaceKind.BALL, F(1) + F(99, 100) ** 2))
+    assert model.touches == (False, False, False, True)
+    wild = curve(given_task, {"y": (F(0), *[F(2)] * 39, F(0))})
+    assert 0 <= model.ball_cut(wild, F(99, 100)).t <= 1
 
 
 def test_speed():
