@@ -44,6 +44,8 @@ def _evidence(entry: Entry, item: Evidence) -> Iterator[str]:
         case Asked():
             yield f"- {_mark(item.holds)} {item.text}:"
             yield from ("", "  ```", f"  {item.question}", "  ```", "", f"  $${' '.join(item.answer.split())}$$")
+            if item.expected:
+                yield f"  found equivalent to `{item.expected}`"
             if item.certificate is not None:
                 yield f"  certificate: [{certificate_name(entry, item)}]({certificate_name(entry, item)})"
         case Table(head, rows):

@@ -82,7 +82,7 @@ def practical() -> Iterator[Evidence]:
 
 @claim(
     key="conclusion-future",
-    place="Section 5, last two paragraphs; also Section 1, fifth paragraph",
+    place="Section 5, last two paragraphs; also Section 1, fourth paragraph",
     title="Novelty and future work",
     says="Bézier curves have hardly been used in trajectory planning with computer algebra; better constraints, "
     "efficiency and joint sequences are the next steps.",

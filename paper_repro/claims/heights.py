@@ -39,7 +39,7 @@ def equal_heights() -> Iterator[Evidence]:
 
 @claim(
     key="method-2-height",
-    place="Section 4.2, third paragraph",
+    place="Section 4.2, after (5)",
     title="The middle curve avoids the obstacle",
     says="The second curve $Q(t)$ avoids the obstacle: $y$ and $z$ exceed a certain value in a certain interval of "
     "$x$.",

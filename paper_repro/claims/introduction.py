@@ -26,7 +26,7 @@ STOPS = ((-5, 0), (-4, 3), (4, 3), (5, 0))
     finding="At a real corner the velocity jumps, whatever the speeds on the two sides; only a stop avoids it.",
 )
 def polyline() -> Iterator[Evidence]:
-    """The lines from $A$ to $O$ and from $O$ to $B$ are run through with speeds $1/u$ and $1/v$ for any $u, v > 0$.
+    """The lines from $A$ to $O$ and from $O$ to $B$ are run through in the times $1/u$ and $1/v$ for any $u, v > 0$.
     Elimination of the speeds gives the exact condition for equal velocities at the vertex."""
     yield eliminated(
         "equal velocities $-u A = v B$ are possible exactly if $O$ lies between $A$ and $B$ on one line",
@@ -37,7 +37,7 @@ def polyline() -> Iterator[Evidence]:
 
 @claim(
     key="spline-leaves",
-    place="Section 1, fourth paragraph",
+    place="Section 1, third paragraph",
     title="A spline curve may leave the feasible region",
     says="The cubic spline curve through the given points need not lie in the feasible region.",
     verdict=Verdict.REPRODUCED,
