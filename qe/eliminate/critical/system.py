@@ -47,7 +47,8 @@ class System:
 
     @property
     def inequalities(self) -> tuple[Poly, ...]:
-        return tuple(c.poly for c in self.conditions if c.relation is not FormRelation.EQ)
+        """The distinct ones, whether strict or weak: the closed conditions say the same."""
+        return tuple(dict.fromkeys(c.poly for c in self.conditions if c.relation is not FormRelation.EQ))
 
     @cached_property
     def is_closed(self) -> bool:
