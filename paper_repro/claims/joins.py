@@ -82,6 +82,15 @@ def equation_6() -> Iterator[Evidence]:
     for kept, equation in six.items():
         others = ("p3", "q3", *(name for name in six if name != kept))
         yield eliminated(f"what remains for ${kept[0].upper()}_{kept[1]}$", qe.Exists(others, conditions), equation)
+    spans = (
+        "6*q0 = d1 + 4*d2 + d3 and 3*q1 = 2*d2 + d3 and 3*q2 = d2 + 2*d3 and 6*r0 = d2 + 4*d3 + d4 "
+        "and 3*p1 = 2*d1 + d2 and 3*p2 = d1 + 2*d2 and 3*r1 = 2*d3 + d4 and 3*r2 = d3 + 2*d4"
+    )
+    yield eliminated(
+        "control points of three spans of a uniform cubic B-spline with some de Boor points $d_1, \\dots, d_4$",
+        f"ex d1, d2, d3, d4. {spans}",
+        " and ".join(six.values()),
+    )
 
 
 @claim(

@@ -28,8 +28,9 @@ from paper_repro.written import EIGHT, Points, curve
     says="By elimination the possible region of $\\hat Q_1$ is obtained and then the three curves; that there may be "
     "none is not mentioned.",
     verdict=Verdict.CORRECTED,
-    finding="(8) can be infeasible. $\\|Q_0 - R_0\\| \\le r$ is necessary; the exact condition is that the smallest "
-    "circle around $O, Q_0, R_0$ has radius at most $r/2$. For $Q_0 = (-d, k)$, $R_0 = (d, k)$ with $k > d > 0$ it "
+    finding="(8) can be infeasible. $\\|Q_0 - R_0\\| \\le r$ is necessary; the three norm conditions say "
+    "that a circle of radius $r/2$ about $\\hat Q_1/2$ encloses $O, Q_0, R_0$, so (8) can be satisfied exactly if the "
+    "smallest enclosing circle has radius at most $r/2$. For $Q_0 = (-d, k)$, $R_0 = (d, k)$ with $k > d > 0$ this "
     "reads $d^2 + k^2 \\le r k$.",
 )
 def infeasible() -> Iterator[Evidence]:

@@ -68,7 +68,7 @@ def radius() -> Iterator[Evidence]:
     says="With the radius so defined, the end effector can of course reach every point that is nearer to $O$.",
     verdict=Verdict.DIFFERS,
     finding="This follows from the hemisphere model, not from the arm. For the arm of the authors' earlier work "
-    "($L = 120$ mm, references [9] and [10]) the point $(0, 0, 300)$ can be reached and the nearer point "
+    "($L = 120$ mm, reference [10]) the point $(0, 0, 300)$ can be reached and the nearer point "
     "$(290, 0, 0)$ cannot.",
 )
 def nearer_is_reachable() -> Iterator[Evidence]:
