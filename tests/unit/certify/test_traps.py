@@ -37,9 +37,10 @@ def _verdict(
     factors: list[list[str]],
     root: Cell,
     projection: Projection = BROWN,
+    constraints: tuple[tuple[int, ...], ...] = (),
 ) -> Verdict:
     lists = tuple(tuple(_poly(f, order) for f in level) for level in factors)
-    table = CellTable(order, quantifiers, convert(matrix, Ring.of(order)), projection, lists, root)
+    table = CellTable(order, quantifiers, convert(matrix, Ring.of(order)), projection, lists, root, constraints)
     return verify(Certificate.cells(table))
 
 
@@ -156,3 +157,73 @@ def test_a_list_must_be_squarefree_and_coprime() -> None:
     assert not verdict.accepted
     verdict = _verdict(("x", "y"), ("", ""), read("y = 0"), [[], ["y", "y^2 - 2*y*x + x^2"]], root)
     assert "squarefree" in verdict.reason
+
+
+def test_a_sector_beside_a_constraint_is_decomposed() -> None:
+    """x = 0 taken for a constraint: the sample 1/2 of x > 0 does not show that y^2 = x - 1 has solutions there."""
+    flat = _stack((0,), "0", (), _leaf("+", False))
+    cells = (Cell("-?", False, flat), Cell("0-", False, flat), Cell("+?", False, flat))
+    root = Cell("", False, _stack((0, 1), "-1 1/2", ((0,),), *cells))
+    factors = [["x", "x - 1"], ["y^2 - x + 1"]]
+    verdict = _verdict(("x", "y"), ("E", "E"), read("y^2 = x - 1"), factors, root, constraints=((0,), ()))
+    assert verdict.step == "payload.root.stack.cells[0].stack"
+    assert "only the sections" in verdict.reason
+
+
+def test_a_leaf_beside_a_constraint_that_is_not_implied() -> None:
+    cells = (_leaf("-?", False), _leaf("0-", False), _leaf("+?", False))
+    root = Cell("", False, _stack((0, 1), "-1 1/2", ((0,),), *cells))
+    verdict = _verdict(("x",), ("E",), read("x = 1 or x^2*(x - 1) > 0"), [["x", "x - 1"]], root, constraints=((0,),))
+    assert verdict.step == "payload.root.stack.cells[0].truth"
+
+
+def _over_a_nullified_factor(constraints: tuple[tuple[int, ...], ...]) -> Verdict:
+    """x*z + y - 1 beside the constraint z = 0 is zero on the whole line over x = 0, y = 1."""
+    parabola = _stack((0,), "-1 1", ((0,),), _leaf("+", None), _leaf("0", True), _leaf("+", None))
+    line = _stack((0, 1), "-1 1", ((0,),), _leaf("-?", False), Cell("00", True, parabola), _leaf("+?", False))
+    column = _stack((0,), "0 2", ((0,),), _leaf("-", False), Cell("0", True, line), _leaf("+", False))
+    root = Cell("", True, _stack((0,), "-1 1", ((0,),), _leaf("-", False), Cell("0", True, column), _leaf("+", False)))
+    names = ("x", "y", "z", "w")
+    matrix = read("x = 0 and y = 1 and z = 0 and w^2 = x*z + y - 1")
+    factors = [["x"], ["y - 1"], ["z", "x*z + y - 1"], ["w^2 - x*z - y + 1"]]
+    return _verdict(names, ("E",) * 4, matrix, factors, root, constraints=constraints)
+
+
+def test_a_factor_beside_a_constraint_is_nullified_below_the_last_level() -> None:
+    verdict = _over_a_nullified_factor(((), (), (0,), ()))
+    assert verdict.step == "payload.root.stack.cells[1].stack.cells[1].stack.used"
+    assert "not well-oriented" in verdict.reason
+
+
+@pytest.mark.parametrize(
+    ("constraints", "step"),
+    [
+        (((), ()), "payload.constraints"),
+        (((), (), (2,), ()), "payload.constraints[2]"),
+        (((), (), (1, 0), ()), "payload.constraints[2]"),
+    ],
+)
+def test_lists_that_are_no_constraints(constraints: tuple[tuple[int, ...], ...], step: str) -> None:
+    assert _over_a_nullified_factor(constraints).step == step
+
+
+def test_no_constraint_restricts_lazard_projection() -> None:
+    cells = (_leaf("-?", False), _leaf("0+", True), _leaf("+?", False))
+    root = Cell("", True, _stack((0, 1), "-1 1", ((0,),), *cells))
+    question = (("x",), ("E",), read("x = 0 and x^2 + 1 > 0"), [["x", "x^2 + 1"]], root)
+    assert _verdict(*question, constraints=((0,),)).accepted
+    assert _verdict(*question, LAZARD, ((0,),)).step == "payload.projection"
+
+
+def test_roots_of_a_factor_beside_a_constraint_are_not_known() -> None:
+    """On x = 1 a section of x^2 - 1 says nothing about the number of smaller roots of x^2 - 4*x."""
+    signs = ("+?", "0+", "-?", "0-", "+?")
+    cells = tuple(_leaf(s, s == "0-") for s in signs)
+    root = Cell("", None, _stack((0, 1), "-2 1/2 2", ((0,), (0,)), *cells))
+    names, ring = ("x",), Ring.of(("x",))
+    lists = ((_poly("x^2 - 1", names), _poly("x^2 - 4*x", names)),)
+    matrix = convert(read("x^2 - 1 = 0 and x^2 - 4*x < 0"), ring)
+    sound = CellTable(names, ("",), matrix, BROWN, lists, root, ((0,),))
+    assert verify(Certificate.cells(sound)).accepted
+    answer = convert(read("x^2 - 1 = 0 and x > root(1, x^2 - 4*x, x)"), ring)
+    assert verify(Certificate.cells(sound, answer)).step == "payload.answer"
