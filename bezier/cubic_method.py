@@ -11,7 +11,7 @@ from bezier.curve import Smoothness
 from bezier.methods import Claim, Method
 from bezier.problem import Problem
 from bezier.scalar import brief, described
-from bezier.stored import certified_points
+from bezier.stored import certified_answer, certified_points
 from bezier.terms import named_multipliers
 from qe.evidence.certificate import Certificate
 
@@ -67,8 +67,10 @@ def draw(plan: CubicPlan, folder: FilePath) -> Drawing:
 
 def claim(problem: Problem, certificate: Certificate) -> Claim:
     """What the certificates of a folder show about this problem."""
-    points = certified_points(cubic.system(problem), certificate)
-    lines = ["the optimum belongs to formula (7) of this problem"]
+    system = cubic.system(problem)
+    certified_answer(system, certificate)
+    points = certified_points(system, certificate)
+    lines = ["the answer belongs to formula (7) of this problem", "the optimum belongs to formula (7) of this problem"]
     if problem.join_speed and points is not None:
         lines.append(f"the conditions for a speed of at least {problem.join_speed} at both joins hold")
     return Claim(tuple(lines), points, Smoothness.C2)

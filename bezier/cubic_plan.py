@@ -9,7 +9,7 @@ from typing import Any
 import qe
 from bezier import cubic
 from bezier.control import System
-from bezier.optimal_path import chosen_path, least, path_through, verified
+from bezier.optimal_path import chosen_path, eliminated, least, path_through, verified
 from bezier.path import Path
 from bezier.plan import Clock, Outcome, Plan, answered
 from bezier.problem import Problem
@@ -56,7 +56,7 @@ def make(problem: Problem, clock: Clock) -> CubicPlan:
         slowest = slowest_of(path) if path else {}
         trivial = _trivial(problem, system)
     with clock.step("verification"):
-        certificate, checks = verified([("optimum", optimum.certificate)], path)
+        certificate, checks = verified([*eliminated(answer), ("optimum", optimum.certificate)], path)
     return CubicPlan(
         problem=problem,
         outcome=Outcome.SOLVED if path else Outcome.INFEASIBLE,

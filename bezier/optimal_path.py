@@ -61,6 +61,11 @@ def _whole_curves(problem: Problem, system: System, path: Path) -> tuple[Proof, 
     return tuple(proof for proof in found if isinstance(proof.outcome, Inside))
 
 
+def eliminated(answer: Any) -> list[tuple[str, qe.Certificate]]:
+    """The certificate that the answer is equivalent to the formula as printed, where there is one."""
+    return [] if answer.certificate is None else [("elimination", answer.certificate)]
+
+
 def verified(
     members: list[tuple[str, qe.Certificate]], path: Path | None
 ) -> tuple[qe.Certificate, dict[str, qe.Verdict]]:

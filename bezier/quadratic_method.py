@@ -8,16 +8,16 @@ from typing import TYPE_CHECKING, Any
 import qe
 from bezier import quadratic, quadratic_plan, quadratic_report
 from bezier.containment import Leaves
-from bezier.control import System
 from bezier.curve import Smoothness
 from bezier.methods import Claim, Method
 from bezier.problem import Problem
 from bezier.quadratic_plan import QuadraticPlan
 from bezier.scalar import exact_text
-from bezier.stored import certified_points, member
+from bezier.stored import certified_answer, certified_points, member
 from qe.errors import CertificateRejected
 from qe.evidence.cells_json import CellEvidence
 from qe.evidence.certificate import Certificate, Kind
+from qe.formula.syntax import Formula
 
 if TYPE_CHECKING:
     from bezier.picture import Drawing
@@ -78,17 +78,16 @@ def draw(plan: QuadraticPlan, folder: FilePath) -> Drawing:
 def claim(problem: Problem, certificate: Certificate) -> Claim:
     """What the certificates of a folder show about this problem."""
     system = quadratic.system(problem)
-    _check_region(system, member(certificate, "region", Kind.CELLS))
+    _check_region(certified_answer(system, certificate), member(certificate, "region", Kind.CELLS))
     points = certified_points(system, certificate)
     lines = ["the region belongs to formula (8) of this problem", "the optimum belongs to this problem"]
     return Claim(tuple(lines), points, Smoothness.C1)
 
 
-def _check_region(system: System, payload: object) -> None:
-    """The region's certificate is about the answer to this problem's formula."""
+def _check_region(answer: Formula, payload: object) -> None:
+    """The region's certificate is about this answer."""
     if not isinstance(payload, CellEvidence):
         raise CertificateRejected("region", "expected a cell table")
-    answer = qe.eliminate(system.formula()).formula
     matrix = payload.table.matrix
     if str(answer) != str(matrix) and not qe.equivalent(answer, matrix):
         raise CertificateRejected("region", "the cell table is about another formula")

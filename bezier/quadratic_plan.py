@@ -10,7 +10,7 @@ from typing import Any
 import qe
 from bezier import quadratic
 from bezier.control import System
-from bezier.optimal_path import chosen_path, least, verified
+from bezier.optimal_path import chosen_path, eliminated, least, verified
 from bezier.path import Path, Proof, prove
 from bezier.plan import Clock, Outcome, Plan, answered
 from bezier.problem import Problem
@@ -69,7 +69,7 @@ def make(problem: Problem, clock: Clock) -> QuadraticPlan:
     with clock.step("hemisphere question"):
         gap = _gap(problem, region, path, clock)
     with clock.step("verification"):
-        members = [("region", region.certificate), ("optimum", optimum.certificate)]
+        members = [*eliminated(answer), ("region", region.certificate), ("optimum", optimum.certificate)]
         if gap.certificate is not None:
             members.append(("below the table", gap.certificate))
         certificate, checks = verified(members, path)

@@ -11,12 +11,14 @@ from fractions import Fraction
 from pathlib import Path as FilePath
 from typing import Any
 
+import qe
 from bezier.control import System
 from bezier.numbers import NotANumber, parse
 from bezier.scalar import Vector
 from bezier.terms import Terms, condition_terms, fixed_values, multiple_of, objective_terms, reduced, terms_of
 from qe.errors import CertificateRejected, InputError
 from qe.evidence.certificate import Certificate, Kind
+from qe.formula.syntax import Formula
 
 MAX_BYTES = 200_000_000
 MAX_CHARACTERS = 4000
@@ -84,6 +86,17 @@ def member(certificate: Certificate, label: str, kind: Kind) -> Any:
             if item.label == label and item.certificate.kind is kind:
                 return item.certificate.payload
     raise CertificateRejected("certificate.json", f"no certificate about the {label}")
+
+
+def certified_answer(system: System, certificate: Certificate) -> Formula:
+    """The answer to this system's formula as printed; its certificate must be there if the engine makes one."""
+    answer = qe.eliminate(system.formula())
+    if answer.certificate is not None:
+        payload = member(certificate, "elimination", answer.certificate.kind)
+        if payload != answer.certificate.payload:
+            raise CertificateRejected("elimination", "not about the formula of this problem")
+    assert answer.formula is not None
+    return answer.formula
 
 
 def certified_points(system: System, certificate: Certificate) -> dict[str, Vector] | None:
