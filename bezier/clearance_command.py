@@ -103,4 +103,4 @@ def _in_words(findings: Sequence[Finding], verdict: qe.Verdict) -> str:
     met = survey.contacts(findings)
     last = f"{len(met)} of {len(findings)} pairs meet" if met else f"all {len(findings)} pairs are clear"
     accepted = "accepted" if verdict.accepted else "REJECTED"
-    return "\n".join([*map(survey.in_words, findings), f"{last}; certificates of clearance: {accepted}"])
+    return "\n".join([*map(survey.in_words, findings), f"{last}; certificates: {accepted}"])

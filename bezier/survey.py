@@ -8,7 +8,7 @@ from typing import Any
 
 from bezier.along import Along
 from bezier.clearance import Clear, Contact, Outcome, examine
-from bezier.clearance_evidence import clearance_certificate
+from bezier.clearance_evidence import clearance_certificate, contact_certificate
 from bezier.curve import Bezier
 from bezier.distance import distance_enclosure
 from bezier.enclosure import Enclosure
@@ -68,19 +68,19 @@ def contacts(findings: Iterable[Finding]) -> tuple[Finding, ...]:
 
 
 def certificates(findings: Iterable[Finding]) -> list[tuple[str, Certificate]]:
-    """A labelled certificate for each proof of clearance that has this form."""
+    """A labelled certificate for each clearance and each first contact that has one."""
     found = []
     for finding in findings:
-        if finding.is_clear:
-            certificate = clearance_certificate(finding.curve, finding.obstacle)
-            if certificate is not None:
-                found.append((label(finding), certificate))
+        curve, obstacle, outcome = finding.curve, finding.obstacle, finding.outcome
+        certificate = (
+            contact_certificate(curve, obstacle, outcome)
+            if isinstance(outcome, Contact)
+            else clearance_certificate(curve, obstacle)
+        )
+        if certificate is not None:
+            verb = "clear of" if finding.is_clear else "meets"
+            found.append((f"{finding.name} {verb} {obstacle.name}", certificate))
     return found
-
-
-def label(finding: Finding) -> str:
-    """``P clear of box 1``."""
-    return f"{finding.name} clear of {finding.obstacle.name}"
 
 
 def in_words(finding: Finding) -> str:

@@ -1,9 +1,12 @@
-"""Checker for certificates of kind "clearance": a whole Bezier curve never meets an obstacle.
+"""Checker for certificates of kind "clearance": a whole Bezier curve never meets an obstacle, or where it first does.
 
 The obstacle is a union of pieces {f_1 >= 0, ..., f_m >= 0} (> 0 where strict) in the coordinates of the curve. THEOREM.
 The curve misses a piece if [0, 1] is covered by intervals on each of which one f_i(P(t)) has only negative Bernstein
 coefficients, or only nonpositive ones where f_i > 0 is strict. The certificate names the intervals and the i; the
 polynomials f_i(P(t)) and their coefficients on the intervals are computed here.
+
+With ``contact`` the intervals cover [0, after] only, and at the parameter ``t`` >= ``after`` all constraints of one
+piece hold: the curve meets the obstacle first in (after, t], or in [0, t] when ``after`` is 0.
 """
 
 from __future__ import annotations
@@ -21,15 +24,40 @@ Constraint = tuple[list[Residue], bool]
 
 def check_clearance(payload: dict[str, Json]) -> None:
     """Accept silently, or raise ``CertificateRejected`` naming the entry that fails."""
-    numbers, points_entry, pieces = Entry(payload, "payload").fields("field", "points", "pieces")
+    numbers, points_entry, pieces, contact = Entry(payload, "payload").fields(
+        "field", "points", "pieces", optional=("contact",)
+    )
     field = read_field(numbers)
     curve = _Curve(read_points(points_entry, field), field)
     found = list(pieces.items())
     if not found:
         raise pieces.fail("expected at least one piece")
-    for piece in found:
+    after, t, index = _contact(contact)
+    for k, piece in enumerate(found):
         constraints, spans = piece.fields("constraints", "spans")
-        _check_cover([_along(c, curve) for c in constraints.items()], spans, field)
+        forms = [_along(c, curve) for c in constraints.items()]
+        _check_cover(forms, spans, field, after)
+        if k == index and not all(_holds(form, strict, t, field) for form, strict in forms):
+            raise contact.fail("a constraint of this piece does not hold at t")
+    if index >= len(found):
+        raise contact.fail(f"expected one of {len(found)} pieces")
+
+
+def _contact(entry: Entry) -> tuple[Fraction, Fraction, int]:
+    """Where the intervals end, and the parameter and the piece of the contact; piece -1 without a contact."""
+    if entry.value is None:
+        return Fraction(1), Fraction(1), -1
+    after, at, piece = entry.fields("after", "t", "piece")
+    low, high = after.rational(), at.rational()
+    if not 0 <= low <= high <= 1:
+        raise entry.fail("expected 0 <= after <= t <= 1")
+    return low, high, piece.integer()
+
+
+def _holds(form: list[Residue], strict: bool, t: Fraction, field: RootField) -> bool:
+    """Whether a constraint holds at the parameter t."""
+    value = form[0] if t == 0 else restricted(form, Fraction(0), t)[-1]
+    return field.sign(value) > 0 if strict else field.sign(value) >= 0
 
 
 class _Curve:
@@ -75,15 +103,15 @@ def _along(entry: Entry, curve: _Curve) -> Constraint:
     return total, truth
 
 
-def _check_cover(constraints: list[Constraint], spans: Entry, field: RootField) -> None:
-    """The spans follow one another from 0 to 1, and on each the constraint it names fails."""
+def _check_cover(constraints: list[Constraint], spans: Entry, field: RootField, until: Fraction) -> None:
+    """The spans follow one another from 0 to ``until``, and on each the constraint it names fails."""
     reached = Fraction(0)
     for span in spans.items():
         low, high, index = (list(span.items()) + [None] * 3)[:3]
         if low is None or high is None or index is None or len(list(span.items())) != 3:
             raise span.fail("expected low, high and the index of a constraint")
         start, end, i = low.rational(), high.rational(), index.integer()
-        if start != reached or not start < end <= 1:
+        if start != reached or not start < end <= until:
             raise span.fail(f"expected an interval from {reached}")
         if i >= len(constraints):
             raise index.fail(f"expected one of {len(constraints)} constraints")
@@ -92,5 +120,5 @@ def _check_cover(constraints: list[Constraint], spans: Entry, field: RootField) 
         if largest > 0 or (largest == 0 and not strict):
             raise CertificateRejected(span.path, "the constraint does not fail on this interval")
         reached = end
-    if reached != 1:
-        raise spans.fail("the intervals do not reach 1")
+    if reached != until:
+        raise spans.fail(f"the intervals do not reach {until}")

@@ -29,8 +29,8 @@ class Kind(Enum):
     CELLS: truth values on the cells of a (partial) cylindrical algebraic decomposition, and the formula that
     follows. OPTIMUM: an optimal point of a convex problem, or that there is none. WITNESS: that an assignment
     satisfies a quantifier-free formula. SUBSTITUTION: that linear equations eliminate an existential block.
-    CONTAINMENT: that a Bezier curve stays in a ball or half-space. CLEARANCE: that one never meets an obstacle.
-    BUNDLE: several certificates with labels.
+    CONTAINMENT: that a Bezier curve stays in a ball or half-space. CLEARANCE: that one never meets an obstacle, or
+    where it first does. BUNDLE: several certificates with labels.
     """
 
     CELLS = "cells"

@@ -79,4 +79,5 @@ def test_a_survey_says_what_was_found():
     data = [survey.to_json(f) for f in findings]
     assert data[0]["first_contact"]["exact_place"] == ["0", "0", "2"] and data[0]["distance"]["high"] == "0"
     assert data[2]["distance"] is None and data[2]["argument"] == "Bernstein coefficients of the whole curve"
-    assert [label for label, _ in survey.certificates(findings)] == ["A clear of deep"]
+    labels = [label for label, _ in survey.certificates(findings)]
+    assert labels == ["A meets ball", "A meets floor", "A clear of deep"]

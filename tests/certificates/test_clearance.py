@@ -9,8 +9,10 @@ from typing import Any
 
 import pytest
 
-from bezier.bodies import Rounded
-from bezier.clearance_evidence import clearance_certificate
+from bezier.bernstein import from_power
+from bezier.bodies import HalfSpaceBody, Rounded
+from bezier.clearance import Contact, examine
+from bezier.clearance_evidence import clearance_certificate, contact_certificate
 from bezier.curve import Bezier
 from bezier.obstacles import Constraint, Obstacle, ObstacleKind, Piece
 from qe.certify.verify import verify, verify_json
@@ -107,3 +109,47 @@ def test_strict_obstacles_that_are_touched_where_no_interval_ends_have_none() ->
     below = Obstacle("below", ObstacleKind.FORMULA, (Piece((Constraint.of({(0, 0, 1): -1}, strict=True),)),))
     assert third.point(Fraction(1, 3)) == at(0, 0, 0)
     assert clearance_certificate(third, below) is None
+
+
+def first_contact(curve: Bezier, thing: Obstacle) -> Certificate:
+    contact = examine(curve, thing)
+    assert isinstance(contact, Contact)
+    certificate = contact_certificate(curve, thing, contact)
+    assert certificate is not None
+    return certificate
+
+
+CONTACTS = [
+    first_contact(ARCH, ball((0, 0, 0), Fraction(19, 10))),  # irrational, at t = 0.0145...
+    first_contact(ARCH, ball((0, 0, 3), 1)),  # a tangency at t = 1/2
+    first_contact(root_curve(), ball((1, 1, 0), Fraction(1, 2))),
+]
+
+
+@pytest.mark.parametrize("certificate", CONTACTS)
+def test_first_contacts_are_certified(certificate: Certificate) -> None:
+    assert verify_json(certificate.to_json()).accepted
+    data = json.loads(certificate.to_json())
+    after, t = (Fraction(data["payload"]["contact"][key]) for key in ("after", "t"))
+    assert 0 < after < t and t - after <= Fraction(1, 2**40)
+    for key, other in (("after", t), ("after", after - Fraction(1, 100)), ("t", after), ("t", after / 2)):
+        assert not verify_json(replaced(data, ("payload", "contact", key), str(other))).accepted, key
+    for wrong in (1, -1, "0"):
+        assert not verify_json(replaced(data, ("payload", "contact", "piece"), wrong)).accepted
+    clear = copy.deepcopy(data)
+    del clear["payload"]["contact"]
+    assert not verify_json(replaced(clear, ("payload", "pieces"), clear["payload"]["pieces"])).accepted
+
+
+def test_contact_at_the_start_and_an_irrational_tangency() -> None:
+    inside = first_contact(ARCH, ball((-2, 0, 0), 1))
+    assert verify(inside).accepted and isinstance(inside.payload, dict)
+    assert inside.payload["contact"] == {"after": "0", "t": "0", "piece": 0}
+    touching = Bezier.of([(0, 0, 2), (0, 0, -2), (0, 0, 2)])  # z = 2 (4 t^2 - 4 t + 1) touches 0 at 1/2, rational
+    below = obstacle(HalfSpaceBody(at(0, 0, 1), Fraction(0)))
+    assert verify(first_contact(touching, below)).accepted
+    # z = (2 t^2 - 1)^2 touches 0 at t = 1/sqrt(2) only
+    irrational = Bezier(tuple((Fraction(0), Fraction(0), z) for z in from_power((1, 0, -4, 0, 4))))
+    contact = examine(irrational, below)
+    assert isinstance(contact, Contact) and not contact.is_exact and not contact.enters
+    assert contact_certificate(irrational, below, contact) is None

@@ -26,7 +26,7 @@ def test_every_kind_of_obstacle(root: Path) -> None:
     lines = process.stdout.splitlines()
     assert lines[0] == "arch: touches balloon, first at t = 1/2, (0, 0, 2)"
     assert lines[-2].startswith("arch: enters saddle, first at t = 3/8")
-    assert lines[-1] == "2 of 8 pairs meet; certificates of clearance: accepted"
+    assert lines[-1] == "2 of 8 pairs meet; certificates: accepted"
 
 
 def test_json_and_certificate(tmp_path: Path) -> None:
