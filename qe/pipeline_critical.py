@@ -191,8 +191,12 @@ def _free_cell(cell: OpenCell) -> FreeCell:
 
 
 def cheapest_order(polys: Sequence[Poly], names: tuple[str, ...], budget: Budget) -> tuple[str, ...]:
-    """The order of one or two variables whose last projection has the least degree in all."""
-    if len(names) != 2 or not polys:
+    """The order of one or two variables whose last projection has the least degree in all.
+
+    A polynomial in the first variable alone that is not linear comes from the projection for the order given; in the
+    other order it would meet all the others, so that order is not tried.
+    """
+    if len(names) != 2 or not polys or any(_is_projected(f, names[0]) for f in polys):
         return names
 
     def cost(order: tuple[str, ...]) -> int:
@@ -200,3 +204,7 @@ def cheapest_order(polys: Sequence[Poly], names: tuple[str, ...], budget: Budget
         return sum(f.total_degree for f in factor_lists(moved, 2, Projection.BROWN_MCCALLUM, budget)[0])
 
     return min(permutations(names), key=cost)
+
+
+def _is_projected(f: Poly, first: str) -> bool:
+    return f.variables == (f.ring.index[first],) and f.total_degree > 1
