@@ -54,8 +54,15 @@ def clearance(channel: Channel, request: Request) -> str:
         certificate = qe.Certificate.bundle(survey.certificates(findings))
         verdict = qe.verify(certificate)
     if request.certificate is not None:
-        request.certificate.write_text(certificate.to_json(), encoding="utf-8")
+        _write(request.certificate, certificate.to_json())
     return _as_json(findings, verdict) if request.json else _in_words(findings, verdict)
+
+
+def _write(path: FilePath, text: str) -> None:
+    try:
+        path.write_text(text, encoding="utf-8")
+    except OSError as error:
+        raise InputError(f"--certificate {path}: expected a writable file, found: {error.strerror}") from None
 
 
 def _read(source: FilePath, clock: Clock) -> tuple[Curves, Sequence[Obstacle]]:

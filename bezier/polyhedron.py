@@ -121,19 +121,23 @@ def from_half_spaces(half_spaces: Sequence[tuple[Point, Fraction]]) -> Polytope:
 def from_corners(points: Sequence[Point]) -> Polytope:
     """The convex hull of points. Raises ``InputError`` when it is flat."""
     distinct = sorted(set(points))
+    scale = lcm(*(c.denominator for p in distinct for c in p))
+    whole = [tuple(int(c * scale) for c in p) for p in distinct]
     planes: dict[tuple[Point, Fraction], tuple[int, ...]] = {}
-    for a, b, c in itertools.combinations(distinct, 3):
+    for i, j, k in itertools.combinations(range(len(distinct)), 3):
+        a, b, c = whole[i], whole[j], whole[k]
         normal = cross(subtract(b, a), subtract(c, a))
         if not any(normal):
             continue
-        heights = [dot(normal, subtract(p, a)) for p in distinct]
+        level = normal[0] * a[0] + normal[1] * a[1] + normal[2] * a[2]
+        heights = [normal[0] * x + normal[1] * y + normal[2] * z - level for x, y, z in whole]
         if min(heights) < 0 < max(heights):
             continue
-        on = tuple(i for i, h in enumerate(heights) if h == 0)
+        on = tuple(n for n, height in enumerate(heights) if height == 0)
         if len(on) == len(distinct):
             raise InputError("a flat set of corners")
         outward = _primitive(normal if max(heights) == 0 else tuple(-x for x in normal))
-        planes[outward, Fraction(dot(outward, a))] = on
+        planes[outward, Fraction(dot(outward, distinct[i]))] = on
     if not planes:
         raise InputError("a flat set of corners")
     return _with_edges(distinct, planes)
