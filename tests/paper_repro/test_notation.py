@@ -10,6 +10,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import qe
+from bezier import cubic, quadratic
+from bezier.control import Shape
 from bezier.curve import Bezier
 from paper_repro import ask, tex
 from paper_repro.written import EIGHT, SEVEN, Points, Printed, curve
@@ -31,6 +33,15 @@ def test_substitution_is_what_elimination_gives(printed: Printed, above: bool) -
     assert qe.equivalent(answer.formula, printed.substituted("xy", HERE, 4, above=above), timeout=30)
     without = printed.substituted("xy", HERE, 4, above=not above)
     assert not qe.equivalent(answer.formula, without, timeout=30)
+
+
+@pytest.mark.parametrize(
+    ("printed", "shape"), [(SEVEN, cubic.shape()), (EIGHT, quadratic.SHAPE)], ids=["seven", "eight"]
+)
+def test_the_planner_solves_the_same_formulas(printed: Printed, shape: Shape) -> None:
+    letters = {point: [f"{point}{axis}" for axis in "xyz"] for point in ("q0", "r0")}
+    text = printed.text("xyz", letters, "r^2")
+    assert qe.equivalent(qe.eliminate(f"r >= 0 and ({text})").formula, qe.eliminate(shape.symbolic_formula()).formula)
 
 
 def test_objective_of_the_paper() -> None:
