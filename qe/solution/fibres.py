@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import lru_cache
 
 from qe.evidence.cells import Cell, CellTable
 from qe.exact.algebraic import RealAlgebraic
 from qe.exact.fibre_stack import Isolation, isolate_over
-from qe.exact.ring import Ring
+from qe.exact.ring import Poly, Ring
 from qe.exact.sample import Point
 from qe.options import Projection
 from qe.solution.interval import Interval, Number
@@ -41,7 +42,14 @@ def any_true(cell: Cell) -> bool:
 def _stack_over(table: CellTable, cell: Cell, point: Point) -> Isolation:
     assert cell.stack is not None
     factors = tuple(table.factors[point.depth][j] for j in cell.stack.used)
-    return isolate_over(point, factors, lazard=table.projection is Projection.LAZARD)
+    lazard = table.projection is Projection.LAZARD
+    return isolate_over(point, factors, lazard=lazard) if point.depth else _first_stack(point.ring, factors, lazard)
+
+
+@lru_cache(maxsize=32)
+def _first_stack(ring: Ring, factors: tuple[Poly, ...], lazard: bool) -> Isolation:
+    """The stack that every walk through a table begins with."""
+    return isolate_over(Point(ring), factors, lazard=lazard)
 
 
 def _position(isolation: Isolation, point: Point, value: Number) -> int:
