@@ -174,12 +174,18 @@ def _region(formula: str, plane: Plane, seconds: float) -> PlanarRegion:
     """The region, which is convex: its conditions are convex in Q1 and Q2, for every t."""
     try:
         answer = answered(qe.eliminate(formula, timeout=seconds))
-        region = qe.region(answer.formula, order=plane_coordinates("Q1"), timeout=seconds)
+        region = qe.region(answer.formula, order=_order(answer), timeout=seconds)
         area, unit = convex_area(region, AREA_REL), plane.unit_area
     except Unable as error:
         return PlanarRegion(formula, reason=str(error))
     assert area.high is not None and unit.high is not None
     return PlanarRegion(formula, region, Enclosure(area.low * unit.low, area.high * unit.high))
+
+
+def _order(answer: qe.Answer) -> tuple[str, ...]:
+    """The order in which the engine found the answer, if it says so: the other one may be much harder."""
+    told = answer.stats.get("critical", ())
+    return tuple(told[-1]["order"]) if told else plane_coordinates("Q1")
 
 
 def _volume(plan: Plan) -> Enclosure | None:
