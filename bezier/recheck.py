@@ -6,6 +6,7 @@ points in ``path.json`` are the certified ones, and the path is proved again fro
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping
 from pathlib import Path as FilePath
 from typing import Any
@@ -13,6 +14,7 @@ from typing import Any
 from bezier import stored, survey
 from bezier.curve import Bezier
 from bezier.methods import Claim, method_of
+from bezier.motion import motion_json, motion_of
 from bezier.optimal_path import durations
 from bezier.path import Path, assemble
 from bezier.plan import Outcome
@@ -48,6 +50,7 @@ def recheck(channel: Channel, folder: FilePath) -> list[str]:
     path = assemble(_curves(found, points), points, problem.workspace, durations=durations(problem))
     _check_path(path, found, claim)
     lines += _check_clearance(path, problem, summary.get("status") == Outcome.BLOCKED.value)
+    lines += _check_motion(path, problem, folder)
     joins = f"{path.smoothness.name} at every join, " if path.joins else ""
     return [*lines, f"path.json: {joins}every curve proved to lie in the workspace"]
 
@@ -119,3 +122,14 @@ def _check_clearance(path: Path, problem: Problem, blocked: bool) -> list[str]:
     for finding in met:
         raise CertificateRejected(f"curves.{finding.name}", survey.in_words(finding))
     return [f"path.json: every curve proved clear of every obstacle ({len(problem.obstacles)})"]
+
+
+def _check_motion(path: Path, problem: Problem, folder: FilePath) -> list[str]:
+    """``motion.json`` says of the motion what follows from the path and the problem."""
+    if problem.timing is None:
+        return []
+    motion = motion_of(path, problem.timing)
+    if stored.table(folder / "motion.json") != json.loads(motion_json(motion), parse_float=str):
+        raise CertificateRejected("motion.json", "not the motion along this path")
+    kept = [key.replace("_", " ") for key, value in motion.kept.items() if value]
+    return [f"motion.json: {' and '.join(kept) or 'no limit'} proved to be kept at all times"]

@@ -59,3 +59,16 @@ def test_bad_input_is_one_line(root: Path, tmp_path: Path) -> None:
     bad.write_text(CURVES.replace("radius = 1", "radius = -1"))
     refused(run("clearance", bad), 2, "obstacle[0].radius: expected a number above zero, found -1")
     refused(run("clearance", root / "examples" / "three_balls.toml"), 2, "expected [[obstacle]] tables, found none")
+
+
+def test_a_motion_with_limits_is_planned_and_checked_again(root: Path, tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    planned = run("plan", root / "examples" / "obstacle_motion.toml", "--out", out, "--no-plots")
+    assert planned.returncode == 0, planned.stderr
+    assert "max speed kept at all times, max acceleration kept at all times" in planned.stdout
+    assert len((out / "motion.csv").read_text().splitlines()) == 3 + 1 + 151
+    assert "max speed and max acceleration proved to be kept at all times" in run("check", out).stdout
+    stored = json.loads((out / "motion.json").read_text())
+    stored["largest_speed"]["high"] = "1"
+    (out / "motion.json").write_text(json.dumps(stored))
+    refused(run("check", out), 4, "motion.json")
