@@ -14,6 +14,7 @@ from fractions import Fraction
 from typing import Any
 
 from qe.eliminate.vs import eliminate_block, witness
+from qe.eliminate.vs.far import far_first
 from qe.errors import Unable
 from qe.evidence.certificate import Certificate, Root
 from qe.evidence.elimination import Elimination
@@ -251,6 +252,10 @@ class _Run:
             if settled is not None:
                 self.story.note("plan", f"{', '.join(variables)}: only asked to be no root")
                 return simplify(settled), None
+            far = far_first(variables[0], body, budget=self.budget) if len(variables) == 1 else None
+            if far is not None:
+                self.story.note("plan", f"{variables[0]}: solutions near infinity first")
+                return simplify(disj((far.solutions, self.eliminate(far.rest)))), None
         plan = self._plan(variables, body)
         self.story.note("plan", f"{plan.methods[0].value} first for {', '.join(variables)}: {plan.reason}")
         if plan.methods[0] is Method.CAD and self._allows(Method.VS) and len(free_variables(body)) > PROBE_ABOVE:

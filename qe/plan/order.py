@@ -79,10 +79,13 @@ def sotd(polys: Iterable[Poly]) -> int:
     return sum(sum(exponents) for p in polys for exponents, _ in p.terms())
 
 
-def preferred(usual: Candidate, other: Candidate) -> Candidate:
-    """The other order if its projection is smaller in one respect and larger in none, else the usual one.
+MARGIN = 0.9
+"""A projection counts as smaller from here on; answers over free variables tend to be shorter in Brown's order."""
 
-    Measured on 150 public problems: where the two respects disagree, the degrees mislead about half of the time.
+
+def preferred(usual: Candidate, other: Candidate) -> Candidate:
+    """The other order if its projection is clearly smaller and has no more roots on level 0, else the usual one.
+
+    Measured on 150 public problems: where ``sotd`` and roots disagree, the former misleads about half of the time.
     """
-    smaller = other.sotd <= usual.sotd and other.roots <= usual.roots
-    return other if smaller and (other.sotd, other.roots) != (usual.sotd, usual.roots) else usual
+    return other if other.sotd <= MARGIN * usual.sotd and other.roots <= usual.roots else usual

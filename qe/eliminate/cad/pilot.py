@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from typing import TypeVar
 
 from qe.eliminate.cad.equational import equational_constraints
-from qe.eliminate.cad.projection import factor_lists, project
+from qe.eliminate.cad.projection import effort, factor_lists, project
 from qe.errors import BudgetExceeded
 from qe.exact.algebraic import real_roots
 from qe.exact.ring import Poly, Ring
@@ -15,11 +16,11 @@ from qe.formula.traverse import polynomials
 from qe.options import Budget, Projection
 from qe.plan.order import Candidate, OrderRule, brown_order, greedy_order, preferred, sotd
 
-PILOT_SHARE = 0.05
-"""The part of the remaining time that trial projections may take."""
+Found = TypeVar("Found")
 
 HEAVY = 20_000
-"""Resultants of more than this (degrees times numbers of terms) are not tried: one cannot be interrupted."""
+"""Projections of more effort than this are not tried: a resultant cannot be interrupted, and what is chosen must not
+depend on the clock (measured: up to a tenth of a second for all trials of a problem)."""
 
 ROOTS_UP_TO = 300
 """Roots are counted where the polynomials of level 0 have degrees up to this in all."""
@@ -31,8 +32,6 @@ def choose_order(
     """The order of all variables (free block first, blocks never mixed) and why it was taken.
 
     A part of the order that is asked for is written as blocks of one variable.
-
-    Raises ``BudgetExceeded`` only where ``budget`` is spent; a comparison that takes too long is given up.
     """
     polys = polynomials(matrix)
     if rule is OrderRule.WRITTEN or all(len(block) < 2 for block in blocks):
@@ -40,19 +39,28 @@ def choose_order(
     brown = tuple(v for block in blocks for v in brown_order(polys, block))
     if rule is OrderRule.BROWN:
         return brown, rule.value
-    part = budget.share(PILOT_SHARE)
-    try:
-        greedy = greedy_order(polys, blocks, lambda found, v: _projected(found, v, part))
-        if rule is OrderRule.GREEDY or greedy == brown:
-            return greedy, rule.value if rule is OrderRule.GREEDY else "brown and greedy agree"
-        usual = _measured(matrix, brown, OrderRule.BROWN, part)
-        other = _measured(matrix, greedy, OrderRule.GREEDY, part)
-    except BudgetExceeded:
-        budget.check("order")
-        return brown, "brown (a comparison took too long)"
+    greedy = _unless_heavy(lambda: greedy_order(polys, blocks, lambda found, v: _projected(found, v, budget)), budget)
+    if greedy is None:
+        return brown, "brown (greedy is too heavy)"
+    if rule is OrderRule.GREEDY or greedy == brown:
+        return greedy, rule.value if rule is OrderRule.GREEDY else "brown and greedy agree"
+    usual = _unless_heavy(lambda: _measured(matrix, brown, OrderRule.BROWN, budget), budget)
+    other = _unless_heavy(lambda: _measured(matrix, greedy, OrderRule.GREEDY, budget), budget)
+    if other is None:
+        return brown, "brown (greedy is too heavy)"
+    if usual is None:
+        return greedy, "greedy (brown is too heavy)"
     best = preferred(usual, other)
     figures = ", ".join(f"{c.rule.value} {c.sotd} with {c.roots} roots" for c in (usual, other))
     return best.order, f"{best.rule.value} (size of projection: {figures})"
+
+
+def _unless_heavy(trial: Callable[[], Found], budget: Budget) -> Found | None:
+    try:
+        return trial()
+    except BudgetExceeded:
+        budget.check("order")  # a limit of the caller's goes on
+        return None
 
 
 def _projected(polys: Sequence[Poly], name: str, budget: Budget) -> list[Poly]:
@@ -62,7 +70,7 @@ def _projected(polys: Sequence[Poly], name: str, budget: Budget) -> list[Poly]:
     i = polys[0].ring.index[name]
     factors = dict.fromkeys(f for p in polys for f, _ in p.factors()[1])
     inside = [f for f in factors if f.degree(i)]
-    if _effort(inside, i) > HEAVY:
+    if effort(inside, i) > HEAVY:
         raise BudgetExceeded("a trial projection is too heavy", limit="effort")
     left = {f: None for f in factors if not f.degree(i)}
     for p in project(inside, i, Projection.BROWN_MCCALLUM):
@@ -72,18 +80,16 @@ def _projected(polys: Sequence[Poly], name: str, budget: Budget) -> list[Poly]:
     return list(left)
 
 
-def _effort(polys: Sequence[Poly], i: int) -> int:
-    """The size of the largest resultant or discriminant in variable i."""
-    sizes = sorted(((f.degree(i), f.term_count()) for f in polys), reverse=True)
-    return max(((m + n) * s * t for k, (m, s) in enumerate(sizes) for n, t in sizes[k:]), default=0)
-
-
 def _measured(matrix: Formula, order: tuple[str, ...], rule: OrderRule, budget: Budget) -> Candidate:
     """The size of the whole projection."""
     matrix = convert(matrix, Ring.of(order))
-    constraints = equational_constraints(matrix, len(order))
     levels = factor_lists(
-        polynomials(matrix), len(order), Projection.BROWN_MCCALLUM, budget, constraints=constraints.factors
+        polynomials(matrix),
+        len(order),
+        Projection.BROWN_MCCALLUM,
+        budget,
+        constraints=equational_constraints(matrix, len(order)).factors,
+        heaviest=HEAVY,
     )
     roots = sum(f.degree(0) for f in levels[0])
     if roots <= ROOTS_UP_TO:

@@ -14,6 +14,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from itertools import combinations
 from types import MappingProxyType
 
+from qe.errors import BudgetExceeded
 from qe.exact.ring import Poly
 from qe.options import Budget, Projection
 
@@ -53,6 +54,12 @@ def project(
             yield from (e.resultant(g, variable) for g in listing if g not in constraint)
 
 
+def effort(polys: Iterable[Poly], variable: int) -> int:
+    """The size of the largest resultant or discriminant of a projection: degrees times numbers of terms."""
+    sizes = sorted(((f.degree(variable), f.term_count()) for f in polys), reverse=True)
+    return max(((m + n) * s * t for k, (m, s) in enumerate(sizes) for n, t in sizes[k:]), default=0)
+
+
 def factor_lists(
     polys: Iterable[Poly],
     size: int,
@@ -60,11 +67,13 @@ def factor_lists(
     budget: Budget,
     separated: frozenset[int] = frozenset(),
     constraints: Mapping[int, frozenset[Poly]] = MappingProxyType({}),
+    heaviest: int | None = None,
 ) -> Levels:
     """The irreducible factors of ``polys``, closed under projection down to level 0, one list per level.
 
     At the levels in ``separated`` all derivatives of the factors with respect to the main variable join.
-    ``constraints`` holds the factors of equational constraints by level (see ``equational``).
+    ``constraints`` holds the factors of equational constraints by level (see ``equational``). Raises
+    ``BudgetExceeded`` rather than start a projection of more ``effort`` than ``heaviest``.
     """
     levels: list[dict[Poly, None]] = [{} for _ in range(size)]
 
@@ -83,6 +92,8 @@ def factor_lists(
                     insert(f)
         if k == 0:
             break
+        if heaviest is not None and effort(levels[k], k) > heaviest:
+            raise BudgetExceeded("a projection is too heavy", limit="effort")
         for p in project(levels[k], k, operator, constraints.get(k), first=k == size - 1):
             budget.check("project", size - k, size)
             insert(p)
