@@ -160,7 +160,7 @@ def choice() -> Iterator[Evidence]:
     smooth = [join(path[a], path[b]).smoothness for a, b in ("PQ", "QR")]
     yield Fact("the three curves join $C^2$, exactly", all(s is Smoothness.C2 for s in smooth))
     yield Picture(
-        "The optimal path for $r = 3/2$ (start and goal are free choices).",
+        "The optimal path for $r = 3/2$, from $(-3/2, 0)$ to $(3/2, 0)$.",
         drawn_path(path, 1.5, "$Q_0 = (-1, 1)$, $R_0 = (1, 1)$, control points within $r = 3/2$"),
     )
     yield Picture("Its curvature is continuous at the joins.", curvature(path))
