@@ -21,7 +21,7 @@ from qe.eliminate.critical import (
 )
 from qe.evidence.cells import FreeCell
 from qe.evidence.story import Story
-from qe.exact.nearby import rational_values
+from qe.exact.nearby import approximation, rational_values
 from qe.exact.ring import Poly, Ring
 from qe.exact.sample import Point
 from qe.formula.build import atom, conj, convert, disj, exists
@@ -32,10 +32,13 @@ from qe.formula.traverse import free_variables, is_quantifier_free, polynomials,
 from qe.options import Budget, Method, Options, Projection, Stage
 from qe.plan.order import brown_order
 from qe.prepare.simplify import simplify
-from qe.solution.closure import describes_closure
+from qe.solution.closure import strangers
 from qe.solution.construct import closed_formula, construct
 from qe.solution.feasible import feasible
 from qe.solution.violation import proposed
+
+MOST_CUTS = 4
+"""How often stray points of a formula read from open cells are cut away before the whole table is made."""
 
 Decompose = Callable[[Formula, Budget], Formula]
 
@@ -168,21 +171,36 @@ def _formula(
 
 def _of_body(body: ConvexBody, parameters: tuple[str, ...], options: Options, budget: Budget) -> Formula:
     """A formula read from the open cells and confirmed on the others; from the whole table where that fails."""
-    ring = Ring.of(parameters)
     if len(parameters) <= 2:
         factors, cells = body.cells()
-        formula = convert(closed_formula(factors, [_free_cell(c) for c in cells]), ring)
-        order = cheapest_order(polynomials(formula), parameters, budget)
-        table = decompose(formula, order, ("",) * len(order), budget=budget).table
-
-        def holds(values: tuple[Fraction, ...]) -> bool:
-            named = dict(zip(order, values, strict=True))
-            return body.holds(tuple(named[name] for name in parameters))
-
-        if describes_closure(table, holds, bounded=body.bounded):
-            return formula
+        formula = closed_formula(factors, [_free_cell(c) for c in cells])
+        confirmed = _confirmed(body, convert(formula, Ring.of(parameters)), parameters, budget)
+        if confirmed is not None:
+            return confirmed
     whole = body.tabulate()
     return construct(whole.table, whole.refine)[0]
+
+
+def _confirmed(body: ConvexBody, formula: Formula, parameters: tuple[str, ...], budget: Budget) -> Formula | None:
+    """The closed formula with cuts that exclude what it holds beside the body; None if some cannot be excluded."""
+    ring = Ring.of(parameters)
+    for _ in range(MOST_CUTS):
+        order = cheapest_order(polynomials(formula), parameters, budget)
+        table = decompose(formula, order, ("",) * len(order), budget=budget).table
+        turned = [order.index(name) for name in parameters]
+
+        def holds(values: Sequence[Fraction], turned: list[int] = turned) -> bool:
+            return body.holds(tuple(values[k] for k in turned))
+
+        outside = strangers(table, holds, bounded=body.bounded)
+        if not outside:
+            return formula
+        points = [Point.of(ring, [point.number(k) for k in turned]) for point in outside]
+        cuts = [body.cut(approximation(point)) for point in points]
+        if not all(cut is not None and point.sign(cut.convert(ring)) > 0 for cut, point in zip(cuts, points)):
+            return None
+        formula = conj((formula, *(atom(cut.convert(ring), Relation.LE) for cut in cuts if cut is not None)))
+    return None
 
 
 def _free_cell(cell: OpenCell) -> FreeCell:

@@ -1,4 +1,4 @@
-"""Whether a closed formula describes a closed convex set that it was read from on open cells only."""
+"""Where a closed formula may hold outside the closed convex set that it was read from on open cells only."""
 
 from __future__ import annotations
 
@@ -11,13 +11,15 @@ from qe.exact.nearby import nearby, rational_values
 from qe.exact.ring import Poly
 from qe.exact.sample import Point
 from qe.formula.evaluate import truth_under
+from qe.solution.fibres import any_true
 from qe.solution.walk import child, root_place
 
 Holds = Callable[[tuple[Fraction, ...]], bool]
 
 
-def describes_closure(table: CellTable, holds: Holds, *, bounded: bool) -> bool:
-    """Whether the true cells of a table in one or two variables are exactly a closed convex set T with interior.
+def strangers(table: CellTable, holds: Holds, *, bounded: bool) -> list[Point]:
+    """True points of a table in one or two variables that are not seen to belong to a closed convex set T with
+    interior; if there are none, the true cells are exactly T.
 
     Known: the true cells form a closed set that holds T and agrees with it on a dense open set, so the boundary of T
     lies in the zeros of the matrix' polynomials; ``holds`` is membership in T at rational points; ``bounded`` says
@@ -26,29 +28,27 @@ def describes_closure(table: CellTable, holds: Holds, *, bounded: bool) -> bool:
     of true cells from one section to another if the outermost sectors of that run belong to T. This is decided at a
     rational point of them, or, where T reaches a from both sides (then its ends are continuous at a), at one in a
     neighbourhood without zeros of polynomials in the second variable. A single true section over a belongs to T if T
-    is bounded and reaches a from one side. False also where this test does not tell.
+    is bounded and reaches a from one side.
     """
     root = root_place(table)
     stack = root.cell.stack
     if stack is None:
-        return True
+        return []
     cells = stack.cells
+    if len(table.order) == 1:
+        return [child(table, root, p).point for p in range(len(cells)) if _alone(cells, p)]
+    found: list[Point] = []
     for position, cell in enumerate(cells):
-        if not _somewhere_true(cell):
+        if not any_true(cell):
             continue
-        if len(table.order) == 1 or position % 2 == 0:
-            inside = _alone(cells, position) if len(table.order) == 1 else _over_sector(cell)
-            if inside:
-                return False
-        else:
-            sides = sum(_somewhere_true(cells[position + step]) for step in (-1, 1))
-            if not _over_section(table, child(table, root, position).point, holds, sides, bounded):
-                return False
-    return True
-
-
-def _somewhere_true(cell: Cell) -> bool:
-    return cell.truth is True if cell.stack is None else any(map(_somewhere_true, cell.stack.cells))
+        place = child(table, root, position)
+        if position % 2:
+            sides = sum(any_true(cells[position + step]) for step in (-1, 1))
+            found += _over_section(table, place.point, holds, sides, bounded)
+        elif cell.stack is not None:
+            above = cell.stack.cells
+            found += [child(table, place, p).point for p in range(len(above)) if _alone(above, p)]
+    return found
 
 
 def _alone(cells: tuple[Cell, ...], position: int) -> bool:
@@ -58,12 +58,8 @@ def _alone(cells: tuple[Cell, ...], position: int) -> bool:
     return cells[position - 1].truth is not True and cells[position + 1].truth is not True
 
 
-def _over_sector(cell: Cell) -> bool:
-    """Whether some section over an open interval stands alone."""
-    return cell.stack is not None and any(_alone(cell.stack.cells, p) for p in range(len(cell.stack.cells)))
-
-
-def _over_section(table: CellTable, point: Point, holds: Holds, sides: int, bounded: bool) -> bool:
+def _over_section(table: CellTable, point: Point, holds: Holds, sides: int, bounded: bool) -> list[Point]:
+    """Over a section of the first variable: samples of the true cells that the theorem does not place in T."""
     factors = table.factors[1]
     isolation = isolate_over(point, factors)
     below = {f: point.sign(f) for f in table.factors[0]}
@@ -72,15 +68,25 @@ def _over_section(table: CellTable, point: Point, holds: Holds, sides: int, boun
         for position, text in enumerate(isolation.sign_texts())
         if truth_under(table.matrix, _signs(below | {f: _VALUE[c] for f, c in zip(factors, text, strict=True)}))
     ]
+
+    def sample(position: int) -> Point:
+        half = position // 2
+        return point.extend(isolation.sections[half].value if position % 2 else isolation.sectors[half])
+
+    alone = [p for p in true if p - 1 not in true and p + 1 not in true]
+    if alone and (sides != 1 or len(true) > 1):
+        return [sample(p) for p in alone]
     first, last = true[0], true[-1]
-    if first % 2 == 0 or last % 2 == 0 or len(true) != last - first + 1:
-        return False
     if first == last:
-        return bounded and sides > 0
-    ends = [point.extend(isolation.sectors[p // 2]) for p in {first + 1, last - 1}]
+        return [] if bounded else [sample(first)]
+    if first % 2 == 0 or last % 2 == 0 or len(true) != last - first + 1:
+        return [sample(p) for p in true]
+    ends = [sample(p) for p in {first + 1, last - 1}]
     if not point.algebraic:
-        return all(holds(rational_values(end)) for end in ends)
-    return sides == 2 and all(holds(nearby(end, factors, frozenset(), None)) for end in ends)
+        return [end for end in ends if not holds(rational_values(end))]
+    if sides < 2:
+        return ends
+    return [end for end in ends if not holds(nearby(end, factors, frozenset(), None))]
 
 
 _VALUE = {"+": 1, "-": -1, "0": 0}

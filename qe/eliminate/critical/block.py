@@ -47,12 +47,14 @@ class ConvexBody:
 
     ``boundary``: polynomials whose zeros contain its boundary. ``cells()``: factors of a decomposition for them, by
     whose signs true and false open cells can be told apart, and its open cells. ``holds``: membership of rational
-    points. ``bounded``: whether it is seen to be bounded. ``tabulate()``: the whole table.
+    points. ``cut``: a polynomial positive at a rational point outside and <= 0 on the set, if one is known.
+    ``bounded``: whether the set is. ``tabulate()``: the whole table.
     """
 
     boundary: frozenset[Poly]
     cells: Callable[[], tuple[Levels, list[OpenCell]]]
     holds: Callable[[tuple[Fraction, ...]], bool]
+    cut: Callable[[tuple[Fraction, ...]], Poly | None]
     bounded: bool
     tabulate: Callable[[], Tabulated]
 
@@ -101,6 +103,9 @@ class Oracle(Protocol):
 
     def hold_over(self, point: Point) -> bool:
         """Whether any point belongs to it."""
+
+    def cut(self, parameters: tuple[Fraction, ...]) -> Poly | None:
+        """A polynomial positive at a rational point outside and <= 0 on the set, if one is known."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -162,6 +167,7 @@ class Run:
             boundary,
             lambda: separated(boundary, explored),
             self.fibres.hold_at,
+            self.fibres.cut,
             exploration.is_bounded(),
             lambda: self._tabulated(boundary, Shape.CONVEX, truth),
         )

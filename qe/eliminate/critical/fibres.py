@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
+from math import lcm
 
 from qe.eliminate.critical.forms import ParametricForm, parametric_form
 from qe.eliminate.critical.helpers import Decide, Helpers
@@ -14,7 +15,9 @@ from qe.errors import Unable
 from qe.evidence.multipliers import FormRelation
 from qe.exact.nearby import rational_values
 from qe.exact.quadratic_form import Definiteness, Quadratic, combine, definiteness, solve_linear
+from qe.exact.ring import Poly
 from qe.exact.sample import Point
+from qe.formula.syntax import Relation
 
 Values = tuple[Fraction, ...]
 
@@ -92,6 +95,23 @@ class Fibres:
         forms = [_over(form, parameters) for form in self._forms]
         known = self._known(forms)
         return self._convex(forms, parameters) if known is None else known
+
+    def cut(self, parameters: Values) -> Poly | None:
+        """A polynomial in the parameters that is positive at a rational point where the block is false, and <= 0
+        wherever it is true; None if there is no such point, or no polynomial is known.
+
+        A guard does, and so does the minimum over y of a weighted sum of the conditions.
+        """
+        values = (*parameters, *(Fraction(0) for _ in self.system.bound))
+        for guard in self.system.guards:
+            poly = guard.poly if guard.relation in (Relation.LE, Relation.LT) else -guard.poly
+            if guard.relation not in (Relation.EQ, Relation.NE) and poly.evaluate(values) > 0:
+                return poly
+        if self.hold_at(parameters) or self._forms is None:
+            return None
+        over = [_over(form, parameters) for form in self._forms]
+        found = next((s for s in self.separations if s.excludes(over)), None)
+        return None if found is None else found.minimum(self._forms)
 
     def hold_over(self, point: Point) -> bool:
         """Whether the block is true over any point, exactly; slow where coordinates are algebraic."""
@@ -194,3 +214,19 @@ class Separation:
         total = combine(self.weights, [form.exact for form in forms])
         lowest = [-sum((v * g for v, g in zip(row, total.gradient, strict=True)), Fraction(0)) for row in self.inverse]
         return bool(total.value(lowest) > 0)
+
+    def minimum(self, forms: Sequence[ParametricForm]) -> Poly:
+        """c - b.H^-1.b / 2 as a polynomial in the parameters, up to a positive factor."""
+        ring = forms[0].constant.ring
+        pairs = list(zip(self.weights, forms, strict=True))
+        scale = lcm(*(w.denominator for w in self.weights), *(v.denominator for row in self.inverse for v in row))
+
+        def total(parts: Sequence[Poly]) -> Poly:
+            return sum((int(w * scale) * f for (w, _), f in zip(pairs, parts, strict=True)), ring.constant(0))
+
+        b = [total([form.gradient[j] for _, form in pairs]) for j in range(len(self.inverse))]
+        square = sum(
+            (int(v * scale) * b[i] * b[j] for i, row in enumerate(self.inverse) for j, v in enumerate(row)),
+            ring.constant(0),
+        )
+        return 2 * scale**2 * total([form.constant for _, form in pairs]) - square

@@ -42,6 +42,9 @@ class Spared:
         """Whether any point belongs to them."""
         return not any(part.hold_over(point) for part in self.parts)
 
+    def cut(self, parameters: Values) -> Poly | None:
+        """None: no inequality is known that they all satisfy."""
+
 
 def eliminate_universal(
     variables: Sequence[str], negated: Formula, parameters: Sequence[str], *, helpers: Helpers, budget: Budget
