@@ -55,7 +55,7 @@ def _obstacle(table: Table, index: int) -> Obstacle:
     if margin < 0:
         raise table.error("margin", "a number that is not negative", str(margin))
     stated = {key: exact_json(value) for key, value in table.values.items()}
-    if kind is ObstacleKind.FORMULA:
+    if build is None:
         if margin:
             raise table.error("margin", "no margin for a formula (write it into the formula)", str(margin))
         return Obstacle(name, kind, formula_pieces(table), stated=stated)
@@ -158,11 +158,7 @@ def _rows(table: Table, key: str, size: int, what: str) -> list[Point]:
     return found
 
 
-def _unused(table: Table, margin: Fraction) -> Body:
-    raise table.error("kind", "a body", "a formula")
-
-
-Reader = Callable[[Table, Fraction], Body]
+Reader = Callable[[Table, Fraction], Body] | None
 _KINDS: Mapping[ObstacleKind, tuple[tuple[str, ...], Reader]] = {
     ObstacleKind.BALL: (("centre", "radius"), _ball),
     ObstacleKind.BOX: (("low", "high", "corner", "edges"), _box),
@@ -170,5 +166,5 @@ _KINDS: Mapping[ObstacleKind, tuple[tuple[str, ...], Reader]] = {
     ObstacleKind.CYLINDER: (("centre", "radius", "bottom", "top"), _cylinder),
     ObstacleKind.CAPSULE: (("start", "end", "radius"), _capsule),
     ObstacleKind.POLYHEDRON: (("half_spaces", "vertices"), _polyhedron),
-    ObstacleKind.FORMULA: (("formula",), _unused),
+    ObstacleKind.FORMULA: (("formula",), None),
 }
