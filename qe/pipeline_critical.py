@@ -27,14 +27,17 @@ from qe.exact.sample import Point
 from qe.formula.build import atom, conj, convert, disj, exists
 from qe.formula.evaluate import substituted
 from qe.formula.normal import nnf
-from qe.formula.syntax import FALSE, TRUE, ForAll, Formula, Relation
+from qe.formula.syntax import FALSE, TRUE, Atom, ForAll, Formula, Relation
 from qe.formula.traverse import free_variables, is_quantifier_free, polynomials, ring_of
 from qe.options import Budget, Method, Options, Projection, Stage
 from qe.plan.order import brown_order
+from qe.prepare.linear import Pivot, substitute
 from qe.prepare.simplify import simplify
 from qe.solution.closure import strangers
 from qe.solution.construct import closed_formula, construct
 from qe.solution.feasible import feasible
+from qe.solution.flat import implied_equations
+from qe.solution.optimum_problem import NotConvex
 from qe.solution.violation import proposed
 
 MOST_CUTS = 4
@@ -57,10 +60,45 @@ def by_critical_values(
     method's side conditions are not met.
     """
     start = time.perf_counter()
+    flat = _on_flat(variables, body, budget)
+    if flat is not None:
+        outside, rest = flat
+        left = [v for v in variables if v in free_variables(rest)]
+        inside = by_critical_values(left, rest, options, budget, story, otherwise) if left else rest
+        return simplify(conj((*outside, inside)))
     parameters = _order(variables, body, options)
     found = eliminate_block(variables, body, parameters, helpers=_helpers(budget), budget=budget)
     parts = [_formula(variables, parameters, part, options, budget, otherwise) for part in found]
     return _told(simplify(disj(parts)), body, parameters, found, story, start)
+
+
+def _on_flat(variables: Sequence[str], body: Formula, budget: Budget) -> tuple[list[Formula], Formula] | None:
+    """(equations in the parameters, body without the variables that linear equations give): together equivalent to
+    the block. None where a convex body has interior points or the equations of its flat are not found."""
+    try:
+        implied = implied_equations(body, budget=budget)
+    except NotConvex:
+        return None
+    if implied is None:
+        return [], FALSE
+    outside: list[Formula] = []
+    rest, equations = body, [atom(f, Relation.EQ) for f in implied]
+    for k in range(len(equations)):
+        equation = equations[k]
+        if not isinstance(equation, Atom):
+            continue
+        names = [equation.poly.ring.names[i] for i in equation.poly.variables]
+        name = next((n for n in names if n in variables), names[0])
+        i = equation.poly.ring.index[name]
+        constant, lead = equation.poly.coefficients(i)
+        pivot = Pivot(k, i, lead, constant, 1 if lead.constant_value() > 0 else -1, False)
+        if name not in variables:
+            outside.append(equation)
+        replaced = [g for f in (rest, *equations[k + 1 :]) if (g := substitute(f, pivot)) is not None]
+        if len(replaced) < len(equations) - k:
+            return None
+        rest, *equations[k + 1 :] = replaced
+    return (outside, simplify(rest)) if implied else None
 
 
 def convex_universal(formula: Formula, options: Options, budget: Budget, story: Story) -> Formula | None:

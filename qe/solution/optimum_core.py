@@ -137,7 +137,8 @@ def _least(objective: Quadratic, extended: Sequence[Quadratic], budget: Budget, 
         return None
 
 
-def _rational(values: Sequence[Number]) -> tuple[Fraction, ...] | None:
+def rational_numbers(values: Sequence[Number]) -> tuple[Fraction, ...] | None:
+    """The numbers as fractions, None if one is irrational."""
     out = []
     for v in values:
         if not isinstance(v, Fraction):
@@ -150,7 +151,7 @@ def _rational(values: Sequence[Number]) -> tuple[Fraction, ...] | None:
 
 def _face(task: Task, state: _State, found: Kkt, point: Point, weights: dict[int, Number]) -> _State:
     """The smaller flat that holds the feasible set when the least possible violation is zero."""
-    chosen, place = _rational(list(weights.values())), _rational(point)
+    chosen, place = rational_numbers(list(weights.values())), rational_numbers(point)
     if chosen is None or place is None:
         raise Unable("the constraints touch in an irrational point or flat without common interior")
     exact: dict[int, Number] = dict(zip(weights, chosen, strict=True))
@@ -168,7 +169,7 @@ def _face(task: Task, state: _State, found: Kkt, point: Point, weights: dict[int
 
 
 def _fractions(values: Sequence[Number]) -> tuple[Fraction, ...]:
-    out = _rational(values)
+    out = rational_numbers(values)
     if out is None:
         raise InternalError("irrational weights where rational ones were expected")
     return out
@@ -265,7 +266,7 @@ def _recede(task: Task, state: _State, field: NumberField, point: Point, budget:
     relations = (FormRelation.EQ,) * len(linear) + (FormRelation.LE,) * len(bounded)
     cone = Task(task.names, _linear_part(task.objective), (*linear, *bounded), relations)
     best = solve(cone, budget=budget)
-    towards = _rational(best.point)
+    towards = rational_numbers(best.point)
     slope = sum((a * b for a, b in zip(task.objective.gradient, towards or (), strict=False)), _ZERO)
     if best.status is not OptimumStatus.OPTIMAL or towards is None or slope >= 0:
         raise Unable("neither optimality conditions nor a direction of descent could be proved")

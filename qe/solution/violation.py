@@ -51,7 +51,7 @@ def rounded_contradiction(
     for denominator in _DENOMINATORS:
         rounded = [Fraction(m).limit_denominator(denominator) for m in proposal.multipliers[: len(forms)]]
         weights = tuple(m * s for m, s in zip(rounded, scales, strict=True))
-        if not any(weights):
+        if not any(weights) or any(w < 0 for w in weights):
             continue
         total = combine(weights, forms)
         solution = solve_linear(total.hessian, [-b for b in total.gradient], total.size)
