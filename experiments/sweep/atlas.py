@@ -64,7 +64,7 @@ def _cells(rows: Sequence[Outcome], method: Method, value: Value) -> dict[tuple[
 def _panel(figure: Any, axes: Any, title: str, cells: dict[tuple[float, float], float]) -> None:
     widths, heights = (sorted({place[i] for place in cells}) for i in (0, 1))
     field = [[cells.get((d, k), math.nan) for d in widths] for k in heights]
-    mesh = axes.pcolormesh(_edges(widths), _edges(heights), field, cmap="viridis", linewidth=0)
+    mesh = axes.pcolormesh(_edges(widths), _edges(heights), field, cmap="viridis", edgecolors="face", linewidth=0.3)
     if len(set(cells.values())) > 2:
         figure.colorbar(mesh, ax=axes)
     axes.set_title(title, fontsize=11)
