@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
 from fractions import Fraction
-from math import ceil, isqrt, lcm
+from math import ceil, inf, isqrt, lcm
 from typing import Any
 
 from bezier import bernstein as bs
@@ -39,7 +39,13 @@ class Enclosure:
         return Enclosure(self.low + other.low, high)
 
     def __float__(self) -> float:
-        return float("inf") if self.high is None else float((self.low + self.high) / 2)
+        """The middle, rounded; infinite beyond the range of floating point."""
+        if self.high is None:
+            return inf
+        try:
+            return float((self.low + self.high) / 2)
+        except OverflowError:
+            return inf if self.low > 0 else -inf
 
     def to_json(self, digits: int = 12) -> dict[str, str]:
         """``{"low", "high"}`` as decimals rounded outwards; ``high`` is "inf" for an infinite number."""

@@ -7,7 +7,7 @@ from fractions import Fraction
 from typing import Any
 
 import qe
-from bezier.numbers import describe
+from bezier.numbers import describe, shorten
 from bezier.obstacles import Constraint, Exponents, Piece
 from bezier.toml_table import Table
 from qe.errors import InputError, Unable
@@ -36,7 +36,7 @@ def formula_pieces(table: Table) -> tuple[Piece, ...]:
         raise table.error("formula", "a formula in x, y, z", str(error)) from None
     others = [name for name in free_variables(formula) if name not in NAMES]
     if others:
-        raise table.error("formula", "no free variables but x, y, z", ", ".join(others))
+        raise table.error("formula", "no free variables but x, y, z", shorten(", ".join(others)))
     try:
         pieces = _pieces(nnf(_quantifier_free(formula)))
     except (InputError, Unable) as error:

@@ -20,7 +20,7 @@ from typing import Any
 
 from bezier.bodies import Body, Cylinder, HalfSpaceBody, Rounded
 from bezier.formula_obstacle import formula_pieces
-from bezier.numbers import Literal, NotANumber, describe, read
+from bezier.numbers import Literal, NotANumber, describe, read, shorten
 from bezier.obstacles import Obstacle, ObstacleKind, from_body
 from bezier.polyhedron import MAX_PARTS, Point, Polytope, from_corners, from_half_spaces, parallelepiped, point, segment
 from bezier.scalar import dot
@@ -54,21 +54,25 @@ def _obstacle(table: Table, index: int) -> Obstacle:
     margin = table.number("margin", Fraction(0))
     if margin < 0:
         raise table.error("margin", "a number that is not negative", str(margin))
-    stated = {key: exact_json(value) for key, value in table.values.items()}
     if build is None:
         if margin:
-            raise table.error("margin", "no margin for a formula (write it into the formula)", str(margin))
-        return Obstacle(name, kind, formula_pieces(table), stated=stated)
-    return from_body(name, kind, build(table, margin), margin, stated)
+            raise table.error("margin", "no margin for a formula (write it into the formula)", shorten(str(margin)))
+        return Obstacle(name, kind, formula_pieces(table), stated=_stated(table.values))
+    return from_body(name, kind, build(table, margin), margin, _stated(table.values))
 
 
-def exact_json(value: Any) -> Any:
-    """A TOML value with every number written exactly."""
+def _stated(value: Any) -> Any:
+    """A TOML value with every number written exactly; what is no number stays as it was written."""
     match value:
-        case Literal():
-            return str(read(value))
+        case dict():
+            return {key: _stated(entry) for key, entry in value.items()}
         case list():
-            return [exact_json(entry) for entry in value]
+            return [_stated(entry) for entry in value]
+        case Literal(text):
+            try:
+                return str(read(value))
+            except NotANumber:
+                return text
     return value
 
 
@@ -116,7 +120,7 @@ def _cylinder(table: Table, margin: Fraction) -> Body:
     bottom = table.number("bottom") if "bottom" in table.values else None
     top = table.number("top") if "top" in table.values else None
     if bottom is not None and top is not None and bottom >= top:
-        raise table.error("top", f"a number above bottom = {bottom}", str(top))
+        raise table.error("top", f"a number above bottom = {shorten(str(bottom))}", shorten(str(top)))
     return Cylinder((x, y), table.positive("radius"), bottom, top, margin)
 
 

@@ -99,6 +99,14 @@ def test_points_lines_and_repeated_control_points():
     assert isinstance(examine(Bezier.of([(2, 2, 2)] * 4), thing), Clear)
 
 
+def test_huge_and_tiny_numbers():
+    big, small = 10**400, Fraction(1, 10**400)
+    contact = met(Bezier.of([(-3 * big, 0, 0), (3 * big, 0, 0)]), ball((0, 0, 0), big))
+    assert contact.t == (Fraction(1, 3), Fraction(1, 3)) and float(contact.place[0]) == -float("inf")
+    assert isinstance(examine(LINE, ball((0, 1, 0), 1 - small)), Clear)
+    assert met(LINE, ball((0, 1, 0), 1 + small)).enters
+
+
 def test_running_along_the_surface_is_touching():
     floor = obstacle(HalfSpaceBody(at(0, 0, 1), Fraction(0)))
     assert met(LINE, floor).t == (0, 0) and not met(LINE, floor).enters
