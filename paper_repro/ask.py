@@ -9,7 +9,7 @@ from typing import Any
 import qe
 from paper_repro.claim import Asked
 
-LIMIT = 30.0
+LIMIT = 60.0
 """Seconds for one question."""
 
 _POINT = re.compile(r"\\mathrm\{([pqr])([0-9])([xyz])\}")
@@ -47,6 +47,14 @@ def optimised(text: str, objective: str, constraints: str, value: str) -> tuple[
     shown = rf"\min = {number(found.value)}" if found.is_optimal else rf"\text{{{found.status.value}}}"
     question = f"minimise {objective} subject to {constraints}"
     return Asked(text, question, shown, holds, seconds, found.certificate), found
+
+
+def verified(text: str, question: str, certificate: qe.Certificate) -> Asked:
+    """The checker's verdict about a certificate for an answer to ``question``."""
+    start = time.perf_counter()
+    verdict = qe.verify(certificate)
+    seconds = time.perf_counter() - start
+    return Asked(text, question, rf"\text{{{verdict}}}", verdict.accepted, seconds, certificate)
 
 
 def _accepted(certificate: qe.Certificate | None) -> bool:

@@ -4,6 +4,7 @@ from paper_repro.claim import Claim
 from paper_repro.claims import (
     conclusions,
     cubic,
+    cubic_region,
     curves,
     heights,
     introduction,
@@ -24,6 +25,7 @@ CLAIMS: tuple[Claim, ...] = (
     *method_one_gaps.CLAIMS,
     *joins.CLAIMS,
     *cubic.CLAIMS,
+    *cubic_region.CLAIMS,
     *quadratic.CLAIMS,
     *quadratic_gaps.CLAIMS,
     *conclusions.CLAIMS,

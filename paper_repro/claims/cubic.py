@@ -7,15 +7,12 @@ from fractions import Fraction
 from typing import Any
 
 import qe
-from bezier.containment import Leaves, examine
 from bezier.curve import Bezier, Smoothness, join
-from bezier.scalar import decimal_text, dot, is_zero, sign
-from bezier.workspace import Workspace, WorkspaceKind
+from bezier.scalar import decimal_text, dot, is_zero
 from paper_repro.ask import decided, eliminated, number, optimised
 from paper_repro.claim import Evidence, Fact, Picture, Table, Verdict, claim
 from paper_repro.figures.curves import curvature
 from paper_repro.figures.curves import path as drawn_path
-from paper_repro.figures.workspace import dips_below_floor
 from paper_repro.written import SEVEN, Points
 
 SPACE: Points = {"q0": (-1, 3, 3), "r0": (1, 3, 3)}
@@ -23,12 +20,6 @@ PLANE: Points = {"q0": (-1, 1), "r0": (1, 1)}
 LETTERS: Points = {"q0": ("q0x", "q0y", "q0z"), "r0": ("r0x", "r0y", "r0z")}
 ENDS = ((Fraction(-3, 2), 0), (Fraction(3, 2), 0))
 """Start and goal in the plane, which make the radius 3/2."""
-
-TILTED: tuple[Points, Points] = (
-    {"q0": (-3, 5), "r0": (1, 5)},
-    {"q0": (-3, 3, 4), "r0": (1, 3, 4)},
-)
-"""Two via points in the plane, and the same ones turned about the first axis by an angle with cosine 3/5."""
 
 
 def curves(given: Points, q1: Sequence[Any], q2: Sequence[Any], ends: Sequence[Sequence[Any]]) -> Mapping[str, Bezier]:
@@ -174,69 +165,4 @@ def active(found: qe.Optimum, radius_squared: Fraction) -> list[str]:
     return [name for name, p in inner.items() if is_zero(dot(p, p) - radius_squared)]
 
 
-@claim(
-    key="eq-7-hemisphere",
-    place="Section 4.2, after (6)",
-    title="All control points lie in the hemisphere",
-    says="With the norm conditions of (7), all remaining control points lie in the hemisphere of radius $r$ with "
-    "$z > 0$.",
-    verdict=Verdict.CORRECTED,
-    finding="They lie in the ball. The condition on $z$ is missing in (7), and it matters: for $Q_0 = (-1, 0, 1)$, "
-    "$R_0 = (1, 0, 1)$, $r = 3/2$ even the optimum of (7) has $P_1$ and $R_2$ below the table, and the curve with "
-    "them. Adding $z \\ge 0$ for the six points keeps the problem convex.",
-)
-def hemisphere() -> Iterator[Evidence]:
-    """The optimum for $r = 3/2$ in the plane $y = 0$ of the arm is computed exactly, without and with $z \\ge 0$; the
-    sign of the height is exact."""
-    given = {name: (p[0], 0, p[1]) for name, p in PLANE.items()}
-    printed, best = optimised(
-        "(7) as printed", SEVEN.objective("xyz", given), SEVEN.substituted("xyz", given, "9/4"), "5 - 2*sqrt(2)"
-    )
-    yield printed
-    path = curves(given, *chosen(best, "xyz"), [(x, 0, z) for x, z in ENDS])
-    heights = {f"{name}{i}": item.points[i][2] for name, item in path.items() for i in (1, 2)}
-    yield Table(
-        ("control point", "z, exactly", "z"), [(n, f"${number(z)}$", f"{float(z):.4f}") for n, z in heights.items()]
-    )
-    floor = Workspace(WorkspaceKind.HEMISPHERE, Fraction(9, 4)).floor
-    yield Fact("the curve $P(t)$ itself is below it at some $t$", isinstance(examine(path["P"], floor), Leaves))
-    yield Fact("$P_1$ and $R_2$ are below the table", [n for n, z in heights.items() if sign(z) < 0] == ["P1", "R2"])
-    above = qe.minimize(SEVEN.objective("xyz", given), SEVEN.substituted("xyz", given, "9/4", above=True))
-    kept = curves(given, *chosen(above, "xyz"), [(x, 0, z) for x, z in ENDS])
-    lowest = min(sign(item.points[i][2]) for item in kept.values() for i in (1, 2))
-    yield Fact(
-        f"with $z \\ge 0$ the optimum is {decimal_text(above.value, 6)}, certificate accepted, and no point is below",
-        lowest >= 0 and qe.verify(above.certificate).accepted,
-    )
-    yield Picture(
-        "Side view: the optimum of (7) as printed, with two control points below the table.",
-        dips_below_floor(path, 1.5, (0, 2), "norm conditions only, $r = 3/2$"),
-    )
-
-
-@claim(
-    key="eq-7-plane",
-    place="Section 4.2, formula (7) (not in the paper)",
-    title="Formula (7) is a problem in the plane of $O$, $Q_0$, $R_0$",
-    says="(7) is stated with points in space: six free and twelve quantified variables.",
-    verdict=Verdict.REPRODUCED,
-    finding="Orthogonal projection onto a plane through $O, Q_0, R_0$ makes none of the six norms and no term of the "
-    "objective larger, so existence, optimum and its value can be computed in the plane with four variables. Not so "
-    "once heights or obstacles enter.",
-)
-def planar_reduction() -> Iterator[Evidence]:
-    """The same numbers are solved in space and in the plane; the argument itself is decided for one norm: dropping the
-    component orthogonal to the plane does not increase it."""
-    values = []
-    for axes, given in zip(("xy", "xyz"), TILTED):
-        found = qe.minimize(SEVEN.objective(axes, given), SEVEN.substituted(axes, given, 36))
-        yield Fact(
-            f"{len(axes)} coordinates: certificate accepted", found.is_optimal and qe.verify(found.certificate).accepted
-        )
-        values.append(found.value)
-    yield Table(("", "least objective"), [(name, decimal_text(v, 7)) for name, v in zip(("plane", "space"), values)])
-    yield Fact("the two values are equal, exactly", values[0] == values[1])
-    yield decided("projection does not increase a norm", "all x, y, z, r. x^2 + y^2 + z^2 <= r^2 -> x^2 + y^2 <= r^2")
-
-
-CLAIMS = (equation_7, always_satisfiable, choice, hemisphere, planar_reduction)
+CLAIMS = (equation_7, always_satisfiable, choice)

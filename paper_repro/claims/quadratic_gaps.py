@@ -12,8 +12,8 @@ import qe
 from bezier.containment import Inside, examine_all
 from bezier.curve import Bezier
 from bezier.workspace import Workspace, WorkspaceKind
-from paper_repro.ask import decided, eliminated
-from paper_repro.claim import Asked, Evidence, Fact, Picture, Verdict, claim
+from paper_repro.ask import decided, eliminated, verified
+from paper_repro.claim import Evidence, Fact, Picture, Verdict, claim
 from paper_repro.claims.quadratic import curves
 from paper_repro.figures.curves import path as drawn_path
 from paper_repro.figures.regions import three_discs, two_regions
@@ -44,17 +44,9 @@ def infeasible() -> Iterator[Evidence]:
         expected=False,
     )
     found = qe.minimize(EIGHT.objective("xyz", given), EIGHT.substituted("xyz", given, 9))
-    verdict = qe.verify(found.certificate)
     multipliers = ", ".join(map(str, found.multipliers))
     text = f"the norm conditions on P1, Q1, R1 times ({multipliers}) add up to a contradiction"
-    yield Asked(
-        text,
-        EIGHT.substituted("xyz", given, 9),
-        rf"\text{{{found.status.value}}}",
-        verdict.accepted,
-        0.0,
-        found.certificate,
-    )
+    yield verified(text, EIGHT.substituted("xyz", given, 9), found.certificate)
     letters = {"q0": ("(-d)", "k"), "r0": ("d", "k")}
     yield eliminated(
         "the symmetric case, with letters",
