@@ -73,7 +73,7 @@ def _widened(points: Array, radius: float) -> Array:
     """The points with balls around them."""
     if not radius:
         return points
-    directions, _ = icosphere(2 if len(points) < 20 else 1)
+    directions, _ = icosphere(3 if len(points) < 4 else 2 if len(points) < 20 else 1)
     widened: Array = (points[:, None, :] + radius * directions[None]).reshape(-1, 3)
     return widened
 
@@ -114,7 +114,7 @@ def save_chart(findings: Sequence[Finding], pictures: Sequence[ObstaclePicture],
 
     figure = new_figure(12, 4.2)
     curves = {finding.name: finding for finding in findings}
-    _heights(figure.add_axes((0.05, 0.13, 0.42, 0.76)), list(curves.values()), pictures)
+    _heights(figure.add_axes((0.06, 0.13, 0.41, 0.76)), list(curves.values()), pictures)
     _clearances(figure.add_axes((0.55, 0.13, 0.43, 0.76)), findings, list(curves), pictures)
     figure.savefig(file, dpi=120, pil_kwargs={"compress_level": 4})
     return svg_text(figure)
@@ -131,6 +131,7 @@ def _heights(axis: Any, findings: Sequence[Finding], pictures: Sequence[Obstacle
     for finding in findings:
         points = sampled(finding.curve.points, 81)
         axis.plot(points[:, 0], points[:, 2], color=CURVES.get(finding.name, INK), linewidth=2.2)
+    axis.set_aspect("equal", adjustable="datalim")
     _labelled(axis, "height over x, with the silhouettes of the obstacles", "x", "z")
 
 
