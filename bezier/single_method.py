@@ -12,7 +12,7 @@ from bezier.methods import Claim, Method
 from bezier.problem import Problem
 from bezier.scalar import Vector, brief, described
 from bezier.simplex import Contradiction, certificate
-from bezier.single import TIE_BREAK, Dip, Task, choose, curve
+from bezier.single import TIE_BREAK, Dip, Task, choose, curve, dips
 from bezier.single_closed import ProvedCurve, close
 from bezier.single_plan import CLOSED, NAME, SinglePlan, above_label, of_axis, points_of, task_of
 from qe.errors import CertificateRejected
@@ -146,6 +146,8 @@ def certified_curve(given: Task, found: Certificate) -> Bezier:
         through = all(drawn.point(t)[1 + given.axes.index(axis)] == axis.height for t in given.times)
         if not low or not through or (row[0], row[-1]) != (axis.start, axis.goal):
             raise CertificateRejected("points", f"the {axis.name} coordinates do not satisfy (4)")
+    for dip in dips(given, drawn):
+        raise CertificateRejected("points", f"{dip.axis.name} is below the height at t = {dip.t}")
     for name in single_plan.heights_proved(given, drawn):
         label = above_label(name)
         if any(member.label == label for member in members(found)):

@@ -181,6 +181,12 @@ def test_one_optimum_of_many_is_chosen():
     assert chosen.values == (0, level, level, 1, level, level, 0)
 
 
+def test_the_largest_absolute_value_counts_negative_ones_too():
+    of = axis("y", "-9/2", "-7/2", 1)
+    inner = choose(unit_task(7, "11/20", "13/20", of, FLAT), of).values[1:-1]
+    assert inner[0] == min(inner) == -max(inner)
+
+
 @given(tasks(4, 7))
 def test_the_tie_break(given_task):
     (of,) = given_task.raised

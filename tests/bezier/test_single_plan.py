@@ -1,6 +1,7 @@
 """Planning with Method 1: the examples, what the table [single] may say, and folders that must be rejected."""
 
 import json
+from dataclasses import replace
 from fractions import Fraction
 
 import pytest
@@ -10,7 +11,9 @@ from bezier.outputs import write_data
 from bezier.plan import Outcome, make_plan
 from bezier.problem import from_json, load_problem, read_problem, to_json
 from bezier.scalar import dot
-from bezier.single_closed import NoCurve
+from bezier.simplex import certificate, solve
+from bezier.single import choose, curve
+from bezier.single_closed import NoCurve, close
 from bezier.single_cuts import Model
 from bezier.single_method import SINGLE, certified_curve
 from bezier.single_plan import CLOSED, task_of
@@ -170,18 +173,49 @@ def test_certificates_of_another_problem_are_rejected(plans, name):
         SINGLE.claim(plans[name].problem, other.certificate)
 
 
-def test_an_altered_curve_is_rejected(plans):
+@pytest.mark.parametrize("label", ["problem (4) for y", CLOSED])
+def test_a_linear_program_of_another_problem_is_rejected(plans, label):
     plan = plans["single_leaves"]
-    for k, label in enumerate(label for label, _ in members(plan)):
-        if label != "P in ball":
-            continue
-        payload = json.loads(json.dumps(plan.certificate.payload[k].certificate.payload))
-        for point, axis, value in ((1, 0, "-1"), (2, 1, "1"), (3, 1, "3"), (0, 2, "1")):
-            changed = json.loads(json.dumps(payload))
-            changed["points"][point][axis] = [value]
-            certificate = Certificate(plan.certificate.payload[k].certificate.kind, changed)
-            with pytest.raises(CertificateRejected):
-                certified_curve(plan.task, Certificate.bundle([(label, certificate)]))
+    task, workspace = plan.task, plan.problem.workspace
+    higher = replace(task, axes=(replace(task.axes[0], height=F(3, 2)), task.axes[1]))
+    chosen = choose(higher, higher.axes[0])
+    other = {
+        "problem (4) for y": certificate(chosen.program, chosen.objective, chosen.outcome),
+        CLOSED: close(task, replace(workspace, radius_squared=F(10))).certificate,
+    }
+    swapped = [(name, other[label] if name == label else member) for name, member in members(plan)]
+    with pytest.raises(CertificateRejected, match="not the one of this problem"):
+        SINGLE.claim(plan.problem, Certificate.bundle(swapped))
+
+
+def with_points(plan, points):
+    """The certificate that the curve stays in the ball, with other control points."""
+    (old,) = (member for label, member in members(plan) if label == "P in ball")
+    changed = {**old.payload, "points": [[[str(c)] for c in point] for point in points]}
+    return Certificate.bundle([("P in ball", Certificate(old.kind, changed))])
+
+
+@pytest.mark.parametrize(("point", "axis", "value"), [(1, 0, -1), (2, 1, 1), (3, 1, 3), (0, 2, 1), (6, 1, 1)])
+def test_an_altered_curve_is_rejected(plans, point, axis, value):
+    plan = plans["single_leaves"]
+    points = [list(p) for p in plan.path.curves["P"].points]
+    points[point][axis] = F(value)
+    with pytest.raises(CertificateRejected):
+        certified_curve(plan.task, with_points(plan, points))
+
+
+def test_curves_that_meet_the_equations_of_4_alone_are_rejected(plans):
+    plan = plans["single"]
+    task, chosen = plan.task, plan.chosen[0]
+    lower = replace(chosen.program, lower=tuple(low - 1 for low in chosen.program.lower))
+    below = solve(lower, [chosen.objective]).point
+    bound = {"y": (task.axes[0].start, *below, task.axes[0].goal), "z": plan.chosen[1].values}
+    for drawn, message in (
+        (curve(task, bound), "do not satisfy"),
+        (plan.printed.lowest, "below the height at t = 1/2"),
+    ):
+        with pytest.raises(CertificateRejected, match=message):
+            certified_curve(task, with_points(plan, drawn.points))
 
 
 def test_the_files(plans, tmp_path):
