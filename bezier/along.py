@@ -17,6 +17,7 @@ from bezier.curve import Bezier
 from bezier.enclosure import bounds
 from bezier.halving import Numbers
 from bezier.obstacles import Box, Constraint, Exponents
+from qe.errors import InputError
 
 
 class Along:
@@ -25,6 +26,8 @@ class Along:
     __slots__ = ("_box", "_monomials", "coordinates", "curve", "scale")
 
     def __init__(self, curve: Bezier) -> None:
+        if curve.dimension != 3:
+            raise InputError(f"obstacles are in space: expected a curve of dimension 3, found {curve.dimension}")
         self.curve = curve
         values = [c for p in curve.points for c in p]
         rational = all(isinstance(c, Fraction) for c in values)

@@ -99,6 +99,11 @@ def test_points_lines_and_repeated_control_points():
     assert isinstance(examine(Bezier.of([(2, 2, 2)] * 4), thing), Clear)
 
 
+def test_plane_curves_are_refused():
+    with pytest.raises(InputError, match="expected a curve of dimension 3, found 2"):
+        examine(Bezier.of([(0, 0), (1, 1)]), ball((0, 0, 0), 1))
+
+
 def test_huge_and_tiny_numbers():
     big, small = 10**400, Fraction(1, 10**400)
     contact = met(Bezier.of([(-3 * big, 0, 0), (3 * big, 0, 0)]), ball((0, 0, 0), big))
