@@ -11,7 +11,8 @@ from bezier.compare import METHODS, Comparison
 from bezier.compare_output import TITLES
 from bezier.mesh import Array
 from bezier.picture import COLOURS, INK, PALE, curve_pictures, numbers
-from bezier.plot import mathematical, new_figure, svg_text
+from bezier.planar import plane_coordinates
+from bezier.plot import new_figure, svg_text
 
 REGION_COLOURS = {"(7)": "#2e9e6b", "(8*)": "#d1a03b", "(8)": "#2364aa"}
 LABELS = {
@@ -44,16 +45,21 @@ def _regions(found: Comparison) -> Any:
     unit = [float(np.linalg.norm(np.array([float(c) for c in v]))) for v in (plane.first, plane.second)]
     for name, colour in REGION_COLOURS.items():
         region = found.planar.named[name].region
-        label = LABELS[name] if region is not None else f"{LABELS[name]}: not reached"
-        for k, (xs, low, high) in enumerate(bands(region) if region is not None else []):
-            u, a, b = np.array(xs) * unit[0], np.array(low) * unit[1], np.array(high) * unit[1]
-            axis.fill_between(u, a, b, color=colour, alpha=0.3, linewidth=0, label=label if k == 0 else None)
-            axis.plot(u, a, color=colour, linewidth=1.4)
-            axis.plot(u, b, color=colour, linewidth=1.4)
-    for text, point in _marks(found).items():
+        if region is None:
+            continue
+        along_first = region.order == plane_coordinates("Q1")
+        scales, fill = (unit, axis.fill_between) if along_first else (unit[::-1], axis.fill_betweenx)
+        for k, band in enumerate(bands(region)):
+            values, low, high = (np.array(row) * size for row, size in zip(band, (*scales, scales[1]), strict=True))
+            fill(values, low, high, color=colour, alpha=0.3, linewidth=0, label=None if k else LABELS[name])
+            for end in (low, high):
+                axis.plot(*((values, end) if along_first else (end, values)), color=colour, linewidth=1.4)
+    for k, (text, point) in enumerate(_marks(found).items()):
         u, v = (float(c) * s for c, s in zip(plane.place(point), unit, strict=True))
         axis.plot([u], [v], "o", color=INK, markersize=5)
-        axis.annotate(text, (u, v), xytext=(5, 5), textcoords="offset points")
+        above = k >= 2
+        side = "center" if not above else "left" if k == 2 else "right"
+        axis.annotate(text, (u, v), xytext=(0, 8 if above else -14), textcoords="offset points", ha=side)
     axis.set_aspect("equal", adjustable="datalim")
     axis.set_title("where $Q_1$ may be, in the plane of $O$, $Q_0$ and $R_0$", fontsize=11, color=INK)
     axis.set_xlabel("along $R_0 - Q_0$, mm")
@@ -94,9 +100,8 @@ def _view(axis: Any, found: Comparison, path: Any, i: int, j: int) -> None:
         axis.plot(curve.polygon[:, i], curve.polygon[:, j], "--o", color=colour, linewidth=0.8, markersize=3, alpha=0.8)
         axis.plot(curve.points[:, i], curve.points[:, j], color=colour, linewidth=2.2)
     given: Array = numbers(list(found.problem.named_points.values()))
-    for name, point in zip(("P0", "Q0", "R0", "end"), given, strict=True):
-        label = axis.annotate(mathematical(name), (point[i], point[j]), xytext=(3, 6), textcoords="offset points")
-        label.set_fontsize(8)
+    for name, point in zip(("$P_0$", "$Q_0$", "$R_0$", "goal"), given, strict=True):
+        axis.annotate(name, (point[i], point[j]), xytext=(3, 6), textcoords="offset points", fontsize=8)
     axis.set_aspect("equal", adjustable="datalim")
     axis.grid(color="#e3e8ec", linewidth=0.6)
     axis.set_axisbelow(True)
