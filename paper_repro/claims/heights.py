@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from fractions import Fraction
 
 from paper_repro.ask import decided, optimised
-from paper_repro.claim import Evidence, Verdict, claim
+from paper_repro.claim import Evidence, Fact, Verdict, claim
 from paper_repro.written import EIGHT, SEVEN, Points, curve, names
 
 GIVEN: Points = {"q0": (-1, 3, 3), "r0": (1, 3, 3)}
@@ -18,8 +19,7 @@ GIVEN: Points = {"q0": (-1, 3, 3), "r0": (1, 3, 3)}
     says="Two points that the curve must pass are given; they have the same $y$ and $z$ coordinates.",
     verdict=Verdict.REPRODUCED,
     finding="An assumption, and a useful one: with it the best choice under (8) never has a control point below the "
-    "table, although (8) has no condition on $z$. For other points to pass this is wrong (see the entry on the "
-    "hemisphere for degree 2).",
+    "table, although (8) has no condition on $z$. For points of different height it can have one.",
 )
 def equal_heights() -> Iterator[Evidence]:
     """In the plane of $O, Q_0, R_0$ write $Q_0 = (a, k)$, $R_0 = (b, k)$, $\\hat Q_1 = (x, v)$ with $k > 0$; heights
@@ -35,6 +35,13 @@ def equal_heights() -> Iterator[Evidence]:
             yield decided(text, sentence)
         nearer = f"({moved} - k)^2 < (q1y - k)^2"
         yield decided("and is nearer to the middle of $Q_0 R_0$", f"all k, q1y. k > 0 and {case} -> {nearer}")
+    uneven: Points = {"q0": (-1, 3, Fraction(1, 10)), "r0": (1, 3, 3)}
+    objective, conditions = EIGHT.objective("xyz", uneven), EIGHT.substituted("xyz", uneven, 36)
+    best, found = optimised(
+        "$Q_0 = (-1,3,1/10)$, $R_0 = (1,3,3)$, $r = 6$: the best choice", objective, conditions, "1241/200"
+    )
+    yield best
+    yield Fact("has $\\hat P_1$ at height $-27/20$", Fraction(2, 10) - found.point["q1z"] == Fraction(-27, 20))
 
 
 @claim(
