@@ -27,7 +27,7 @@ from qe.formula.syntax import FALSE, TRUE, And, Constant, Exists, ForAll, Formul
 from qe.formula.traverse import atoms, free_variables, is_quantifier_free, polynomials
 from qe.options import Budget, Method, Options, Stage
 from qe.pipeline_cad import Values, decomposed
-from qe.pipeline_critical import by_critical_values, convex_universal
+from qe.pipeline_critical import by_critical_values, convex_block, convex_universal
 from qe.plan.choice import Choice, choose
 from qe.prepare import Prepared, prepare
 from qe.prepare.nonzero import only_nonzero
@@ -96,7 +96,12 @@ class _Run:
             return self.existential(formula)
         self.whole = formula
         answer = self._tried("convex set", lambda part: convex_universal(formula, self.options, part, self.story))
-        answer = answer or self.eliminate(self.prepared(formula))
+        if answer is None:
+            ready = self.prepared(formula)
+            block = convex_block(ready, self.options)
+            if block is not None:
+                answer = self._tried("convex block", lambda part: self._by_critical_values(*block, part))
+            answer = answer or self.eliminate(ready)
         if self.certificate is None:
             answer = self._shortened(answer)
             self.certificate = substitution_certificate(formula, answer)

@@ -27,9 +27,10 @@ from qe.exact.sample import Point
 from qe.formula.build import atom, conj, convert, disj, exists
 from qe.formula.evaluate import substituted
 from qe.formula.normal import nnf
-from qe.formula.syntax import FALSE, TRUE, Atom, ForAll, Formula, Relation
+from qe.formula.syntax import FALSE, TRUE, And, Atom, Exists, ForAll, Formula, Relation
 from qe.formula.traverse import free_variables, is_quantifier_free, polynomials, ring_of
 from qe.options import Budget, Method, Options, Projection, Stage
+from qe.plan.choice import choose
 from qe.plan.order import brown_order
 from qe.prepare.linear import Pivot, substitute
 from qe.prepare.simplify import simplify
@@ -123,6 +124,25 @@ def convex_universal(formula: Formula, options: Options, budget: Budget, story: 
     assert isinstance(found.found, ConvexBody)
     answer = simplify(_of_body(found.found, parameters, options, budget))
     return _told(answer, negated, parameters, [found], story, start)
+
+
+def convex_block(formula: Formula, options: Options) -> tuple[tuple[str, ...], Formula] | None:
+    """(variables, body) of a convex existential block together with the conditions that preparation moved out of it.
+
+    The whole set has fewer boundary pieces than the block alone. None for formulas of other shapes, and where the
+    planner would not choose critical values.
+    """
+    if options.method not in (Method.AUTO, Method.CRITICAL):
+        return None
+    args = formula.args if isinstance(formula, And) else (formula,)
+    blocks = [a for a in args if isinstance(a, Exists)]
+    if len(blocks) != 1 or not all(is_quantifier_free(b.body) for b in blocks):
+        return None
+    rest = [a for a in args if a is not blocks[0]]
+    body = conj((*rest, blocks[0].body))
+    if not is_quantifier_free(body) or choose(blocks[0].variables, body).methods[0] is not Method.CRITICAL:
+        return None
+    return blocks[0].variables, body
 
 
 def _degree(formula: Formula, variables: Sequence[str]) -> int:

@@ -26,9 +26,8 @@ def strangers(table: CellTable, holds: Holds, *, bounded: bool) -> list[Point]:
     that T is. THEOREM. True cells of full dimension and true sections beside them belong to T. Over a value a of the
     first variable T has an interval whose ends are sections (limits of the ends over values near a), so it is the run
     of true cells from one section to another if the outermost sectors of that run belong to T. This is decided at a
-    rational point of them, or, where T reaches a from both sides (then its ends are continuous at a), at one in a
-    neighbourhood without zeros of polynomials in the second variable. A single true section over a belongs to T if T
-    is bounded and reaches a from one side.
+    rational point of them, or beside them on the way to an interior point of T. A single true section over a belongs to
+    T if T is bounded and reaches a from one side.
     """
     root = root_place(table)
     stack = root.cell.stack
@@ -84,9 +83,25 @@ def _over_section(table: CellTable, point: Point, holds: Holds, sides: int, boun
     ends = [sample(p) for p in {first + 1, last - 1}]
     if not point.algebraic:
         return [end for end in ends if not holds(rational_values(end))]
-    if sides < 2:
+    centre, polys = _centre(table), [f for f, sign in below.items() if sign == 0]
+    if centre is None:
         return ends
-    return [end for end in ends if not holds(nearby(end, factors, frozenset(), None))]
+    return [end for end in ends if not holds(nearby(end, [*polys, *factors], frozenset(polys), centre))]
+
+
+def _centre(table: CellTable) -> tuple[Fraction, Fraction] | None:
+    """The rational sample of a true cell of full dimension in the plane."""
+    stack = table.root.stack
+    assert stack is not None
+    for x, cell in zip(stack.sectors, stack.cells[::2], strict=True):
+        if cell.stack is None:
+            if cell.truth:
+                return x, Fraction(0)
+            continue
+        for y, above in zip(cell.stack.sectors, cell.stack.cells[::2], strict=True):
+            if above.truth:
+                return x, y
+    return None
 
 
 _VALUE = {"+": 1, "-": -1, "0": 0}
