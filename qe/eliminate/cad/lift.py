@@ -31,7 +31,7 @@ class Lifter:
     ``constraints``: indices of the factors of equational constraints by level (see ``equational``). Without
     ``partial`` cells are decomposed also where the formula is decided, and every cell of a stack is visited.
     ``lacking``: where a factor of a level in ``separated`` is nullified, its signs and derivatives do not tell the
-    sections of its Lazard evaluation apart; the partial derivatives that do are collected here if they are not listed.
+    sections of its Lazard evaluation apart; partial derivatives that do are collected here, where truth depends on it.
     """
 
     levels: Levels
@@ -93,11 +93,6 @@ class Lifter:
         layers = layers_over(point, factors, used, lazard=self.projection is Projection.LAZARD)
         if layers.nullified and self.projection is not Projection.LAZARD and not (last and dimension == 0):
             raise NotWellOriented(f"a factor of level {level} is nullified over a cell of dimension {dimension}")
-        if level in self.separated and self.projection is Projection.LAZARD:
-            for j in layers.nullified:
-                derivative = lazard_derivative(point, factors[j])
-                if any(f.level == level and f not in factors for f, _ in derivative.factors()[1]):
-                    self.lacking[derivative] = None
         return layers
 
     def _stack(
@@ -122,6 +117,8 @@ class Lifter:
             for position in range(size):
                 cells[position] = self._child(point, node, used, layers, position, dimension)
         complete = tuple(Cell(layers.texts[p], None) if c is None else c for p, c in enumerate(cells))
+        if layers.nullified and level in self.separated and _ambiguous(complete):
+            self._collect_lacking(point, level, layers.nullified)
         return Cell(signs, truth, Stack(used, layers.sectors, layers.sections, complete))
 
     def _child(
@@ -135,6 +132,13 @@ class Lifter:
         if off_constraint:
             raise InternalError("the matrix is undecided off an equational constraint")
         return self._cell(layers.sample(point, position), child, text, dimension + (position % 2 == 0))
+
+    def _collect_lacking(self, point: Point, level: int, nullified: tuple[int, ...]) -> None:
+        factors = self.levels[level]
+        for j in nullified:
+            derivative = lazard_derivative(point, factors[j])
+            if any(f.level == level and f not in factors for f, _ in derivative.factors()[1]):
+                self.lacking[derivative] = None
 
     def _specialised(self, node: Node, level: int, used: tuple[int, ...], text: str) -> Node:
         """``specialise`` by the signs in ``text``; equal nodes are one object, and equal questions are asked once."""
@@ -150,6 +154,16 @@ class Lifter:
             found = specialise(node, level, signs)
             stored = self._shared[key] = self._interned.setdefault(found, found)
         return stored
+
+
+def _ambiguous(cells: tuple[Cell, ...]) -> bool:
+    """Whether two cells of a stack have the same signs and are not known to have the same truth value."""
+    met: dict[str, Cell] = {}
+    for cell in cells:
+        other = met.setdefault(cell.signs, cell)
+        if other is not cell and (cell.truth is None or other.truth is not cell.truth):
+            return True
+    return False
 
 
 def _visiting_order(size: int, *, sectors_only: bool) -> list[int]:

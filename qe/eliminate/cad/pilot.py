@@ -22,6 +22,9 @@ HEAVY = 20_000
 """Projections of more effort than this are not tried: a resultant cannot be interrupted, and what is chosen must not
 depend on the clock (measured: up to a tenth of a second for all trials of a problem)."""
 
+TOO_HEAVY = 10 * HEAVY
+"""The usual order is left for another one outright where its projection has steps of more effort than this."""
+
 ROOTS_UP_TO = 300
 """Roots are counted where the polynomials of level 0 have degrees up to this in all."""
 
@@ -44,8 +47,8 @@ def choose_order(
         return brown, "brown (greedy is too heavy)"
     if rule is OrderRule.GREEDY or greedy == brown:
         return greedy, rule.value if rule is OrderRule.GREEDY else "brown and greedy agree"
-    usual = _unless_heavy(lambda: _measured(matrix, brown, OrderRule.BROWN, budget), budget)
-    other = _unless_heavy(lambda: _measured(matrix, greedy, OrderRule.GREEDY, budget), budget)
+    usual = _unless_heavy(lambda: _measured(matrix, brown, OrderRule.BROWN, TOO_HEAVY, budget), budget)
+    other = _unless_heavy(lambda: _measured(matrix, greedy, OrderRule.GREEDY, HEAVY, budget), budget)
     if other is None:
         return brown, "brown (greedy is too heavy)"
     if usual is None:
@@ -80,7 +83,9 @@ def _projected(polys: Sequence[Poly], name: str, budget: Budget) -> list[Poly]:
     return list(left)
 
 
-def _measured(matrix: Formula, order: tuple[str, ...], rule: OrderRule, budget: Budget) -> Candidate:
+def _measured(
+    matrix: Formula, order: tuple[str, ...], rule: OrderRule, heaviest: int, budget: Budget
+) -> Candidate:
     """The size of the whole projection."""
     matrix = convert(matrix, Ring.of(order))
     levels = factor_lists(
@@ -89,7 +94,7 @@ def _measured(matrix: Formula, order: tuple[str, ...], rule: OrderRule, budget: 
         Projection.BROWN_MCCALLUM,
         budget,
         constraints=equational_constraints(matrix, len(order)).factors,
-        heaviest=HEAVY,
+        heaviest=heaviest,
     )
     roots = sum(f.degree(0) for f in levels[0])
     if roots <= ROOTS_UP_TO:
