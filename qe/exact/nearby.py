@@ -93,9 +93,9 @@ def _coordinates(point: Point, bits: int) -> Balls:
 
 def _value(f: Poly, at: Balls) -> arb:
     """A ball around f at a box (all variables of f are given), by nested Horner evaluation."""
-    if f.is_constant:
+    if not f.variables:
         return arb(f.constant_value())
-    i = f.level
+    i = f.variables[-1]
     total = arb(0)
     for c in reversed(f.coefficients(i)):
         total = total * at[i] + _value(c, at)

@@ -83,6 +83,8 @@ def _over_section(table: CellTable, point: Point, holds: Holds, sides: int, boun
     ends = [sample(p) for p in {first + 1, last - 1}]
     if not point.algebraic:
         return [end for end in ends if not holds(rational_values(end))]
+    if sides == 2:  # the ends are continuous at a, so T does not change beside a where no polynomial in y vanishes
+        return [end for end in ends if not holds(nearby(end, factors, frozenset(), None))]
     centre, polys = _centre(table), [f for f, sign in below.items() if sign == 0]
     if centre is None:
         return ends
