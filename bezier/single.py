@@ -60,9 +60,11 @@ class Task:
     def __post_init__(self) -> None:
         found = index_pair(self.degree, self.x_ends, self.interval)
         if (self.p, self.q) != found:
-            raise InputError(f"p = {self.p}, q = {self.q}: expected p = {found[0]}, q = {found[1]} for this interval")
+            raise InputError(
+                f"p = {self.p} and q = {self.q} where the interval gives p = {found[0]} and q = {found[1]}"
+            )
         if not self.raised or any(axis.height is not None and axis.height <= 0 for axis in self.axes):
-            raise InputError("expected a positive height for y or z")
+            raise InputError("no positive height for y or z")
 
     @property
     def raised(self) -> tuple[Axis, ...]:
@@ -108,11 +110,11 @@ def index_pair(degree: int, x_ends: tuple[Fraction, Fraction], interval: tuple[F
     """p and q with x_p < a <= x_{p+1} <= x_q <= b < x_{q+1} and 1 <= p < q+1 <= n; ``InputError`` says why not."""
     (low, high), (a, b) = x_ends, interval
     if not low < high:
-        raise InputError(f"expected a goal beyond the start in x, found x_0 = {low} and x_n = {high}")
+        raise InputError(f"a goal that is not beyond the start in x: x_0 = {low} and x_n = {high}")
     if not low < a < b < high:
-        raise InputError(f"expected x_0 < a < b < x_n, found {low}, {a}, {b}, {high}")
+        raise InputError(f"not x_0 < a < b < x_n: {low}, {a}, {b}, {high}")
     if not 2 <= degree <= MAX_DEGREE:
-        raise InputError(f"expected a degree from 2 to {MAX_DEGREE}, found {degree}")
+        raise InputError(f"degree {degree}, which is not from 2 to {MAX_DEGREE}")
     found = _indices(degree, x_ends, interval)
     if found is None:
         reason = _refusal(equally_spaced(degree, *x_ends), interval)

@@ -83,7 +83,9 @@ def read_single(table: Table, start: Vector, via: Via, goal: Vector) -> SingleCu
         found = task(degree, ends, interval, axes)
     except InputError as error:
         key = "degree" if "degree" in single.values else "a" if states_via else "via"
-        raise (single if key != "via" else table).error(key, "what Method 1 needs", str(error)) from None
+        raise (single if key != "via" else table).error(
+            key, "an interval, a degree and heights that fit together", str(error)
+        ) from None
     for key, value in (("p", found.p), ("q", found.q)):
         if key in single.values and _whole(single, key, value) != value:
             raise single.error(key, f"{value}, which follows from a and b", str(single.number(key)))

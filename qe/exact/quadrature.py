@@ -45,7 +45,7 @@ def _attempt(
         f, q = _polynomial(factor), _polynomial(radicand)
 
         def value(z: acb, analytic: bool) -> acb:
-            return f(z) * q(z).sqrt(analytic=analytic)
+            return _value(f, z) * _value(q, z).sqrt(analytic=analytic)
 
         ends = [acb(arb(_rational(t))) for t in over]
         found = acb.integral(value, *ends, rel_tol=arb(_rational(rel)), abs_tol=arb(2) ** (-8 * bits)).real
@@ -54,6 +54,12 @@ def _attempt(
             return Fraction(0), Fraction(1)
         low, high = lower_end(total), upper_end(total)
     return max(Fraction(int(low.p), int(low.q)), Fraction(0)), Fraction(int(high.p), int(high.q))
+
+
+def _value(polynomial: acb_poly, z: acb) -> acb:
+    """The polynomial on the ball z, by its expansion at the midpoint: powers of z itself would widen the result."""
+    middle = acb(z.real.mid(), z.imag.mid())
+    return polynomial(acb_poly([middle, 1]))(z - middle)
 
 
 def _polynomial(coefficients: Sequence[Interval]) -> acb_poly:

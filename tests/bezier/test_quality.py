@@ -2,7 +2,7 @@
 
 from fractions import Fraction
 from itertools import pairwise
-from math import asinh, sqrt
+from math import asinh, dist, sqrt
 
 import pytest
 from hypothesis import given, settings
@@ -121,3 +121,12 @@ def test_roots_are_bounded_from_both_sides(square):
     below, above = root_below(square), root_above(square)
     assert below**2 <= square <= above**2 and above - below <= Fraction(1, 2**192)
     assert root_below(square**2) == root_above(square**2) == square
+
+
+def test_the_length_of_a_curve_of_high_degree():
+    """Powers of wide balls would leave this one open: a wave of degree 16 against a fine polygon."""
+    bends = Bezier(tuple((Fraction(i), Fraction(7 * (-1) ** i), Fraction(i * i, 9)) for i in range(17)))
+    found = length_enclosure(bends)
+    corners = [tuple(map(float, bends.point(Fraction(k, 400)))) for k in range(401)]
+    polygon = sum(dist(a, b) for a, b in pairwise(corners))
+    assert polygon - 1e-9 < float(found.low) and float(found.high) < polygon * 1.001

@@ -58,9 +58,9 @@ def test_indices_are_those_of_the_paper_or_refused(degree, a, b):
     [
         (4, "1/4", "3/4", "no p >= 1, since a = 1/4 is not beyond x_1 = 1/4; the least degree that works is 5"),
         (4, "3/10", "2/5", "no q > p, since no control point has its x between a = 3/10 and b = 2/5"),
-        (6, "1/2", "1/2", "x_0 < a < b < x_n"),
-        (6, "1/2", "1", "x_0 < a < b < x_n"),
-        (1, "1/3", "1/2", f"a degree from 2 to {MAX_DEGREE}"),
+        (6, "1/2", "1/2", "not x_0 < a < b < x_n"),
+        (6, "1/2", "1", "not x_0 < a < b < x_n"),
+        (1, "1/3", "1/2", f"which is not from 2 to {MAX_DEGREE}"),
     ],
 )
 def test_refusals_say_why(degree, a, b, reason):
@@ -69,13 +69,13 @@ def test_refusals_say_why(degree, a, b, reason):
 
 
 def test_a_task_needs_a_height_and_a_goal_beyond_the_start():
-    with pytest.raises(InputError, match="positive height"):
+    with pytest.raises(InputError, match="no positive height"):
         unit_task(6, "2/5", "3/5", FLAT)
-    with pytest.raises(InputError, match="positive height"):
+    with pytest.raises(InputError, match="no positive height"):
         unit_task(6, "2/5", "3/5", axis("y", 0, 0, 0))
-    with pytest.raises(InputError, match="a goal beyond the start"):
+    with pytest.raises(InputError, match="not beyond the start"):
         task(6, (F(1), F(0)), (F(1, 2), F(3, 4)), [axis("y", 0, 0, 1)])
-    with pytest.raises(InputError, match="expected p = 2, q = 3"):
+    with pytest.raises(InputError, match="the interval gives p = 2 and q = 3"):
         replace(unit_task(6, "2/5", "3/5", axis("y", 0, 0, 1)), q=4)
 
 

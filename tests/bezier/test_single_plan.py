@@ -124,7 +124,10 @@ def test_without_a_degree_the_least_one_from_six_on_is_taken():
     ("change", "message"),
     [
         ({"single": "degree = 4\na = 4\nb = 7\nheight_y = 10"}, "via: expected no via points beside a, b and heights"),
-        ({"single": "degree = 2"}, "single.degree: expected what Method 1 needs, found degree 2: no p >= 1"),
+        (
+            {"single": "degree = 2"},
+            "single.degree: expected an interval, a degree and heights that fit together, found degree 2: no p",
+        ),
         ({"single": "degree = 65"}, "single.degree: expected a whole number from 0 to 64, found 65"),
         ({"single": "degree = 6.5"}, "single.degree: expected a whole number"),
         ({"single": "degree = 6\np = 1"}, "single.p: expected 2, which follows from a and b, found 1"),
@@ -132,7 +135,7 @@ def test_without_a_degree_the_least_one_from_six_on_is_taken():
         ({"single": "degree = 6", "method": "cubic"}, 'single: expected this table with method = "single" only'),
         ({"via": "via = [[4, 10, 1], [7, 9, 1]]"}, "via: expected two points with the same y above zero, or"),
         ({"via": "via = [[4, 10, 0], [7, 10, -1]]"}, "found z = 0 and -1"),
-        ({"via": "", "single": "a = 4\nb = 7"}, "a: expected what Method 1 needs, found expected a positive height"),
+        ({"via": "", "single": "a = 4\nb = 7"}, "heights that fit together, found no positive height"),
         ({"via": "", "single": "a = 4\nheight_y = 10"}, "single.b: expected an integer"),
         (
             {"via": "", "single": "a = 4\nb = 7\nheight_y = -1"},
