@@ -13,13 +13,11 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any
 
-from qe.eliminate.vs import eliminate_block, witness
 from qe.eliminate.vs.far import far_first
 from qe.errors import Unable
 from qe.evidence.certificate import Certificate, Root
 from qe.evidence.elimination import Elimination
 from qe.evidence.story import Story
-from qe.exact.algebraic import RealAlgebraic
 from qe.exact.ring import Ring
 from qe.formula.build import conj, convert, disj, exists, forall, neg
 from qe.formula.normal import nnf, rename_apart
@@ -28,7 +26,8 @@ from qe.formula.traverse import atoms, free_variables, is_quantifier_free, polyn
 from qe.options import Budget, Method, Options, Stage
 from qe.pipeline_cad import Values, decomposed
 from qe.pipeline_critical import by_critical_values, convex_block, convex_universal
-from qe.plan.choice import Choice, choose
+from qe.pipeline_vs import substituted
+from qe.plan.choice import allows, planned
 from qe.prepare import Prepared, prepare
 from qe.prepare.nonzero import only_nonzero
 from qe.prepare.simplify import simplify
@@ -125,7 +124,7 @@ class _Run:
         found = {name: lifted.get(name, Fraction(0)) for name in formula.variables}
         if self.certificate is None and is_quantifier_free(formula.body):
             matrix = convert(formula.body, Ring.of(tuple(found)))
-            self.certificate = Certificate.witness(matrix, tuple(found), [_as_root(v) for v in found.values()])
+            self.certificate = Certificate.witness(matrix, tuple(found), [Root.of(v) for v in found.values()])
         return answer, found
 
     def _by_convexity(self, formula: Exists) -> tuple[Formula, Values | None] | None:
@@ -233,12 +232,12 @@ class _Run:
         if not is_quantifier_free(inner):
             return rebuilt if substitution_only else self.decomposed(rebuilt)[0]
         positive = simplify(nnf(inner, negate=universal))
-        answer: Formula
         if substitution_only:
-            result = self._substituted(variables, positive, self.budget) if self._allows(Method.VS) else None
-            if result is None or not is_quantifier_free(result[0]):
+            if not allows(self.options, Method.VS):
                 return rebuilt
-            answer = result[0]
+            answer, _ = substituted(variables, positive, self.budget, self.story)
+            if not is_quantifier_free(answer):
+                return rebuilt
         else:
             answer = self.block(variables, positive, universal=universal)[0]
         return simplify(nnf(answer, negate=universal))
@@ -261,9 +260,10 @@ class _Run:
             if far is not None:
                 self.story.note("plan", f"{variables[0]}: solutions near infinity first")
                 return simplify(disj((far.solutions, self.eliminate(far.rest)))), None
-        plan = self._plan(variables, body)
+        plan = planned(variables, body, self.options)
         self.story.note("plan", f"{plan.methods[0].value} first for {', '.join(variables)}: {plan.reason}")
-        if plan.methods[0] is Method.CAD and self._allows(Method.VS) and len(free_variables(body)) > PROBE_ABOVE:
+        may_probe = plan.methods[0] is Method.CAD and allows(self.options, Method.VS)
+        if may_probe and len(free_variables(body)) > PROBE_ABOVE:
             probed = self._probe(variables, body)
             if probed is not None:
                 return probed
@@ -291,55 +291,19 @@ class _Run:
         left = self.budget.remaining()
         part = Budget(PROBE_SECONDS if left is None else min(PROBE_SECONDS, PROBE_SHARE * left))
         try:
-            result = self._substituted(variables, body, part)
+            result = substituted(variables, body, part, self.story)
         except Unable as error:
             self.story.note("switches", f"vs probe: {error}")
             return None
-        assert result is not None
         formula, values = result
         if not is_quantifier_free(formula) or sum(1 for _ in atoms(formula)) > PROBE_ATOMS:
             return None
         return self._shortened(formula), values
 
-    def _plan(self, variables: Sequence[str], body: Formula) -> Choice:
-        asked = self.options.method
-        if asked is Method.VS:
-            return Choice((Method.VS,), "asked for")
-        if asked is Method.CAD or not self._allows(Method.VS):
-            return Choice((Method.CAD,), "asked for")
-        if asked is Method.CRITICAL:
-            return Choice((Method.CRITICAL,), "asked for")
-        if asked is not Method.AUTO:
-            raise Unable(f"the method {asked.value} is not available for this formula")
-        return choose(variables, body)
-
-    def _allows(self, method: Method) -> bool:
-        left_out = method is Method.VS and Stage.SUBSTITUTION in self.options.without
-        return self.options.method in (Method.AUTO, method) and not left_out
-
-    def _substituted(
-        self, variables: Sequence[str], body: Formula, budget: Budget
-    ) -> tuple[Formula, Values | None] | None:
-        start = time.perf_counter()
-        result = eliminate_block(variables, body, budget=budget, simplify=simplify)
-        self.story.note(
-            "vs", {"variables": list(variables), **result.stats, "seconds": round(time.perf_counter() - start, 6)}
-        )
-        if result.remaining:
-            return result.formula, None
-        values: Values | None = None
-        if result.formula == TRUE:
-            for found in result.answers:
-                if simplify(found.guard) == TRUE:
-                    values = witness(found, budget=budget)
-                    break
-        return result.formula, values
-
     def _by_substitution(
         self, variables: Sequence[str], body: Formula, budget: Budget
     ) -> tuple[Formula, Values | None]:
-        result = self._substituted(variables, body, budget)
-        assert result is not None
+        result = substituted(variables, body, budget, self.story)
         formula, values = result
         if not is_quantifier_free(formula):
             if not free_variables(exists(variables, body)):
@@ -363,7 +327,7 @@ class _Run:
         names = free_variables(formula)
         count = sum(1 for _ in atoms(formula))
         least = SHORTEN_ABOVE if len(names) == SHORTEN_VARIABLES else SHORTEN_PLANE
-        if count <= least or not 0 < len(names) <= SHORTEN_VARIABLES or not self._allows(Method.CAD):
+        if count <= least or not 0 < len(names) <= SHORTEN_VARIABLES or not allows(self.options, Method.CAD):
             return formula
         if len(names) == SHORTEN_VARIABLES and max(p.total_degree for p in polynomials(formula)) > SHORTEN_DEGREE:
             return formula
@@ -392,7 +356,7 @@ class _Run:
     # --- decomposition -----------------------------------------------------------------------------
     def decomposed(self, formula: Formula) -> tuple[Formula, Values | None]:
         """Any formula, as a whole, by cylindrical algebraic decomposition."""
-        if not self._allows(Method.CAD):
+        if not allows(self.options, Method.CAD):
             raise Unable("virtual substitution alone does not eliminate all quantifiers of this formula")
         return self._decomposed(formula, self.budget)
 
@@ -401,13 +365,3 @@ class _Run:
         if self.certificate is None and formula == self.whole:
             self.certificate = found.certificate
         return found.formula, found.values
-
-
-def _as_root(value: Fraction | RealAlgebraic) -> Fraction | Root:
-    """A number as the witness certificate wants it: by polynomial and isolating interval."""
-    if isinstance(value, Fraction):
-        return value
-    if value.is_rational:
-        return value.as_fraction()
-    low, high = value.interval()
-    return Root(value.minimal_polynomial, low, high)

@@ -17,6 +17,7 @@ from qe.errors import CertificateRejected, InputError
 from qe.evidence.cells import CellTable
 from qe.evidence.cells_json import CellEvidence, cells_from_json, cells_to_json
 from qe.evidence.entry import Entry, Json, formula_to_json
+from qe.exact.algebraic import RealAlgebraic
 from qe.exact.ring import Poly, Ring, format_poly
 from qe.formula.syntax import Formula
 
@@ -57,6 +58,13 @@ class Root:
     coefficients: tuple[int, ...]
     low: Fraction
     high: Fraction
+
+    @staticmethod
+    def of(value: Fraction | RealAlgebraic) -> Root | Fraction:
+        """A number as the witness certificate wants it: rational, or by polynomial and isolating interval."""
+        if isinstance(value, Fraction):
+            return value
+        return value.as_fraction() if value.is_rational else Root(value.minimal_polynomial, *value.interval())
 
 
 Payload = CellEvidence | tuple[Labelled, ...] | dict[str, Json]

@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from qe.errors import Unable
 from qe.exact.quadratic_form import Definiteness, definiteness, quadratic
 from qe.formula.syntax import And, Atom, Formula, Relation
 from qe.formula.traverse import free_variables, polynomials
-from qe.options import Method
+from qe.options import Method, Options, Stage
 
 CAD_VARIABLES = 3
 """Up to this many variables decomposition is fast and its answers are short (measured: tens of milliseconds)."""
@@ -28,6 +29,25 @@ class Choice:
 
     methods: tuple[Method, ...]
     reason: str
+
+
+def allows(options: Options, method: Method) -> bool:
+    """Whether the caller lets this method take part."""
+    left_out = method is Method.VS and Stage.SUBSTITUTION in options.without
+    return options.method in (Method.AUTO, method) and not left_out
+
+
+def planned(variables: Sequence[str], body: Formula, options: Options) -> Choice:
+    """The order of methods for ``exists variables. body``: the one asked for, or that of ``choose``.
+
+    Raises ``Unable`` for a method that eliminates no block.
+    """
+    asked = options.method
+    if asked is Method.AUTO:
+        return choose(variables, body) if allows(options, Method.VS) else Choice((Method.CAD,), "asked for")
+    if asked is Method.CGS:
+        raise Unable(f"the method {asked.value} is not available for this formula")
+    return Choice((asked,), "asked for")
 
 
 def choose(variables: Sequence[str], body: Formula) -> Choice:

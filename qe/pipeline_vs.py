@@ -1,0 +1,26 @@
+"""Virtual substitution in the pipeline: one block, its figures, and values for its variables."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+
+from qe.eliminate.vs import eliminate_block, witness
+from qe.evidence.story import Story
+from qe.formula.syntax import TRUE, Formula
+from qe.options import Budget
+from qe.pipeline_cad import Values
+from qe.prepare.simplify import simplify
+
+
+def substituted(
+    variables: Sequence[str], body: Formula, budget: Budget, story: Story
+) -> tuple[Formula, Values | None]:
+    """``exists variables. body`` as far as substitution goes (it may keep quantifiers), with values if it is true."""
+    start = time.perf_counter()
+    result = eliminate_block(variables, body, budget=budget, simplify=simplify)
+    story.note("vs", {"variables": list(variables), **result.stats, "seconds": round(time.perf_counter() - start, 6)})
+    if result.remaining or result.formula != TRUE:
+        return result.formula, None
+    certain = next((found for found in result.answers if simplify(found.guard) == TRUE), None)
+    return result.formula, None if certain is None else witness(certain, budget=budget)
