@@ -13,8 +13,8 @@ from qe.eliminate.cad.projection import factor_lists
 from qe.eliminate.critical import (
     ConvexBody,
     Disjunct,
-    Helpers,
     OpenCell,
+    Procedures,
     Proposal,
     eliminate_block,
     eliminate_universal,
@@ -68,7 +68,7 @@ def by_critical_values(
         inside = by_critical_values(left, rest, options, budget, story, otherwise) if left else rest
         return simplify(conj((*outside, inside)))
     parameters = _order(variables, body, options)
-    found = eliminate_block(variables, body, parameters, helpers=_helpers(budget), budget=budget)
+    found = eliminate_block(variables, body, parameters, procedures=_helpers(budget), budget=budget)
     parts = [_formula(variables, parameters, part, options, budget, otherwise) for part in found]
     return _told(simplify(disj(parts)), body, parameters, found, story, start)
 
@@ -118,7 +118,7 @@ def convex_universal(formula: Formula, options: Options, budget: Budget, story: 
     if options.method is Method.AUTO and _degree(negated, formula.variables) <= 2:
         return None
     parameters = _order(formula.variables, negated, options)
-    found = eliminate_universal(formula.variables, negated, parameters, helpers=_helpers(budget), budget=budget)
+    found = eliminate_universal(formula.variables, negated, parameters, procedures=_helpers(budget), budget=budget)
     if found is None:
         return None
     assert isinstance(found.found, ConvexBody)
@@ -170,7 +170,7 @@ def _order(variables: Sequence[str], body: Formula, options: Options) -> tuple[s
     return names if Stage.ORDER in options.without else brown_order(polynomials(body), names)
 
 
-def _helpers(budget: Budget) -> Helpers:
+def _helpers(budget: Budget) -> Procedures:
     def propose(forms: Sequence[object]) -> Proposal:
         return Proposal(*proposed(forms))  # type: ignore[arg-type]
 
@@ -186,7 +186,7 @@ def _helpers(budget: Budget) -> Helpers:
 
         return at
 
-    return Helpers(
+    return Procedures(
         project=lambda polys, size, projection, part, separated: factor_lists(
             polys, size, projection, part, separated
         ),

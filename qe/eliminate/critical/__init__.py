@@ -1,15 +1,15 @@
 """Critical-value elimination: one block over bounded fibres."""
 
 from qe.eliminate.critical.block import ConvexBody, Disjunct, Tabulated, eliminate_block
-from qe.eliminate.critical.helpers import Helpers, Proposal
 from qe.eliminate.critical.open_cells import OpenCell
+from qe.eliminate.critical.procedures import Procedures, Proposal
 from qe.eliminate.critical.universal import eliminate_universal
 
 __all__ = [
     "ConvexBody",
     "Disjunct",
-    "Helpers",
     "OpenCell",
+    "Procedures",
     "Proposal",
     "Tabulated",
     "eliminate_block",

@@ -10,8 +10,8 @@ from typing import Protocol
 from qe.eliminate.critical.boundary import critical_hypersurfaces
 from qe.eliminate.critical.bounded import has_bounded_fibres
 from qe.eliminate.critical.fibres import Fibres
-from qe.eliminate.critical.helpers import Helpers, Levels
 from qe.eliminate.critical.open_cells import OpenCell, OpenCells
+from qe.eliminate.critical.procedures import Levels, Procedures
 from qe.eliminate.critical.separate import separated
 from qe.eliminate.critical.system import System, systems
 from qe.eliminate.critical.table import Shape, TableBuilder, Truth
@@ -69,7 +69,7 @@ class Disjunct:
 
 
 def eliminate_block(
-    variables: Sequence[str], body: Formula, parameters: Sequence[str], *, helpers: Helpers, budget: Budget
+    variables: Sequence[str], body: Formula, parameters: Sequence[str], *, procedures: Procedures, budget: Budget
 ) -> list[Disjunct]:
     """The disjuncts of ``exists variables. body``, each with its truth set; the block is true where one of them is.
 
@@ -82,15 +82,15 @@ def eliminate_block(
     for system in parts:
         if not has_bounded_fibres(system):
             raise Unable("critical-value elimination: the quantified variables are not seen to be bounded")
-    return [_eliminated(system, helpers, budget) for system in parts]
+    return [_eliminated(system, procedures, budget) for system in parts]
 
 
-def _eliminated(system: System, helpers: Helpers, budget: Budget) -> Disjunct:
-    fibres = Fibres(system, helpers)
+def _eliminated(system: System, procedures: Procedures, budget: Budget) -> Disjunct:
+    fibres = Fibres(system, procedures)
     stats: dict[str, object] = {"decided": fibres.decided}
     if not system.free:
         return Disjunct(system.formula, fibres.hold_at(()), stats)
-    run = Run(system, fibres, helpers, budget, stats)
+    run = Run(system, fibres, procedures, budget, stats)
     body = run.convex() if system.is_convex and system.is_closed else None
     return Disjunct(system.formula, run.general() if body is None else body, stats)
 
@@ -114,7 +114,7 @@ class Run:
 
     system: System
     fibres: Oracle
-    helpers: Helpers
+    procedures: Procedures
     budget: Budget
     stats: dict[str, object]
 
@@ -177,11 +177,11 @@ class Run:
         size = self.system.ring.size
         conditions = self.system.without_parameters().conditions
         forms = [form for c in conditions if (form := quadratic(c.poly, range(size))) is not None]
-        witness = self.helpers.propose(forms).witness
+        witness = self.procedures.propose(forms).witness
         return (witness or (Fraction(0),) * size)[: self.system.free]
 
     def _levels(self, polys: frozenset[Poly]) -> Levels:
-        return self.helpers.project(polys, self.system.free, Projection.BROWN_MCCALLUM, self.budget, frozenset())
+        return self.procedures.project(polys, self.system.free, Projection.BROWN_MCCALLUM, self.budget, frozenset())
 
     def _tabulated(self, boundary: frozenset[Poly], shape: Shape, truth: Truth) -> Tabulated:
         """The table for the boundary polynomials, closed under projection, with the truth of every cell."""
@@ -190,7 +190,7 @@ class Run:
             shape = Shape.CLOSED  # the theorem of ``Shape.CONVEX`` then has only been proved in the plane
 
         def attempt(closed: frozenset[int], projection: Projection) -> tuple[CellTable, frozenset[Poly]]:
-            levels = self.helpers.project(boundary, size, projection, self.budget, closed)
+            levels = self.procedures.project(boundary, size, projection, self.budget, closed)
             known = Shape.CLOSED if shape is Shape.CONVEX and size > 2 and projection is Projection.LAZARD else shape
             builder = TableBuilder(levels, projection, boundary, known, truth, self.budget)
             root = builder.run(Point(self.system.ring))

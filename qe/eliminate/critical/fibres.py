@@ -9,7 +9,7 @@ from functools import cached_property
 from math import lcm
 
 from qe.eliminate.critical.forms import ParametricForm, parametric_form
-from qe.eliminate.critical.helpers import Decide, Helpers
+from qe.eliminate.critical.procedures import Decide, Procedures
 from qe.eliminate.critical.system import System
 from qe.errors import Unable
 from qe.evidence.multipliers import FormRelation
@@ -48,8 +48,8 @@ class Fibres:
     and ``separations`` of earlier points, by rational arithmetic. What they leave open is decided exactly.
     """
 
-    def __init__(self, system: System, helpers: Helpers) -> None:
-        self.system, self.helpers = system, helpers
+    def __init__(self, system: System, procedures: Procedures) -> None:
+        self.system, self.procedures = system, procedures
         self.witnesses: list[Values] = []
         self.separations: list[Separation] = []
         self.decided: dict[str, int] = {}
@@ -73,7 +73,7 @@ class Fibres:
 
     @cached_property
     def _decide(self) -> Decide:
-        return self.helpers.decide(self.system.inner, self.system.ring.names, self.system.free)
+        return self.procedures.decide(self.system.inner, self.system.ring.names, self.system.free)
 
     def hold_at(self, parameters: Values) -> bool:
         """Whether the block is true over a rational point; remembered."""
@@ -158,7 +158,7 @@ class Fibres:
 
     def _convex(self, forms: Sequence[Fibre], parameters: Values) -> bool:
         if FormRelation.EQ not in self._relations:
-            proposal = self.helpers.propose([form.exact for form in forms])
+            proposal = self.procedures.propose([form.exact for form in forms])
             if proposal.witness is not None and self._solves(proposal.witness, forms):
                 self.witnesses.insert(0, proposal.witness)
                 self._count("proposed")
@@ -169,7 +169,7 @@ class Fibres:
                 self._count("proposed")
                 return False
         try:
-            found = self.helpers.feasible([form.exact for form in forms], self._relations)
+            found = self.procedures.feasible([form.exact for form in forms], self._relations)
             self._count("optimisation")
             return found
         except Unable:

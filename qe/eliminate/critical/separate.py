@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 
-from qe.eliminate.critical.helpers import Levels
 from qe.eliminate.critical.open_cells import OpenCell
+from qe.eliminate.critical.procedures import Levels
 from qe.errors import InternalError
 from qe.exact.ring import Poly
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from enum import Enum
 from fractions import Fraction
 
-from qe.eliminate.critical.helpers import Levels
+from qe.eliminate.critical.procedures import Levels
 from qe.errors import NotWellOriented
 from qe.evidence.cells import Cell, Stack
 from qe.exact.fibre_stack import Isolation, isolate_over

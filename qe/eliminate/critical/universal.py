@@ -18,7 +18,7 @@ from qe.eliminate.critical.block import Disjunct, Run
 from qe.eliminate.critical.boundary import critical_hypersurfaces, determinant
 from qe.eliminate.critical.bounded import has_bounded_fibres
 from qe.eliminate.critical.fibres import Fibres, Values
-from qe.eliminate.critical.helpers import Helpers
+from qe.eliminate.critical.procedures import Procedures
 from qe.eliminate.critical.system import Condition, System, systems
 from qe.evidence.multipliers import FormRelation
 from qe.exact.ring import Poly, Ring
@@ -47,7 +47,7 @@ class Spared:
 
 
 def eliminate_universal(
-    variables: Sequence[str], negated: Formula, parameters: Sequence[str], *, helpers: Helpers, budget: Budget
+    variables: Sequence[str], negated: Formula, parameters: Sequence[str], *, procedures: Procedures, budget: Budget
 ) -> Disjunct | None:
     """The truth set of ``all variables. not negated``; None where it is not seen to be convex with interior points.
 
@@ -55,17 +55,17 @@ def eliminate_universal(
     """
     ring = Ring.of((*parameters, *variables))
     parts = systems(convert(negated, ring), ring, len(parameters))
-    if not parameters or not all(has_bounded_fibres(part) and _spares_a_convex_set(part, helpers) for part in parts):
+    if not parameters or not all(has_bounded_fibres(part) and _spares_a_convex_set(part, procedures) for part in parts):
         return None
     surfaces = [critical_hypersurfaces(part, thin_parts=False, budget=budget) for part in parts]
     stats: dict[str, object] = {"universal": len(parts)}
-    spared = Spared(tuple(Fibres(part, helpers) for part in parts))
+    spared = Spared(tuple(Fibres(part, procedures) for part in parts))
     hint = (Fraction(0),) * len(parameters)
-    found = Run(parts[0], spared, helpers, budget, stats).body(frozenset().union(*surfaces), hint)
+    found = Run(parts[0], spared, procedures, budget, stats).body(frozenset().union(*surfaces), hint)
     return None if found is None else Disjunct(negated, found, stats)
 
 
-def _spares_a_convex_set(part: System, helpers: Helpers) -> bool:
+def _spares_a_convex_set(part: System, procedures: Procedures) -> bool:
     """Whether the part says: y is in a set D, and g(p, y) > 0 for one polynomial g, convex in p for every y in D."""
     domain = [c for c in part.conditions if min(c.poly.variables) >= part.free]
     others = [c for c in part.conditions if c not in domain]
@@ -78,7 +78,9 @@ def _spares_a_convex_set(part: System, helpers: Helpers) -> bool:
         return False
     inner = Ring.of(part.ring.names[part.free :])
     inside = tuple(Condition(c.poly.convert(inner), c.relation) for c in domain)
-    return not any(_somewhere_negative(minor.convert(inner), inside, helpers) for minor in _principal_minors(hessian))
+    return not any(
+        _somewhere_negative(minor.convert(inner), inside, procedures) for minor in _principal_minors(hessian)
+    )
 
 
 def _principal_minors(matrix: Sequence[Sequence[Poly]]) -> list[Poly]:
@@ -88,8 +90,8 @@ def _principal_minors(matrix: Sequence[Sequence[Poly]]) -> list[Poly]:
     return [determinant([[matrix[i][j] for j in rows] for i in rows]) for rows in chosen]
 
 
-def _somewhere_negative(poly: Poly, inside: tuple[Condition, ...], helpers: Helpers) -> bool:
+def _somewhere_negative(poly: Poly, inside: tuple[Condition, ...], procedures: Procedures) -> bool:
     if poly.is_constant:
         return poly.constant_value() < 0
     system = System(poly.ring, 0, (), (*inside, Condition(poly, FormRelation.LT)))
-    return Fibres(system, helpers).hold_at(())
+    return Fibres(system, procedures).hold_at(())

@@ -8,7 +8,7 @@ import pytest
 
 from qe.eliminate.cad.over_point import over_point
 from qe.eliminate.critical.fibres import Fibres
-from qe.eliminate.critical.helpers import Helpers, Proposal
+from qe.eliminate.critical.procedures import Procedures, Proposal
 from qe.exact.algebraic import RealAlgebraic
 from qe.exact.ring import Ring
 from qe.exact.sample import Point
@@ -47,7 +47,7 @@ def test_proposals_are_not_believed() -> None:
         Proposal(weights=(F(1), F(-1))),
         Proposal(),
     ):
-        lying = Helpers(honest.project, lambda forms, given=nonsense: given, honest.feasible, honest.decide)
+        lying = Procedures(honest.project, lambda forms, given=nonsense: given, honest.feasible, honest.decide)
         fibres = Fibres(only(LENS, ("p", "q"), ("y", "z")), lying)
         for p, q in points()[::3]:
             assert fibres.hold_at((p, q)) == in_lens(p, q)

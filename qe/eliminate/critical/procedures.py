@@ -26,7 +26,7 @@ class Proposal:
 
 
 @dataclass(frozen=True, slots=True)
-class Helpers:
+class Procedures:
     """Procedures of the engine.
 
     ``project(polys, size, projection, budget, separated)``: irreducible factors closed under projection, per level.
