@@ -26,7 +26,7 @@ PAPER = {PlanMethod.QUADRATIC: "about 15.4 s", PlanMethod.CUBIC: "has not yet be
 
 REGION_SECONDS = 40.0
 """No region is worked on longer than this; the comparison then says so."""
-AREA_REL, VOLUME_REL = Fraction(1, 1000), 0.01
+AREA_REL, VOLUME_REL = Fraction(1, 1000), 0.05
 """Relative width of areas and volumes."""
 
 

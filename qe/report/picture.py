@@ -126,9 +126,9 @@ def _line(region: Region, axes: Any) -> None:
 
 
 def bands(region: Region) -> list[tuple[list[float], list[float], list[float]]]:
-    """A region in two variables as areas between curves: values of the first variable, and both ends over them."""
-    spans = _span(region, region.order[0]), _span(region, region.order[1])
-    return [_band(piece, *spans) for piece in region.cells if not piece.ranges[0].is_point]
+    """A bounded region in two variables as areas between curves: values of the first variable, both ends over them."""
+    nowhere = (0.0, 0.0)  # every piece has ends of its own
+    return [_band(piece, nowhere, nowhere) for piece in region.cells if not piece.ranges[0].is_point]
 
 
 def _band(
