@@ -21,7 +21,8 @@ from qe.options import Budget
 from qe.solution.interval import Interval, Number
 from qe.solution.optimum import OptimumStatus, maximize, minimize
 from qe.solution.optimum_problem import NotConvex, read_problem
-from qe.solution.region import Region, checked_order
+from qe.solution.region import Region, checked_order, is_true
+from qe.solution.walk import coordinates, leaves
 
 TABLE_VARIABLES = 2
 """Up to this many variables the decomposition is used for questions that optimisation does not answer."""
@@ -88,9 +89,11 @@ class ConvexRegion(Region):
         return self._somewhere(self._shadow.conditions) is None
 
     def sample_points(self) -> list[dict[str, Number]]:
-        """One exact point in every true cell of the decomposition; in more than two variables one point in all."""
+        """Exact points: in up to two variables a rational one in every true cell of full dimension (in every true cell
+        if there is none of full dimension), otherwise one point in all."""
         if len(self.order) <= TABLE_VARIABLES:
-            return super().sample_points()
+            inner = [p for p in leaves(self.table, is_true) if p.dimension == p.depth]
+            return [coordinates(self.table, p) for p in inner] if inner else super().sample_points()
         point = self._somewhere(self._shadow.conditions)
         return [] if point is None else [{name: point.get(name, Fraction(0)) for name in self.order}]
 

@@ -74,7 +74,7 @@ class Region:
     def dimension(self) -> int:
         """The dimension of the set, -1 if it is empty."""
         size = len(self.order)
-        return max((p.dimension + size - p.depth for p in leaves(self.table, _is_true)), default=-1)
+        return max((p.dimension + size - p.depth for p in leaves(self.table, is_true)), default=-1)
 
     def contains(self, point: Mapping[str, Coordinate]) -> bool:
         """Exact membership. Coordinates: int, Fraction, decimal or fraction text, RealAlgebraic."""
@@ -111,7 +111,7 @@ class Region:
 
     def sample_points(self) -> list[dict[str, Number]]:
         """One exact point in every true cell of the decomposition."""
-        return [coordinates(self.table, place) for place in leaves(self.table, _is_true)]
+        return [coordinates(self.table, place) for place in leaves(self.table, is_true)]
 
     def bounds(self, variable: str) -> Interval:
         """The exact infimum and supremum of a variable over the region, and whether they are attained."""
@@ -186,7 +186,8 @@ def checked_order(free: tuple[str, ...], order: tuple[str, ...] | None) -> tuple
     return chosen
 
 
-def _is_true(cell: Cell) -> bool:
+def is_true(cell: Cell) -> bool:
+    """Whether a cell is an undecomposed one on which the formula is true."""
     return cell.stack is None and cell.truth is True
 
 

@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-from fractions import Fraction
-
-import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import qe
 from qe.evidence.story import Story
 from qe.exact.ring import Poly, Ring
-from qe.formula.build import atom, conj, convert, disj, exists
-from qe.formula.evaluate import holds_at
+from qe.formula.build import atom, conj, disj, exists
 from qe.formula.syntax import Formula, Relation
 from qe.options import Budget, Options
 from qe.pipeline_cad import decomposed

@@ -90,7 +90,8 @@ def test_region_of_cubic_curves_in_the_plane() -> None:
     assert region.fibre([lower]) == [Interval(F(8, 3), F(8, 3), True, True)]
     assert len({str(c.poly) for c in region.formula.args}) == 3  # type: ignore[attr-defined]
     assert all(region.contains(p) for p in region.sample_points())
-    assert any(p["a0"] == upper for p in region.sample_points())
+    assert all(isinstance(c, F) for p in region.sample_points() for c in p.values())
+    assert region.contains({"a0": lower, "a1": F(8, 3)}) and lower < upper
     low, high = region.volume(0.05)
     assert 0 < low <= high
 
