@@ -16,26 +16,33 @@ def has_bounded_fibres(system: System) -> bool:
 
     Variables whose absolute value has a bound that is a continuous function of the parameters are collected:
     (1) a condition in parameters, collected variables and one more variable y whose leading coefficient in y is a
-    constant bounds y above or below (both for even degree and for equations); (2) if among all conditions that are
+    constant bounds y above or below (both for even degree and for equations); variables in which an inequality f <= 0
+    is linear and that are bounded on the side where f is small do not count; (2) if among all conditions that are
     convex quadratic in the quantified variables with constant Hessian those Hessians add up to one that is positive
     definite in the remaining variables, then their sum bounds these.
     """
     bounded: set[int] = set()
     sides: set[tuple[int, int]] = set()
     rules = [(c.poly, c.relation is FormRelation.EQ) for c in system.conditions]
-    progress = True
-    while progress:
-        progress = False
+    known = -1
+    while known < len(sides):
+        known = len(sides)
         for poly, equation in rules:
-            open_variables = [i for i in poly.variables if i >= system.free and i not in bounded]
-            if len(open_variables) == 1:
-                (i,) = open_variables
-                sides |= {(i, side) for side in _sides(poly, i, equation)}
-                if {(i, 1), (i, -1)} <= sides:
-                    bounded.add(i)
-                    progress = True
+            unsettled = {i for i in poly.variables if i >= system.free and i not in bounded}
+            helpful = set() if equation else {i for i in unsettled if (i, -_slope(poly, i)) in sides}
+            for i in unsettled:
+                if unsettled - helpful <= {i}:
+                    sides |= {(i, side) for side in _sides(poly, i, equation)}
+        bounded = {i for i, side in sides if (i, -side) in sides}
     rest = [i for i in system.bound if i not in bounded]
     return not rest or _definite_sum(system, rest)
+
+
+def _slope(poly: Poly, i: int) -> int:
+    """The sign of the constant coefficient of a variable of degree one; 0 if it is not such a variable."""
+    if poly.degree(i) != 1 or not poly.leading(i).is_constant:
+        return 0
+    return 1 if poly.leading(i).constant_value() > 0 else -1
 
 
 def _sides(poly: Poly, i: int, equation: bool) -> tuple[int, ...]:

@@ -36,6 +36,8 @@ def only(text: str, free: tuple[str, ...], bound: tuple[str, ...]) -> System:
         "y^4 + p*y <= 1 and z >= y and 2*z <= y^2",
         "y^2 + p*y <= 1 and z^2 <= p",
         "y + z = p and y^2 <= p",
+        "y^2 + z <= p and z >= p",
+        "y^4 - 2*z + p*y <= 1 and z <= 3",
     ],
 )
 def test_bounded(text: str) -> None:
@@ -52,6 +54,8 @@ def test_bounded(text: str) -> None:
         "y^2 + 2*y*z + z^2 <= 1",
         "y^2 <= p and z = z^2 + y - z^2 + z",
         "y^3 <= p and z^2 <= 1",
+        "y^2 + z <= p and z <= p",
+        "y^2 + p*z <= 1 and z >= p",
     ],
 )
 def test_not_seen_to_be_bounded(text: str) -> None:
