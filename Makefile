@@ -49,6 +49,7 @@ lint: $(DEV) ## ruff, and mypy --strict on qe
 
 bench: $(DEV) ## the benchmark: figures asked beside figures reached
 	$(BIN)/python -m experiments.bench
+	$(BIN)/python -m experiments.bench_cubic
 
 clean: ## remove .venv and the outputs
 	rm -rf $(VENV) $(OUT) build dist *.egg-info .mypy_cache .ruff_cache .pytest_cache .hypothesis

@@ -13,8 +13,8 @@ from bezier.area import convex_area
 from bezier.enclosure import Enclosure
 from bezier.existence import Existence, existence
 from bezier.methods import method_of
-from bezier.plan import Clock, Plan, answered
-from bezier.planar import Plane, plane_coordinates
+from bezier.plan import Clock, Plan
+from bezier.planar import Plane, plane_coordinates, region_of
 from bezier.problem import PlanMethod, Problem
 from bezier.quadratic_plan import QuadraticPlan
 from bezier.quality import curvature_enclosure, length_enclosure
@@ -173,19 +173,12 @@ def planar_formulas(problem: Problem, plane: Plane) -> dict[str, str]:
 def _region(formula: str, plane: Plane, seconds: float) -> PlanarRegion:
     """The region, which is convex: its conditions are convex in Q1 and Q2, for every t."""
     try:
-        answer = answered(qe.eliminate(formula, timeout=seconds))
-        region = qe.region(answer.formula, order=_order(answer), timeout=seconds)
+        region = region_of(formula, timeout=seconds)
         area, unit = convex_area(region, AREA_REL), plane.unit_area
     except Unable as error:
         return PlanarRegion(formula, reason=str(error))
     assert area.high is not None and unit.high is not None
     return PlanarRegion(formula, region, Enclosure(area.low * unit.low, area.high * unit.high))
-
-
-def _order(answer: qe.Answer) -> tuple[str, ...]:
-    """The order in which the engine found the answer, if it says so: the other one may be much harder."""
-    told = answer.stats.get("critical", ())
-    return tuple(told[-1]["order"]) if told else plane_coordinates("Q1")
 
 
 def _volume(plan: Plan) -> Enclosure | None:

@@ -13,8 +13,10 @@ from dataclasses import dataclass
 from fractions import Fraction
 from math import gcd, lcm
 
+import qe
 from bezier.control import coordinates, number
 from bezier.enclosure import Enclosure, root_enclosure
+from bezier.plan import answered
 from bezier.problem import Problem
 from bezier.scalar import Vector, dot, exactly, is_zero, scale, subtract
 from qe.errors import InternalError
@@ -67,6 +69,17 @@ class Plane:
 def plane_coordinates(point: str) -> tuple[str, str]:
     """The variables of a control point in the plane: ``q1u, q1v``."""
     return f"{point.lower()}u", f"{point.lower()}v"
+
+
+def region_of(formula: str, *, timeout: float | None = None) -> qe.Region:
+    """The region of a formula about one point in a plane. Raises ``Unable`` at the limit.
+
+    Its order is that in which the engine found the quantifier-free answer, if it says so: the other one may be much
+    harder, since factors of the projection help to describe the region.
+    """
+    answer = answered(qe.eliminate(formula, timeout=timeout))
+    told = answer.stats.get("critical", ())
+    return qe.region(answer.formula, order=told[-1]["order"] if told else None, timeout=timeout)
 
 
 def _along(arrow: Vector) -> Vector:

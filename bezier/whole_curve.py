@@ -19,7 +19,7 @@ from bezier import bernstein as bs
 from bezier import quadratic
 from bezier.control import System, atom_text, number
 from bezier.curve import Bezier
-from bezier.planar import Plane, plane_coordinates
+from bezier.planar import Plane, plane_coordinates, region_of
 from bezier.problem import Problem
 from bezier.scalar import is_zero, rational, subtract
 from bezier.workspace import Condition
@@ -104,7 +104,7 @@ def formula(problem: Problem, plane: Plane) -> str:
 
 def region(problem: Problem, plane: Plane, *, timeout: float | None = None) -> qe.Region:
     """The set of Q1 in the plane for which the whole curves stay in the workspace."""
-    return qe.region(formula(problem, plane), order=plane_coordinates(POINT), timeout=timeout)
+    return region_of(formula(problem, plane), timeout=timeout)
 
 
 def polygon_implies_curve(problem: Problem, plane: Plane, *, timeout: float | None = None) -> bool:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import doctest
 from fractions import Fraction
+from pathlib import Path
 
 import pytest
 
@@ -72,3 +74,8 @@ def test_existence_theorem_of_the_comparison() -> None:
     assert found.witness == ", ".join(f"{name} = {value}" for name, value in trivial_witness().items())
     assert qe.check_witness(sentence(), trivial_witness()) is True
     assert qe.check_witness(sentence(), trivial_witness() | {"q1x": "0"}, timeout=60) is False
+
+
+def test_the_documentation_is_true(root: Path) -> None:
+    outcome = doctest.testfile(str(root / "docs" / "compare.md"), module_relative=False)
+    assert outcome.attempted > 12 and outcome.failed == 0

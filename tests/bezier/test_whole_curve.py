@@ -36,8 +36,7 @@ def solved() -> tuple[Problem, Plane, qe.Region]:
     """r^2 = 89/4, so r is irrational."""
     given = problem()
     plane = Plane.through(given)
-    answer = qe.eliminate(whole_curve.formula(given, plane), timeout=100)
-    return given, plane, qe.region(answer.formula, order=answer.stats["critical"][-1]["order"])
+    return given, plane, whole_curve.region(given, plane, timeout=100)
 
 
 def inside(given: Problem, plane: Plane, u: Fraction, v: Fraction) -> bool:
