@@ -69,7 +69,7 @@ def by_critical_values(
         return simplify(conj((*outside, inside)))
     parameters = _order(variables, body, options)
     found = eliminate_block(variables, body, parameters, procedures=_helpers(budget), budget=budget)
-    parts = [_formula(variables, parameters, part, options, budget, otherwise) for part in found]
+    parts = [_formula(variables, parameters, part, budget, otherwise) for part in found]
     return _told(simplify(disj(parts)), body, parameters, found, story, start)
 
 
@@ -122,8 +122,11 @@ def convex_universal(formula: Formula, options: Options, budget: Budget, story: 
     if found is None:
         return None
     assert isinstance(found.found, ConvexBody)
-    answer = simplify(_of_body(found.found, parameters, options, budget))
-    return _told(answer, negated, parameters, [found], story, start)
+    answer = _of_open_cells(found.found, parameters, budget)
+    if answer is None:  # in the plane the table of a convex set settles every cell
+        whole = found.found.tabulate()
+        answer = construct(whole.table, whole.refine)[0]
+    return _told(simplify(answer), negated, parameters, [found], story, start)
 
 
 def convex_block(formula: Formula, options: Options) -> tuple[tuple[str, ...], Formula] | None:
@@ -209,34 +212,32 @@ def _formula(
     variables: Sequence[str],
     parameters: tuple[str, ...],
     part: Disjunct,
-    options: Options,
     budget: Budget,
     otherwise: Decompose,
 ) -> Formula:
     """The quantifier-free formula of one disjunct, over the ring of the parameters."""
-    match part.found:
-        case bool():
-            return TRUE if part.found else FALSE
-        case ConvexBody():
-            return _of_body(part.found, parameters, options, budget)
-    formula, _ = construct(part.found.table, part.found.refine)
-    if not part.found.unsettled:
-        return formula
-    surfaces = [exists(variables, conj((atom(f, Relation.EQ), part.body))) for f in part.found.unsettled]
+    found = part.found
+    if isinstance(found, bool):
+        return TRUE if found else FALSE
+    if isinstance(found, ConvexBody):
+        confirmed = _of_open_cells(found, parameters, budget)
+        if confirmed is not None:
+            return confirmed
+        found = found.tabulate()
+    formula, _ = construct(found.table, found.refine)
+    surfaces = [exists(variables, conj((atom(f, Relation.EQ), part.body))) for f in found.unsettled]
     ring = Ring.of(parameters)
     return disj((formula, *(convert(otherwise(on_surface, budget), ring) for on_surface in surfaces)))
 
 
-def _of_body(body: ConvexBody, parameters: tuple[str, ...], options: Options, budget: Budget) -> Formula:
-    """A formula read from the open cells and confirmed on the others; from the whole table where that fails."""
-    if len(parameters) <= 2:
-        factors, cells = body.cells()
-        formula = closed_formula(factors, [_free_cell(c) for c in cells])
-        confirmed = _confirmed(body, convert(formula, Ring.of(parameters)), parameters, budget)
-        if confirmed is not None:
-            return confirmed
-    whole = body.tabulate()
-    return construct(whole.table, whole.refine)[0]
+def _of_open_cells(body: ConvexBody, parameters: tuple[str, ...], budget: Budget) -> Formula | None:
+    """A formula read from the open cells and confirmed on the others; None in more than two parameters, and where it
+    holds elsewhere too."""
+    if len(parameters) > 2:
+        return None
+    factors, cells = body.cells()
+    formula = closed_formula(factors, [_free_cell(c) for c in cells])
+    return _confirmed(body, convert(formula, Ring.of(parameters)), parameters, budget)
 
 
 def _confirmed(body: ConvexBody, formula: Formula, parameters: tuple[str, ...], budget: Budget) -> Formula | None:

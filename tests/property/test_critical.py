@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
+
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -9,6 +11,7 @@ import qe
 from qe.evidence.story import Story
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj, disj, exists
+from qe.formula.evaluate import holds_at
 from qe.formula.syntax import Formula, Relation
 from qe.options import Budget, Options
 from qe.pipeline_cad import decomposed
@@ -80,3 +83,19 @@ def test_two_parameters(block: tuple[tuple[str, ...], Formula]) -> None:
 @given(blocks(1, 2, extra=1))
 def test_two_quantified_variables(block: tuple[tuple[str, ...], Formula]) -> None:
     agrees(*block)
+
+
+@settings(max_examples=8, deadline=None)
+@given(blocks(3, 1, extra=1))
+def test_three_parameters(block: tuple[tuple[str, ...], Formula]) -> None:
+    agrees(*block)
+
+
+def test_unbounded_convex_set_in_three_parameters() -> None:
+    """Walls without the last variable are not settled by convexity there: the answer was too small."""
+    ring = Ring.of(("x", "y", "z", "u"))
+    x, y, z, u = (ring.gen(i) for i in range(4))
+    body = conj(atom(p, Relation.LE) for p in ((u - x) * (u - x) + y * y - 1, u * u - 4, u - z))
+    answer = eliminated(("u",), body)
+    assert holds_at(answer, {"x": Fraction(-1, 2), "y": -1, "z": 0})
+    assert not holds_at(answer, {"x": Fraction(-1, 2), "y": -1, "z": -1})
