@@ -78,8 +78,8 @@ def clearance(
     memory: Memory = None,
 ) -> int:
     """Prove each curve clear of each obstacle for all t, or say where it first meets it."""
-    from bezier.clearance_command import Request
-    from bezier.clearance_command import clearance as examine
+    from bezier.obstacles.command import Request
+    from bezier.obstacles.command import clearance as examine
 
     check_limits(timeout, memory)
     request = Request(source=source, obstacles=obstacles, certificate=certificate, json=json, timeout=timeout)
@@ -103,7 +103,7 @@ def compare(
     check_limits(timeout, memory)
     read = load_problem(problem)
     with nullcontext() if out is None else all_or_none(out) as folder:
-        from bezier import compare_command
+        from bezier.compare import command as compare_command
 
         request = compare_command.Request(
             problem=read, folder=folder, target=out, plots=not no_plots, json=json, timeout=timeout

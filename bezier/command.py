@@ -8,17 +8,18 @@ from dataclasses import dataclass, replace
 from pathlib import Path as FilePath
 from typing import TYPE_CHECKING
 
-from bezier import avoid, motion
+from bezier.curves.scalar import brief
 from bezier.methods import method_of
+from bezier.motion import motion
+from bezier.obstacles import avoid
 from bezier.outputs import summary, write_data
 from bezier.plan import Clock, Outcome, Plan, make_plan
 from bezier.problem import Problem
-from bezier.scalar import brief
 from qe.cli_shell import OK, UNABLE
 from qe.worker import Channel
 
 if TYPE_CHECKING:
-    from bezier.picture import Drawing
+    from bezier.pictures.picture import Drawing
 
 REPORT, SUMMARY, CLEARANCE = "report.html", "summary.json", "clearance.png"
 
@@ -56,7 +57,7 @@ def plan(channel: Channel, request: Request) -> Reply:
                 drawing = _with_clearances(drawing, made, request.folder)
         files += drawing.files
     with clock.step("report"):
-        from bezier.report import render
+        from bezier.report.page import render
 
         page = render(made, drawing)
         (request.folder / REPORT).write_text(page, encoding="utf-8")
@@ -71,7 +72,7 @@ def plan(channel: Channel, request: Request) -> Reply:
 
 def _with_clearances(drawing: Drawing, made: Plan, folder: FilePath) -> Drawing:
     """The drawing with the chart of heights and distances to the obstacles."""
-    from bezier.obstacle_picture import save_chart
+    from bezier.obstacles.picture import save_chart
 
     chart = save_chart(made.findings, drawing.picture.obstacles, folder / CLEARANCE)
     return replace(drawing, clearance=chart, files=(*drawing.files, CLEARANCE))

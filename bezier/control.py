@@ -15,9 +15,9 @@ from fractions import Fraction
 from itertools import pairwise
 from typing import Any
 
-from bezier.curve import Bezier
-from bezier.scalar import Vector, add, dot, scale, sign, subtract
-from bezier.workspace import Ball, Condition, HalfSpace
+from bezier.curves.curve import Bezier
+from bezier.curves.scalar import Vector, add, dot, scale, sign, subtract
+from bezier.curves.workspace import Ball, Condition, HalfSpace
 from qe.errors import InternalError
 
 AXES = "xyz"

@@ -7,14 +7,14 @@ from dataclasses import dataclass
 from pathlib import Path as FilePath
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
-from bezier.curve import Smoothness
+from bezier.curves.curve import Smoothness
+from bezier.curves.scalar import Vector
 from bezier.plan import Clock, Plan
 from bezier.problem import PlanMethod, Problem
-from bezier.scalar import Vector
 from qe.evidence.certificate import Certificate
 
 if TYPE_CHECKING:
-    from bezier.picture import Drawing
+    from bezier.pictures.picture import Drawing
 
 P = TypeVar("P", bound=Plan)
 Section = dict[str, Any]
@@ -58,14 +58,14 @@ def method_of(choice: PlanMethod) -> Method[Any]:
     """The method of this name, loaded when it is needed."""
     match choice:
         case PlanMethod.QUADRATIC:
-            from bezier.quadratic_method import QUADRATIC
+            from bezier.quadratic.method import QUADRATIC
 
             return QUADRATIC
         case PlanMethod.CUBIC:
-            from bezier.cubic_method import CUBIC
+            from bezier.cubic.method import CUBIC
 
             return CUBIC
         case PlanMethod.SINGLE:
-            from bezier.single_method import SINGLE
+            from bezier.single.method import SINGLE
 
             return SINGLE

@@ -7,13 +7,13 @@ from fractions import Fraction
 from typing import Any
 
 import qe
-from bezier.containment import Inside
 from bezier.control import System
-from bezier.evidence import path_certificates
+from bezier.curves.containment import Inside
+from bezier.curves.evidence import path_certificates
+from bezier.curves.scalar import Vector
 from bezier.path import Path, Proof, assemble, prove
 from bezier.plan import Clock
 from bezier.problem import Problem
-from bezier.scalar import Vector
 from qe.errors import InternalError
 from qe.formula.syntax import FALSE
 

@@ -12,12 +12,13 @@ from fractions import Fraction
 from pathlib import Path as FilePath
 from typing import Any
 
-from bezier import avoid, motion
+from bezier.curves.scalar import decimal_text, described, rational, scale
 from bezier.methods import method_of
+from bezier.motion import motion
+from bezier.obstacles import avoid
 from bezier.path import Path
 from bezier.plan import Outcome, Plan
 from bezier.problem import to_json
-from bezier.scalar import decimal_text, described, rational, scale
 from qe.errors import InputError
 
 SAMPLES = 51

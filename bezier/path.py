@@ -8,10 +8,10 @@ from fractions import Fraction
 from itertools import pairwise
 from typing import Any
 
-from bezier.containment import Inside, Leaves, Outcome, examine_all
-from bezier.curve import Bezier, Join, Smoothness, join
-from bezier.scalar import Vector, scale
-from bezier.workspace import Condition, Workspace
+from bezier.curves.containment import Inside, Leaves, Outcome, examine_all
+from bezier.curves.curve import Bezier, Join, Smoothness, join
+from bezier.curves.scalar import Vector, scale
+from bezier.curves.workspace import Condition, Workspace
 
 
 @dataclass(frozen=True, slots=True)

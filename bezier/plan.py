@@ -20,9 +20,9 @@ from qe.progress import Event, Listener, silent
 
 if TYPE_CHECKING:
     import qe
-    from bezier.avoid import Attempt
-    from bezier.motion import Quality
-    from bezier.survey import Finding
+    from bezier.motion.motion import Quality
+    from bezier.obstacles.avoid import Attempt
+    from bezier.obstacles.survey import Finding
 
 Note = Callable[[str, object], None]
 
@@ -112,8 +112,8 @@ class Clock:
 
 def make_plan(problem: Problem, clock: Clock | None = None) -> Plan:
     """Plan a path. Raises ``Unable`` where no answer is reached, at limits with what is known by then."""
-    from bezier.avoid import avoiding  # these need ``Plan``
     from bezier.methods import method_of
+    from bezier.obstacles.avoid import avoiding  # these need ``Plan``
 
     watch = clock or Clock()
     try:
@@ -127,7 +127,7 @@ def make_plan(problem: Problem, clock: Clock | None = None) -> Plan:
 
 def _with_quality(plan: Plan) -> Plan:
     """The plan with lengths and curvatures; without them, and a remark, if they were not found and not asked for."""
-    from bezier.motion import quality_of
+    from bezier.motion.motion import quality_of
 
     if plan.path is None:
         return plan

@@ -10,15 +10,15 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
-from bezier.motion import Timing, read_timing
-from bezier.numbers import NotANumber, describe, read_squared
-from bezier.obstacle_reader import read_obstacles
-from bezier.obstacles import Obstacle
-from bezier.scalar import Vector, dot, is_zero, same
-from bezier.single_reader import SingleCurve, Via, read_single, stated_via
-from bezier.toml_table import POINT, Table
-from bezier.via import via_over
-from bezier.workspace import HalfSpace, Workspace, WorkspaceKind, root_text
+from bezier.curves.scalar import Vector, dot, is_zero, same
+from bezier.curves.workspace import HalfSpace, Workspace, WorkspaceKind, root_text
+from bezier.input.numbers import NotANumber, describe, read_squared
+from bezier.input.toml_table import POINT, Table
+from bezier.motion.motion import Timing, read_timing
+from bezier.obstacles.obstacle import Obstacle
+from bezier.obstacles.reader import read_obstacles
+from bezier.obstacles.via import via_over
+from bezier.single.reader import SingleCurve, Via, read_single, stated_via
 from qe.errors import InputError
 
 MAX_BYTES = 1_000_000
@@ -145,7 +145,7 @@ def read_text(path: Path) -> str:
 
 
 def _via(table: Table, start: Vector, goal: Vector, obstacles: tuple[Obstacle, ...]) -> tuple[Vector, Vector]:
-    """The via points given, or those over the obstacles (``bezier.via``)."""
+    """The via points given, or those over the obstacles (``bezier.obstacles.via``)."""
     expected = "two points of 3 numbers"
     if "via" not in table.values and obstacles:
         try:

@@ -11,15 +11,16 @@ from collections.abc import Mapping
 from pathlib import Path as FilePath
 from typing import Any
 
-from bezier import stored, survey
-from bezier.curve import Bezier
+from bezier import stored
+from bezier.curves.curve import Bezier
+from bezier.curves.scalar import Vector, same
 from bezier.methods import Claim, method_of
-from bezier.motion import motion_json, motion_of
+from bezier.motion.motion import motion_json, motion_of
+from bezier.obstacles import survey
 from bezier.optimal_path import durations
 from bezier.path import Path, assemble
 from bezier.plan import Outcome
 from bezier.problem import Problem, from_json
-from bezier.scalar import Vector, same
 from qe.certify.verify import verify
 from qe.errors import CertificateRejected, InputError
 from qe.evidence.certificate import Certificate

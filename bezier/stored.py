@@ -13,8 +13,8 @@ from typing import Any
 
 import qe
 from bezier.control import System
-from bezier.numbers import NotANumber, parse
-from bezier.scalar import Vector
+from bezier.curves.scalar import Vector
+from bezier.input.numbers import NotANumber, parse
 from bezier.terms import Terms, condition_terms, fixed_values, multiple_of, objective_terms, reduced, terms_of
 from qe.errors import CertificateRejected, InputError
 from qe.evidence.certificate import Certificate, Kind

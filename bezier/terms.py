@@ -8,8 +8,8 @@ from itertools import pairwise
 from typing import Any
 
 from bezier.control import OnPoint, System
-from bezier.scalar import exactly, sign
-from bezier.workspace import Ball, HalfSpace
+from bezier.curves.scalar import exactly, sign
+from bezier.curves.workspace import Ball, HalfSpace
 from qe.errors import InternalError
 
 Terms = dict[tuple[int, ...], Fraction]

@@ -13,12 +13,13 @@ from fractions import Fraction
 from itertools import pairwise
 
 import qe
-from bezier import cubic, whole_curve
-from bezier.compare import planar_formulas
-from bezier.existence import sentence, trivial_witness
-from bezier.planar import Plane
+from bezier.compare import whole_curve
+from bezier.compare.comparison import planar_formulas
+from bezier.compare.planar import Plane
+from bezier.cubic import formula as cubic
+from bezier.cubic.existence import sentence, trivial_witness
+from bezier.curves.workspace import WorkspaceKind
 from bezier.problem import Problem, read_problem
-from bezier.workspace import WorkspaceKind
 from experiments.bench import Row, median
 from experiments.limits import Ending, run_limited
 from experiments.solvers import solver

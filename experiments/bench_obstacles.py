@@ -14,13 +14,13 @@ from fractions import Fraction
 
 import numpy as np
 
-from bezier.along import Along
-from bezier.bodies import Body, Cylinder, HalfSpaceBody, Rounded
-from bezier.clearance import Clear, Contact, examine
-from bezier.curve import Bezier
-from bezier.mesh import sampled
-from bezier.obstacles import Obstacle, ObstacleKind, from_body
-from bezier.polyhedron import Point, parallelepiped, point, segment
+from bezier.curves.along import Along
+from bezier.curves.curve import Bezier
+from bezier.obstacles.bodies import Body, Cylinder, HalfSpaceBody, Rounded
+from bezier.obstacles.clearance import Clear, Contact, examine
+from bezier.obstacles.obstacle import Obstacle, ObstacleKind, from_body
+from bezier.obstacles.polyhedron import Point, parallelepiped, point, segment
+from bezier.pictures.mesh import sampled
 from experiments.bench import Row, median
 
 SAMPLES = 1000

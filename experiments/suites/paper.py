@@ -9,12 +9,15 @@ from dataclasses import replace
 from fractions import Fraction
 from math import comb
 
-from bezier import cubic, quadratic, single, single_formula
 from bezier.control import number
+from bezier.cubic import formula as cubic
+from bezier.curves.scalar import exactly
 from bezier.problem import Problem as PlanningProblem
 from bezier.problem import read_problem
-from bezier.scalar import exactly
-from bezier.single_formula import Symbol
+from bezier.quadratic import formula as quadratic
+from bezier.single import formula as single_formula
+from bezier.single import program as single
+from bezier.single.formula import Symbol
 from experiments import formulas
 from experiments.problem import Problem
 

@@ -11,8 +11,9 @@ from fractions import Fraction
 from typing import Any
 
 import qe
-from bezier import cubic, quadratic
+from bezier.cubic import formula as cubic
 from bezier.problem import read_problem
+from bezier.quadratic import formula as quadratic
 from experiments.sweep.grid import Method, Task
 from qe.errors import Unable
 

@@ -7,8 +7,8 @@ from fractions import Fraction
 from typing import Any
 
 import qe
-from bezier.curve import Bezier, Smoothness, join
-from bezier.scalar import decimal_text, dot, is_zero
+from bezier.curves.curve import Bezier, Smoothness, join
+from bezier.curves.scalar import decimal_text, dot, is_zero
 from paper_repro.ask import decided, eliminated, number, optimised
 from paper_repro.claim import Evidence, Fact, Picture, Table, Verdict, claim
 from paper_repro.figures.curves import curvature

@@ -7,9 +7,9 @@ from collections.abc import Iterator
 from fractions import Fraction
 
 import qe
-from bezier.containment import Leaves, examine
-from bezier.scalar import decimal_text, sign
-from bezier.workspace import Workspace, WorkspaceKind
+from bezier.curves.containment import Leaves, examine
+from bezier.curves.scalar import decimal_text, sign
+from bezier.curves.workspace import Workspace, WorkspaceKind
 from paper_repro.ask import LIMIT, decided, number, optimised, tex, verified
 from paper_repro.claim import Asked, Evidence, Fact, Picture, Table, Verdict, claim
 from paper_repro.claims.cubic import ENDS, PLANE, chosen, curves

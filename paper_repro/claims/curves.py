@@ -8,7 +8,7 @@ from fractions import Fraction
 from typing import Any
 
 import qe
-from bezier.curve import Bezier
+from bezier.curves.curve import Bezier
 from paper_repro.ask import decided, eliminated
 from paper_repro.claim import Evidence, Fact, Picture, Table, Verdict, claim
 from paper_repro.figures.curves import de_casteljau as drawn_construction

@@ -6,9 +6,9 @@ import itertools
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 
-from bezier.containment import Leaves, examine
-from bezier.curve import Bezier, Smoothness, join
-from bezier.workspace import Workspace, WorkspaceKind
+from bezier.curves.containment import Leaves, examine
+from bezier.curves.curve import Bezier, Smoothness, join
+from bezier.curves.workspace import Workspace, WorkspaceKind
 from paper_repro.ask import decided, eliminated
 from paper_repro.claim import Evidence, Fact, Picture, Table, Verdict, claim
 from paper_repro.figures.workspace import spline_outside

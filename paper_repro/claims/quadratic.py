@@ -9,9 +9,9 @@ from fractions import Fraction
 from typing import Any
 
 import qe
-from bezier.containment import Argument, Inside, examine_all
-from bezier.curve import Bezier, Smoothness, join
-from bezier.workspace import Workspace, WorkspaceKind
+from bezier.curves.containment import Argument, Inside, examine_all
+from bezier.curves.curve import Bezier, Smoothness, join
+from bezier.curves.workspace import Workspace, WorkspaceKind
 from paper_repro.ask import eliminated, optimised, verified
 from paper_repro.claim import Evidence, Fact, Picture, Table, Verdict, claim
 from paper_repro.claims.joins import smooth

@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 
 import qe
-from bezier.containment import Inside, examine_all
-from bezier.curve import Bezier
-from bezier.workspace import Workspace, WorkspaceKind
+from bezier.curves.containment import Inside, examine_all
+from bezier.curves.curve import Bezier
+from bezier.curves.workspace import Workspace, WorkspaceKind
 from paper_repro.ask import decided, eliminated, verified
 from paper_repro.claim import Evidence, Fact, Picture, Verdict, claim
 from paper_repro.claims.quadratic import curves

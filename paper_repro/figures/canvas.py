@@ -12,9 +12,9 @@ import matplotlib
 import mpl_toolkits.mplot3d  # noqa: F401  (registers the 3-D projection)
 from matplotlib.figure import Figure
 
-from bezier.curve import Bezier
-from bezier.mesh import Array, sampled
-from bezier.picture import COLOURS, FLOOR, INK, PALE
+from bezier.curves.curve import Bezier
+from bezier.pictures.mesh import Array, sampled
+from bezier.pictures.picture import COLOURS, FLOOR, INK, PALE
 
 __all__ = [
     "COLOURS",

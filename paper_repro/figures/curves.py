@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from bezier.curve import Bezier
-from bezier.mesh import sampled
+from bezier.curves.curve import Bezier
+from bezier.pictures.mesh import sampled
 from paper_repro.figures.canvas import COLOURS, INK, PALE, Array, Figure, circle, curve, drawing, label, plane
 
 

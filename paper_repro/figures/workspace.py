@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from bezier.curve import Bezier
+from bezier.curves.curve import Bezier
 from paper_repro.figures.canvas import COLOURS, FLOOR, INK, PALE, Figure, circle, curve, drawing, label, plane, space
 
 

@@ -7,9 +7,9 @@ from typing import Any
 
 from hypothesis import strategies as st
 
-from bezier.bodies import Body, Cylinder, HalfSpaceBody, Rounded
-from bezier.obstacles import Obstacle, ObstacleKind, from_body
-from bezier.polyhedron import Point, from_corners, parallelepiped, point, segment
+from bezier.obstacles.bodies import Body, Cylinder, HalfSpaceBody, Rounded
+from bezier.obstacles.obstacle import Obstacle, ObstacleKind, from_body
+from bezier.obstacles.polyhedron import Point, from_corners, parallelepiped, point, segment
 
 
 def at(*values: Any) -> Point:

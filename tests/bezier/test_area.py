@@ -7,7 +7,7 @@ from fractions import Fraction
 import pytest
 
 import qe
-from bezier.area import convex_area
+from bezier.curves.area import convex_area
 from qe.errors import InputError
 
 PI = Fraction(3141592653589793, 10**15)

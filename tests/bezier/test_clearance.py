@@ -6,13 +6,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from bezier.bodies import HalfSpaceBody, Rounded
-from bezier.clearance import Argument, Clear, Contact, critical_values, enters, examine
-from bezier.clearance_evidence import clearance_certificate
-from bezier.curve import Bezier
-from bezier.nonnegative import Nonnegative, decide
-from bezier.obstacles import Constraint, Obstacle, ObstacleKind, Piece
-from bezier.scalar import sign
+from bezier.curves.curve import Bezier
+from bezier.curves.nonnegative import Nonnegative, decide
+from bezier.curves.scalar import sign
+from bezier.obstacles.bodies import HalfSpaceBody, Rounded
+from bezier.obstacles.clearance import Argument, Clear, Contact, critical_values, enters, examine
+from bezier.obstacles.evidence import clearance_certificate
+from bezier.obstacles.obstacle import Constraint, Obstacle, ObstacleKind, Piece
 from qe.certify.verify import verify
 from qe.errors import InputError
 from qe.exact.field import NumberField

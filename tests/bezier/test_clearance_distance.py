@@ -5,13 +5,13 @@ from fractions import Fraction
 import pytest
 from hypothesis import given, settings
 
-from bezier import survey
-from bezier.bodies import Cylinder, HalfSpaceBody, Rounded
-from bezier.clearance import Clear, examine
-from bezier.curve import Bezier
-from bezier.distance import distance_at, distance_enclosure
-from bezier.obstacles import Obstacle, ObstacleKind, Piece, from_body, half_space
-from bezier.polyhedron import point
+from bezier.curves.curve import Bezier
+from bezier.obstacles import survey
+from bezier.obstacles.bodies import Cylinder, HalfSpaceBody, Rounded
+from bezier.obstacles.clearance import Clear, examine
+from bezier.obstacles.distance import distance_at, distance_enclosure
+from bezier.obstacles.obstacle import Obstacle, ObstacleKind, Piece, from_body, half_space
+from bezier.obstacles.polyhedron import point
 from qe.exact.field import NumberField
 from tests.bezier.bodies import CUBE, at, bodies, obstacle
 from tests.bezier.numbers import control_points

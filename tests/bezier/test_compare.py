@@ -9,10 +9,10 @@ from pathlib import Path
 import pytest
 
 import qe
-from bezier.compare import METHODS, Side, for_method
-from bezier.compare_output import bracket, duration
-from bezier.enclosure import Enclosure
-from bezier.existence import existence, sentence, trivial_witness
+from bezier.compare.comparison import METHODS, Side, for_method
+from bezier.compare.output import bracket, duration
+from bezier.cubic.existence import existence, sentence, trivial_witness
+from bezier.curves.enclosure import Enclosure
 from bezier.problem import PlanMethod, Problem, read_problem
 from qe.errors import InputError
 
@@ -44,7 +44,7 @@ def test_a_cubic_problem_for_the_quadratic_method() -> None:
 def test_other_methods_are_refused() -> None:
     from dataclasses import replace
 
-    from bezier.compare import compare
+    from bezier.compare.comparison import compare
 
     with pytest.raises(InputError, match="quadratic"):
         compare(replace(read_problem(CUBIC), method=PlanMethod.SINGLE))

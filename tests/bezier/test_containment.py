@@ -5,12 +5,12 @@ from fractions import Fraction
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bezier import bernstein as bs
-from bezier.containment import Argument, Inside, Leaves, examine, examine_closely
-from bezier.curve import Bezier
-from bezier.nonnegative import Negative, Nonnegative, decide, isolate, refine
-from bezier.scalar import sign
-from bezier.workspace import Ball, HalfSpace, Workspace, WorkspaceKind, root_text
+from bezier.curves import bernstein as bs
+from bezier.curves.containment import Argument, Inside, Leaves, examine, examine_closely
+from bezier.curves.curve import Bezier
+from bezier.curves.nonnegative import Negative, Nonnegative, decide, isolate, refine
+from bezier.curves.scalar import sign
+from bezier.curves.workspace import Ball, HalfSpace, Workspace, WorkspaceKind, root_text
 from tests.bezier.numbers import Root2, control_points, small, surds
 
 ORIGIN = (Fraction(0),) * 3

@@ -6,11 +6,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bezier import cubic, quadratic
+from bezier.cubic import formula as cubic
+from bezier.curves.scalar import sign
+from bezier.curves.workspace import HalfSpace, Workspace, WorkspaceKind
 from bezier.problem import INNER, PlanMethod, PointCondition, Problem
-from bezier.scalar import sign
+from bezier.quadratic import formula as quadratic
 from bezier.terms import condition_terms, objective_terms
-from bezier.workspace import HalfSpace, Workspace, WorkspaceKind
 from qe.formula.evaluate import holds_at
 from qe.io import text
 from tests.bezier.numbers import points

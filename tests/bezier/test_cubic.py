@@ -9,14 +9,14 @@ from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
 import qe
-from bezier import cubic
-from bezier.curve import Smoothness
+from bezier.cubic import formula as cubic
+from bezier.curves.curve import Smoothness
+from bezier.curves.scalar import dot, scale, sign
+from bezier.curves.workspace import HalfSpace, Workspace, WorkspaceKind
 from bezier.path import speed_at_joins
 from bezier.plan import Outcome, make_plan
 from bezier.problem import INNER, PlanMethod, PointCondition, Problem
-from bezier.scalar import dot, scale, sign
 from bezier.terms import named_multipliers
-from bezier.workspace import HalfSpace, Workspace, WorkspaceKind
 from qe.errors import InputError
 from qe.io import text
 from tests.bezier.numbers import points
@@ -251,7 +251,7 @@ def test_a_via_point_on_the_sphere_leaves_only_the_cusp():
     st.lists(st.tuples(POINT.filter(any), COORDINATE, st.sampled_from(INNER[PlanMethod.CUBIC])), max_size=2),
 )
 def test_many_plans_and_what_their_certificates_show(via, more, kind, ratio, speed, half_spaces):
-    from bezier.cubic_method import claim
+    from bezier.cubic.method import claim
     from qe.evidence.certificate import Certificate
 
     if kind is WorkspaceKind.HEMISPHERE:

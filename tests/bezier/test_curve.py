@@ -7,9 +7,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bezier import bernstein as bs
-from bezier.curve import Bezier, Smoothness, curvature_squared, join
-from bezier.scalar import add, dot, is_zero, same, scale, subtract
+from bezier.curves import bernstein as bs
+from bezier.curves.curve import Bezier, Smoothness, curvature_squared, join
+from bezier.curves.scalar import add, dot, is_zero, same, scale, subtract
 from qe.errors import InputError
 from tests.bezier.numbers import control_points, points, small, surds, unit
 

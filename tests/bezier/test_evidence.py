@@ -7,11 +7,11 @@ import pytest
 from hypothesis import given
 
 import qe
-from bezier import bernstein as bs
-from bezier.containment import Inside, Leaves, examine
-from bezier.curve import Bezier
-from bezier.evidence import containment
-from bezier.workspace import Ball, HalfSpace
+from bezier.curves import bernstein as bs
+from bezier.curves.containment import Inside, Leaves, examine
+from bezier.curves.curve import Bezier
+from bezier.curves.evidence import containment
+from bezier.curves.workspace import Ball, HalfSpace
 from qe.exact.field import NumberField
 from tests.bezier.numbers import control_points
 

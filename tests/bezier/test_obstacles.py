@@ -7,10 +7,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bezier.bodies import Cylinder
-from bezier.obstacles import pieces_of
-from bezier.polyhedron import from_corners, from_half_spaces
-from bezier.scalar import dot, subtract
+from bezier.curves.scalar import dot, subtract
+from bezier.obstacles.bodies import Cylinder
+from bezier.obstacles.obstacle import pieces_of
+from bezier.obstacles.polyhedron import from_corners, from_half_spaces
 from qe.errors import InputError
 from tests.bezier.bodies import CUBE, OCTAHEDRON, TURNED, WEDGE, at, cylinders, half_spaces, obstacle, rounded
 from tests.bezier.numbers import points

@@ -6,15 +6,15 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from bezier import avoid
 from bezier.command import in_words
-from bezier.obstacle_picture import obstacle_pictures, save_chart
-from bezier.obstacle_reader import read_obstacles
+from bezier.input.toml_table import Table
+from bezier.obstacles import avoid
+from bezier.obstacles.picture import obstacle_pictures, save_chart
+from bezier.obstacles.reader import read_obstacles
 from bezier.outputs import summary
 from bezier.plan import Clock, Outcome, make_plan
 from bezier.problem import PlanMethod, read_problem
-from bezier.report import render
-from bezier.toml_table import Table
+from bezier.report.page import render
 from qe.errors import BudgetExceeded
 
 START = """

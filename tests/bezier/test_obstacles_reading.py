@@ -4,10 +4,10 @@ from fractions import Fraction
 
 import pytest
 
-from bezier.obstacle_reader import read_obstacles
-from bezier.obstacles import ObstacleKind
+from bezier.input.toml_table import Table
+from bezier.obstacles.obstacle import ObstacleKind
+from bezier.obstacles.reader import read_obstacles
 from bezier.problem import from_json, read_problem, to_json
-from bezier.toml_table import Table
 from qe.errors import InputError
 from tests.bezier.bodies import at
 

@@ -7,11 +7,13 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from bezier import mathml, mesh, quadratic, scene
-from bezier.picture import PathPicture, curve_pictures, numbers, region_picture
+from bezier.curves.workspace import Ball, HalfSpace
+from bezier.pictures import mesh, scene
+from bezier.pictures.picture import PathPicture, curve_pictures, numbers, region_picture
 from bezier.problem import load_problem
-from bezier.recognise import as_conditions
-from bezier.workspace import Ball, HalfSpace
+from bezier.quadratic import formula as quadratic
+from bezier.report import mathml
+from bezier.report.recognise import as_conditions
 from qe.io import text
 
 ORIGIN = (Fraction(0),) * 3

@@ -8,12 +8,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import qe
-from bezier import quadratic
+from bezier.curves.scalar import dot, sign
+from bezier.curves.workspace import Workspace, WorkspaceKind
 from bezier.plan import Clock, Outcome, make_plan
 from bezier.problem import PlanMethod, Problem, load_problem
-from bezier.scalar import dot, sign
+from bezier.quadratic import formula as quadratic
 from bezier.terms import named_multipliers
-from bezier.workspace import Workspace, WorkspaceKind
 from qe.errors import BudgetExceeded, CertificateRejected
 from qe.formula.evaluate import holds_at
 from tests.bezier.numbers import points
@@ -59,9 +59,9 @@ def test_plans_exist_exactly_when_the_balls_meet(q0, r0, more):
 
 
 def test_a_half_space_for_a_quadratic_plan(root):
+    from bezier.curves.workspace import HalfSpace
     from bezier.problem import PointCondition
-    from bezier.quadratic_method import claim
-    from bezier.workspace import HalfSpace
+    from bezier.quadratic.method import claim
 
     problem = load_problem(root / "examples" / "three_balls.toml")
     up = HalfSpace((Fraction(0), Fraction(0), Fraction(1)), Fraction(-13, 4), "half_space[0]")

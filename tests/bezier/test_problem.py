@@ -7,9 +7,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bezier.numbers import NotANumber, parse
+from bezier.curves.workspace import WorkspaceKind
+from bezier.input.numbers import NotANumber, parse
 from bezier.problem import PlanMethod, load_problem, read_problem
-from bezier.workspace import WorkspaceKind
 from qe.errors import InputError
 
 BASE = {

@@ -6,12 +6,12 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from bezier import quadratic
-from bezier.curve import Smoothness
+from bezier.curves.curve import Smoothness
+from bezier.curves.scalar import dot, scale, sign, subtract
+from bezier.curves.workspace import Ball, Workspace, WorkspaceKind
 from bezier.path import assemble
 from bezier.problem import PlanMethod, Problem
-from bezier.scalar import dot, scale, sign, subtract
-from bezier.workspace import Ball, Workspace, WorkspaceKind
+from bezier.quadratic import formula as quadratic
 from qe.io import text
 from tests.bezier.numbers import points, small
 

@@ -8,11 +8,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from bezier.bernstein import elevate, multiply
-from bezier.curve import Bezier, curvature_squared
-from bezier.enclosure import Enclosure, maximum, root_above, root_below
-from bezier.quality import curvature_enclosure, is_regular, length_enclosure
-from bezier.scalar import dot, subtract
+from bezier.curves.bernstein import elevate, multiply
+from bezier.curves.curve import Bezier, curvature_squared
+from bezier.curves.enclosure import Enclosure, maximum, root_above, root_below
+from bezier.curves.quality import curvature_enclosure, is_regular, length_enclosure
+from bezier.curves.scalar import dot, subtract
 from qe.errors import InputError
 from qe.exact.field import NumberField
 from tests.bezier.numbers import control_points

@@ -9,13 +9,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from bezier.curve import Bezier
-from bezier.motion import Timing, motion_csv, motion_of, quality_of, read_timing, state
+from bezier.curves.curve import Bezier
+from bezier.curves.scalar import dot, same
+from bezier.curves.workspace import Workspace, WorkspaceKind
+from bezier.input.toml_table import Table
+from bezier.motion.motion import Timing, motion_csv, motion_of, quality_of, read_timing, state
+from bezier.motion.timelaw import PASSAGE_WIDTH, Law, TimeLaw, extremes, least_duration, stretches
 from bezier.path import assemble
-from bezier.scalar import dot, same
-from bezier.timelaw import PASSAGE_WIDTH, Law, TimeLaw, extremes, least_duration, stretches
-from bezier.toml_table import Table
-from bezier.workspace import Workspace, WorkspaceKind
 from qe.errors import InputError
 from tests.bezier.numbers import control_points
 

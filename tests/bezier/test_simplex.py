@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from scipy.optimize import linprog
 
 import qe
-from bezier.simplex import Contradiction, LinearOptimum, LinearProgram, Row, certificate, solve
+from bezier.single.simplex import Contradiction, LinearOptimum, LinearProgram, Row, certificate, solve
 from qe.errors import InternalError, Unable
 
 NUMBER = st.fractions(-3, 3, max_denominator=3)

@@ -10,9 +10,9 @@ from hypothesis import strategies as st
 from scipy.optimize import linprog
 
 import qe
-from bezier import single_formula
-from bezier.simplex import Contradiction, certificate
-from bezier.single import (
+from bezier.single import formula as single_formula
+from bezier.single.formula import VALUE, Symbol
+from bezier.single.program import (
     MAX_DEGREE,
     choose,
     curve,
@@ -25,7 +25,7 @@ from bezier.single import (
     task,
     weights_at,
 )
-from bezier.single_formula import VALUE, Symbol
+from bezier.single.simplex import Contradiction, certificate
 from qe.errors import InputError
 from qe.formula.evaluate import holds_at
 from tests.bezier.singles import FLAT, HEIGHTS, axis, has_indices, tasks, unit_task

@@ -9,14 +9,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import qe
-from bezier import single_formula
-from bezier.containment import all_inside, examine_all
-from bezier.scalar import dot
-from bezier.single import Task, choose, curve, dips, task, weights_at
-from bezier.single_closed import TOLERANCE, NoCurve, ProvedCurve, close
-from bezier.single_cuts import CutKind, Model, violated
-from bezier.single_formula import VALUE
-from bezier.workspace import Workspace, WorkspaceKind
+from bezier.curves.containment import all_inside, examine_all
+from bezier.curves.scalar import dot
+from bezier.curves.workspace import Workspace, WorkspaceKind
+from bezier.single import formula as single_formula
+from bezier.single.closed import TOLERANCE, NoCurve, ProvedCurve, close
+from bezier.single.cuts import CutKind, Model, violated
+from bezier.single.formula import VALUE
+from bezier.single.program import Task, choose, curve, dips, task, weights_at
 from qe.errors import InputError, Unable
 from tests.bezier.singles import FLAT, axis, tasks, unit_task
 

@@ -7,16 +7,16 @@ from fractions import Fraction
 import pytest
 
 import qe
+from bezier.curves.scalar import dot
 from bezier.outputs import write_data
 from bezier.plan import Outcome, make_plan
 from bezier.problem import from_json, load_problem, read_problem, to_json
-from bezier.scalar import dot
-from bezier.simplex import certificate, solve
-from bezier.single import choose, curve
-from bezier.single_closed import NoCurve, close
-from bezier.single_cuts import Model
-from bezier.single_method import SINGLE, certified_curve
-from bezier.single_plan import CLOSED, task_of
+from bezier.single.closed import NoCurve, close
+from bezier.single.cuts import Model
+from bezier.single.method import SINGLE, certified_curve
+from bezier.single.plan import CLOSED, task_of
+from bezier.single.program import choose, curve
+from bezier.single.simplex import certificate, solve
 from qe.errors import CertificateRejected, InputError
 from qe.evidence.certificate import Certificate
 

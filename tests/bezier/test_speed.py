@@ -5,9 +5,9 @@ from fractions import Fraction
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bezier.curve import Bezier
-from bezier.scalar import dot
-from bezier.speed import slowest
+from bezier.curves.curve import Bezier
+from bezier.curves.scalar import dot
+from bezier.curves.speed import slowest
 from tests.bezier.numbers import control_points, unit
 
 

@@ -4,7 +4,7 @@ from fractions import Fraction
 
 import pytest
 
-from bezier.toml_table import Table
+from bezier.input.toml_table import Table
 from qe.errors import InputError
 
 TEXT = """\

@@ -8,14 +8,15 @@ from fractions import Fraction
 import pytest
 
 import qe
-from bezier import quadratic, whole_curve
-from bezier.area import convex_area
-from bezier.containment import all_inside, examine_all
-from bezier.curve import Bezier
-from bezier.planar import Plane
+from bezier.compare import whole_curve
+from bezier.compare.planar import Plane
+from bezier.curves.area import convex_area
+from bezier.curves.containment import all_inside, examine_all
+from bezier.curves.curve import Bezier
+from bezier.curves.scalar import dot
+from bezier.curves.workspace import Ball, HalfSpace
 from bezier.problem import Problem, read_problem
-from bezier.scalar import dot
-from bezier.workspace import Ball, HalfSpace
+from bezier.quadratic import formula as quadratic
 from qe.errors import InputError
 
 PROBLEM = """\
@@ -40,7 +41,7 @@ def solved() -> tuple[Problem, Plane, qe.Region]:
 
 
 def inside(given: Problem, plane: Plane, u: Fraction, v: Fraction) -> bool:
-    """Whether the whole curves stay in the workspace, by ``bezier.containment``."""
+    """Whether the whole curves stay in the workspace, by ``bezier.curves.containment``."""
     system = quadratic.system(given)
     curves = system.curves(system.points([plane.point(u, v)]))
     return all(all_inside(examine_all(curve, given.workspace.conditions)) for curve in curves.values())

@@ -9,12 +9,12 @@ from typing import Any
 
 import pytest
 
-from bezier.bernstein import from_power
-from bezier.bodies import HalfSpaceBody, Rounded
-from bezier.clearance import Contact, examine
-from bezier.clearance_evidence import clearance_certificate, contact_certificate
-from bezier.curve import Bezier
-from bezier.obstacles import Constraint, Obstacle, ObstacleKind, Piece
+from bezier.curves.bernstein import from_power
+from bezier.curves.curve import Bezier
+from bezier.obstacles.bodies import HalfSpaceBody, Rounded
+from bezier.obstacles.clearance import Contact, examine
+from bezier.obstacles.evidence import clearance_certificate, contact_certificate
+from bezier.obstacles.obstacle import Constraint, Obstacle, ObstacleKind, Piece
 from qe.certify.verify import verify, verify_json
 from qe.evidence.certificate import Certificate
 from qe.exact.field import NumberField

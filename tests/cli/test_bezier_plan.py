@@ -196,13 +196,6 @@ def test_files_and_folders_that_cannot_be_used(root: Path, tmp_path: Path) -> No
     assert sorted(p.name for p in tmp_path.iterdir()) == ["taken"]
 
 
-def test_what_is_not_there_yet(root: Path, tmp_path: Path) -> None:
-    (tmp_path / "p.toml").write_text(PROBLEM.replace("quadratic", "single"))
-    refused(run("plan", tmp_path / "p.toml", "--out", tmp_path / "out"), 3, "single", "not there yet")
-    refused(run("compare", root / "examples" / "three_balls.toml"), 3, "not there yet")
-    assert not (tmp_path / "out").exists()
-
-
 def test_a_time_limit_leaves_nothing_half_written(root: Path, tmp_path: Path) -> None:
     example = root / "examples" / "three_balls.toml"
     refused(run("plan", example, "--out", tmp_path / "out", "--timeout", "0.001"), 3, "limit")

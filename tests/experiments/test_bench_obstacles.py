@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from bezier.clearance import Contact, examine
+from bezier.obstacles.clearance import Contact, examine
 from experiments.bench_obstacles import hidden_contacts, many_pairs, sampled_contact
 
 

@@ -10,9 +10,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import qe
-from bezier import cubic, quadratic
 from bezier.control import Shape
-from bezier.curve import Bezier
+from bezier.cubic import formula as cubic
+from bezier.curves.curve import Bezier
+from bezier.quadratic import formula as quadratic
 from paper_repro import ask, tex
 from paper_repro.written import EIGHT, SEVEN, Points, Printed, curve
 

@@ -1,0 +1,59 @@
+"""What ``bezier compare`` does inside the worker: compare, draw, write, and say it as a table or as JSON."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from pathlib import Path as FilePath
+
+from bezier.command import Reply
+from bezier.compare.comparison import Comparison, compare
+from bezier.compare.output import table, to_json
+from bezier.plan import Clock
+from bezier.problem import Problem
+from qe.cli_shell import OK
+from qe.worker import Channel
+
+PAGE, DATA = "compare.html", "compare.json"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Request:
+    """What the command line asked for; ``folder`` is where the files are written first, for ``target``, if at all."""
+
+    problem: Problem
+    folder: FilePath | None = None
+    target: FilePath | None = None
+    plots: bool = True
+    json: bool = False
+    timeout: float | None = None
+
+
+def run(channel: Channel, request: Request) -> Reply:
+    """The comparison, with its files in ``request.folder`` if there is one, and what to print."""
+    clock = Clock(limit=request.timeout, listener=channel.event, note=channel.fact)
+    found = compare(request.problem, clock)
+    files, told = [], ""
+    if request.folder is not None and request.target is not None:
+        files = _write(found, request.folder, request.target, plots=request.plots)
+        told = f"\n{len(files)} files in {request.target}: open {request.target / PAGE}"
+    if request.json:
+        return Reply(json.dumps(to_json(found, files), indent=1, ensure_ascii=False), OK)
+    return Reply(table(found) + told, OK)
+
+
+def _write(found: Comparison, folder: FilePath, target: FilePath, *, plots: bool) -> list[str]:
+    """All files into ``folder``; the places where they will be."""
+    names, drawings = [PAGE, DATA], {}
+    if plots:
+        from bezier.pictures import plot_compare
+
+        names += plot_compare.save(found, folder)
+        drawings = plot_compare.svg(found)
+    from bezier.compare.page import render
+
+    files = [str(target / name) for name in sorted(names)]
+    (folder / PAGE).write_text(render(found, drawings), encoding="utf-8")
+    text = json.dumps(to_json(found, files), indent=1, ensure_ascii=False)
+    (folder / DATA).write_text(text + "\n", encoding="utf-8")
+    return files

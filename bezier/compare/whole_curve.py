@@ -1,0 +1,128 @@
+"""Which Q1 keep the whole curves in the workspace, not only their control polygons: formula (8*).
+
+The paper's formula (8) bounds the control points, which is sufficient by the convex hull property but not necessary.
+(8*)  for all t in [0, 1]: P(t), Q(t) and R(t) are in the workspace, with P1 = 2 Q0 - Q1 and R1 = 2 R0 - Q1,
+has one quantified variable, of degree 4, and Q1 as parameters. For every t its conditions are convex in Q1, so its
+region is a closed convex set, and it contains that of (8). Here Q1 lies in the plane of ``bezier.compare.planar``;
+the engine eliminates t.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
+from typing import Any
+
+import qe
+from bezier.compare.planar import Plane, plane_coordinates, region_of
+from bezier.control import System, atom_text, number
+from bezier.curves import bernstein as bs
+from bezier.curves.curve import Bezier
+from bezier.curves.scalar import is_zero, rational, subtract
+from bezier.curves.workspace import Condition
+from bezier.problem import Problem
+from bezier.quadratic import formula as quadratic
+from qe.errors import InputError
+
+POINT = "Q1"
+
+
+@dataclass(frozen=True, slots=True)
+class Family:
+    """Curves base(t) + sum x * move(t) over parameters x: control points that depend on parameters affinely.
+
+    ``moves``: by the names of the parameters, of the degree of ``base``. All coordinates are rational.
+    """
+
+    base: Bezier
+    moves: Mapping[str, Bezier] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        curves = (self.base, *self.moves.values())
+        if any(rational(c) is None for curve in curves for point in curve.points for c in point):
+            raise InputError("a family of curves needs rational coordinates")
+
+    def at(self) -> list[str]:
+        """The coordinates of the point at the parameter t, as text."""
+        parts = {"": self.base, **self.moves}
+        return [_sum((bs.to_power(c.coordinate(i)), name) for name, c in parts.items()) for i in range(3)]
+
+    def control_point(self, k: int) -> list[str]:
+        """The coordinates of a control point, as text."""
+        parts = {"": self.base, **self.moves}
+        return [_sum(((c.points[k][i],), name) for name, c in parts.items()) for i in range(3)]
+
+    def inside(self, conditions: Iterable[Condition]) -> str:
+        """The whole curve satisfies the conditions: a formula in the parameters, or a sentence without any."""
+        return f"all t. 0 <= t and t <= 1 -> {_all(conditions, [self.at()])}"
+
+    def polygon_inside(self, conditions: Iterable[Condition]) -> str:
+        """All control points satisfy the conditions."""
+        return _all(conditions, [self.control_point(k) for k in range(self.base.degree + 1)])
+
+
+def _all(conditions: Iterable[Condition], points: Sequence[Sequence[str]]) -> str:
+    return "(" + " and ".join(atom_text(c, point) for c in conditions for point in points) + ")"
+
+
+def _sum(parts: Iterable[tuple[Sequence[Any], str]]) -> str:
+    """sum over the parts of (sum_k coefficient_k t^k) * name."""
+    terms = []
+    for coefficients, name in parts:
+        for k, c in enumerate(coefficients):
+            if not is_zero(c):
+                terms.append("*".join([number(c), *([f"t^{k}"] if k else []), *([name] if name else [])]))
+    return f"({' + '.join(terms) or '0'})"
+
+
+def families(problem: Problem, plane: Plane) -> dict[str, Family]:
+    """The curves P, Q, R of formula (8) with Q1 in the plane, by name."""
+    system = quadratic.system(problem)
+    origin, *axes = (_curves(system, plane, u, v) for u, v in ((0, 0), (1, 0), (0, 1)))
+    names = plane_coordinates(POINT)
+    return {
+        name: Family(base, {x: _difference(axis[name], base) for x, axis in zip(names, axes, strict=True)})
+        for name, base in origin.items()
+    }
+
+
+def _curves(system: System, plane: Plane, u: int, v: int) -> dict[str, Bezier]:
+    return system.curves(system.points([plane.point(Fraction(u), Fraction(v))]))
+
+
+def _difference(a: Bezier, b: Bezier) -> Bezier:
+    return Bezier(tuple(subtract(p, q) for p, q in zip(a.points, b.points, strict=True)))
+
+
+def formula(problem: Problem, plane: Plane) -> str:
+    """(8*) with Q1 in the plane: the variables ``q1u, q1v`` are free."""
+    conditions = problem.workspace.conditions
+    points = [family.at() for family in families(problem, plane).values()]
+    return f"all t. 0 <= t and t <= 1 -> {_all(conditions, points)}"
+
+
+def region(problem: Problem, plane: Plane, *, timeout: float | None = None) -> qe.Region:
+    """The set of Q1 in the plane for which the whole curves stay in the workspace."""
+    return region_of(formula(problem, plane), timeout=timeout)
+
+
+def polygon_implies_curve(problem: Problem, plane: Plane, *, timeout: float | None = None) -> bool:
+    """Whether (8) implies (8*) for Q1 in the plane, decided by the engine, one curve at a time."""
+    names = ", ".join(plane_coordinates(POINT))
+    conditions = problem.workspace.conditions
+    return all(
+        qe.decide(
+            f"all t, {names}. 0 <= t and t <= 1 and {family.polygon_inside([c])} -> {_all([c], [family.at()])}",
+            timeout=timeout,
+            order=("t", *plane_coordinates(POINT)),
+        )
+        for family in families(problem, plane).values()
+        for c in conditions
+    )
+
+
+def curve_inside(curve: Bezier, conditions: Sequence[Condition], *, timeout: float | None = None) -> bool:
+    """Whether the whole curve satisfies the conditions, decided by the engine. Raises ``InputError`` for irrational
+    control points; ``bezier.curves.containment`` decides the same without quantifier elimination, for those too."""
+    return qe.decide(Family(curve).inside(conditions), timeout=timeout)

@@ -1,0 +1,1 @@
+"""Exact Bézier curves: points, joins, signs, containment, length and curvature."""

@@ -1,0 +1,180 @@
+"""Univariate polynomials on [0, 1] in Bernstein form, exactly, over any ordered field.
+
+A polynomial of degree at most n is the tuple (b_0, ..., b_n) with p(t) = sum_k C(n,k) t^k (1-t)^(n-k) b_k.
+Facts used (Farouki, "The Bernstein polynomial basis: a centennial retrospective", CAGD 2012, sections 3-5):
+p(0) = b_0, p(1) = b_n; the range of p on [0, 1] lies between min b_k and max b_k; the number of sign changes
+of (b_k) bounds the number of roots in (0, 1) and differs from it by an even number.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Sequence
+from fractions import Fraction
+from math import comb
+from typing import Any
+
+from bezier.curves.scalar import is_zero, sign
+
+Coefficients = tuple[Any, ...]
+HALF = Fraction(1, 2)
+
+
+def value(b: Sequence[Any], t: Any) -> Any:
+    """p(t) by de Casteljau's algorithm."""
+    row = list(b)
+    while len(row) > 1:
+        row = [x + t * (y - x) for x, y in itertools.pairwise(row)]
+    return row[0]
+
+
+def split(b: Sequence[Any], t: Any = HALF) -> tuple[Coefficients, Coefficients]:
+    """The Bernstein coefficients on [0, t] and on [t, 1], each mapped to [0, 1]."""
+    row, left, right = list(b), [b[0]], [b[-1]]
+    while len(row) > 1:
+        row = [x + t * (y - x) for x, y in itertools.pairwise(row)]
+        left.append(row[0])
+        right.append(row[-1])
+    return tuple(left), tuple(reversed(right))
+
+
+def elevate(b: Sequence[Any], degree: int) -> Coefficients:
+    """The same polynomial with ``degree`` + 1 coefficients (degree elevation)."""
+    row = list(b)
+    while len(row) <= degree:
+        n = len(row)
+        middle = [Fraction(k, n) * row[k - 1] + Fraction(n - k, n) * row[k] for k in range(1, n)]
+        row = [row[0], *middle, row[-1]]
+    return tuple(row)
+
+
+def add(a: Sequence[Any], b: Sequence[Any]) -> Coefficients:
+    """The sum, after raising the lower degree."""
+    degree = max(len(a), len(b)) - 1
+    return tuple(x + y for x, y in zip(elevate(a, degree), elevate(b, degree), strict=True))
+
+
+def negate(b: Sequence[Any]) -> Coefficients:
+    """The negative polynomial."""
+    return tuple(-x for x in b)
+
+
+def multiply(a: Sequence[Any], b: Sequence[Any]) -> Coefficients:
+    """The product: c_k = sum_{i+j=k} C(m,i) C(n,j) / C(m+n,k) a_i b_j (Farouki 2012, section 4)."""
+    m, n = len(a) - 1, len(b) - 1
+    out: list[Any] = [Fraction(0)] * (m + n + 1)
+    for i, x in enumerate(a):
+        for j, y in enumerate(b):
+            out[i + j] = out[i + j] + Fraction(comb(m, i) * comb(n, j), comb(m + n, i + j)) * (x * y)
+    return tuple(out)
+
+
+def derivative(b: Sequence[Any]) -> Coefficients:
+    """The derivative: n (b_{k+1} - b_k)."""
+    n = len(b) - 1
+    return tuple(n * (y - x) for x, y in itertools.pairwise(b)) or (Fraction(0),)
+
+
+def to_power(b: Sequence[Any]) -> Coefficients:
+    """Coefficients of 1, t, t^2, ..., without leading zeros (() for the zero polynomial)."""
+    n = len(b) - 1
+    out = []
+    for k in range(n + 1):
+        total = sum(((-1) ** (k - i) * comb(k, i) * b[i] for i in range(k + 1)), Fraction(0))
+        out.append(comb(n, k) * total)
+    return trim(out)
+
+
+def from_power(p: Sequence[Any]) -> Coefficients:
+    """The Bernstein coefficients of a polynomial given by its coefficients of 1, t, t^2, ..."""
+    n = max(len(p) - 1, 0)
+    rows = list(p) or [Fraction(0)]
+    return tuple(
+        sum((Fraction(comb(k, i), comb(n, i)) * rows[i] for i in range(k + 1)), Fraction(0)) for k in range(n + 1)
+    )
+
+
+def restrict(b: Sequence[Any], low: Fraction, high: Fraction) -> Coefficients:
+    """The Bernstein coefficients on [low, high], 0 <= low < high <= 1, mapped to [0, 1]."""
+    right = split(b, low)[1] if low else tuple(b)
+    return right if high == 1 else split(right, (high - low) / (1 - low))[0]
+
+
+def sign_changes(b: Sequence[Any]) -> int:
+    """Sign changes of the coefficients, zeros left out: at least the number of roots in (0, 1)."""
+    signs = [s for s in map(sign, b) if s]
+    return sum(x != y for x, y in itertools.pairwise(signs))
+
+
+# --- polynomials by their coefficients of 1, t, t^2, ... -----------------------------------------
+
+
+def trim(p: Sequence[Any]) -> Coefficients:
+    """Without leading zero coefficients."""
+    end = len(p)
+    while end and is_zero(p[end - 1]):
+        end -= 1
+    return tuple(p[:end])
+
+
+def power_multiply(a: Sequence[Any], b: Sequence[Any]) -> Coefficients:
+    """The product of two polynomials in power form."""
+    if not a or not b:
+        return ()
+    out: list[Any] = [Fraction(0)] * (len(a) + len(b) - 1)
+    for i, x in enumerate(a):
+        for j, y in enumerate(b):
+            out[i + j] = out[i + j] + x * y
+    return tuple(out)
+
+
+def divide(a: Sequence[Any], b: Sequence[Any]) -> tuple[Coefficients, Coefficients]:
+    """Quotient and remainder of power forms over a field; ``b`` is not zero."""
+    rest, lead = list(trim(a)), b[-1]
+    quotient: list[Any] = [Fraction(0)] * max(len(rest) - len(b) + 1, 0)
+    while len(rest) >= len(b):
+        shift, factor = len(rest) - len(b), rest[-1] / lead
+        quotient[shift] = factor
+        for i, y in enumerate(b[:-1]):
+            rest[shift + i] = rest[shift + i] - factor * y
+        rest = list(trim(rest[:-1]))
+    return trim(quotient), tuple(rest)
+
+
+def gcd(a: Sequence[Any], b: Sequence[Any]) -> Coefficients:
+    """The monic greatest common divisor of power forms, by Euclid with monic remainders, which keeps them short."""
+    x, y = trim(a), _monic(trim(b))
+    while y:
+        x, y = y, _monic(divide(x, y)[1])
+    return _monic(x)
+
+
+def _monic(p: Coefficients) -> Coefficients:
+    return tuple(c / p[-1] for c in p)
+
+
+def power_derivative(p: Sequence[Any]) -> Coefficients:
+    """The derivative of a power form."""
+    return tuple(k * c for k, c in enumerate(p))[1:]
+
+
+def square_free_parts(p: Sequence[Any]) -> list[Coefficients]:
+    """Monic pairwise coprime square-free f_1, f_2, ... with p = c * f_1 * f_2^2 * ... (Yun 1976)."""
+    parts: list[Coefficients] = []
+    slope = power_derivative(p)
+    common = gcd(p, slope)
+    b, c = divide(p, common)[0], divide(slope, common)[0]
+    d = _minus(c, power_derivative(b))
+    while len(b) > 1:
+        part = gcd(b, d)
+        parts.append(part)
+        b, c = divide(b, part)[0], divide(d, part)[0]
+        d = _minus(c, power_derivative(b))
+    return parts
+
+
+def _minus(a: Sequence[Any], b: Sequence[Any]) -> Coefficients:
+    size = max(len(a), len(b))
+    pad = Fraction(0)
+    x, y = [*a, *[pad] * (size - len(a))], [*b, *[pad] * (size - len(b))]
+    return trim([u - v for u, v in zip(x, y, strict=True)])

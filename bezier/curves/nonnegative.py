@@ -1,0 +1,204 @@
+"""Proof or refutation of p >= 0 on [0, 1], complete over any ordered field with exact signs.
+
+Bernstein coefficients decide most polynomials. The rest touch zero: there the square-free decomposition
+p = t^a (1-t)^b s^2 q is split off, with q square-free and non-zero at both ends. Then p >= 0 on [0, 1] iff
+q has no root in (0, 1) and q(0) > 0, because every root of a square-free q changes its sign. Either q > 0 on
+[0, 1], and the Bernstein coefficients become positive after finitely many bisections (quadratic convergence,
+Farouki 2012, section 5), or q < 0 on an interval, and a bisection point falls into it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+from bezier.curves import bernstein as bs
+from bezier.curves.scalar import is_zero, sign
+from qe.errors import InternalError, Unable
+
+Interval = tuple[Fraction, Fraction]
+UNIT: Interval = (Fraction(0), Fraction(1))
+QUICK_DEPTH = 5
+"""Bisections before roots are split off. Over Q, where bisecting is cheap and long numbers make gcds slow: 16."""
+QUICK_DEPTH_RATIONAL = 16
+MAX_BOXES = 20_000
+
+
+@dataclass(frozen=True, slots=True)
+class Nonnegative:
+    """p >= 0 on [0, 1].
+
+    ``at_start``, ``at_end``: exponents a, b of t and 1-t; ``square``: s and ``rest``: q in Bernstein form, with
+    p = t^a (1-t)^b s^2 q; ``boxes``: intervals covering [0, 1] on each of which all Bernstein coefficients of
+    q are >= 0. ``touches``: where p is zero, as intervals (equal ends: exactly there) holding one root each;
+    the unit interval when p is zero everywhere.
+    """
+
+    at_start: int
+    at_end: int
+    square: bs.Coefficients
+    rest: bs.Coefficients
+    boxes: tuple[Interval, ...]
+    touches: tuple[Interval, ...]
+
+    @property
+    def is_factored(self) -> bool:
+        """Whether roots had to be split off, i.e. subdivision alone did not decide."""
+        return len(self.square) > 1 or self.at_start > 0 or self.at_end > 0
+
+
+@dataclass(frozen=True, slots=True)
+class Negative:
+    """p(t) < 0 at this rational t in [0, 1]; ``value`` is p(t)."""
+
+    t: Fraction
+    value: Any
+
+
+def decide(b: Sequence[Any]) -> Nonnegative | Negative:
+    """Decide p >= 0 on [0, 1] for the polynomial with Bernstein coefficients ``b``.
+
+    Raises ``Unable`` when more than ``MAX_BOXES`` intervals would be needed.
+    """
+    whole = tuple(b)
+    if all(map(is_zero, whole)):
+        return Nonnegative(0, 0, (Fraction(1),), whole, (UNIT,), (UNIT,))
+    is_rational = all(isinstance(c, (int, Fraction)) for c in whole)
+    outcome = _subdivide(whole, QUICK_DEPTH_RATIONAL if is_rational else QUICK_DEPTH)
+    if isinstance(outcome, Negative):
+        return outcome
+    if outcome is not None:
+        return Nonnegative(0, 0, (Fraction(1),), whole, outcome, _end_touches(whole, outcome))
+    return _factored(whole)
+
+
+def _subdivide(b: bs.Coefficients, depth: int | None) -> tuple[Interval, ...] | Negative | None:
+    """Boxes with nonnegative coefficients covering [0, 1]; a negative point; None when ``depth`` is reached."""
+    done: list[Interval] = []
+    todo = [(b, Fraction(0), Fraction(1), 0)]
+    while todo:
+        part, low, high, level = todo.pop()
+        signs = [sign(c) for c in part]
+        if signs[0] < 0:
+            return Negative(low, part[0])
+        if signs[-1] < 0:
+            return Negative(high, part[-1])
+        if min(signs) >= 0:
+            done.append((low, high))
+            continue
+        if level == depth:
+            return None
+        if len(done) + len(todo) > MAX_BOXES:
+            raise Unable("the curve comes too close to the boundary for the subdivision limit")
+        middle = (low + high) / 2
+        left, right = bs.split(part)
+        todo.append((right, middle, high, level + 1))
+        todo.append((left, low, middle, level + 1))
+    return tuple(done)
+
+
+def _end_touches(b: bs.Coefficients, boxes: Sequence[Interval]) -> tuple[Interval, ...]:
+    """The zeros of p where every box has coefficients >= 0: only ends of boxes can be zeros."""
+    ends = sorted({end for box in boxes for end in box})
+    return tuple((t, t) for t in ends if is_zero(bs.value(b, t)))
+
+
+def _factored(b: bs.Coefficients) -> Nonnegative | Negative:
+    """The complete test by the square-free decomposition."""
+    power, at_start, at_end = bs.to_power(b), 0, 0
+    while is_zero(power[0]):
+        power, at_start = power[1:], at_start + 1
+    while is_zero(sum(power, Fraction(0))):
+        power, at_end = bs.divide(power, (Fraction(1), Fraction(-1)))[0], at_end + 1
+    square: bs.Coefficients = (Fraction(1),)
+    for exponent, part in enumerate(bs.square_free_parts(power), start=1):
+        for _ in range(exponent // 2):
+            square = bs.power_multiply(square, part)
+    rest = bs.from_power(bs.divide(power, bs.power_multiply(square, square))[0])
+    outcome = _subdivide(rest, None)
+    if isinstance(outcome, Negative):
+        return _negative_of_product(b, rest, outcome.t)
+    if outcome is None:
+        raise InternalError("unlimited subdivision stopped early")
+    touches = [(Fraction(0), Fraction(0))] if at_start else []
+    touches += [located(bs.from_power(square), interval) for interval in isolate(bs.from_power(square))]
+    touches += [(Fraction(1), Fraction(1))] if at_end else []
+    return Nonnegative(at_start, at_end, bs.from_power(square), rest, outcome, tuple(touches))
+
+
+def _negative_of_product(b: bs.Coefficients, rest: bs.Coefficients, t: Fraction) -> Negative:
+    """A point with p < 0 near a point with q < 0: p = (nonnegative) * q, and p has finitely many roots."""
+    step = Fraction(1, 8)
+    while True:
+        for candidate in (t, t + step, t - step):
+            if 0 <= candidate <= 1 and sign(bs.value(rest, candidate)) < 0 and sign(bs.value(b, candidate)) < 0:
+                return Negative(candidate, bs.value(b, candidate))
+        step /= 2
+
+
+def isolate(b: Sequence[Any]) -> list[Interval]:
+    """Disjoint intervals with one root each, for all distinct roots in the open interval (0, 1).
+
+    ``b``: Bernstein coefficients of a non-zero polynomial. Vincent-Collins-Akritas in Bernstein form
+    (Mourrain, Rouillier and Roy 2005): no sign change, no root; one sign change, one root. Equal ends mean
+    that the root is that rational number.
+    """
+    if _keeps_sign(tuple(b), QUICK_DEPTH):  # this spares the square-free part, which is slow in large number fields
+        return []
+    found: list[Interval] = []
+    todo = [(_square_free(b), Fraction(0), Fraction(1))]
+    while todo:
+        part, low, high = todo.pop()
+        changes = bs.sign_changes(part)
+        if changes == 0:
+            continue
+        if changes == 1 and sign(part[0]) and sign(part[-1]):
+            found.append((low, high))
+            continue
+        middle = (low + high) / 2
+        left, right = bs.split(part)
+        if is_zero(right[0]):
+            found.append((middle, middle))
+        todo += [(left, low, middle), (right, middle, high)]
+    return sorted(found)
+
+
+def _keeps_sign(b: bs.Coefficients, depth: int) -> bool:
+    """Whether ``depth`` bisections show that the polynomial has no root in [0, 1]."""
+    signs = {sign(c) for c in b}
+    if len(signs) == 1:
+        return 0 not in signs
+    if depth == 0 or is_zero(b[0]) or is_zero(b[-1]):
+        return False
+    return all(_keeps_sign(part, depth - 1) for part in bs.split(b))
+
+
+def _square_free(b: Sequence[Any]) -> bs.Coefficients:
+    """The square-free part, without a root at 0."""
+    power = bs.to_power(b)
+    while len(power) > 1 and is_zero(power[0]):
+        power = power[1:]
+    common = bs.gcd(power, bs.power_derivative(power))
+    return bs.from_power(bs.divide(power, common)[0])
+
+
+def located(b: bs.Coefficients, interval: Interval) -> Interval:
+    """An isolating interval of a root, made narrow; equal ends for a rational root of moderate size."""
+    low, high = refine(_square_free(b), interval, Fraction(1, 2**40))
+    guess = ((low + high) / 2).limit_denominator(10**5)
+    return (guess, guess) if low <= guess <= high and is_zero(bs.value(b, guess)) else (low, high)
+
+
+def refine(b: Sequence[Any], interval: Interval, width: Fraction) -> Interval:
+    """Bisect an isolating interval of a simple root down to at most ``width``."""
+    low, high = interval
+    below = sign(bs.value(b, low))
+    while high - low > width:
+        middle = (low + high) / 2
+        here = sign(bs.value(b, middle))
+        if here == 0:
+            return middle, middle
+        low, high = (middle, high) if here == below else (low, middle)
+    return low, high

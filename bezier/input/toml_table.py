@@ -1,0 +1,156 @@
+"""TOML tables with exact numbers, and the one line of text that every bad value gets.
+
+A message names file, line and key, what was expected and what was found. Tables inside arrays (``[[obstacle]]``)
+are ``Table`` objects too, whose keys are reported as ``obstacle[0].radius``.
+"""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from enum import Enum
+from fractions import Fraction
+from typing import Any, TypeVar
+
+from bezier.curves.scalar import Vector
+from bezier.input.numbers import NUMBER, Literal, NotANumber, describe, read
+from qe.errors import InputError
+
+DIMENSION = 3
+POINT = f"a point of {DIMENSION} numbers"
+Choice = TypeVar("Choice", bound=Enum)
+
+
+@dataclass(frozen=True, slots=True)
+class Table:
+    """One table: its values, the file it came from, and where it stands there (``prefix``, e.g. ``obstacle[0].``)."""
+
+    values: Mapping[str, Any]
+    source: str = "<problem>"
+    lines: tuple[str, ...] = ()
+    prefix: str = ""
+
+    @staticmethod
+    def parse(text: str, source: str) -> Table:
+        """The table of a whole file. Raises ``InputError`` for text that is not TOML."""
+        lines = tuple(text.splitlines())
+        try:
+            return Table(tomllib.loads(text, parse_float=Literal), source, lines)
+        except tomllib.TOMLDecodeError as error:
+            raise InputError(_syntax(str(error), source, len(lines))) from None
+        except (ValueError, RecursionError) as error:
+            raise InputError(f"{source}: expected a TOML file, found: {' '.join(str(error).split())}") from None
+
+    def error(self, key: str, expected: str, found: str) -> InputError:
+        """The one line about a key of this table."""
+        place = self.prefix + key
+        line = _line_of(place, self.lines)
+        return InputError(f"{self.source}{line}: {place}: expected {expected}, found {found}")
+
+    def only(self, known: Iterable[str]) -> None:
+        """Refuse keys that are not known."""
+        names = tuple(known)
+        for key in self.values:
+            if key not in names:
+                raise self.error(key, f"one of the keys {', '.join(names)}", f'the unknown key "{key}"')
+
+    def required(self, key: str, expected: str) -> Any:
+        """A value that must be there."""
+        if key not in self.values:
+            raise InputError(f"{self.source}: {self.prefix}{key}: expected {expected}, found no such key")
+        return self.values[key]
+
+    def choice(self, key: str, choices: type[Choice], default: Choice | None = None) -> Choice:
+        """A word out of an enumeration; required without ``default``."""
+        words = [str(member.value) for member in choices]
+        expected = " or ".join(f'"{word}"' for word in words)
+        if key not in self.values and default is not None:
+            return default
+        raw = self.required(key, expected)
+        if not isinstance(raw, str) or raw not in words:
+            raise self.error(key, expected, describe(raw))
+        return choices(raw)
+
+    def number(self, key: str, default: Fraction | None = None) -> Fraction:
+        """An exact number; required without ``default``."""
+        if key not in self.values and default is not None:
+            return default
+        return self._exact(key, self.required(key, NUMBER))
+
+    def positive(self, key: str, default: Fraction | None = None) -> Fraction:
+        """An exact number above zero."""
+        value = self.number(key, default)
+        if value <= 0:
+            raise self.error(key, "a number above zero", str(value))
+        return value
+
+    def point(self, key: str) -> Vector:
+        """A required point of three exact numbers."""
+        return self.as_point(key, self.required(key, POINT))
+
+    def as_point(self, key: str, raw: object) -> Vector:
+        """A value as a point of three exact numbers."""
+        if not isinstance(raw, list) or len(raw) != DIMENSION:
+            raise self.error(key, POINT, describe(raw))
+        return tuple(self._exact(f"{key}[{i}]", entry) for i, entry in enumerate(raw))
+
+    def words(self, key: str, choices: Iterable[str], what: str) -> tuple[str, ...]:
+        """A required list of different words out of ``choices``, at least one."""
+        known = tuple(choices)
+        expected = f"a list of {what} out of {', '.join(known)}"
+        raw = self.required(key, expected)
+        if not isinstance(raw, list) or not raw:
+            raise self.error(key, expected, describe(raw))
+        for i, word in enumerate(raw):
+            if word not in known or raw.index(word) != i:
+                raise self.error(f"{key}[{i}]", expected, describe(word))
+        return tuple(raw)
+
+    def tables(self, key: str) -> tuple[Table, ...]:
+        """The tables of an array ``[[key]]``; none when the key is missing."""
+        raw = self.values.get(key, [])
+        if not isinstance(raw, list) or not all(isinstance(entry, dict) for entry in raw):
+            raise self.error(key, f"tables [[{key}]]", describe(raw))
+        return tuple(
+            Table(entry, self.source, self.lines, f"{self.prefix}{key}[{i}].") for i, entry in enumerate(raw)
+        )
+
+    def _exact(self, key: str, raw: object) -> Fraction:
+        try:
+            return read(raw)
+        except NotANumber as error:
+            raise self.error(key, NUMBER, str(error)) from None
+
+
+def _syntax(message: str, source: str, length: int) -> str:
+    place = re.search(r"\(at (?:line (\d+), column (\d+)|end of document)\)", message)
+    body = re.sub(r"\s*\(at .*\)", "", message)
+    line = place[1] if place and place[1] else str(length)
+    column = f":{place[2]}" if place and place[2] else ""
+    return f"{source}:{line}{column}: expected a TOML file, found a syntax error: {body}"
+
+
+def _line_of(place: str, lines: tuple[str, ...]) -> str:
+    """``:7`` for the line of a key such as ``goal[1]`` or ``obstacle[0].radius``, as far as it is found."""
+    head, _, rest = place.partition(".")
+    name, _, index = head.rstrip("]").partition("[")
+    numbers = [i for i, text in enumerate(lines, start=1) if _starts(name, text)]
+    if not numbers:
+        return ""
+    if not rest:
+        return f":{numbers[0]}"
+    header = numbers[min(int(index or 0), len(numbers) - 1)]
+    key = rest.partition("[")[0]
+    for i, text in enumerate(lines[header:], start=header + 1):
+        if text.lstrip().startswith("["):
+            break
+        if _starts(key, text):
+            return f":{i}"
+    return f":{header}"
+
+
+def _starts(name: str, text: str) -> bool:
+    """Whether a line begins with this key or with the header of its table."""
+    return re.match(rf"""\s*\[*\s*["']?{re.escape(name)}["']?\s*[=.\]]""", text) is not None

@@ -1,0 +1,1 @@
+"""Motion along a path in time, with limits that hold at all times."""

@@ -1,0 +1,236 @@
+"""Quality of a planned path: lengths, curvatures, and the motion along it in time, with limits that are kept or not.
+
+In a problem file::
+
+    [timing]
+    law = "quintic"             # cubic | quintic | trapezoid (then optionally ramp = "1/4")
+    duration = 50               # seconds; without it the least time that keeps the limits
+    max_speed = 20              # mm/s, optional
+    max_acceleration = 5        # mm/s^2, optional
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from decimal import Decimal
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any
+
+from bezier.curves.enclosure import Enclosure
+from bezier.curves.quality import curvature_enclosure, length_enclosure
+from bezier.curves.scalar import Vector, add, decimal_text, is_zero, scale
+from bezier.input.numbers import describe
+from bezier.input.toml_table import Table
+from bezier.motion.timelaw import Extremes, Law, TimeLaw, extremes, least_duration
+from bezier.path import Path
+
+if TYPE_CHECKING:
+    from bezier.plan import Plan
+
+REL = Fraction(1, 10**6)
+ROWS = 151
+"""Rows of ``motion.csv``."""
+LIMITS = ("max_speed", "max_acceleration")
+QUARTER = Fraction(1, 4)
+
+
+@dataclass(frozen=True, slots=True)
+class Timing:
+    """What a problem asks of the motion. ``duration``: None for the least one. Invariant: a duration or a limit."""
+
+    law: Law
+    ramp: Fraction
+    duration: Fraction | None
+    limits: Mapping[str, Fraction] = field(default_factory=dict)
+
+    def to_json(self) -> dict[str, str]:
+        """The table of the problem file."""
+        found = {"law": self.law.value, **{key: str(value) for key, value in self.limits.items()}}
+        if self.law is Law.TRAPEZOID:
+            found["ramp"] = str(self.ramp)
+        if self.duration is not None:
+            found["duration"] = str(self.duration)
+        return found
+
+
+def read_timing(table: Table) -> Timing | None:
+    """The table [timing], None when there is none. Raises ``InputError`` naming the key."""
+    if "timing" not in table.values:
+        return None
+    raw = table.values["timing"]
+    if not isinstance(raw, dict):
+        raise table.error("timing", "a table [timing]", describe(raw))
+    own = Table(raw, table.source, table.lines, "timing.")
+    own.only(("law", "ramp", "duration", *LIMITS))
+    law = own.choice("law", Law, Law.QUINTIC)
+    if "ramp" in raw and law is not Law.TRAPEZOID:
+        raise own.error("ramp", 'this key with law = "trapezoid" only', f'law = "{law.value}"')
+    ramp = own.positive("ramp", QUARTER)
+    if ramp > Fraction(1, 2):
+        raise own.error("ramp", "at most 1/2", str(ramp))
+    duration = own.positive("duration") if "duration" in raw else None
+    limits = {key: own.positive(key) for key in LIMITS if key in raw}
+    if duration is None and not limits:
+        raise own.error("duration", "a duration, max_speed or max_acceleration", "none of them")
+    return Timing(law, ramp, duration, limits)
+
+
+@dataclass(frozen=True, slots=True)
+class Motion:
+    """A path in time. ``extremes``: the largest speed (mm/s) and acceleration (mm/s^2) over the whole time."""
+
+    timing: Timing
+    duration: Fraction
+    extremes: Extremes
+
+    @property
+    def kept(self) -> dict[str, bool | None]:
+        """Whether each limit is kept at all times: proved, refuted, or (None) closer than the enclosure."""
+        values = {"max_speed": self.extremes.speed, "max_acceleration": self.extremes.acceleration}
+        return {key: _at_most(values[key], limit) for key, limit in self.timing.limits.items()}
+
+
+def _at_most(value: Enclosure, limit: Fraction) -> bool | None:
+    if value.high is not None and value.high <= limit:
+        return True
+    return False if value.low > limit else None
+
+
+@dataclass(frozen=True, slots=True)
+class Quality:
+    """Length (mm) and largest curvature (1/mm; None for a curve that is one point) of each curve, and the motion."""
+
+    lengths: Mapping[str, Enclosure]
+    curvatures: Mapping[str, Enclosure | None]
+    motion: Motion | None
+
+    @property
+    def length(self) -> Enclosure:
+        """The length of the whole path."""
+        return sum(self.lengths.values(), Enclosure(Fraction(0), Fraction(0)))
+
+
+def quality_of(path: Path, timing: Timing | None) -> Quality:
+    """Enclosures for every curve of the path."""
+    lengths = {name: length_enclosure(curve, REL) for name, curve in path.curves.items()}
+    curvatures = {
+        name: None if is_zero(lengths[name].low) else curvature_enclosure(curve, REL)
+        for name, curve in path.curves.items()
+    }
+    return Quality(lengths, curvatures, None if timing is None else motion_of(path, timing))
+
+
+def motion_of(path: Path, timing: Timing) -> Motion:
+    """The motion that the timing asks for."""
+    unit = extremes(path, TimeLaw.of(timing.law, timing.ramp))
+    duration = least_duration(unit, timing.limits) if timing.duration is None else timing.duration
+    return Motion(timing, duration, unit.lasting(duration))
+
+
+# --- files and words ----------------------------------------------------------------------------------
+
+HEADER = """\
+# Motion along the path, law "{law}", computed exactly and then rounded.
+# time in s; x, y, z: position in mm; vx, vy, vz: velocity in mm/s; ax, ay, az: acceleration in mm/s^2;
+# segment: the curve; u: its parameter, 0 to 1.
+time,x,y,z,vx,vy,vz,ax,ay,az,segment,u
+"""
+
+
+def motion_csv(path: Path, motion: Motion) -> str:
+    """``motion.csv``: the motion at equally spaced times."""
+    rows = [HEADER.format(law=motion.timing.law.value)]
+    for k in range(ROWS):
+        tau = Fraction(k, ROWS - 1)
+        name, u, vectors = state(path, motion, tau)
+        numbers = [tau * motion.duration, *(c for vector in vectors for c in vector)]
+        rows.append(f"{','.join(decimal_text(v, 10) for v in numbers)},{name},{decimal_text(u, 10)}\n")
+    return "".join(rows)
+
+
+def state(path: Path, motion: Motion, tau: Fraction) -> tuple[str, Fraction, tuple[Vector, Vector, Vector]]:
+    """The curve, its parameter, and position, velocity and acceleration at the time tau * duration, exactly."""
+    law = TimeLaw.of(motion.timing.law, motion.timing.ramp)
+    total = sum((path.duration(name) for name in path.curves), Fraction(0))
+    value, slope, bend = (total * d for d in law.derivatives(tau))
+    begin, last = Fraction(0), list(path.curves)[-1]
+    for name in path.curves:
+        length = path.duration(name)
+        if value <= begin + length or name == last:
+            u, rate, growth = (value - begin) / length, slope / length, bend / length
+            break
+        begin += length
+    curve = path.curves[name]
+    first, second = curve.derivative(1, u), curve.derivative(2, u)
+    velocity = scale(rate / motion.duration, first)
+    acceleration = scale(1 / motion.duration**2, add(scale(rate * rate, second), scale(growth, first)))
+    return name, u, (curve.point(u), velocity, acceleration)
+
+
+def motion_json(motion: Motion) -> str:
+    """``motion.json``: law, duration, rigorous extremes, and whether the limits are kept at all times."""
+    told = {
+        "law": motion.timing.law.value,
+        "duration": {"exact": str(motion.duration), "decimal": decimal_text(motion.duration)},
+        "largest_speed": motion.extremes.speed.to_json(),
+        "largest_acceleration": motion.extremes.acceleration.to_json(),
+        "limits": {key: str(value) for key, value in motion.timing.limits.items()},
+        "kept": motion.kept,
+        "units": {"time": "s", "length": "mm"},
+    }
+    return json.dumps(told, indent=1) + "\n"
+
+
+def files(plan: Plan) -> dict[str, str]:
+    """The data files about the motion."""
+    if plan.path is None or plan.quality is None or plan.quality.motion is None:
+        return {}
+    motion = plan.quality.motion
+    return {"motion.csv": motion_csv(plan.path, motion), "motion.json": motion_json(motion)}
+
+
+def words(plan: Plan) -> list[str]:
+    """The lines of the summary about quality and motion."""
+    quality = plan.quality
+    if quality is None:
+        return []
+    bent = {name: value for name, value in quality.curvatures.items() if value is not None}
+    name = max(bent, key=lambda n: float(bent[n]), default=None)
+    most = "" if name is None else f", largest curvature {_short(bent[name])} 1/mm ({name})"
+    lines = [f"length {_short(quality.length)} mm{most}"]
+    if quality.motion is not None:
+        lines.append(_motion_words(quality.motion))
+    return lines
+
+
+def _motion_words(motion: Motion) -> str:
+    said = {True: "kept", False: "EXCEEDED", None: "not decided"}
+    limits = "".join(f", {key.replace('_', ' ')} {said[kept]} at all times" for key, kept in motion.kept.items())
+    fastest, hardest = _short(motion.extremes.speed), _short(motion.extremes.acceleration)
+    return (
+        f"motion: {motion.timing.law.value}, {decimal_text(motion.duration, 8)} s, at most {fastest} mm/s and"
+        f" {hardest} mm/s^2{limits}"
+    )
+
+
+def _short(value: Enclosure) -> str:
+    """An upper bound in a few digits."""
+    high = value.to_json(6)["high"]
+    return high if high == "inf" else f"{Decimal(high).normalize():f}"
+
+
+def entries(plan: Plan) -> dict[str, Any]:
+    """The entries of the JSON summary about quality and motion."""
+    quality = plan.quality
+    if quality is None:
+        return {}
+    told: dict[str, Any] = {
+        "length": quality.length.to_json(),
+        "lengths": {name: value.to_json() for name, value in quality.lengths.items()},
+        "largest_curvatures": {n: None if v is None else v.to_json() for n, v in quality.curvatures.items()},
+    }
+    if quality.motion is not None:
+        told["motion"] = json.loads(motion_json(quality.motion))
+    return {"quality": told}

@@ -1,0 +1,199 @@
+"""Time laws: how a path of several curves is run through in a given time, with rigorous bounds of its speed.
+
+The path parameter is sigma in [0, D], D the sum of the durations d_k of the curves; curve k is at
+u = (sigma - sigma_k) / d_k. A law s maps tau = time / T in [0, 1] onto [0, 1] without turning back, and
+sigma = D s(tau). With X(tau) the position, velocity and acceleration are X'(tau) / T and X''(tau) / T^2, so their
+largest norms for T = 1 say everything.
+
+Between the breaks of the law and the passages from one curve to the next, |X'|^2 and |X''|^2 are polynomials in tau,
+whose maxima are enclosed (``curves.enclosure.maximum``). A passage at an irrational tau is enclosed too; what both
+curves reach inside that interval counts for the upper bounds only.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from enum import Enum
+from fractions import Fraction
+from math import ceil
+from typing import Any
+
+from bezier.curves import bernstein as bs
+from bezier.curves.curve import Bezier
+from bezier.curves.enclosure import Enclosure, bounds, maximum, root_above, root_enclosure
+from bezier.path import Path
+from qe.errors import InputError
+
+REL = Fraction(1, 10**6)
+PASSAGE_WIDTH = Fraction(1, 2**60)
+TICK = Fraction(1, 10**6)
+ZERO, ONE = Fraction(0), Fraction(1)
+Power = tuple[Any, ...]
+
+
+class Law(Enum):
+    """How the path is run through.
+
+    CUBIC: 3 tau^2 - 2 tau^3, at rest at both ends. QUINTIC: 6 tau^5 - 15 tau^4 + 10 tau^3, without acceleration there
+    either. TRAPEZOID: the speed rises linearly, stays, and falls linearly.
+    """
+
+    CUBIC = "cubic"
+    QUINTIC = "quintic"
+    TRAPEZOID = "trapezoid"
+
+
+@dataclass(frozen=True, slots=True)
+class TimeLaw:
+    """A law on [0, 1]: polynomials of tau by ascending powers, each between two breaks. Invariant: increasing."""
+
+    breaks: tuple[Fraction, ...]
+    polynomials: tuple[Power, ...]
+
+    @staticmethod
+    def of(law: Law, ramp: Fraction = Fraction(1, 4)) -> TimeLaw:
+        """``ramp``: the share of the time in which the trapezoid speeds up, and of that in which it slows down."""
+        if law is Law.CUBIC:
+            return TimeLaw((ZERO, ONE), ((ZERO, ZERO, Fraction(3), Fraction(-2)),))
+        if law is Law.QUINTIC:
+            return TimeLaw((ZERO, ONE), ((ZERO, ZERO, ZERO, Fraction(10), Fraction(-15), Fraction(6)),))
+        if not 0 < ramp <= Fraction(1, 2):
+            raise InputError("the ramp of a trapezoid takes more than 0 and at most 1/2 of the time")
+        top = 1 / (1 - ramp)
+        rise, fall = (ZERO, ZERO, top / (2 * ramp)), _falling(top / (2 * ramp))
+        if ramp == Fraction(1, 2):
+            return TimeLaw((ZERO, ramp, ONE), (rise, fall))
+        return TimeLaw((ZERO, ramp, 1 - ramp, ONE), (rise, (-top * ramp / 2, top), fall))
+
+    def derivatives(self, tau: Fraction) -> tuple[Fraction, Fraction, Fraction]:
+        """s, s' and s'' at tau, those of the earlier polynomial at a break."""
+        pieces = zip(self.breaks[1:], self.polynomials, strict=True)
+        polynomial = next(p for high, p in pieces if tau <= high)
+        slope = bs.power_derivative(polynomial)
+        return _value(polynomial, tau), _value(slope, tau), _value(bs.power_derivative(slope), tau)
+
+    def passage(self, share: Fraction) -> tuple[Fraction, Fraction]:
+        """Rational numbers around the tau with s(tau) = share, equal where that is found exactly."""
+        low, high = ZERO, ONE
+        while high - low > PASSAGE_WIDTH:
+            middle = (low + high) / 2
+            value = self.derivatives(middle)[0]
+            if value == share:
+                return middle, middle
+            low, high = (middle, high) if value < share else (low, middle)
+        return low, high
+
+
+def _falling(factor: Fraction) -> Power:
+    """1 - factor (1 - tau)^2."""
+    return (1 - factor, 2 * factor, -factor)
+
+
+def _value(polynomial: Power, t: Fraction) -> Any:
+    total: Any = ZERO
+    for c in reversed(polynomial):
+        total = total * t + c
+    return total
+
+
+@dataclass(frozen=True, slots=True)
+class Stretch:
+    """A time interval in which a curve is run through by one polynomial: ``parameter`` is u as a power form of tau.
+
+    ``certain``: whether the curve is on its way in all of it; otherwise the passage to its neighbour lies in it.
+    """
+
+    curve: str
+    low: Fraction
+    high: Fraction
+    parameter: Power
+    certain: bool
+
+
+def stretches(path: Path, law: TimeLaw) -> Iterator[Stretch]:
+    """The stretches of a motion in order; neighbours overlap by at most ``PASSAGE_WIDTH``."""
+    total = sum((path.duration(name) for name in path.curves), ZERO)
+    begin, start = ZERO, (ZERO, ZERO)
+    for name in path.curves:
+        length = path.duration(name)
+        end = law.passage((begin + length) / total) if begin + length < total else (ONE, ONE)
+        for low, high, certain in ((*start, False), (start[1], end[0], True), (*end, False)):
+            for first, last, polynomial in zip(law.breaks, law.breaks[1:], law.polynomials, strict=False):
+                if max(low, first) < min(high, last):
+                    shifted = (polynomial[0] - begin / total, *polynomial[1:])
+                    scaled = tuple(c * total / length for c in shifted)
+                    yield Stretch(name, max(low, first), min(high, last), scaled, certain)
+        begin, start = begin + length, end
+
+
+@dataclass(frozen=True, slots=True)
+class Extremes:
+    """The largest speed and acceleration of a motion that takes one unit of time."""
+
+    speed: Enclosure
+    acceleration: Enclosure
+
+    def lasting(self, duration: Fraction) -> Extremes:
+        """The same for a motion that takes this time."""
+        return Extremes(_over(self.speed, duration), _over(self.acceleration, duration * duration))
+
+
+def _over(value: Enclosure, divisor: Fraction) -> Enclosure:
+    return Enclosure(value.low / divisor, None if value.high is None else value.high / divisor)
+
+
+def extremes(path: Path, law: TimeLaw, rel: Fraction = REL) -> Extremes:
+    """Enclosures of max |X'| and max |X''| over the whole motion, for T = 1."""
+    speed = acceleration = Enclosure(ZERO, ZERO)
+    for stretch in stretches(path, law):
+        position = [_composed(bs.to_power(c), stretch.parameter) for c in _coordinates(path.curves[stretch.curve])]
+        velocity = [bs.power_derivative(p) for p in position]
+        speed = _larger(speed, _largest_norm(velocity, stretch, rel))
+        acceleration = _larger(acceleration, _largest_norm([bs.power_derivative(v) for v in velocity], stretch, rel))
+    return Extremes(speed, acceleration)
+
+
+def _coordinates(curve: Bezier) -> list[bs.Coefficients]:
+    return [curve.coordinate(i) for i in range(curve.dimension)]
+
+
+def _composed(outer: Power, inner: Power) -> Power:
+    """outer(inner(tau)) by Horner's rule."""
+    total: Power = ()
+    for c in reversed(outer):
+        product = bs.power_multiply(total, inner) or (ZERO,)
+        total = (product[0] + c, *product[1:])
+    return total
+
+
+def _largest_norm(vector: list[Power], stretch: Stretch, rel: Fraction) -> Enclosure:
+    """The largest norm of a vector of polynomials on the stretch."""
+    square: bs.Coefficients = (ZERO,)
+    for p in vector:
+        moved = bs.from_power(_composed(p, (stretch.low, stretch.high - stretch.low)))
+        square = bs.add(square, bs.multiply(moved, moved))
+    if not stretch.certain:
+        return root_enclosure(ZERO, max(bounds(c)[1] for c in square))
+    top = maximum(square, (ONE,), rel)
+    assert top.high is not None
+    return root_enclosure(top.low, top.high)
+
+
+def _larger(a: Enclosure, b: Enclosure) -> Enclosure:
+    assert a.high is not None and b.high is not None
+    return Enclosure(max(a.low, b.low), max(a.high, b.high))
+
+
+def least_duration(unit: Extremes, limits: Mapping[str, Fraction]) -> Fraction:
+    """The least time in which ``max_speed`` and ``max_acceleration`` are kept, rounded up to a multiple of ``TICK``.
+
+    Speed scales with 1/T and acceleration with 1/T^2. ``unit``: the extremes for T = 1.
+    """
+    assert unit.speed.high is not None and unit.acceleration.high is not None
+    times = [ZERO]
+    if "max_speed" in limits:
+        times.append(unit.speed.high / limits["max_speed"])
+    if "max_acceleration" in limits:
+        times.append(root_above(unit.acceleration.high / limits["max_acceleration"], bits=64))
+    return ceil(max(times) / TICK) * TICK

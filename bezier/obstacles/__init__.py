@@ -1,0 +1,1 @@
+"""Obstacles, clearance of whole curves, and plans around them."""

@@ -1,0 +1,333 @@
+"""Is a whole curve clear of an obstacle? A proof for all t, or exactly where it first meets it.
+
+A piece of an obstacle is an intersection {f_1 >= 0, ..., f_m >= 0}. The curve misses it iff at every t some f_i(P(t))
+is negative. Intervals of t are halved, from left to right, until one f_i has negative Bernstein coefficients on the
+whole interval; these intervals are the proof. Where that does not come to an end soon, the real roots of the f_i(P(t))
+that are still open on a short interval decide: signs change only there, so the first contact is the left end of the
+interval or one of the roots. Signs at a root are exact (greatest common divisors), so contact without crossing is told
+from passing close by.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from enum import Enum
+from fractions import Fraction
+from itertools import pairwise
+
+from bezier.curves import bernstein as bs
+from bezier.curves.along import Along
+from bezier.curves.curve import Bezier
+from bezier.curves.enclosure import Enclosure, bounds
+from bezier.curves.halving import Numbers, exact, halves
+from bezier.curves.nonnegative import Interval, isolate, refine
+from bezier.curves.scalar import Vector, is_zero, sign
+from bezier.obstacles.obstacle import Box, Constraint, Obstacle, Piece
+
+SHORT = 8
+"""After this many halvings roots are isolated."""
+PLACE_WIDTH = Fraction(1, 2**80)
+"""To what width the parameter of a contact is refined."""
+MAX_DENOMINATOR = 10**6
+"""Rational contact parameters up to this denominator are recognised as such."""
+
+
+class Argument(Enum):
+    """Which argument proved a curve clear; ``value`` is for people. Each includes the ones before it."""
+
+    BOXES = "bounding boxes apart"
+    POLYGON = "Bernstein coefficients of the whole curve"
+    SUBDIVISION = "Bernstein coefficients after subdivision"
+    ROOTS = "isolated roots and signs"
+
+
+@dataclass(frozen=True, slots=True)
+class Span:
+    """On [low, high] the constraint with this index has the wrong sign; None: shown by isolated roots."""
+
+    low: Fraction
+    high: Fraction
+    constraint: int | None
+
+
+@dataclass(frozen=True, slots=True)
+class Clear:
+    """The curve never meets the obstacle. ``spans``: for each piece the proof, None where boxes already show it."""
+
+    argument: Argument
+    spans: tuple[tuple[Span, ...] | None, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Contact:
+    """The curve meets the obstacle; ``t`` is the first parameter, an isolating interval or exactly (equal ends).
+
+    ``place``: P(t) enclosed; ``exact_place``: where t is rational. ``enters``: whether a part of the curve lies in the
+    interior of a piece; if not, the curve only touches. ``attained``: False where the obstacle is not closed (strict
+    inequalities) and the contact begins right after t. ``piece``: the piece met first.
+    """
+
+    t: Interval
+    place: tuple[Enclosure, ...]
+    exact_place: Vector | None
+    enters: bool
+    attained: bool
+    piece: int
+
+    @property
+    def is_exact(self) -> bool:
+        """Whether the parameter is a known rational number."""
+        return self.t[0] == self.t[1]
+
+
+Outcome = Clear | Contact
+
+
+@dataclass(slots=True)
+class _Part:
+    """A short interval of t and the constraints that are not satisfied on all of it, as forms on it."""
+
+    low: Fraction
+    high: Fraction
+    open: list[tuple[int, Numbers]]
+    depth: int = 0
+
+
+@dataclass(slots=True)
+class Hit:
+    """A first contact with one piece, at the only critical value in ``t``."""
+
+    t: Interval
+    attained: bool
+    piece: int = 0
+
+
+@dataclass(slots=True)
+class Search:
+    """One curve against one piece, from left to right up to the first contact.
+
+    ``roots_after``: so many halvings come before roots are isolated; ``spans``: the proof so far.
+    """
+
+    piece: Piece
+    roots_after: int = SHORT
+    spans: list[Span] = field(default_factory=list)
+
+    def run(self, forms: Sequence[Numbers]) -> Hit | None:
+        """The first contact, or None with ``spans`` covering [0, 1]; ``forms``: the constraints along the curve."""
+        todo = [_Part(Fraction(0), Fraction(1), list(enumerate(forms)))]
+        while todo:
+            part = todo.pop()
+            still_open, refuted = self._still_open(part)
+            part = _Part(part.low, part.high, still_open, part.depth)
+            if refuted is not None:
+                self.spans.append(Span(part.low, part.high, refuted))
+            elif all(self.piece.constraints[i].holds(form[0]) for i, form in still_open):
+                return Hit((part.low, part.low), True)
+            elif len(still_open) == 1 and _crosses_up(still_open[0][1]):
+                return _crossing(part, attained=not self.piece.constraints[still_open[0][0]].strict)
+            elif part.depth < self.roots_after:
+                todo += _halved(part)
+            else:
+                hit = self._by_roots(part)
+                if hit is not None:
+                    return hit
+                self.spans.append(Span(part.low, part.high, None))
+        return None
+
+    def _still_open(self, part: _Part) -> tuple[list[tuple[int, Numbers]], int | None]:
+        left_over = []
+        for i, form in part.open:
+            signs = [sign(c) for c in form]
+            if max(signs) < 0 or (max(signs) == 0 and self.piece.constraints[i].strict):
+                return [], i
+            if min(signs) < 0 or (min(signs) == 0 and self.piece.constraints[i].strict):
+                left_over.append((i, form))
+        return left_over, None
+
+    def _by_roots(self, part: _Part) -> Hit | None:
+        """The first contact in a short interval, exactly: at its left end, at a root, or right after one of these."""
+        constraints = [self.piece.constraints[i] for i, _ in part.open]
+        forms = [exact(form) for _, form in part.open]
+        breaks = critical_values(forms)
+        for at, after in _with_next(breaks.intervals):
+            if all(c.holds(breaks.sign(f, at)) for c, f in zip(constraints, forms, strict=True)):
+                return _located(part, at, breaks.form, True)
+            if after is not None:
+                between = (at[1] + after[0]) / 2
+                if all(c.holds(bs.value(f, between)) for c, f in zip(constraints, forms, strict=True)):
+                    return _located(part, at, breaks.form, False)
+        return None
+
+
+@dataclass(frozen=True, slots=True)
+class CriticalValues:
+    """All roots in [0, 1] of some polynomials, and the ends 0 and 1, as ascending disjoint intervals.
+
+    ``form``: a square-free polynomial with exactly one root in each interval that is not a single number.
+    """
+
+    form: bs.Coefficients
+    intervals: tuple[Interval, ...]
+
+    def sign(self, b: bs.Coefficients, at: Interval) -> int:
+        """The exact sign of one of the polynomials at the critical value in ``at``."""
+        if at[0] == at[1]:
+            return sign(bs.value(b, at[0]))
+        common = bs.from_power(bs.gcd(bs.to_power(self.form), bs.to_power(b)))
+        if sign(bs.value(common, at[0])) * sign(bs.value(common, at[1])) < 0:
+            return 0
+        low, high = at
+        while True:
+            signs = {sign(c) for c in bs.restrict(b, low, high)}
+            if len(signs) == 1:
+                return signs.pop()
+            low, high = refine(self.form, (low, high), (high - low) / 4)
+            if low == high:
+                return sign(bs.value(b, low))
+
+
+def critical_values(forms: Sequence[bs.Coefficients]) -> CriticalValues:
+    """The critical values of polynomials on [0, 1]; zero polynomials have none."""
+    product: bs.Coefficients = (Fraction(1),)
+    for form in forms:
+        power = bs.to_power(form)
+        if power:
+            product = bs.power_multiply(product, bs.divide(power, bs.gcd(product, power))[0])
+    common = bs.gcd(product, bs.power_derivative(product)) if len(product) > 1 else (Fraction(1),)
+    square_free = bs.from_power(bs.divide(product, common)[0])
+    inner = [i for i in _apart(square_free, isolate(square_free)) if i[1] > 0 and i[0] < 1]
+    zero, one = Fraction(0), Fraction(1)
+    return CriticalValues(square_free, ((zero, zero), *inner, (one, one)))
+
+
+def _apart(b: bs.Coefficients, intervals: Sequence[Interval]) -> Iterator[Interval]:
+    """The intervals shrunk until they neither share ends with each other nor reach 0 or 1."""
+    taken = {Fraction(0), Fraction(1), *(i[0] for i in intervals if i[0] == i[1])}
+    ends = [Fraction(0), *(e for i in intervals for e in i), Fraction(1)]
+    shared = taken | {a for a, b in pairwise(ends) if a == b}
+    for low, high in intervals:
+        while low < high and (low in shared or high in shared):
+            low, high = refine(b, (low, high), (high - low) / 2)
+        yield low, high
+
+
+def _with_next(intervals: Sequence[Interval]) -> Iterator[tuple[Interval, Interval | None]]:
+    yield from zip(intervals, [*intervals[1:], None], strict=True)
+
+
+def _located(part: _Part, at: Interval, form: bs.Coefficients, attained: bool) -> Hit:
+    """A root on a part, refined and moved to the parameter of the whole curve."""
+    low, high = at if at[0] == at[1] else refine(form, at, PLACE_WIDTH)
+    return _recognised(part, low, high, form, attained)
+
+
+def _recognised(part: _Part, low: Fraction, high: Fraction, form: bs.Coefficients, attained: bool) -> Hit:
+    """The contact at the root in [low, high] of a form on a part; a simple rational root is recognised."""
+    if low < high:
+        guess = ((low + high) / 2).limit_denominator(MAX_DENOMINATOR)
+        if low <= guess <= high and is_zero(bs.value(form, guess)):
+            low = high = guess
+    wide = part.high - part.low
+    return Hit((part.low + wide * low, part.low + wide * high), attained)
+
+
+def _crosses_up(form: Numbers) -> bool:
+    """One sign change, from negative to positive: exactly one root, and simple (Descartes' rule in Bernstein form)."""
+    return sign(form[0]) < 0 < sign(form[-1]) and bs.sign_changes(form) == 1
+
+
+def _crossing(part: _Part, *, attained: bool) -> Hit:
+    """The contact where the only open constraint crosses zero once."""
+    form = piece = part.open[0][1]
+    low, high = Fraction(0), Fraction(1)
+    while high - low > PLACE_WIDTH:
+        middle = (low + high) / 2
+        left, right = halves(piece)
+        here = sign(right[0])
+        if here == 0:
+            low = high = middle
+        elif here > 0:
+            piece, high = left, middle
+        else:
+            piece, low = right, middle
+    return _recognised(part, low, high, exact(form), attained)
+
+
+def _halved(part: _Part) -> list[_Part]:
+    """Both halves, the left one last (it is taken first)."""
+    middle = (part.low + part.high) / 2
+    split = [(i, halves(form)) for i, form in part.open]
+    left = _Part(part.low, middle, [(i, sides[0]) for i, sides in split], part.depth + 1)
+    return [_Part(middle, part.high, [(i, sides[1]) for i, sides in split], part.depth + 1), left]
+
+
+def examine(curve: Bezier | Along, obstacle: Obstacle) -> Outcome:
+    """Prove the whole curve clear of the obstacle, or find the first contact. Complete."""
+    along = curve if isinstance(curve, Along) else Along(curve)
+    if _boxes_apart(along.box, obstacle.box):
+        return Clear(Argument.BOXES, (None,) * len(obstacle.pieces))
+    first: Hit | None = None
+    spans: list[tuple[Span, ...] | None] = []
+    for k, piece in enumerate(obstacle.pieces):
+        if _boxes_apart(along.box, piece.box):
+            spans.append(None)
+            continue
+        search = Search(piece)
+        hit = search.run([along.form(c) for c in piece.constraints])
+        spans.append(tuple(search.spans))
+        if hit is not None:
+            hit.piece = k
+            first = hit if first is None else _earlier(hit, first)
+    if first is None:
+        return Clear(_argument(spans), tuple(spans))
+    return _contact(along, obstacle, first)
+
+
+def _argument(spans: Sequence[tuple[Span, ...] | None]) -> Argument:
+    shown = [span for piece in spans if piece is not None for span in piece]
+    if any(span.constraint is None for span in shown):
+        return Argument.ROOTS
+    if any(span.high - span.low < 1 for span in shown):
+        return Argument.SUBDIVISION
+    return Argument.POLYGON if shown else Argument.BOXES
+
+
+def _boxes_apart(a: Box | None, b: Box | None) -> bool:
+    """Whether two closed boxes have no common point."""
+    if a is None or b is None:
+        return False
+    return any(x < y for x, y in zip(a[1], b[0], strict=True)) or any(x > y for x, y in zip(a[0], b[1], strict=True))
+
+
+def _earlier(a: Hit, b: Hit) -> Hit:
+    """The first of two contacts; where they are as good as simultaneous, an interval around the smaller parameter."""
+    if a.t[1] < b.t[0] or b.t[1] < a.t[0]:
+        return a if a.t[1] < b.t[0] else b
+    low, high = min(a.t[0], b.t[0]), min(a.t[1], b.t[1])
+    return Hit((low, high), a.attained or b.attained, min(a.piece, b.piece))
+
+
+def _contact(along: Along, obstacle: Obstacle, hit: Hit) -> Contact:
+    low, high = hit.t
+    curve = along.curve
+    if low == high:
+        point = curve.point(low)
+        place = tuple(Enclosure(*bounds(c)) for c in point)
+        return Contact(hit.t, place, point, enters(along, obstacle), hit.attained, hit.piece)
+    part = curve.segment(low, high)
+    rows = [[bounds(c) for c in part.coordinate(i)] for i in range(curve.dimension)]
+    place = tuple(Enclosure(min(lo for lo, _ in row), max(hi for _, hi in row)) for row in rows)
+    return Contact(hit.t, place, None, enters(along, obstacle), hit.attained, hit.piece)
+
+
+def enters(curve: Bezier | Along, obstacle: Obstacle) -> bool:
+    """Whether some point of the curve lies in the interior of a piece: f_i > 0 for all its constraints."""
+    along = curve if isinstance(curve, Along) else Along(curve)
+    for piece in obstacle.pieces:
+        if not _boxes_apart(along.box, piece.box):
+            strict = tuple(Constraint(c.terms, True) for c in piece.constraints)
+            if Search(Piece(strict)).run([along.form(c) for c in strict]) is not None:
+                return True
+    return False

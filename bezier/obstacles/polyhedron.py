@@ -1,0 +1,208 @@
+"""Convex bodies with finitely many corners, exactly: points, segments and full polyhedra with rational corners.
+
+A polyhedron is given by half-spaces or by corners; both lead to the same value, which knows corners, edges and
+facets. Enumeration over triples is plain and enough for the few dozen planes of an obstacle.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from math import gcd, lcm
+
+from bezier.curves.scalar import dot, subtract
+from qe.errors import InputError
+
+Point = tuple[Fraction, ...]
+MAX_PARTS = 40
+"""Most half-spaces or corners of a polyhedron."""
+
+
+@dataclass(frozen=True, slots=True)
+class Facet:
+    """A face of dimension 2: ``normal`` . p <= ``offset`` holds in the body, with equality exactly at ``corners``.
+
+    ``normal`` has coprime integer entries and points outwards; ``corners`` are indices, in order around the facet.
+    ``walls``: (n, c) for each side; n . p <= c says that p is on the facet's side of the upright plane there.
+    """
+
+    normal: Point
+    offset: Fraction
+    corners: tuple[int, ...]
+    walls: tuple[tuple[Point, Fraction], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Polytope:
+    """The convex hull of ``corners``: a point, a segment, or a body with interior, then with ``facets``.
+
+    Invariant: every corner is an extreme point; ``edges`` are pairs of indices.
+    """
+
+    corners: tuple[Point, ...]
+    edges: tuple[tuple[int, int], ...] = ()
+    facets: tuple[Facet, ...] = ()
+
+    def support(self, direction: Sequence[Fraction]) -> Fraction:
+        """The largest direction . p over the body."""
+        return max(Fraction(dot(direction, p)) for p in self.corners)
+
+    def nearest(self, p: Point) -> Point:
+        """The point of the body nearest to ``p``: p itself, or its projection to a facet, an edge or a corner."""
+        if self.facets and all(dot(f.normal, p) <= f.offset for f in self.facets):
+            return p
+        above = self._on_facet(p)
+        if above is not None:
+            return above
+        return min((*self.corners, *self._on_edges(p)), key=lambda q: dot(subtract(p, q), subtract(p, q)))
+
+    def _on_edges(self, p: Point) -> list[Point]:
+        found = []
+        for i, j in self.edges:
+            a, along = self.corners[i], subtract(self.corners[j], self.corners[i])
+            share = dot(subtract(p, a), along) / dot(along, along)
+            if 0 < share < 1:
+                found.append(tuple(x + share * d for x, d in zip(a, along, strict=True)))
+        return found
+
+    def _on_facet(self, p: Point) -> Point | None:
+        """The projection of an outer point to a facet right below it; then no other point of the body is as near."""
+        for facet in self.facets:
+            excess = dot(facet.normal, p) - facet.offset
+            if excess > 0 and all(dot(n, p) <= c for n, c in facet.walls):
+                share = excess / dot(facet.normal, facet.normal)
+                return tuple(x - share * n for x, n in zip(p, facet.normal, strict=True))
+        return None
+
+
+def point(p: Point) -> Polytope:
+    """The body that is one point."""
+    return Polytope((p,))
+
+
+def segment(a: Point, b: Point) -> Polytope:
+    """The segment from a to b, a != b."""
+    return Polytope((a, b), ((0, 1),))
+
+
+def parallelepiped(corner: Point, sides: Sequence[Point]) -> Polytope:
+    """The body corner + [0, 1] s_1 + [0, 1] s_2 + [0, 1] s_3. Raises ``InputError`` if it is flat."""
+    found = []
+    for used in itertools.product((0, 1), repeat=3):
+        found.append(tuple(c + sum(u * s[i] for u, s in zip(used, sides, strict=True)) for i, c in enumerate(corner)))
+    return from_corners(found)
+
+
+def from_half_spaces(half_spaces: Sequence[tuple[Point, Fraction]]) -> Polytope:
+    """The body {p : n . p <= c for all (n, c)}.
+
+    Raises ``InputError`` when it is empty, flat or unbounded. A pointed polyhedron is bounded iff no direction
+    +-(n_i x n_j), the only candidates for extreme rays, satisfies n . d <= 0 for all n.
+    """
+    normals = [n for n, _ in half_spaces]
+    for a, b in itertools.combinations(normals, 2):
+        axis = cross(a, b)
+        for ray in (axis, tuple(-x for x in axis)):
+            if any(ray) and all(dot(n, ray) <= 0 for n in normals):
+                raise InputError("an unbounded set of half-spaces")
+    found: list[Point] = []
+    for planes in itertools.combinations(half_spaces, 3):
+        p = _common_point(planes)
+        if p is not None and p not in found and all(dot(n, p) <= c for n, c in half_spaces):
+            found.append(p)
+    if not found:
+        pointed = any(_determinant(*three) for three in itertools.combinations(normals, 3))
+        raise InputError("an empty set of half-spaces" if pointed else "an unbounded set of half-spaces")
+    return from_corners(found)
+
+
+def from_corners(points: Sequence[Point]) -> Polytope:
+    """The convex hull of points. Raises ``InputError`` when it is flat."""
+    distinct = sorted(set(points))
+    scale = lcm(*(c.denominator for p in distinct for c in p))
+    whole = [tuple(int(c * scale) for c in p) for p in distinct]
+    planes: dict[tuple[Point, Fraction], tuple[int, ...]] = {}
+    for i, j, k in itertools.combinations(range(len(distinct)), 3):
+        a, b, c = whole[i], whole[j], whole[k]
+        normal = cross(subtract(b, a), subtract(c, a))
+        if not any(normal):
+            continue
+        level = normal[0] * a[0] + normal[1] * a[1] + normal[2] * a[2]
+        heights = [normal[0] * x + normal[1] * y + normal[2] * z - level for x, y, z in whole]
+        if min(heights) < 0 < max(heights):
+            continue
+        on = tuple(n for n, height in enumerate(heights) if height == 0)
+        if len(on) == len(distinct):
+            raise InputError("a flat set of corners")
+        outward = _primitive(normal if max(heights) == 0 else tuple(-x for x in normal))
+        planes[outward, Fraction(dot(outward, distinct[i]))] = on
+    if not planes:
+        raise InputError("a flat set of corners")
+    return _with_edges(distinct, planes)
+
+
+def _with_edges(points: list[Point], planes: dict[tuple[Point, Fraction], tuple[int, ...]]) -> Polytope:
+    """Extreme points lie in three facets, edges join two extreme points that share two facets."""
+    shared = {i: [on for on in planes.values() if i in on] for i in range(len(points))}
+    extreme = [i for i in shared if len(shared[i]) >= 3]
+    place = {i: k for k, i in enumerate(extreme)}
+    pairs = [
+        (i, j) for i, j in itertools.combinations(extreme, 2) if sum(i in on and j in on for on in planes.values()) >= 2
+    ]
+    facets = []
+    for (normal, offset), on in planes.items():
+        sides = [(i, j) for i, j in pairs if i in on and j in on]
+        loop = _around(sides)
+        facets.append(Facet(normal, offset, tuple(place[i] for i in loop), _walls(normal, [points[i] for i in loop])))
+    corners = tuple(points[i] for i in extreme)
+    return Polytope(corners, tuple((place[i], place[j]) for i, j in pairs), tuple(facets))
+
+
+def _around(sides: list[tuple[int, int]]) -> list[int]:
+    """The corners of a polygon in order, from its sides."""
+    order, left = list(sides[0]), sides[1:]
+    while left:
+        following = next(side for side in left if order[-1] in side)
+        left.remove(following)
+        order.append(following[0] if following[1] == order[-1] else following[1])
+    return order[:-1]
+
+
+def _walls(normal: Point, corners: Sequence[Point]) -> tuple[tuple[Point, Fraction], ...]:
+    """The upright planes over the sides of a facet, its inner side where n . p <= c."""
+    found = []
+    for k, a in enumerate(corners):
+        b, inner = corners[(k + 1) % len(corners)], corners[(k + 2) % len(corners)]
+        n = cross(subtract(b, a), normal)
+        if dot(n, inner) > dot(n, a):
+            n = tuple(-x for x in n)
+        found.append((n, Fraction(dot(n, a))))
+    return tuple(found)
+
+
+def cross(a: Sequence[Fraction], b: Sequence[Fraction]) -> Point:
+    """The vector product."""
+    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
+
+
+def _determinant(a: Point, b: Point, c: Point) -> Fraction:
+    return Fraction(dot(a, cross(b, c)))
+
+
+def _common_point(planes: Sequence[tuple[Point, Fraction]]) -> Point | None:
+    """The only common point of three planes (Cramer's rule), or None."""
+    (a, p), (b, q), (c, r) = planes
+    below = _determinant(a, b, c)
+    if not below:
+        return None
+    sides = cross(b, c), cross(c, a), cross(a, b)
+    return tuple((p * sides[0][i] + q * sides[1][i] + r * sides[2][i]) / below for i in range(3))
+
+
+def _primitive(direction: Sequence[Fraction]) -> Point:
+    """The positive multiple with coprime integer entries."""
+    common = lcm(*(Fraction(x).denominator for x in direction))
+    whole = [int(x * common) for x in direction]
+    return tuple(Fraction(x, gcd(*whole)) for x in whole)

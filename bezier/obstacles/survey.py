@@ -1,0 +1,126 @@
+"""Every curve of a path against every obstacle: proofs, contacts, distances, certificates, and what to say of them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from bezier.curves.along import Along
+from bezier.curves.curve import Bezier
+from bezier.curves.enclosure import Enclosure
+from bezier.obstacles.clearance import Clear, Contact, Outcome, examine
+from bezier.obstacles.distance import distance_enclosure
+from bezier.obstacles.evidence import clearance_certificate, contact_certificate
+from bezier.obstacles.obstacle import Obstacle
+from qe.errors import Unable
+from qe.evidence.certificate import Certificate
+
+
+@dataclass(frozen=True, slots=True)
+class Finding:
+    """What was found out about one curve and one obstacle.
+
+    ``distance``: an enclosure of the least distance; None for obstacles given by a formula, and where the limit of the
+    enclosure was reached.
+    """
+
+    name: str
+    curve: Bezier
+    obstacle: Obstacle
+    outcome: Outcome
+    distance: Enclosure | None
+
+    @property
+    def is_clear(self) -> bool:
+        """Whether the whole curve is proved clear of the obstacle."""
+        return isinstance(self.outcome, Clear)
+
+
+def survey(
+    curves: Mapping[str, Bezier], obstacles: Sequence[Obstacle], *, distances: bool = True
+) -> tuple[Finding, ...]:
+    """Every curve against every obstacle, exactly."""
+    found = []
+    for name, curve in curves.items():
+        along = Along(curve)
+        for obstacle in obstacles:
+            outcome = examine(along, obstacle)
+            found.append(Finding(name, curve, obstacle, outcome, _distance(curve, obstacle, outcome, distances)))
+    return tuple(found)
+
+
+def _distance(curve: Bezier, obstacle: Obstacle, outcome: Outcome, wanted: bool) -> Enclosure | None:
+    if isinstance(outcome, Contact):
+        zero = outcome.t[0] * 0
+        return Enclosure(zero, zero) if outcome.attained else None
+    if obstacle.body is None or not wanted:
+        return None
+    try:
+        return distance_enclosure(curve, obstacle.body)
+    except Unable:
+        return None
+
+
+def contacts(findings: Iterable[Finding]) -> tuple[Finding, ...]:
+    """The findings in which a curve meets an obstacle."""
+    return tuple(finding for finding in findings if not finding.is_clear)
+
+
+def certificates(findings: Iterable[Finding]) -> list[tuple[str, Certificate]]:
+    """A labelled certificate for each clearance and each first contact that has one."""
+    found = []
+    for finding in findings:
+        curve, obstacle, outcome = finding.curve, finding.obstacle, finding.outcome
+        certificate = (
+            contact_certificate(curve, obstacle, outcome)
+            if isinstance(outcome, Contact)
+            else clearance_certificate(curve, obstacle)
+        )
+        if certificate is not None:
+            verb = "clear of" if finding.is_clear else "meets"
+            found.append((f"{finding.name} {verb} {obstacle.name}", certificate))
+    return found
+
+
+def in_words(finding: Finding) -> str:
+    """One line about a finding."""
+    outcome, obstacle = finding.outcome, finding.obstacle.name
+    if isinstance(outcome, Clear):
+        far = f", at least {finding.distance.to_json(6)['low']} away" if finding.distance else ""
+        return f"{finding.name}: clear of {obstacle} for all t ({outcome.argument.value}){far}"
+    begins = "" if outcome.attained else "right after "
+    how = "enters" if outcome.enters else "touches"
+    return f"{finding.name}: {how} {obstacle}, first at {begins}t = {parameter(outcome)}, {place(outcome)}"
+
+
+def parameter(contact: Contact) -> str:
+    """The parameter of a contact: exactly, or a decimal that is right in all its digits."""
+    if contact.is_exact:
+        return str(contact.t[0])
+    return f"{float(sum(contact.t) / 2):.12f} (irrational)"
+
+
+def place(contact: Contact) -> str:
+    """The place of a contact, rounded."""
+    return f"({', '.join(f'{float(c):.6g}' for c in contact.place)})"
+
+
+def to_json(finding: Finding) -> dict[str, Any]:
+    """A finding with exact numbers."""
+    outcome = finding.outcome
+    found: dict[str, Any] = {"curve": finding.name, "obstacle": finding.obstacle.name, "clear": finding.is_clear}
+    found["distance"] = finding.distance.to_json() if finding.distance else None
+    if isinstance(outcome, Clear):
+        return {**found, "argument": outcome.argument.value}
+    return {
+        **found,
+        "first_contact": {
+            "t": [str(end) for end in outcome.t],
+            "decimal": f"{float(sum(outcome.t) / 2):.12g}",
+            "place": [c.to_json() for c in outcome.place],
+            "exact_place": None if outcome.exact_place is None else [str(c) for c in outcome.exact_place],
+            "enters": outcome.enters,
+            "attained": outcome.attained,
+        },
+    }

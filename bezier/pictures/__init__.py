@@ -1,0 +1,1 @@
+"""Pictures, in floating point, for the eye only."""

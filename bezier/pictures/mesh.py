@@ -1,0 +1,292 @@
+"""Triangles and lines for pictures. Everything here is floating point and decides nothing.
+
+A region bounded by spheres and planes is convex, so its surface is the convex hull of boundary points: those
+met by rays from an inner point, and those on the circles where two boundary surfaces meet.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bezier.curves.workspace import Ball, Condition, HalfSpace
+
+Array = NDArray[np.float64]
+Indices = NDArray[np.int64]
+
+
+@dataclass(frozen=True, slots=True)
+class RegionMesh:
+    """A closed surface: ``vertices`` (n, 3), ``faces`` (m, 3), ``owner`` (m,): index of the bounding condition.
+
+    ``edges``: polylines where two boundary surfaces meet.
+    """
+
+    vertices: Array
+    faces: Indices
+    owner: Indices
+    edges: tuple[Array, ...]
+
+
+Shape = tuple[str, Array, float]
+"""("ball", centre, radius), or ("plane", unit normal, offset) for {p : normal . p + offset >= 0}."""
+
+
+@lru_cache(maxsize=4)
+def icosphere(level: int) -> tuple[Array, Indices]:
+    """Unit directions and triangles of an icosahedron with each face split into 4^level."""
+    g = (1 + 5**0.5) / 2
+    corners: list[tuple[float, float, float]] = [(-1, g, 0), (1, g, 0), (-1, -g, 0), (1, -g, 0), (0, -1, g), (0, 1, g)]
+    corners += [(0, -1, -g), (0, 1, -g), (g, 0, -1), (g, 0, 1), (-g, 0, -1), (-g, 0, 1)]
+    faces = [(0, 11, 5), (0, 5, 1), (0, 1, 7), (0, 7, 10), (0, 10, 11), (1, 5, 9), (5, 11, 4), (11, 10, 2), (10, 7, 6)]
+    faces += [(7, 1, 8), (3, 9, 4), (3, 4, 2), (3, 2, 6), (3, 6, 8), (3, 8, 9), (4, 9, 5), (2, 4, 11), (6, 2, 10)]
+    faces += [(8, 6, 7), (9, 8, 1)]
+    points, triangles = np.array(corners, dtype=float), np.array(faces)
+    for _ in range(level):
+        points, triangles = _subdivided(points, triangles)
+    return points / np.linalg.norm(points, axis=1, keepdims=True), triangles
+
+
+def _subdivided(points: Array, triangles: Indices) -> tuple[Array, Indices]:
+    points = points / np.linalg.norm(points, axis=1, keepdims=True)
+    pairs = np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]), axis=1)
+    unique, inverse = np.unique(pairs, axis=0, return_inverse=True)
+    middles = points[unique].mean(axis=1)
+    ab, bc, ca = np.split(inverse.reshape(-1) + len(points), 3)
+    a, b, c = triangles.T
+    split = [np.stack(t, axis=1) for t in ((a, ab, ca), (b, bc, ab), (c, ca, bc), (ab, bc, ca))]
+    return np.concatenate([points, middles]), np.concatenate(split)
+
+
+def region_mesh(conditions: Sequence[Condition], level: int = 3) -> RegionMesh | None:
+    """The surface of an intersection of balls and half-spaces; None when it is unbounded or has no inner point."""
+    shapes = [_numbers(c) for c in conditions]
+    if not any(isinstance(c, Ball) for c in conditions):
+        return None
+    centre = _inner_point(shapes)
+    depth = min(_margin(s, centre[None, :])[0] for s in shapes)
+    if depth <= 1e-6 * max(1.0, float(np.abs(centre).max())):
+        return None
+    directions, _ = icosphere(level)
+    boundary = _cast(shapes, centre, directions)
+    # a second time with directions stretched to the shape found, so that thin regions are sampled evenly
+    spread = np.linalg.cholesky(np.cov((boundary - centre).T))
+    boundary = _cast(shapes, centre, directions @ spread.T)
+    edges = _edges(shapes, scale=float(np.ptp(boundary, axis=0).max()))
+    vertices = np.concatenate([boundary, *edges])
+    faces = hull_faces(vertices, centre)
+    middle = vertices[faces].mean(axis=1) - centre
+    middle /= np.linalg.norm(middle, axis=1, keepdims=True)
+    owner = np.stack([_ray(s, centre, middle) for s in shapes]).argmin(axis=0)
+    return RegionMesh(vertices, faces, owner, edges)
+
+
+def _cast(shapes: Sequence[Shape], centre: Array, directions: Array) -> Array:
+    """The boundary points of the region in these directions from an inner point."""
+    units = directions / np.linalg.norm(directions, axis=1, keepdims=True)
+    lengths = np.stack([_ray(s, centre, units) for s in shapes]).min(axis=0)
+    return np.asarray(centre + units * lengths[:, None])
+
+
+def hull_faces(vertices: Array, centre: Array) -> Indices:
+    """Triangles of the convex hull, all seen counter-clockwise from outside.
+
+    A convex region's boundary points and edge points give its surface.
+    """
+    from scipy.spatial import ConvexHull
+
+    faces = np.asarray(ConvexHull(vertices).simplices, dtype=np.int64)
+    a, b, c = (vertices[faces[:, k]] for k in range(3))
+    inward = (np.cross(b - a, c - a) * (a - centre)).sum(axis=1) < 0
+    faces[inward] = faces[inward][:, [0, 2, 1]]
+    return faces
+
+
+def _numbers(condition: Condition) -> Shape:
+    if isinstance(condition, Ball):
+        return "ball", np.array([float(c) for c in condition.centre]), float(condition.radius_squared) ** 0.5
+    if isinstance(condition, HalfSpace):
+        normal = np.array([float(c) for c in condition.normal])
+        size = float(np.linalg.norm(normal))
+        return "plane", normal / size, float(condition.offset) / size
+    raise TypeError(f"no picture for {type(condition).__name__}")
+
+
+def _margin(shape: Shape, points: Array) -> Array:
+    """Distance to the boundary, positive inside."""
+    kind, vector, number = shape
+    if kind == "ball":
+        return np.asarray(number - np.linalg.norm(points - vector, axis=1))
+    return np.asarray(points @ vector + number)
+
+
+def _inner_point(shapes: Sequence[Shape]) -> Array:
+    """A point far inside: move along the inner normal of the tightest condition with shrinking steps."""
+    balls = [s for s in shapes if s[0] == "ball"]
+    point = np.mean([b[1] for b in balls], axis=0)
+    best, depth = point, -np.inf
+    step = max(b[2] for b in balls) / 2
+    for _ in range(600):
+        margins = [float(_margin(s, point[None, :])[0]) for s in shapes]
+        worst = int(np.argmin(margins))
+        if margins[worst] > depth:
+            best, depth = point, margins[worst]
+        kind, vector, _number = shapes[worst]
+        arrow = vector - point if kind == "ball" else vector
+        size = float(np.linalg.norm(arrow))
+        point = point + arrow / (size or 1.0) * step
+        step *= 0.985
+    return np.asarray(best)
+
+
+def _ray(shape: Shape, origin: Array, directions: Array) -> Array:
+    """The distance from an inner point to the boundary in each unit direction."""
+    kind, vector, number = shape
+    if kind == "ball":
+        arrow = origin - vector
+        b = directions @ arrow
+        return -b + np.sqrt(np.maximum(b * b - arrow @ arrow + number * number, 0.0))
+    slope = directions @ vector
+    with np.errstate(divide="ignore"):
+        return np.where(slope < 0, (origin @ vector + number) / np.where(slope < 0, -slope, 1.0), np.inf)
+
+
+@dataclass(frozen=True, slots=True)
+class _Circle:
+    """centre + cos(angle) u + sin(angle) v."""
+
+    centre: Array
+    u: Array
+    v: Array
+
+    def at(self, angles: Array) -> Array:
+        """Points at these angles."""
+        a = angles[:, None]
+        return np.asarray(self.centre + np.cos(a) * self.u + np.sin(a) * self.v)
+
+
+def _edges(shapes: Sequence[Shape], scale: float, count: int = 720) -> tuple[Array, ...]:
+    """The parts of the circles in which two boundary surfaces meet that bound the region."""
+    found: list[Array] = []
+    for i, first in enumerate(shapes):
+        for second in shapes[i + 1 :]:
+            circle = _meeting(first, second)
+            if circle is None:
+                continue
+            others = [s for s in shapes if s is not first and s is not second]
+            found += [circle.at(angles) for angles in _runs(circle, others, -1e-9 * scale, count)]
+    return tuple(found)
+
+
+def _meeting(a: Shape, b: Shape) -> _Circle | None:
+    """The circle in which two spheres, or a sphere and a plane, meet."""
+    if a[0] == "plane":
+        a, b = b, a
+    if a[0] == "plane":
+        return None
+    centre, radius = a[1], a[2]
+    if b[0] == "ball":
+        arrow = b[1] - centre
+        gap = float(np.linalg.norm(arrow))
+        if gap < 1e-12:
+            return None
+        normal, along = arrow / gap, (gap * gap + radius**2 - b[2] ** 2) / (2 * gap)
+    else:
+        normal, along = b[1], -(float(b[1] @ centre) + b[2])
+    if along * along >= radius * radius:
+        return None
+    helper = np.eye(3)[int(np.argmin(np.abs(normal)))]
+    u = np.cross(normal, helper)
+    u *= (radius**2 - along**2) ** 0.5 / np.linalg.norm(u)
+    return _Circle(centre + along * normal, u, np.cross(normal, u))
+
+
+def _runs(circle: _Circle, others: Sequence[Shape], tolerance: float, count: int) -> list[Array]:
+    """Ascending angles of each maximal arc on which all other conditions hold; the ends found by bisection."""
+
+    def inside(angles: Array) -> NDArray[np.bool_]:
+        good = np.ones(len(angles), dtype=bool)
+        for other in others:
+            good &= _margin(other, circle.at(angles)) >= tolerance
+        return good
+
+    angles = np.linspace(0.0, 2 * np.pi, count + 1)
+    flags = inside(angles)
+    if flags.all():
+        return [angles]
+    if not flags.any():
+        return []
+    step = 2 * np.pi / count
+    start = int(np.argmin(flags))
+    angles = angles[start] + step * np.arange(count + 1)
+    flags = np.roll(flags[:-1], -start)
+    breaks = np.flatnonzero(np.diff(np.concatenate([[False], flags, [False]]).astype(int)))
+    runs = []
+    for first, last in zip(breaks[::2], breaks[1::2], strict=True):
+        low = _crossing(inside, angles[first], angles[first] - step)
+        high = _crossing(inside, angles[last - 1], angles[last - 1] + step)
+        runs.append(np.concatenate([[low], angles[first:last], [high]]))
+    return runs
+
+
+def _crossing(inside: Callable[[Array], NDArray[np.bool_]], good: float, bad: float) -> float:
+    for _ in range(30):
+        middle = (good + bad) / 2
+        good, bad = (middle, bad) if inside(np.array([middle]))[0] else (good, middle)
+    return good
+
+
+def sampled(control: Sequence[Sequence[Any]], count: int = 61) -> Array:
+    """Points of a Bézier curve at equally spaced parameters, by de Casteljau in floating point."""
+    t = np.linspace(0.0, 1.0, count)[:, None, None]
+    rows = np.array([[float(c) for c in p] for p in control])[None, :, :].repeat(count, axis=0)
+    while rows.shape[1] > 1:
+        rows = rows[:, :-1] * (1 - t) + rows[:, 1:] * t
+    return np.asarray(rows[:, 0, :])
+
+
+def hull(points: Array) -> Array:
+    """The convex hull of points in the plane, counter-clockwise and closed (Andrew's monotone chain)."""
+    ordered = sorted(set(map(tuple, np.round(points, 9).tolist())))
+    if len(ordered) < 3:
+        return np.array(ordered)
+    chains: list[list[tuple[float, ...]]] = []
+    for sequence in (ordered, ordered[::-1]):
+        chain: list[tuple[float, ...]] = []
+        for p in sequence:
+            while len(chain) > 1 and _turn(chain[-2], chain[-1], p) <= 0:
+                chain.pop()
+            chain.append(p)
+        chains.append(chain[:-1])
+    return np.array([*chains[0], *chains[1], chains[0][0]])
+
+
+def _turn(a: Sequence[float], b: Sequence[float], c: Sequence[float]) -> float:
+    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+
+
+def direction(view: tuple[float, float]) -> Array:
+    """The unit vector towards a viewer at this elevation and azimuth, in degrees."""
+    up, around = np.radians(view)
+    return np.array([np.cos(up) * np.cos(around), np.cos(up) * np.sin(around), np.sin(up)])
+
+
+def best_view(mesh: RegionMesh) -> tuple[float, float]:
+    """Elevation and azimuth in degrees from which the boundary surfaces are all seen as well as possible."""
+    corners = mesh.vertices[mesh.faces]
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    owners = sorted(set(mesh.owner.tolist()))
+    whole = np.linalg.norm(normals, axis=1).sum()
+    best, score = (20.0, -62.0), -np.inf
+    for elevation in (15.0, 25.0, 35.0):
+        for turn in range(-170, 190, 15):
+            seen = np.clip(normals @ direction((elevation, turn)), 0, None)
+            value = sum(float(np.sqrt(seen[mesh.owner == k].sum() / whole)) for k in owners)
+            if value > score:
+                best, score = (elevation, float(turn)), value
+    return best

@@ -1,0 +1,139 @@
+"""What the pictures show, as plain floating-point data: one value shared by the PNG files and the web page."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from bezier.curves.curve import Bezier
+from bezier.curves.scalar import same
+from bezier.curves.workspace import Condition, WorkspaceKind
+from bezier.obstacles.picture import ObstaclePicture, obstacle_pictures
+from bezier.path import Path
+from bezier.pictures.mesh import Array, RegionMesh, region_mesh, sampled
+from bezier.problem import Problem
+
+COLOURS = {"P": "#2364aa", "Q": "#d1495b", "R": "#2e9e6b"}
+"""One colour per curve, used for its control points and for the region's boundary that keeps them in."""
+SECOND = {"P2": "#6fb1e8", "Q2": "#e79aa4", "R2": "#8fd3b6"}
+"""For the second inner control point of a cubic curve."""
+INK, PALE, FLOOR = "#22303c", "#9aa7b1", "#b08d57"
+
+
+@dataclass(frozen=True, slots=True)
+class CurvePicture:
+    """A curve: its points and its control polygon."""
+
+    name: str
+    points: Array
+    polygon: Array
+
+    @property
+    def colour(self) -> str:
+        """The curve's colour."""
+        return COLOURS.get(self.name, INK)
+
+
+@dataclass(frozen=True, slots=True)
+class RegionPicture:
+    """A region with one label and colour per boundary surface, and the chosen point in it."""
+
+    mesh: RegionMesh
+    labels: tuple[str, ...]
+    chosen: Array | None = None
+
+    def colour(self, index: int) -> str:
+        """The colour of a boundary surface."""
+        label = self.labels[index]
+        if label.endswith(".z"):
+            return FLOOR
+        return SECOND.get(label, COLOURS.get(label[:1], PALE) if len(label) == 2 else PALE)
+
+
+@dataclass(frozen=True, slots=True)
+class PathPicture:
+    """The path in its workspace. ``marks``: named points; ``hats``: whether their names get hats."""
+
+    radius: float
+    has_floor: bool
+    curves: tuple[CurvePicture, ...]
+    marks: Mapping[str, Array]
+    region: RegionPicture | None = None
+    extra: Mapping[str, RegionPicture] = field(default_factory=dict)
+    hats: bool = True
+    obstacles: tuple[ObstaclePicture, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Drawing:
+    """The pictures of a plan: what the page shows, and the files written.
+
+    ``views``: the coordinate views, ``charts``: further drawings, ``clearance``: heights and distances to the
+    obstacles, all as SVG text.
+    """
+
+    picture: PathPicture
+    views: str
+    files: tuple[str, ...]
+    charts: str = ""
+    clearance: str = ""
+
+
+def path_picture(
+    problem: Problem,
+    path: Path | None,
+    given: Mapping[str, Sequence[Any]],
+    *,
+    region: RegionPicture | None,
+    extra: Mapping[str, RegionPicture] | None = None,
+    hats: bool = True,
+) -> PathPicture:
+    """The picture of a path, or of the given points alone; a place with two names is marked by one."""
+    points: dict[str, Sequence[Any]] = dict(given)
+    if path is not None:  # the last point of a curve has two names, of which the given one is shown
+        points |= {name: p for name, p in path.points.items() if not any(same(p, other) for other in given.values())}
+    reach = float(problem.workspace.radius_squared) ** 0.5
+    return PathPicture(
+        radius=reach,
+        has_floor=problem.workspace.kind is WorkspaceKind.HEMISPHERE,
+        curves=curve_pictures(path.curves) if path else (),
+        marks={name: numbers([point])[0] for name, point in points.items()},
+        region=region,
+        extra=extra or {},
+        hats=hats,
+        obstacles=obstacle_pictures(problem.obstacles, reach),
+    )
+
+
+def curve_pictures(curves: Mapping[str, Bezier], count: int = 61) -> tuple[CurvePicture, ...]:
+    """Sampled curves with their control polygons."""
+    return tuple(CurvePicture(name, sampled(c.points, count), numbers(c.points)) for name, c in curves.items())
+
+
+def region_picture(
+    conditions: Sequence[Condition], named: Sequence[Condition], chosen: Sequence[Any] | None, level: int = 3
+) -> RegionPicture | None:
+    """The region bounded by ``conditions``; labels are the names of the equal conditions among ``named``."""
+    mesh = region_mesh(conditions, level)
+    if mesh is None:
+        return None
+    labels = tuple(_label(condition, named) for condition in conditions)
+    return RegionPicture(mesh, labels, None if chosen is None else numbers([chosen])[0])
+
+
+def _label(condition: Condition, named: Sequence[Condition]) -> str:
+    probes = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
+    for other in named:
+        if type(other) is type(condition):
+            pairs = [(condition.margin(p), other.margin(p)) for p in probes]
+            if all(a * pairs[0][1] == b * pairs[0][0] for a, b in pairs) and any(a for a, _ in pairs):
+                return other.name
+    return "boundary"
+
+
+def numbers(points: Sequence[Sequence[Any]]) -> Array:
+    """Exact points as floating-point rows."""
+    return np.array([[float(c) for c in p] for p in points])

@@ -1,0 +1,1 @@
+"""Method 2 with three quadratic curves: formula (8)."""

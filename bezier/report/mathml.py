@@ -1,0 +1,157 @@
+"""Formulas and exact numbers as MathML, which browsers draw without any script or font from elsewhere.
+
+Variables such as ``q1x`` are shown as the paper writes them: Q with a hat, index 1, coordinate x.
+"""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterable
+from fractions import Fraction
+from html import escape
+from typing import Any
+
+from bezier.curves.scalar import exact_text
+from qe.exact.ring import Poly
+from qe.formula.syntax import And, Atom, Constant, Formula, Not, Or, Relation
+
+_RELATIONS = {Relation.EQ: "=", Relation.NE: "≠", Relation.LT: "&lt;", Relation.LE: "≤"}
+_RELATIONS |= {Relation.GT: "&gt;", Relation.GE: "≥"}
+_HATTED = re.compile(r'<mover accent="true"><mi>(.)</mi><mo>\^</mo></mover>')
+_POINT = re.compile(r"([pqr])([0-9])([xyz])")
+
+
+def math(body: str, *, block: bool = False) -> str:
+    """A ``<math>`` element."""
+    return f'<math display="{"block" if block else "inline"}" displaystyle="true">{body}</math>'
+
+
+def name(text: str) -> str:
+    """A variable or the name of a control point."""
+    if match := _POINT.fullmatch(text):
+        return _indexed(match[1].upper(), f"<mrow><mn>{match[2]}</mn><mi>{match[3]}</mi></mrow>")
+    if re.fullmatch(r"[PQR][0-9]", text):
+        return _indexed(text[0], f"<mn>{text[1]}</mn>")
+    return f"<mi>{escape(text)}</mi>"
+
+
+def _indexed(letter: str, index: str) -> str:
+    return f'<msub><mover accent="true"><mi>{letter}</mi><mo>^</mo></mover>{index}</msub>'
+
+
+def without_hats(page: str) -> str:
+    """A page with the names of points as in the paper's formula (7), where only the quadratic curves have hats."""
+    return _HATTED.sub(r"<mi>\1</mi>", page).replace("\\u0302", "")
+
+
+def number(value: Any) -> str:
+    """An exact number, with fractions and roots drawn as such."""
+    return number_text(exact_text(value))
+
+
+def number_text(text: str) -> str:
+    """An exact number given as text, such as ``(3 - sqrt(5))/2``."""
+    try:
+        tree = ast.parse(text.replace("^", "**"), mode="eval").body
+    except SyntaxError:
+        return f"<mtext>{escape(text)}</mtext>"
+    return _expression(tree)
+
+
+def _expression(node: ast.expr) -> str:
+    match node:
+        case ast.Constant(value):
+            return f"<mn>{value!r}</mn>"
+        case ast.Name(id):
+            return name(id)
+        case ast.UnaryOp(ast.USub(), operand):
+            return f"<mrow><mo>−</mo>{_wrapped(operand, ast.BinOp)}</mrow>"
+        case ast.BinOp(left, ast.Div(), right):
+            return f"<mfrac>{_expression(left)}{_expression(right)}</mfrac>"
+        case ast.BinOp(left, ast.Mult(), right):
+            sign = "" if isinstance(right, (ast.Call, ast.Name)) or _is_power(right) else "<mo>·</mo>"
+            return f"<mrow>{_wrapped(left, None)}{sign}{_wrapped(right, None)}</mrow>"
+        case ast.BinOp(left, ast.Pow(), right):
+            return f"<msup>{_wrapped(left, ast.BinOp)}{_expression(right)}</msup>"
+        case ast.BinOp(left, operator, right):
+            sign = "+" if isinstance(operator, ast.Add) else "−"
+            return f"<mrow>{_expression(left)}<mo>{sign}</mo>{_wrapped(right, None)}</mrow>"
+        case ast.Call(ast.Name("sqrt"), [inner]):
+            return f"<msqrt>{_expression(inner)}</msqrt>"
+        case ast.Call(ast.Name(id), arguments):
+            inside = "<mo>,</mo>".join(map(_expression, arguments))
+            return f"<mrow><mi>{escape(id)}</mi><mo>(</mo>{inside}<mo>)</mo></mrow>"
+    return f"<mtext>{escape(ast.unparse(node))}</mtext>"
+
+
+def _is_power(node: ast.expr) -> bool:
+    return isinstance(node, ast.BinOp) and isinstance(node.op, ast.Pow)
+
+
+def _wrapped(node: ast.expr, kind: type[ast.expr] | None) -> str:
+    """With brackets around sums (and around any operation, for ``kind`` BinOp)."""
+    additive = isinstance(node, ast.BinOp) and isinstance(node.op, (ast.Add, ast.Sub))
+    needed = additive or (kind is not None and isinstance(node, kind) and not _is_fraction(node))
+    return f"<mrow><mo>(</mo>{_expression(node)}<mo>)</mo></mrow>" if needed else _expression(node)
+
+
+def _is_fraction(node: ast.expr) -> bool:
+    return isinstance(node, ast.BinOp) and isinstance(node.op, (ast.Div, ast.Mult))
+
+
+def vector(values: Iterable[Any]) -> str:
+    """A point as a row of exact numbers."""
+    return "<mrow><mo>(</mo>" + "<mo>,</mo>".join(map(number, values)) + "<mo>)</mo></mrow>"
+
+
+def polynomial(poly: Poly) -> str:
+    """A polynomial, highest degree first."""
+    pieces = []
+    for position, (exponents, coefficient) in enumerate(_ordered(poly)):
+        powers = [
+            name(n) if k == 1 else f"<msup>{name(n)}<mn>{k}</mn></msup>"
+            for n, k in zip(poly.ring.names, exponents, strict=True)
+            if k
+        ]
+        sign = "−" if coefficient < 0 else "+" if position else ""
+        magnitude = [f"<mn>{abs(coefficient)}</mn>"] if abs(coefficient) != 1 or not powers else []
+        pieces.append((f"<mo>{sign}</mo>" if sign else "") + "".join(magnitude + powers))
+    return "<mrow>" + "".join(pieces or ["<mn>0</mn>"]) + "</mrow>"
+
+
+def _ordered(poly: Poly) -> list[tuple[tuple[int, ...], int]]:
+    return sorted(poly.terms(), key=lambda term: (sum(term[0]), term[0]), reverse=True)
+
+
+def formula(node: Formula) -> str:
+    """A quantifier-free formula on one line."""
+    match node:
+        case Constant(value):
+            return f"<mtext>{'true' if value else 'false'}</mtext>"
+        case Atom(poly, relation):
+            if _ordered(poly)[0][1] < 0:
+                poly, relation = -poly, relation.flipped
+            return f"<mrow>{polynomial(poly)}<mo>{_RELATIONS[relation]}</mo><mn>0</mn></mrow>"
+        case And(args):
+            return "<mo>∧</mo>".join(_bracketed(arg) for arg in args)
+        case Or(args):
+            return "<mo>∨</mo>".join(_bracketed(arg) for arg in args)
+        case Not(arg):
+            return f"<mo>¬</mo>{_bracketed(arg)}"
+    return f"<mtext>{escape(str(node))}</mtext>"
+
+
+def _bracketed(node: Formula) -> str:
+    body = formula(node)
+    return f"<mrow><mo>(</mo>{body}<mo>)</mo></mrow>" if isinstance(node, (And, Or)) else body
+
+
+def conjunction_lines(node: Formula) -> list[str]:
+    """The parts of a conjunction, one ``<math>`` element each; one element for anything else."""
+    return [math(formula(part)) for part in (node.args if isinstance(node, And) else (node,))]
+
+
+def rational(value: Fraction) -> str:
+    """A fraction as an inline ``<math>`` element."""
+    return math(number(value))
