@@ -27,18 +27,16 @@ from qe.exact.sample import Point
 from qe.formula.build import atom, conj, convert, disj, exists
 from qe.formula.evaluate import substituted
 from qe.formula.normal import nnf
-from qe.formula.syntax import FALSE, TRUE, And, Atom, Exists, ForAll, Formula, Relation
+from qe.formula.syntax import FALSE, TRUE, And, Exists, ForAll, Formula, Relation
 from qe.formula.traverse import free_variables, is_quantifier_free, polynomials, ring_of
 from qe.options import Budget, Method, Options, Projection, Stage
 from qe.plan.choice import choose
 from qe.plan.order import brown_order
-from qe.prepare.linear import Pivot, substitute
 from qe.prepare.simplify import simplify
 from qe.solution.closure import strangers
 from qe.solution.construct import closed_formula, construct
 from qe.solution.feasible import feasible
-from qe.solution.flat import implied_equations
-from qe.solution.optimum_problem import NotConvex
+from qe.solution.flat import on_flat
 from qe.solution.violation import proposed
 
 MOST_CUTS = 4
@@ -61,45 +59,16 @@ def by_critical_values(
     method's side conditions are not met.
     """
     start = time.perf_counter()
-    flat = _on_flat(variables, body, budget)
+    flat = on_flat(variables, body, budget=budget)
     if flat is not None:
         outside, rest = flat
         left = [v for v in variables if v in free_variables(rest)]
         inside = by_critical_values(left, rest, options, budget, story, otherwise) if left else rest
         return simplify(conj((*outside, inside)))
     parameters = _order(variables, body, options)
-    found = eliminate_block(variables, body, parameters, procedures=_helpers(budget), budget=budget)
+    found = eliminate_block(variables, body, parameters, procedures=procedures(budget), budget=budget)
     parts = [_formula(variables, parameters, part, budget, otherwise) for part in found]
     return _told(simplify(disj(parts)), body, parameters, found, story, start)
-
-
-def _on_flat(variables: Sequence[str], body: Formula, budget: Budget) -> tuple[list[Formula], Formula] | None:
-    """(equations in the parameters, body without the variables that linear equations give): together equivalent to
-    the block. None where a convex body has interior points or the equations of its flat are not found."""
-    try:
-        implied = implied_equations(body, budget=budget)
-    except NotConvex:
-        return None
-    if implied is None:
-        return [], FALSE
-    outside: list[Formula] = []
-    rest, equations = body, [atom(f, Relation.EQ) for f in implied]
-    for k in range(len(equations)):
-        equation = equations[k]
-        if not isinstance(equation, Atom):
-            continue
-        names = [equation.poly.ring.names[i] for i in equation.poly.variables]
-        name = next((n for n in names if n in variables), names[0])
-        i = equation.poly.ring.index[name]
-        constant, lead = equation.poly.coefficients(i)
-        pivot = Pivot(k, i, lead, constant, 1 if lead.constant_value() > 0 else -1, False)
-        if name not in variables:
-            outside.append(equation)
-        replaced = [g for f in (rest, *equations[k + 1 :]) if (g := substitute(f, pivot)) is not None]
-        if len(replaced) < len(equations) - k:
-            return None
-        rest, *equations[k + 1 :] = replaced
-    return (outside, simplify(rest)) if implied else None
 
 
 def convex_universal(formula: Formula, options: Options, budget: Budget, story: Story) -> Formula | None:
@@ -118,7 +87,7 @@ def convex_universal(formula: Formula, options: Options, budget: Budget, story: 
     if options.method is Method.AUTO and _degree(negated, formula.variables) <= 2:
         return None
     parameters = _order(formula.variables, negated, options)
-    found = eliminate_universal(formula.variables, negated, parameters, procedures=_helpers(budget), budget=budget)
+    found = eliminate_universal(formula.variables, negated, parameters, procedures=procedures(budget), budget=budget)
     if found is None:
         return None
     assert isinstance(found.found, ConvexBody)
@@ -173,7 +142,9 @@ def _order(variables: Sequence[str], body: Formula, options: Options) -> tuple[s
     return names if Stage.ORDER in options.without else brown_order(polynomials(body), names)
 
 
-def _helpers(budget: Budget) -> Procedures:
+def procedures(budget: Budget) -> Procedures:
+    """What the engine offers to critical-value elimination."""
+
     def propose(forms: Sequence[object]) -> Proposal:
         return Proposal(*proposed(forms))  # type: ignore[arg-type]
 

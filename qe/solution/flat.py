@@ -11,13 +11,45 @@ from qe.evidence.multipliers import Face, FormRelation, LinearEquation, derived_
 from qe.exact.quadratic_form import Quadratic
 from qe.exact.ring import Poly, Ring
 from qe.exact.system import HighDegree
-from qe.formula.syntax import Formula
+from qe.formula.build import atom
+from qe.formula.syntax import FALSE, Atom, Formula, Relation
 from qe.formula.traverse import ring_of
 from qe.options import Budget
+from qe.prepare.linear import Pivot, substitute
+from qe.prepare.simplify import simplify
 from qe.solution.optimum_core import rational_numbers
 from qe.solution.optimum_kkt import Kkt, kkt_point, sign
-from qe.solution.optimum_problem import read_problem
+from qe.solution.optimum_problem import NotConvex, read_problem
 from qe.solution.violation import height, proposed, violation_forms
+
+
+def on_flat(variables: Sequence[str], body: Formula, *, budget: Budget) -> tuple[list[Formula], Formula] | None:
+    """(equations in the parameters, body without the variables that linear equations give): together equivalent to
+    the block. None where a convex body has interior points or the equations of its flat are not found."""
+    try:
+        implied = implied_equations(body, budget=budget)
+    except NotConvex:
+        return None
+    if implied is None:
+        return [], FALSE
+    outside: list[Formula] = []
+    rest, equations = body, [atom(f, Relation.EQ) for f in implied]
+    for k in range(len(equations)):
+        equation = equations[k]
+        if not isinstance(equation, Atom):
+            continue
+        names = [equation.poly.ring.names[i] for i in equation.poly.variables]
+        name = next((n for n in names if n in variables), names[0])
+        i = equation.poly.ring.index[name]
+        constant, lead = equation.poly.coefficients(i)
+        pivot = Pivot(k, i, lead, constant, 1 if lead.constant_value() > 0 else -1, False)
+        if name not in variables:
+            outside.append(equation)
+        replaced = [g for f in (rest, *equations[k + 1 :]) if (g := substitute(f, pivot)) is not None]
+        if len(replaced) < len(equations) - k:
+            return None
+        rest, *equations[k + 1 :] = replaced
+    return (outside, simplify(rest)) if implied else None
 
 
 def implied_equations(conditions: Formula, *, budget: Budget) -> list[Poly] | None:

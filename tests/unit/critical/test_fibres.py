@@ -15,7 +15,7 @@ from qe.exact.sample import Point
 from qe.formula.evaluate import holds_at
 from qe.io import formats
 from qe.options import Budget
-from qe.pipeline_critical import _helpers
+from qe.pipeline_critical import procedures
 from tests.unit.critical.test_side_conditions import only
 
 LENS = "y^2 + z^2 <= 4 and (y - p)^2 + (z - q)^2 <= 1 and p <= 3"
@@ -32,7 +32,7 @@ def points() -> list[tuple[F, F]]:
 
 
 def test_answers_and_what_is_remembered() -> None:
-    fibres = Fibres(only(LENS, ("p", "q"), ("y", "z")), _helpers(Budget()))
+    fibres = Fibres(only(LENS, ("p", "q"), ("y", "z")), procedures(Budget()))
     for p, q in points():
         assert fibres.hold_at((p, q)) == in_lens(p, q)
     assert fibres.decided["known"] > fibres.decided["proposed"]
@@ -40,7 +40,7 @@ def test_answers_and_what_is_remembered() -> None:
 
 def test_proposals_are_not_believed() -> None:
     """With nonsense for proposals the answers stay right: they come from the exact decision."""
-    honest = _helpers(Budget())
+    honest = procedures(Budget())
     for nonsense in (
         Proposal(witness=(F(0), F(0))),
         Proposal(weights=(F(1), F(1))),
@@ -54,7 +54,7 @@ def test_proposals_are_not_believed() -> None:
 
 
 def test_cut_separates_an_outer_point_from_the_set() -> None:
-    fibres = Fibres(only(LENS, ("p", "q"), ("y", "z")), _helpers(Budget()))
+    fibres = Fibres(only(LENS, ("p", "q"), ("y", "z")), procedures(Budget()))
     inside = [p for p in points() if in_lens(*p)]
     for p, q in points():
         cut = fibres.cut((p, q))
