@@ -19,8 +19,9 @@ from qe.errors import BudgetExceeded
 from qe.evidence.cells import Cell
 from qe.evidence.certificate import Certificate
 from qe.exact.ring import Ring
-from qe.formula.build import atom, conj, convert, disj, exists, forall
+from qe.formula.build import atom, conj, convert, disj, exists, forall, neg
 from qe.formula.evaluate import holds_at
+from qe.formula.normal import nnf
 from qe.formula.syntax import Constant, Formula, Relation
 from qe.options import Budget, Projection
 from qe.solution.construct import construct
@@ -41,6 +42,26 @@ def constrained(draw: st.DrawFn, ring: Ring, *, max_degree: int) -> Formula:
     equations = [atom(draw(poly), relation) for _ in range(draw(st.integers(1, 3)))]
     others = [atom(draw(poly), draw(RELATIONS)) for _ in range(draw(st.integers(0, 2)))]
     found = (disj if dual else conj)(equations + others)
+    assume(not isinstance(found, Constant))
+    return found
+
+
+@st.composite
+def nested(draw: st.DrawFn) -> Formula:
+    """Equations in the top variable under disjunctions, whose branches die at different cells below."""
+    low, poly = Ring.of(NAMES[:1]), polynomials(PLANE, max_degree=2, max_terms=3, max_coefficient=3)
+
+    def side() -> Formula:
+        return atom(draw(polynomials(low, max_degree=1, max_terms=2)).convert(PLANE), draw(RELATIONS))
+
+    def linear() -> Formula:
+        rest = draw(polynomials(low, max_degree=2, max_terms=2, max_coefficient=2)).convert(PLANE)
+        return atom(PLANE.gen(1) ** draw(st.integers(1, 2)) + rest, Relation.EQ)
+
+    branches = [conj((linear(), side(), disj((side(), atom(draw(poly), draw(RELATIONS)))))) for _ in range(3)]
+    found = conj((disj(branches), disj((side(), atom(draw(poly), draw(RELATIONS))))))
+    if draw(st.booleans()):
+        found = nnf(neg(found))
     assume(not isinstance(found, Constant))
     return found
 
@@ -86,6 +107,15 @@ def test_sentences_in_the_plane_against_the_reference(matrix: Formula, quantifie
         assert found.table.root.truth is reference.decide(sentence, budget=Budget(1))
     except BudgetExceeded:
         assume(False)
+
+
+@settings(max_examples=150)
+@given(nested(), st.sampled_from([("E", "E"), ("A", "A"), ("A", "E"), ("E", "A")]))
+def test_constraints_of_disjunctions(matrix: Formula, quantifiers: tuple[str, ...]) -> None:
+    found = _decomposed(matrix, quantifiers, Tactics())
+    plain = _decomposed(matrix, quantifiers, Tactics(constraints=False))
+    assert found.table.root.truth is plain.table.root.truth
+    assert str(verify(Certificate.cells(found.table))) == "accepted"
 
 
 @settings(max_examples=40)

@@ -69,9 +69,10 @@ class Lifter:
         return self._stack(point, node, signs, dimension, used, layers)
 
     def _used(self, node: Node, level: int) -> tuple[int, ...]:
+        """The factors that a stack decomposes by: all of the level, or the ones mentioned on the last level."""
         if level < len(self.levels) - 1 or not self.partial:
             return tuple(range(len(self.levels[level])))
-        return tuple(sorted(mentioned(node, level) | self.constraints.get(level, frozenset())))
+        return tuple(sorted(mentioned(node, level)))
 
     def _layers(self, point: Point, used: tuple[int, ...], dimension: int) -> Layers:
         """The stack over a cell, by the sections of the level's constraint alone if it has one.
@@ -146,6 +147,7 @@ class Lifter:
         if relevant is None:
             self._alive.append(node)  # ids stay unique while the node lives
             relevant = self._relevant[id(node), level] = tuple(sorted(mentioned(node, level)))
+        # the used factors are either the relevant ones or all of the level, so that j is the place of factor j
         spoken = text if len(relevant) == len(used) else "".join([text[j] for j in relevant])
         key = (id(node), level, spoken)
         stored = self._shared.get(key)
