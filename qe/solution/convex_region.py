@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -100,15 +100,21 @@ class ConvexRegion(Region):
     def _holds(self, values: list[Number]) -> bool:
         if self._formula is not None or not self._shadow.hidden:
             return super()._holds(values)
-        rational = _rationals(values)
-        if rational is None:
-            if len(self.order) > TABLE_VARIABLES:
-                raise Unable("membership of an algebraic point needs the hidden variables to be eliminated")
-            return super()._holds(values)
-        return self._somewhere(self._under(rational)) is not None
+        given = dict(zip(self.order, values, strict=True))
+        irrational = [name for name, value in given.items() if _rational(value) is None]
+        if not irrational:
+            return self._somewhere(self._under(given)) is not None
+        if len(irrational) == 1:
+            value = given.pop(irrational[0])
+            allowed = self._range(irrational[0], self._under(given))
+            return allowed is not None and value in allowed
+        if len(self.order) > TABLE_VARIABLES:
+            raise Unable("membership: at most one irrational coordinate expected; others need the elimination first")
+        return super()._holds(values)
 
-    def _under(self, values: list[Fraction]) -> Formula:
-        return substituted(self._shadow.conditions, dict(zip(self.order, values, strict=False)))
+    def _under(self, given: Mapping[str, Number]) -> Formula:
+        """The conditions with rational values put in."""
+        return substituted(self._shadow.conditions, {n: q for n, v in given.items() if (q := _rational(v)) is not None})
 
     def _somewhere(self, conditions: Formula) -> dict[str, Number] | None:
         """A point that satisfies the conditions, None if there is none."""
@@ -133,12 +139,12 @@ class ConvexRegion(Region):
         return self._bounds[variable]
 
     def _fibre(self, values: list[Number]) -> list[Interval]:
-        rational = _rationals(values)
-        if rational is None:
+        if any(_rational(value) is None for value in values):
             if len(self.order) > TABLE_VARIABLES:
                 raise Unable("fibre: rational values expected; take them inside the interval")
             return super()._fibre(values)
-        found = self._range(self.order[len(values)], self._under(rational))
+        given = dict(zip(self.order, values, strict=False))
+        found = self._range(self.order[len(values)], self._under(given))
         return [] if found is None else [found]
 
     def _range(self, variable: str, conditions: Formula) -> Interval | None:
@@ -163,16 +169,10 @@ class ConvexRegion(Region):
         return f"Region({', '.join(self.order)}: {hidden}{self._shadow.conditions})"
 
 
-def _rationals(values: list[Number]) -> list[Fraction] | None:
-    """The values as fractions, None if one is irrational."""
-    found = []
-    for value in values:
-        if isinstance(value, RealAlgebraic):
-            if not value.is_rational:
-                return None
-            value = value.as_fraction()
-        found.append(value)
-    return found
+def _rational(value: Number) -> Fraction | None:
+    if isinstance(value, RealAlgebraic):
+        return value.as_fraction() if value.is_rational else None
+    return value
 
 
 def _number(value: Fraction | FieldElement) -> Number:

@@ -103,8 +103,12 @@ def test_spatial_membership_and_box() -> None:
     box = {name: region.bounds(name) for name in region.order}
     assert all(qe.verify(c).accepted for interval in box.values() for c in interval.certificates)
     assert box["a0"].lower < -3 < box["a0"].upper < -2
-    with pytest.raises(Unable, match="algebraic"):
-        region.contains({"a0": SQRT2, "a1": 0, "a2": 0})
+    (rim,) = region.fibre([F(-5, 2), F(13, 10)])
+    assert isinstance(rim.upper, RealAlgebraic)
+    assert region.contains({"a0": F(-5, 2), "a1": F(13, 10), "a2": rim.upper})
+    assert not region.contains({"a0": F(-5, 2), "a1": F(13, 10), "a2": rim.upper + F(1, 10**9)})
+    with pytest.raises(Unable, match="irrational"):
+        region.contains({"a0": SQRT2, "a1": SQRT2, "a2": 0})
 
 
 @pytest.mark.parametrize(
