@@ -30,6 +30,7 @@ from qe.formula.normal import nnf
 from qe.formula.syntax import FALSE, TRUE, And, Exists, ForAll, Formula, Relation
 from qe.formula.traverse import free_variables, is_quantifier_free, polynomials, ring_of
 from qe.options import Budget, Method, Options, Projection, Stage
+from qe.pipeline_thin import thin_universal
 from qe.plan.choice import choose
 from qe.plan.order import brown_order
 from qe.prepare.simplify import simplify
@@ -72,7 +73,7 @@ def by_critical_values(
 
 
 def convex_universal(formula: Formula, options: Options, budget: Budget, story: Story) -> Formula | None:
-    """The formula of a universal block in one or two parameters whose truth set is seen to be convex with interior.
+    """The formula of a universal block in one or two parameters whose truth set is seen to be convex, or thin.
 
     None where that is not seen, where another method is asked for, and, unless this one is, where substitution can do
     it (degree up to 2). To be asked before preparation splits the conjuncts: the whole set has fewer boundary pieces.
@@ -89,7 +90,7 @@ def convex_universal(formula: Formula, options: Options, budget: Budget, story: 
     parameters = _order(formula.variables, negated, options)
     found = eliminate_universal(formula.variables, negated, parameters, procedures=procedures(budget), budget=budget)
     if found is None:
-        return None
+        return thin_universal(formula, negated, parameters, options, budget, story)
     assert isinstance(found.found, ConvexBody)
     answer = _of_open_cells(found.found, parameters, budget)
     if answer is None:  # in the plane the table of a convex set settles every cell

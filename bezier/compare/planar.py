@@ -72,14 +72,15 @@ def plane_coordinates(point: str) -> tuple[str, str]:
 
 
 def region_of(formula: str, *, timeout: float | None = None) -> qe.Region:
-    """The region of a formula about one point in a plane. Raises ``Unable`` at the limit.
+    """The region of a formula about Q1 in the plane. Raises ``Unable`` at the limit.
 
     Its order is that in which the engine found the quantifier-free answer, if it says so: the other one may be much
     harder, since factors of the projection help to describe the region.
     """
     answer = answered(qe.eliminate(formula, timeout=timeout))
     told = answer.stats.get("critical", ())
-    return qe.region(answer.formula, order=told[-1]["order"] if told else None, timeout=timeout)
+    order = told[-1]["order"] if told else plane_coordinates("Q1")
+    return qe.region(answer.formula, order=order, timeout=timeout)
 
 
 def _along(arrow: Vector) -> Vector:

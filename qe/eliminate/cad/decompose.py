@@ -84,7 +84,7 @@ class _Job:
         """``added``: polynomials in the factor lists beside those of the matrix."""
         size = len(self.order)
         constraints = Constraints()
-        if self.tactics.constraints and projection is Projection.BROWN_MCCALLUM and self.quantifiers[-1]:
+        if self.tactics.constraints and projection is Projection.BROWN_MCCALLUM and any(self.quantifiers[-1:]):
             constraints = equational_constraints(self.matrix, size)
         listed = [*polynomials(self.matrix), *added]
         levels = factor_lists(listed, size, projection, self.budget, self.separated, constraints.factors)

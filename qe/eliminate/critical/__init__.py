@@ -3,7 +3,7 @@
 from qe.eliminate.critical.block import ConvexBody, Disjunct, Tabulated, eliminate_block
 from qe.eliminate.critical.open_cells import OpenCell
 from qe.eliminate.critical.procedures import Procedures, Proposal
-from qe.eliminate.critical.universal import eliminate_universal
+from qe.eliminate.critical.universal import eliminate_universal, necessary_conditions
 
 __all__ = [
     "ConvexBody",
@@ -14,4 +14,5 @@ __all__ = [
     "Tabulated",
     "eliminate_block",
     "eliminate_universal",
+    "necessary_conditions",
 ]

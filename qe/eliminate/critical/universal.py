@@ -23,9 +23,12 @@ from qe.eliminate.critical.system import Condition, System, systems
 from qe.evidence.multipliers import FormRelation
 from qe.exact.ring import Poly, Ring
 from qe.exact.sample import Point
-from qe.formula.build import convert
-from qe.formula.syntax import Formula
+from qe.formula.build import atom, conj, convert
+from qe.formula.syntax import Formula, Relation
 from qe.options import Budget
+
+SAMPLES = 8
+"""Into so many equal parts the range of the quantified variable is divided for necessary conditions."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,3 +98,35 @@ def _somewhere_negative(poly: Poly, inside: tuple[Condition, ...], procedures: P
         return poly.constant_value() < 0
     system = System(poly.ring, 0, (), (*inside, Condition(poly, FormRelation.LT)))
     return Fibres(system, procedures).hold_at(())
+
+
+def necessary_conditions(variables: Sequence[str], negated: Formula, parameters: Sequence[str]) -> Formula | None:
+    """Conditions g_j(p, y) <= 0 at some values of the one quantified variable; they hold wherever the block does.
+
+    By continuity that is so also at an end of the interval D which does not belong to D. None for several quantified
+    variables, and where D is not an interval with rational ends.
+    """
+    ring = Ring.of((*parameters, *variables))
+    found: list[Formula] = []
+    for part in systems(convert(negated, ring), ring, len(parameters)):
+        domain = [c for c in part.conditions if min(c.poly.variables) >= part.free]
+        others = [c for c in part.conditions if c not in domain]
+        ends = _interval(domain, part.free) if len(variables) == 1 and len(others) == 1 else None
+        if part.guards or ends is None or others[0].relation is not FormRelation.LT:
+            return None
+        low, high = ends
+        values = [low + (high - low) * k / SAMPLES for k in range(SAMPLES + 1)] if low < high else []
+        found += [atom(others[0].poly.at_rational(part.free, value), Relation.GE) for value in values]
+    return conj(found)
+
+
+def _interval(domain: Sequence[Condition], variable: int) -> tuple[Fraction, Fraction] | None:
+    """The ends of the interval that linear inequalities describe; None for other conditions."""
+    lower: list[Fraction] = []
+    upper: list[Fraction] = []
+    for condition in domain:
+        if condition.poly.degree(variable) != 1 or condition.relation is FormRelation.EQ:
+            return None
+        constant, slope = (c.constant_value() for c in condition.poly.coefficients(variable))
+        (upper if slope > 0 else lower).append(Fraction(-constant, slope))
+    return (max(lower), min(upper)) if lower and upper else None

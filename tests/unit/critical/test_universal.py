@@ -81,7 +81,6 @@ def test_other_convex_sets(text: str) -> None:
         "all t. 0 <= t and t <= 1 -> x*y + t <= 1",  # indefinite
         "all t. x^2 + y*t - t^4 <= 0",  # t is not bounded
         "all t. 0 <= t and t <= 1 -> t*x^2 + (t - 1/2)*y^2 <= 1",  # not convex for small t
-        "all t. 0 <= t and t <= 1 -> x^2 + y^2 <= t - 1",  # no interior
         "all t. 0 <= t and t <= 1 and t <= x -> t^3 <= y",  # the domain depends on a parameter
     ],
 )
@@ -90,6 +89,21 @@ def test_what_is_not_seen_to_be_convex_is_left_to_others(text: str) -> None:
 
 
 coefficients = st.integers(-2, 2)
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("all t. 0 <= t and t <= 1 -> x^2 + y^2 + t^3 <= t - 1", "false"),
+        ("all t. 0 <= t and t < 1 -> t^3*x <= 0 and -t^3*x <= 0 and y^2 <= 1 + t^3", "x = 0 and y^2 <= 1"),
+        ("all t. 0 <= t and t <= 1 -> x^2 + (y - t^3)^2 <= 1/4", "x = 0 and y = 1/2"),
+        ("all t. t^2 <= 1 -> x >= t^3 and y >= t and x + y <= 2", "x = 1 and y = 1"),
+    ],
+)
+def test_sets_without_interior_points(text: str, expected: str) -> None:
+    """Nothing, or part of a line; found only where conditions at a few t, or the bounds, already say so."""
+    answer = qe.eliminate(text, timeout=60)
+    assert qe.equivalent(answer.formula, expected)
 
 
 family = st.tuples(st.lists(coefficients, min_size=8, max_size=8), st.integers(1, 6), st.integers(1, 2))

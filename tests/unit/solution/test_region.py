@@ -98,3 +98,7 @@ def test_bad_requests_get_one_line(call, message: str) -> None:
 def test_order_must_name_every_variable() -> None:
     with pytest.raises(qe.InputError, match="order"):
         qe.region("x^2+y^2 <= 1", order=("x",))
+
+
+def test_a_formula_without_variables_has_a_region() -> None:
+    assert qe.region("false").is_empty and not qe.region("true").is_empty
