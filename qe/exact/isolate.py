@@ -104,39 +104,40 @@ def isolate(p: fmpz_poly) -> list[Interval]:
         root = fmpq(-p[0], p[1])
         return [(root, root)]
     roots: list[Interval] = []
+    rest = p
     if p[0] == 0:
         roots.append((fmpq(0), fmpq(0)))
-        p = fmpz_poly(p.coeffs()[1:])
-        if p.degree() == 0:
-            return roots
-    mirrored = fmpz_poly([-c if i % 2 else c for i, c in enumerate(p.coeffs())])
+        rest = fmpz_poly(p.coeffs()[1:])
+    mirrored = fmpz_poly([-c if i % 2 else c for i, c in enumerate(rest.coeffs())])
     roots += [(-hi, -lo) for lo, hi in _positive_roots(mirrored)]
-    roots += _positive_roots(p)
+    roots += _positive_roots(rest)
     roots.sort(key=lambda pair: pair[0] + pair[1])
-    return [_open_ends(p, pair) for pair in roots]
+    points = {lo for lo, hi in roots if lo == hi}
+    if not points:
+        return roots
+    for point in points - {0}:
+        rest = rest / fmpz_poly([-point.p, point.q])
+    return [_open_ends(rest, points, pair) for pair in roots]
 
 
-def _open_ends(p: fmpz_poly, pair: Interval) -> Interval:
-    """Shrink an open interval until neither end is a root (an end may be a neighbouring dyadic root)."""
+def _open_ends(rest: fmpz_poly, points: set[fmpq], pair: Interval) -> Interval:
+    """Shrink an open interval until neither end is one of ``points``, the roots found as points.
+
+    ``rest`` is the polynomial without these roots: it has opposite signs at the ends even where both are roots.
+    """
     lo, hi = pair
     if lo == hi:
         return pair
-    if sign_at(p, lo) == 0:
-        inner = (lo + hi) * _HALF
-        while sign_at(p, inner) * sign_at(p, hi) > 0:
-            hi = inner
-            inner = (lo + hi) * _HALF
-        if sign_at(p, inner) == 0:
-            return inner, inner
-        lo = inner
-    if sign_at(p, hi) == 0:
-        inner = (lo + hi) * _HALF
-        while sign_at(p, inner) * sign_at(p, lo) > 0:
-            lo = inner
-            inner = (lo + hi) * _HALF
-        if sign_at(p, inner) == 0:
-            return inner, inner
-        hi = inner
+    below = sign_at(rest, lo)
+    while lo in points or hi in points:
+        middle = (lo + hi) * _HALF
+        sign = sign_at(rest, middle)
+        if sign == 0:
+            return middle, middle
+        if sign == below:
+            lo = middle
+        else:
+            hi = middle
     return lo, hi
 
 

@@ -1,0 +1,59 @@
+"""Isolation of the real roots of squarefree polynomials with several factors."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import pytest
+from flint import fmpq, fmpz_poly
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from qe.exact.isolate import isolate, sign_at
+
+X = fmpz_poly([0, 1])
+
+
+def product(roots: list[Fraction]) -> fmpz_poly:
+    """A polynomial with these real roots, and two that are not real."""
+    p = X**2 + 2
+    for root in roots:
+        p *= root.denominator * X - root.numerator
+    return p
+
+
+def check(roots: list[Fraction]) -> None:
+    """Disjoint intervals in order, one for each root; the ends of an open one are no roots."""
+    p, found = product(roots), isolate(product(roots))
+    assert len(found) == len(roots)
+    for (low, high), root in zip(found, sorted(roots), strict=True):
+        value = fmpq(root.numerator, root.denominator)
+        if low == high:
+            assert low == value
+        else:
+            assert low < value < high and sign_at(p, low) * sign_at(p, high) < 0
+    assert all(left[1] <= right[0] for left, right in zip(found, found[1:], strict=False))
+
+
+@pytest.mark.parametrize(
+    "roots",
+    [
+        "1 13/10 2",  # between two dyadic roots, in the half that the middle of the interval does not show
+        "2 8/3 4 5",  # this one did not end
+        "-3 0 11/3",  # zero as an end of two intervals
+        "0",
+        "-2 0 2",
+    ],
+)
+def test_roots_beside_roots_that_are_ends(roots: str) -> None:
+    check([Fraction(root) for root in roots.split()])
+
+
+dyadic = st.builds(Fraction, st.integers(-16, 16), st.sampled_from((1, 2, 4)))
+other = st.builds(Fraction, st.integers(-60, 60), st.sampled_from((3, 5, 7, 11)))
+
+
+@settings(max_examples=150, deadline=None)
+@given(st.sets(dyadic, max_size=4), st.sets(other, max_size=4))
+def test_every_root_has_its_interval(dyadic_roots: set[Fraction], others: set[Fraction]) -> None:
+    check(sorted(dyadic_roots | others))
