@@ -23,7 +23,10 @@ def feasible(forms: Sequence[Quadratic], relations: Sequence[FormRelation], *, b
     names = tuple(f"y{k}" for k in range(size))
     nothing = Quadratic(((Fraction(0),) * size,) * size, (Fraction(0),) * size, Fraction(0))
     task = Task(names, nothing, tuple(forms), tuple(relations))
-    evidence = settle_strict(task, solve(task, budget=budget), budget=budget)
+    try:
+        evidence = settle_strict(task, solve(task, budget=budget), budget=budget)
+    except OverflowError:
+        raise Unable("the numbers are beyond the range of floats, which propose the solution") from None
     if evidence.status is OptimumStatus.UNBOUNDED:
         raise Unable("a constant objective was found unbounded")
     return evidence.status is OptimumStatus.OPTIMAL

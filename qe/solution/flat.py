@@ -82,7 +82,7 @@ def _least_violation(forms: Sequence[Quadratic], budget: Budget) -> Kkt | None:
     extended, scales = violation_forms(forms, size)
     try:
         found = kkt_point(height(size), extended, budget=budget)
-    except HighDegree:
+    except (HighDegree, OverflowError):  # an irrational flat, or numbers beyond the range of floats
         return None
     if found is None or sign(found.point[-1]) != 0:
         return None

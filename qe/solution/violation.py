@@ -67,7 +67,10 @@ def proposed(forms: Sequence[Quadratic]) -> tuple[tuple[Fraction, ...] | None, t
     """
     size = forms[0].size
     extended, scales = violation_forms(forms, size)
-    proposal = interior_point(height(size), extended, [0.0] * (size + 1))
+    try:
+        proposal = interior_point(height(size), extended, [0.0] * (size + 1))
+    except OverflowError:  # numbers beyond the range of floats
+        return None, None
     if not proposal.residual < 1e-3:
         return None, None
     if proposal.point[-1] > 0:

@@ -20,37 +20,65 @@ from collections.abc import Iterator, Sequence
 from functools import reduce
 from itertools import combinations
 
+from qe.eliminate.critical.procedures import Procedures
 from qe.eliminate.critical.system import System
 from qe.errors import Unable
 from qe.exact.groebner import groebner_basis
-from qe.exact.ring import Poly
+from qe.exact.ring import Poly, Ring
+from qe.exact.sample import Point
+from qe.formula.build import atom, conj
+from qe.formula.syntax import Relation
 from qe.options import Budget
 
 
-def critical_hypersurfaces(system: System, *, thin_parts: bool, budget: Budget) -> frozenset[Poly]:
+def critical_hypersurfaces(
+    system: System, *, thin_parts: bool, procedures: Procedures, budget: Budget
+) -> frozenset[Poly]:
     """Irreducible polynomials in the parameters whose zero sets together contain the boundary.
 
     Without ``thin_parts`` pieces of codimension two or more may be missing. Raises ``Unable`` when the critical points
     lie over all of parameter space, or elimination is too large.
     """
     found: set[Poly] = {f for a in system.guards for f, _ in a.poly.factors()[1]}
-    for polys in _critical_systems(system):
+    for chosen in _active_sets(system):
         budget.check("critical sets", len(found))
-        for p in _eliminated(polys, system, thin_parts):
+        active = [*system.equations, *chosen]
+        eliminated = _eliminated([*active, *_minors(active, system.bound)], system, thin_parts)
+        if not eliminated and _may_balance(system, chosen, procedures):
+            raise Unable("critical-value elimination: critical points over all of parameter space")
+        for p in eliminated:
             found |= {f for f, _ in p.factors()[1]}
     return frozenset(found)
 
 
-def _critical_systems(system: System) -> Iterator[list[Poly]]:
-    """For every set of active conditions the equations of its Fritz John points."""
-    equations, inequalities = list(system.equations), system.inequalities
+def _active_sets(system: System) -> Iterator[tuple[Poly, ...]]:
+    """The sets of inequalities that may be active, beside all equations, at a Fritz John point."""
+    most = max(0, len(system.bound) + 1 - len(system.equations))
+    for count in range(min(most, len(system.inequalities)) + 1):
+        if count or system.equations:
+            yield from combinations(system.inequalities, count)
+
+
+def _may_balance(system: System, chosen: Sequence[Poly], procedures: Procedures) -> bool:
+    """Whether the set has Fritz John points for some parameters, as far as that is easy to tell: without parameters
+    it is a sentence, in which the multipliers of inequalities are not negative."""
+    active = [*system.equations, *chosen]
+    if any(f.variables and f.variables[0] < system.free for f in active):
+        return True
+    ring = Ring.of((*system.ring.names[system.free :], *(f"multiplier {k}" for k in range(len(active)))))
     size = len(system.bound)
-    most = max(0, size + 1 - len(equations))
-    for count in range(min(most, len(inequalities)) + 1):
-        for chosen in combinations(inequalities, count):
-            active = [*equations, *chosen]
-            if active:
-                yield [*active, *_minors(active, system.bound)]
+    zero = [f.convert(ring) for f in active]
+    multipliers = [ring.gen(size + k) for k in range(len(active))]
+    free, signed = multipliers[: len(system.equations)], multipliers[len(system.equations) :]
+    stationary = [sum((m * f.derivative(i) for m, f in zip(multipliers, zero)), ring.constant(0)) for i in range(size)]
+    norm = sum((m * m for m in free), sum(signed, ring.constant(-1)))
+    matrix = conj(
+        (
+            *(atom(f, Relation.EQ) for f in (*zero, *stationary, norm)),
+            *(atom(m, Relation.GE) for m in signed),
+        )
+    )
+    return procedures.decide(matrix, ring.names, 0)(Point(ring))
 
 
 def _minors(active: Sequence[Poly], bound: Sequence[int]) -> list[Poly]:
@@ -75,7 +103,8 @@ def determinant(rows: Sequence[Sequence[Poly]]) -> Poly:
 
 
 def _eliminated(polys: Sequence[Poly], system: System, thin_parts: bool) -> tuple[Poly, ...]:
-    """Polynomials in the parameters that all vanish wherever the given ones have a common zero y."""
+    """Polynomials in the parameters that all vanish wherever the given ones have a common zero y; none if there is no
+    such polynomial but zero."""
     bound = system.bound
     if len(bound) == 1 and (found := _resultants(polys, bound[0])):
         return found
@@ -85,7 +114,7 @@ def _eliminated(polys: Sequence[Poly], system: System, thin_parts: bool) -> tupl
         raise Unable("critical-value elimination: the elimination of a critical set is too large")
     outside = basis.free_of(bound)
     if not outside:
-        raise Unable("critical-value elimination: critical points over all of parameter space")
+        return ()
     return outside if thin_parts else (reduce(Poly.gcd, outside),)
 
 

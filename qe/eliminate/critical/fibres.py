@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from math import lcm
+from math import inf, lcm
 
 from qe.eliminate.critical.forms import ParametricForm, parametric_form
 from qe.eliminate.critical.procedures import Decide, Procedures
@@ -147,7 +147,7 @@ class Fibres:
         return None
 
     def _solves(self, witness: Values, forms: Sequence[Fibre]) -> bool:
-        near = [float(w) for w in witness]
+        near = [_rounded(w) for w in witness]
         if any(form.near(near) > _CLEARLY for form in forms):
             return False  # floats only say where the exact test is not worth its time
         for form, relation in zip(forms, self._relations, strict=True):
@@ -178,8 +178,15 @@ class Fibres:
 
 def _over(form: ParametricForm, parameters: Values) -> Fibre:
     exact = form.at(parameters)
-    hessian = tuple(tuple(float(h) for h in row) for row in exact.hessian)
-    return Fibre(exact, hessian, tuple(float(b) for b in exact.gradient), float(exact.constant))
+    hessian = tuple(tuple(map(_rounded, row)) for row in exact.hessian)
+    return Fibre(exact, hessian, tuple(map(_rounded, exact.gradient)), _rounded(exact.constant))
+
+
+def _rounded(value: Fraction) -> float:
+    try:
+        return float(value)
+    except OverflowError:
+        return inf if value > 0 else -inf
 
 
 @dataclass(frozen=True, slots=True)
@@ -207,9 +214,9 @@ class Separation:
         """Whether the weighted sum is positive everywhere: exactly, after a look at it in floats."""
         size = len(self.inverse)
         used = [(w, form) for w, form in zip(self.weights, forms, strict=True) if w]
-        b = [sum(float(w) * form.gradient[j] for w, form in used) for j in range(size)]
-        c = sum(float(w) * form.constant for w, form in used)
-        if c - sum(float(v) * b[i] * b[j] for i, row in enumerate(self.inverse) for j, v in enumerate(row)) / 2 < 0:
+        b = [sum(_rounded(w) * form.gradient[j] for w, form in used) for j in range(size)]
+        c = sum(_rounded(w) * form.constant for w, form in used)
+        if c - sum(_rounded(v) * b[i] * b[j] for i, row in enumerate(self.inverse) for j, v in enumerate(row)) / 2 < 0:
             return False
         total = combine(self.weights, [form.exact for form in forms])
         lowest = [-sum((v * g for v, g in zip(row, total.gradient, strict=True)), Fraction(0)) for row in self.inverse]

@@ -39,8 +39,8 @@ class TableBuilder:
     CONVEX set it always does: over each base cell the fibre is an interval whose ends depend continuously on the
     base point and lie on sections (in more than two dimensions this takes a bounded set and no nullified polynomial).
     Otherwise a section of positive dimension is true beside a true sector of a CLOSED set, and false beside a
-    false sector of an OPEN one; what remains is ``unsettled``: the cell is listed as false, and the polynomials
-    that vanish there are collected for the caller.
+    false sector of an OPEN one; what remains is ``unsettled``: the cell is listed as false, and a polynomial that
+    vanishes there is kept for the caller.
     """
 
     levels: Levels
@@ -95,7 +95,8 @@ class TableBuilder:
             return False
         if not vanishing or not dimension or self.shape is Shape.CONVEX:
             return self.truth(point, vanishing)
-        self.unsettled |= vanishing
+        if not self.unsettled & vanishing:
+            self.unsettled.add(min(vanishing, key=lambda f: (f.total_degree, f.term_count(), f.terms())))
         return False
 
 

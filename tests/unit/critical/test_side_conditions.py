@@ -14,6 +14,7 @@ from qe.formula.build import convert
 from qe.formula.normal import nnf
 from qe.io import formats
 from qe.options import Budget
+from qe.pipeline_critical import procedures
 
 
 def parts(text: str, free: tuple[str, ...], bound: tuple[str, ...]) -> list[System]:
@@ -81,7 +82,9 @@ def test_shapes_of_truth_sets() -> None:
 
 
 def surfaces(text: str, free: tuple[str, ...], bound: tuple[str, ...]) -> set[str]:
-    found = critical_hypersurfaces(only(text, free, bound), thin_parts=False, budget=Budget())
+    found = critical_hypersurfaces(
+        only(text, free, bound), thin_parts=False, procedures=procedures(Budget()), budget=Budget()
+    )
     return {str(f)[5:-1] for f in found}
 
 
@@ -101,3 +104,11 @@ def test_guards_are_boundaries() -> None:
 def test_constant_critical_points_are_refused() -> None:
     with pytest.raises(qe.Unable, match="over all of parameter space"):
         surfaces("y <= 1 and z <= 1 and y + z >= 2 and y >= p and z >= p", ("p",), ("y", "z"))
+    with pytest.raises(qe.Unable, match="over all of parameter space"):
+        surfaces("y^2 + z^2 <= 1 and (y - 2)^2 + z^2 <= 1 and y >= p", ("p",), ("y", "z"))
+
+
+def test_constant_conditions_that_cannot_balance() -> None:
+    # a circle inside another one, touching it, and a tangent: gradients on one side
+    found = surfaces("y^2 + z^2 <= 4 and (y - 1)^2 + z^2 <= 1 and y <= 2 and y + z >= p", ("p",), ("y", "z"))
+    assert "p^2 - 8" in found and "p^2 - 2*p - 1" in found
