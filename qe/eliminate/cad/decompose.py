@@ -39,12 +39,15 @@ class Tactics:
     """Which of its shortcuts a decomposition takes; the answers are equivalent.
 
     ``constraints``: projection and lifting restricted by equational constraints. ``partial``: nothing is decomposed
-    where the truth is known already. ``open_only``: sectors only where all atoms are strict.
+    where the truth is known already. ``open_only``: sectors only where all atoms are strict. ``whole_free``: no
+    shortcut but a longer way: the space of the free variables is decomposed also where the truth is known, which
+    gives every free cell the signs of all factors and formula construction more to choose from.
     """
 
     constraints: bool = True
     partial: bool = True
     open_only: bool = True
+    whole_free: bool = False
 
 
 def decompose(
@@ -104,6 +107,7 @@ class _Job:
             sectors_from,
             indices,
             self.tactics.partial,
+            self.tactics.whole_free,
             self.separated,
         )
         root = lifter.run(Point(Ring.of(self.order)), compile_matrix(strong, places))

@@ -29,7 +29,8 @@ class Lifter:
     """One lifting run. From level ``sectors_from`` on, sections need not be visited (see ``sector_levels``).
 
     ``constraints``: indices of the factors of equational constraints by level (see ``equational``). Without
-    ``partial`` cells are decomposed also where the formula is decided, and every cell of a stack is visited.
+    ``partial`` cells are decomposed also where the formula is decided, and every cell of a stack is visited. With
+    ``whole_free`` that holds for the levels of free variables: every free cell then has the signs of all factors.
     ``lacking``: where a factor of a level in ``separated`` is nullified, its signs and derivatives do not tell the
     sections of its Lazard evaluation apart; partial derivatives that do are collected here, where truth depends on it.
     """
@@ -41,6 +42,7 @@ class Lifter:
     sectors_from: int
     constraints: Mapping[int, frozenset[int]] = field(default_factory=dict)
     partial: bool = True
+    whole_free: bool = False
     separated: frozenset[int] = frozenset()
     lacking: dict[Poly, None] = field(default_factory=dict)
     cells: int = 0
@@ -56,9 +58,9 @@ class Lifter:
 
     def _cell(self, point: Point, node: Node, signs: str, dimension: int) -> Cell:
         """The cell whose sample is ``point`` (``dimension`` of its coordinates are sectors)."""
-        if isinstance(node, bool) and (self.partial or point.depth == len(self.levels)):
-            return Cell(signs, node)
         level = point.depth
+        if isinstance(node, bool) and self._leaves(level):
+            return Cell(signs, node)
         used = self._used(node, level)
         layers = self._layers(point, used, dimension)
         self.stacks += 1
@@ -68,9 +70,15 @@ class Lifter:
         self.budget.check("lift", self.cells)
         return self._stack(point, node, signs, dimension, used, layers)
 
+    def _leaves(self, level: int) -> bool:
+        """Whether cells with ``level`` coordinates are left as they are when their truth is known."""
+        if level == len(self.levels):
+            return True
+        return self.partial and not (self.whole_free and not self.quantifiers[level])
+
     def _used(self, node: Node, level: int) -> tuple[int, ...]:
         """The factors that a stack decomposes by: all of the level, or the ones mentioned on the last level."""
-        if level < len(self.levels) - 1 or not self.partial:
+        if level < len(self.levels) - 1 or not self._leaves(level):
             return tuple(range(len(self.levels[level])))
         return tuple(sorted(mentioned(node, level)))
 
@@ -128,7 +136,7 @@ class Lifter:
         text = layers.texts[position]
         child = self._specialised(node, point.depth, used, text)
         off_constraint = layers.restricted and position % 2 == 0
-        if isinstance(child, bool) and (self.partial or off_constraint):
+        if isinstance(child, bool) and (off_constraint or self._leaves(point.depth + 1)):
             return Cell(text, child)
         if off_constraint:
             raise InternalError("the matrix is undecided off an equational constraint")
@@ -182,7 +190,7 @@ def sector_levels(matrix: Formula, quantifiers: tuple[str, ...]) -> int:
     of its variable that can be completed to a solution over any point form an open set, which meets a
     sector if it is not empty. Dually for weak atoms (<=, >=, =) and universal quantifiers.
     """
-    last = quantifiers[-1]
+    last = quantifiers[-1] if quantifiers else ""
     relations = {a.relation for a in atoms(matrix)}
     plain = all(isinstance(a, Atom) for a in atoms(matrix)) and not _has_negation(matrix)
     strict = all(r.is_strict for r in relations)
