@@ -14,7 +14,7 @@ from fractions import Fraction
 from typing import Any
 
 from bezier.curves import bernstein as bs
-from bezier.curves.scalar import Vector, add, dot, is_zero, same, scale, sign, subtract, vector
+from bezier.curves.scalar import Vector, dot, is_zero, same, scale, sign, subtract, vector
 from qe.errors import InputError
 
 
@@ -168,8 +168,3 @@ def join(first: Bezier, second: Bezier, durations: tuple[Fraction, Fraction] = (
 def _same_direction(u: Sequence[Any], v: Sequence[Any]) -> bool:
     inner = dot(u, v)
     return sign(inner) > 0 and is_zero(inner * inner - dot(u, u) * dot(v, v))
-
-
-def midpoint(a: Sequence[Any], b: Sequence[Any]) -> Vector:
-    """(a + b) / 2."""
-    return scale(Fraction(1, 2), add(a, b))

@@ -2,16 +2,21 @@
 
 from __future__ import annotations
 
+from math import gcd
+
 from qe.certify.residue import Residue, RootField, of_rationals
 from qe.evidence.entry import Entry
 
 
 def read_field(entry: Entry) -> RootField:
-    """``{"minimal_polynomial": [integers], "interval": [low, high]}``; the interval is proved to isolate theta."""
+    """``{"minimal_polynomial": [integers], "interval": [low, high]}``: a primitive polynomial with positive leading
+    coefficient, and an interval that is proved to isolate theta."""
     polynomial, interval = entry.fields("minimal_polynomial", "interval")
     coefficients = [c.rational() for c in polynomial.items()]
     if any(c.denominator != 1 for c in coefficients):
         raise polynomial.fail("expected integers")
+    if not coefficients or coefficients[-1] <= 0 or gcd(*(c.numerator for c in coefficients)) != 1:
+        raise polynomial.fail("expected a primitive polynomial with positive leading coefficient")
     ends = [e.rational() for e in interval.items()]
     if len(ends) != 2:
         raise interval.fail("expected two ends")

@@ -17,9 +17,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from math import gcd
 
 from qe.certify.convexity import Form, Row, is_convex, is_linear, rank, read_form
+from qe.certify.numbers import read_field, read_number
 from qe.certify.residue import ZERO, Residue, RootField, add, of_rationals, scale
 from qe.errors import CertificateRejected
 from qe.evidence.entry import Entry, Json
@@ -54,7 +54,7 @@ def check_optimum(payload: dict[str, Json]) -> None:
     names = ("problem", "status", "field", "faces", "point", *_KEYS[status])
     parts = dict(zip((*names, "inner"), entry.fields(*names, optional=("inner",)), strict=True))
     problem = _read_problem(parts["problem"])
-    field = _read_field(parts["field"])
+    field = read_field(parts["field"])
     derived = _check_faces(parts["faces"], problem)
     point = _read_numbers(parts["point"], field, problem.size)
     if status == "unbounded":
@@ -102,28 +102,8 @@ def _read_problem(entry: Entry) -> _Problem:
     return _Problem(len(names), objective, tuple(forms), tuple(relations))
 
 
-def _read_field(entry: Entry) -> RootField:
-    polynomial, interval = entry.fields("minimal_polynomial", "interval")
-    coefficients = [c.rational() for c in polynomial.items()]
-    if any(c.denominator != 1 for c in coefficients):
-        raise polynomial.fail("expected integers")
-    if not coefficients or coefficients[-1] <= 0 or gcd(*(c.numerator for c in coefficients)) != 1:
-        raise polynomial.fail("expected a primitive polynomial with positive leading coefficient")
-    ends = [e.rational() for e in interval.items()]
-    if len(ends) != 2:
-        raise interval.fail("expected two ends")
-    return RootField([c.numerator for c in coefficients], ends[0], ends[1], entry.path)
-
-
-def _read_number(entry: Entry, field: RootField) -> Residue:
-    values = [c.rational() for c in entry.items()]
-    if not 1 <= len(values) <= field.degree or (len(values) > 1 and not values[-1]):
-        raise entry.fail(f"expected 1 to {field.degree} coefficients without trailing zeros")
-    return of_rationals(values)
-
-
 def _read_numbers(entry: Entry, field: RootField, count: int) -> list[Residue]:
-    numbers = [_read_number(e, field) for e in entry.items()]
+    numbers = [read_number(e, field) for e in entry.items()]
     if len(numbers) != count:
         raise entry.fail(f"expected {count} numbers, found {len(numbers)}")
     return numbers
@@ -298,7 +278,7 @@ def _check_optimal(
         if sign and not m.is_zero:
             raise CertificateRejected(f"payload.multipliers[{i}]", "a multiplier on a constraint that is not active")
         attained = attained and not (relation == "<" and sign == 0)
-    stated = _read_number(parts["value"], field)
+    stated = read_number(parts["value"], field)
     if not add(_value(problem.objective, point, field), scale(stated, Fraction(-1))).is_zero:
         raise parts["value"].fail("not the value of the objective at the point")
     if parts["attained"].value is not attained:
@@ -339,7 +319,7 @@ def _check_inner(problem: _Problem, entry: Entry) -> None:
     if entry.value is None:
         raise entry.fail("missing: a point that satisfies the strict constraints")
     first, second = entry.fields("field", "point")
-    field = _read_field(first)
+    field = read_field(first)
     point = _read_numbers(second, field, problem.size)
     _check_feasible(problem, field, point, second, strictly=True)
 

@@ -108,18 +108,6 @@ class Basis:
         gone = set(variables)
         return tuple(p for p in self.polys if not gone & set(p.variables))
 
-    def is_zero_dimensional(self, variables: Iterable[int]) -> bool:
-        """Whether for each of these variables some leading monomial is a pure power of it.
-
-        If these are all the variables of the basis, then there are finitely many complex zeros.
-        """
-        pure = set()
-        for exponents in self.leading_exponents():
-            support = [i for i, k in enumerate(exponents) if k]
-            if len(support) == 1:
-                pure.add(self.variables[support[0]])
-        return set(variables) <= pure
-
     def _outside(self, g: fmpz_mpoly) -> Poly:
         size = self.ring.size
         weights = self._weights or (1,) * len(self.variables)

@@ -15,7 +15,7 @@ from typing import Any
 
 from flint import fmpq, fmpq_mpoly, fmpq_mpoly_ctx, fmpz, fmpz_mpoly, fmpz_mpoly_ctx, fmpz_poly
 
-from qe.errors import InputError, InternalError
+from qe.errors import InternalError
 
 _PRIMES = (3, -7, 11, -13, 17, -19, 23, -29, 31, -37, 41, -43, 47, -53, 59, -61)
 _ZERO = fmpz(0)
@@ -168,10 +168,6 @@ class Poly:
     def exact_divide(self, other: Poly | int) -> Poly:
         """The quotient of a division known to leave no remainder."""
         return Poly(self.ring, self.p / self._lift(other))
-
-    def divides(self, other: Poly) -> bool:
-        """Whether ``other`` is a multiple of ``self`` in Z[names]."""
-        return not (other.p % self.p) if self.p else not other.p
 
     # --- structure -------------------------------------------------------------------------
     @cached_property
@@ -373,10 +369,3 @@ def format_poly(p: Poly) -> str:
         else:
             pieces.append(f"{'-' if coefficient < 0 else '+'} {body}")
     return " ".join(pieces)
-
-
-def common_ring(polys: Iterable[Poly]) -> Ring:
-    """The ring of polynomials that all share one; ``InputError`` when there is none to take."""
-    for p in polys:
-        return p.ring
-    raise InputError("no polynomial given")

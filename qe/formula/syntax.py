@@ -157,5 +157,3 @@ class ForAll(Formula):
     variables: tuple[str, ...]
     body: Formula
 
-
-Quantified = Exists | ForAll

@@ -18,7 +18,6 @@ _CHARACTERS = {
     "$": "formulas are plain text",
     "\\": "'or' is written or, 'and' is written and",
 }
-_AFTER_TERM = frozenset(("NAME", "NUMBER", "CLOSE"))
 _SHOWN = {
     "RELATION": "a relation (= /= < <= > >=)",
     "CLOSE": "')'",

@@ -1,4 +1,4 @@
-"""Which method eliminates an existential block: a pure choice from features, with its reason."""
+"""Which method eliminates an existential block: a pure choice from counts and degrees, with its reason."""
 
 from __future__ import annotations
 
@@ -16,7 +16,6 @@ CAD_VARIABLES = 3
 
 CAD_FIRST_VARIABLES = 4
 """Up to this many variables decomposition goes first where substitution would square degrees."""
-
 
 CRITICAL_PARAMETERS = 2
 """Up to this many parameters critical values go first for convex conditions (measured on four to six discs: half a

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from itertools import pairwise
 
 import pytest
 from flint import fmpq, fmpz_poly
@@ -32,7 +33,7 @@ def check(roots: list[Fraction]) -> None:
             assert low == value
         else:
             assert low < value < high and sign_at(p, low) * sign_at(p, high) < 0
-    assert all(left[1] <= right[0] for left, right in zip(found, found[1:], strict=False))
+    assert all(left[1] <= right[0] for left, right in pairwise(found))
 
 
 @pytest.mark.parametrize(

@@ -25,7 +25,7 @@ def test_cyclic_3() -> None:
     basis = groebner_basis([x + y + z, x * y + y * z + z * x, x * y * z - 1])
     assert basis is not None
     assert set(basis.polys) == {x + y + z, x**2 + x * y + y**2, x**3 - 1}
-    assert basis.is_zero_dimensional((0, 1, 2)) and not basis.is_unit
+    assert not basis.is_unit
     assert basis.contains(y**3 - 1) and not basis.contains(x - 1)
 
 
