@@ -27,7 +27,7 @@ METHODS = (PlanMethod.QUADRATIC, PlanMethod.CUBIC)
 PAPER = {PlanMethod.QUADRATIC: "about 15.4 s", PlanMethod.CUBIC: "has not yet been successful"}
 """What the paper reports of quantifier elimination for formula (8), section 4.2.1, and (7), section 4.2."""
 
-REGION_SECONDS = 40.0
+REGION_SECONDS = 30.0
 """No region is worked on longer than this; the comparison then says so."""
 AREA_REL, VOLUME_REL = Fraction(1, 1000), 0.05
 """Relative width of areas and volumes."""
