@@ -50,7 +50,9 @@ def _regions(found: Comparison) -> Any:
         along_first = region.order == plane_coordinates("Q1")
         scales, fill = (unit, axis.fill_between) if along_first else (unit[::-1], axis.fill_betweenx)
         for k, band in enumerate(bands(region)):
-            values, low, high = (np.array(row) * size for row, size in zip(band, (*scales, scales[1]), strict=True))
+            # right at the ends of a band two roots may coincide, where floating point finds none
+            inner = (np.array(row[2:-2]) for row in band)
+            values, low, high = (row * size for row, size in zip(inner, (*scales, scales[1]), strict=True))
             fill(values, low, high, color=colour, alpha=0.3, linewidth=0, label=None if k else LABELS[name])
             for end in (low, high):
                 axis.plot(*((values, end) if along_first else (end, values)), color=colour, linewidth=1.4)

@@ -33,8 +33,8 @@ from qe.prepare.simplify import simplify
 MOST = 500
 """Subsets of the conditions that are tried at most, small ones first."""
 
-PROBES = 8
-"""Parameter points at which a candidate must hold before a proof is tried."""
+PROBES, UNPROBED = 8, 30
+"""Parameter points at which a candidate must hold before a proof is tried; candidates tried where there are none."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -160,7 +160,7 @@ def _prove(formula: Formula, known: Formula, budget: Budget) -> tuple[Polynomial
 def _witness(block: Exists, known: Formula, budget: Budget) -> PolynomialWitness | None:
     names = dict.fromkeys((*free_variables(known), *free_variables(block)))
     probes = list(_probes(known, names))
-    for terms in _candidates(block):
+    for terms in islice(_candidates(block), None if probes else UNPROBED):
         budget.check("polynomial witness")
         claim = substituted(block.body, terms)
         if all(holds_at(claim, probe) for probe in probes) and simplify(claim, known) == TRUE:
