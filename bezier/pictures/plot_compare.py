@@ -51,7 +51,7 @@ def _regions(found: Comparison) -> Any:
         scales, fill = (unit, axis.fill_between) if along_first else (unit[::-1], axis.fill_betweenx)
         for k, band in enumerate(bands(region)):
             # right at the ends of a band two roots may coincide, where floating point finds none
-            inner = (np.array(row[2:-2]) for row in band)
+            inner = (np.array(row[8:-8]) for row in band)
             values, low, high = (row * size for row, size in zip(inner, (*scales, scales[1]), strict=True))
             fill(values, low, high, color=colour, alpha=0.3, linewidth=0, label=None if k else LABELS[name])
             for end in (low, high):
