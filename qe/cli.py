@@ -7,6 +7,7 @@ an error is one line on stderr. Exit status as in ``qe.cli_shell``.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import Annotated
@@ -61,18 +62,9 @@ def eliminate(
     """Print a quantifier-free formula equivalent to FORMULA over the real numbers."""
     from qe import cli_work
 
-    check_limits(timeout, memory)
-    check_writable(certificate)
-    request = Request(
-        source=read_source(formula, format),
-        method=method.value,
-        order=names(order),
-        timeout=soft(timeout),
-        root_atoms=root_atoms,
-        certificate=certificate is not None,
-        json=json,
-    )
-    work = partial(cli_work.eliminate, request=request, output=output)
+    asked = request(formula, format, timeout, memory, certificate, json)
+    asked = replace(asked, method=method.value, order=names(order), root_atoms=root_atoms)
+    work = partial(cli_work.eliminate, request=asked, output=output)
     reply = limited(work, timeout=timeout, memory=memory, plain=plain)
     return deliver(reply, {"certificate": certificate}, explain=explain)
 
@@ -92,16 +84,8 @@ def decide(
     """Print true or false for a sentence, sat or unsat for an SMT-LIB script."""
     from qe import cli_work
 
-    check_limits(timeout, memory)
-    check_writable(certificate)
-    request = Request(
-        source=read_source(formula, format),
-        method=method.value,
-        timeout=soft(timeout),
-        certificate=certificate is not None,
-        json=json,
-    )
-    reply = limited(partial(cli_work.decide, request=request), timeout=timeout, memory=memory, plain=plain)
+    asked = replace(request(formula, format, timeout, memory, certificate, json), method=method.value)
+    reply = limited(partial(cli_work.decide, request=asked), timeout=timeout, memory=memory, plain=plain)
     return deliver(reply, {"certificate": certificate}, explain=explain)
 
 
@@ -120,17 +104,9 @@ def region(
     """Describe the set of real points that satisfy FORMULA, cell by cell."""
     from qe import cli_region
 
-    check_limits(timeout, memory)
-    check_writable(certificate)
     check_writable(plot)
-    request = Request(
-        source=read_source(formula, format),
-        order=names(order),
-        timeout=soft(timeout),
-        certificate=certificate is not None,
-        json=json,
-    )
-    work = partial(cli_region.region, request=request, picture=None if plot is None else plot.suffix or ".png")
+    asked = replace(request(formula, format, timeout, memory, certificate, json), order=names(order))
+    work = partial(cli_region.region, request=asked, picture=None if plot is None else plot.suffix or ".png")
     reply = limited(work, timeout=timeout, memory=memory, plain=plain)
     return deliver(reply, {"certificate": certificate, "plot": plot})
 
@@ -150,12 +126,8 @@ def minimize(
     """Print the exact least value of a polynomial under CONSTRAINTS, and where it is attained."""
     from qe import cli_region
 
-    check_limits(timeout, memory)
-    check_writable(certificate)
-    request = Request(
-        source=read_source(constraints, format), timeout=soft(timeout), certificate=certificate is not None, json=json
-    )
-    work = partial(cli_region.optimize, request=request, objective=objective, maximize=maximize)
+    asked = request(constraints, format, timeout, memory, certificate, json)
+    work = partial(cli_region.optimize, request=asked, objective=objective, maximize=maximize)
     reply = limited(work, timeout=timeout, memory=memory, plain=plain)
     return deliver(reply, {"certificate": certificate})
 
@@ -188,6 +160,22 @@ def convert(
 
     work = partial(cli_work.convert, source=read_source(formula, format), output=output)
     return deliver(limited(work, timeout=None, memory=None, plain=True), {})
+
+
+def request(
+    source: str,
+    format: InputFormat | None,
+    timeout: float | None,
+    memory: int | None,
+    certificate: Path | None,
+    json: bool,
+) -> Request:
+    """What all answering commands are asked; limits and files are checked before anything is read."""
+    check_limits(timeout, memory)
+    check_writable(certificate)
+    return Request(
+        source=read_source(source, format), timeout=soft(timeout), certificate=certificate is not None, json=json
+    )
 
 
 def names(order: str | None) -> tuple[str, ...] | None:

@@ -85,11 +85,7 @@ def eliminate(channel: Channel, request: Request, output: OutputFormat) -> Reply
         data = {
             "status": answer.status.name.lower(),
             "formula": formats.write(answer.formula, output.value),
-            "truth": answer.truth,
-            "witness": _point(answer.witness),
-            "guarantee": answer.guarantee.name.lower(),
-            "stats": plain(answer.stats),
-            "seconds": round(seconds, 6),
+            **_told(answer, seconds),
         }
         return Reply(json.dumps(data, indent=2, ensure_ascii=False), files=files)
     return Reply(formats.write(answer.formula, output.value).rstrip("\n"), _story(answer, seconds), files)
@@ -114,15 +110,19 @@ def decide(channel: Channel, request: Request) -> Reply:
     text = ("sat" if answer.truth else "unsat") if script else ("true" if answer.truth else "false")
     files = {"certificate": certificate_text(answer)} if request.certificate else {}
     if request.json:
-        data = {
-            "truth": answer.truth,
-            "witness": _point(answer.witness),
-            "guarantee": answer.guarantee.name.lower(),
-            "stats": plain(answer.stats),
-            "seconds": round(seconds, 6),
-        }
-        return Reply(json.dumps(data, indent=2, ensure_ascii=False), files=files)
+        return Reply(json.dumps(_told(answer, seconds), indent=2, ensure_ascii=False), files=files)
     return Reply(text, _story(answer, seconds), files)
+
+
+def _told(answer: Answer, seconds: float) -> dict[str, Any]:
+    """What the JSON of every answer says."""
+    return {
+        "truth": answer.truth,
+        "witness": _point(answer.witness),
+        "guarantee": answer.guarantee.name.lower(),
+        "stats": plain(answer.stats),
+        "seconds": round(seconds, 6),
+    }
 
 
 def convert(channel: Channel, source: Source, output: OutputFormat) -> Reply:

@@ -146,58 +146,78 @@ def _state(f: FloatQuadratic, g: Sequence[FloatQuadratic], x: Row, slack: Row, d
     return residual, jacobian, primal, norm
 
 
+@dataclass(frozen=True, slots=True)
+class _Linearised:
+    """Newton's equations at one iterate, reduced to those for the point."""
+
+    matrix: list[Row]
+    residual: Row
+    jacobian: list[Row]
+    primal: Row
+    slack: Row
+    dual: Row
+
+    @classmethod
+    def at(cls, f: FloatQuadratic, g: Sequence[FloatQuadratic], x: Row, slack: Row, dual: Row) -> _Linearised:
+        n = len(x)
+        residual, jacobian, primal, _ = _state(f, g, x, slack, dual)
+        matrix = [[0.0] * n for _ in range(n)]
+        for i, j, h in f.hessian:
+            matrix[i][j] += h
+        for q, slope, s, u in zip(g, jacobian, slack, dual, strict=True):
+            for i, j, h in q.hessian:
+                matrix[i][j] += u * h
+            weight = u / s
+            for i, a in enumerate(slope):
+                if a:
+                    row, factor = matrix[i], weight * a
+                    for j, b in enumerate(slope):
+                        row[j] += factor * b
+        bump = 1e-13 * max((matrix[i][i] for i in range(n)), default=1.0) + 1e-300
+        for i in range(n):
+            matrix[i][i] += bump
+        return cls(matrix, residual, jacobian, primal, slack, dual)
+
+    def direction(self, centre: Sequence[float]) -> tuple[Row, Row, Row] | None:
+        """Steps of point, slacks, multipliers that lower each product of a slack and its multiplier by ``centre``."""
+        rhs = [-r for r in self.residual]
+        extra = [(u * p - c) / s for u, p, c, s in zip(self.dual, self.primal, centre, self.slack, strict=True)]
+        for slope, e in zip(self.jacobian, extra, strict=True):
+            for i, a in enumerate(slope):
+                rhs[i] -= a * e
+        dx = solve_floats(self.matrix, rhs)
+        if dx is None or not all(abs(d) < 1e300 for d in dx):
+            return None
+        moved = [sum(a * d for a, d in zip(slope, dx, strict=True)) for slope in self.jacobian]
+        ds = [-p - t for p, t in zip(self.primal, moved, strict=True)]
+        du = [e + u * t / s for e, u, t, s in zip(extra, self.dual, moved, self.slack, strict=True)]
+        return dx, ds, du
+
+
 def _newton_step(
     f: FloatQuadratic, g: Sequence[FloatQuadratic], x: Row, slack: Row, dual: Row, damped: bool
 ) -> tuple[Row, Row, Row] | None:
-    n, m = len(x), len(g)
-    residual, jacobian, primal, _ = _state(f, g, x, slack, dual)
-    matrix = [[0.0] * n for _ in range(n)]
-    for i, j, h in f.hessian:
-        matrix[i][j] += h
-    for q, slope, s, u in zip(g, jacobian, slack, dual, strict=True):
-        for i, j, h in q.hessian:
-            matrix[i][j] += u * h
-        weight = u / s
-        for i, a in enumerate(slope):
-            if a:
-                row, factor = matrix[i], weight * a
-                for j, b in enumerate(slope):
-                    row[j] += factor * b
-    bump = 1e-13 * max((matrix[i][i] for i in range(n)), default=1.0) + 1e-300
-    for i in range(n):
-        matrix[i][i] += bump
+    m = len(g)
+    equations = _Linearised.at(f, g, x, slack, dual)
     mean = sum(u * s for u, s in zip(dual, slack, strict=True)) / m if m else 0.0
-
-    def direction(centre: Sequence[float]) -> tuple[Row, Row, Row] | None:
-        rhs = [-r for r in residual]
-        extra = [(u * p - c) / s for u, p, c, s in zip(dual, primal, centre, slack, strict=True)]
-        for slope, e in zip(jacobian, extra, strict=True):
-            for i, a in enumerate(slope):
-                rhs[i] -= a * e
-        dx = solve_floats(matrix, rhs)
-        if dx is None or not all(abs(d) < 1e300 for d in dx):
-            return None
-        moved = [sum(a * d for a, d in zip(slope, dx, strict=True)) for slope in jacobian]
-        ds = [-p - t for p, t in zip(primal, moved, strict=True)]
-        du = [e + u * t / s for e, u, t, s in zip(extra, dual, moved, slack, strict=True)]
-        return dx, ds, du
-
     if not m:
-        straight = direction([])
+        straight = equations.direction([])
         return None if straight is None else ([v + d for v, d in zip(x, straight[0], strict=True)], [], [])
     products = [u * s for u, s in zip(dual, slack, strict=True)]
     if damped:
         sigma = 0.2
-        chosen = direction([p - sigma * mean for p in products])
+        chosen = equations.direction([p - sigma * mean for p in products])
     else:
-        plain = direction(products)
+        plain = equations.direction(products)
         if plain is None:
             return None
         _, ds, du = plain
         a, b = _longest(slack, ds, 1.0), _longest(dual, du, 1.0)
         reached = sum((u + b * e) * (s + a * d) for u, e, s, d in zip(dual, du, slack, ds, strict=True)) / m
         sigma = min(1.0, max(0.0, reached / mean)) ** 3 if mean else 0.0
-        chosen = direction([p + c * e - sigma * mean for p, c, e in zip(products, ds, du, strict=True)]) or plain
+        chosen = (
+            equations.direction([p + c * e - sigma * mean for p, c, e in zip(products, ds, du, strict=True)]) or plain
+        )
     if chosen is None:
         return None
     dx, ds, du = chosen
