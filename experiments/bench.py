@@ -124,7 +124,6 @@ def process_rows() -> list[Row]:
         return float(subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout)
 
     with tempfile.TemporaryDirectory() as folder:
-
         peaks = [resource.getrusage(resource.RUSAGE_SELF).ru_maxrss]
 
         def plan(*options: str) -> Callable[[], object]:

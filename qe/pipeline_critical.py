@@ -162,9 +162,7 @@ def procedures(budget: Budget) -> Procedures:
         return at
 
     return Procedures(
-        project=lambda polys, size, projection, part, separated: factor_lists(
-            polys, size, projection, part, separated
-        ),
+        project=lambda polys, size, projection, part, separated: factor_lists(polys, size, projection, part, separated),
         propose=propose,
         feasible=lambda forms, relations: feasible(forms, relations, budget=budget),
         decide=decide,

@@ -13,9 +13,7 @@ from qe.pipeline_cad import Values
 from qe.prepare.simplify import simplify
 
 
-def substituted(
-    variables: Sequence[str], body: Formula, budget: Budget, story: Story
-) -> tuple[Formula, Values | None]:
+def substituted(variables: Sequence[str], body: Formula, budget: Budget, story: Story) -> tuple[Formula, Values | None]:
     """``exists variables. body`` as far as substitution goes (it may keep quantifiers), with values if it is true."""
     start = time.perf_counter()
     result = eliminate_block(variables, body, budget=budget, simplify=simplify)

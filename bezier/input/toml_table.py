@@ -113,9 +113,7 @@ class Table:
         raw = self.values.get(key, [])
         if not isinstance(raw, list) or not all(isinstance(entry, dict) for entry in raw):
             raise self.error(key, f"tables [[{key}]]", describe(raw))
-        return tuple(
-            Table(entry, self.source, self.lines, f"{self.prefix}{key}[{i}].") for i, entry in enumerate(raw)
-        )
+        return tuple(Table(entry, self.source, self.lines, f"{self.prefix}{key}[{i}].") for i, entry in enumerate(raw))
 
     def _exact(self, key: str, raw: object) -> Fraction:
         try:

@@ -97,8 +97,10 @@ def _infeasibility(plan: QuadraticPlan) -> Row | None:
         "Q1 has to lie in the three balls of radius r about O, 2 Q0 and 2 R0. They have a common point exactly when the"
         " smallest circle around the triangle O, Q0, R0 has a radius of at most r/2. "
     )
-    text += "The triangle is acute, so that circle goes through all three corners." if balls.is_acute else (
-        "The triangle has no acute shape, so its longest side is the diameter of that circle."
+    text += (
+        "The triangle is acute, so that circle goes through all three corners."
+        if balls.is_acute
+        else ("The triangle has no acute shape, so its longest side is the diameter of that circle.")
     )
     if balls.meet:
         text = "The three balls of radius r about O, 2 Q0 and 2 R0 meet, but not where the other conditions hold."
@@ -157,5 +159,3 @@ def _corrected(plan: QuadraticPlan) -> str:
         "With z ≥ 0 added for all three control points the region becomes smaller:"
         f" {count} cell{'s' if count != 1 else ''}, dimension {region.dimension}, z between {ends}."
     )
-
-

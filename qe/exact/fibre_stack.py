@@ -138,9 +138,7 @@ def _separate(point: Point, sections: list[Section]) -> list[Section]:
         with precision(max(s.bits for s in sections) + 16):
             balls = {id(s): s.ball() for s in sections}
             sections.sort(key=lambda s: balls[id(s)].mid())
-            clash = next(
-                ((a, b) for a, b in itertools.pairwise(sections) if not balls[id(a)] < balls[id(b)]), None
-            )
+            clash = next(((a, b) for a, b in itertools.pairwise(sections) if not balls[id(a)] < balls[id(b)]), None)
         if clash is None:
             return sections
         a, b = clash

@@ -156,4 +156,3 @@ class ForAll(Formula):
 
     variables: tuple[str, ...]
     body: Formula
-

@@ -62,4 +62,3 @@ def parse(made: Lark, text: str, fail: Failing) -> s.Node:
 def position(text: str, at: int) -> tuple[int, int]:
     """Line and column, from 1, of an offset."""
     return text.count("\n", 0, at) + 1, at - text.rfind("\n", 0, at)
-

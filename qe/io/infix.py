@@ -124,9 +124,7 @@ def _bracketed(formula: Formula, brackets: tuple[str, str], notation: Notation) 
     return brackets[0] + _write(formula, Level.OPEN, True, notation) + brackets[1]
 
 
-def _chain(
-    args: tuple[Formula, ...], operator: str, own: Level, around: Level, last: bool, notation: Notation
-) -> str:
+def _chain(args: tuple[Formula, ...], operator: str, own: Level, around: Level, last: bool, notation: Notation) -> str:
     if around >= own or (notation.strict and around is not Level.OPEN):
         return notation.brackets[0] + _chain(args, operator, own, Level.OPEN, True, notation) + notation.brackets[1]
     ends = [last and i == len(args) - 1 for i in range(len(args))]

@@ -140,9 +140,7 @@ class Quantification(NamedTuple):
 
 
 Term: TypeAlias = Number | Name | Sum | Product | Quotient | Power | Minus | Root
-Node: TypeAlias = (
-    Comparison | Truth | Every | Some | Negation | Implication | Equivalence | Quantification
-)
+Node: TypeAlias = Comparison | Truth | Every | Some | Negation | Implication | Equivalence | Quantification
 Part: TypeAlias = Term | Node
 
 
@@ -336,4 +334,3 @@ class _Lowering:
         if number is None or number.denominator != 1:
             raise self.fail(message, at)
         return int(number)
-

@@ -72,9 +72,7 @@ def _assemble(relation: Relation, sign: int, even: list[Poly], odd: list[Poly], 
     return disj((atom(square, Relation.EQ), rest))
 
 
-def _reduce_equation(
-    given: Atom, parts: tuple[tuple[Poly, int], ...], facts: Facts, conjunctive: bool
-) -> Formula:
+def _reduce_equation(given: Atom, parts: tuple[tuple[Poly, int], ...], facts: Facts, conjunctive: bool) -> Formula:
     kept: list[Poly] = []
     for factor, _ in parts:
         signs = facts.signs(factor)

@@ -224,9 +224,7 @@ def test_scaling_and_rotation(q0, r0, more, factor):
     def turned(p):  # a rotation about the z axis and a reflection of z
         return Fraction(3, 5) * p[0] - Fraction(4, 5) * p[1], Fraction(4, 5) * p[0] + Fraction(3, 5) * p[1], -p[2]
 
-    larger = make_plan(
-        problem(scale(factor, q0), scale(factor, r0), asked.workspace.radius_squared * factor * factor)
-    )
+    larger = make_plan(problem(scale(factor, q0), scale(factor, r0), asked.workspace.radius_squared * factor * factor))
     other = make_plan(problem(turned(q0), turned(r0), asked.workspace.radius_squared))
     assert larger.objective == plan.objective * factor * factor and other.objective == plan.objective
     assert set(larger.active) == set(plan.active) == set(other.active)

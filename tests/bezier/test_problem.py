@@ -62,7 +62,7 @@ def test_notes():
 
 
 BAD = {
-    'start = [1,2]': ("start", "3 numbers", "2 values"),
+    "start = [1,2]": ("start", "3 numbers", "2 values"),
     'start = [1,2,"x"]': ("start[2]", "fraction", '"x"'),
     "start = [1,2,nan]": ("start[2]", "decimal", "nan"),
     "start = [1,2,-inf]": ("start[2]", "decimal", "-inf"),

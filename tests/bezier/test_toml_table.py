@@ -44,7 +44,7 @@ def test_the_line_of_a_key_in_the_second_table(table):
 
 
 def test_unknown_keys_and_wrong_shapes(table):
-    with pytest.raises(InputError, match=r'^p\.toml:9: half_space\[1\]\.offset: expected one of the keys normal'):
+    with pytest.raises(InputError, match=r"^p\.toml:9: half_space\[1\]\.offset: expected one of the keys normal"):
         table.tables("half_space")[1].only(("normal",))
     with pytest.raises(InputError, match=r"^p\.toml:1: title: expected tables \[\[title\]\]"):
         table.tables("title")

@@ -108,9 +108,7 @@ def test_membership_under_rotation_and_in_space(
 @pytest.mark.deep
 @settings(max_examples=25, deadline=None)
 @given(POINTS, POINTS, st.integers(0, 9), st.lists(POINTS, min_size=3, max_size=3))
-def test_region_of_random_cubic_curves(
-    q0: tuple[F, F], r0: tuple[F, F], slack: int, at: list[tuple[F, F]]
-) -> None:
+def test_region_of_random_cubic_curves(q0: tuple[F, F], r0: tuple[F, F], slack: int, at: list[tuple[F, F]]) -> None:
     r2 = int(max(q0[0] ** 2 + q0[1] ** 2, r0[0] ** 2 + r0[1] ** 2)) + max(1, slack)
     shadow = shadow_of_cubic(q0, r0, r2)
     formula = shadow.formula

@@ -60,9 +60,7 @@ def test_negation_commutes(formula: Formula, values: tuple[Fraction, ...]) -> No
 
 @settings(max_examples=60, deadline=None)
 @given(formulas(), st.lists(points, min_size=1, max_size=8))
-def test_bound_variables_are_not_confused_with_free_ones(
-    formula: Formula, where: list[tuple[Fraction, ...]]
-) -> None:
+def test_bound_variables_are_not_confused_with_free_ones(formula: Formula, where: list[tuple[Fraction, ...]]) -> None:
     """``f and ex x. f`` is f: what f says about the free x must not leak into the quantifier, nor back."""
     result = simplify(conj((formula, exists(("x",), formula))))
     parts = result.args if isinstance(result, And) else (result,)

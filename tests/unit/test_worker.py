@@ -81,7 +81,7 @@ def test_foreign_errors_arrive_as_internal_errors_with_their_place():
 
 def test_an_unpicklable_result_is_an_internal_error():
     with pytest.raises(InternalError):
-        run(lambda channel: (lambda: None))
+        run(lambda channel: lambda: None)
 
 
 def test_the_time_limit_kills_and_keeps_what_was_known():

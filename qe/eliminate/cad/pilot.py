@@ -83,9 +83,7 @@ def _projected(polys: Sequence[Poly], name: str, budget: Budget) -> list[Poly]:
     return list(left)
 
 
-def _measured(
-    matrix: Formula, order: tuple[str, ...], rule: OrderRule, heaviest: int, budget: Budget
-) -> Candidate:
+def _measured(matrix: Formula, order: tuple[str, ...], rule: OrderRule, heaviest: int, budget: Budget) -> Candidate:
     """The size of the whole projection."""
     matrix = convert(matrix, Ring.of(order))
     levels = factor_lists(

@@ -118,9 +118,7 @@ class Run:
 
     def general(self) -> Tabulated:
         """Any truth set: cells off the hypersurfaces by rational points beside them, single points exactly."""
-        boundary = critical_hypersurfaces(
-            self.system, thin_parts=True, procedures=self.procedures, budget=self.budget
-        )
+        boundary = critical_hypersurfaces(self.system, thin_parts=True, procedures=self.procedures, budget=self.budget)
         self.stats["hypersurfaces"] = len(boundary)
 
         def truth(point: Point, vanishing: frozenset[Poly]) -> bool:
@@ -133,9 +131,7 @@ class Run:
 
     def convex(self) -> ConvexBody | None:
         """A closed convex truth set, if it has interior points."""
-        surfaces = critical_hypersurfaces(
-            self.system, thin_parts=False, procedures=self.procedures, budget=self.budget
-        )
+        surfaces = critical_hypersurfaces(self.system, thin_parts=False, procedures=self.procedures, budget=self.budget)
         return self.body(surfaces, self._hint())
 
     def body(self, surfaces: frozenset[Poly], hint: tuple[Fraction, ...]) -> ConvexBody | None:

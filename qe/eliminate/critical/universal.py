@@ -60,9 +60,7 @@ def eliminate_universal(
     parts = systems(convert(negated, ring), ring, len(parameters))
     if not parameters or not all(has_bounded_fibres(part) and _spares_a_convex_set(part, procedures) for part in parts):
         return None
-    surfaces = [
-        critical_hypersurfaces(part, thin_parts=False, procedures=procedures, budget=budget) for part in parts
-    ]
+    surfaces = [critical_hypersurfaces(part, thin_parts=False, procedures=procedures, budget=budget) for part in parts]
     stats: dict[str, object] = {"universal": len(parts)}
     spared = Spared(tuple(Fibres(part, procedures) for part in parts))
     hint = (Fraction(0),) * len(parameters)

@@ -64,9 +64,7 @@ def bounds(
             gauss = best_gauss([gauss_constituent(a, x, side, signs) for a in args])
             if gauss is not None:
                 return _with_gauss(formula, *gauss, x, side, signs, omit)
-            return _joined(
-                _within(formula, args, k, bounds(arg, x, side, signs, omit)) for k, arg in enumerate(args)
-            )
+            return _joined(_within(formula, args, k, bounds(arg, x, side, signs, omit)) for k, arg in enumerate(args))
         case Or(args):
             return _joined(bounds(arg, x, side, signs, omit) for arg in args)
     return ()
@@ -158,9 +156,7 @@ def _with_gauss(
     inner = _within(whole, args, k, gauss.candidates)
     if gauss.degenerate == FALSE or inner is None:
         return inner
-    others = _joined(
-        _within(whole, args, j, bounds(arg, x, side, signs, omit)) for j, arg in enumerate(args) if j != k
-    )
+    others = _joined(_within(whole, args, j, bounds(arg, x, side, signs, omit)) for j, arg in enumerate(args) if j != k)
     if others is None:
         return None
     return (*inner, *(replace(c, guard=conj((gauss.degenerate, c.guard))) for c in others))
@@ -173,9 +169,7 @@ def _within(
     if found is None:
         return None
     rest = (*args[:k], *args[k + 1 :])
-    return tuple(
-        replace(c, formula=whole if c.formula is args[k] else conj((c.formula, *rest))) for c in found
-    )
+    return tuple(replace(c, formula=whole if c.formula is args[k] else conj((c.formula, *rest))) for c in found)
 
 
 def _joined(parts: Iterable[tuple[Candidate, ...] | None]) -> tuple[Candidate, ...] | None:

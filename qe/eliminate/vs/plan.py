@@ -111,8 +111,7 @@ def _with_gauss(
     """Only the points of the Gauss constituent; where it vanishes identically, the problem without it."""
     rest = (*args[:k], *args[k + 1 :])
     candidates = tuple(
-        replace(c, formula=formula if c.formula is args[k] else conj((c.formula, *rest)))
-        for c in gauss.candidates
+        replace(c, formula=formula if c.formula is args[k] else conj((c.formula, *rest))) for c in gauss.candidates
     )
     cost = gauss_cost(gauss) * size if size > 1 or gauss.degenerate != FALSE else points_cost(candidates) * 0.5
     if gauss.degenerate == FALSE:

@@ -93,9 +93,7 @@ def _parabola(given: Atom, x: int, signs: Signs) -> Parabola | None:
     return Parabola(given, inside[0][0], f)
 
 
-def _of_family(
-    formula: Formula, family: tuple[Parabola, ...], x: int, signs: Signs
-) -> tuple[Candidate, ...] | None:
+def _of_family(formula: Formula, family: tuple[Parabola, ...], x: int, signs: Signs) -> tuple[Candidate, ...] | None:
     """THEOREM. Let F = f1 ? 0 and ... and fm ? 0 and G (each ? is < or <=), fi with leading coefficient ai > 0. If F
 
     holds somewhere, it holds at an infinity, or at an end of a component of its truth set that comes from an atom

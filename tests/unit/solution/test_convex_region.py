@@ -57,7 +57,7 @@ def test_fibres_and_walk() -> None:
 
 def test_strict_conditions_and_unbounded_directions() -> None:
     region = qe.region("x^2 + y^2 < 1 and z > x + y and w >= 2")
-    assert region.bounds("x") .upper == 1 and not region.bounds("x").upper_closed
+    assert region.bounds("x").upper == 1 and not region.bounds("x").upper_closed
     assert region.bounds("z").upper is None and region.bounds("w") == region.bounds("w")
     assert region.bounds("w").lower_closed and region.bounds("w").upper is None
     (point,) = region.sample_points()
@@ -115,9 +115,7 @@ def test_spatial_membership_and_box() -> None:
     ("q0", "r0", "r2", "point"),
     [((3, 4), (1, 2), 25, (3, 4)), ((3, 4), (-3, 4), 25, (3, 4)), ((3, 4), (3, 4), 25, (3, 4))],
 )
-def test_via_point_on_the_circle(
-    q0: tuple[int, int], r0: tuple[int, int], r2: int, point: tuple[int, int]
-) -> None:
+def test_via_point_on_the_circle(q0: tuple[int, int], r0: tuple[int, int], r2: int, point: tuple[int, int]) -> None:
     """|Q0| = r leaves Q1 = Q0 alone: a set without interior points."""
     region = qe.region(shadow(q0, r0, r2))
     assert [tuple(region.bounds(name)) for name in region.order] == [(point[0],) * 2, (point[1],) * 2]
@@ -131,9 +129,7 @@ def test_via_point_on_the_circle(
         ((1, 1), (1, 1), 4, "9*a0^2 + 9*a1^2 - 24*a0 - 24*a1 + 28 <= 0 and a0^2 + a1^2 <= 4"),
     ],
 )
-def test_coinciding_via_points_and_the_origin(
-    q0: tuple[int, int], r0: tuple[int, int], r2: int, formula: str
-) -> None:
+def test_coinciding_via_points_and_the_origin(q0: tuple[int, int], r0: tuple[int, int], r2: int, formula: str) -> None:
     assert qe.equivalent(qe.region(shadow(q0, r0, r2)).formula, formula)
 
 

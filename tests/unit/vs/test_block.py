@@ -29,8 +29,7 @@ def run(text: str) -> BlockResult:
 
 
 LOWEST_PAIR = (
-    "a < 0 and a < b and a < c or b < 0 and b < a and b < c or c < 0 and c < a and c < b"
-    " or a < 0 and b < 0 and c < 0"
+    "a < 0 and a < b and a < c or b < 0 and b < a and b < c or c < 0 and c < a and c < b or a < 0 and b < 0 and c < 0"
 )
 GRID: tuple[Fraction | int, ...] = (-2, -1, 0, 1, Fraction(1, 2), 3)
 

@@ -34,9 +34,7 @@ def test_root_condition_is_the_relation(a: int, b: int, r: int, relation: Relati
         root = real_roots((RING.gen(X) ** 2 - r).to_univariate(X))[-1]
         value = (root * b + a).sign()
     ring = RING
-    found = root_condition(
-        ring.constant(a), ring.constant(b), ring.constant(a * a - b * b * r), relation, atom
-    )
+    found = root_condition(ring.constant(a), ring.constant(b), ring.constant(a * a - b * b * r), relation, atom)
     assert found == (TRUE if relation.holds(value) else FALSE)
 
 
