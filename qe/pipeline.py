@@ -20,11 +20,12 @@ from qe.evidence.elimination import Elimination
 from qe.evidence.story import Story
 from qe.exact.ring import Ring
 from qe.formula.build import conj, convert, disj, exists, forall, neg
+from qe.formula.counting import without_root_atoms
 from qe.formula.normal import nnf, rename_apart
 from qe.formula.syntax import FALSE, TRUE, And, Constant, Exists, ForAll, Formula, Not, Or
-from qe.formula.traverse import atoms, free_variables, is_quantifier_free, polynomials
+from qe.formula.traverse import atoms, free_variables, has_root_atoms, is_quantifier_free
 from qe.options import Budget, Method, Options, Stage
-from qe.pipeline_cad import Values, decomposed
+from qe.pipeline_cad import Values, decomposed, is_small, length
 from qe.pipeline_critical import by_critical_values, convex_block, convex_universal
 from qe.pipeline_vs import substituted
 from qe.plan.choice import allows, planned
@@ -39,11 +40,6 @@ from qe.solution.polynomial_witness import find as polynomial_witnesses
 FIRST_SHARE = 0.4
 """The share of the remaining time that the first method gets while another one could take over."""
 
-SHORTEN_ABOVE, SHORTEN_PLANE = 8, 4
-"""Answers with more atoms than this, or joined from parts, are shortened by decomposition of parameter space: the
-second bound is for one and two parameters, where that takes some hundredths of a second.
-"""
-
 PROBE_ABOVE, PROBE_SECONDS, PROBE_SHARE, PROBE_ATOMS = 3, 1.0, 0.1, 30
 """Substitution is tried for this long before a decomposition in more variables, and taken if its answer is small."""
 
@@ -53,7 +49,7 @@ CERTIFY_SHARE = 0.4
 CONVEX_FROM = 4
 """Existential sentences in so many variables are first tried as convex problems; with fewer, the others are faster."""
 
-SHORTEN_VARIABLES, SHORTEN_DEGREE = 3, 4
+SHORTEN_CELLS = 2000
 SHORTEN_SHARE = 0.25
 SHORTEN_SECONDS = 0.7
 
@@ -64,6 +60,8 @@ def solve(formula: Formula, options: Options, budget: Budget) -> Elimination:
     Raises ``Unable`` (``BudgetExceeded`` at a limit) when no method finished.
     """
     run, free = _Run(options, budget), free_variables(formula)
+    if not (options.root_atoms and is_quantifier_free(formula)):
+        formula = without_root_atoms(formula)
     renamed = rename_apart(formula)
     result, values = run.sentence_or_formula(renamed)
     if options.certify and run.certificate is None:
@@ -227,7 +225,8 @@ class _Run:
     def _quantified(
         self, variables: Sequence[str], body: Formula, *, universal: bool, substitution_only: bool
     ) -> Formula:
-        inner = self.eliminate(body, substitution_only=self.options.method is not Method.CRITICAL)
+        whole = self.options.method is Method.CRITICAL and not self.options.root_atoms
+        inner = self.eliminate(body, substitution_only=not whole)
         rebuilt = (forall if universal else exists)(variables, inner)
         if not is_quantifier_free(inner):
             return rebuilt if substitution_only else self.decomposed(rebuilt)[0]
@@ -323,21 +322,16 @@ class _Run:
         return formula
 
     def _shortened(self, formula: Formula) -> Formula:
-        """A shorter equivalent of a long quantifier-free answer, read off a decomposition, if that is quick."""
-        names = free_variables(formula)
-        count = sum(1 for _ in atoms(formula))
-        least = SHORTEN_ABOVE if len(names) == SHORTEN_VARIABLES else SHORTEN_PLANE
-        if count <= least or not 0 < len(names) <= SHORTEN_VARIABLES or not allows(self.options, Method.CAD):
-            return formula
-        if len(names) == SHORTEN_VARIABLES and max(p.total_degree for p in polynomials(formula)) > SHORTEN_DEGREE:
+        """A shorter equivalent of a small quantifier-free answer, read off a decomposition of its space."""
+        if has_root_atoms(formula) or not is_small(formula) or not allows(self.options, Method.CAD):
             return formula
         left = self.budget.remaining()
-        part = Budget(SHORTEN_SECONDS if left is None else min(SHORTEN_SECONDS, SHORTEN_SHARE * left))
+        part = Budget(SHORTEN_SECONDS if left is None else min(SHORTEN_SECONDS, SHORTEN_SHARE * left), SHORTEN_CELLS)
         try:
             shorter, _ = self._decomposed(formula, part)
         except Unable:
             return formula
-        return shorter if sum(1 for _ in atoms(shorter)) < count else formula
+        return shorter if length(shorter) < length(formula) else formula
 
     def _tried(self, what: str, work: Callable[[Budget], Any]) -> Any:
         """A shortcut, with a share of the time; None where it does not lead to an answer."""

@@ -9,6 +9,7 @@ from fractions import Fraction
 
 from qe.eliminate.cad.decompose import Decomposition, Tactics, decompose
 from qe.eliminate.cad.pilot import choose_order
+from qe.errors import BudgetExceeded
 from qe.evidence.cells import CellTable
 from qe.evidence.certificate import Certificate
 from qe.evidence.story import Story
@@ -16,8 +17,8 @@ from qe.exact.algebraic import RealAlgebraic
 from qe.exact.ring import Ring
 from qe.formula.build import convert
 from qe.formula.normal import Quantifier, nnf, prenex
-from qe.formula.syntax import FALSE, TRUE, Constant, Formula
-from qe.formula.traverse import free_variables, polynomials, ring_of
+from qe.formula.syntax import FALSE, TRUE, Constant, Formula, Or
+from qe.formula.traverse import atoms, children, free_variables, polynomials, ring_of
 from qe.options import Budget, Options, Projection, Stage
 from qe.plan.order import OrderRule
 from qe.prepare.simplify import simplify
@@ -26,6 +27,13 @@ from qe.solution.extended import extended_formula
 from qe.solution.walk import deciding_point
 
 Values = dict[str, Fraction | RealAlgebraic]
+
+WHOLE_FROM, WHOLE_CELLS = 300, 2000
+"""A decomposition of at most so many cells is made once more with the whole space of the free variables, of at most so
+many cells in all, when its answer is small (``is_small``)."""
+
+SMALL_DEGREE = {1: 40, 2: 12, 3: 4, 4: 2}
+"""An answer in so many variables is small up to this total degree: its whole space is decomposed in no time."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,28 +57,11 @@ def decomposed(formula: Formula, options: Options, budget: Budget, story: Story)
         return Decomposed(matrix, {} if matrix.value else None)
     free = free_variables(formula)
     order, quantifiers, reason = _order(prefix, free, matrix, options, budget)
-    projection = Projection.LAZARD if Stage.MCCALLUM in options.without else options.projection
-
-    tactics = Tactics(
-        constraints=Stage.CONSTRAINTS not in options.without,
-        partial=Stage.PARTIAL not in options.without,
-        open_only=Stage.OPEN not in options.without,
-    )
-
-    def table(separated: frozenset[int] = frozenset()) -> Decomposition:
-        return decompose(
-            matrix, order, quantifiers, budget=budget, projection=projection, separated=separated, tactics=tactics
-        )
-
-    first = table()
+    question = _Question(matrix, order, quantifiers, free, options)
+    first = question.table(budget)
     values: Values | None = None
     if free:
-        answer, proof = construct(first.table, lambda levels: table(levels).table)
-        if options.root_atoms:
-            answer = extended_formula(proof)
-        shorter = simplify(convert(answer, Ring.of(free)))
-        if not options.certify or _is_listed(shorter, proof):
-            answer = shorter
+        answer, proof = question.shortest(first, budget)
     else:
         truth, proof = first.table.root.truth is True, first.table
         answer = TRUE if truth else FALSE
@@ -81,6 +72,83 @@ def decomposed(formula: Formula, options: Options, budget: Budget, story: Story)
     # back into the ring of the formula it came from: it is joined with parts of that formula
     ring = ring_of(formula)
     return Decomposed(answer if ring is None else convert(answer, ring), values, certificate)
+
+
+@dataclass(frozen=True, slots=True)
+class _Question:
+    """A prenex formula with the order of its variables."""
+
+    matrix: Formula
+    order: tuple[str, ...]
+    quantifiers: tuple[str, ...]
+    free: tuple[str, ...]
+    options: Options
+
+    def table(
+        self, budget: Budget, separated: frozenset[int] = frozenset(), *, whole_free: bool = False
+    ) -> Decomposition:
+        """Its decomposition by the tactics that the options allow; see ``Tactics`` for ``whole_free``."""
+        without = self.options.without
+        return decompose(
+            self.matrix,
+            self.order,
+            self.quantifiers,
+            budget=budget,
+            projection=Projection.LAZARD if Stage.MCCALLUM in without else self.options.projection,
+            separated=separated,
+            tactics=Tactics(
+                constraints=Stage.CONSTRAINTS not in without,
+                partial=Stage.PARTIAL not in without,
+                open_only=Stage.OPEN not in without,
+                whole_free=whole_free,
+            ),
+        )
+
+    def answer(
+        self, found: Decomposition, budget: Budget, *, whole_free: bool = False
+    ) -> tuple[Formula, CellTable]:
+        """The formula that a decomposition gives, and the table (refined if need be) that proves it."""
+
+        def refined(levels: frozenset[int]) -> CellTable:
+            return self.table(budget, levels, whole_free=whole_free).table
+
+        answer, proof = construct(found.table, refined)
+        if self.options.root_atoms:
+            answer = extended_formula(proof)
+        simple = simplify(convert(answer, Ring.of(self.free)))
+        return (simple if not self.options.certify or _is_listed(simple, proof) else answer), proof
+
+    def shortest(self, first: Decomposition, budget: Budget) -> tuple[Formula, CellTable]:
+        """The answer; a small one is compared with that of the whole space of the free variables, for which formula
+        construction knows the signs of all factors everywhere."""
+        answer, proof = self.answer(first, budget)
+        plain = not self.options.root_atoms and Stage.PARTIAL not in self.options.without
+        if not plain or first.cells > WHOLE_FROM or not is_small(answer):
+            return answer, proof
+        part = Budget(budget.remaining(), WHOLE_CELLS, budget.listener)
+        try:
+            other, table = self.answer(self.table(part, whole_free=True), part, whole_free=True)
+        except BudgetExceeded:
+            return answer, proof
+        return (other, table) if length(other) < length(answer) else (answer, proof)
+
+
+def is_small(formula: Formula) -> bool:
+    """Whether a shorter equivalent is easily found: few variables and low degrees. Conjunctions are short enough."""
+    if not _has_disjunction(formula):
+        return False
+    degree = max((a.poly.total_degree for a in atoms(formula)), default=0)
+    return degree <= SMALL_DEGREE.get(len(free_variables(formula)), 0)
+
+
+def _has_disjunction(formula: Formula) -> bool:
+    return isinstance(formula, Or) or any(_has_disjunction(part) for part in children(formula))
+
+
+def length(formula: Formula) -> tuple[int, int]:
+    """Atoms, and terms of their polynomials."""
+    polys = [a.poly for a in atoms(formula)]
+    return len(polys), sum(p.term_count() for p in polys)
 
 
 def _is_listed(answer: Formula, table: CellTable) -> bool:
