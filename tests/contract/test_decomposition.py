@@ -40,6 +40,7 @@ TACTICS = {
     "no constraints": Tactics(constraints=False),
     "whole stacks": Tactics(partial=False),
     "sections everywhere": Tactics(open_only=False),
+    "the whole free space": Tactics(whole_free=True),
     "nothing": Tactics(constraints=False, partial=False, open_only=False),
 }
 

@@ -89,3 +89,17 @@ def test_check_gets_a_certificate_whatever_the_method(text: str) -> None:
     assert answer.guarantee is qe.Guarantee.CHECKED
     plain = qe.eliminate(text)
     assert answer.truth is plain.truth and (answer.truth is not None or qe.equivalent(answer.formula, plain.formula))
+
+
+@pytest.mark.parametrize(
+    ("text", "answer"),
+    [
+        ("ex x, y, z. x^2 + y^2 + z^2 < 1 and a*x + b*y + c*z > 1", "a^2 + b^2 + c^2 - 1 > 0"),
+        ("ex u, v. x = u*v and y = v and z = u^2", "y^2*z - x^2 = 0 and z >= 0"),
+        ("all x, y. a*x^2 + 2*b*x*y + c*y^2 + d > 0", "a*c - b^2 >= 0 and d > 0 and c >= 0 and a >= 0"),
+    ],
+)
+def test_answers_are_as_short_as_a_textbook_has_them(text: str, answer: str) -> None:
+    found = qe.eliminate(text)
+    assert len(str(found.formula)) <= len(answer)
+    assert qe.equivalent(found.formula, answer)
