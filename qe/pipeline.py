@@ -225,8 +225,7 @@ class _Run:
     def _quantified(
         self, variables: Sequence[str], body: Formula, *, universal: bool, substitution_only: bool
     ) -> Formula:
-        whole = self.options.method is Method.CRITICAL and not self.options.root_atoms
-        inner = self.eliminate(body, substitution_only=not whole)
+        inner = self.eliminate(body, substitution_only=self.options.method is not Method.CRITICAL)
         rebuilt = (forall if universal else exists)(variables, inner)
         if not is_quantifier_free(inner):
             return rebuilt if substitution_only else self.decomposed(rebuilt)[0]
@@ -342,8 +341,10 @@ class _Run:
             return None
 
     def _by_critical_values(self, variables: Sequence[str], body: Formula, budget: Budget) -> Formula:
+        plain = self.options.with_(root_atoms=False)  # an inner block's answer is read by the next elimination
+
         def decompose(formula: Formula, part: Budget) -> Formula:
-            return self._decomposed(formula, part)[0]
+            return decomposed(formula, plain, part, self.story).formula
 
         return by_critical_values(variables, body, self.options, budget, self.story, decompose)
 

@@ -29,6 +29,11 @@ def atoms(formula: Formula) -> Iterator[Atom | RootAtom]:
         yield from atoms(child)
 
 
+def has_root_atoms(formula: Formula) -> bool:
+    """Whether a root atom occurs."""
+    return any(isinstance(a, RootAtom) for a in atoms(formula))
+
+
 def map_atoms(formula: Formula, change: Callable[[Atom | RootAtom], Formula]) -> Formula:
     """Replace every atom by a formula and rebuild with the smart constructors."""
     match formula:

@@ -28,7 +28,8 @@ class ConvexDecision:
 def decide_convex(sentence: Exists, *, budget: Budget) -> ConvexDecision | None:
     """Whether convex quadratic inequalities and linear equations have a common solution; None for other sentences.
 
-    The minimum of the constant 0 over the set: an optimal point is a solution, and there is none iff nonnegative
+    The minimum of the constant 0 over the set: an optimal point is a solution (one of the closure only may have been
+    found; the point that proves the strict conditions possible is one then), and there is none iff nonnegative
     multipliers combine the constraints to a contradiction (up to facial reduction; see ``qe.solution.optimum_core``).
     Raises ``Unable`` when neither was proved.
     """
@@ -41,10 +42,12 @@ def decide_convex(sentence: Exists, *, budget: Budget) -> ConvexDecision | None:
         return None
     if found.status is OptimumStatus.INFEASIBLE:
         return ConvexDecision(None, found.certificate)
-    return ConvexDecision(_attained(found), found.certificate) if found.attained is not False else None
+    return ConvexDecision(_solution(found), found.certificate)
 
 
-def _attained(found: Optimum) -> dict[str, Fraction | RealAlgebraic]:
+def _solution(found: Optimum) -> dict[str, Fraction | RealAlgebraic]:
+    values = found.point.values() if found.attained else found.evidence.inner_point
     return {
-        name: value.to_algebraic() if isinstance(value, FieldElement) else value for name, value in found.point.items()
+        name: value.to_algebraic() if isinstance(value, FieldElement) else Fraction(value)
+        for name, value in zip(found.point, values, strict=True)
     }

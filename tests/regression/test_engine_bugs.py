@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
+from itertools import product
+
 import pytest
 
 from qe import Guarantee, eliminate, equivalent
@@ -40,3 +43,29 @@ def test_a_simplified_answer_is_never_certified_with_polynomials_that_the_table_
     answer = eliminate(text, check=True)
     assert answer.guarantee is Guarantee.CHECKED
     assert equivalent(answer.formula, "a /= 0 or b = 0")
+
+
+@pytest.mark.parametrize("method", ["auto", "cad"])
+@pytest.mark.parametrize(
+    "text",
+    [
+        "all x. not (3*a*b - x^2 - 1 > 0 or a^2 + x > 0 and a*b + 3*a - 3 /= 0)",
+        "all x. x^3 + a^2 /= 0 or 2*a*b*x + a*x^2 - a^2 - a*b - b*x <= 0",
+        "ex x. (all y. y^4 + x*y + a >= 0) and x > 1",
+    ],
+)
+def test_long_answers_with_root_atoms_were_decomposed_once_more_to_shorten_them(text: str, method: str) -> None:
+    """That asked a decomposition for root atoms, which it does not read: the caller got an InternalError."""
+    plain, extended = eliminate(text), eliminate(text, root_atoms=True, method=method)
+    assert plain.formula is not None and extended.formula is not None
+    values = [Fraction(n, 4) for n in range(-9, 10, 3)]
+    for a, b in product(values, values):
+        point = {"a": a, "b": b}
+        assert holds_at(plain.formula, point) is holds_at(extended.formula, point), point
+
+
+def test_open_sets_that_barely_exist_have_a_witness() -> None:
+    """The convex decision only offered points of the closed problem, and later methods found none at all."""
+    text = "x^2 + y^2 + z^2 + u^2 + 2*x + 2*y - 2*z - 2*u < 0 and 12000000*x + 5000000*u + 32999987 < 0"
+    answer = eliminate(f"ex x, y, z, u. {text}")
+    assert answer.witness is not None and answer.guarantee is Guarantee.CHECKED

@@ -15,8 +15,8 @@ from qe.eliminate.vs.substitute import Substitution
 from qe.exact.ring import Ring
 from qe.formula.build import conj, disj
 from qe.formula.normal import nnf
-from qe.formula.syntax import FALSE, TRUE, And, Atom, Exists, Formula, Or, RootAtom
-from qe.formula.traverse import atoms, ring_of
+from qe.formula.syntax import FALSE, TRUE, And, Atom, Exists, Formula, Or
+from qe.formula.traverse import has_root_atoms, ring_of
 from qe.options import Budget
 
 Simplifier = Callable[[Formula], Formula]
@@ -106,7 +106,7 @@ class _Run:
         """Eliminate one variable of ``part`` (``formula`` is ``part`` with its context), then the others."""
         everything = occurring(part)
         inside = everything & block
-        if len(everything) == 1 and not any(isinstance(a, RootAtom) for a in atoms(part)):
+        if len(everything) == 1 and not has_root_atoms(part):
             return self._decide(part, self.ring.names[next(iter(inside))])
         strict = is_open(part, inside)
         plan = choose(formula, inside, strict=strict)

@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 
 import qe
 from qe.api import read_formula
+from qe.evidence.certificate import Certificate, Root
 from qe.formula.syntax import Exists
 from qe.options import Budget
 from qe.solution.convex_sentence import decide_convex
@@ -29,10 +30,12 @@ def test_agrees_with_decomposition(parts: list[str]) -> None:
     if not isinstance(sentence, Exists):
         return
     found = decide_convex(sentence, budget=Budget())
-    if found is None:
-        return  # the closed problem's point lies on an open boundary: nothing is claimed
+    assert found is not None
     assert (found.values is not None) == qe.decide(text, method="cad")
     assert qe.verify(found.certificate).accepted
+    if found.values is not None:
+        matrix = Certificate.witness(sentence.body, tuple(found.values), [Root.of(v) for v in found.values.values()])
+        assert qe.verify(matrix).accepted
 
 
 SIX = "a^2 + b^2 + c^2 <= 4 and d^2 + e^2 + f^2 <= 4 and (a - d)^2 + (b - e)^2 + (c - f)^2 <= 1 and a + b + c >= {}"
