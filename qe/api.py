@@ -16,6 +16,7 @@ from qe.evidence.certificate import Certificate, Kind
 from qe.evidence.elimination import Assignment
 from qe.exact.ring import Poly
 from qe.formula.build import conj, convert, exists, forall, iff
+from qe.formula.counting import without_root_atoms
 from qe.formula.syntax import Constant, Exists, ForAll, Formula
 from qe.formula.traverse import free_variables, is_quantifier_free, polynomials, ring_of
 from qe.options import Budget, Method, Options, Stage
@@ -232,7 +233,7 @@ def region(
     quadratic conditions in four or more variables, or with existential quantifiers before it, membership, fibres
     and bounds are found by exact optimisation, and the description only when it is asked for.
     """
-    given = read_formula(formula, format)
+    given = without_root_atoms(read_formula(formula, format))
     budget = Budget(timeout, listener=progress)
     names = None if order is None else tuple(order)
     quantified = not is_quantifier_free(given)
