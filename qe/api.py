@@ -229,6 +229,8 @@ def region(
 ) -> Region:
     """The solution set of a formula in its free variables (or in ``order``, which may name more).
 
+    Without ``order`` a quantified formula is described in the order in which its answer was found by critical values:
+    factors of that projection are part of the answer, and the other order may be much harder.
     A cylindrical description with a certificate; quantifiers are eliminated first. For a conjunction of convex
     quadratic conditions in four or more variables, or with existential quantifiers before it, membership, fibres
     and bounds are found by exact optimisation, and the description only when it is asked for.
@@ -239,7 +241,7 @@ def region(
     quantified = not is_quantifier_free(given)
 
     def eliminated(part: Formula) -> Formula:
-        return pipeline.solve(part, Options(), budget).formula
+        return pipeline.solve(part, Options(order=names), budget).formula
 
     if quantified or len(free_variables(given)) > TABLE_VARIABLES:
         from qe.solution.convex_region import ConvexRegion, shadow_of
@@ -249,7 +251,10 @@ def region(
             return ConvexRegion(shadow, names, budget=budget)
     from qe.solution.region import Region
 
-    return Region.of(eliminated(given) if quantified else given, names, budget=budget)
+    if not quantified:
+        return Region.of(given, names, budget=budget)
+    found = pipeline.solve(given, Options(order=names), budget)
+    return Region.of(found.formula, names or found.parameter_order, budget=budget)
 
 
 def minimize(

@@ -17,10 +17,9 @@ import qe
 from bezier.control import coordinates, number
 from bezier.curves.enclosure import Enclosure, root_enclosure
 from bezier.curves.scalar import Vector, dot, exactly, is_zero, scale, subtract
-from bezier.plan import answered
 from bezier.problem import Problem
 from qe.errors import InternalError
-from qe.worker import Channel, run
+from qe.worker import run
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,19 +72,9 @@ def plane_coordinates(point: str) -> tuple[str, str]:
 
 
 def region_of(formula: str, *, timeout: float | None = None) -> qe.Region:
-    """The region of a formula about Q1 in the plane. Raises ``Unable`` at the limit, which is hard.
-
-    Its order is that in which the engine found the quantifier-free answer, if it says so: the other one may be much
-    harder, since factors of the projection help to describe the region.
-    """
-
-    def work(channel: Channel) -> str:
-        answer = answered(qe.eliminate(formula, progress=channel.event))
-        told = answer.stats.get("critical", ())
-        order = told[-1]["order"] if told else plane_coordinates("Q1")
-        return qe.region(answer.formula, order=order, progress=channel.event).to_json()
-
-    return qe.Region.from_json(run(work, timeout=timeout))
+    """The region of a formula about Q1 in the plane. Raises ``Unable`` at the limit, which is hard."""
+    found = run(lambda channel: qe.region(formula, progress=channel.event).to_json(), timeout=timeout)
+    return qe.Region.from_json(found)
 
 
 def _along(arrow: Vector) -> Vector:

@@ -29,3 +29,9 @@ class Elimination:
     witness: Assignment | None = None
     evidence: object | None = None
     stats: Mapping[str, object] = field(default_factory=dict)
+
+    @property
+    def parameter_order(self) -> tuple[str, ...] | None:
+        """The order of the free variables in which critical values gave the answer, if they did."""
+        told = self.stats.get("critical")
+        return tuple(told[-1]["order"]) if isinstance(told, list) else None
