@@ -55,7 +55,7 @@ def test_problems_are_read_with_their_variables(shared: Path) -> None:
                 prefix += [["ex" if isinstance(body, Exists) else "all", name] for name in body.variables]
                 body = body.body
             assert prefix == [[kind, name] for kind, name in record["prefix"]], record["id"]
-            assert features(formula).blocks is not None
+            assert features(formula).bound
 
 
 def test_expected_answers_mean_what_they_say(shared: Path) -> None:
