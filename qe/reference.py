@@ -337,13 +337,8 @@ class _Solver:
         unit, p = _primitive(p)
         if p[1][0] == 0 and p[1] != (0, 1):
             x, k, q = _split_power(p)
-            return self.split(
-                x,
-                signs,
-                lambda s, more: (
-                    then(0, more) if s == 0 else self.split(q, more, lambda t, most: then(unit * s**k * t, most))
-                ),
-            )
+            return self.split(x, signs, lambda s, more: then(0, more) if s == 0 else
+                              self.split(q, more, lambda t, most: then(unit * s**k * t, most)))
         options = [-1, 0, 1]
         if all(isinstance(c, int) for c in p[1]):
             line = [q for q in signs if q[0] == p[0] and all(isinstance(c, int) for c in q[1])]
@@ -360,13 +355,8 @@ class _Solver:
         low = next((p for p in ps if _level(p) < level), None)
         if low is not None:
             rest = [p for p in ps if p != low]
-            return self.split(
-                low,
-                signs,
-                lambda sign, more: self.matrix(
-                    rest, level, more, lambda rows, most: then([{**row, low: sign} for row in rows], most)
-                ),
-            )
+            return self.split(low, signs, lambda sign, more: self.matrix(
+                rest, level, more, lambda rows, most: then([{**row, low: sign} for row in rows], most)))
         heads = {p: _known(p[1][-1], signs) for p in ps}
         doubtful = next((p for p in ps if not heads[p]), None)
         if doubtful is not None and heads[doubtful] is None:
@@ -374,20 +364,15 @@ class _Solver:
         if doubtful is not None:
             rest = [_make(level, list(p[1][:-1])) if p == doubtful else p for p in ps]
             shorter = rest[ps.index(doubtful)]
-            return self.matrix(
-                rest, level, signs, lambda rows, more: then([{**row, doubtful: row[shorter]} for row in rows], more)
-            )
+            return self.matrix(rest, level, signs, lambda rows, more: then(
+                [{**row, doubtful: row[shorter]} for row in rows], more))
         if all(isinstance(c, int) for p in ps for c in p[1]):
             return then([dict(zip(ps, row, strict=True)) for row in _sign_rows(tuple(ps))], signs)
         top = max(ps, key=lambda p: len(p[1]))
         divisors = [_derivative(top), *(p for p in ps if p != top)]
         remainders = {q: _remainder(top, q, heads.get(q) or heads[top] or 0) for q in divisors if _level(q) == level}
-        return self.matrix(
-            [*divisors, *remainders.values()],
-            level,
-            signs,
-            lambda rows, more: then(_insert(rows, top, divisors, remainders), more),
-        )
+        return self.matrix([*divisors, *remainders.values()], level, signs, lambda rows, more: then(
+            _insert(rows, top, divisors, remainders), more))
 
 
 def _insert(rows: Rows, p: Toy, divisors: list[Toy], remainders: Mapping[Toy, Toy]) -> Rows:
