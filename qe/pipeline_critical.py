@@ -21,11 +21,12 @@ from qe.eliminate.critical import (
 )
 from qe.evidence.cells import FreeCell
 from qe.evidence.story import Story
+from qe.exact.fibre_stack import isolate_over
 from qe.exact.nearby import approximation, rational_values
 from qe.exact.ring import Poly, Ring
 from qe.exact.sample import Point
 from qe.formula.build import atom, conj, convert, disj, exists
-from qe.formula.evaluate import substituted
+from qe.formula.evaluate import substituted, truth_under
 from qe.formula.normal import nnf
 from qe.formula.syntax import FALSE, TRUE, And, Exists, ForAll, Formula, Relation
 from qe.formula.traverse import free_variables, is_quantifier_free, polynomials, ring_of
@@ -35,7 +36,7 @@ from qe.plan.choice import choose
 from qe.plan.order import brown_order
 from qe.prepare.simplify import simplify
 from qe.solution.closure import strangers
-from qe.solution.construct import closed_formula, construct
+from qe.solution.construct import construct, formula_of_open_cells
 from qe.solution.feasible import feasible
 from qe.solution.flat import on_flat
 from qe.solution.violation import proposed
@@ -174,8 +175,19 @@ def _decided(matrix: Formula, variables: tuple[str, ...], values: dict[str, Frac
     rest = substituted(matrix, values)
     if rest in (TRUE, FALSE):
         return rest == TRUE
+    if len(variables) == 1:
+        return _has_solution(convert(rest, Ring.of(variables)))
     order = brown_order(polynomials(rest), variables)
     return decompose(rest, order, ("E",) * len(order), budget=budget).table.root.truth is True
+
+
+def _has_solution(formula: Formula) -> bool:
+    """Whether a formula in one variable holds somewhere: its polynomials have constant signs between their roots."""
+    polys = tuple(polynomials(formula))
+    stack = isolate_over(Point(polys[0].ring), polys)
+    value = {"+": 1, "-": -1, "0": 0}
+    cells = (dict(zip(polys, map(value.get, text), strict=True)) for text in stack.sign_texts())
+    return any(truth_under(formula, signs.get) for signs in cells)
 
 
 def _formula(
@@ -206,7 +218,7 @@ def _of_open_cells(body: ConvexBody, parameters: tuple[str, ...], budget: Budget
     if len(parameters) > 2:
         return None
     factors, cells = body.cells()
-    formula = closed_formula(factors, [_free_cell(c) for c in cells])
+    formula = formula_of_open_cells(factors, [_free_cell(c) for c in cells], _owners(body.boundary, factors, cells))
     return _confirmed(body, convert(formula, Ring.of(parameters)), parameters, budget)
 
 
@@ -223,13 +235,29 @@ def _confirmed(body: ConvexBody, formula: Formula, parameters: tuple[str, ...], 
 
         outside = strangers(table, holds, bounded=body.bounded)
         if not outside:
-            return formula
+            return formula if outside is not None else None
         points = [Point.of(ring, [point.number(k) for k in turned]) for point in outside]
         cuts = [body.cut(approximation(point)) for point in points]
         if not all(cut is not None and point.sign(cut.convert(ring)) > 0 for cut, point in zip(cuts, points)):
             return None
         formula = conj((formula, *(atom(cut.convert(ring), Relation.LE) for cut in cuts if cut is not None)))
     return None
+
+
+def _owners(boundary: frozenset[Poly], factors: Sequence[Sequence[Poly]], cells: list[OpenCell]) -> dict[Poly, int]:
+    """On which side of a polynomial its zeros are: the negative one, but for polynomials of the boundary, which keep
+    both, and for polynomials in the first variable that vanish at an end of the set, which follow the set."""
+    owners = {f: -1 for level in factors for f in level if f not in boundary}
+    signs = {cell.path[0]: cell.signs[0] for cell in cells}
+    true = {cell.path[0] for cell in cells if cell.truth}
+    for j, f in enumerate(factors[0]):
+        ends = ((min(true), -1), (max(true), 1))
+        sides = {signs[k][j] for k, step in ends if k + step in signs and signs[k + step][j] != signs[k][j]}
+        if f in owners and len(sides) == 1:
+            owners[f] = 1 if sides == {"+"} else -1
+        elif len(sides) == 2:
+            owners.pop(f, None)
+    return owners
 
 
 def _free_cell(cell: OpenCell) -> FreeCell:
