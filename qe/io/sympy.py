@@ -69,6 +69,10 @@ class _Operators:
     def __invert__(self) -> Combined:
         return Combined(neg(self.formula()))
 
+    def __bool__(self) -> bool:
+        """Python's ``and``, ``or`` and ``not`` ask for it and would drop a part of the formula without a word."""
+        raise TypeError("a formula has no truth value here; connect formulas with & | ~ >>, decide them with qe.decide")
+
     def __str__(self) -> str:
         return str(self.formula())
 

@@ -98,3 +98,13 @@ def test_the_door_opens_without_sympy() -> None:
     code = "import sys, qe.io.sympy, qe.io.formats; print('sympy' in sys.modules, 'lark' in sys.modules)"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.split() == ["False", "False"]
+
+
+def test_words_of_python_do_not_connect_formulas() -> None:
+    """``Exists(…) and Exists(…)`` is its second operand in Python: half of the question would be lost."""
+    a = sp.Symbol("a")
+    left, right = Exists(x, x > a), Exists(x, x**2 < a)
+    with pytest.raises(TypeError, match="&"):
+        left and right
+    with pytest.raises(TypeError, match="&"):
+        not (left & right)
