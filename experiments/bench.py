@@ -9,22 +9,23 @@ from __future__ import annotations
 import os
 import resource
 import shutil
-import signal
 import statistics
 import subprocess
 import sys
 import tempfile
 import time
 from collections.abc import Callable
-from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
+
+from experiments.adapters import qepcad
+from experiments.limits import run_limited
+from qe.io import formats
 
 ROOT = Path(__file__).resolve().parent.parent
 BIN = Path(sys.executable).parent
 REPEAT = 5
-QEPCAD_HOME = "/usr/lib/qepcad"
-QEPCAD_LIMIT = 20.0
+QEPCAD_LIMIT, QEPCAD_MEMORY = 20.0, 4096
 
 Point = tuple[int, int, int]
 Q0: Point = (-1, 3, 3)
@@ -104,10 +105,10 @@ def engine_rows() -> list[Row]:
     with_certificate = median(lambda: qe.region(balls).certificate.to_json())
     alone = median(lambda: qe.region(balls))
     return [
-        Row("(8) as printed", 0.020, median(lambda: qe.eliminate(formula8())), note=qepcad_note(formula8(), 6)),
+        Row("(8) as printed", 0.020, median(lambda: qe.eliminate(formula8())), note=qepcad_note(formula8())),
         Row("(8) with symbolic points", 0.060, median(lambda: qe.eliminate(formula8_symbolic()))),
-        Row("three balls, all existential", 0.020, median(lambda: qe.eliminate(closed)), note=qepcad_note(closed, 3)),
-        Row("three balls, x free", 0.050, median(lambda: qe.eliminate(one_free)), note=qepcad_note(one_free, 2)),
+        Row("three balls, all existential", 0.020, median(lambda: qe.eliminate(closed)), note=qepcad_note(closed)),
+        Row("three balls, x free", 0.050, median(lambda: qe.eliminate(one_free)), note=qepcad_note(one_free)),
         Row("region of three balls", 0.150, alone, note=f"{len(region.cells)} cells"),
         Row("  its certificate, on top", 0.050, max(0.0, with_certificate - alone)),
         Row("  its verification", 0.300, median(lambda: qe.verify(region.certificate))),
@@ -149,51 +150,18 @@ def peak_kib(command: list[str]) -> int:
     return usage.ru_maxrss
 
 
-def qepcad_note(formula: str, quantified: int) -> str:
-    """QEPCAD's whole-process seconds on an existential formula, or why there are none."""
-    if not (shutil.which("qepcad") and Path(QEPCAD_HOME).is_dir()):
+def qepcad_note(formula: str) -> str:
+    """QEPCAD's whole-process seconds on a formula, or why there are none."""
+    if not (shutil.which("qepcad") and Path(qepcad.HOME).is_dir()):
         return "QEPCAD not installed"
-    seconds = qepcad_seconds(formula, quantified)
-    return f"QEPCAD > {QEPCAD_LIMIT:.0f} s" if seconds is None else f"QEPCAD {seconds:.2f} s"
-
-
-def qepcad_seconds(formula: str, quantified: int) -> float | None:
-    """Seconds for the whole QEPCAD process; None when it gave no answer within the limit."""
-    from qe.formula.traverse import free_variables
-    from qe.io import formats
-
-    parsed = formats.read(formula, "text", source="<bench>")
-    order = [*free_variables(parsed), *parsed.variables]  # type: ignore[attr-defined]
-    assert len(order) - len(free_variables(parsed)) == quantified
-    body = qepcad_body(parsed.body)  # type: ignore[attr-defined]
-    prefix = "".join(f"(E {v})" for v in order[-quantified:])
-    script = f"[bench]\n({','.join(order)})\n{len(order) - quantified}\n{prefix}{body}.\nfinish\n"
-    start = time.perf_counter()
-    process = subprocess.Popen(
-        ["qepcad", "+N20000000"],
-        stdin=subprocess.PIPE,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.DEVNULL,
-        text=True,
-        env={**os.environ, "qe": QEPCAD_HOME},
-        start_new_session=True,  # its helper process stays behind: the whole group is ended below
+    run = run_limited(
+        ["env", f"qe={qepcad.HOME}", "qepcad", "+N20000000"],
+        formats.write(formats.read(formula, "text", source="<bench>"), "qepcad"),
+        seconds=QEPCAD_LIMIT,
+        memory=QEPCAD_MEMORY,
     )
-    try:
-        output, _ = process.communicate(script, timeout=QEPCAD_LIMIT)
-        seconds: float | None = time.perf_counter() - start if "equivalent quantifier-free" in output else None
-    except subprocess.TimeoutExpired:
-        seconds = None
-    finally:
-        with suppress(ProcessLookupError):
-            os.killpg(process.pid, signal.SIGKILL)
-        process.wait()
-    return seconds
-
-
-def qepcad_body(matrix: object) -> str:
-    """A conjunction of atoms in QEPCAD's own syntax: brackets, and a space for a product."""
-    text = " /\\ ".join(str(atom) for atom in matrix.args)  # type: ignore[attr-defined]
-    return f"[{text.replace('*', ' ')}]"
+    solved = "equivalent quantifier-free" in run.out
+    return f"QEPCAD {run.wall:.2f} s" if solved else f"QEPCAD > {QEPCAD_LIMIT:.0f} s"
 
 
 def main() -> None:
