@@ -94,7 +94,7 @@ def test_the_time_limit_kills_and_keeps_what_was_known():
     start = time.monotonic()
     with pytest.raises(WorkerStopped) as caught:
         run(work, timeout=0.2, grace=0.05)
-    assert time.monotonic() - start < 5
+    assert time.monotonic() - start < 30  # without the limit it takes for ever
     assert caught.value.limit == "time"
     known = caught.value.known
     assert known.facts == {"variables left": 3}
@@ -108,7 +108,7 @@ def test_a_long_flint_call_is_killed():
     start = time.monotonic()
     with pytest.raises(WorkerStopped):
         run(lambda channel: int(fmpz.fac_ui(10**9).bit_length()), timeout=0.3, memory=4000)
-    assert time.monotonic() - start < 5
+    assert time.monotonic() - start < 30  # without the limit it takes for ever
 
 
 def test_a_soft_limit_reports_what_is_known():
