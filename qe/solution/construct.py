@@ -8,14 +8,14 @@ polynomial and its derivatives separate its roots, so this ends.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 from qe.errors import InternalError
 from qe.evidence.cells import CellTable, FreeCell
 from qe.exact.ring import Poly
 from qe.formula.build import atom, conj, disj, neg
 from qe.formula.normal import nnf
-from qe.formula.syntax import FALSE, TRUE, Formula, Relation
+from qe.formula.syntax import FALSE, TRUE, Atom, Formula, Relation, RootAtom
 from qe.formula.traverse import map_atoms
 from qe.solution.signs import Literal, SignTable, free_cells
 
@@ -40,14 +40,21 @@ def construct(table: CellTable, refine: Refine) -> tuple[Formula, CellTable]:
         table = refine(levels)
 
 
-def closed_formula(factors: Factors, cells: list[FreeCell]) -> Formula:
-    """A formula of weak atoms without negation, true on the true open cells and false on the false ones.
+def formula_of_open_cells(factors: Factors, cells: list[FreeCell], owners: Mapping[Poly, int]) -> Formula:
+    """A formula without negation, true on the true open cells and false on the false ones.
 
-    ``cells``: all open cells of a decomposition; true and false ones differ in the sign of a factor. The solutions
-    form a closed set, so they hold the closure of the true cells; beyond it they may hold points where factors vanish.
+    ``cells``: all open cells of a decomposition; true and false ones differ in the sign of a factor. The atoms are
+    weak, so that limits of true cells are true; but where a polynomial f with an owner -1 (or 1) vanishes its atoms are
+    those of the side f < 0 (or f > 0), so that the conditions of two sides do not hold there together.
     """
-    weak = {Relation.LT: Relation.LE, Relation.GT: Relation.GE}
-    return map_atoms(_shortest(factors, cells), lambda a: atom(a.poly, weak.get(a.relation, a.relation)))
+
+    def closed(found: Atom | RootAtom) -> Formula:
+        below = found.relation in (Relation.LT, Relation.LE)
+        strict = owners.get(found.poly) == (1 if below else -1)
+        relation = (Relation.LT if strict else Relation.LE) if below else (Relation.GT if strict else Relation.GE)
+        return atom(found.poly, relation)
+
+    return map_atoms(_shortest(factors, cells), closed)
 
 
 def _free(table: CellTable) -> int:

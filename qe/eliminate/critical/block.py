@@ -45,11 +45,13 @@ class Tabulated:
 class ConvexBody:
     """A closed convex truth set with interior points: the closure of its true open cells.
 
-    ``cells()``: factors of a decomposition by whose signs true and false open cells can be told apart, and its open
-    cells. ``holds``: membership of rational points. ``cut``: a polynomial positive at a rational point outside and
-    <= 0 on the set, if one is known. ``bounded``: whether the set is. ``tabulate()``: the whole table.
+    ``boundary``: polynomials whose zeros contain its boundary. ``cells()``: factors of a decomposition for them, by
+    whose signs true and false open cells can be told apart, and its open cells. ``holds``: membership of rational
+    points. ``cut``: a polynomial positive at a rational point outside and <= 0 on the set, if one is known.
+    ``bounded``: whether the set is. ``tabulate()``: the whole table.
     """
 
+    boundary: frozenset[Poly]
     cells: Callable[[], tuple[Levels, list[OpenCell]]]
     holds: Callable[[tuple[Fraction, ...]], bool]
     cut: Callable[[tuple[Fraction, ...]], Poly | None]
@@ -162,6 +164,7 @@ class Run:
             return found.levels, list(found.cells(origin))
 
         return ConvexBody(
+            boundary,
             lambda: separated(boundary, explored),
             self.fibres.hold_at,
             self.fibres.cut,
