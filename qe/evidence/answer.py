@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from enum import Enum
 from typing import Any
 
+from qe.errors import Unable
 from qe.evidence.certificate import Certificate
 from qe.evidence.elimination import Assignment
 from qe.evidence.story import told
@@ -55,10 +56,11 @@ class Answer:
         return told(self.stats)
 
     def _written(self, format: str) -> str:
+        """Raises ``Unable`` where there is no answer."""
         from qe.io import formats
 
         if self.formula is None:
-            raise ValueError(f"there is no formula to write: {self.reason}")
+            raise Unable(f"there is no formula to write: {self.reason}")
         return formats.write(self.formula, format)
 
     def to_smtlib(self) -> str:
@@ -82,7 +84,7 @@ class Answer:
         from qe.io.sympy import to_sympy
 
         if self.formula is None:
-            raise ValueError(f"there is no formula to convert: {self.reason}")
+            raise Unable(f"there is no formula to convert: {self.reason}")
         return to_sympy(self.formula)
 
     def __str__(self) -> str:

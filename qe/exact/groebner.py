@@ -69,14 +69,6 @@ class Basis:
         """Whether 1 is in the ideal: the equations have no common complex zero (Hilbert's Nullstellensatz)."""
         return len(self.polys) == 1 and self.polys[0].is_constant
 
-    def leading_exponents(self) -> list[tuple[int, ...]]:
-        """The exponent vectors (in the order of ``variables``) of the leading monomials."""
-        return [self._exponents(g) for g in self._internal]
-
-    def _exponents(self, g: fmpz_mpoly) -> tuple[int, ...]:
-        raw = tuple(int(k) for k in g.monomial(0))[: len(self.variables)]
-        return raw if self._weights is None else tuple(k // w for k, w in zip(raw, self._weights, strict=True))
-
     def reduce(self, poly: Poly) -> tuple[int, Poly]:
         """(s, r) with s /= 0 an integer and s*poly - r in the ideal, r the (scaled) normal form.
 

@@ -7,6 +7,7 @@ import time
 import pytest
 
 import qe
+from qe.io import formats
 
 HARD = "ex a, b, c. all x, y. a*x^4*y + b*x*y^3 + c*x^2*y^2 + d*x + e*y + f > a^2*x^3 + b^2*y^5"
 
@@ -103,3 +104,24 @@ def test_answers_are_as_short_as_a_textbook_has_them(text: str, answer: str) -> 
     found = qe.eliminate(text)
     assert len(str(found.formula)) <= len(answer)
     assert qe.equivalent(found.formula, answer)
+
+
+def test_an_answer_in_every_language() -> None:
+    answer = qe.eliminate("ex x. x^2 + b*x + c = 0")
+    for written, format in (
+        (answer.to_smtlib(), "smtlib"),
+        (answer.to_qepcad(), "qepcad"),
+        (answer.to_redlog(), "redlog"),
+        (str(answer), "text"),
+    ):
+        assert qe.equivalent(formats.read(written, format), "b^2 - 4*c >= 0")
+    assert qe.equivalent(answer.to_sympy(), "b^2 - 4*c >= 0")
+    assert "b^{2}" in answer.to_latex()
+
+
+def test_what_was_not_answered_is_not_written() -> None:
+    answer = qe.eliminate(HARD, timeout=0.3)
+    assert answer.status is qe.Status.UNABLE
+    for write in (answer.to_smtlib, answer.to_sympy):
+        with pytest.raises(qe.Unable):
+            write()
