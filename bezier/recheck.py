@@ -15,15 +15,16 @@ from bezier import stored
 from bezier.curves.curve import Bezier
 from bezier.curves.scalar import Vector, same
 from bezier.methods import Claim, method_of
-from bezier.motion.motion import motion_json, motion_of
+from bezier.motion.motion import motion_csv, motion_json, motion_of
 from bezier.obstacles import survey
 from bezier.optimal_path import durations
+from bezier.outputs import path_csv
 from bezier.path import Path, assemble
 from bezier.plan import Outcome
-from bezier.problem import Problem, from_json
+from bezier.problem import PlanMethod, Problem, from_json
 from qe.certify.verify import verify
 from qe.errors import CertificateRejected, InputError
-from qe.evidence.certificate import Certificate
+from qe.evidence.certificate import Certificate, Kind
 from qe.worker import Channel
 
 TOLERANCE = 1e-9
@@ -40,6 +41,8 @@ def recheck(channel: Channel, folder: FilePath) -> list[str]:
     stated = stored.entry(summary, "problem", dict)
     problem = _problem(stated)
     claim = method_of(problem.method).claim(problem, certificate)
+    if problem.method is PlanMethod.QUADRATIC:
+        _check_region(certificate, folder)
     lines = ["certificate.json: accepted", *claim.lines]
     if claim.points is None:
         return [*lines, "no control point exists: the conditions contradict each other"]
@@ -50,6 +53,8 @@ def recheck(channel: Channel, folder: FilePath) -> list[str]:
     _check_points(points, claim.points)
     path = assemble(_curves(found, points), points, problem.workspace, durations=durations(problem))
     _check_path(path, found, claim)
+    _check_text(folder / "path.csv", path_csv(path))
+    _check_summary(summary, found)
     lines += _check_clearance(path, problem, summary.get("status") == Outcome.BLOCKED.value)
     lines += _check_motion(path, problem, folder)
     joins = f"{path.smoothness.name} at every join, " if path.joins else ""
@@ -113,6 +118,29 @@ def _check_path(path: Path, found: Mapping[str, Any], claim: Claim) -> None:
         raise CertificateRejected("joins", "not as smooth as stated")
 
 
+def _check_summary(summary: Mapping[str, Any], found: Mapping[str, Any]) -> None:
+    """The control points of the summary are those of ``path.json``."""
+    points = {
+        name: [{key: entry.get(key) for key in ("exact", "decimal")} for entry in listed]
+        for name, listed in found["points"].items()
+    }
+    if summary.get("points") != points:
+        raise CertificateRejected("summary.json: points", "not the points of path.json")
+
+
+def _check_text(file: FilePath, expected: str) -> None:
+    """A file of numbers for machines says what follows from the exact path."""
+    if stored.text(file) != expected:
+        raise CertificateRejected(file.name, "not the numbers of this path")
+
+
+def _check_region(certificate: Certificate, folder: FilePath) -> None:
+    """``region.json`` is the region that was verified."""
+    region = Certificate.from_json(stored.text(folder / "region.json"))
+    if region.payload != stored.member(certificate, "region", Kind.CELLS):
+        raise CertificateRejected("region.json", "not the region of certificate.json")
+
+
 def _check_clearance(path: Path, problem: Problem, blocked: bool) -> list[str]:
     """The whole path is clear of every obstacle, proved again; or it meets one, as the summary says."""
     if not problem.obstacles:
@@ -132,5 +160,6 @@ def _check_motion(path: Path, problem: Problem, folder: FilePath) -> list[str]:
     motion = motion_of(path, problem.timing)
     if stored.table(folder / "motion.json") != json.loads(motion_json(motion), parse_float=str):
         raise CertificateRejected("motion.json", "not the motion along this path")
+    _check_text(folder / "motion.csv", motion_csv(path, motion))
     kept = [key.replace("_", " ") for key, value in motion.kept.items() if value]
     return [f"motion.json: {' and '.join(kept) or 'no limit'} proved to be kept at all times"]

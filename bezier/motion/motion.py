@@ -198,11 +198,15 @@ def words(plan: Plan) -> list[str]:
         return []
     bent = {name: value for name, value in quality.curvatures.items() if value is not None}
     name = max(bent, key=lambda n: float(bent[n]), default=None)
-    most = "" if name is None else f", largest curvature {_short(bent[name])} 1/mm ({name})"
+    most = "" if name is None else f", largest curvature {_curvature_words(bent[name])} ({name})"
     lines = [f"length {_short(quality.length)} mm{most}"]
     if quality.motion is not None:
         lines.append(_motion_words(quality.motion))
     return lines
+
+
+def _curvature_words(value: Enclosure) -> str:
+    return f"{_short(value)} 1/mm" if value.is_bounded else "unbounded at a cusp"
 
 
 def _motion_words(motion: Motion) -> str:

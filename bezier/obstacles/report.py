@@ -35,9 +35,11 @@ def _curve(plan: Plan, name: str) -> Row:
 
 
 def _between(value: Enclosure) -> str:
-    """Both ends, rounded outwards."""
+    """Both ends, rounded outwards; one number where they are equal."""
+    if not value.is_bounded:
+        return "unbounded (cusp)"
     ends = value.to_json(8)
-    return "unbounded (cusp)" if ends["high"] == "inf" else f"{ends['low']} … {ends['high']}"
+    return ends["low"] if ends["low"] == ends["high"] else f"{ends['low']} … {ends['high']}"
 
 
 def _motion(motion: Motion) -> dict[str, Any]:

@@ -78,8 +78,9 @@ def read_single(table: Table, start: Vector, via: Via, goal: Vector) -> SingleCu
     else:
         axes = [_via_axis(table, i, start, via, goal) for i in (1, 2)]
     ends, interval = (_exact(start[0]), _exact(goal[0])), (_exact(via[0][0]), _exact(via[1][0]))
+    stated_degree = _whole(single, "degree", USUAL_DEGREE)
     try:
-        degree = _whole(single, "degree", least_degree(ends, interval, USUAL_DEGREE))
+        degree = stated_degree if "degree" in single.values else least_degree(ends, interval, USUAL_DEGREE)
         found = task(degree, ends, interval, axes)
     except InputError as error:
         key = "degree" if "degree" in single.values else "a" if states_via else "via"

@@ -30,6 +30,7 @@ from qe.solution.optimum_proposal import interior_point
 from qe.solution.violation import height, rounded_contradiction, violation_forms
 
 _ZERO, _ONE = Fraction(0), Fraction(1)
+_NEAR_ONE = 8  # binary exponent up to which lengths are left as they are
 _SIMPLE_DEGREE = 4  # of the least violation: beyond, rounded multipliers are tried before an exact answer
 
 
@@ -73,7 +74,7 @@ def solve(task: Task, *, budget: Budget) -> OptimumEvidence:
     flat = Flat.whole(len(task.names)).cut(equations)
     if flat is None:
         return _contradictory_equations(task)
-    state = _State((), (), flat)
+    state = _State((), (), flat.in_units_of(_unit(task.forms)))
     for _ in range(len(task.names) + 2):
         step = _on_flat(task, state, budget)
         if isinstance(step, OptimumEvidence):
@@ -165,7 +166,28 @@ def _face(task: Task, state: _State, found: Kkt, point: Point, weights: dict[int
     flat = Flat.whole(size).cut(rows + [Quadratic(nothing, e.row, -e.rhs) for e in known])
     if flat is None or len(flat.basis) >= len(state.flat.basis):
         raise Unable("facial reduction found no smaller flat")
-    return _State((*state.faces, face), known, flat)
+    return _State((*state.faces, face), known, flat.in_units_of(_unit(task.forms)))
+
+
+def _unit(forms: Sequence[Quadratic]) -> Fraction:
+    """A length of the size of these constraints: 1, or a power of two if they are much larger or smaller than that.
+
+    Proposals come from floats with absolute tolerances, which fit coordinates near 1. Of a ball |x - c| <= r this
+    compares c and r with 1; half-spaces have no size of their own.
+    """
+    sizes = []
+    for form in forms:
+        bend = max((abs(h) for row in form.hessian for h in row), default=_ZERO)
+        slope = max(map(abs, form.gradient), default=_ZERO)
+        if bend and (slope or form.constant):
+            sizes.append(max(_binary(slope / bend), _binary(abs(form.constant) / bend) // 2))
+    exponent = min(sizes, key=abs, default=0)
+    return _ONE if abs(exponent) <= _NEAR_ONE else Fraction(2) ** exponent
+
+
+def _binary(value: Fraction) -> int:
+    """About log2 of a positive number; very little for 0."""
+    return value.numerator.bit_length() - value.denominator.bit_length() if value else -(10**9)
 
 
 def _fractions(values: Sequence[Number]) -> tuple[Fraction, ...]:

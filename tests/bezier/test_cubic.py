@@ -344,3 +344,12 @@ def test_join_speed_needs_a_direction():
 def test_too_much_speed_is_refuted():
     plan = make_plan(problem((3, 0, 0), (1, 2, 2), 9, join_speed=Fraction(1, 100)))
     assert plan.outcome is Outcome.INFEASIBLE and plan.certified
+
+
+@pytest.mark.parametrize("unit", [Fraction(10**4), Fraction(10**9), Fraction(1, 10**12)])
+def test_the_unit_of_length_does_not_matter(unit):
+    """In micrometres as in kilometres: the same active conditions, the optimum in the square of the unit."""
+    q0, r0 = embedded(-3, 2), embedded(2, 2)
+    plain, changed = (make_plan(problem(scale(u, q0), scale(u, r0), 27 * u**2)) for u in (Fraction(1), unit))
+    assert plain.active == changed.active == ("P1", "R2") and changed.certified
+    assert sign(changed.objective - plain.objective * unit**2) == 0

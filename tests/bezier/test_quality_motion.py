@@ -13,9 +13,11 @@ from bezier.curves.curve import Bezier
 from bezier.curves.scalar import dot, same
 from bezier.curves.workspace import Workspace, WorkspaceKind
 from bezier.input.toml_table import Table
-from bezier.motion.motion import Timing, motion_csv, motion_of, quality_of, read_timing, state
+from bezier.motion.motion import Timing, motion_csv, motion_of, quality_of, read_timing, state, words
 from bezier.motion.timelaw import PASSAGE_WIDTH, Law, TimeLaw, extremes, least_duration, stretches
 from bezier.path import assemble
+from bezier.plan import make_plan
+from bezier.problem import read_problem
 from qe.errors import InputError
 from tests.bezier.numbers import control_points
 
@@ -169,3 +171,9 @@ def test_a_timing_survives_json():
     assert timing is not None
     assert read_timing(Table({"timing": timing.to_json()})) == timing
     assert read_timing(Table({})) is None
+
+
+def test_a_cusp_is_said_in_words():
+    text = 'method = "cubic"\nstart = [-1, 2, 0]\nvia = [[-3, 0, 0], [3, 0, 0]]\ngoal = [1, 2, 0]\nradius = 3\n'
+    plan = make_plan(read_problem(text))
+    assert words(plan) == ["length 17.0008 mm, largest curvature unbounded at a cusp (P)"]

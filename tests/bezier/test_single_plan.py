@@ -227,3 +227,12 @@ def test_the_files(plans, tmp_path):
     assert stored["curves"] == {"P": [f"P{i}" for i in range(7)]} and stored["joins"] == []
     rows = (tmp_path / "path.csv").read_text().splitlines()
     assert rows[-1].split(",")[:4] == ["1", "3", "0", "0"]
+
+
+@pytest.mark.parametrize(
+    ("stated", "expected"), [("65", "a whole number"), ('"7/2"', "a whole number"), ('"x"', "an integer")]
+)
+def test_a_bad_degree_gets_one_message(root, stated, expected):
+    text = (root / "examples" / "single_leaves.toml").read_text().replace("degree = 6", f"degree = {stated}")
+    with pytest.raises(InputError, match=rf"^p.toml:\d+: single.degree: expected {expected}[^:]*$"):
+        read_problem(text, "p.toml")

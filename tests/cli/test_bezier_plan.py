@@ -135,7 +135,7 @@ def test_no_control_point(root: Path, tmp_path: Path) -> None:
     assert code == 3 and found["status"] == "infeasible" and found["points"] == {}
     assert "at least 6" in found["reason"] and "cubic" in found["suggestion"]
     page = (out / "report.html").read_text()
-    assert "No control point exists" in page and "multiplier" in page
+    assert "No solution" in page and "multiplier" in page
     assert not (out / "path.csv").exists()
     assert "no control point exists" in run("check", out).stdout
     words = run("plan", root / "examples" / "no_control_point.toml", "--out", out, "--no-plots")
@@ -146,6 +146,9 @@ ALTERED = {
     "a coordinate": ("path.json", '"exact": "3"', '"exact": "4"'),
     "the problem": ("path.json", '"radius_squared": "89/4"', '"radius_squared": "22"'),
     "the smoothness": ("path.json", '"smoothness": "C1"', '"smoothness": "C2"'),
+    "the region": ("region.json", '"<="', '"<"'),
+    "the table of the path": ("path.csv", "\n0.02,", "\n0.03,"),
+    "the points of the summary": ("summary.json", '"decimal": "3"', '"decimal": "4"'),
     "the certificate": ("certificate.json", '"relation":"<="', '"relation":"<"'),
 }
 
@@ -153,7 +156,7 @@ ALTERED = {
 @pytest.mark.parametrize("what", ALTERED)
 def test_altered_files_are_rejected(main_example: Path, tmp_path: Path, what: str) -> None:
     name, old, new = ALTERED[what]
-    for path in main_example.glob("*.json"):
+    for path in [*main_example.glob("*.json"), main_example / "path.csv"]:
         (tmp_path / path.name).write_text(path.read_text())
     text = (tmp_path / name).read_text()
     assert old in text
