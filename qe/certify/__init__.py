@@ -1,0 +1,1 @@
+"""The independent checker: certificates verified by code that produces no answers."""

@@ -1,0 +1,1 @@
+"""The elimination methods, which never import each other."""

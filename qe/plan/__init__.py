@@ -1,0 +1,1 @@
+"""The choice of methods and variable orders; nothing here carries them out."""

@@ -1,0 +1,1 @@
+"""What is read off an elimination: formulas, regions, witnesses, optima."""

@@ -1,0 +1,1 @@
+"""Cylindrical algebraic decomposition: projection, lifting, and truth values on the cells."""
