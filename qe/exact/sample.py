@@ -16,8 +16,12 @@ from flint import acb_poly, arb, arb_poly, fmpq, fmpq_mpoly
 
 from qe.exact.algebraic import RealAlgebraic, select_root
 from qe.exact.balls import EXACT_FROM, FIRST_PRECISION, ball_sign, precision
+from qe.exact.remainder import common_coefficients, squarefree_coefficients
 from qe.exact.ring import Poly, Ring, from_univariate
-from qe.exact.tower import Tower, clear_denominators, degree_in
+from qe.exact.tower import Tower
+
+SMALL = 100
+"""Zero tests use remainder sequences up to this degree, and normal forms in the tower of fields above (measured)."""
 
 Coordinate = "fmpq | RealAlgebraic | FibreRoot"
 
@@ -148,11 +152,16 @@ class Point:
         return None
 
     def is_zero(self, g: Poly) -> bool:
-        """Whether a polynomial in the algebraic coordinates vanishes, by its normal form."""
+        """Whether a polynomial in the algebraic coordinates vanishes, by exact arithmetic alone."""
+        if g.is_constant:
+            return not g
+        value = self.coordinate(g.level)
+        if isinstance(value, FibreRoot) and value.size_with(g) <= SMALL:
+            return value.annuls(g)
         return self.tower.is_zero(g)
 
     def vanishes(self, g: Poly) -> bool:
-        """Whether a polynomial in the algebraic coordinates vanishes: balls first, then the normal form."""
+        """Whether a polynomial in the algebraic coordinates vanishes: balls first, then exactly."""
         if g.is_constant:
             return not g
         with precision(EXACT_FROM + 16):
@@ -262,7 +271,7 @@ class Fibre:
         return certified_roots(c, bits)
 
     def _make_exact(self) -> None:
-        """Prove the degree, and replace the polynomial by its squarefree part over the tower."""
+        """Prove the degree, and replace the polynomial by one with the same roots, all simple."""
         self.strip()
         self.exact = True
         if len(self.coefficients) <= 2:
@@ -272,9 +281,7 @@ class Fibre:
             if self.point.vanishes(c1 * c1 - 4 * (c2 * c0)):
                 self.coefficients = (c1, 2 * c2)
             return
-        tower = self.point.tower
-        part = tower.squarefree_part(tower.embed(self.polynomial()), self.var)
-        self.coefficients = clear_denominators(self.point.ring, part).coefficients(self.var)
+        self.coefficients = squarefree_coefficients(self.coefficients, self.point.vanishes)
 
     def element(self) -> fmpq_mpoly:
         """The polynomial over the point's tower, reduced, with a provably nonzero leading coefficient."""
@@ -300,6 +307,24 @@ class FibreRoot:
             if x.rel_accuracy_bits() >= bits or x.rad() < arb(2) ** -bits:
                 return x
             working *= 2
+
+    def size_with(self, g: Poly) -> int:
+        """A bound on the degrees met in a remainder sequence with g."""
+        var, coefficients = self.fibre.var, self.fibre.coefficients
+        below = max(c.total_degree for c in coefficients)
+        return g.degree(var) * below + (len(coefficients) - 1) * (g.total_degree - g.degree(var))
+
+    def annuls(self, g: Poly) -> bool:
+        """Whether g, in the fibre's variable and the coordinates below, vanishes at the root."""
+        shared = common_fibre(self.fibre, Fibre(self.fibre.point, self.fibre.var, g.coefficients(self.fibre.var)))
+        bits = EXACT_FROM
+        while shared is not None:
+            roots = self.fibre.roots(bits)
+            places = [[k for k, x in enumerate(roots) if x.overlaps(y)] for y in shared.roots(bits)]
+            if all(len(found) == 1 for found in places):
+                return [self.index] in places
+            bits *= 2
+        return False
 
     def number(self) -> RealAlgebraic:
         """The root with its minimal polynomial over Q, through the norm."""
@@ -352,13 +377,6 @@ def certified_roots(c: list[arb], bits: int) -> list[arb] | None:
 
 
 def common_fibre(f: Fibre, g: Fibre) -> Fibre | None:
-    """The greatest common divisor of two fibres over one point, or None if it is constant."""
-    point, var = f.point, f.var
-    tower = point.tower
-    common = tower.gcd(f.element(), g.element(), var)
-    if degree_in(point.ring, common, var) == 0:
-        return None
-    common = tower.squarefree_part(common, var)
-    fibre = Fibre(point, var, clear_denominators(point.ring, common).coefficients(var))
-    fibre.exact = True
-    return fibre
+    """The greatest common divisor of two fibres over one point, not both zero, or None if it is constant."""
+    common = common_coefficients(f.coefficients, g.coefficients, f.point.vanishes)
+    return None if len(common) == 1 else Fibre(f.point, f.var, common)
