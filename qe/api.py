@@ -233,24 +233,28 @@ def region(
     factors of that projection are part of the answer, and the other order may be much harder.
     A cylindrical description with a certificate; quantifiers are eliminated first. For a conjunction of convex
     quadratic conditions in four or more variables, or with existential quantifiers before it, membership, fibres
-    and bounds are found by exact optimisation, and the description only when it is asked for.
+    and bounds are found by exact optimisation, and the description only when it is asked for; ``timeout`` (seconds)
+    then holds for every question.
     """
     given = without_root_atoms(read_formula(formula, format))
-    budget = Budget(timeout, listener=progress)
     names = None if order is None else tuple(order)
     quantified = not is_quantifier_free(given)
 
+    def limits() -> Budget:
+        return Budget(timeout, listener=progress)
+
     def eliminated(part: Formula) -> Formula:
-        return pipeline.solve(part, Options(order=names), budget).formula
+        return pipeline.solve(part, Options(order=names), limits()).formula
 
     if quantified or len(free_variables(given)) > TABLE_VARIABLES:
         from qe.solution.convex_region import ConvexRegion, shadow_of
 
         shadow = shadow_of(given, eliminated)
         if shadow is not None:
-            return ConvexRegion(shadow, names, budget=budget)
+            return ConvexRegion(shadow, names, limits=limits)
     from qe.solution.region import Region
 
+    budget = limits()
     if not quantified:
         return Region.of(given, names, budget=budget)
     found = pipeline.solve(given, Options(order=names), budget)

@@ -56,17 +56,17 @@ class ConvexRegion(Region):
 
     ``contains``, ``fibre``, ``bounds`` and ``is_empty`` are answered by exact convex optimisation, in any number of
     variables, and bounds carry certificates. ``formula`` (where variables are hidden) and ``table``, which all the
-    other questions rest on, are only computed when they are asked for.
+    other questions rest on, are only computed when they are asked for. ``limits()`` makes the budget of one question.
     """
 
-    __slots__ = ("_budget", "_shadow")
+    __slots__ = ("_limits", "_shadow")
 
-    def __init__(self, shadow: Shadow, order: tuple[str, ...] | None, *, budget: Budget) -> None:
+    def __init__(self, shadow: Shadow, order: tuple[str, ...] | None, *, limits: Callable[[], Budget]) -> None:
         free = free_variables(exists(shadow.hidden, shadow.conditions))
         super().__init__(None, None, checked_order(free, order))
         ring = Ring.of((*self.order, *shadow.hidden))
         self._shadow = Shadow(convert(shadow.conditions, ring), shadow.hidden, shadow.formula)
-        self._budget = budget
+        self._limits = limits
 
     @property
     def formula(self) -> Formula:
@@ -80,7 +80,7 @@ class ConvexRegion(Region):
     def table(self) -> CellTable:
         """The decomposition of the space of ``order``; computed when first asked for."""
         if self._table is None:
-            done = decompose(self.formula, self.order, ("",) * len(self.order), budget=self._budget)
+            done = decompose(self.formula, self.order, ("",) * len(self.order), budget=self._limits())
             self._table = done.table
         return self._table
 
@@ -121,7 +121,7 @@ class ConvexRegion(Region):
         if conditions in (TRUE, FALSE):
             return {} if conditions == TRUE else None
         nothing = Ring.of((*self.order, *self._shadow.hidden)).constant(0)
-        found = minimize(nothing, conditions, budget=self._budget)
+        found = minimize(nothing, conditions, budget=self._limits())
         if found.status is OptimumStatus.INFEASIBLE:
             return None
         strictly = found.evidence.inner_point if found.attained is False else tuple(found.point.values())
@@ -152,10 +152,10 @@ class ConvexRegion(Region):
         if conditions == FALSE:
             return None
         objective = Ring.of((*self.order, *self._shadow.hidden)).var(variable)
-        low = minimize(objective, conditions, budget=self._budget)
+        low = minimize(objective, conditions, budget=self._limits())
         if low.status is OptimumStatus.INFEASIBLE:
             return None
-        high = maximize(objective, conditions, budget=self._budget)
+        high = maximize(objective, conditions, budget=self._limits())
         return Interval(
             None if low.value is None else _number(low.value),
             None if high.value is None else _number(high.value),

@@ -7,11 +7,13 @@ from fractions import Fraction as F
 import pytest
 
 import qe
-from qe.errors import InputError, Unable
+from qe.errors import BudgetExceeded, InputError, Unable
 from qe.exact.algebraic import RealAlgebraic
 from qe.formula.build import exists
 from qe.formula.syntax import Formula
-from qe.solution.convex_region import ConvexRegion
+from qe.io import formats
+from qe.options import Budget
+from qe.solution.convex_region import ConvexRegion, shadow_of
 from qe.solution.interval import Interval
 from tests.optimum_problems import at_most_zero, cubic
 
@@ -137,3 +139,21 @@ def test_nonconvex_formulas_are_decomposed() -> None:
     region = qe.region("ex y. x^2 + y^2 = 1 and y > 0")
     assert not isinstance(region, ConvexRegion)
     assert tuple(region.bounds("x")) == (-1, 1)
+
+
+def test_every_question_has_a_budget_of_its_own() -> None:
+    made: list[Budget] = []
+
+    def limits() -> Budget:
+        made.append(Budget(60))
+        return made[-1]
+
+    found = shadow_of(formats.read(BALL, "text"), lambda formula: formula)
+    assert found is not None
+    region = ConvexRegion(found, None, limits=limits)
+    assert not made and not region.is_empty
+    first = len(made)
+    assert region.bounds("z").upper and len(made) > first and len(set(map(id, made))) == len(made)
+    hard = qe.region(shadow((-3, 2), (3, 2), 27), timeout=0.05)
+    with pytest.raises(BudgetExceeded):
+        _ = hard.cells
