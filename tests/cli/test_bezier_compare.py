@@ -14,10 +14,10 @@ BEZIER = str(Path(sys.executable).parent / "bezier")
 PROBLEM = """\
 method = "cubic"
 workspace = "ball"
-start = [-4, 0, 0]
-via = [[-3, "6/5", "8/5"], [2, "6/5", "8/5"]]
-goal = [4, 0, 0]
-radius = "sqrt(27)"
+start = [-4, 1, 1]
+via = [[-1, 3, 3], [1, 3, 3]]
+goal = ["9/2", 1, 1]
+radius = "sqrt(89/4)"
 """
 
 
@@ -42,7 +42,7 @@ def test_the_table_sets_both_methods_side_by_side(compared: tuple[str, Path]) ->
     lines = {line.split("│")[1].strip(): line.split("│")[2:4] for line in text.splitlines() if line.count("│") == 4}
     assert [cell.strip() for cell in lines["result"]] == ["path found", "path found"]
     assert [cell.strip() for cell in lines["joins, proved"]] == ["C1", "C2"]
-    assert "8.6085" in lines["objective, mm²"][1] and "P1, R2" in lines["active conditions"][1]
+    assert "1.3368639" in lines["objective, mm²"][1] and "P1, R2" in lines["active conditions"][1]
     assert "15.4 s" in lines["the paper reports"][0] and "not yet been successful" in lines["the paper reports"][1]
     for label in ("length, mm", "largest curvature, 1/mm", "quantifier elimination", "step: elimination"):
         assert all(cell.strip() for cell in lines[label]), label
@@ -55,7 +55,7 @@ def test_the_data_are_exact_and_consistent(compared: tuple[str, Path]) -> None:
     data = json.loads((out / "compare.json").read_text())
     sides = data["methods"]
     assert sides["quadratic"]["smoothness"] == "C1" and sides["cubic"]["smoothness"] == "C2"
-    assert abs(float(sides["cubic"]["objective"]["decimal"]) - 8.608561) < 1e-6
+    assert abs(float(sides["cubic"]["objective"]["decimal"]) - 1.336864) < 1e-6
     for side in sides.values():
         assert side["certified"] is True
         for name in ("length", "curvature"):
@@ -64,8 +64,8 @@ def test_the_data_are_exact_and_consistent(compared: tuple[str, Path]) -> None:
         assert float(side["length"]["low"]) >= sum(float(e["low"]) for e in side["lengths"].values()) - 1e-9
     areas = {name: region["area"] for name, region in data["planar"]["regions"].items()}
     assert float(areas["(8)"]["high"]) < float(areas["(8*)"]["low"]), "whole curves leave more room than polygons"
-    assert float(areas["(8)"]["low"]) == pytest.approx(0.7167, rel=2e-3)
-    assert float(areas["(7)"]["low"]) == pytest.approx(8.804, rel=2e-3)
+    assert float(areas["(8)"]["low"]) == pytest.approx(0.4193, rel=2e-3)
+    assert float(areas["(7)"]["low"]) == pytest.approx(0.8611, rel=2e-3)
     assert data["planar"]["polygon_lies_in_whole"] is True
     assert data["existence"]["truth"] is True and data["existence"]["witness"].startswith("q1x = q0x")
     assert {Path(f).name for f in data["files"]} == {p.name for p in out.iterdir()}
@@ -85,7 +85,7 @@ def test_the_page_is_whole_and_needs_nothing_else(compared: tuple[str, Path]) ->
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        (PROBLEM.replace('"sqrt(27)"', '"3"'), ("radius", "expected")),
+        (PROBLEM.replace('"sqrt(89/4)"', '"3"'), ("radius", "expected")),
         (PROBLEM.replace("via", "vias"), ("vias",)),
     ],
 )
