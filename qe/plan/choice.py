@@ -72,17 +72,16 @@ def choose(variables: Sequence[str], body: Formula) -> Choice:
 
 
 def _is_convex(body: Formula) -> bool:
-    """Whether the body is a conjunction of convex quadratic inequalities of which one is not linear."""
+    """Whether the body is a conjunction of weak convex quadratic inequalities of which one is not linear."""
     if not isinstance(body, And) or not all(isinstance(a, Atom) for a in body.args):
         return False
     curved = False
     for found in body.args:
         assert isinstance(found, Atom)
         form = quadratic(found.poly, range(found.poly.ring.size))
-        if form is None or found.relation in (Relation.EQ, Relation.NE):
+        if form is None or found.relation not in (Relation.LE, Relation.GE):
             return False
-        downward = found.relation in (Relation.GE, Relation.GT)
-        hessian = [[-h for h in row] for row in form.hessian] if downward else form.hessian
+        hessian = [[-h for h in row] for row in form.hessian] if found.relation is Relation.GE else form.hessian
         if definiteness(hessian) is Definiteness.NOT_SEMIDEFINITE:
             return False
         curved = curved or not form.is_linear
