@@ -12,10 +12,18 @@ from bezier.curves.containment import Inside
 from bezier.curves.evidence import path_certificates
 from bezier.curves.scalar import Vector
 from bezier.path import Path, Proof, assemble, prove
-from bezier.plan import Clock
+from bezier.plan import Clock, answered
 from bezier.problem import Problem
 from qe.errors import InternalError
 from qe.formula.syntax import FALSE
+
+
+def quantifier_free(text: str, clock: Clock) -> Any:
+    """The engine's answer to a formula. Raises ``Unable`` where it has none."""
+    with clock.step("elimination"):
+        answer = answered(qe.eliminate(text, timeout=clock.remaining()))
+    clock.learn("quantifier-free answer", str(answer.formula))
+    return answer
 
 
 def least(system: System, answer: Any, clock: Clock) -> Any:

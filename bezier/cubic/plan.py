@@ -6,13 +6,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-import qe
 from bezier.control import System
 from bezier.cubic import formula as cubic
 from bezier.curves.speed import Slowest, slowest_of
-from bezier.optimal_path import chosen_path, eliminated, least, path_through, verified
+from bezier.optimal_path import chosen_path, eliminated, least, path_through, quantifier_free, verified
 from bezier.path import Path
-from bezier.plan import Clock, Outcome, Plan, answered
+from bezier.plan import Clock, Outcome, Plan
 from bezier.problem import Problem
 
 
@@ -44,9 +43,7 @@ def make(problem: Problem, clock: Clock) -> CubicPlan:
     """Plan with formula (7)."""
     system = cubic.system(problem)
     text = system.formula()
-    with clock.step("elimination"):
-        answer = answered(qe.eliminate(text, timeout=clock.remaining()))
-    clock.learn("quantifier-free answer", str(answer.formula))
+    answer = quantifier_free(text, clock)
     with clock.step("optimum"):
         optimum = least(system, answer, clock)
     clock.learn("optimum", optimum.status.value)

@@ -11,7 +11,7 @@ import qe
 from bezier.control import System
 from bezier.curves.scalar import Vector, sign
 from bezier.curves.workspace import Workspace, WorkspaceKind
-from bezier.optimal_path import chosen_path, eliminated, least, verified
+from bezier.optimal_path import chosen_path, eliminated, least, quantifier_free, verified
 from bezier.path import Path, Proof, prove
 from bezier.plan import Clock, Outcome, Plan, answered
 from bezier.problem import Problem
@@ -54,9 +54,7 @@ def make(problem: Problem, clock: Clock) -> QuadraticPlan:
     """Plan with formula (8)."""
     system = quadratic.system(problem)
     text = system.formula()
-    with clock.step("elimination"):
-        answer = answered(qe.eliminate(text, timeout=clock.remaining()))
-    clock.learn("quantifier-free answer", str(answer.formula))
+    answer = quantifier_free(text, clock)
     with clock.step("region"):
         region = qe.region(answer.formula, order=quadratic.FREE, timeout=clock.remaining())
     clock.learn("region", "empty" if region.is_empty else f"{len(region.cells)} cells")
