@@ -104,9 +104,7 @@ class _Question:
             ),
         )
 
-    def answer(
-        self, found: Decomposition, budget: Budget, *, whole_free: bool = False
-    ) -> tuple[Formula, CellTable]:
+    def answer(self, found: Decomposition, budget: Budget, *, whole_free: bool = False) -> tuple[Formula, CellTable]:
         """The formula that a decomposition gives, and the table (refined if need be) that proves it."""
 
         def refined(levels: frozenset[int]) -> CellTable:

@@ -22,9 +22,7 @@ from qe.options import Budget
 Simplifier = Callable[[Formula], Formula]
 
 
-def eliminate_block(
-    variables: Sequence[str], matrix: Formula, *, budget: Budget, simplify: Simplifier
-) -> BlockResult:
+def eliminate_block(variables: Sequence[str], matrix: Formula, *, budget: Budget, simplify: Simplifier) -> BlockResult:
     """A formula equivalent to ``exists variables. matrix`` (matrix quantifier-free), see ``BlockResult``.
 
     THEOREM (Loos & Weispfenning 1993, Weispfenning 1997): (exists x. F) iff the disjunction over an elimination set
