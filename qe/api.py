@@ -17,6 +17,7 @@ from qe.evidence.elimination import Assignment
 from qe.exact.ring import Poly
 from qe.formula.build import conj, convert, exists, forall, iff
 from qe.formula.counting import without_root_atoms
+from qe.formula.features import features
 from qe.formula.syntax import Constant, Exists, ForAll, Formula
 from qe.formula.traverse import free_variables, is_quantifier_free, polynomials, ring_of
 from qe.options import Budget, Method, Options, Stage
@@ -106,10 +107,19 @@ def eliminate(
     """
     given = read_formula(formula, format)
     options = _options(method, order, root_atoms, without, progress).with_(certify=check)
+    _check_order(options.order, given)
     answer = _limited(given, options, timeout, memory, check)
     if explain:
         print(answer.explanation or answer.reason, file=sys.stderr)
     return answer
+
+
+def _check_order(order: tuple[str, ...] | None, formula: Formula) -> None:
+    """Raise ``InputError`` for names in an order that are no variables of the formula, or stand twice."""
+    known = {*free_variables(formula), *features(formula).bound}
+    names = order or ()
+    if not known.issuperset(names) or len(set(names)) < len(names):
+        raise InputError(f"order: variables of the formula expected, each once, {', '.join(names)} found")
 
 
 def _limited(formula: Formula, options: Options, timeout: float | None, memory: int | None, check: bool) -> Answer:

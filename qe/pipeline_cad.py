@@ -177,12 +177,16 @@ def _order(
     options: Options,
     budget: Budget,
 ) -> tuple[tuple[str, ...], tuple[str, ...], str]:
-    """The variables, free ones first, blocks never mixed; the quantifier of each; and why this order."""
+    """The variables, free ones first, blocks never mixed; the quantifier of each; and why this order.
+
+    Within a block the variables that the caller named come first, in the caller's order.
+    """
     parts = [("", tuple(free)), *((kind.value, names) for kind, names in prefix)]
     blocks: list[tuple[str, ...]] = []
     for _, names in parts:
         wished = [v for v in options.order or () if v in names]
-        blocks += [(v,) for v in wished] if len(wished) == len(names) else [names]
+        rest = tuple(v for v in names if v not in wished)
+        blocks += [*((v,) for v in wished), *([rest] if rest else [])]
     rule = OrderRule.WRITTEN if Stage.ORDER in options.without else OrderRule.PILOT
     order, reason = choose_order(matrix, blocks, rule=rule, budget=budget)
     return order, tuple(kind for kind, names in parts for _ in names), reason

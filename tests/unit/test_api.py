@@ -125,3 +125,13 @@ def test_what_was_not_answered_is_not_written() -> None:
     for write in (answer.to_smtlib, answer.to_sympy):
         with pytest.raises(qe.Unable):
             write()
+
+
+def test_an_order_is_followed_or_refused() -> None:
+    text = "ex x, y, z. x^2 + y^2 + z^2 < a and x*y*z > b"
+    answer = qe.eliminate(text, order=("z", "b"), method="cad")
+    order = answer.stats["cad"][0]["order"]
+    assert order.index("b") < order.index("a") and order[2] == "z"
+    for strange in (("z", "w"), ("z", "z")):
+        with pytest.raises(qe.InputError, match="order"):
+            qe.eliminate(text, order=strange)
