@@ -17,6 +17,8 @@ TRUE = [
     "all a, b. ex x. 4*(x - a)^2 <= (a - b)^2 and 4*(x - b)^2 <= (a - b)^2",
     "all a, b, r. a^2 + b^2 <= r^2 -> (ex x, y. x^2 + y^2 <= r^2 and (2*a - x)^2 + (2*b - y)^2 <= r^2)",
     "all a, r. a^2 <= r^2 and r >= 0 -> (ex x. r >= 0 and x^2 <= r^2 and (2*a - x)^2 <= r^2)",
+    "all a, b, c, d. c = 0 and d = 0 and a > 10 and a^2 + b^2 + c^2 <= 900 ->"
+    " (ex x, y. x^2 + y^2 + d <= 900 and (2*a - x)^2 + (2*b - y)^2 <= 900)",
     "all a, b. (ex x. (x - a)^2 + (x - b)^2 <= (a - b)^2) and (ex y. (y - a)^2 < 1)",
 ]
 FALSE = [
