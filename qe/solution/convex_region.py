@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from qe.eliminate.cad.decompose import decompose
-from qe.errors import InputError, Unable
+from qe.errors import BudgetExceeded, InputError, Unable
 from qe.evidence.cells import CellTable
 from qe.exact.algebraic import RealAlgebraic
 from qe.exact.field import FieldElement
@@ -132,7 +132,12 @@ class ConvexRegion(Region):
         if variable not in self.order:
             raise InputError(f"variable: one of {', '.join(self.order)} expected, {variable} found")
         if variable not in self._bounds:
-            found = self._range(variable, self._shadow.conditions)
+            try:
+                found = self._range(variable, self._shadow.conditions)
+            except Unable as error:
+                if not self._has_small_table(error):
+                    raise
+                return super().bounds(variable)
             if found is None:
                 raise InputError("an empty region has no bounds")
             self._bounds[variable] = found
@@ -144,8 +149,17 @@ class ConvexRegion(Region):
                 raise Unable("fibre: rational values expected; take them inside the interval")
             return super()._fibre(values)
         given = dict(zip(self.order, values, strict=False))
-        found = self._range(self.order[len(values)], self._under(given))
+        try:
+            found = self._range(self.order[len(values)], self._under(given))
+        except Unable as error:
+            if not self._has_small_table(error):
+                raise
+            return super()._fibre(values)
         return [] if found is None else [found]
+
+    def _has_small_table(self, error: Unable) -> bool:
+        """Whether the decomposition may take over from optimisation that could not prove its answer."""
+        return len(self.order) <= TABLE_VARIABLES and not isinstance(error, BudgetExceeded)
 
     def _range(self, variable: str, conditions: Formula) -> Interval | None:
         """The interval of a variable under convex conditions, None if they contradict each other."""

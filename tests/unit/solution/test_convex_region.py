@@ -135,6 +135,15 @@ def test_coinciding_via_points_and_the_origin(q0: tuple[int, int], r0: tuple[int
     assert qe.equivalent(qe.region(shadow(q0, r0, r2)).formula, formula)
 
 
+def test_a_bound_that_optimisation_cannot_prove_comes_from_the_decomposition() -> None:
+    """The least p touches two conditions in one irrational point, where one of them has no part in the optimum."""
+    text = "y^2 + z^2 <= 5 and (p + y - 2)^2 + (q + z)^2 <= 5 and z + 2 <= p"
+    with pytest.raises(Unable):
+        qe.minimize("p", text)
+    region = qe.region(f"ex y, z. {text}", order=("p", "q"))
+    assert region.bounds("p").lower == 2 - RealAlgebraic.from_root((-5, 0, 1), 2, 3)
+
+
 def test_nonconvex_formulas_are_decomposed() -> None:
     region = qe.region("ex y. x^2 + y^2 = 1 and y > 0")
     assert not isinstance(region, ConvexRegion)
