@@ -7,6 +7,7 @@ from typing import Any
 
 from experiments.adapters.answer import Answer, Limits, NotSupported, OtherForm
 from qe.errors import InputError
+from qe.formula.build import exists, forall
 from qe.formula.normal import Quantifier, prenex, rename, rename_apart
 from qe.formula.syntax import And, Exists, ForAll, Formula, Not, Or
 from qe.formula.traverse import free_variables
@@ -19,8 +20,9 @@ def sympy_extras(formula: Formula, limits: Limits) -> Answer:
     """sympy-extras: McCallum/Hong CAD and virtual substitution."""
     from sympy_extras.polys.cad import quantifier_elimination
 
-    prefix, matrix = prenex(formula)
-    symbols = _Symbols(formula)
+    apart = rename_apart(formula)
+    prefix, matrix = prenex(apart)
+    symbols = _Symbols(apart)
     body = symbols.quantified(matrix)
     quantifiers = [
         ("exists" if kind is Quantifier.EXISTS else "forall", symbols.table[name])
@@ -34,12 +36,15 @@ def sympy_extras(formula: Formula, limits: Limits) -> Answer:
 
 
 def semialg(formula: Formula, limits: Limits) -> Answer:
-    """semialg: complete quantifier elimination on its symbolic quantifiers."""
+    """semialg: complete quantifier elimination on its symbolic quantifiers, of the prenex form."""
     from semialg.solve import reduce_complete_expr
 
     apart = rename_apart(formula)
     symbols = _Symbols(apart)
-    expression = symbols.quantified(apart)
+    prefix, whole = prenex(apart)
+    for kind, names in reversed(prefix):
+        whole = (exists if kind is Quantifier.EXISTS else forall)(names, whole)
+    expression = symbols.quantified(whole)
     free = [symbols.table[name] for name in free_variables(apart)]
     start = time.perf_counter()
     result = reduce_complete_expr(expression, free_variables=free) if free else reduce_complete_expr(expression)
