@@ -11,7 +11,7 @@ import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
-from typing import Any
+from typing import TypeVar
 
 from qe.eliminate.vs.far import far_first
 from qe.errors import Unable
@@ -26,16 +26,15 @@ from qe.formula.syntax import FALSE, TRUE, And, Constant, Exists, ForAll, Formul
 from qe.formula.traverse import atoms, free_variables, has_root_atoms, is_quantifier_free
 from qe.options import Budget, Method, Options, Stage
 from qe.pipeline_cad import Values, decomposed, is_small, length
-from qe.pipeline_critical import by_critical_values, convex_block, convex_universal
 from qe.pipeline_vs import substituted
 from qe.plan.choice import allows, planned
 from qe.prepare import Prepared, prepare
 from qe.prepare.nonzero import only_nonzero
 from qe.prepare.simplify import simplify
 from qe.prepare.step import ALL_STEPS, EQUATION_STEPS
-from qe.solution.convex_sentence import decide_convex
 from qe.solution.linear_proof import substitution_certificate
-from qe.solution.polynomial_witness import find as polynomial_witnesses
+
+Found = TypeVar("Found")
 
 FIRST_SHARE = 0.4
 """The share of the remaining time that the first method gets while another one could take over."""
@@ -92,22 +91,38 @@ class _Run:
         if isinstance(formula, Exists) and not free_variables(formula):
             return self.existential(formula)
         self.whole = formula
-        answer = self._tried("convex set", lambda part: convex_universal(formula, self.options, part, self.story))
-        if answer is None:
+        found = self._convex_universal(formula) if isinstance(formula, ForAll) else None
+        if found is None:
             ready = self.prepared(formula)
-            block = convex_block(ready, self.options)
-            if block is not None:
-                answer = self._tried("convex block", lambda part: self._by_critical_values(*block, part))
-            answer = answer or self.eliminate(ready)
+            found = self._convex_block(ready) or self.eliminate(ready)
         if self.certificate is None:
-            answer = self._shortened(answer)
-            self.certificate = substitution_certificate(formula, answer)
-        return answer, None
+            found = self._shortened(found)
+            self.certificate = substitution_certificate(formula, found)
+        return found, None
+
+    def _convex_universal(self, formula: ForAll) -> Formula | None:
+        """The answer for a universal block whose truth set is seen to be convex, by critical values."""
+        from qe.pipeline_critical import convex_universal
+
+        return self._tried("convex set", lambda part: convex_universal(formula, self.options, part, self.story))
+
+    def _convex_block(self, ready: Formula) -> Formula | None:
+        """The answer for a convex existential block with the conditions that preparation moved out of it."""
+        if is_quantifier_free(ready):
+            return None
+        from qe.pipeline_critical import convex_block  # a large part of the engine, loaded where it may serve
+
+        block = convex_block(ready, self.options)
+        if block is None:
+            return None
+        return self._tried("convex block", lambda part: self._by_critical_values(*block, part))
 
     def _by_witness(self, formula: ForAll) -> bool:
         """Whether polynomials in the universal variables solve the blocks inside; ``False`` says nothing."""
         if is_quantifier_free(formula.body) or self.options.method is not Method.AUTO:
             return False
+        from qe.solution.polynomial_witness import find as polynomial_witnesses
+
         found = self._tried("witness in the parameters", lambda part: polynomial_witnesses(formula, budget=part))
         for proof in found or ():
             self.story.note("plan", f"witness in the parameters: {proof}")
@@ -129,6 +144,8 @@ class _Run:
         """A sentence in many variables about a convex set, if it is one."""
         if len(formula.variables) < CONVEX_FROM or self.options.method is not Method.AUTO:
             return None
+        from qe.solution.convex_sentence import decide_convex
+
         try:
             found = decide_convex(formula, budget=self.budget.share(FIRST_SHARE))
         except Unable as error:
@@ -332,7 +349,7 @@ class _Run:
             return formula
         return shorter if length(shorter) < length(formula) else formula
 
-    def _tried(self, what: str, work: Callable[[Budget], Any]) -> Any:
+    def _tried(self, what: str, work: Callable[[Budget], Found | None]) -> Found | None:
         """A shortcut, with a share of the time; None where it does not lead to an answer."""
         try:
             return work(self.budget.share(FIRST_SHARE))
@@ -345,6 +362,8 @@ class _Run:
 
         def decompose(formula: Formula, part: Budget) -> Formula:
             return decomposed(formula, plain, part, self.story).formula
+
+        from qe.pipeline_critical import by_critical_values
 
         return by_critical_values(variables, body, self.options, budget, self.story, decompose)
 
