@@ -79,6 +79,7 @@ class _Run:
     story: Story = field(default_factory=Story)
     certificate: Certificate | None = None
     whole: Formula | None = None
+    shortest: Formula | None = None  # the last answer of a decomposition, which needs no shortening
 
     # --- the outermost shape -----------------------------------------------------------------
     def sentence_or_formula(self, formula: Formula) -> tuple[Formula, Values | None]:
@@ -146,11 +147,7 @@ class _Run:
             return None
         from qe.solution.convex_sentence import decide_convex
 
-        try:
-            found = decide_convex(formula, budget=self.budget.share(FIRST_SHARE))
-        except Unable as error:
-            self.story.note("switches", f"convexity: {error}")
-            return None
+        found = self._tried("convexity", lambda part: decide_convex(formula, budget=part))
         if found is None:
             return None
         self.story.note("plan", f"convex optimisation: {len(formula.variables)} variables, a convex set")
@@ -339,6 +336,8 @@ class _Run:
 
     def _shortened(self, formula: Formula) -> Formula:
         """A shorter equivalent of a small quantifier-free answer, read off a decomposition of its space."""
+        if formula == self.shortest:
+            return formula
         if has_root_atoms(formula) or not is_small(formula) or not allows(self.options, Method.CAD):
             return formula
         left = self.budget.remaining()
@@ -378,4 +377,5 @@ class _Run:
         found = decomposed(formula, self.options, budget, self.story)
         if self.certificate is None and formula == self.whole:
             self.certificate = found.certificate
+        self.shortest = found.formula
         return found.formula, found.values
