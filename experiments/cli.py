@@ -36,8 +36,8 @@ Results = Annotated[list[Path] | None, typer.Option("--results", help="Result fi
 def run(
     suites: Annotated[list[str], typer.Option("--suite", help="paper, classics, literature, scaling or ablation.")],
     solvers: Annotated[list[str] | None, typer.Option("--solver", help="A solver; default: ours.")] = None,
-    limit: Annotated[float, typer.Option(help="Seconds of solving time for each problem.")] = 15.0,
-    memory: Annotated[int, typer.Option(help="MiB for each problem.")] = 2048,
+    limit: Annotated[float, typer.Option(min=0.01, help="Seconds of solving time for each problem.")] = 15.0,
+    memory: Annotated[int, typer.Option(min=1, help="MiB for each problem.")] = 2048,
     repeat: Annotated[int, typer.Option(help="Repetitions; the median counts.", min=1)] = 1,
     jobs: Annotated[int, typer.Option(help="Problems at a time.", min=1)] = 1,
     seed: Annotated[int, typer.Option(help="Of the random order.")] = 1,

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 
+from qe.errors import Unable
 from qe.evidence.certificate import Certificate
 from qe.evidence.multipliers import OptimumStatus
 from qe.exact.algebraic import RealAlgebraic
@@ -42,6 +43,8 @@ def decide_convex(sentence: Exists, *, budget: Budget) -> ConvexDecision | None:
         return None
     if found.status is OptimumStatus.INFEASIBLE:
         return ConvexDecision(None, found.certificate)
+    if found.status is OptimumStatus.UNBOUNDED:
+        raise Unable("a constant objective was found unbounded")
     return ConvexDecision(_solution(found), found.certificate)
 
 

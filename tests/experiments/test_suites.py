@@ -91,3 +91,11 @@ def test_unknown_names_give_one_line(option, capsys, tmp_path):
 
 def test_the_ablation_runs_every_stage():
     assert set(suite("ablation").solvers) == {"ours", *(f"ours-without-{stage.value}" for stage in qe.Stage)}
+
+
+@pytest.mark.parametrize("option", ["--limit", "--memory"])
+def test_limits_are_positive(option, capsys, tmp_path):
+    arguments = ["run", "--suite", "paper", option, "-1", "--results", str(tmp_path / "r.jsonl")]
+    assert main(arguments) == 2
+    assert option in capsys.readouterr().err
+    assert not (tmp_path / "r.jsonl").exists()
