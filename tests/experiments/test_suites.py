@@ -96,6 +96,6 @@ def test_the_ablation_runs_every_stage():
 @pytest.mark.parametrize("option", ["--limit", "--memory"])
 def test_limits_are_positive(option, capsys, tmp_path):
     arguments = ["run", "--suite", "paper", option, "-1", "--results", str(tmp_path / "r.jsonl")]
-    assert main(arguments) == 2
+    assert cli.main(arguments) == 2
     assert option in capsys.readouterr().err
     assert not (tmp_path / "r.jsonl").exists()
