@@ -28,6 +28,9 @@ app = typer.Typer(
     help="Experiments: run solvers on suites of problems; results are lines of JSON that are only ever added to.",
 )
 
+baselines = typer.Typer(help="Freeze a baseline of the engine, and compare two.", no_args_is_help=True)
+app.add_typer(baselines, name="baseline")
+
 RESULTS = ROOT / "out" / "corpus.jsonl"
 Results = Annotated[list[Path] | None, typer.Option("--results", help="Result files [default: out/corpus.jsonl].")]
 
@@ -100,6 +103,48 @@ def report(results: Results = None) -> None:
     _write_figures(log, docs / "images" / "benchmarks")
     _write_table(log, docs / "benchmarks.md", figures_beside=docs / "images" / "benchmarks")
     _write_html(log, ROOT / "out" / "benchmarks.html")
+
+
+@baselines.command()
+def freeze(
+    out: Annotated[Path, typer.Argument(help="The file to write.")],
+    limit: Annotated[float, typer.Option(min=0.01, help="Seconds of solving time for each problem.")] = 15.0,
+    memory: Annotated[int, typer.Option(min=1, help="MiB for each problem.")] = 2048,
+    repeat: Annotated[int, typer.Option(help="Repetitions; the median counts.", min=1)] = 3,
+    seed: Annotated[int, typer.Option(help="Of the random order.")] = 1,
+    only: Annotated[str, typer.Option(help="Problems whose name or set contains this.")] = "",
+) -> None:
+    """Run the sets public, realgeom and project, and keep what was solved, in how much processor time, how shortly."""
+    from experiments import baseline
+    from experiments.environment import fingerprint
+    from experiments.session import Session
+
+    session = Session(out.with_name(f"{out.stem}.runs.jsonl"), Limits(limit, memory))
+    _warn(session.log.bad)
+    session.run([(baseline.problems(only), [solver(OURS)])], repeat=repeat, seed=seed)
+    baseline.write(
+        out, baseline.entries(session.log), fingerprint(limit=limit, memory=memory, repeat=repeat, seed=seed)
+    )
+    print(out)
+
+
+@baselines.command()
+def compare(
+    old: Annotated[Path, typer.Argument(help="The older baseline file.")],
+    new: Annotated[Path, typer.Argument(help="The newer one.")],
+    memory: Annotated[int, typer.Option(min=1, help="MiB for comparing two answers.")] = 2048,
+) -> int:
+    """Compare two baseline files: solved, PAR-2, medians, lengths, equivalence. Status 1 when answers differ."""
+    from experiments import baseline
+
+    before, after = baseline.read(old), baseline.read(new)
+    for text in baseline.lines(baseline.changes(before, after)):
+        print(text)
+    worst = OK
+    for a, _, word in baseline.different(before, after, memory=memory):
+        print(f"{word}: {a.set} {a.id}")
+        worst = BUG if word == "different" else worst
+    return worst
 
 
 @app.command()

@@ -37,7 +37,8 @@ ANSWERED = frozenset((Status.SOLVED, Status.PROBED, Status.UNCOMPARED))
 
 @dataclass(frozen=True, slots=True)
 class Result:
-    """One run. ``seconds`` is the solver's own time, ``wall`` that of its whole process, ``peak`` MiB.
+    """One run. ``seconds`` is the solver's own time, ``cpu`` the processor time it took, ``wall`` the time of its whole
+    process, ``peak`` MiB, ``length`` the number of characters of the whole answer.
 
     ``repeat`` numbers the repetitions; ``environment`` is the name of a recorded ``Environment``.
     """
@@ -54,6 +55,8 @@ class Result:
     repeat: int = 0
     size: int | None = None
     peak: float = 0.0
+    cpu: float = 0.0
+    length: int = 0
     environment: str = ""
     date: str = ""
 
@@ -62,7 +65,7 @@ class Result:
         if status is Status.UNABLE and self.message.startswith("NotSupported"):
             status = Status.UNSUPPORTED
         object.__setattr__(self, "status", status)
-        for name in ("seconds", "wall", "limit", "peak"):
+        for name in ("seconds", "wall", "limit", "peak", "cpu", "length"):
             if not isinstance(getattr(self, name), int | float):
                 raise TypeError(f"{name}: a number expected")
 

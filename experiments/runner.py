@@ -12,6 +12,7 @@ import sys
 from collections.abc import Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 from experiments.adapters.answer import Limits
@@ -78,42 +79,54 @@ def run_one(job: Job, limits: Limits, environment: str = "") -> Result:
     run = run_limited(
         job.solver.command, task, seconds=limits.seconds, memory=limits.memory, start_up=START_UP, folder=ROOT
     )
-    status, seconds, answer, message = _outcome(run, limits)
-    if status is Status.SOLVED:
-        status = verdict(problem, answer, limits)
+    found = _outcome(run, limits)
+    status = verdict(problem, found.answer, limits) if found.status is Status.SOLVED else found.status
     return Result(
         set=problem.set,
         solver=job.solver.name,
         id=problem.id,
         status=status,
-        seconds=round(seconds, 4),
+        seconds=round(found.seconds, 4),
         wall=round(run.wall, 3),
         limit=limits.seconds,
-        answer=answer[:LONGEST_ANSWER],
-        message=message[-300:],
+        answer=found.answer[:LONGEST_ANSWER],
+        message=found.message[-300:],
         repeat=job.repeat,
         size=problem.size,
         peak=round(run.peak, 1),
+        cpu=round(found.cpu, 4),
+        length=len(found.answer),
         environment=environment,
         date=now(),
     )
 
 
-def _outcome(run: Run, limits: Limits) -> tuple[Status, float, str, str]:
-    """(status before comparison, seconds, answer, message) of a run."""
+@dataclass(frozen=True, slots=True)
+class Outcome:
+    """What a run says of itself, before its answer is compared."""
+
+    status: Status
+    seconds: float
+    answer: str = ""
+    message: str = ""
+    cpu: float = 0.0
+
+
+def _outcome(run: Run, limits: Limits) -> Outcome:
+    """The outcome of a run that ended by itself or at a limit."""
     if run.ending is Ending.TIME:
-        return Status.TIMEOUT, limits.seconds, "", ""
+        return Outcome(Status.TIMEOUT, limits.seconds)
     if run.ending is Ending.MEMORY:
-        return Status.MEMORY, run.wall, "", f"{run.peak:.0f} MiB"
+        return Outcome(Status.MEMORY, run.wall, message=f"{run.peak:.0f} MiB")
     report = _report(run.out)
     if run.code != 0 or report is None:
         last = (run.err.strip().splitlines() or [""])[-1]
         ran_out = any(sign in run.err for sign in ("MemoryError", "bad_alloc", "allocate memory", "out of memory"))
-        return (Status.MEMORY if ran_out else Status.CRASH), run.wall, "", f"exit {run.code}: {last}"
+        return Outcome(Status.MEMORY if ran_out else Status.CRASH, run.wall, message=f"exit {run.code}: {last}")
     status, seconds = Status(report["status"]), float(report["seconds"])
     if seconds > limits.seconds:
-        return Status.TIMEOUT, limits.seconds, "", ""
-    return status, seconds, report.get("answer", ""), report.get("message", "")
+        return Outcome(Status.TIMEOUT, limits.seconds)
+    return Outcome(status, seconds, report.get("answer", ""), report.get("message", ""), float(report.get("cpu", 0.0)))
 
 
 def _report(out: str) -> dict[str, Any] | None:
@@ -132,6 +145,7 @@ def verdict(problem: Problem, answer: str, limits: Limits) -> Status:
     return {"equivalent": Status.SOLVED, "probed": Status.PROBED, "different": Status.WRONG}[word]
 
 
+@lru_cache(maxsize=4096)  # repetitions give the same answer again
 def compared(left: str, right: str, assume: str | None, memory: int) -> str:
     """The word of ``experiments.compare`` for two answers; "probed" where it takes too long."""
     left, right = left.strip(), right.strip()

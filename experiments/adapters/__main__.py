@@ -2,13 +2,14 @@
 
 The task is ``{"formula": text, "limit": seconds, "memory": MiB}``. A first line ``{"ready": true}`` is printed when
 the solver is imported, warmed up by a trivial problem, and the formula is read: the time limit counts from there.
-The last line is ``{"status": ..., "answer": text, "message": text, "seconds": s}``. The runner starts this
-program under hard limits.
+The last line is ``{"status": ..., "answer": text, "message": text, "seconds": s, "cpu": s}``; ``cpu`` is
+processor time, with that of ended child processes. The runner starts this program under hard limits.
 """
 
 from __future__ import annotations
 
 import json
+import resource
 import sys
 import time
 from collections.abc import Callable
@@ -39,11 +40,11 @@ def main(name: str) -> None:
     solve = ours(name) if name.startswith(OURS) else PEERS[name]
     limits = Limits(task["limit"], task["memory"])
     formula = read(task["formula"])
-    start = time.perf_counter()
+    start, begun = time.perf_counter(), processor_time()
     try:
         solve(read(WARM_UP), limits)
         print(json.dumps({"ready": True}), flush=True)
-        start = time.perf_counter()
+        start, begun = time.perf_counter(), processor_time()
         answer = solve(formula, limits)
         report = {"status": "solved", "answer": answer.text, "seconds": answer.seconds}
     except (Unable, MemoryError, ImportError) as error:
@@ -56,7 +57,13 @@ def main(name: str) -> None:
         status = next((word for kind, word in kinds.items() if isinstance(error, kind)), "unable")
         message = f"{type(error).__name__}: {error}"[:300]
         report = {"status": status, "message": message, "seconds": time.perf_counter() - start}
-    print(json.dumps(report))
+    print(json.dumps({**report, "cpu": processor_time() - begun}))
+
+
+def processor_time() -> float:
+    """Seconds of processor time of this process and its ended children."""
+    children = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return time.process_time() + children.ru_utime + children.ru_stime
 
 
 if __name__ == "__main__":
