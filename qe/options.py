@@ -74,6 +74,11 @@ class Budget:
         part.used_cells = self.used_cells
         return part
 
+    def brief(self, seconds: float, fraction: float, cells: int | None = None) -> Budget:
+        """A silent budget for something that is not needed: a short time, and little of what remains."""
+        left = self.remaining()
+        return Budget(seconds if left is None else min(seconds, fraction * left), cells)
+
     def check(self, phase: str = "work", done: int = 0, total: int | None = None) -> None:
         """Report progress (at most ten times a second) and raise ``BudgetExceeded`` past a limit."""
         if self._cancelled:

@@ -21,17 +21,19 @@ from qe.evidence.story import Story
 from qe.exact.ring import Ring
 from qe.formula.build import conj, convert, disj, exists, forall, neg
 from qe.formula.counting import without_root_atoms
+from qe.formula.features import features
 from qe.formula.normal import nnf, rename_apart
 from qe.formula.syntax import FALSE, TRUE, And, Constant, Exists, ForAll, Formula, Not, Or
 from qe.formula.traverse import atoms, free_variables, has_root_atoms, is_quantifier_free
 from qe.options import Budget, Method, Options, Stage
-from qe.pipeline_cad import Values, decomposed, is_small, length
+from qe.pipeline_cad import Values, certificate_for, claims, decomposed, is_small, length
 from qe.pipeline_vs import substituted
 from qe.plan.choice import allows, planned
 from qe.prepare import Prepared, prepare
 from qe.prepare.nonzero import only_nonzero
 from qe.prepare.simplify import simplify
 from qe.prepare.step import ALL_STEPS, EQUATION_STEPS
+from qe.solution.constant import constant_value
 from qe.solution.linear_proof import substitution_certificate
 
 Found = TypeVar("Found")
@@ -48,9 +50,9 @@ CERTIFY_SHARE = 0.4
 CONVEX_FROM = 4
 """Existential sentences in so many variables are first tried as convex problems; with fewer, the others are faster."""
 
-SHORTEN_CELLS = 2000
-SHORTEN_SHARE = 0.25
-SHORTEN_SECONDS = 0.7
+SHORTEN_CELLS, SHORTEN_SHARE, SHORTEN_SECONDS = 2000, 0.25, 0.7
+SETTLE_CELLS = 500
+"""Cells that may be built to find out that an answer is true or false everywhere."""
 
 
 def solve(formula: Formula, options: Options, budget: Budget) -> Elimination:
@@ -63,8 +65,7 @@ def solve(formula: Formula, options: Options, budget: Budget) -> Elimination:
         formula = without_root_atoms(formula)
     renamed = rename_apart(formula)
     result, values = run.sentence_or_formula(renamed)
-    if options.certify and run.certificate is None:
-        result = run.certified(renamed, result)
+    run.keep_or_make_certificate(renamed, result)
     if free:
         result = convert(result, Ring.of(free))
     run.story.stats["seconds"] = round(time.perf_counter() - run.started, 6)
@@ -97,7 +98,7 @@ class _Run:
             ready = self.prepared(formula)
             found = self._convex_block(ready) or self.eliminate(ready)
         if self.certificate is None:
-            found = self._shortened(found)
+            found = self._settled(self._shortened(found))
             self.certificate = substitution_certificate(formula, found)
         return found, None
 
@@ -196,17 +197,16 @@ class _Run:
                 return self.decomposed(exists(variables, inner))
         return self.eliminate(formula), None
 
-    def certified(self, formula: Formula, answer: Formula) -> Formula:
-        """The answer of a decomposition of the whole formula, which has a certificate, where it ends in time."""
+    def keep_or_make_certificate(self, formula: Formula, answer: Formula) -> None:
+        """A certificate is kept if it is about this very answer; one that was asked for is made where time allows."""
+        if self.certificate is not None and not claims(self.certificate, answer):
+            self.certificate = None
+        if self.certificate is not None or not self.options.certify:
+            return
         try:
-            found = decomposed(formula, self.options, self.budget.share(CERTIFY_SHARE), self.story)
+            self.certificate = certificate_for(formula, answer, self.options, self.budget.share(CERTIFY_SHARE))
         except Unable as error:
             self.story.note("switches", f"no certificate: {error}")
-            return answer
-        if found.certificate is None:
-            return answer
-        self.certificate = found.certificate
-        return found.formula
 
     # --- inner formulas ------------------------------------------------------------------------
     def prepared(self, formula: Formula) -> Formula:
@@ -300,8 +300,7 @@ class _Run:
 
     def _probe(self, variables: Sequence[str], body: Formula) -> tuple[Formula, Values | None] | None:
         """A short try of substitution where decomposition is planned: a small complete answer is taken."""
-        left = self.budget.remaining()
-        part = Budget(PROBE_SECONDS if left is None else min(PROBE_SECONDS, PROBE_SHARE * left))
+        part = self.budget.brief(PROBE_SECONDS, PROBE_SHARE)
         try:
             result = substituted(variables, body, part, self.story)
         except Unable as error:
@@ -318,6 +317,9 @@ class _Run:
         result = substituted(variables, body, budget, self.story)
         formula, values = result
         if not is_quantifier_free(formula):
+            if not allows(self.options, Method.CAD):
+                raise Unable("virtual substitution alone does not eliminate all quantifiers of this formula")
+            self.story.note("switches", f"vs: {', '.join(features(formula).bound)} left for decomposition")
             if not free_variables(exists(variables, body)):
                 return self._decomposed(exists(variables, body), budget)
             formula = self._finish(formula, budget)
@@ -340,13 +342,29 @@ class _Run:
             return formula
         if has_root_atoms(formula) or not is_small(formula) or not allows(self.options, Method.CAD):
             return formula
-        left = self.budget.remaining()
-        part = Budget(SHORTEN_SECONDS if left is None else min(SHORTEN_SECONDS, SHORTEN_SHARE * left), SHORTEN_CELLS)
         try:
-            shorter, _ = self._decomposed(formula, part)
+            shorter, _ = self._decomposed(formula, self.budget.brief(SHORTEN_SECONDS, SHORTEN_SHARE, SHORTEN_CELLS))
         except Unable:
             return formula
         return shorter if length(shorter) < length(formula) else formula
+
+    def _settled(self, formula: Formula) -> Formula:
+        """TRUE or FALSE where the answer turns out to be that, if this is cheap to find out."""
+        if has_root_atoms(formula):
+            return formula
+        limits = self.budget.brief(SHORTEN_SECONDS, SHORTEN_SHARE, SETTLE_CELLS)
+        plain = self.options.with_(certify=False, root_atoms=False)
+
+        def is_satisfiable(sentence: Formula) -> bool:
+            return _Run(plain, limits).sentence_or_formula(sentence)[0] == TRUE
+
+        try:
+            constant = constant_value(formula, is_satisfiable)
+        except Unable:
+            return formula
+        if constant is not None:
+            self.story.note("plan", f"the answer was decided to be {constant}")
+        return constant or formula
 
     def _tried(self, what: str, work: Callable[[Budget], Found | None]) -> Found | None:
         """A shortcut, with a share of the time; None where it does not lead to an answer."""

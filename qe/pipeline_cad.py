@@ -9,12 +9,13 @@ from fractions import Fraction
 
 from qe.eliminate.cad.decompose import Decomposition, Tactics, decompose
 from qe.eliminate.cad.pilot import choose_order
-from qe.errors import BudgetExceeded
+from qe.errors import BudgetExceeded, InternalError
 from qe.evidence.cells import CellTable
+from qe.evidence.cells_json import CellEvidence
 from qe.evidence.certificate import Certificate
 from qe.evidence.story import Story
 from qe.exact.algebraic import RealAlgebraic
-from qe.exact.ring import Ring
+from qe.exact.ring import Poly, Ring
 from qe.formula.build import convert
 from qe.formula.normal import Quantifier, nnf, prenex
 from qe.formula.syntax import FALSE, TRUE, Constant, Formula, Or
@@ -74,6 +75,28 @@ def decomposed(formula: Formula, options: Options, budget: Budget, story: Story)
     return Decomposed(answer if ring is None else convert(answer, ring), values, certificate)
 
 
+def certificate_for(formula: Formula, answer: Formula, options: Options, budget: Budget) -> Certificate | None:
+    """A decomposition that proves ``formula`` <-> ``answer``, a quantifier-free formula from whatever source.
+
+    The factors of the answer join the projection, and the space of the free variables is decomposed whole, so that the
+    table has their signs on every cell. None where the formula has no matrix to decompose. Raises ``BudgetExceeded``,
+    and ``InternalError`` where the decomposition decides a sentence otherwise.
+    """
+    prefix, matrix = prenex(formula)
+    matrix = nnf(matrix)
+    if isinstance(matrix, Constant):
+        return None
+    free = free_variables(formula)
+    order, quantifiers, _ = _order(prefix, free, matrix, options, budget)
+    ring = Ring.of(order)
+    claim = convert(answer, ring)
+    question = _Question(matrix, order, quantifiers, free, options)
+    proof = question.table(budget, whole_free=True, beside=tuple(polynomials(claim))).table
+    if not free and answer != (TRUE if proof.root.truth else FALSE):
+        raise InternalError(f"a decomposition says {proof.root.truth} where the answer is {answer}")
+    return Certificate.cells(proof, claim)
+
+
 @dataclass(frozen=True, slots=True)
 class _Question:
     """A prenex formula with the order of its variables."""
@@ -85,9 +108,17 @@ class _Question:
     options: Options
 
     def table(
-        self, budget: Budget, separated: frozenset[int] = frozenset(), *, whole_free: bool = False
+        self,
+        budget: Budget,
+        separated: frozenset[int] = frozenset(),
+        *,
+        whole_free: bool = False,
+        beside: tuple[Poly, ...] = (),
     ) -> Decomposition:
-        """Its decomposition by the tactics that the options allow; see ``Tactics`` for ``whole_free``."""
+        """Its decomposition by the tactics that the options allow; see ``Tactics`` for ``whole_free``.
+
+        With ``beside`` the signs of these polynomials in the free variables are wanted on every free cell.
+        """
         without = self.options.without
         return decompose(
             self.matrix,
@@ -101,7 +132,9 @@ class _Question:
                 partial=Stage.PARTIAL not in without,
                 open_only=Stage.OPEN not in without,
                 whole_free=whole_free,
+                free_constraints=not beside,
             ),
+            beside=beside,
         )
 
     def answer(self, found: Decomposition, budget: Budget, *, whole_free: bool = False) -> tuple[Formula, CellTable]:
@@ -114,7 +147,7 @@ class _Question:
         if self.options.root_atoms:
             answer = extended_formula(proof)
         simple = simplify(convert(answer, Ring.of(self.free)))
-        return (simple if not self.options.certify or _is_listed(simple, proof) else answer), proof
+        return simple, proof
 
     def shortest(self, first: Decomposition, budget: Budget) -> tuple[Formula, CellTable]:
         """The answer; a small one is compared with that of the whole space of the free variables, for which formula
@@ -147,6 +180,14 @@ def length(formula: Formula) -> tuple[int, int]:
     """Atoms, and terms of their polynomials."""
     polys = [a.poly for a in atoms(formula)]
     return len(polys), sum(p.term_count() for p in polys)
+
+
+def claims(certificate: Certificate, answer: Formula) -> bool:
+    """Whether a certificate by cells is about this very answer."""
+    evidence = certificate.payload
+    if not isinstance(evidence, CellEvidence) or evidence.answer is None:
+        return True
+    return evidence.answer == convert(answer, Ring.of(evidence.table.order))
 
 
 def _is_listed(answer: Formula, table: CellTable) -> bool:

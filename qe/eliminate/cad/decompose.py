@@ -42,12 +42,14 @@ class Tactics:
     where the truth is known already. ``open_only``: sectors only where all atoms are strict. ``whole_free``: no
     shortcut but a longer way: the space of the free variables is decomposed also where the truth is known, which
     gives every free cell the signs of all factors and formula construction more to choose from.
+    ``free_constraints``: constraints restrict the levels of free variables too, where their sectors then lack signs.
     """
 
     constraints: bool = True
     partial: bool = True
     open_only: bool = True
     whole_free: bool = False
+    free_constraints: bool = True
 
 
 def decompose(
@@ -59,19 +61,21 @@ def decompose(
     projection: Projection = Projection.BROWN_MCCALLUM,
     separated: frozenset[int] = frozenset(),
     tactics: Tactics = Tactics(),
+    beside: tuple[Poly, ...] = (),
 ) -> Decomposition:
     """The cell table of Q_k x_k … Q_n x_n. matrix over the variables ``order`` (free ones first).
 
     Where the projection asked for meets a nullified factor that its theorem does not allow, the work is redone
     with Lazard projection and Lazard evaluation together. ``separated``: levels at which two cells over the same cell
     differ in signs (derivatives join the factors: see ``factor_lists``, and ``Lifter.lacking`` for nullified ones).
+    ``beside``: polynomials over the ring of ``order`` whose factors are to be in the lists too.
     Raises ``BudgetExceeded``.
     """
     job = _Job(convert(matrix, Ring.of(order)), order, quantifiers, budget, separated, tactics)
     try:
-        return job.attempt(projection, nullified=False)
+        return job.attempt(projection, nullified=False, added=beside)
     except NotWellOriented:
-        return job.attempt(Projection.LAZARD, nullified=True)
+        return job.attempt(Projection.LAZARD, nullified=True, added=beside)
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,12 +87,19 @@ class _Job:
     separated: frozenset[int]
     tactics: Tactics
 
+    def _constraints(self) -> Constraints:
+        """The equational constraints that the tactics let take part."""
+        if not self.tactics.constraints or not any(self.quantifiers[-1:]):
+            return Constraints()
+        found = equational_constraints(self.matrix, len(self.order))
+        if self.tactics.free_constraints:
+            return found
+        return Constraints({k: own for k, own in found.factors.items() if self.quantifiers[k]}, found.implied)
+
     def attempt(self, projection: Projection, *, nullified: bool, added: tuple[Poly, ...] = ()) -> Decomposition:
         """``added``: polynomials in the factor lists beside those of the matrix."""
         size = len(self.order)
-        constraints = Constraints()
-        if self.tactics.constraints and projection is Projection.BROWN_MCCALLUM and any(self.quantifiers[-1:]):
-            constraints = equational_constraints(self.matrix, size)
+        constraints = self._constraints() if projection is Projection.BROWN_MCCALLUM else Constraints()
         listed = [*polynomials(self.matrix), *added]
         levels = factor_lists(listed, size, projection, self.budget, self.separated, constraints.factors)
         places = {f: (k, j) for k, level in enumerate(levels) for j, f in enumerate(level)}
