@@ -14,8 +14,8 @@ from typing import Annotated
 
 import typer
 
-from qe.cli import check_limits
-from qe.cli_shell import OK, enter, limited
+from qe.cli.app import check_limits
+from qe.cli.shell import OK, enter, limited
 
 app = typer.Typer(
     add_completion=False,

@@ -15,7 +15,7 @@ from bezier.obstacles import avoid
 from bezier.outputs import summary, write_data
 from bezier.plan import Clock, Outcome, Plan, make_plan
 from bezier.problem import Problem
-from qe.cli_shell import OK, UNABLE
+from qe.cli.shell import OK, UNABLE
 from qe.worker import Channel
 
 if TYPE_CHECKING:

@@ -11,7 +11,7 @@ from bezier.curves.curve import Smoothness
 from bezier.curves.scalar import Vector
 from bezier.plan import Clock, Plan
 from bezier.problem import PlanMethod, Problem
-from qe.evidence.certificate import Certificate
+from qe.proof.certificate import Certificate
 
 if TYPE_CHECKING:
     from bezier.pictures.picture import Drawing

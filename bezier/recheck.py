@@ -24,7 +24,7 @@ from bezier.plan import Outcome
 from bezier.problem import PlanMethod, Problem, from_json
 from qe.certify.verify import verify
 from qe.errors import CertificateRejected, InputError
-from qe.evidence.certificate import Certificate, Kind
+from qe.proof.certificate import Certificate, Kind
 from qe.worker import Channel
 
 TOLERANCE = 1e-9

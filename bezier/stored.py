@@ -17,8 +17,8 @@ from bezier.curves.scalar import Vector
 from bezier.input.numbers import NotANumber, parse
 from bezier.terms import Terms, condition_terms, fixed_values, multiple_of, objective_terms, reduced, terms_of
 from qe.errors import CertificateRejected, InputError
-from qe.evidence.certificate import Certificate, Kind
 from qe.formula.syntax import Formula
+from qe.proof.certificate import Certificate, Kind
 
 MAX_BYTES = 200_000_000
 MAX_CHARACTERS = 4000

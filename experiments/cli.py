@@ -1,6 +1,6 @@
 """The command ``experiments``: run suites of problems through solvers, and make tables, figures and a page of them.
 
-Exit status as in ``qe.cli_shell``; ``run`` ends with 1 when our engine gave a wrong answer.
+Exit status as in ``qe.cli.shell``; ``run`` ends with 1 when our engine gave a wrong answer.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from experiments.results import BadLine, Log, Status, read_log
 from experiments.solvers import OURS, solver
 from experiments.suites import suite
 from experiments.sweep.grid import Method
-from qe.cli_shell import BUG, OK, enter
+from qe.cli.shell import BUG, OK, enter
 
 app = typer.Typer(
     add_completion=False,

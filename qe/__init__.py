@@ -42,10 +42,10 @@ from qe.options import Method, Stage
 
 if TYPE_CHECKING:
     from qe.certify.verdict import Verdict
+    from qe.convex.optimum import Optimum
+    from qe.elimination.vs.parametric import ParametricWitness
     from qe.io.sympy import Exists, ForAll
-    from qe.solution.optimum import Optimum
-    from qe.solution.parametric import ParametricWitness
-    from qe.solution.region import Region
+    from qe.regions.region import Region
 
 __version__ = "0.1.0"
 
@@ -53,9 +53,9 @@ __version__ = "0.1.0"
 _LATER = {
     "Exists": "qe.io.sympy",
     "ForAll": "qe.io.sympy",
-    "Optimum": "qe.solution.optimum",
-    "ParametricWitness": "qe.solution.parametric",
-    "Region": "qe.solution.region",
+    "Optimum": "qe.convex.optimum",
+    "ParametricWitness": "qe.elimination.vs.parametric",
+    "Region": "qe.regions.region",
     "Verdict": "qe.certify.verdict",
 }
 """Public names whose modules are loaded at first use, to keep ``import qe`` short."""

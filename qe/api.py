@@ -9,11 +9,8 @@ from enum import Enum
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from qe import pipeline
+from qe.engine import run as pipeline
 from qe.errors import InputError, InternalError, Unable
-from qe.evidence.answer import Answer, Guarantee, Status
-from qe.evidence.certificate import Certificate, Kind
-from qe.evidence.elimination import Assignment
 from qe.exact.ring import Poly
 from qe.formula.build import conj, convert, exists, forall, iff
 from qe.formula.counting import without_root_atoms
@@ -22,12 +19,15 @@ from qe.formula.syntax import Constant, Exists, ForAll, Formula
 from qe.formula.traverse import free_variables, is_quantifier_free, polynomials, ring_of
 from qe.options import Budget, Method, Options, Stage
 from qe.progress import Event, silent
+from qe.proof.answer import Answer, Guarantee, Status
+from qe.proof.certificate import Certificate, Kind
+from qe.proof.elimination import Assignment
 
 if TYPE_CHECKING:  # the checker and the optimiser are loaded where they are used
     from qe.certify.verdict import Verdict
-    from qe.solution.optimum import Optimum
-    from qe.solution.parametric import ParametricWitness
-    from qe.solution.region import Region
+    from qe.convex.optimum import Optimum
+    from qe.elimination.vs.parametric import ParametricWitness
+    from qe.regions.region import Region
 
 Choice = TypeVar("Choice", bound=Enum)
 TABLE_VARIABLES = 3
@@ -189,7 +189,7 @@ def parametric_witnesses(
     The guards together are equivalent to an existential block; for a universal block the terms are counterexamples.
     Raises ``InputError`` for a formula without an outermost block, ``Unable`` where substitution does not apply.
     """
-    from qe.solution.parametric import parametric_witnesses as find
+    from qe.elimination.vs.parametric import parametric_witnesses as find
 
     given = read_formula(formula, format)
     if isinstance(given, Exists | ForAll) and not is_quantifier_free(given.body):
@@ -206,8 +206,8 @@ def check_witness(sentence: AnyFormula, witness: Mapping[str, AnyFormula], **key
     sentence, False says only that this witness does not work everywhere. Raises ``InputError`` for a name that is not
     existentially quantified, or a polynomial in variables that are not known at its place.
     """
+    from qe.elimination.witness import Term, instantiate
     from qe.exact.ring import Ring
-    from qe.solution.polynomial_witness import Term, instantiate
 
     given = read_formula(sentence, keywords.pop("format", "text"))
     read = {name: _polynomial(term, f"witness: {name}") for name, term in witness.items()}
@@ -257,12 +257,12 @@ def region(
         return pipeline.solve(part, Options(order=names), limits()).formula
 
     if quantified or len(free_variables(given)) > TABLE_VARIABLES:
-        from qe.solution.convex_region import ConvexRegion, shadow_of
+        from qe.regions.convex_region import ConvexRegion, shadow_of
 
         shadow = shadow_of(given, eliminated)
         if shadow is not None:
             return ConvexRegion(shadow, names, limits=limits)
-    from qe.solution.region import Region
+    from qe.regions.region import Region
 
     budget = limits()
     if not quantified:
@@ -283,7 +283,7 @@ def minimize(
     ``objective``: text, ``Poly``, or a SymPy expression; ``constraints``: a formula, or a list of formulas to be
     conjoined. Raises ``Unable`` outside that class.
     """
-    from qe.solution.optimum import minimize as solve
+    from qe.convex.optimum import minimize as solve
 
     poly, scale = _polynomial(objective, "objective")
     return solve(poly, _constraints(constraints), scale=scale, budget=Budget(timeout, listener=progress))
@@ -297,7 +297,7 @@ def maximize(
     progress: Progress = silent,
 ) -> Optimum:
     """The exact maximum; see ``minimize``."""
-    from qe.solution.optimum import maximize as solve
+    from qe.convex.optimum import maximize as solve
 
     poly, scale = _polynomial(objective, "objective")
     return solve(poly, _constraints(constraints), scale=scale, budget=Budget(timeout, listener=progress))

@@ -11,7 +11,7 @@ from bezier.compare.comparison import Comparison, compare
 from bezier.compare.output import table, to_json
 from bezier.plan import Clock
 from bezier.problem import Problem
-from qe.cli_shell import OK
+from qe.cli.shell import OK
 from qe.worker import Channel
 
 PAGE, DATA = "compare.html", "compare.json"

@@ -15,7 +15,7 @@ from bezier.methods import Claim, Method
 from bezier.problem import Problem
 from bezier.stored import certified_answer, certified_points
 from bezier.terms import named_multipliers
-from qe.evidence.certificate import Certificate
+from qe.proof.certificate import Certificate
 
 if TYPE_CHECKING:
     from bezier.pictures.picture import Drawing

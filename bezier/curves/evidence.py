@@ -18,7 +18,7 @@ from bezier.curves.scalar import rational, sign
 from bezier.curves.workspace import Ball, Condition, HalfSpace
 from bezier.path import Path
 from qe.errors import InternalError
-from qe.evidence.certificate import Certificate, Kind
+from qe.proof.certificate import Certificate, Kind
 
 MAX_DEPTH = 14
 

@@ -10,9 +10,9 @@ from bezier.curves.curve import Bezier
 from bezier.curves.evidence import curve_payload
 from bezier.obstacles.clearance import Contact, Search
 from bezier.obstacles.obstacle import Constraint, Obstacle, Piece
-from qe.certify.bernstein import MAX_DEGREE
+from qe.certify.arithmetic.bernstein import MAX_DEGREE
 from qe.errors import InputError
-from qe.evidence.certificate import Certificate, Kind
+from qe.proof.certificate import Certificate, Kind
 
 JUST_BEFORE = Fraction(1, 2**40)
 """How closely before an exactly known contact the curve is proved clear."""

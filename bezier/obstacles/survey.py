@@ -14,7 +14,7 @@ from bezier.obstacles.distance import distance_enclosure
 from bezier.obstacles.evidence import clearance_certificate, contact_certificate
 from bezier.obstacles.obstacle import Obstacle
 from qe.errors import Unable
-from qe.evidence.certificate import Certificate
+from qe.proof.certificate import Certificate
 
 
 @dataclass(frozen=True, slots=True)

@@ -17,9 +17,9 @@ from bezier.quadratic import report as quadratic_report
 from bezier.quadratic.plan import QuadraticPlan
 from bezier.stored import certified_answer, certified_points, member
 from qe.errors import CertificateRejected
-from qe.evidence.cells_json import CellEvidence
-from qe.evidence.certificate import Certificate, Kind
 from qe.formula.syntax import Formula
+from qe.proof.cells_json import CellEvidence
+from qe.proof.certificate import Certificate, Kind
 
 if TYPE_CHECKING:
     from bezier.pictures.picture import Drawing

@@ -5,8 +5,8 @@ from __future__ import annotations
 from math import gcd, isqrt
 
 from bezier.report import mathml
+from qe.cells.pieces import Piece, Range, RootFunction
 from qe.exact.ring import Poly
-from qe.solution.pieces import Piece, Range, RootFunction
 
 
 def cell(piece: Piece) -> list[str]:

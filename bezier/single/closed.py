@@ -33,7 +33,7 @@ from bezier.single.simplex import (
     solve,
 )
 from qe.errors import BudgetExceeded, InputError, InternalError
-from qe.evidence.certificate import Certificate
+from qe.proof.certificate import Certificate
 
 MAX_ROUNDS = 60
 TOLERANCE = Fraction(1, 1000)

@@ -18,7 +18,7 @@ from bezier.single.plan import CLOSED, NAME, SinglePlan, above_label, of_axis, p
 from bezier.single.program import TIE_BREAK, Dip, Task, choose, curve, dips
 from bezier.single.simplex import Contradiction, certificate
 from qe.errors import CertificateRejected
-from qe.evidence.certificate import Certificate, Kind
+from qe.proof.certificate import Certificate, Kind
 
 if TYPE_CHECKING:
     from bezier.pictures.picture import Drawing

@@ -13,10 +13,10 @@ from fractions import Fraction
 from math import lcm
 
 from qe.errors import InternalError, Unable
-from qe.evidence.certificate import Certificate, Kind
-from qe.evidence.multipliers import FormRelation, OptimumEvidence, OptimumStatus, to_payload
 from qe.exact.field import NumberField
 from qe.exact.quadratic_form import Quadratic
+from qe.proof.certificate import Certificate, Kind
+from qe.proof.multipliers import FormRelation, OptimumEvidence, OptimumStatus, to_payload
 
 Numbers = tuple[Fraction, ...]
 Check = Callable[[], object]

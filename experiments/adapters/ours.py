@@ -7,10 +7,10 @@ from collections.abc import Callable
 
 from experiments.adapters.answer import Answer, Limits
 from experiments.solvers import OURS, WITHOUT
+from qe.engine.run import solve
 from qe.formula.syntax import Formula
 from qe.io.text import write
 from qe.options import Budget, Method, Options, Stage
-from qe.pipeline import solve
 
 
 def ours(name: str) -> Callable[[Formula, Limits], Answer]:

@@ -17,16 +17,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from qe.certify.arithmetic.products import FactorLists, check_lists
+from qe.certify.arithmetic.triangular import ORIGIN
 from qe.certify.closure import check_closure
 from qe.certify.matrix import Situation, Test, compiled, strengthened
-from qe.certify.products import FactorLists, check_lists
 from qe.certify.stacks import Checked, Fail, Sample, StackChecker
 from qe.errors import CertificateRejected
-from qe.evidence.cells import Cell, CellTable
-from qe.evidence.cells_json import CellEvidence
 from qe.exact.ring import Ring
-from qe.exact.triangular import ORIGIN
 from qe.formula.syntax import And, Atom, Constant, Formula, Or, Relation
+from qe.proof.cells import Cell, CellTable
+from qe.proof.cells_json import CellEvidence
 from qe.truth import Truth, conjunction, disjunction
 
 Path = tuple["Path", str] | str

@@ -13,11 +13,11 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from qe.certify.bernstein import MAX_DEGREE, Vector, constant, product, read_points, restricted
-from qe.certify.numbers import read_field
-from qe.certify.residue import Residue, RootField, add, scale
+from qe.certify.arithmetic.bernstein import MAX_DEGREE, Vector, constant, product, read_points, restricted
+from qe.certify.arithmetic.numbers import read_field
+from qe.certify.arithmetic.residue import Residue, RootField, add, scale
 from qe.errors import CertificateRejected
-from qe.evidence.entry import Entry, Json
+from qe.proof.entry import Entry, Json
 
 Constraint = tuple[list[Residue], bool]
 

@@ -22,10 +22,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from itertools import pairwise
 
-from qe.certify.products import FactorLists, Product
+from qe.certify.arithmetic.products import FactorLists, Product
+from qe.certify.arithmetic.sturm import coefficients_at, sylvester_determinant, value_at_integers
 from qe.errors import CertificateRejected
 from qe.exact.ring import Poly, format_poly
-from qe.exact.sturm import coefficients_at, sylvester_determinant, value_at_integers
 from qe.options import Projection
 
 

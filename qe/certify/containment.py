@@ -11,11 +11,11 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from qe.certify.bernstein import Vector, product, read_points, restricted, total
-from qe.certify.numbers import read_field, read_number
-from qe.certify.residue import Residue, RootField, add, of_rationals, scale
+from qe.certify.arithmetic.bernstein import Vector, product, read_points, restricted, total
+from qe.certify.arithmetic.numbers import read_field, read_number
+from qe.certify.arithmetic.residue import Residue, RootField, add, of_rationals, scale
 from qe.errors import CertificateRejected
-from qe.evidence.entry import Entry, Json
+from qe.proof.entry import Entry, Json
 
 
 def check_containment(payload: dict[str, Json]) -> None:

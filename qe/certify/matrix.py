@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from qe.certify.arithmetic.products import FactorLists, Product, Signs, possible_signs, sign
 from qe.certify.closure import Closure, checked_resultant
-from qe.certify.products import FactorLists, Product, Signs, possible_signs, sign
 from qe.errors import CertificateRejected
 from qe.exact.ring import Poly, format_poly
 from qe.formula.build import atom, neg

@@ -18,11 +18,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from qe.certify.convexity import Form, Row, is_convex, is_linear, rank, read_form
-from qe.certify.numbers import read_field, read_number
-from qe.certify.residue import ZERO, Residue, RootField, add, of_rationals, scale
+from qe.certify.arithmetic.convexity import Form, Row, is_convex, is_linear, rank, read_form
+from qe.certify.arithmetic.numbers import read_field, read_number
+from qe.certify.arithmetic.residue import ZERO, Residue, RootField, add, of_rationals, scale
 from qe.errors import CertificateRejected
-from qe.evidence.entry import Entry, Json
+from qe.proof.entry import Entry, Json
 
 _KEYS = {
     "optimal": ("multipliers", "derived", "values", "value", "attained", "unique"),

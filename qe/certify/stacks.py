@@ -15,14 +15,24 @@ from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
 
+from qe.certify.arithmetic.fibre import (
+    Fibre,
+    RationalFibre,
+    Simple,
+    SimplePart,
+    Values,
+    fibre,
+    lazard_evaluation,
+    lift_up,
+    values,
+)
+from qe.certify.arithmetic.products import FactorLists, Signs, sign
+from qe.certify.arithmetic.triangular import Coordinate, Point
 from qe.certify.closure import Closure, nullification_witnesses
-from qe.certify.products import FactorLists, Signs, sign
 from qe.errors import CertificateRejected
-from qe.evidence.cells import Stack
-from qe.exact.fibre import Fibre, RationalFibre, Simple, SimplePart, Values, fibre, lazard_evaluation, lift_up, values
 from qe.exact.ring import Poly
-from qe.exact.triangular import Coordinate, Point
 from qe.options import Projection
+from qe.proof.cells import Stack
 
 Fail = Callable[[str, str], CertificateRejected]
 

@@ -5,13 +5,13 @@ from __future__ import annotations
 from qe.certify.cells import check_cells
 from qe.certify.clearance import check_clearance
 from qe.certify.containment import check_containment
+from qe.certify.gauss import check_substitution
 from qe.certify.optimum import check_optimum
-from qe.certify.substitution import check_substitution
 from qe.certify.verdict import Verdict
 from qe.certify.witness import check_witness
 from qe.errors import CertificateRejected, InputError
-from qe.evidence.cells_json import CellEvidence
-from qe.evidence.certificate import Certificate, Kind
+from qe.proof.cells_json import CellEvidence
+from qe.proof.certificate import Certificate, Kind
 
 _CHECKERS = {
     Kind.OPTIMUM: check_optimum,

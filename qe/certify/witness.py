@@ -2,18 +2,18 @@
 
 Payload: ``order`` (variable names), ``matrix`` (the formula), ``values`` (one per variable: a rational number, or
 ``{"polynomial": text in that variable, "interval": [low, high]}`` for its only root there). Signs of the formula's
-polynomials at the point are decided exactly by ``qe.exact.triangular``.
+polynomials at the point are decided exactly by ``qe.certify.arithmetic.triangular``.
 """
 
 from __future__ import annotations
 
 from fractions import Fraction
 
-from qe.evidence.entry import Entry, Json, formula_from_json
-from qe.exact.fibre import RationalFibre, fibre, values
+from qe.certify.arithmetic.fibre import RationalFibre, fibre, values
+from qe.certify.arithmetic.triangular import ORIGIN, Coordinate, Point
 from qe.exact.ring import Poly, Ring
-from qe.exact.triangular import ORIGIN, Coordinate, Point
 from qe.formula.syntax import And, Atom, Constant, Formula, Not, Or
+from qe.proof.entry import Entry, Json, formula_from_json
 
 
 def check_witness(payload: dict[str, Json]) -> None:

@@ -28,5 +28,5 @@ def test_import_is_light() -> None:
 
 
 def test_the_command_line_loads_no_pictures() -> None:
-    heavy = loaded("import qe.cli")["heavy"]
+    heavy = loaded("import qe.cli.app")["heavy"]
     assert set(heavy) <= {"typer"}

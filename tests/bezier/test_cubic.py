@@ -250,7 +250,7 @@ def test_a_via_point_on_the_sphere_leaves_only_the_cusp():
 )
 def test_many_plans_and_what_their_certificates_show(via, more, kind, ratio, speed, half_spaces):
     from bezier.cubic.method import claim
-    from qe.evidence.certificate import Certificate
+    from qe.proof.certificate import Certificate
 
     if kind is WorkspaceKind.HEMISPHERE:
         via = tuple((*p[:2], abs(p[2])) for p in via)

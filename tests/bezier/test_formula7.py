@@ -84,7 +84,7 @@ def test_existence_theorem_with_an_offered_witness() -> None:
 
 def test_no_existence_outside_the_ball() -> None:
     """Via points beyond the radius: 2 Q0 - Q1 and Q1 cannot both be inside, and no witness is found for it."""
+    from qe.elimination.witness import find
     from qe.options import Budget
-    from qe.solution.polynomial_witness import find
 
     assert find(qe.api.read_formula(existence(2, factor=2)), budget=Budget(20)) is None

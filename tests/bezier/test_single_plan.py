@@ -18,7 +18,7 @@ from bezier.single.plan import CLOSED, task_of
 from bezier.single.program import choose, curve
 from bezier.single.simplex import certificate, solve
 from qe.errors import CertificateRejected, InputError
-from qe.evidence.certificate import Certificate
+from qe.proof.certificate import Certificate
 
 F = Fraction
 EXAMPLES = ("single", "single_leaves", "single_dip")

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from fractions import Fraction
 from typing import Any
 
-from qe.evidence.certificate import digest
+from qe.proof.certificate import digest
 
 Path = tuple[str | int, ...]
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from functools import lru_cache
 
-from qe.eliminate.cad.decompose import decompose
-from qe.evidence.certificate import Certificate
+from qe.cad.decompose import decompose
 from qe.io.text import read
 from qe.options import Budget, Projection
+from qe.proof.certificate import Certificate
 
 BOTH = (Projection.BROWN_MCCALLUM, Projection.LAZARD)
 

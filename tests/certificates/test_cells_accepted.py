@@ -5,13 +5,13 @@ from __future__ import annotations
 import pytest
 
 import qe.certify.verify as checker
-from qe.evidence.cells_json import CellEvidence
-from qe.evidence.certificate import Certificate
 from qe.exact.ring import Ring
 from qe.formula.build import convert
 from qe.formula.syntax import Formula
 from qe.io.text import read
 from qe.options import Projection
+from qe.proof.cells_json import CellEvidence
+from qe.proof.certificate import Certificate
 from tests.certificates.producing import BOTH, cell_table
 
 THREE_BALLS = (

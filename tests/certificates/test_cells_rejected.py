@@ -9,7 +9,7 @@ import pytest
 
 from qe.certify.verify import verify_json
 from qe.errors import InputError
-from qe.evidence.certificate import Certificate
+from qe.proof.certificate import Certificate
 from tests.certificates.mutation import Path, leaves, lists, other_numbers, other_signs, replaced, without
 from tests.certificates.producing import cell_table
 

@@ -16,8 +16,8 @@ from bezier.obstacles.clearance import Contact, examine
 from bezier.obstacles.evidence import clearance_certificate, contact_certificate
 from bezier.obstacles.obstacle import Constraint, Obstacle, ObstacleKind, Piece
 from qe.certify.verify import verify, verify_json
-from qe.evidence.certificate import Certificate
 from qe.exact.field import NumberField
+from qe.proof.certificate import Certificate
 from tests.bezier.bodies import CUBE, at, ball, obstacle
 from tests.certificates.mutation import leaves, lists, other_numbers, replaced, without
 

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from qe.certify.verify import verify
-from qe.evidence.certificate import Certificate, Kind
+from qe.proof.certificate import Certificate, Kind
 
 RATIONAL = {"minimal_polynomial": ["0", "1"], "interval": ["0", "0"]}
 SQRT2 = {"minimal_polynomial": ["-2", "0", "1"], "interval": ["1", "2"]}

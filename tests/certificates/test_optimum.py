@@ -13,10 +13,10 @@ from typing import Any
 import pytest
 
 from qe.certify.verify import verify, verify_json
+from qe.convex.optimum import Optimum, minimize
 from qe.exact.ring import Ring
 from qe.formula.build import atom, conj
 from qe.formula.syntax import Relation
-from qe.solution.optimum import Optimum, minimize
 from tests.certificates.mutation import leaves, replaced, without
 from tests.optimum_problems import at_most_zero, cubic, quadratic
 

@@ -8,10 +8,10 @@ from fractions import Fraction
 import pytest
 
 from qe.certify.verify import verify, verify_json
-from qe.evidence.certificate import Certificate, Root
 from qe.exact.ring import Ring
 from qe.formula.build import convert
 from qe.io.text import read
+from qe.proof.certificate import Certificate, Root
 from tests.certificates.mutation import leaves, lists, replaced, without
 
 NAMES = ("x", "y", "z")

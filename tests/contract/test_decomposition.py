@@ -7,17 +7,17 @@ from itertools import groupby, permutations, product
 import pytest
 
 import qe
+from qe.cad.decompose import Tactics, decompose
+from qe.cad.order import OrderRule
+from qe.cad.order_by_projection import choose_order
+from qe.cells.formulas import construct
 from qe.certify.verify import verify
-from qe.eliminate.cad.decompose import Tactics, decompose
-from qe.eliminate.cad.pilot import choose_order
-from qe.evidence.certificate import Certificate
 from qe.exact.ring import Ring
 from qe.formula.build import convert
 from qe.formula.syntax import Formula
 from qe.io.text import read
 from qe.options import Budget, Projection
-from qe.plan.order import OrderRule
-from qe.solution.construct import construct
+from qe.proof.certificate import Certificate
 
 PROBLEMS = {
     "quadratic": ("x^2 + b*x + c = 0", "b c x", "..E", "b^2 >= 4*c"),

@@ -4,16 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from qe.eliminate.cad.decompose import decompose
-from qe.eliminate.vs.block import eliminate_block
+from qe.cad.decompose import decompose
+from qe.cells.formulas import construct
+from qe.elimination.vs.block import eliminate_block
 from qe.formula.build import disj, exists, neg
 from qe.formula.normal import Quantifier, prenex
 from qe.formula.syntax import Constant, Formula
 from qe.formula.traverse import free_variables
 from qe.options import Budget, Projection
-from qe.prepare.pipeline import prepare
-from qe.prepare.simplify import simplify
-from qe.solution.construct import construct
+from qe.rules.preparation import prepare
+from qe.simplify.simplify import simplify
 
 Part = Callable[[Formula, Budget], Formula]
 

@@ -1,4 +1,4 @@
-"""Random formulas and their exact truth at rational points, for the tests of qe.prepare."""
+"""Random formulas and their exact truth at rational points, for the tests of qe.rules."""
 
 from __future__ import annotations
 

@@ -12,19 +12,19 @@ from flint import fmpz_poly
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
+from qe.cad.decompose import decompose
+from qe.certify.arithmetic.fibre import AlgebraicFibre, fibre
+from qe.certify.arithmetic.sturm import count_real_roots, count_roots_between, sylvester_determinant
+from qe.certify.arithmetic.triangular import ORIGIN, Coordinate
 from qe.certify.verify import verify
-from qe.eliminate.cad.decompose import decompose
 from qe.errors import BudgetExceeded
-from qe.evidence.cells import Cell, CellTable
-from qe.evidence.certificate import Certificate
 from qe.exact.algebraic import real_roots
-from qe.exact.fibre import AlgebraicFibre, fibre
 from qe.exact.ring import Ring, from_univariate
-from qe.exact.sturm import count_real_roots, count_roots_between, sylvester_determinant
-from qe.exact.triangular import ORIGIN, Coordinate
 from qe.formula.build import conj, disj
 from qe.formula.syntax import Atom, Formula
 from qe.options import Budget, Projection
+from qe.proof.cells import Cell, CellTable
+from qe.proof.certificate import Certificate
 from tests.strategies import atoms
 
 INTEGERS = st.lists(st.integers(-6, 6), min_size=1, max_size=7)

@@ -13,18 +13,18 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from qe import reference
+from qe.cad.decompose import Decomposition, Tactics, decompose
+from qe.cells.formulas import construct
 from qe.certify.verify import verify
-from qe.eliminate.cad.decompose import Decomposition, Tactics, decompose
 from qe.errors import BudgetExceeded
-from qe.evidence.cells import Cell
-from qe.evidence.certificate import Certificate
 from qe.exact.ring import Ring
 from qe.formula.build import atom, conj, convert, disj, exists, forall, neg
 from qe.formula.evaluate import holds_at
 from qe.formula.normal import nnf
 from qe.formula.syntax import Constant, Formula, Relation
 from qe.options import Budget, Projection
-from qe.solution.construct import construct
+from qe.proof.cells import Cell
+from qe.proof.certificate import Certificate
 from tests.differential.generate import at_point
 from tests.strategies import RELATIONS, polynomials
 

@@ -9,11 +9,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import qe
+from qe.cells.interval import Interval
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj, exists
 from qe.formula.syntax import Formula, Relation
-from qe.solution.interval import Interval
-from qe.solution.region import Region
+from qe.regions.region import Region
 from tests.optimum_problems import at_most_zero, cubic, norm
 from tests.property.test_critical import eliminated
 

@@ -8,14 +8,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import qe
-from qe.evidence.story import Story
+from qe.elimination.cad import decomposed
+from qe.elimination.critical.method import by_critical_values
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj, disj, exists
 from qe.formula.evaluate import holds_at
 from qe.formula.syntax import Formula, Relation
 from qe.options import Budget, Options
-from qe.pipeline_cad import decomposed
-from qe.pipeline_critical import by_critical_values
+from qe.proof.run_log import Story
 
 RELATIONS = (Relation.LE, Relation.LT, Relation.EQ, Relation.GE, Relation.GT, Relation.NE)
 

@@ -9,12 +9,12 @@ from flint import fmpq, fmpz_poly
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
+from qe.certify.arithmetic.sturm import count_real_roots
 from qe.exact.algebraic import RealAlgebraic, real_roots
 from qe.exact.fibre_stack import isolate_over
 from qe.exact.isolate import simplest_between
 from qe.exact.ring import Ring
 from qe.exact.sample import Point
-from qe.exact.sturm import count_real_roots
 
 coefficients = st.lists(st.integers(-9, 9), min_size=2, max_size=5)
 rationals = st.fractions(min_value=-6, max_value=6, max_denominator=7)

@@ -10,12 +10,12 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from qe.certify.verify import verify
+from qe.convex.optimum import Optimum, OptimumStatus, minimize
 from qe.errors import Unable
+from qe.exact.kkt_system import HighDegree
 from qe.exact.ring import Poly, Ring
-from qe.exact.system import HighDegree
 from qe.formula.build import atom, conj
 from qe.formula.syntax import Relation
-from qe.solution.optimum import Optimum, OptimumStatus, minimize
 from tests.optimum_problems import at_most_zero, cubic, quadratic
 
 small = st.integers(-4, 4)

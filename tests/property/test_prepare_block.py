@@ -18,11 +18,12 @@ from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj, disj, exists, forall, neg
 from qe.formula.syntax import Atom, Formula, Relation
 from qe.formula.traverse import free_variables
-from qe.prepare import ALL_STEPS, StepKind, prepare
-from qe.prepare.degree_shift import common_exponent
-from qe.prepare.lift import Value, holds_at, root
-from qe.prepare.rewrite import rewrite
-from qe.prepare.tree import Leaf
+from qe.rules.degree_shift import common_exponent
+from qe.rules.lift import Value, holds_at, root
+from qe.rules.preparation import prepare
+from qe.rules.rewrite import rewrite
+from qe.rules.step import ALL_STEPS, StepKind
+from qe.rules.tree import Leaf
 
 from .prepare_support import RING, formulas, interesting, points
 

@@ -13,7 +13,8 @@ import pytest
 from qe.formula.build import atom
 from qe.formula.syntax import Atom, Formula, Relation, RootAtom
 from qe.formula.traverse import map_atoms
-from qe.prepare import ALL_STEPS, StepKind, prepare
+from qe.rules.preparation import prepare
+from qe.rules.step import ALL_STEPS, StepKind
 from tests.differential.check import disagreement, reduced
 from tests.differential.generate import LARGE, NESTED, SMALL, Shape, random_formula
 

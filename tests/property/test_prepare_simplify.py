@@ -13,9 +13,9 @@ from qe.exact.ring import Ring
 from qe.formula.build import atom, conj, disj, exists, neg
 from qe.formula.syntax import And, Exists, Formula, Not, Relation
 from qe.formula.traverse import children, polynomials
-from qe.prepare.lift import holds_at
-from qe.prepare.ranges import EMPTY, EVERYTHING, add, compare, meet, multiply, power, scale
-from qe.prepare.simplify import simplify
+from qe.rules.lift import holds_at
+from qe.simplify.ranges import EMPTY, EVERYTHING, add, compare, meet, multiply, power, scale
+from qe.simplify.simplify import simplify
 
 from .prepare_support import RING, formulas, holds, literals, named, points, rationals, weight
 

@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from qe import reference
-from qe.eliminate.vs import eliminate_block, witness
+from qe.elimination.vs import eliminate_block, witness
 from qe.errors import BudgetExceeded
 from qe.exact.ring import Ring
 from qe.exact.sample import Point
@@ -18,7 +18,7 @@ from qe.formula.evaluate import holds_at, truth_under
 from qe.formula.syntax import FALSE, TRUE, And, Exists, Formula, Or, Relation
 from qe.formula.traverse import polynomials
 from qe.options import Budget
-from qe.prepare.simplify import simplify
+from qe.simplify.simplify import simplify
 from tests.strategies import RELATIONS, atoms, rationals
 from tests.strategies import polynomials as polynomials_of
 from tests.unit.vs.line import satisfiable, specialise

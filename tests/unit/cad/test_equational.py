@@ -10,16 +10,16 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import qe
+from qe.cad.constraints import equational_constraints
+from qe.cad.decompose import Tactics, decompose
 from qe.certify.verify import verify
-from qe.eliminate.cad.decompose import Tactics, decompose
-from qe.eliminate.cad.equational import equational_constraints
-from qe.evidence.cells import Cell
-from qe.evidence.certificate import Certificate
 from qe.exact.ring import Ring, format_poly
 from qe.formula.build import convert
 from qe.formula.syntax import Formula
 from qe.io.text import read
 from qe.options import Budget, Projection
+from qe.proof.cells import Cell
+from qe.proof.certificate import Certificate
 
 ORDER = ("a", "x", "y")
 

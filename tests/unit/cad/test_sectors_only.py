@@ -9,15 +9,15 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import qe
+from qe.cad.decompose import decompose
+from qe.cad.lifting import sector_levels
 from qe.certify.verify import verify
-from qe.eliminate.cad.decompose import decompose
-from qe.eliminate.cad.lift import sector_levels
-from qe.evidence.cells import Cell, CellTable
-from qe.evidence.certificate import Certificate
 from qe.exact.ring import Ring, format_poly
 from qe.formula.build import convert
 from qe.io.text import read
 from qe.options import Budget
+from qe.proof.cells import Cell, CellTable
+from qe.proof.certificate import Certificate
 
 
 @pytest.mark.parametrize(

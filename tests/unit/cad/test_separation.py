@@ -7,12 +7,12 @@ from itertools import permutations
 import pytest
 
 import qe
+from qe.cad.decompose import decompose
 from qe.certify.verify import verify
-from qe.eliminate.cad.decompose import decompose
-from qe.evidence.cells import Cell
-from qe.evidence.certificate import Certificate
 from qe.io.text import read
 from qe.options import Budget, Projection
+from qe.proof.cells import Cell
+from qe.proof.certificate import Certificate
 
 POSITIVE_ROOT = "x^3 + b*x^2 + c*x + d = 0 and x > 0"
 

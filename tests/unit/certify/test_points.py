@@ -7,10 +7,10 @@ from itertools import pairwise
 
 import pytest
 
+from qe.certify.arithmetic.fibre import AlgebraicFibre, SimplePart, fibre, lazard_evaluation, values
+from qe.certify.arithmetic.triangular import ORIGIN, Coordinate, Point
 from qe.errors import InternalError
-from qe.exact.fibre import AlgebraicFibre, SimplePart, fibre, lazard_evaluation, values
 from qe.exact.ring import Poly, Ring
-from qe.exact.triangular import ORIGIN, Coordinate, Point
 from qe.formula.build import convert
 from qe.io.text import read
 

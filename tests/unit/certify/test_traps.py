@@ -9,13 +9,13 @@ import pytest
 
 from qe.certify.verdict import Verdict
 from qe.certify.verify import verify
-from qe.evidence.cells import Cell, CellTable, Stack
-from qe.evidence.certificate import Certificate
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj, convert
 from qe.formula.syntax import Formula, Relation
 from qe.io.text import read
 from qe.options import Projection
+from qe.proof.cells import Cell, CellTable, Stack
+from qe.proof.certificate import Certificate
 
 BROWN, LAZARD = Projection.BROWN_MCCALLUM, Projection.LAZARD
 

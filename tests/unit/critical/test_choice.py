@@ -5,9 +5,9 @@ from __future__ import annotations
 import pytest
 
 import qe
+from qe.engine.choice import choose
 from qe.io import formats
 from qe.options import Method
-from qe.plan.choice import choose
 
 BALLS = "(y - a)^2 + (z - b)^2 <= 1 and y^2 + z^2 <= 4"
 

@@ -6,16 +6,16 @@ from fractions import Fraction as F
 
 import pytest
 
-from qe.eliminate.cad.over_point import over_point
-from qe.eliminate.critical.fibres import Fibres
-from qe.eliminate.critical.procedures import Procedures, Proposal
+from qe.cad.over_point import over_point
+from qe.elimination.critical.fibres import Fibres
+from qe.elimination.critical.method import procedures
+from qe.elimination.critical.procedures import Procedures, Proposal
 from qe.exact.algebraic import RealAlgebraic
 from qe.exact.ring import Ring
 from qe.exact.sample import Point
 from qe.formula.evaluate import holds_at
 from qe.io import formats
 from qe.options import Budget
-from qe.pipeline_critical import procedures
 from tests.unit.critical.test_side_conditions import only
 
 LENS = "y^2 + z^2 <= 4 and (y - p)^2 + (z - q)^2 <= 1 and p <= 3"

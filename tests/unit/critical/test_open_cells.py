@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from fractions import Fraction as F
 
-from qe.eliminate.cad.projection import factor_lists
-from qe.eliminate.critical.open_cells import OpenCell, OpenCells
-from qe.eliminate.critical.procedures import Levels
-from qe.eliminate.critical.separate import separated
+from qe.cad.projection import factor_lists
+from qe.elimination.critical.open_cells import OpenCell, OpenCells
+from qe.elimination.critical.procedures import Levels
+from qe.elimination.critical.separate import separated
 from qe.exact.ring import Poly, Ring
 from qe.exact.sample import Point
 from qe.options import Budget, Projection

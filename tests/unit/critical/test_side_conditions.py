@@ -5,16 +5,16 @@ from __future__ import annotations
 import pytest
 
 import qe
-from qe.eliminate.critical.boundary import critical_hypersurfaces
-from qe.eliminate.critical.bounded import has_bounded_fibres
-from qe.eliminate.critical.system import System, systems
+from qe.elimination.critical.boundary import critical_hypersurfaces
+from qe.elimination.critical.bounded import has_bounded_fibres
+from qe.elimination.critical.method import procedures
+from qe.elimination.critical.system import System, systems
 from qe.errors import Unable
 from qe.exact.ring import Ring
 from qe.formula.build import convert
 from qe.formula.normal import nnf
 from qe.io import formats
 from qe.options import Budget
-from qe.pipeline_critical import procedures
 
 
 def parts(text: str, free: tuple[str, ...], bound: tuple[str, ...]) -> list[System]:

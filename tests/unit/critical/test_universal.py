@@ -9,12 +9,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import qe
-from qe.evidence.story import Story
+from qe.elimination.critical.method import convex_universal
 from qe.formula.build import forall
 from qe.formula.evaluate import holds_at, substituted
 from qe.formula.syntax import ForAll, Formula
 from qe.options import Budget, Method, Options
-from qe.pipeline_critical import convex_universal
+from qe.proof.run_log import Story
 
 ASKED = Options(method=Method.CRITICAL)
 

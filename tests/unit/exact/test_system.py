@@ -10,10 +10,10 @@ from hypothesis import strategies as st
 
 from qe.exact.algebraic import real_roots
 from qe.exact.field import NumberField
+from qe.exact.kkt_system import Flat, HighDegree, critical_point, cut_linear_combinations
+from qe.exact.lattice_recognition import FieldLattice, algebraic_candidate, element_candidate
 from qe.exact.quadratic_form import Quadratic, quadratic
-from qe.exact.recognise import FieldLattice, algebraic_candidate, element_candidate
 from qe.exact.ring import Ring
-from qe.exact.system import Flat, HighDegree, critical_point, cut_linear_combinations
 
 RING = Ring.of(("x", "y", "z"))
 X, Y, Z = (RING.gen(i) for i in range(3))

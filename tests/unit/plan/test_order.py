@@ -7,12 +7,12 @@ from collections.abc import Sequence
 import pytest
 
 import qe
-from qe.eliminate.cad.pilot import choose_order
+from qe.cad.order import Candidate, OrderRule, brown_order, greedy_order, preferred, sotd
+from qe.cad.order_by_projection import choose_order
 from qe.exact.ring import Poly
 from qe.formula.traverse import polynomials
 from qe.io.text import read
 from qe.options import Budget
-from qe.plan.order import Candidate, OrderRule, brown_order, greedy_order, preferred, sotd
 
 
 def _polys(text: str) -> list[Poly]:

@@ -10,7 +10,7 @@ from qe.errors import Unable
 from qe.exact.algebraic import RealAlgebraic
 from qe.exact.ring import Ring
 from qe.io.text import read
-from qe.prepare.lift import Solve, holds_at, nudge, root, sign_at, value_at
+from qe.rules.lift import Solve, holds_at, nudge, root, sign_at, value_at
 
 RING = Ring.of(("x", "y"))
 x, y = RING.gen(0), RING.gen(1)

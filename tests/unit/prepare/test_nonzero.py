@@ -6,7 +6,7 @@ import pytest
 
 import qe
 from qe.io.text import read
-from qe.prepare.nonzero import only_nonzero
+from qe.rules.nonzero import only_nonzero
 
 
 @pytest.mark.parametrize(

@@ -12,9 +12,10 @@ from qe.formula.syntax import FALSE, TRUE, And, Atom, Exists, Relation
 from qe.formula.traverse import atoms, free_variables, is_quantifier_free
 from qe.io.text import read
 from qe.options import Budget
-from qe.prepare import StepKind, prepare
-from qe.prepare.lift import holds_at
-from qe.prepare.simplify import simplify
+from qe.rules.lift import holds_at
+from qe.rules.preparation import prepare
+from qe.rules.step import StepKind
+from qe.simplify.simplify import simplify
 
 BALL = "{0}1^2 + {0}2^2 + {0}3^2 - r^2 <= 0"
 

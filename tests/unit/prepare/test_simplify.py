@@ -7,7 +7,7 @@ import pytest
 from qe.formula.syntax import FALSE, TRUE
 from qe.formula.traverse import atoms
 from qe.io.text import read
-from qe.prepare.simplify import simplify
+from qe.simplify.simplify import simplify
 
 CASES = [
     # implied bounds: one polynomial up to a constant

@@ -8,7 +8,7 @@ import pytest
 
 import qe
 from qe.errors import InputError
-from qe.report.picture import _ends
+from qe.regions.picture import _ends
 
 
 @pytest.mark.parametrize(

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from qe.eliminate.cad.decompose import decompose
+from qe.cad.decompose import decompose
+from qe.cells.confirm_convex import strangers
 from qe.exact.sample import Point
 from qe.formula.evaluate import holds_at
 from qe.io import formats
 from qe.options import Budget
-from qe.solution.closure import strangers
 
 DISC = "x^2 + y^2 <= 4"
 

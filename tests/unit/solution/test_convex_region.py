@@ -7,14 +7,14 @@ from fractions import Fraction as F
 import pytest
 
 import qe
+from qe.cells.interval import Interval
 from qe.errors import BudgetExceeded, InputError, Unable
 from qe.exact.algebraic import RealAlgebraic
 from qe.formula.build import exists
 from qe.formula.syntax import Formula
 from qe.io import formats
 from qe.options import Budget
-from qe.solution.convex_region import ConvexRegion, shadow_of
-from qe.solution.interval import Interval
+from qe.regions.convex_region import ConvexRegion, shadow_of
 from tests.optimum_problems import at_most_zero, cubic
 
 SQRT2 = RealAlgebraic.from_root((-2, 0, 1), 1, 2)

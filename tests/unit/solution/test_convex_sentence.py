@@ -8,10 +8,10 @@ from hypothesis import strategies as st
 
 import qe
 from qe.api import read_formula
-from qe.evidence.certificate import Certificate, Root
+from qe.elimination.convex import decide_convex
 from qe.formula.syntax import Exists
 from qe.options import Budget
-from qe.solution.convex_sentence import decide_convex
+from qe.proof.certificate import Certificate, Root
 
 SMALL = st.integers(-3, 3)
 DISC = st.tuples(SMALL, SMALL, st.integers(1, 8), st.sampled_from(["<", "<="])).map(

@@ -7,9 +7,9 @@ from fractions import Fraction as F
 import pytest
 
 import qe
+from qe.cells.interval import Interval
 from qe.errors import InputError
 from qe.exact.algebraic import RealAlgebraic
-from qe.solution.interval import Interval
 
 SQRT2 = RealAlgebraic.from_root((-2, 0, 1), 1, 2)
 ANNULUS = "x^2 + y^2 <= 4 and x^2 + y^2 > 1"

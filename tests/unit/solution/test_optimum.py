@@ -7,12 +7,12 @@ from fractions import Fraction as F
 import pytest
 
 from qe.certify.optimum import check_optimum
+from qe.convex.optimum import NotConvex, Optimum, OptimumStatus, maximize, minimize
 from qe.errors import BudgetExceeded, Unable
 from qe.exact.ring import Ring
 from qe.formula.build import atom, conj, disj
 from qe.formula.syntax import FALSE, TRUE, Formula, Relation
 from qe.options import Budget
-from qe.solution.optimum import NotConvex, Optimum, OptimumStatus, maximize, minimize
 
 RING = Ring.of(("x", "y", "z"))
 X, Y, Z = (RING.gen(i) for i in range(3))

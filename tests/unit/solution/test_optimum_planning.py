@@ -7,10 +7,10 @@ from fractions import Fraction as F
 import pytest
 
 from qe.certify.optimum import check_optimum
+from qe.convex.optimum import OptimumStatus, maximize, minimize
 from qe.exact.field import FieldElement
 from qe.formula.build import atom, conj
 from qe.formula.syntax import Relation
-from qe.solution.optimum import OptimumStatus, maximize, minimize
 from tests.optimum_problems import CUBIC_LABELS, at_most_zero, cubic, quadratic
 
 

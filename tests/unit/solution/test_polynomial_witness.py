@@ -9,9 +9,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import qe
+from qe.elimination.witness import find, instantiate, substituted
 from qe.formula.evaluate import holds_at
 from qe.options import Budget
-from qe.solution.polynomial_witness import find, instantiate, substituted
 
 TRUE = [
     "all a, b. ex x. 4*(x - a)^2 <= (a - b)^2 and 4*(x - b)^2 <= (a - b)^2",
@@ -79,9 +79,9 @@ numbers = st.fractions(min_value=-3, max_value=3, max_denominator=4)
 @given(numbers, numbers, numbers, numbers)
 def test_substitution_multiplies_by_a_positive_number(a: Fraction, b: Fraction, u: Fraction, v: Fraction) -> None:
     """f[x := u a + v b] holds at (a, b) iff f holds at (a, b, u a + v b)."""
+    from qe.elimination.witness import Term
     from qe.exact.ring import Ring
     from qe.formula.build import convert
-    from qe.solution.polynomial_witness import Term
 
     ring = Ring.of(("a", "b", "x"))
     common = u.denominator * v.denominator
@@ -124,9 +124,9 @@ def test_a_witness_that_makes_no_sense_is_refused(sentence: str, witness: dict[s
 
 
 def test_the_instance_is_stronger() -> None:
+    from qe.elimination.witness import Term
     from qe.exact.ring import Ring
     from qe.formula.build import convert
-    from qe.solution.polynomial_witness import Term
 
     ring = Ring.of(("a", "x"))
     sentence = convert(read("all a. ex x. x^2 >= a"), ring)

@@ -8,7 +8,7 @@ from fractions import Fraction
 import pytest
 
 import qe
-from qe.solution.region import Region
+from qe.regions.region import Region
 
 THREE = "x^2+y^2+z^2 <= 27 and (x+2)^2+(y-6)^2+(z-6)^2 <= 27 and (x-2)^2+(y-6)^2+(z-6)^2 <= 27"
 

@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import qe
-from qe.eliminate.vs.far import far_first
+from qe.elimination.vs.infinity_first import far_first
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj, disj, exists, neg
 from qe.formula.syntax import Formula, Relation

@@ -8,10 +8,10 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from qe.eliminate.vs.known import Signs
-from qe.eliminate.vs.points import Infinity, LinearRoot, QuadraticRoot, TestPoint
-from qe.eliminate.vs.substitute import Substitution
-from qe.eliminate.vs.tables import root_condition
+from qe.elimination.vs.points import Infinity, LinearRoot, QuadraticRoot, TestPoint
+from qe.elimination.vs.sign_knowledge import Signs
+from qe.elimination.vs.substitute import Substitution
+from qe.elimination.vs.tables import root_condition
 from qe.exact.algebraic import RealAlgebraic, real_roots
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom

@@ -1,0 +1,1 @@
+"""Cylindrical algebraic decomposition, the shared machinery: projection, constraints, order, stacks, lifting."""

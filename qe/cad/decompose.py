@@ -1,0 +1,129 @@
+"""A prenex formula to a cell table: order, projection, lifting; Lazard where Brown–McCallum does not apply."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from qe.cad.constraints import Constraints, equational_constraints
+from qe.cad.lifting import Lifter, sector_levels
+from qe.cad.matrix import compile_matrix, strengthened
+from qe.cad.projection import factor_lists
+from qe.errors import NotWellOriented
+from qe.exact.ring import Poly, Ring
+from qe.exact.sample import Point
+from qe.formula.build import convert
+from qe.formula.syntax import Formula
+from qe.formula.traverse import polynomials
+from qe.options import Budget, Projection
+from qe.proof.cells import CellTable
+
+
+@dataclass(frozen=True, slots=True)
+class Decomposition:
+    """The table and what it cost. ``nullified``: Lazard projection had to take over."""
+
+    table: CellTable
+    cells: int
+    stacks: int
+    factors: int
+    nullified: bool
+
+    @property
+    def restricted(self) -> tuple[str, ...]:
+        """The variables at whose levels an equational constraint restricted projection and lifting."""
+        return tuple(v for v, own in zip(self.table.order, self.table.constraints, strict=False) if own)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Tactics:
+    """Which of its shortcuts a decomposition takes; the answers are equivalent.
+
+    ``constraints``: projection and lifting restricted by equational constraints. ``partial``: nothing is decomposed
+    where the truth is known already. ``open_only``: sectors only where all atoms are strict. ``whole_free``: no
+    shortcut but a longer way: the space of the free variables is decomposed also where the truth is known, which
+    gives every free cell the signs of all factors and formula construction more to choose from.
+    ``free_constraints``: constraints restrict the levels of free variables too, where their sectors then lack signs.
+    """
+
+    constraints: bool = True
+    partial: bool = True
+    open_only: bool = True
+    whole_free: bool = False
+    free_constraints: bool = True
+
+
+def decompose(
+    matrix: Formula,
+    order: tuple[str, ...],
+    quantifiers: tuple[str, ...],
+    *,
+    budget: Budget,
+    projection: Projection = Projection.BROWN_MCCALLUM,
+    separated: frozenset[int] = frozenset(),
+    tactics: Tactics = Tactics(),
+    beside: tuple[Poly, ...] = (),
+) -> Decomposition:
+    """The cell table of Q_k x_k … Q_n x_n. matrix over the variables ``order`` (free ones first).
+
+    Where the projection asked for meets a nullified factor that its theorem does not allow, the work is redone
+    with Lazard projection and Lazard evaluation together. ``separated``: levels at which two cells over the same cell
+    differ in signs (derivatives join the factors: see ``factor_lists``, and ``Lifter.lacking`` for nullified ones).
+    ``beside``: polynomials over the ring of ``order`` whose factors are to be in the lists too.
+    Raises ``BudgetExceeded``.
+    """
+    job = _Job(convert(matrix, Ring.of(order)), order, quantifiers, budget, separated, tactics)
+    try:
+        return job.attempt(projection, nullified=False, added=beside)
+    except NotWellOriented:
+        return job.attempt(Projection.LAZARD, nullified=True, added=beside)
+
+
+@dataclass(frozen=True, slots=True)
+class _Job:
+    matrix: Formula
+    order: tuple[str, ...]
+    quantifiers: tuple[str, ...]
+    budget: Budget
+    separated: frozenset[int]
+    tactics: Tactics
+
+    def _constraints(self) -> Constraints:
+        """The equational constraints that the tactics let take part."""
+        if not self.tactics.constraints or not any(self.quantifiers[-1:]):
+            return Constraints()
+        found = equational_constraints(self.matrix, len(self.order))
+        if self.tactics.free_constraints:
+            return found
+        return Constraints({k: own for k, own in found.factors.items() if self.quantifiers[k]}, found.implied)
+
+    def attempt(self, projection: Projection, *, nullified: bool, added: tuple[Poly, ...] = ()) -> Decomposition:
+        """``added``: polynomials in the factor lists beside those of the matrix."""
+        size = len(self.order)
+        constraints = self._constraints() if projection is Projection.BROWN_MCCALLUM else Constraints()
+        listed = [*polynomials(self.matrix), *added]
+        levels = factor_lists(listed, size, projection, self.budget, self.separated, constraints.factors)
+        places = {f: (k, j) for k, level in enumerate(levels) for j, f in enumerate(level)}
+        strong = strengthened(self.matrix, constraints.implied, places)
+        indices = {
+            k: frozenset(places[f][1] for f in own)
+            for k, own in constraints.factors.items()
+            if len(own) < len(levels[k])  # a constraint made of all factors restricts nothing
+        }
+        sectors_from = sector_levels(self.matrix, self.quantifiers) if self.tactics.open_only else size
+        lifter = Lifter(
+            levels,
+            self.quantifiers,
+            projection,
+            self.budget,
+            sectors_from,
+            indices,
+            self.tactics.partial,
+            self.tactics.whole_free,
+            self.separated,
+        )
+        root = lifter.run(Point(Ring.of(self.order)), compile_matrix(strong, places))
+        if lifter.lacking:
+            return self.attempt(projection, nullified=nullified, added=(*added, *lifter.lacking))
+        restricted = tuple(tuple(sorted(indices.get(k, ()))) for k in range(size)) if indices else ()
+        table = CellTable(self.order, self.quantifiers, self.matrix, projection, levels, root, restricted)
+        return Decomposition(table, lifter.cells, lifter.stacks, sum(map(len, levels)), nullified)

@@ -1,0 +1,207 @@
+"""Lifting: from factor lists to a (partial) decomposition with truth values (Collins and Hong 1991).
+
+A cell is decomposed only while the formula is undecided there; a quantified stack stops at the first cell
+that decides it; at the last level only the factors that the formula still depends on are isolated.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from qe.cad.matrix import Node, mentioned, specialise
+from qe.cad.projection import Levels
+from qe.cad.stack import Layers, is_nullified, layers_over, restricted_layers
+from qe.errors import InternalError, NotWellOriented
+from qe.exact.lazard import lazard_derivative
+from qe.exact.ring import Poly
+from qe.exact.sample import Point
+from qe.formula.syntax import Atom, Formula, Not
+from qe.formula.traverse import atoms, children
+from qe.options import Budget, Projection
+from qe.proof.cells import Cell, Stack
+
+_VALUE = {"+": 1, "-": -1, "0": 0}
+
+
+@dataclass(slots=True)
+class Lifter:
+    """One lifting run. From level ``sectors_from`` on, sections need not be visited (see ``sector_levels``).
+
+    ``constraints``: indices of the factors of equational constraints by level (see ``equational``). Without
+    ``partial`` cells are decomposed also where the formula is decided, and every cell of a stack is visited. With
+    ``whole_free`` that holds for the levels of free variables: every free cell then has the signs of all factors.
+    ``lacking``: where a factor of a level in ``separated`` is nullified, its signs and derivatives do not tell the
+    sections of its Lazard evaluation apart; partial derivatives that do are collected here, where truth depends on it.
+    """
+
+    levels: Levels
+    quantifiers: tuple[str, ...]
+    projection: Projection
+    budget: Budget
+    sectors_from: int
+    constraints: Mapping[int, frozenset[int]] = field(default_factory=dict)
+    partial: bool = True
+    whole_free: bool = False
+    separated: frozenset[int] = frozenset()
+    lacking: dict[Poly, None] = field(default_factory=dict)
+    cells: int = 0
+    stacks: int = 0
+    _shared: dict[tuple[int, int, str], Node] = field(default_factory=dict)
+    _relevant: dict[tuple[int, int], tuple[int, ...]] = field(default_factory=dict)
+    _interned: dict[Node, Node] = field(default_factory=dict)
+    _alive: list[Node] = field(default_factory=list)
+
+    def run(self, point: Point, node: Node) -> Cell:
+        """The root cell, decomposed as far as needed."""
+        return self._cell(point, node, "", 0)
+
+    def _cell(self, point: Point, node: Node, signs: str, dimension: int) -> Cell:
+        """The cell whose sample is ``point`` (``dimension`` of its coordinates are sectors)."""
+        level = point.depth
+        if isinstance(node, bool) and self._leaves(level):
+            return Cell(signs, node)
+        used = self._used(node, level)
+        layers = self._layers(point, used, dimension)
+        self.stacks += 1
+        count = len(layers.texts)
+        self.cells += count
+        self.budget.used_cells += count
+        self.budget.check("lift", self.cells)
+        return self._stack(point, node, signs, dimension, used, layers)
+
+    def _leaves(self, level: int) -> bool:
+        """Whether cells with ``level`` coordinates are left as they are when their truth is known."""
+        if level == len(self.levels):
+            return True
+        return self.partial and not (self.whole_free and not self.quantifiers[level])
+
+    def _used(self, node: Node, level: int) -> tuple[int, ...]:
+        """The factors that a stack decomposes by: all of the level, or the ones mentioned on the last level."""
+        if level < len(self.levels) - 1 or not self._leaves(level):
+            return tuple(range(len(self.levels[level])))
+        return tuple(sorted(mentioned(node, level)))
+
+    def _layers(self, point: Point, used: tuple[int, ...], dimension: int) -> Layers:
+        """The stack over a cell, by the sections of the level's constraint alone if it has one.
+
+        Brown–McCallum projection needs factors that are not nullified (Brown 2001), except over single points on the
+        last level, where the stack is then made of all factors, and but for factors beside a constraint on the last
+        level (McCallum 1999).
+        """
+        level = point.depth
+        factors, constraint = self.levels[level], self.constraints.get(level)
+        last = level == len(self.levels) - 1
+        if constraint is not None:
+            layers = restricted_layers(point, factors, used, constraint)
+            nullified = layers.nullified
+            if not last:
+                nullified += tuple(j for j in used if j not in constraint and is_nullified(point, factors[j]))
+            if not nullified:
+                return layers
+        layers = layers_over(point, factors, used, lazard=self.projection is Projection.LAZARD)
+        if layers.nullified and self.projection is not Projection.LAZARD and not (last and dimension == 0):
+            raise NotWellOriented(f"a factor of level {level} is nullified over a cell of dimension {dimension}")
+        return layers
+
+    def _stack(
+        self, point: Point, node: Node, signs: str, dimension: int, used: tuple[int, ...], layers: Layers
+    ) -> Cell:
+        level = point.depth
+        quantifier = self.quantifiers[level]
+        size = len(layers.texts)
+        cells: list[Cell | None] = [None] * size
+        truth: bool | None = None
+        if quantifier:
+            stop = quantifier == "E"
+            truth = not stop
+            for position in _visiting_order(size, sectors_only=level >= self.sectors_from):
+                cell = self._child(point, node, used, layers, position, dimension)
+                cells[position] = cell
+                if cell.truth is stop:
+                    truth = stop
+                    if self.partial:
+                        break
+        else:
+            for position in range(size):
+                cells[position] = self._child(point, node, used, layers, position, dimension)
+        complete = tuple(Cell(layers.texts[p], None) if c is None else c for p, c in enumerate(cells))
+        if layers.nullified and level in self.separated and _ambiguous(complete):
+            self._collect_lacking(point, level, layers.nullified)
+        return Cell(signs, truth, Stack(used, layers.sectors, layers.sections, complete))
+
+    def _child(
+        self, point: Point, node: Node, used: tuple[int, ...], layers: Layers, position: int, dimension: int
+    ) -> Cell:
+        text = layers.texts[position]
+        child = self._specialised(node, point.depth, used, text)
+        off_constraint = layers.restricted and position % 2 == 0
+        if isinstance(child, bool) and (off_constraint or self._leaves(point.depth + 1)):
+            return Cell(text, child)
+        if off_constraint:
+            raise InternalError("the matrix is undecided off an equational constraint")
+        return self._cell(layers.sample(point, position), child, text, dimension + (position % 2 == 0))
+
+    def _collect_lacking(self, point: Point, level: int, nullified: tuple[int, ...]) -> None:
+        factors = self.levels[level]
+        for j in nullified:
+            derivative = lazard_derivative(point, factors[j])
+            if any(f.level == level and f not in factors for f, _ in derivative.factors()[1]):
+                self.lacking[derivative] = None
+
+    def _specialised(self, node: Node, level: int, used: tuple[int, ...], text: str) -> Node:
+        """``specialise`` by the signs in ``text``; equal nodes are one object, and equal questions are asked once."""
+        relevant = self._relevant.get((id(node), level))
+        if relevant is None:
+            self._alive.append(node)  # ids stay unique while the node lives
+            relevant = self._relevant[id(node), level] = tuple(sorted(mentioned(node, level)))
+        # the used factors are either the relevant ones or all of the level, so that j is the place of factor j
+        spoken = text if len(relevant) == len(used) else "".join([text[j] for j in relevant])
+        key = (id(node), level, spoken)
+        stored = self._shared.get(key)
+        if stored is None:
+            signs = {j: _VALUE[c] for j, c in zip(relevant, spoken, strict=True) if c != "?"}
+            found = specialise(node, level, signs)
+            stored = self._shared[key] = self._interned.setdefault(found, found)
+        return stored
+
+
+def _ambiguous(cells: tuple[Cell, ...]) -> bool:
+    """Whether two cells of a stack have the same signs and are not known to have the same truth value."""
+    met: dict[str, Cell] = {}
+    for cell in cells:
+        other = met.setdefault(cell.signs, cell)
+        if other is not cell and (cell.truth is None or other.truth is not cell.truth):
+            return True
+    return False
+
+
+def _visiting_order(size: int, *, sectors_only: bool) -> list[int]:
+    """Sectors first (rational samples are cheap), middle ones first, then sections likewise."""
+    middle = size // 2
+    positions = range(0, size, 2) if sectors_only else range(size)
+    return sorted(positions, key=lambda p: (p % 2, abs(p - middle)))
+
+
+def sector_levels(matrix: Formula, quantifiers: tuple[str, ...]) -> int:
+    """The first level from which on quantified stacks are decided by their sectors alone.
+
+    THEOREM. With only strict atoms (<, >, /=, no negation) and only existential quantifiers from a level on, the values
+    of its variable that can be completed to a solution over any point form an open set, which meets a
+    sector if it is not empty. Dually for weak atoms (<=, >=, =) and universal quantifiers.
+    """
+    last = quantifiers[-1] if quantifiers else ""
+    relations = {a.relation for a in atoms(matrix)}
+    plain = all(isinstance(a, Atom) for a in atoms(matrix)) and not _has_negation(matrix)
+    strict = all(r.is_strict for r in relations)
+    weak = not any(r.is_strict for r in relations)
+    if not plain or not ((last == "E" and strict) or (last == "A" and weak)):
+        return len(quantifiers)
+    level = len(quantifiers)
+    while level and quantifiers[level - 1] == last:
+        level -= 1
+    return level
+
+
+def _has_negation(formula: Formula) -> bool:
+    return isinstance(formula, Not) or any(_has_negation(c) for c in children(formula))

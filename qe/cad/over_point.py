@@ -1,0 +1,58 @@
+"""Deciding an existential block over one point of its parameters by lifting from that point.
+
+THEOREM (Lazard 1994; McCallum, Parusinski, Paunescu 2019). A single point is a connected manifold on which every
+polynomial is valuation-invariant. So if the factor lists of the quantified levels are closed under Lazard's
+projection among themselves, lifting with Lazard evaluation from that point gives cells on which they are
+sign-invariant; nothing needs to be projected into the space of the parameters.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from qe.cad.lifting import Lifter, sector_levels
+from qe.cad.matrix import compile_matrix, specialise
+from qe.cad.projection import project
+from qe.exact.ring import Poly, Ring
+from qe.exact.sample import Point
+from qe.formula.build import convert
+from qe.formula.normal import nnf
+from qe.formula.syntax import Formula
+from qe.formula.traverse import polynomials
+from qe.options import Budget, Projection
+
+
+def over_point(matrix: Formula, order: tuple[str, ...], free: int, *, budget: Budget) -> Callable[[Point], bool]:
+    """The truth of ``exists order[free:]. matrix`` (matrix quantifier-free) at points of the first ``free`` variables.
+
+    The points are points of the ring of all of ``order``. The projection is done once, for all points.
+    Raises ``BudgetExceeded``.
+    """
+    ring = Ring.of(order)
+    matrix = nnf(convert(matrix, ring))
+    levels: list[dict[Poly, None]] = [{} for _ in order]
+
+    def insert(p: Poly) -> None:
+        if p:
+            for f, _ in p.factors()[1]:
+                levels[f.level][f] = None
+
+    for p in polynomials(matrix):
+        insert(p)
+    for k in range(len(order) - 1, free, -1):
+        for p in project(levels[k], k, Projection.LAZARD):
+            budget.check("project", len(order) - k)
+            insert(p)
+    lists = tuple(tuple(level) for level in levels)
+    places = {f: (k, j) for k, level in enumerate(lists) for j, f in enumerate(level)}
+    node = compile_matrix(matrix, places)
+    quantifiers = ("",) * free + ("E",) * (len(order) - free)
+    lifter = Lifter(lists, quantifiers, Projection.LAZARD, budget, sector_levels(matrix, quantifiers))
+
+    def decide(point: Point) -> bool:
+        here = node
+        for k in range(free):
+            here = specialise(here, k, {j: point.sign(f) for j, f in enumerate(lists[k])})
+        return lifter.run(point, here).truth is True
+
+    return decide

@@ -1,0 +1,1 @@
+"""Reading a cell table: formulas, extended formulas, pieces, fibres, truth."""

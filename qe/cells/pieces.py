@@ -1,0 +1,251 @@
+"""Merging: the true cells of a decomposition as few cylindrical pieces with bounds as root functions.
+
+A piece gives, for each variable in order, an interval (or a single value) whose ends are roots of factors over
+the earlier variables. Adjacent cells of a stack merge when everything above them has the same description.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from qe.cells.sampled_cells import Place, child, root_place
+from qe.exact.algebraic import RealAlgebraic
+from qe.exact.ring import Poly, format_poly
+from qe.exact.sample import Point
+from qe.proof.cells import CellTable
+
+
+@dataclass(frozen=True, slots=True)
+class RootFunction:
+    """The k-th real root (from 1, counted with multiplicity) of ``poly`` in its main variable.
+
+    ``value`` is the number itself when the polynomial has one variable.
+    """
+
+    poly: Poly
+    k: int
+    value: RealAlgebraic | None = None
+
+    def __str__(self) -> str:
+        if self.value is not None:
+            return str(self.value)
+        i = self.poly.level
+        c = self.poly.coefficients(i)
+        if len(c) == 2:
+            return _quotient(format_poly(-c[0]), format_poly(c[1]))
+        if len(c) == 3 and c[2].is_constant:
+            discriminant = c[1] * c[1] - 4 * (c[2] * c[0])
+            unit, inside, half = 1, discriminant, 2 * c[2].constant_value()
+            content = discriminant.normal()[0]
+            if c[1].normal()[0] % 2 == 0 and content % 4 == 0:
+                half //= 2
+                inside = discriminant.exact_divide(4)
+                unit = 2
+            sign = "-" if self.k == 1 else "+"
+            front = format_poly((-c[1]).exact_divide(unit)) + " " if c[1] else ""
+            shown = f"{sign} " if front else "-" if sign == "-" else ""
+            return _quotient(f"{front}{shown}sqrt({format_poly(inside)})", str(half))
+        return f"root({self.k}, {format_poly(self.poly)}, {self.poly.ring.names[i]})"
+
+
+def _quotient(top: str, bottom: str) -> str:
+    if bottom == "1":
+        return top
+    return f"{_bracketed(top)}/{_bracketed(bottom)}"
+
+
+def _bracketed(text: str) -> str:
+    return f"({text})" if " " in text or "*" in text else text
+
+
+@dataclass(frozen=True, slots=True)
+class Range:
+    """The values of one variable: from ``lower`` to ``upper`` (None: unbounded), ends included or not.
+
+    A single value has equal ends, both included.
+    """
+
+    variable: str
+    lower: RootFunction | None
+    upper: RootFunction | None
+    lower_closed: bool = False
+    upper_closed: bool = False
+
+    @property
+    def is_point(self) -> bool:
+        return self.lower is not None and self.lower == self.upper
+
+    def __str__(self) -> str:
+        if self.is_point:
+            return f"{self.variable} = {self.lower}"
+        left = "" if self.lower is None else f"{self.lower} {'<=' if self.lower_closed else '<'} "
+        right = "" if self.upper is None else f" {'<=' if self.upper_closed else '<'} {self.upper}"
+        return f"{left}{self.variable}{right}" if left or right else f"{self.variable} any"
+
+
+@dataclass(frozen=True, slots=True)
+class Piece:
+    """A union of cells with one description. ``sample``: a point of it; ``dimension``: of its largest cell."""
+
+    ranges: tuple[Range, ...]
+    sample: Mapping[str, object]
+    dimension: int
+
+    def __str__(self) -> str:
+        return " and ".join(str(r) for r in self.ranges if r.lower is not None or r.upper is not None) or "everything"
+
+
+Candidates = frozenset[RootFunction]
+
+
+@dataclass(frozen=True, slots=True)
+class _Branch:
+    """Positions ``start``..``stop`` of a stack that share one description of what is above."""
+
+    start: int
+    stop: int
+    lower: Candidates | None
+    upper: Candidates | None
+    above: tuple[_Branch, ...] | None
+    place: Place
+
+    @property
+    def closed(self) -> tuple[bool, bool]:
+        return self.start % 2 == 1, self.stop % 2 == 1
+
+
+def merge(table: CellTable, *, distinct: bool = False) -> list[Piece]:
+    """The pieces of the set of true cells (all variables free), in order.
+
+    With ``distinct`` the roots in the bounds are counted without multiplicity, as ``RootAtom`` does; then fewer
+    cells merge.
+    """
+    branches = _branches(table, root_place(table), distinct)
+    if branches is None:
+        return [_piece(table, (), root_place(table))]
+    return [p for b in branches for p in _flatten(table, b, ())]
+
+
+def _branches(table: CellTable, place: Place, distinct: bool) -> tuple[_Branch, ...] | None:
+    """The description of the truth set over a cell: None for everything, () for nothing."""
+    cell = place.cell
+    if cell.stack is None:
+        return None if cell.truth else ()
+    ends = _section_roots(table, place, distinct)
+    merged: list[_Branch] = []
+    for position, below in enumerate(cell.stack.cells):
+        if below.stack is None and not below.truth:
+            continue
+        inner = child(table, place, position)
+        above = _branches(table, inner, distinct)
+        if above == ():
+            continue
+        lower = ends[(position - 1) // 2] if position > 0 else None
+        upper = ends[position // 2] if position < len(cell.stack.cells) - 1 else None
+        if position % 2:
+            lower = upper = ends[position // 2]
+        branch = _Branch(position, position, lower, upper, above, inner)
+        joined = _joined(merged[-1], branch) if merged else None
+        if joined is None:
+            merged.append(branch)
+        else:
+            merged[-1] = joined
+    return tuple(merged)
+
+
+def _joined(left: _Branch, right: _Branch) -> _Branch | None:
+    if right.start != left.stop + 1:
+        return None
+    same, above = _unified(left.above, right.above)
+    if not same:
+        return None
+    place = left.place if left.place.dimension >= right.place.dimension else right.place
+    return _Branch(left.start, right.stop, left.lower, right.upper, above, place)
+
+
+def _unified(
+    left: tuple[_Branch, ...] | None, right: tuple[_Branch, ...] | None
+) -> tuple[bool, tuple[_Branch, ...] | None]:
+    """(whether the descriptions agree, the common description)."""
+    if left is None or right is None:
+        return left is right, None
+    if len(left) != len(right):
+        return False, None
+    result = []
+    for a, b in zip(left, right, strict=True):
+        single = (a.start == a.stop and a.start % 2 == 1, b.start == b.stop and b.start % 2 == 1)
+        # a section may be the closed interval between two roots that meet there
+        if a.closed != b.closed:
+            return False, None
+        lower, upper = _common(a.lower, b.lower), _common(a.upper, b.upper)
+        if lower == frozenset() or upper == frozenset():
+            return False, None
+        same, above = _unified(a.above, b.above)
+        if not same:
+            return False, None
+        keep = b if single[0] and not single[1] else a
+        result.append(_Branch(keep.start, keep.stop, lower, upper, above, keep.place))
+    return True, tuple(result)
+
+
+def _common(a: Candidates | None, b: Candidates | None) -> Candidates | None:
+    if a is None or b is None:
+        return None if a is b else frozenset()
+    return a & b
+
+
+def _section_roots(table: CellTable, place: Place, distinct: bool) -> list[Candidates]:
+    """For every section the root functions that describe it (several where roots meet or factors share it)."""
+    stack = place.cell.stack
+    assert stack is not None
+    level = place.depth
+    seen: dict[int, int] = {}
+    totals = {j: sum(j in s for s in stack.sections) for j in stack.used}
+    result: list[Candidates] = []
+    for section, members in enumerate(stack.sections):
+        found: set[RootFunction] = set()
+        for j in members:
+            poly = table.factors[level][j]
+            k = seen.get(j, 0) + 1
+            multiplicity = 2 if not distinct and totals[j] == 1 and _true_degree(place.point, poly, level) == 2 else 1
+            value = None
+            if poly.variables == (level,):
+                number = child(table, place, 2 * section + 1).point.number(level)
+                value = number if isinstance(number, RealAlgebraic) else RealAlgebraic.rational(number)
+            found.update(RootFunction(poly, k + m, value) for m in range(multiplicity))
+            seen[j] = k + multiplicity - 1
+        result.append(frozenset(found))
+    return result
+
+
+def _true_degree(point: Point, poly: Poly, level: int) -> int:
+    """The degree over the point, for polynomials of formal degree 2 (others: -1)."""
+    if poly.degree(level) != 2:
+        return -1
+    return 2 if point.sign(poly.leading(level)) else 1
+
+
+def _flatten(table: CellTable, branch: _Branch, ranges: tuple[Range, ...]) -> list[Piece]:
+    variable = table.order[len(ranges)]
+    lower, upper = _chosen(branch.lower), _chosen(branch.upper)
+    if branch.start == branch.stop and branch.start % 2:
+        upper = lower
+    own = (*ranges, Range(variable, lower, upper, *branch.closed))
+    if branch.above is None:
+        return [_piece(table, own, branch.place)]
+    return [p for b in branch.above for p in _flatten(table, b, own)]
+
+
+def _piece(table: CellTable, ranges: tuple[Range, ...], place: Place) -> Piece:
+    from qe.cells.sampled_cells import coordinates
+
+    rest = tuple(Range(name, None, None) for name in table.order[len(ranges) :])
+    dimension = sum(not r.is_point for r in (*ranges, *rest))
+    return Piece((*ranges, *rest), coordinates(table, place), dimension)
+
+
+def _chosen(candidates: Candidates | None) -> RootFunction | None:
+    if candidates is None:
+        return None
+    return min(candidates, key=lambda r: (r.poly.degree(r.poly.level), r.poly.term_count(), str(r.poly.terms()), r.k))

@@ -1,0 +1,1 @@
+"""The arithmetic of the checkers, which share none with the producers of answers."""

@@ -1,0 +1,82 @@
+"""Checker for certificates of kind "substitution": existential variables removed by linear equations.
+
+Payload: ``order`` (all variable names), ``variables`` (the existential block), ``matrix`` (quantifier-free), ``solved``
+(in the order of their use, ``[variable, equation]``), ``answer``. The claim: ex variables. matrix <-> answer.
+
+THEOREM (Gauss): if a conjunct of phi is the equation c*x + p = 0 with a rational constant c /= 0 and p free of x,
+then ex x. phi is equivalent to the rest of phi with x replaced by -p/c. The checker carries the replacements out and
+compares the result with the answer as a set of conjuncts.
+"""
+
+from __future__ import annotations
+
+from qe.exact.ring import Poly, Ring
+from qe.formula.build import atom, conj
+from qe.formula.syntax import And, Atom, Formula, Relation, RootAtom
+from qe.formula.traverse import free_variables, map_atoms
+from qe.proof.entry import Entry, Json, formula_from_json
+
+
+def check_substitution(payload: dict[str, Json]) -> None:
+    """Accept silently, or raise ``CertificateRejected`` naming the entry that fails."""
+    names, block, matrix, solved, answer = Entry(payload, "payload").fields(
+        "order", "variables", "matrix", "solved", "answer"
+    )
+    ring = Ring.of(_distinct(names))
+    variables = _distinct(block)
+    body = formula_from_json(matrix, ring)
+    if set(free_variables(body)) | set(variables) != set(ring.names):
+        raise names.fail("expected the variables of the formula and of the block")
+    steps = [tuple(step.items()) for step in solved.items()]
+    if [step[0].text() for step in steps if len(step) == 2] != list(variables) or len(steps) != len(variables):
+        raise solved.fail("expected one [variable, equation] for each variable of the block, in its order")
+    for variable, equation in steps:
+        body = _without(body, ring.index[variable.text()], equation.polynomial(ring), equation)
+    claimed = formula_from_json(answer, ring)
+    if set(variables) & set(free_variables(claimed)):
+        raise answer.fail("a quantified variable is left")
+    if _conjuncts(claimed) != _conjuncts(body):
+        raise answer.fail("not what the substitutions give")
+
+
+def _distinct(entry: Entry) -> tuple[str, ...]:
+    names = tuple(e.text() for e in entry.items())
+    if len(set(names)) != len(names):
+        raise entry.fail("a variable is listed twice")
+    return names
+
+
+def _without(body: Formula, i: int, equation: Poly, entry: Entry) -> Formula:
+    """The rest of the body with variable ``i`` replaced by its value from the equation."""
+    if equation.degree(i) != 1 or not equation.leading(i).is_constant:
+        raise entry.fail("expected an equation of degree 1 with a constant coefficient")
+    conjuncts = body.args if isinstance(body, And) else (body,)
+    needed = Atom(equation, Relation.EQ)
+    if needed not in conjuncts:
+        raise entry.fail("not a conjunct here")
+
+    def replaced(found: Atom | RootAtom) -> Formula:
+        if isinstance(found, RootAtom):
+            raise entry.fail("no substitution into root atoms")
+        if not found.poly.degree(i):
+            return found
+        return atom(_replaced(found.poly, i, equation), found.relation)
+
+    return conj(map_atoms(c, replaced) for c in conjuncts if c != needed)
+
+
+def _replaced(poly: Poly, i: int, equation: Poly) -> Poly:
+    """A positive multiple of ``poly`` at x_i = -p/c, for the equation c*x_i + p = 0."""
+    p, lead = equation.coefficients(i)
+    c = lead.constant_value()
+    top, bottom = (-p, c) if c > 0 else (p, -c)
+    parts = poly.coefficients(i)
+    result = poly.ring.constant(0)
+    for power, part in enumerate(parts):
+        result = result + part * top**power * bottom ** (len(parts) - 1 - power)
+    return result
+
+
+def _conjuncts(formula: Formula) -> frozenset[Formula]:
+    whole = conj([formula])
+    return frozenset(whole.args) if isinstance(whole, And) else frozenset((whole,))

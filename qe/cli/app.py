@@ -1,0 +1,218 @@
+"""The command ``qe``: eliminate, decide, region, minimize, check, convert.
+
+Every command works in a child process under hard limits. Answers go to stdout and nothing else does;
+an error is one line on stderr. Exit status as in ``qe.cli.shell``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from functools import partial
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from qe.cli.shell import check_writable, enter, limited, remaining, write_file
+from qe.cli.source import InputFormat, OutputFormat, read_source
+from qe.cli.work import Reply, Request
+from qe.errors import InputError
+from qe.options import Method
+
+app = typer.Typer(
+    add_completion=False,
+    pretty_exceptions_enable=False,
+    rich_markup_mode=None,
+    help="Exact real quantifier elimination. FORMULA is text ('ex x. x^2 + b*x + c = 0'), a file, or - for stdin.",
+)
+# A formula may begin with a minus sign; it is not an option then.
+_LENIENT = {"ignore_unknown_options": True}
+
+Formula = Annotated[str, typer.Argument(metavar="FORMULA|FILE|-", show_default=False)]
+Format = Annotated[InputFormat | None, typer.Option("--format", help="Input format; a file's ending is the default.")]
+Output = Annotated[OutputFormat, typer.Option("--output", help="Format of the answer.")]
+MethodOption = Annotated[Method, typer.Option("--method", help="Elimination method.")]
+Order = Annotated[str | None, typer.Option("--order", help="Variable order, as in x,y,z.")]
+Timeout = Annotated[float | None, typer.Option("--timeout", help="Seconds; enforced.")]
+Memory = Annotated[int | None, typer.Option("--memory", help="MiB of address space; enforced.")]
+CertificateFile = Annotated[Path | None, typer.Option("--certificate", help="Write the certificate to this file.")]
+PictureFile = Annotated[Path | None, typer.Option("--plot", help="Draw the region to this file (.png, .pdf, .svg).")]
+Plain = Annotated[bool, typer.Option("--plain", help="No progress display and no notes.")]
+Json = Annotated[bool, typer.Option("--json", help="One JSON object on stdout.")]
+Explain = Annotated[bool, typer.Option("--explain", help="Tell on stderr how the answer was found.")]
+RootAtoms = Annotated[bool, typer.Option("--root-atoms", help="Allow x < root(k, p) in the answer.")]
+
+
+@app.command(context_settings=_LENIENT)
+def eliminate(
+    formula: Formula,
+    format: Format = None,
+    output: Output = OutputFormat.TEXT,
+    method: MethodOption = Method.AUTO,
+    order: Order = None,
+    timeout: Timeout = None,
+    memory: Memory = None,
+    certificate: CertificateFile = None,
+    root_atoms: RootAtoms = False,
+    explain: Explain = False,
+    json: Json = False,
+    plain: Plain = False,
+) -> int:
+    """Print a quantifier-free formula equivalent to FORMULA over the real numbers."""
+    from qe.cli import work as cli_work
+
+    asked = request(formula, format, timeout, memory, certificate, json)
+    asked = replace(asked, method=method.value, order=names(order), root_atoms=root_atoms)
+    work = partial(cli_work.eliminate, request=asked, output=output)
+    reply = limited(work, timeout=timeout, memory=memory, plain=plain)
+    return deliver(reply, {"certificate": certificate}, explain=explain)
+
+
+@app.command(context_settings=_LENIENT)
+def decide(
+    formula: Formula,
+    format: Format = None,
+    method: MethodOption = Method.AUTO,
+    timeout: Timeout = None,
+    memory: Memory = None,
+    certificate: CertificateFile = None,
+    explain: Explain = False,
+    json: Json = False,
+    plain: Plain = False,
+) -> int:
+    """Print true or false for a sentence, sat or unsat for an SMT-LIB script."""
+    from qe.cli import work as cli_work
+
+    asked = replace(request(formula, format, timeout, memory, certificate, json), method=method.value)
+    reply = limited(partial(cli_work.decide, request=asked), timeout=timeout, memory=memory, plain=plain)
+    return deliver(reply, {"certificate": certificate}, explain=explain)
+
+
+@app.command(context_settings=_LENIENT)
+def region(
+    formula: Formula,
+    format: Format = None,
+    order: Order = None,
+    plot: PictureFile = None,
+    timeout: Timeout = None,
+    memory: Memory = None,
+    certificate: CertificateFile = None,
+    json: Json = False,
+    plain: Plain = False,
+) -> int:
+    """Describe the set of real points that satisfy FORMULA, cell by cell."""
+    from qe.cli import region as cli_region
+
+    check_writable(plot)
+    asked = replace(request(formula, format, timeout, memory, certificate, json), order=names(order))
+    work = partial(cli_region.region, request=asked, picture=None if plot is None else plot.suffix or ".png")
+    reply = limited(work, timeout=timeout, memory=memory, plain=plain)
+    return deliver(reply, {"certificate": certificate, "plot": plot})
+
+
+@app.command(context_settings=_LENIENT)
+def minimize(
+    objective: Annotated[str, typer.Argument(metavar="OBJECTIVE", show_default=False)],
+    constraints: Annotated[str, typer.Argument(metavar="CONSTRAINTS|FILE|-", show_default=False)] = "true",
+    format: Format = None,
+    maximize: Annotated[bool, typer.Option("--maximize", help="Find the greatest value instead.")] = False,
+    timeout: Timeout = None,
+    memory: Memory = None,
+    certificate: CertificateFile = None,
+    json: Json = False,
+    plain: Plain = False,
+) -> int:
+    """Print the exact least value of a polynomial under CONSTRAINTS, and where it is attained."""
+    from qe.cli import region as cli_region
+
+    asked = request(constraints, format, timeout, memory, certificate, json)
+    work = partial(cli_region.optimize, request=asked, objective=objective, maximize=maximize)
+    reply = limited(work, timeout=timeout, memory=memory, plain=plain)
+    return deliver(reply, {"certificate": certificate})
+
+
+@app.command()
+def check(
+    certificate: Annotated[str, typer.Argument(metavar="CERTIFICATE|-", show_default=False)],
+    timeout: Timeout = None,
+    memory: Memory = None,
+) -> int:
+    """Verify a certificate with the independent checker; exit status 4 when it is rejected."""
+    from qe.cli import work as cli_work
+
+    check_limits(timeout, memory)
+    source = read_source(certificate, InputFormat.JSON)
+    if source.name == "<argument>":
+        raise InputError(f"{certificate}: no such file")
+    work = partial(cli_work.check, text=source.text, name=source.name)
+    return deliver(limited(work, timeout=timeout, memory=memory, plain=True), {})
+
+
+@app.command(context_settings=_LENIENT)
+def convert(
+    formula: Formula,
+    format: Format = None,
+    output: Output = OutputFormat.TEXT,
+) -> int:
+    """Print FORMULA in another format, unchanged in meaning."""
+    from qe.cli import work as cli_work
+
+    work = partial(cli_work.convert, source=read_source(formula, format), output=output)
+    return deliver(limited(work, timeout=None, memory=None, plain=True), {})
+
+
+def request(
+    source: str,
+    format: InputFormat | None,
+    timeout: float | None,
+    memory: int | None,
+    certificate: Path | None,
+    json: bool,
+) -> Request:
+    """What all answering commands are asked; limits and files are checked before anything is read."""
+    check_limits(timeout, memory)
+    check_writable(certificate)
+    return Request(
+        source=read_source(source, format), timeout=soft(timeout), certificate=certificate is not None, json=json
+    )
+
+
+def names(order: str | None) -> tuple[str, ...] | None:
+    """The variables of ``--order``."""
+    if order is None:
+        return None
+    parts = tuple(part for part in order.replace(",", " ").split())
+    if not parts or len(set(parts)) < len(parts):
+        raise InputError(f"--order: distinct variables separated by commas expected, {order!r} found")
+    return parts
+
+
+def check_limits(timeout: float | None, memory: int | None) -> None:
+    """Raise ``InputError`` for limits that make no sense."""
+    if timeout is not None and not 0 < timeout < 1e9:
+        raise InputError(f"--timeout: a positive number of seconds expected, {timeout} found")
+    if memory is not None and not 0 < memory < 1 << 40:
+        raise InputError(f"--memory: a positive number of MiB expected, {memory} found")
+
+
+def soft(timeout: float | None) -> float | None:
+    """The limit for the checks inside the engine, which can end the work in order."""
+    return None if timeout is None else remaining(timeout)
+
+
+def deliver(reply: Reply, paths: dict[str, Path | None], *, explain: bool = False) -> int:
+    """Write the files first, then the answer; the exit status."""
+    for key, path in paths.items():
+        if path is not None:
+            write_file(path, reply.files[key])
+    typer.echo(reply.text)
+    if explain:
+        for line in reply.notes:
+            typer.echo(line, err=True)
+    return reply.code
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """The entry point of the command ``qe``; returns the exit status."""
+    return enter(app, argv, name="qe")

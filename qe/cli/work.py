@@ -1,0 +1,177 @@
+"""What the commands do inside the worker: call the public functions, turn answers into plain text.
+
+Only text and plain data cross the border to the parent process, so nothing here depends on how answers
+are stored. Each function takes the channel first and returns a ``Reply``.
+"""
+
+from __future__ import annotations
+
+import json
+import time
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+from qe.cli.source import InputFormat, OutputFormat, Source
+from qe.errors import InputError, Unable
+from qe.worker import Channel
+
+if TYPE_CHECKING:
+    from qe.formula.syntax import Formula
+    from qe.proof.answer import Answer
+
+
+@dataclass(frozen=True, slots=True)
+class Reply:
+    """``text`` for stdout, ``notes`` for stderr on request, the content of each asked-for file, the exit ``code``."""
+
+    text: str
+    notes: tuple[str, ...] = ()
+    files: Mapping[str, str | bytes] = field(default_factory=dict)
+    code: int = 0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Request:
+    """What the command line asked for."""
+
+    source: Source
+    method: str = "auto"
+    order: tuple[str, ...] | None = None
+    timeout: float | None = None
+    root_atoms: bool = False
+    certificate: bool = False
+    json: bool = False
+
+    def keywords(self, channel: Channel) -> dict[str, Any]:
+        """The keywords for a call of the public functions; the memory limit is the worker's own."""
+        return {
+            "timeout": self.timeout,
+            "method": self.method,
+            "order": self.order,
+            "progress": channel.event,
+            "root_atoms": self.root_atoms,
+            "check": self.certificate,
+        }
+
+
+def read_formula(channel: Channel, source: Source) -> Formula:
+    """The formula of a source; its size is the first thing to be known about the run."""
+    from qe.formula.features import features
+    from qe.io import formats
+
+    formula = formats.read(source.text, source.format.value, source=source.name)
+    size = features(formula)
+    channel.fact(
+        "formula",
+        f"{size.atoms} atoms of degree up to {size.total_degree} in {len(size.free) + len(size.bound)} variables, "
+        f"{len(size.bound)} of them quantified",
+    )
+    return formula
+
+
+def eliminate(channel: Channel, request: Request, output: OutputFormat) -> Reply:
+    """``qe eliminate``."""
+    from qe import api
+    from qe.io import formats
+
+    start = time.perf_counter()
+    answer = api.eliminate(read_formula(channel, request.source), **request.keywords(channel))
+    seconds = time.perf_counter() - start
+    if answer.formula is None:
+        raise Unable(answer.reason or "no answer")
+    files = {"certificate": certificate_text(answer)} if request.certificate else {}
+    if request.json:
+        data = {
+            "status": answer.status.name.lower(),
+            "formula": formats.write(answer.formula, output.value),
+            **_told(answer, seconds),
+        }
+        return Reply(json.dumps(data, indent=2, ensure_ascii=False), files=files)
+    return Reply(formats.write(answer.formula, output.value).rstrip("\n"), _story(answer, seconds), files)
+
+
+def decide(channel: Channel, request: Request) -> Reply:
+    """``qe decide``: a sentence is true or false; an SMT-LIB script, whose constants are existential, sat or unsat."""
+    from qe import api
+    from qe.formula import build, traverse
+
+    formula = read_formula(channel, request.source)
+    free = traverse.free_variables(formula)
+    script = request.source.format is InputFormat.SMTLIB
+    if free and not script:
+        names = ", ".join(free)
+        raise InputError(f"{request.source.name}: a sentence expected, but free here: {names} (use qe eliminate)")
+    start = time.perf_counter()
+    answer = api.eliminate(build.exists(free, formula), **request.keywords(channel))
+    seconds = time.perf_counter() - start
+    if answer.truth is None:
+        raise Unable(answer.reason or "no answer")
+    text = ("sat" if answer.truth else "unsat") if script else ("true" if answer.truth else "false")
+    files = {"certificate": certificate_text(answer)} if request.certificate else {}
+    if request.json:
+        return Reply(json.dumps(_told(answer, seconds), indent=2, ensure_ascii=False), files=files)
+    return Reply(text, _story(answer, seconds), files)
+
+
+def _told(answer: Answer, seconds: float) -> dict[str, Any]:
+    """What the JSON of every answer says."""
+    return {
+        "truth": answer.truth,
+        "witness": _point(answer.witness),
+        "guarantee": answer.guarantee.name.lower(),
+        "stats": plain(answer.stats),
+        "seconds": round(seconds, 6),
+    }
+
+
+def convert(channel: Channel, source: Source, output: OutputFormat) -> Reply:
+    """``qe convert``."""
+    from qe.io import formats
+
+    return Reply(formats.write(read_formula(channel, source), output.value).rstrip("\n"))
+
+
+def check(channel: Channel, text: str, name: str) -> Reply:
+    """``qe check``: exit status 4 when the certificate is rejected."""
+    from qe import api
+    from qe.errors import CertificateRejected
+
+    start = time.perf_counter()
+    verdict = api.verify(api.Certificate.from_json(text))
+    if not verdict.accepted:
+        raise CertificateRejected(verdict.step, verdict.reason)
+    return Reply(f"accepted ({time.perf_counter() - start:.3f} s)")
+
+
+def certificate_text(answer: object) -> str:
+    """The JSON of an answer's certificate; ``Unable`` where there is none."""
+    certificate = getattr(answer, "certificate", None)
+    if certificate is None:
+        raise Unable("there is no certificate for this kind of answer")
+    return str(certificate.to_json())
+
+
+def _point(point: Mapping[str, object] | None) -> dict[str, str] | None:
+    return None if point is None else {name: str(value) for name, value in point.items()}
+
+
+def _story(answer: Answer, seconds: float) -> tuple[str, ...]:
+    """For people: the witness, the guarantee, and the steps that led to the answer."""
+    lines = []
+    if answer.witness:
+        kind = "counterexample" if answer.truth is False else "witness"
+        lines.append(f"{kind}: " + ", ".join(f"{name} = {value}" for name, value in answer.witness.items()))
+    lines.append(f"{answer.guarantee.value} in {seconds:.3f} s")
+    return (*lines, *answer.explanation.splitlines())
+
+
+def plain(value: object) -> object:
+    """Any value as JSON data: numbers, texts, truth values, lists and objects stay, the rest becomes text."""
+    if value is None or isinstance(value, bool | int | float | str):
+        return value
+    if isinstance(value, Mapping):
+        return {str(k): plain(v) for k, v in value.items()}
+    if isinstance(value, list | tuple | set | frozenset):
+        return [plain(v) for v in value]
+    return str(value)

@@ -1,0 +1,1 @@
+"""Convex quadratic systems: read, minimise, prove, feasible, faces."""

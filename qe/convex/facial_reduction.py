@@ -1,0 +1,109 @@
+"""Linear equations that a convex set without interior points satisfies: one step of facial reduction."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+from math import lcm
+
+from qe.convex.kkt import Kkt, kkt_point, sign
+from qe.convex.minimise import rational_numbers
+from qe.convex.read import NotConvex, read_problem
+from qe.convex.violation import height, proposed, violation_forms
+from qe.errors import InternalError
+from qe.exact.kkt_system import HighDegree
+from qe.exact.quadratic_form import Quadratic
+from qe.exact.ring import Poly, Ring
+from qe.formula.build import atom
+from qe.formula.syntax import FALSE, Atom, Formula, Relation
+from qe.formula.traverse import ring_of
+from qe.options import Budget
+from qe.proof.multipliers import Face, FormRelation, LinearEquation, derived_equations
+from qe.rules.linear import Pivot, substitute
+from qe.simplify.simplify import simplify
+
+
+def on_flat(variables: Sequence[str], body: Formula, *, budget: Budget) -> tuple[list[Formula], Formula] | None:
+    """(equations in the parameters, body without the variables that linear equations give): together equivalent to
+    the block. None where a convex body has interior points or the equations of its flat are not found."""
+    try:
+        implied = implied_equations(body, budget=budget)
+    except NotConvex:
+        return None
+    if implied is None:
+        return [], FALSE
+    outside: list[Formula] = []
+    rest, equations = body, [atom(f, Relation.EQ) for f in implied]
+    for k in range(len(equations)):
+        equation = equations[k]
+        if not isinstance(equation, Atom):
+            continue
+        names = [equation.poly.ring.names[i] for i in equation.poly.variables]
+        name = next((n for n in names if n in variables), names[0])
+        i = equation.poly.ring.index[name]
+        constant, lead = equation.poly.coefficients(i)
+        pivot = Pivot(k, i, lead, constant, 1 if lead.constant_value() > 0 else -1, False)
+        if name not in variables:
+            outside.append(equation)
+        replaced = [g for f in (rest, *equations[k + 1 :]) if (g := substitute(f, pivot)) is not None]
+        if len(replaced) < len(equations) - k:
+            return None
+        rest, *equations[k + 1 :] = replaced
+    return (outside, simplify(rest)) if implied else None
+
+
+def implied_equations(conditions: Formula, *, budget: Budget) -> list[Poly] | None:
+    """Linear polynomials that vanish wherever convex quadratic conditions f_i <= 0 hold; None if they contradict.
+
+    THEOREM (Borwein, Wolkowicz 1981). Let w_i >= 0, not all zero, and L = sum w_i f_i >= 0 everywhere, with equality
+    at x. Then f_i = 0 on the whole set for each w_i > 0, and by convexity H_i (z - x) = 0 and f_i(x) + grad f_i(x).(z -
+    x) = 0 for its points z. Such w are the multipliers of the least possible violation if that is zero.
+    No equations also where the set has interior points, where conditions are strict or equations, and where the numbers
+    are irrational. Raises ``NotConvex``.
+    """
+    ring = ring_of(conditions)
+    if ring is None:
+        return []
+    problem = read_problem(ring.constant(0), conditions)
+    forms = [c.form for c in problem.constraints]
+    if any(c.strict or c.equation for c in problem.constraints):
+        return []
+    witness, weights = proposed(forms)
+    if weights is not None:
+        return None
+    found = None if witness is not None else _least_violation(forms, budget)
+    equations = [] if found is None else _equations(found, forms)
+    return [_poly(e, problem.names, ring) for e in equations if any(e.row)]
+
+
+def _least_violation(forms: Sequence[Quadratic], budget: Budget) -> Kkt | None:
+    """The proved least violation where it is zero; its multipliers belong to the forms, not to their scaled copies."""
+    size = forms[0].size
+    extended, scales = violation_forms(forms, size)
+    try:
+        found = kkt_point(height(size), extended, budget=budget)
+    except (HighDegree, OverflowError):  # an irrational flat, or numbers beyond the range of floats
+        return None
+    if found is None or sign(found.point[-1]) != 0:
+        return None
+    multipliers = {i: m * scales[i] for i, m in found.multipliers.items() if i < len(forms)}
+    return Kkt(found.field, found.point[:-1], multipliers, found.unique)
+
+
+def _equations(found: Kkt, forms: Sequence[Quadratic]) -> list[LinearEquation]:
+    place, weights = rational_numbers(found.point), rational_numbers(list(found.multipliers.values()))
+    if place is None or weights is None:
+        return []
+    chosen = dict(zip(found.multipliers, weights, strict=True))
+    face = Face(tuple(chosen.get(i, Fraction(0)) for i in range(len(forms))), (), place)
+    return derived_equations(face, forms, [FormRelation.LE] * len(forms))
+
+
+def _poly(equation: LinearEquation, names: Sequence[str], ring: Ring) -> Poly:
+    scale = lcm(equation.rhs.denominator, *(c.denominator for c in equation.row))
+    total = ring.constant(-int(equation.rhs * scale))
+    for c, name in zip(equation.row, names, strict=True):
+        total = total + int(c * scale) * ring.var(name)
+    if not total.variables:
+        raise InternalError("an equation without variables")
+    return total

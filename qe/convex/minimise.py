@@ -1,0 +1,301 @@
+"""The whole of convex quadratic minimisation: flats, optimality conditions, phase one, faces, infinity.
+
+A problem is solved on the flat of its linear equations. If the optimality conditions cannot be proved, phase one
+(minimise the largest violation, itself a problem with a strictly feasible point) decides exactly between an
+infeasible problem, a degenerate one (the feasible set lies in a smaller flat, found by facial reduction, and the
+problem is solved there) and an unbounded one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+
+from qe.convex.interior_point import interior_point
+from qe.convex.kkt import Kkt, kkt_point, sign
+from qe.convex.violation import height, rounded_contradiction, violation_forms
+from qe.errors import InternalError, Unable
+from qe.exact.field import NumberField
+from qe.exact.kkt_system import MAX_DEGREE, Flat, HighDegree, Point
+from qe.exact.quadratic_form import Number, Quadratic, solve_linear
+from qe.options import Budget
+from qe.proof.multipliers import (
+    Face,
+    FormRelation,
+    LinearEquation,
+    OptimumEvidence,
+    OptimumStatus,
+    derived_equations,
+)
+
+_ZERO, _ONE = Fraction(0), Fraction(1)
+_NEAR_ONE = 8  # binary exponent up to which lengths are left as they are
+_SIMPLE_DEGREE = 4  # of the least violation: beyond, rounded multipliers are tried before an exact answer
+
+
+@dataclass(frozen=True, slots=True)
+class Task:
+    """Minimise ``objective`` subject to ``forms[i] relations[i] 0``; all convex, equations linear."""
+
+    names: tuple[str, ...]
+    objective: Quadratic
+    forms: tuple[Quadratic, ...]
+    relations: tuple[FormRelation, ...]
+
+    def start(self, **parts: object) -> OptimumEvidence:
+        """Evidence about this task, to be filled in."""
+        base = OptimumEvidence(
+            names=self.names,
+            objective=self.objective,
+            forms=self.forms,
+            relations=self.relations,
+            status=OptimumStatus.OPTIMAL,
+            field=NumberField.rationals(),
+            faces=(),
+            point=(),
+        )
+        return replace(base, **parts)  # type: ignore[arg-type]
+
+
+@dataclass(frozen=True, slots=True)
+class _State:
+    """What is known: ``faces`` so far, the equations they derive, and the flat of all equations."""
+
+    faces: tuple[Face, ...]
+    derived: tuple[LinearEquation, ...]
+    flat: Flat
+
+
+def solve(task: Task, *, budget: Budget) -> OptimumEvidence:
+    """Evidence that proves the optimum over the closed problem (strict relations read as weak ones), or that there
+    is none. Raises ``Unable`` when nothing could be proved."""
+    equations = [f for f, r in zip(task.forms, task.relations, strict=True) if r is FormRelation.EQ]
+    flat = Flat.whole(len(task.names)).cut(equations)
+    if flat is None:
+        return _contradictory_equations(task)
+    state = _State((), (), flat.in_units_of(_unit(task.forms)))
+    for _ in range(len(task.names) + 2):
+        step = _on_flat(task, state, budget)
+        if isinstance(step, OptimumEvidence):
+            return step
+        state = step
+    raise InternalError("facial reduction did not shrink the flat")
+
+
+def _on_flat(task: Task, state: _State, budget: Budget) -> OptimumEvidence | _State:
+    flat = state.flat
+    inequalities = [i for i, r in enumerate(task.relations) if r is not FormRelation.EQ]
+    objective = task.objective.restrict(flat.origin, flat.basis)
+    forms = {i: task.forms[i].restrict(flat.origin, flat.basis) for i in inequalities}
+    constant = [i for i, q in forms.items() if q.is_linear and not any(q.gradient)]
+    for i in constant:
+        # closed or not, 0 < 0 cannot be satisfied
+        strict = task.relations[i] is FormRelation.LT
+        if forms[i].constant > 0 or (strict and forms[i].constant == 0):
+            return _close(task, state, NumberField.rationals(), flat.origin, {i: _ONE}, infeasible=True)
+        del forms[i]
+    keys = list(forms)
+    found = kkt_point(objective, [forms[i] for i in keys], budget=budget)
+    if found is not None:
+        weights = {keys[k]: m for k, m in found.multipliers.items()}
+        return _close(task, state, found.field, flat.lift(found.point), weights, unique=found.unique)
+    return _without_multipliers(task, state, {i: forms[i] for i in keys}, budget)
+
+
+def _without_multipliers(
+    task: Task, state: _State, forms: dict[int, Quadratic], budget: Budget
+) -> OptimumEvidence | _State:
+    """Phase one: infeasible, degenerate (a smaller flat) or unbounded."""
+    size = len(state.flat.basis)
+    extended, scales = violation_forms(list(forms.values()), size)
+    found = _least(height(size), extended, budget, _SIMPLE_DEGREE)
+    if found is None:
+        proposal = interior_point(height(size), extended, [0.0] * (size + 1))
+        clear = proposal.residual < 1e-3 and proposal.point[-1] > 0
+        contradiction = rounded_contradiction(proposal, list(forms.values()), scales) if clear else None
+        if contradiction is not None:
+            point, rounded = contradiction
+            rational: dict[int, Number] = {i: w for i, w in zip(forms, rounded, strict=True) if w}
+            return _close(task, state, NumberField.rationals(), state.flat.lift(point), rational, infeasible=True)
+        found = _least(height(size), extended, budget, MAX_DEGREE)
+    if found is None:
+        raise Unable("the largest violation of the constraints could not be minimised exactly")
+    violation, keys = sign(found.point[-1]), list(forms)
+    weights = {keys[k]: m * scales[k] for k, m in found.multipliers.items() if k < len(keys)}
+    point = state.flat.lift(found.point[:-1])
+    if violation > 0:
+        return _close(task, state, found.field, point, weights, infeasible=True)
+    if violation == 0:
+        return _face(task, state, found, point, weights)
+    return _recede(task, state, found.field, point, budget)
+
+
+def _least(objective: Quadratic, extended: Sequence[Quadratic], budget: Budget, max_degree: int) -> Kkt | None:
+    try:
+        return kkt_point(objective, extended, budget=budget, max_degree=max_degree)
+    except HighDegree:
+        return None
+
+
+def rational_numbers(values: Sequence[Number]) -> tuple[Fraction, ...] | None:
+    """The numbers as fractions, None if one is irrational."""
+    out = []
+    for v in values:
+        if not isinstance(v, Fraction):
+            if not v.is_rational:
+                return None
+            v = v.as_fraction()
+        out.append(v)
+    return tuple(out)
+
+
+def _face(task: Task, state: _State, found: Kkt, point: Point, weights: dict[int, Number]) -> _State:
+    """The smaller flat that holds the feasible set when the least possible violation is zero."""
+    chosen, place = rational_numbers(list(weights.values())), rational_numbers(point)
+    if chosen is None or place is None:
+        raise Unable("the constraints touch in an irrational point or flat without common interior")
+    exact: dict[int, Number] = dict(zip(weights, chosen, strict=True))
+    full, derived = _with_equations(task, state, place, exact, with_objective=False)
+    face = Face(_fractions(full), _fractions(derived), place)
+    equations = derived_equations(face, task.forms, task.relations)
+    known = (*state.derived, *equations)
+    size = len(task.names)
+    rows = [f for f, r in zip(task.forms, task.relations, strict=True) if r is FormRelation.EQ]
+    nothing = ((_ZERO,) * size,) * size
+    flat = Flat.whole(size).cut(rows + [Quadratic(nothing, e.row, -e.rhs) for e in known])
+    if flat is None or len(flat.basis) >= len(state.flat.basis):
+        raise Unable("facial reduction found no smaller flat")
+    return _State((*state.faces, face), known, flat.in_units_of(_unit(task.forms)))
+
+
+def _unit(forms: Sequence[Quadratic]) -> Fraction:
+    """A length of the size of these constraints: 1, or a power of two if they are much larger or smaller than that.
+
+    Proposals come from floats with absolute tolerances, which fit coordinates near 1. Of a ball |x - c| <= r this
+    compares c and r with 1; half-spaces have no size of their own.
+    """
+    sizes = []
+    for form in forms:
+        bend = max((abs(h) for row in form.hessian for h in row), default=_ZERO)
+        slope = max(map(abs, form.gradient), default=_ZERO)
+        if bend and (slope or form.constant):
+            sizes.append(max(_binary(slope / bend), _binary(abs(form.constant) / bend) // 2))
+    exponent = min(sizes, key=abs, default=0)
+    return _ONE if abs(exponent) <= _NEAR_ONE else Fraction(2) ** exponent
+
+
+def _binary(value: Fraction) -> int:
+    """About log2 of a positive number; very little for 0."""
+    return value.numerator.bit_length() - value.denominator.bit_length() if value else -(10**9)
+
+
+def _fractions(values: Sequence[Number]) -> tuple[Fraction, ...]:
+    out = rational_numbers(values)
+    if out is None:
+        raise InternalError("irrational weights where rational ones were expected")
+    return out
+
+
+def _with_equations(
+    task: Task, state: _State, point: Point, weights: dict[int, Number], *, with_objective: bool
+) -> tuple[Point, Point]:
+    """Multipliers of all constraints and of the derived equations that make the weighted sum stationary at point."""
+    size = len(task.names)
+    target: list[Number] = [_ZERO] * size
+    if with_objective:
+        target = [-d for d in task.objective.slope(point)]
+    for i, w in weights.items():
+        target = [t - w * d for t, d in zip(target, task.forms[i].slope(point), strict=True)]
+    linear = [i for i, r in enumerate(task.relations) if r is FormRelation.EQ]
+    rows = [task.forms[i].gradient for i in linear] + [e.row for e in state.derived]
+    solution = solve_linear([[row[j] for row in rows] for j in range(size)], target, len(rows))
+    if solution is None:
+        raise InternalError("stationarity on a flat does not extend to the whole space")
+    multipliers: list[Number] = [_ZERO] * len(task.forms)
+    for i, w in weights.items():
+        multipliers[i] = w
+    for i, w in zip(linear, solution.particular, strict=False):
+        multipliers[i] = w
+    return tuple(multipliers), tuple(solution.particular[len(linear) :])
+
+
+def _close(
+    task: Task,
+    state: _State,
+    field: NumberField,
+    point: Point,
+    weights: dict[int, Number],
+    *,
+    infeasible: bool = False,
+    unique: bool | None = None,
+) -> OptimumEvidence:
+    """Evidence of optimality or infeasibility, with the multipliers of the equations filled in.
+
+    For infeasibility the point has to be stationary for the weighted sum alone; on a flat where that sum is constant
+    every point is.
+    """
+    multipliers, derived = _with_equations(task, state, point, weights, with_objective=not infeasible)
+    return task.start(
+        status=OptimumStatus.INFEASIBLE if infeasible else OptimumStatus.OPTIMAL,
+        field=field,
+        faces=state.faces,
+        point=point,
+        multipliers=multipliers,
+        derived=derived,
+        unique=unique,
+    )
+
+
+def _contradictory_equations(task: Task) -> OptimumEvidence:
+    """Weights w with sum w_i (a_i.x - b_i) = 1 identically: the equations have no common solution."""
+    size = len(task.names)
+    linear = [i for i, r in enumerate(task.relations) if r is FormRelation.EQ]
+    rows = [[task.forms[i].gradient[j] for i in linear] for j in range(size)]
+    rows.append([task.forms[i].constant for i in linear])
+    solution = solve_linear(rows, [*([_ZERO] * size), _ONE], len(linear))
+    if solution is None:
+        raise InternalError("inconsistent equations without a contradiction")
+    multipliers = [_ZERO] * len(task.forms)
+    for i, w in zip(linear, solution.particular, strict=True):
+        multipliers[i] = w
+    return task.start(
+        status=OptimumStatus.INFEASIBLE, point=(_ZERO,) * size, multipliers=tuple(multipliers), derived=()
+    )
+
+
+def _recede(task: Task, state: _State, field: NumberField, point: Point, budget: Budget) -> OptimumEvidence:
+    """Unboundedness: a direction of recession of the feasible set along which the objective falls forever.
+
+    d with H_f d = 0, H_i d = 0, b_i.d <= 0 for inequalities, a_j.d = 0 for equations; the least grad f.d over the
+    box |d_j| <= 1 is negative iff there is such a direction (Rockafellar 1970, theorems 8.3 and 27.1).
+    """
+    size = len(task.names)
+    nothing = ((_ZERO,) * size,) * size
+    rows = [row for row in task.objective.hessian if any(row)]
+    halves: list[tuple[Fraction, ...]] = []
+    for form, relation in zip(task.forms, task.relations, strict=True):
+        rows += [row for row in form.hessian if any(row)]
+        if relation is FormRelation.EQ:
+            rows.append(form.gradient)
+        elif any(form.gradient):
+            halves.append(form.gradient)
+    linear = [Quadratic(nothing, tuple(row), _ZERO) for row in rows]
+    bounded = [Quadratic(nothing, half, _ZERO) for half in halves]
+    for j in range(size):
+        for direction in (_ONE, -_ONE):
+            bounded.append(Quadratic(nothing, tuple(direction * (k == j) for k in range(size)), -_ONE))
+    relations = (FormRelation.EQ,) * len(linear) + (FormRelation.LE,) * len(bounded)
+    cone = Task(task.names, _linear_part(task.objective), (*linear, *bounded), relations)
+    best = solve(cone, budget=budget)
+    towards = rational_numbers(best.point)
+    slope = sum((a * b for a, b in zip(task.objective.gradient, towards or (), strict=False)), _ZERO)
+    if best.status is not OptimumStatus.OPTIMAL or towards is None or slope >= 0:
+        raise Unable("neither optimality conditions nor a direction of descent could be proved")
+    return task.start(status=OptimumStatus.UNBOUNDED, field=field, faces=state.faces, point=point, direction=towards)
+
+
+def _linear_part(form: Quadratic) -> Quadratic:
+    """The linear part of a quadratic polynomial, without its constant."""
+    size = form.size
+    return Quadratic(((_ZERO,) * size,) * size, form.gradient, _ZERO)

@@ -1,0 +1,166 @@
+"""Exact convex optimisation: the best point as algebraic numbers over one field, with a certificate.
+
+``minimize`` handles convex quadratic objectives and conjunctions of convex quadratic inequalities, linear inequalities
+and linear equations. Anything else raises ``NotConvex``; the caller may then turn to quantifier elimination.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from fractions import Fraction
+
+from qe.convex.kkt import sign
+from qe.convex.minimise import Task, solve
+from qe.convex.read import Constraint, NotConvex, Problem, read_problem
+from qe.convex.strict import settle_strict
+from qe.errors import Unable
+from qe.exact.field import FieldElement, NumberField
+from qe.exact.quadratic_form import Quadratic, independent_rows
+from qe.exact.ring import Poly
+from qe.formula.syntax import Formula
+from qe.options import Budget
+from qe.proof.certificate import Certificate, Kind
+from qe.proof.multipliers import (
+    FormRelation,
+    Number,
+    OptimumEvidence,
+    OptimumStatus,
+    derived_equations,
+    to_payload,
+)
+
+__all__ = ["NotConvex", "Optimum", "OptimumStatus", "maximize", "minimize"]
+
+
+@dataclass(frozen=True, slots=True)
+class Optimum:
+    """The answer to an optimisation problem.
+
+    OPTIMAL: ``value`` is the exact minimum (infimum when not ``attained``) or maximum, ``point`` a point of the closed
+    problem where it is taken. All numbers are ``Fraction``, or elements of the one real number ``field``.
+    ``active``: indices of the constraints that hold with equality; ``multipliers``: one number per constraint, >= 0 for
+    inequalities, such that grad f + sum multipliers_i grad p_i = 0 with constraint i read as p_i <= 0 (after facial
+    reduction also equations implied by the constraints take part; see ``evidence``). ``unique`` is None when not
+    decided. INFEASIBLE: ``point`` has the least violation, ``multipliers`` combine the constraints to a contradiction.
+    UNBOUNDED: from ``point`` the objective improves forever along ``direction``.
+    """
+
+    status: OptimumStatus
+    value: Number | None
+    point: Mapping[str, Number]
+    active: tuple[int, ...]
+    constraints: tuple[str, ...]
+    multipliers: tuple[Number, ...]
+    unique: bool | None
+    attained: bool | None
+    direction: Mapping[str, Fraction]
+    field: NumberField
+    evidence: OptimumEvidence
+    certificate: Certificate
+
+    @property
+    def active_constraints(self) -> tuple[str, ...]:
+        """The active constraints as text."""
+        return tuple(self.constraints[i] for i in self.active)
+
+    @property
+    def is_optimal(self) -> bool:
+        return self.status is OptimumStatus.OPTIMAL
+
+
+def minimize(
+    objective: Poly, constraints: Formula, *, scale: Fraction | int = 1, budget: Budget | None = None
+) -> Optimum:
+    """Minimise ``scale * objective`` (scale > 0 for a convex objective) subject to a conjunction of atoms.
+
+    The answer is proved exactly and carries a certificate for ``qe.certify``. Raises ``NotConvex`` for problems
+    outside the class, ``BudgetExceeded`` at a limit, and ``Unable`` when no proof was found.
+    """
+    problem = read_problem(objective, constraints, scale=scale)
+    task = _task(problem)
+    limits = budget or Budget()
+    evidence = solve(task, budget=limits)
+    evidence = settle_strict(task, evidence, budget=limits)
+    return _answer(problem, _uniform(evidence))
+
+
+def maximize(
+    objective: Poly, constraints: Formula, *, scale: Fraction | int = 1, budget: Budget | None = None
+) -> Optimum:
+    """The maximum of a concave objective: minus the minimum of its negative, which the certificate is about."""
+    found = minimize(objective, constraints, scale=-Fraction(scale), budget=budget)
+    return found if found.value is None else replace(found, value=-found.value)
+
+
+def _task(problem: Problem) -> Task:
+    forms = [c.form for c in problem.constraints]
+    relations = [_relation(c) for c in problem.constraints]
+    if problem.contradiction:
+        size = len(problem.names)
+        forms.append(Quadratic(((Fraction(0),) * size,) * size, (Fraction(0),) * size, Fraction(1)))
+        relations.append(FormRelation.LE)
+    return Task(problem.names, problem.objective, tuple(forms), tuple(relations))
+
+
+def _relation(constraint: Constraint) -> FormRelation:
+    if constraint.equation:
+        return FormRelation.EQ
+    return FormRelation.LT if constraint.strict else FormRelation.LE
+
+
+def _uniform(evidence: OptimumEvidence) -> OptimumEvidence:
+    """All numbers as fractions if the field is Q, as elements of the field otherwise."""
+    field = NumberField.rationals() if evidence.field.degree == 1 else evidence.field
+
+    def convert(value: Number) -> Number:
+        if field.degree == 1:
+            return value.as_fraction() if isinstance(value, FieldElement) else Fraction(value)
+        return value if isinstance(value, FieldElement) else field.rational(value)
+
+    return replace(
+        evidence,
+        field=field,
+        point=tuple(map(convert, evidence.point)),
+        multipliers=tuple(map(convert, evidence.multipliers)),
+        derived=tuple(map(convert, evidence.derived)),
+    )
+
+
+def _answer(problem: Problem, evidence: OptimumEvidence) -> Optimum:
+    optimal = evidence.status is OptimumStatus.OPTIMAL
+    signs = [sign(form.value(evidence.point)) for form in evidence.forms]
+    if optimal and any(s > 0 or (s and r is FormRelation.EQ) for s, r in zip(signs, evidence.relations, strict=True)):
+        raise Unable("the proposed optimum violates a constraint")
+    unique = evidence.unique if optimal else None
+    proved = replace(evidence, unique=unique is True and _provably_unique(evidence))
+    payload = to_payload(proved)
+    return Optimum(
+        status=evidence.status,
+        value=evidence.objective.value(evidence.point) if optimal else None,
+        point=dict(zip(evidence.names, evidence.point, strict=True)),
+        active=tuple(i for i, s in enumerate(signs) if s == 0) if optimal else (),
+        constraints=tuple(str(c.atom) for c in problem.constraints),
+        multipliers=evidence.multipliers,
+        unique=unique,
+        attained=evidence.attained,
+        direction=dict(zip(evidence.names, evidence.direction, strict=False)),
+        field=evidence.field,
+        evidence=proved,
+        certificate=Certificate(Kind.OPTIMUM, payload),  # type: ignore[arg-type]
+    )
+
+
+def _provably_unique(evidence: OptimumEvidence) -> bool:
+    """Whether uniqueness follows from rational data alone, which is what the certificate claims."""
+    rows = [row for row in evidence.objective.hessian if any(row)]
+    for face in evidence.faces:
+        rows += [e.row for e in derived_equations(face, evidence.forms, evidence.relations)]
+    for form, relation, m in zip(evidence.forms, evidence.relations, evidence.multipliers, strict=True):
+        if relation is FormRelation.EQ:
+            rows.append(form.gradient)
+        elif m:
+            rows += [row for row in form.hessian if any(row)]
+            if evidence.field.degree == 1:
+                rows.append(tuple(Fraction(s) for s in form.slope(evidence.point)))
+    return len(independent_rows(rows)) == len(evidence.names)

@@ -1,1 +1,0 @@
-"""Cylindrical algebraic decomposition: projection, lifting, and truth values on the cells."""

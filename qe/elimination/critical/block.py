@@ -1,0 +1,209 @@
+"""``exists y. body`` by critical values: where the answer can change, and whether it does (see ``boundary``)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Protocol
+
+from qe.elimination.critical.boundary import critical_hypersurfaces
+from qe.elimination.critical.bounded import has_bounded_fibres
+from qe.elimination.critical.fibres import Fibres
+from qe.elimination.critical.open_cells import OpenCell, OpenCells
+from qe.elimination.critical.procedures import Levels, Procedures
+from qe.elimination.critical.separate import separated
+from qe.elimination.critical.system import System, systems
+from qe.elimination.critical.table import Shape, TableBuilder, Truth
+from qe.errors import NotWellOriented, Unable
+from qe.exact.nearby import nearby
+from qe.exact.quadratic_form import quadratic
+from qe.exact.ring import Poly, Ring
+from qe.exact.sample import Point
+from qe.formula.build import convert
+from qe.formula.syntax import TRUE, Formula
+from qe.options import Budget, Projection
+from qe.proof.cells import CellTable
+
+Refine = Callable[[frozenset[int]], CellTable]
+
+
+@dataclass(frozen=True, slots=True)
+class Tabulated:
+    """A truth set as a table over the parameters, all of them free; its matrix is left to the caller.
+
+    ``refine(levels)``: the same set in a table whose factor lists of these levels are closed under differentiation.
+    ``unsettled``: the truth set may also hold points where one of these polynomials vanishes and the table says false.
+    """
+
+    table: CellTable
+    refine: Refine
+    unsettled: frozenset[Poly]
+
+
+@dataclass(frozen=True, slots=True)
+class ConvexBody:
+    """A closed convex truth set with interior points: the closure of its true open cells.
+
+    ``boundary``: polynomials whose zeros contain its boundary. ``cells()``: factors of a decomposition for them, by
+    whose signs true and false open cells can be told apart, and its open cells. ``holds``: membership of rational
+    points. ``cut``: a polynomial positive at a rational point outside and <= 0 on the set, if one is known.
+    ``bounded``: whether the set is. ``tabulate()``: the whole table.
+    """
+
+    boundary: frozenset[Poly]
+    cells: Callable[[], tuple[Levels, list[OpenCell]]]
+    holds: Callable[[tuple[Fraction, ...]], bool]
+    cut: Callable[[tuple[Fraction, ...]], Poly | None]
+    bounded: bool
+    tabulate: Callable[[], Tabulated]
+
+
+@dataclass(frozen=True, slots=True)
+class Disjunct:
+    """One disjunct of the body and where it can be satisfied; ``found`` is a truth value when nothing is free."""
+
+    body: Formula
+    found: Tabulated | ConvexBody | bool
+    stats: dict[str, object]
+
+
+def eliminate_block(
+    variables: Sequence[str], body: Formula, parameters: Sequence[str], *, procedures: Procedures, budget: Budget
+) -> list[Disjunct]:
+    """The disjuncts of ``exists variables. body``, each with its truth set; the block is true where one of them is.
+
+    ``body``: quantifier-free and positive, in ``variables`` and ``parameters`` (whose order is that of the tables).
+    Raises ``Unable`` when the fibres of a disjunct are not seen to be bounded, or its critical points do not give
+    hypersurfaces; ``BudgetExceeded`` at a limit.
+    """
+    ring = Ring.of((*parameters, *variables))
+    parts = systems(convert(body, ring), ring, len(parameters))
+    for system in parts:
+        if not has_bounded_fibres(system):
+            raise Unable("critical-value elimination: the quantified variables are not seen to be bounded")
+    return [_eliminated(system, procedures, budget) for system in parts]
+
+
+def _eliminated(system: System, procedures: Procedures, budget: Budget) -> Disjunct:
+    fibres = Fibres(system, procedures)
+    stats: dict[str, object] = {"decided": fibres.decided}
+    if not system.free:
+        return Disjunct(system.formula, fibres.hold_at(()), stats)
+    run = Run(system, fibres, procedures, budget, stats)
+    body = run.convex() if system.is_convex and system.is_closed else None
+    return Disjunct(system.formula, run.general() if body is None else body, stats)
+
+
+class Oracle(Protocol):
+    """Membership in a truth set."""
+
+    def hold_at(self, parameters: tuple[Fraction, ...]) -> bool:
+        """Whether a rational point belongs to it."""
+
+    def hold_over(self, point: Point) -> bool:
+        """Whether any point belongs to it."""
+
+    def cut(self, parameters: tuple[Fraction, ...]) -> Poly | None:
+        """A polynomial positive at a rational point outside and <= 0 on the set, if one is known."""
+
+
+@dataclass(frozen=True, slots=True)
+class Run:
+    """The work on one truth set over the parameters of ``system``."""
+
+    system: System
+    fibres: Oracle
+    procedures: Procedures
+    budget: Budget
+    stats: dict[str, object]
+
+    def general(self) -> Tabulated:
+        """Any truth set: cells off the hypersurfaces by rational points beside them, single points exactly."""
+        boundary = critical_hypersurfaces(self.system, thin_parts=True, procedures=self.procedures, budget=self.budget)
+        self.stats["hypersurfaces"] = len(boundary)
+
+        def truth(point: Point, vanishing: frozenset[Poly]) -> bool:
+            if point.algebraic and not vanishing:
+                return self.fibres.hold_at(nearby(point, tuple(boundary), vanishing, None))
+            return self.fibres.hold_over(point)
+
+        shape = Shape.CLOSED if self.system.is_closed else Shape.OPEN if self.system.is_open else Shape.ANY
+        return self._tabulated(boundary, shape, truth)
+
+    def convex(self) -> ConvexBody | None:
+        """A closed convex truth set, if it has interior points."""
+        surfaces = critical_hypersurfaces(self.system, thin_parts=False, procedures=self.procedures, budget=self.budget)
+        return self.body(surfaces, self._hint())
+
+    def body(self, surfaces: frozenset[Poly], hint: tuple[Fraction, ...]) -> ConvexBody | None:
+        """The closed convex truth set with its boundary in the zeros of ``surfaces``, if it has interior points.
+
+        A point p on a boundary polynomial belongs to such a set T iff the segment from p to an interior point c
+        begins in it: then all of (p, c] is interior (Rockafellar 1970, Theorem 6.1), and otherwise p has a
+        neighbourhood outside.
+        """
+        origin = Point(self.system.ring)
+        exploration = OpenCells(self._levels(surfaces), self.fibres.hold_at, self.budget, hint)
+        exploration.explore(origin)
+        self.stats.update({"hypersurfaces": len(surfaces), "cells decided": exploration.decided})
+        if not exploration.inside:
+            return None
+        boundary = frozenset(exploration.walls() | {f for f in surfaces if f.level < self.system.free - 1})
+        self.stats["boundary"] = len(boundary)
+        centre = exploration.inside[len(exploration.inside) // 2]
+
+        def truth(point: Point, vanishing: frozenset[Poly]) -> bool:
+            if not vanishing and not point.algebraic:
+                return self.fibres.hold_over(point)
+            return self.fibres.hold_at(nearby(point, tuple(boundary), vanishing, centre))
+
+        def explored(polys: frozenset[Poly]) -> tuple[Levels, list[OpenCell]]:
+            found = OpenCells(self._levels(polys), self.fibres.hold_at, self.budget, centre)
+            found.explore(origin)
+            return found.levels, list(found.cells(origin))
+
+        return ConvexBody(
+            boundary,
+            lambda: separated(boundary, explored),
+            self.fibres.hold_at,
+            self.fibres.cut,
+            exploration.is_bounded(),
+            lambda: self._tabulated(boundary, Shape.CONVEX, truth),
+        )
+
+    def _hint(self) -> tuple[Fraction, ...]:
+        """A point of the truth set, if one is proposed; the origin otherwise."""
+        size = self.system.ring.size
+        conditions = self.system.without_parameters().conditions
+        forms = [form for c in conditions if (form := quadratic(c.poly, range(size))) is not None]
+        witness = self.procedures.propose(forms).witness
+        return (witness or (Fraction(0),) * size)[: self.system.free]
+
+    def _levels(self, polys: frozenset[Poly]) -> Levels:
+        return self.procedures.project(polys, self.system.free, Projection.BROWN_MCCALLUM, self.budget, frozenset())
+
+    def _tabulated(self, boundary: frozenset[Poly], shape: Shape, truth: Truth) -> Tabulated:
+        """The table for the boundary polynomials, closed under projection, with the truth of every cell."""
+        size = self.system.free
+        if shape is Shape.CONVEX and size > 2 and not has_bounded_fibres(self.system.without_parameters()):
+            shape = Shape.CLOSED  # the theorem of ``Shape.CONVEX`` then has only been proved in the plane
+
+        def attempt(closed: frozenset[int], projection: Projection) -> tuple[CellTable, frozenset[Poly]]:
+            levels = self.procedures.project(boundary, size, projection, self.budget, closed)
+            known = Shape.CLOSED if shape is Shape.CONVEX and size > 2 and projection is Projection.LAZARD else shape
+            builder = TableBuilder(levels, projection, boundary, known, truth, self.budget)
+            root = builder.run(Point(self.system.ring))
+            outer = Ring.of(self.system.ring.names[:size])
+            factors = tuple(tuple(f.convert(outer) for f in level) for level in levels)
+            table = CellTable(outer.names, ("",) * size, TRUE, projection, factors, root)
+            return table, frozenset(builder.unsettled)
+
+        def table(closed: frozenset[int]) -> tuple[CellTable, frozenset[Poly]]:
+            try:
+                return attempt(closed, Projection.BROWN_MCCALLUM)
+            except NotWellOriented:
+                return attempt(closed, Projection.LAZARD)
+
+        first, unsettled = table(frozenset())
+        return Tabulated(first, lambda levels: table(levels)[0], unsettled)

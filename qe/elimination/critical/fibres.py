@@ -1,0 +1,239 @@
+"""Deciding the block over one point of the parameters: known witnesses and weights first, then exactly."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+from math import inf, lcm
+
+from qe.elimination.critical.forms import ParametricForm, parametric_form
+from qe.elimination.critical.procedures import Decide, Procedures
+from qe.elimination.critical.system import System
+from qe.errors import Unable
+from qe.exact.nearby import rational_values
+from qe.exact.quadratic_form import Definiteness, Quadratic, combine, definiteness, solve_linear
+from qe.exact.ring import Poly
+from qe.exact.sample import Point
+from qe.formula.syntax import Relation
+from qe.proof.multipliers import FormRelation
+
+Values = tuple[Fraction, ...]
+
+_CLEARLY = 1e-6
+
+
+@dataclass(frozen=True, slots=True)
+class Fibre:
+    """One condition over a rational point: exactly, and rounded to floats for quick looks."""
+
+    exact: Quadratic
+    hessian: tuple[tuple[float, ...], ...]
+    gradient: tuple[float, ...]
+    constant: float
+
+    def near(self, y: Sequence[float]) -> float:
+        """The value at y, about."""
+        total = self.constant
+        for i, row in enumerate(self.hessian):
+            total += y[i] * (self.gradient[i] + sum(h * v for h, v in zip(row, y, strict=True)) / 2)
+        return total
+
+
+class Fibres:
+    """The fibres of one system, with what has been learnt about them.
+
+    Over a rational point a system that is convex in the quantified variables is first compared with the ``witnesses``
+    and ``separations`` of earlier points, by rational arithmetic. What they leave open is decided exactly.
+    """
+
+    def __init__(self, system: System, procedures: Procedures) -> None:
+        self.system, self.procedures = system, procedures
+        self.witnesses: list[Values] = []
+        self.separations: list[Separation] = []
+        self.decided: dict[str, int] = {}
+        self._truths: dict[Values, bool] = {}
+
+    @cached_property
+    def _forms(self) -> list[ParametricForm] | None:
+        """The conditions as forms if every fibre over every point is convex, else None."""
+        forms = []
+        for condition in self.system.conditions:
+            form = parametric_form(condition.poly, self.system.free)
+            if form is None:
+                return None
+            if condition.relation is FormRelation.EQ:
+                if any(map(any, form.hessian)):
+                    return None
+            elif definiteness(form.hessian) is Definiteness.NOT_SEMIDEFINITE:
+                return None
+            forms.append(form)
+        return forms
+
+    @cached_property
+    def _decide(self) -> Decide:
+        return self.procedures.decide(self.system.inner, self.system.ring.names, self.system.free)
+
+    def hold_at(self, parameters: Values) -> bool:
+        """Whether the block is true over a rational point; remembered."""
+        stored = self._truths.get(parameters)
+        if stored is None:
+            stored = self._truths[parameters] = self._hold_at(parameters)
+        return stored
+
+    def _hold_at(self, parameters: Values) -> bool:
+        values = (*parameters, *(Fraction(0) for _ in self.system.bound))
+        for guard in self.system.guards:
+            value = guard.poly.evaluate(values)
+            if not guard.relation.holds((value > 0) - (value < 0)):
+                return False
+        if not self.system.conditions:
+            return True
+        if self._forms is None:
+            return self._exactly(Point.of(self.system.ring, parameters))
+        forms = [_over(form, parameters) for form in self._forms]
+        known = self._known(forms)
+        return self._convex(forms, parameters) if known is None else known
+
+    def cut(self, parameters: Values) -> Poly | None:
+        """A polynomial in the parameters that is positive at a rational point where the block is false, and <= 0
+        wherever it is true; None if there is no such point, or no polynomial is known.
+
+        A guard does, and so does the minimum over y of a weighted sum of the conditions.
+        """
+        values = (*parameters, *(Fraction(0) for _ in self.system.bound))
+        for guard in self.system.guards:
+            poly = guard.poly if guard.relation in (Relation.LE, Relation.LT) else -guard.poly
+            if guard.relation not in (Relation.EQ, Relation.NE) and poly.evaluate(values) > 0:
+                return poly
+        if self.hold_at(parameters) or self._forms is None:
+            return None
+        over = [_over(form, parameters) for form in self._forms]
+        found = next((s for s in self.separations if s.excludes(over)), None)
+        return None if found is None else found.minimum(self._forms)
+
+    def hold_over(self, point: Point) -> bool:
+        """Whether the block is true over any point, exactly; slow where coordinates are algebraic."""
+        if not point.algebraic:
+            return self.hold_at(rational_values(point))
+        if not all(g.relation.holds(point.sign(g.poly)) for g in self.system.guards):
+            return False
+        return self._exactly(point) if self.system.conditions else True
+
+    def _exactly(self, point: Point) -> bool:
+        self._count("decomposition")
+        return self._decide(point)
+
+    def _count(self, how: str) -> None:
+        self.decided[how] = self.decided.get(how, 0) + 1
+
+    # --- convex fibres over rational points -----------------------------------------------------
+    @property
+    def _relations(self) -> list[FormRelation]:
+        return [c.relation for c in self.system.conditions]
+
+    def _known(self, forms: Sequence[Fibre]) -> bool | None:
+        for k, witness in enumerate(self.witnesses):
+            if self._solves(witness, forms):
+                self.witnesses.insert(0, self.witnesses.pop(k))  # neighbours ask for the same again
+                self._count("known")
+                return True
+        for k, separation in enumerate(self.separations):
+            if separation.excludes(forms):
+                self.separations.insert(0, self.separations.pop(k))
+                self._count("known")
+                return False
+        return None
+
+    def _solves(self, witness: Values, forms: Sequence[Fibre]) -> bool:
+        near = [_rounded(w) for w in witness]
+        if any(form.near(near) > _CLEARLY for form in forms):
+            return False  # floats only say where the exact test is not worth its time
+        for form, relation in zip(forms, self._relations, strict=True):
+            value = form.exact.value(witness)
+            if value > 0 or (value == 0 and relation is FormRelation.LT) or (value and relation is FormRelation.EQ):
+                return False
+        return True
+
+    def _convex(self, forms: Sequence[Fibre], parameters: Values) -> bool:
+        if FormRelation.EQ not in self._relations:
+            proposal = self.procedures.propose([form.exact for form in forms])
+            if proposal.witness is not None and self._solves(proposal.witness, forms):
+                self.witnesses.insert(0, proposal.witness)
+                self._count("proposed")
+                return True
+            separation = None if proposal.weights is None else Separation.of(proposal.weights, forms)
+            if separation is not None and separation.excludes(forms):
+                self.separations.insert(0, separation)
+                self._count("proposed")
+                return False
+        try:
+            found = self.procedures.feasible([form.exact for form in forms], self._relations)
+            self._count("optimisation")
+            return found
+        except Unable:
+            return self._exactly(Point.of(self.system.ring, parameters))
+
+
+def _over(form: ParametricForm, parameters: Values) -> Fibre:
+    exact = form.at(parameters)
+    hessian = tuple(tuple(map(_rounded, row)) for row in exact.hessian)
+    return Fibre(exact, hessian, tuple(map(_rounded, exact.gradient)), _rounded(exact.constant))
+
+
+def _rounded(value: Fraction) -> float:
+    try:
+        return float(value)
+    except OverflowError:
+        return inf if value > 0 else -inf
+
+
+@dataclass(frozen=True, slots=True)
+class Separation:
+    """Weights w_i >= 0 of the conditions whose sum has, over every point, the constant Hessian H of full rank.
+
+    If sum w_i g_i = y^T H y / 2 + b.y + c has the minimum c - b.H^-1.b / 2 > 0, the fibre is empty.
+    """
+
+    weights: Values
+    inverse: tuple[Values, ...]
+
+    @staticmethod
+    def of(weights: Values, forms: Sequence[Fibre]) -> Separation | None:
+        """The separation with these weights, None where some are negative or the Hessian is singular."""
+        total = combine(weights, [form.exact for form in forms])
+        size = total.size
+        units = [[Fraction(i == j) for j in range(size)] for i in range(size)]
+        columns = [solve_linear(total.hessian, unit, size) for unit in units]
+        if any(w < 0 for w in weights) or any(c is None or c.free for c in columns):
+            return None
+        return Separation(weights, tuple(tuple(c.particular) for c in columns if c is not None))
+
+    def excludes(self, forms: Sequence[Fibre]) -> bool:
+        """Whether the weighted sum is positive everywhere: exactly, after a look at it in floats."""
+        size = len(self.inverse)
+        used = [(w, form) for w, form in zip(self.weights, forms, strict=True) if w]
+        b = [sum(_rounded(w) * form.gradient[j] for w, form in used) for j in range(size)]
+        c = sum(_rounded(w) * form.constant for w, form in used)
+        if c - sum(_rounded(v) * b[i] * b[j] for i, row in enumerate(self.inverse) for j, v in enumerate(row)) / 2 < 0:
+            return False
+        total = combine(self.weights, [form.exact for form in forms])
+        lowest = [-sum((v * g for v, g in zip(row, total.gradient, strict=True)), Fraction(0)) for row in self.inverse]
+        return bool(total.value(lowest) > 0)
+
+    def minimum(self, forms: Sequence[ParametricForm]) -> Poly:
+        """c - b.H^-1.b / 2 as a polynomial in the parameters, up to a positive factor."""
+        ring = forms[0].constant.ring
+        pairs = list(zip(self.weights, forms, strict=True))
+        scale = lcm(*(w.denominator for w in self.weights), *(v.denominator for row in self.inverse for v in row))
+
+        def total(parts: Sequence[Poly]) -> Poly:
+            return sum((int(w * scale) * f for (w, _), f in zip(pairs, parts, strict=True)), ring.constant(0))
+
+        b = [total([form.gradient[j] for _, form in pairs]) for j in range(len(self.inverse))]
+        square = sum(
+            (int(v * scale) * b[i] * b[j] for i, row in enumerate(self.inverse) for j, v in enumerate(row)),
+            ring.constant(0),
+        )
+        return 2 * scale**2 * total([form.constant for _, form in pairs]) - square

@@ -1,0 +1,281 @@
+"""Critical-value elimination as a method: what it needs from its neighbours, and the formula of its tables."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Sequence
+from fractions import Fraction
+from itertools import permutations
+
+from qe.cad.decompose import decompose
+from qe.cad.order import brown_order
+from qe.cad.over_point import over_point
+from qe.cad.projection import factor_lists
+from qe.cells.confirm_convex import strangers
+from qe.cells.formulas import construct, formula_of_open_cells
+from qe.convex.facial_reduction import on_flat
+from qe.convex.feasible import feasible
+from qe.convex.violation import proposed
+from qe.elimination.critical import (
+    ConvexBody,
+    Disjunct,
+    OpenCell,
+    Procedures,
+    Proposal,
+    eliminate_block,
+    eliminate_universal,
+)
+from qe.elimination.critical.degenerate import Decompose, thin_universal
+from qe.exact.fibre_stack import isolate_over
+from qe.exact.nearby import approximation, rational_values
+from qe.exact.ring import Poly, Ring
+from qe.exact.sample import Point
+from qe.formula.build import atom, conj, convert, disj, exists
+from qe.formula.evaluate import substituted, truth_under
+from qe.formula.normal import nnf
+from qe.formula.syntax import FALSE, TRUE, And, Exists, ForAll, Formula, Relation
+from qe.formula.traverse import free_variables, is_quantifier_free, polynomials, ring_of
+from qe.options import Budget, Method, Options, Projection, Stage
+from qe.proof.cells import FreeCell
+from qe.proof.run_log import Story
+from qe.simplify.simplify import simplify
+
+MOST_CUTS = 4
+"""How often stray points of a formula read from open cells are cut away before the whole table is made."""
+
+
+def by_critical_values(
+    variables: Sequence[str],
+    body: Formula,
+    options: Options,
+    budget: Budget,
+    story: Story,
+    otherwise: Decompose,
+) -> Formula:
+    """``exists variables. body`` (quantifier-free, positive) by ``qe.elimination.critical``.
+
+    ``otherwise`` eliminates the block on hypersurfaces that the method leaves open. Raises ``Unable`` where the
+    method's side conditions are not met.
+    """
+    start = time.perf_counter()
+    flat = on_flat(variables, body, budget=budget)
+    if flat is not None:
+        outside, rest = flat
+        left = [v for v in variables if v in free_variables(rest)]
+        inside = by_critical_values(left, rest, options, budget, story, otherwise) if left else rest
+        return simplify(conj((*outside, inside)))
+    parameters = _order(variables, body, options)
+    found = eliminate_block(variables, body, parameters, procedures=procedures(budget), budget=budget)
+    parts = [_formula(variables, parameters, part, budget, otherwise) for part in found]
+    return _told(simplify(disj(parts)), body, parameters, found, story, start)
+
+
+def convex_universal(
+    formula: Formula, options: Options, budget: Budget, story: Story, otherwise: Decompose
+) -> Formula | None:
+    """The formula of a universal block in one or two parameters whose truth set is seen to be convex, or thin.
+
+    None where that is not seen, where another method is asked for, and, unless this one is, where substitution can do
+    it (degree up to 2). To be asked before preparation splits the conjuncts: the whole set has fewer boundary pieces.
+    Raises ``Unable`` where the method's side conditions are not met.
+    """
+    if options.method not in (Method.AUTO, Method.CRITICAL) or not isinstance(formula, ForAll):
+        return None
+    if not is_quantifier_free(formula.body) or not 0 < len(free_variables(formula)) <= 2:
+        return None
+    start = time.perf_counter()
+    negated = simplify(nnf(formula.body, negate=True))
+    if options.method is Method.AUTO and _degree(negated, formula.variables) <= 2:
+        return None
+    parameters = _order(formula.variables, negated, options)
+    found = eliminate_universal(formula.variables, negated, parameters, procedures=procedures(budget), budget=budget)
+    if found is None:
+        return thin_universal(formula, negated, parameters, budget, otherwise)
+    assert isinstance(found.found, ConvexBody)
+    answer = _of_open_cells(found.found, parameters, budget)
+    if answer is None:  # in the plane the table of a convex set settles every cell
+        whole = found.found.tabulate()
+        answer = construct(whole.table, whole.refine)[0]
+    return _told(simplify(answer), negated, parameters, [found], story, start)
+
+
+def convex_block(formula: Formula, options: Options) -> tuple[tuple[str, ...], Formula] | None:
+    """(variables, body) of a convex existential block together with the conditions that preparation moved out of it.
+
+    The whole set has fewer boundary pieces than the block alone. None for formulas of other shapes.
+    """
+    if options.method not in (Method.AUTO, Method.CRITICAL):
+        return None
+    args = formula.args if isinstance(formula, And) else (formula,)
+    blocks = [a for a in args if isinstance(a, Exists)]
+    if len(blocks) != 1 or not all(is_quantifier_free(b.body) for b in blocks):
+        return None
+    rest = [a for a in args if a is not blocks[0]]
+    body = conj((*rest, blocks[0].body))
+    return (blocks[0].variables, body) if is_quantifier_free(body) else None
+
+
+def _degree(formula: Formula, variables: Sequence[str]) -> int:
+    """The highest degree of one of the variables."""
+    named = [(p, p.ring.index[v]) for p in polynomials(formula) for v in variables if v in p.ring.index]
+    return max((p.degree(i) for p, i in named), default=0)
+
+
+def _told(
+    formula: Formula, body: Formula, parameters: tuple[str, ...], found: list[Disjunct], story: Story, start: float
+) -> Formula:
+    """The formula over the ring of the body; what was done goes into the story."""
+    seconds = round(time.perf_counter() - start, 6)
+    stats = [part.stats for part in found]
+    story.note("critical", {"order": list(parameters), "disjuncts": stats, "seconds": seconds})
+    ring = ring_of(body)
+    return formula if ring is None else convert(formula, ring)
+
+
+def _order(variables: Sequence[str], body: Formula, options: Options) -> tuple[str, ...]:
+    names = free_variables(exists(variables, body))
+    wished = tuple(v for v in options.order or () if v in names)
+    if len(wished) == len(names):
+        return wished
+    return names if Stage.ORDER in options.without else brown_order(polynomials(body), names)
+
+
+def procedures(budget: Budget) -> Procedures:
+    """What the engine offers to critical-value elimination."""
+
+    def propose(forms: Sequence[object]) -> Proposal:
+        return Proposal(*proposed(forms))  # type: ignore[arg-type]
+
+    def decide(matrix: Formula, order: tuple[str, ...], free: int) -> Callable[[Point], bool]:
+        lifted: list[Callable[[Point], bool]] = []
+
+        def at(point: Point) -> bool:
+            if point.algebraic:
+                if not lifted:
+                    lifted.append(over_point(matrix, order, free, budget=budget))
+                return lifted[0](point)
+            return _decided(matrix, order[free:], dict(zip(order, rational_values(point), strict=False)), budget)
+
+        return at
+
+    return Procedures(
+        project=lambda polys, size, projection, part, separated: factor_lists(polys, size, projection, part, separated),
+        propose=propose,
+        feasible=lambda forms, relations: feasible(forms, relations, budget=budget),
+        decide=decide,
+    )
+
+
+def _decided(matrix: Formula, variables: tuple[str, ...], values: dict[str, Fraction], budget: Budget) -> bool:
+    """The truth of ``exists variables. matrix`` at rational values of the other variables, by decomposition."""
+    rest = substituted(matrix, values)
+    if rest in (TRUE, FALSE):
+        return rest == TRUE
+    if len(variables) == 1:
+        return _has_solution(convert(rest, Ring.of(variables)))
+    order = brown_order(polynomials(rest), variables)
+    return decompose(rest, order, ("E",) * len(order), budget=budget).table.root.truth is True
+
+
+def _has_solution(formula: Formula) -> bool:
+    """Whether a formula in one variable holds somewhere: its polynomials have constant signs between their roots."""
+    polys = tuple(polynomials(formula))
+    stack = isolate_over(Point(polys[0].ring), polys)
+    value = {"+": 1, "-": -1, "0": 0}
+    cells = (dict(zip(polys, map(value.get, text), strict=True)) for text in stack.sign_texts())
+    return any(truth_under(formula, signs.get) for signs in cells)
+
+
+def _formula(
+    variables: Sequence[str],
+    parameters: tuple[str, ...],
+    part: Disjunct,
+    budget: Budget,
+    otherwise: Decompose,
+) -> Formula:
+    """The quantifier-free formula of one disjunct, over the ring of the parameters."""
+    found = part.found
+    if isinstance(found, bool):
+        return TRUE if found else FALSE
+    if isinstance(found, ConvexBody):
+        confirmed = _of_open_cells(found, parameters, budget)
+        if confirmed is not None:
+            return confirmed
+        found = found.tabulate()
+    formula, _ = construct(found.table, found.refine)
+    surfaces = [exists(variables, conj((atom(f, Relation.EQ), part.body))) for f in found.unsettled]
+    ring = Ring.of(parameters)
+    return disj((formula, *(convert(otherwise(on_surface, budget), ring) for on_surface in surfaces)))
+
+
+def _of_open_cells(body: ConvexBody, parameters: tuple[str, ...], budget: Budget) -> Formula | None:
+    """A formula read from the open cells and confirmed on the others; None in more than two parameters, and where it
+    holds elsewhere too."""
+    if len(parameters) > 2:
+        return None
+    factors, cells = body.cells()
+    formula = formula_of_open_cells(factors, [_free_cell(c) for c in cells], _owners(body.boundary, factors, cells))
+    return _confirmed(body, convert(formula, Ring.of(parameters)), parameters, budget)
+
+
+def _confirmed(body: ConvexBody, formula: Formula, parameters: tuple[str, ...], budget: Budget) -> Formula | None:
+    """The closed formula with cuts that exclude what it holds beside the body; None if some cannot be excluded."""
+    ring = Ring.of(parameters)
+    for _ in range(MOST_CUTS):
+        order = cheapest_order(polynomials(formula), parameters, budget)
+        table = decompose(formula, order, ("",) * len(order), budget=budget).table
+        turned = [order.index(name) for name in parameters]
+
+        def holds(values: Sequence[Fraction], turned: list[int] = turned) -> bool:
+            return body.holds(tuple(values[k] for k in turned))
+
+        outside = strangers(table, holds, bounded=body.bounded)
+        if not outside:
+            return formula if outside is not None else None
+        points = [Point.of(ring, [point.number(k) for k in turned]) for point in outside]
+        cuts = [body.cut(approximation(point)) for point in points]
+        if not all(cut is not None and point.sign(cut.convert(ring)) > 0 for cut, point in zip(cuts, points)):
+            return None
+        formula = conj((formula, *(atom(cut.convert(ring), Relation.LE) for cut in cuts if cut is not None)))
+    return None
+
+
+def _owners(boundary: frozenset[Poly], factors: Sequence[Sequence[Poly]], cells: list[OpenCell]) -> dict[Poly, int]:
+    """On which side of a polynomial its zeros are: the negative one, but for polynomials of the boundary, which keep
+    both, and for polynomials in the first variable that vanish at an end of the set, which follow the set."""
+    owners = {f: -1 for level in factors for f in level if f not in boundary}
+    signs = {cell.path[0]: cell.signs[0] for cell in cells}
+    true = {cell.path[0] for cell in cells if cell.truth}
+    for j, f in enumerate(factors[0]):
+        ends = ((min(true), -1), (max(true), 1))
+        sides = {signs[k][j] for k, step in ends if k + step in signs and signs[k + step][j] != signs[k][j]}
+        if f in owners and len(sides) == 1:
+            owners[f] = 1 if sides == {"+"} else -1
+        elif len(sides) == 2:
+            owners.pop(f, None)
+    return owners
+
+
+def _free_cell(cell: OpenCell) -> FreeCell:
+    signs = tuple({j: 1 if c == "+" else -1 for j, c in enumerate(text)} for text in cell.signs)
+    return FreeCell(tuple(2 * k for k in cell.path), signs, cell.truth)
+
+
+def cheapest_order(polys: Sequence[Poly], names: tuple[str, ...], budget: Budget) -> tuple[str, ...]:
+    """The order of one or two variables whose last projection has the least degree in all.
+
+    A polynomial in the first variable alone that is not linear comes from the projection for the order given; in the
+    other order it would meet all the others, so that order is not tried.
+    """
+    if len(names) != 2 or not polys or any(_is_projected(f, names[0]) for f in polys):
+        return names
+
+    def cost(order: tuple[str, ...]) -> int:
+        moved = [f.convert(Ring.of(order)) for f in polys]
+        return sum(f.total_degree for f in factor_lists(moved, 2, Projection.BROWN_MCCALLUM, budget)[0])
+
+    return min(permutations(names), key=cost)
+
+
+def _is_projected(f: Poly, first: str) -> bool:
+    return f.variables == (f.ring.index[first],) and f.total_degree > 1

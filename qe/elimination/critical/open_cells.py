@@ -1,0 +1,131 @@
+"""The open cells of a decomposition of parameter space, and the hypersurfaces between true and false ones.
+
+THEOREM. Let T be a closed convex set whose boundary lies in the zeros of polynomials U, and let some open cell of a
+decomposition for U be true. Then the boundary of T lies in the zeros of those polynomials of U that have a section
+between a true and a false sector over an open cell, and those without the last variable.
+PROOF. T has interior points, so it is the closure of its interior and its boundary is a manifold of codimension one.
+A piece of the boundary over lower polynomials' zeros lies in the zeros of a polynomial without the last variable.
+Elsewhere, over an open cell B of the last but one space, the fibre of T over each point of B is an interval with
+interior points (otherwise no open cell over B would be true, while T, if it meets B x R at all, has interior points
+there); so a boundary point over B is an end of that interval and separates a true from a false sector.
+
+THEOREM. Such a T is bounded iff no true open cell lies over or in the first or last sector of a stack.
+PROOF. If T is unbounded, it has a direction d of recession (Rockafellar 1970, Theorem 8.4). Let d_k be its first
+nonzero coordinate and p an interior point of T over an open cell: p + s d is interior for all s >= 0 and has the first
+k - 1 coordinates of p, so it ends in an outermost sector of level k over them. The converse is clear.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
+
+from qe.elimination.critical.procedures import Levels
+from qe.exact.fibre_stack import Isolation, isolate_over
+from qe.exact.ring import Poly
+from qe.exact.sample import Point
+from qe.options import Budget
+
+Values = tuple[Fraction, ...]
+Holds = Callable[[Values], bool]
+
+
+@dataclass(frozen=True, slots=True)
+class OpenCell:
+    """``path``: the number of the sector in every stack; ``signs``: per level the signs of all its factors, as text
+    of ``+`` and ``-``; ``values``: the sample."""
+
+    path: tuple[int, ...]
+    signs: tuple[str, ...]
+    values: Values
+    truth: bool
+
+
+@dataclass(slots=True)
+class OpenCells:
+    """The open cells for a closed convex set T and factor lists closed under projection.
+
+    By convexity the sectors of a stack over which T has interior points follow one another, so that only the ends of
+    that run are looked for; ``hint`` says where to begin (a point of T, or any). ``inside``: samples of true cells.
+    """
+
+    levels: Levels
+    holds: Holds
+    budget: Budget
+    hint: Values
+    decided: int = 0
+    inside: list[Values] = field(default_factory=list)
+    _stacks: dict[tuple[int, ...], tuple[Isolation, range]] = field(default_factory=dict)
+    _near: list[Fraction] = field(default_factory=list)
+
+    def explore(self, origin: Point) -> bool:
+        """Visit the stacks that can hold true cells; whether there is one."""
+        self._near = list(self.hint)
+        return self._any_true(origin, (), ())
+
+    def _any_true(self, point: Point, path: tuple[int, ...], values: Values) -> bool:
+        level = point.depth
+        if level == len(self.levels):
+            self.decided += 1
+            self.budget.check("open cells", self.decided)
+            if self.holds(values):
+                self.inside.append(values)
+                return True
+            return False
+        isolation = isolate_over(point, self.levels[level])
+        samples = [Fraction(int(q.p), int(q.q)) for q in isolation.sectors]
+
+        def test(k: int) -> bool:
+            return self._any_true(point.extend(isolation.sectors[k]), (*path, k), (*values, samples[k]))
+
+        run = _run(samples, self._near[level], test)
+        if run:
+            self._near[level] = samples[(run.start + run.stop) // 2]
+        self._stacks[path] = isolation, run
+        return bool(run)
+
+    def walls(self) -> set[Poly]:
+        """The polynomials of the last level that vanish between a true and a false sector."""
+        found: set[Poly] = set()
+        last = len(self.levels) - 1
+        for path, (isolation, run) in self._stacks.items():
+            if len(path) == last and run:
+                ends = [k for k in (run.start - 1, run.stop - 1) if 0 <= k < len(isolation.sections)]
+                found |= {self.levels[last][j] for k in ends for j in isolation.sections[k].members}
+        return found
+
+    def is_bounded(self) -> bool:
+        """Whether T is bounded, by the second theorem."""
+        return all(not run or (run.start and run.stop <= len(i.sections)) for i, run in self._stacks.values())
+
+    def cells(self, point: Point, path: tuple[int, ...] = ()) -> Iterator[OpenCell]:
+        """All open cells, after ``explore``."""
+        return self._cells(point, path, (), (), True)
+
+    def _cells(
+        self, point: Point, path: tuple[int, ...], signs: tuple[str, ...], values: Values, possible: bool
+    ) -> Iterator[OpenCell]:
+        if point.depth == len(self.levels):
+            yield OpenCell(path, signs, values, possible)
+            return
+        self.budget.check("open cells")
+        isolation, run = self._stacks.get(path) or (isolate_over(point, self.levels[point.depth]), range(0))
+        texts = isolation.sign_texts()
+        for k, q in enumerate(isolation.sectors):
+            value = Fraction(int(q.p), int(q.q))
+            here = possible and k in run
+            yield from self._cells(point.extend(q), (*path, k), (*signs, texts[2 * k]), (*values, value), here)
+
+
+def _run(samples: Sequence[Fraction], near: Fraction, test: Callable[[int], bool]) -> range:
+    """The indices with a true test, which follow one another; sought from the sample nearest to a number."""
+    first = next((k for k in sorted(range(len(samples)), key=lambda k: abs(samples[k] - near)) if test(k)), None)
+    if first is None:
+        return range(0)
+    start, stop = first, first + 1
+    while start > 0 and test(start - 1):
+        start -= 1
+    while stop < len(samples) and test(stop):
+        stop += 1
+    return range(start, stop)

@@ -1,0 +1,106 @@
+"""The cell table of a truth set that is known by an oracle: every cell of every level, for given polynomials."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from enum import Enum
+from fractions import Fraction
+
+from qe.elimination.critical.procedures import Levels
+from qe.errors import NotWellOriented
+from qe.exact.fibre_stack import Isolation, isolate_over
+from qe.exact.ring import Poly
+from qe.exact.sample import Point
+from qe.options import Budget, Projection
+from qe.proof.cells import Cell, Stack
+
+Truth = Callable[[Point, frozenset[Poly]], bool]
+"""The truth at a sample, given the boundary polynomials that vanish there."""
+
+
+class Shape(Enum):
+    """What is known about the truth set beside its boundary polynomials.
+
+    CONVEX: closed and convex with interior points. CLOSED, OPEN: just that.
+    """
+
+    CONVEX = "convex"
+    CLOSED = "closed"
+    OPEN = "open"
+    ANY = "any"
+
+
+@dataclass(slots=True)
+class TableBuilder:
+    """One run. ``boundary``: polynomials between whose zeros the truth is constant.
+
+    A cell off these zeros is connected, so its sample tells its truth, and so it does for a single point. For a
+    CONVEX set it always does: over each base cell the fibre is an interval whose ends depend continuously on the
+    base point and lie on sections (in more than two dimensions this takes a bounded set and no nullified polynomial).
+    Otherwise a section of positive dimension is true beside a true sector of a CLOSED set, and false beside a
+    false sector of an OPEN one; what remains is ``unsettled``: the cell is listed as false, and a polynomial that
+    vanishes there is kept for the caller.
+    """
+
+    levels: Levels
+    projection: Projection
+    boundary: frozenset[Poly]
+    shape: Shape
+    truth: Truth
+    budget: Budget
+    cells: int = 0
+    unsettled: set[Poly] = field(default_factory=set)
+
+    def run(self, origin: Point) -> Cell:
+        """The root cell, given the point without coordinates."""
+        return self._cell(origin, "", frozenset(), 0, None)
+
+    def _cell(
+        self, point: Point, signs: str, vanishing: frozenset[Poly], dimension: int, beside: tuple[Cell, Cell] | None
+    ) -> Cell:
+        """``beside``: for a section, the cells of the sectors next to it."""
+        level = point.depth
+        if level == len(self.levels):
+            self.cells += 1
+            self.budget.check("cells", self.cells)
+            return Cell(signs, self._truth(point, vanishing, dimension, beside))
+        factors = self.levels[level]
+        isolation = isolate_over(point, factors, lazard=self.projection is Projection.LAZARD)
+        if isolation.nullified and self.projection is not Projection.LAZARD:
+            raise NotWellOriented(f"a factor of level {level} is nullified over a cell of dimension {dimension}")
+        texts = isolation.sign_texts()
+        cells: dict[int, Cell] = {}
+        for position in (*range(0, len(texts), 2), *range(1, len(texts), 2)):
+            zero = frozenset(f for f, c in zip(factors, texts[position], strict=True) if c == "0") & self.boundary
+            cells[position] = self._cell(
+                _extended(point, isolation, position),
+                texts[position],
+                vanishing | zero,
+                dimension + (position % 2 == 0),
+                (cells[position - 1], cells[position + 1]) if position % 2 else None,
+            )
+        sectors = tuple(Fraction(int(q.p), int(q.q)) for q in isolation.sectors)
+        sections = tuple(tuple(sorted(s.members)) for s in isolation.sections)
+        complete = tuple(cells[position] for position in range(len(texts)))
+        return Cell(signs, None, Stack(tuple(range(len(factors))), sectors, sections, complete))
+
+    def _truth(
+        self, point: Point, vanishing: frozenset[Poly], dimension: int, beside: tuple[Cell, Cell] | None
+    ) -> bool:
+        around = () if beside is None else (beside[0].truth, beside[1].truth)
+        if True in around and self.shape in (Shape.CLOSED, Shape.CONVEX):
+            return True
+        if False in around and self.shape is Shape.OPEN:
+            return False
+        if not vanishing or not dimension or self.shape is Shape.CONVEX:
+            return self.truth(point, vanishing)
+        if not self.unsettled & vanishing:
+            self.unsettled.add(min(vanishing, key=lambda f: (f.total_degree, f.term_count(), f.terms())))
+        return False
+
+
+def _extended(point: Point, isolation: Isolation, position: int) -> Point:
+    if position % 2:
+        return point.extend(isolation.sections[position // 2].value)
+    return point.extend(isolation.sectors[position // 2])

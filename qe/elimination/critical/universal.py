@@ -1,0 +1,132 @@
+"""``all y. body`` whose truth set is convex in the parameters, by critical values.
+
+THEOREM. Let D be a bounded set of y, and g_1, ..., g_k polynomials that are convex in p for every y in D. Then
+T = {p : for all y in D, all g_j(p, y) <= 0} is closed and convex, and its boundary lies in the critical hypersurfaces
+of the blocks  exists y in D: g_j(p, y) > 0.
+PROOF. T is an intersection of closed convex sets {p : g_j(p, y) <= 0}. A boundary point of T is one of some
+T_j = {p : all y in D, g_j <= 0}, whose complement is the truth set of the j-th block.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import combinations
+
+from qe.elimination.critical.block import Disjunct, Run
+from qe.elimination.critical.boundary import critical_hypersurfaces, determinant
+from qe.elimination.critical.bounded import has_bounded_fibres
+from qe.elimination.critical.fibres import Fibres, Values
+from qe.elimination.critical.procedures import Procedures
+from qe.elimination.critical.system import Condition, System, systems
+from qe.exact.ring import Poly, Ring
+from qe.exact.sample import Point
+from qe.formula.build import atom, conj, convert
+from qe.formula.syntax import Formula, Relation
+from qe.options import Budget
+from qe.proof.multipliers import FormRelation
+
+SAMPLES = 8
+"""Into so many equal parts the range of the quantified variable is divided for necessary conditions."""
+
+
+@dataclass(frozen=True, slots=True)
+class Spared:
+    """The points over which none of several blocks is true."""
+
+    parts: tuple[Fibres, ...]
+
+    def hold_at(self, parameters: Values) -> bool:
+        """Whether a rational point belongs to them."""
+        return not any(part.hold_at(parameters) for part in self.parts)
+
+    def hold_over(self, point: Point) -> bool:
+        """Whether any point belongs to them."""
+        return not any(part.hold_over(point) for part in self.parts)
+
+    def cut(self, parameters: Values) -> Poly | None:
+        """None: no inequality is known that they all satisfy."""
+
+
+def eliminate_universal(
+    variables: Sequence[str], negated: Formula, parameters: Sequence[str], *, procedures: Procedures, budget: Budget
+) -> Disjunct | None:
+    """The truth set of ``all variables. not negated``; None where it is not seen to be convex with interior points.
+
+    ``negated``: quantifier-free and positive. Raises ``Unable`` as ``eliminate_block`` does.
+    """
+    ring = Ring.of((*parameters, *variables))
+    parts = systems(convert(negated, ring), ring, len(parameters))
+    if not parameters or not all(has_bounded_fibres(part) and _spares_a_convex_set(part, procedures) for part in parts):
+        return None
+    surfaces = [critical_hypersurfaces(part, thin_parts=False, procedures=procedures, budget=budget) for part in parts]
+    stats: dict[str, object] = {"universal": len(parts)}
+    spared = Spared(tuple(Fibres(part, procedures) for part in parts))
+    hint = (Fraction(0),) * len(parameters)
+    found = Run(parts[0], spared, procedures, budget, stats).body(frozenset().union(*surfaces), hint)
+    return None if found is None else Disjunct(negated, found, stats)
+
+
+def _spares_a_convex_set(part: System, procedures: Procedures) -> bool:
+    """Whether the part says: y is in a set D, and g(p, y) > 0 for one polynomial g, convex in p for every y in D."""
+    domain = [c for c in part.conditions if min(c.poly.variables) >= part.free]
+    others = [c for c in part.conditions if c not in domain]
+    if part.guards or len(others) != 1 or others[0].relation is not FormRelation.LT:
+        return False
+    g = -others[0].poly
+    slopes = [g.derivative(i) for i in range(part.free)]
+    hessian = [[slope.derivative(j) for j in range(part.free)] for slope in slopes]
+    if any(entry.variables and min(entry.variables) < part.free for row in hessian for entry in row):
+        return False
+    inner = Ring.of(part.ring.names[part.free :])
+    inside = tuple(Condition(c.poly.convert(inner), c.relation) for c in domain)
+    return not any(
+        _somewhere_negative(minor.convert(inner), inside, procedures) for minor in _principal_minors(hessian)
+    )
+
+
+def _principal_minors(matrix: Sequence[Sequence[Poly]]) -> list[Poly]:
+    """A symmetric matrix is positive semidefinite iff all are nonnegative (Horn, Johnson: Matrix Analysis, 7.2)."""
+    size = range(len(matrix))
+    chosen = [rows for count in range(1, len(matrix) + 1) for rows in combinations(size, count)]
+    return [determinant([[matrix[i][j] for j in rows] for i in rows]) for rows in chosen]
+
+
+def _somewhere_negative(poly: Poly, inside: tuple[Condition, ...], procedures: Procedures) -> bool:
+    if poly.is_constant:
+        return poly.constant_value() < 0
+    system = System(poly.ring, 0, (), (*inside, Condition(poly, FormRelation.LT)))
+    return Fibres(system, procedures).hold_at(())
+
+
+def necessary_conditions(variables: Sequence[str], negated: Formula, parameters: Sequence[str]) -> Formula | None:
+    """Conditions g_j(p, y) <= 0 at some values of the one quantified variable; they hold wherever the block does.
+
+    By continuity that is so also at an end of the interval D which does not belong to D. None for several quantified
+    variables, and where D is not an interval with rational ends.
+    """
+    ring = Ring.of((*parameters, *variables))
+    found: list[Formula] = []
+    for part in systems(convert(negated, ring), ring, len(parameters)):
+        domain = [c for c in part.conditions if min(c.poly.variables) >= part.free]
+        others = [c for c in part.conditions if c not in domain]
+        ends = _interval(domain, part.free) if len(variables) == 1 and len(others) == 1 else None
+        if part.guards or ends is None or others[0].relation is not FormRelation.LT:
+            return None
+        low, high = ends
+        values = [low + (high - low) * k / SAMPLES for k in range(SAMPLES + 1)] if low < high else []
+        found += [atom(others[0].poly.at_rational(part.free, value), Relation.GE) for value in values]
+    return conj(found)
+
+
+def _interval(domain: Sequence[Condition], variable: int) -> tuple[Fraction, Fraction] | None:
+    """The ends of the interval that linear inequalities describe; None for other conditions."""
+    lower: list[Fraction] = []
+    upper: list[Fraction] = []
+    for condition in domain:
+        if condition.poly.degree(variable) != 1 or condition.relation is FormRelation.EQ:
+            return None
+        constant, slope = (c.constant_value() for c in condition.poly.coefficients(variable))
+        (upper if slope > 0 else lower).append(Fraction(-constant, slope))
+    return (max(lower), min(upper)) if lower and upper else None

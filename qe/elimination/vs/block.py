@@ -1,0 +1,200 @@
+"""Elimination of a block of existential quantifiers by virtual substitution."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+
+from qe.elimination.vs.candidates import in_order
+from qe.elimination.vs.openness import is_open, thinned
+from qe.elimination.vs.plan import Plan, choose, occurring, split_equation
+from qe.elimination.vs.points import SymbolicPoint, Value
+from qe.elimination.vs.result import All, Any, BlockResult, Choice, Chosen, Done, Open, Tree
+from qe.elimination.vs.sign_knowledge import Signs
+from qe.elimination.vs.substitute import Substitution
+from qe.elimination.vs.univariate_samples import solution
+from qe.exact.ring import Ring
+from qe.formula.build import conj, disj
+from qe.formula.normal import nnf
+from qe.formula.syntax import FALSE, TRUE, And, Atom, Exists, Formula, Or
+from qe.formula.traverse import has_root_atoms, ring_of
+from qe.options import Budget
+
+Simplifier = Callable[[Formula], Formula]
+
+
+def eliminate_block(variables: Sequence[str], matrix: Formula, *, budget: Budget, simplify: Simplifier) -> BlockResult:
+    """A formula equivalent to ``exists variables. matrix`` (matrix quantifier-free), see ``BlockResult``.
+
+    THEOREM (Loos & Weispfenning 1993, Weispfenning 1997): (exists x. F) iff the disjunction over an elimination set
+    of (guard and F at the point). Disjunctions are distributed over, conjuncts without common block variables are
+    solved apart, and the variable with the cheapest elimination set goes first; nothing is expanded.
+    ``simplify`` must return an equivalent formula. Raises ``BudgetExceeded``.
+    """
+    formula = simplify(nnf(matrix))
+    ring = ring_of(formula)
+    if ring is None:
+        return BlockResult(formula, (), Done(formula))
+    run = _Run(ring, budget, simplify)
+    block = frozenset(ring.index[v] for v in variables if v in ring.index)
+    answer, tree = run.solve(formula, block)
+    answer = simplify(answer)
+    return BlockResult(answer, tuple(_existentials(answer)), tree, dict(run.stats))
+
+
+def _existentials(formula: Formula) -> Iterator[Exists]:
+    if isinstance(formula, Exists):
+        yield formula
+    elif isinstance(formula, And | Or):
+        for arg in formula.args:
+            yield from _existentials(arg)
+
+
+Solved = tuple[Formula, Tree]
+
+
+class _Run:
+    """One elimination: ``solve`` maps a subproblem to an equivalent formula and its tree of solutions."""
+
+    __slots__ = ("budget", "done", "ring", "simplify", "stats")
+
+    def __init__(self, ring: Ring, budget: Budget, simplify: Simplifier) -> None:
+        self.ring, self.budget, self.simplify = ring, budget, simplify
+        self.done: dict[tuple[Formula, frozenset[int]], Solved] = {}
+        self.stats = {"subproblems": 0, "test points": 0}
+
+    def solve(self, formula: Formula, block: frozenset[int]) -> Solved:
+        """``exists block. formula``; the formula is simplified and positive."""
+        inside = occurring(formula) & block
+        if not inside:
+            return formula, Done(formula)
+        key = (formula, inside)
+        found = self.done.get(key)
+        if found is None:
+            self.budget.check("virtual substitution", self.stats["subproblems"])
+            self.stats["subproblems"] += 1
+            found = self.done[key] = self._solve(formula, inside)
+        return found
+
+    def _solve(self, formula: Formula, block: frozenset[int]) -> Solved:
+        if isinstance(formula, Or):
+            return self._any(self.solve(part, block) for part in formula.args)
+        context, parts = _independent(formula, block)
+        if not context and len(parts) == 1:
+            return self._step(formula, parts[0], block)
+        return self._all(context, parts, block)
+
+    def _all(self, context: tuple[Formula, ...], parts: list[Formula], block: frozenset[int]) -> Solved:
+        """exists x, y. C and F(x) and G(y)  iff  C and (exists x. F) and (exists y. G)."""
+        answers: list[Formula] = list(context)
+        trees: list[Tree] = []
+        for part in parts:
+            # the context comes along as background knowledge and is taken out of the answer again
+            if context:
+                formula, tree = self._step(conj((*context, part)), part, block)
+                formula = _without(formula, context)
+            else:
+                formula, tree = self._step(part, part, block)
+            if formula == FALSE:
+                return FALSE, Done(FALSE)
+            answers.append(formula)
+            trees.append(tree)
+        return conj(answers), All(conj(context), tuple(trees))
+
+    def _step(self, formula: Formula, part: Formula, block: frozenset[int]) -> Solved:
+        """Eliminate one variable of ``part`` (``formula`` is ``part`` with its context), then the others."""
+        everything = occurring(part)
+        inside = everything & block
+        if len(everything) == 1 and not has_root_atoms(part):
+            return self._decide(part, self.ring.names[next(iter(inside))])
+        strict = is_open(part, inside)
+        plan = choose(formula, inside, strict=strict)
+        if plan is not None:
+            return self._any(self._alternatives(plan, formula, inside, strict))
+        cases = split_equation(formula, inside)
+        if cases is not None:
+            return self._any(self.solve(self.simplify(case), inside) for case in cases)
+        left = Exists(tuple(self.ring.names[i] for i in sorted(inside)), part)
+        return left, Open(left)
+
+    def _decide(self, formula: Formula, variable: str) -> Solved:
+        """A formula in one variable alone, of any degree."""
+        self.budget.check("real roots")
+        found = solution(formula, variable, {})
+        if found is None:
+            return FALSE, Done(FALSE)
+        return TRUE, Chosen(Choice(variable, Value(found), 1, formula), Done(TRUE))
+
+    def _alternatives(self, plan: Plan, before: Formula, block: frozenset[int], strict: bool) -> Iterator[Solved]:
+        """The subproblems of a plan, solved one after the other, cheap test points first."""
+        rest = block - {plan.x}
+
+        def attempt(point: SymbolicPoint, guard: Formula, formula: Formula, settled: frozenset[Atom]) -> Solved:
+            known = Signs.of(_free_of(formula, plan.x)).given(guard)
+            result = conj((guard, Substitution(plan.x, point, known, settled)(formula)))
+            choice = Choice(self.ring.names[plan.x], point, plan.exponent, before)
+            return self._substituted(choice, thinned(result, rest) if strict else result, rest)
+
+        for infinity in plan.infinities:
+            yield attempt(infinity, plan.infinity_guard or TRUE, plan.formula, frozenset())
+        for candidate, settled in in_order(plan.candidates):
+            yield attempt(candidate.point, candidate.guard, candidate.formula, settled)
+        if plan.degenerate != FALSE:
+            yield self.solve(self.simplify(plan.degenerate), block)
+
+    def _substituted(self, choice: Choice, result: Formula, rest: frozenset[int]) -> Solved:
+        """The subproblem that a choice leaves, solved."""
+        self.budget.check("virtual substitution", self.stats["test points"])
+        self.stats["test points"] += 1
+        simple = self.simplify(result)
+        if simple == FALSE:
+            return FALSE, Done(FALSE)
+        answer, tree = self.solve(simple, rest)
+        return answer, Chosen(choice, tree)
+
+    def _any(self, alternatives: Iterable[Solved]) -> Solved:
+        """The disjunction; stops at the first alternative that is TRUE."""
+        found: dict[Formula, Tree] = {}
+        for formula, tree in alternatives:
+            if formula == TRUE:
+                return TRUE, tree
+            if formula != FALSE:
+                found.setdefault(formula, tree)
+        trees = tuple(found.values())
+        return disj(found), trees[0] if len(trees) == 1 else Any(trees)
+
+
+def _independent(formula: Formula, block: frozenset[int]) -> tuple[tuple[Formula, ...], list[Formula]]:
+    """The conjuncts free of the block, and the others grouped so that groups share no block variable."""
+    context: list[Formula] = []
+    groups: list[tuple[frozenset[int], list[Formula]]] = []
+    for arg in formula.args if isinstance(formula, And) else (formula,):
+        inside = occurring(arg) & block
+        if not inside:
+            context.append(arg)
+            continue
+        members = [arg]
+        apart = []
+        for variables, group in groups:
+            if variables & inside:
+                inside, members = inside | variables, group + members
+            else:
+                apart.append((variables, group))
+        groups = [*apart, (inside, members)]
+    return tuple(context), [conj(members) for _, members in groups]
+
+
+def _free_of(formula: Formula, x: int) -> Formula:
+    """The conjuncts that do not contain the variable."""
+    args = formula.args if isinstance(formula, And) else (formula,)
+    return conj(a for a in args if x not in occurring(a))
+
+
+def _without(formula: Formula, context: tuple[Formula, ...]) -> Formula:
+    """The formula with TRUE for every occurrence of a context member (under And and Or, so this is sound)."""
+    if formula in context:
+        return TRUE
+    if isinstance(formula, And):
+        return conj(_without(a, context) for a in formula.args)
+    if isinstance(formula, Or):
+        return disj(_without(a, context) for a in formula.args)
+    return formula

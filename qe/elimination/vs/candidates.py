@@ -1,0 +1,240 @@
+"""Elimination sets: test points such that a formula holds somewhere iff it holds at one of them.
+
+THEOREM. Let F be a positive (and/or) combination of atoms, of degree at most 2 in x after factoring, over fixed
+parameters. If F holds for some real x, then F holds at -infinity, or the leftmost point of a component of its
+truth set is a root e where F becomes true: at e (closed) or just right of e (open). Some atom occurrence turns
+true there, together with every subformula on the way to the root of the tree. Therefore
+* an atom gives the points where it can turn true: =, <=, >= at the root; <, >, /= at the root + epsilon; and if it
+  is p < 0 or p <= 0 (p > 0, p >= 0) with a simple root only where p falls (rises);
+* only the disjunct containing the atom need be kept at each disjunction above it (``Candidate.formula``);
+* if one conjunct has finitely many solutions (a *Gauss* constituent), its points alone suffice, and no infinity.
+Upper ends, +infinity and root - epsilon are the mirror image (``side = -1``).
+Loos & Weispfenning 1993, sections 3-4; Weispfenning 1997; Kosta 2016, chapters 3-4 (structural elimination sets).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
+from itertools import chain
+
+from qe.elimination.vs.points import LinearRoot, QuadraticRoot
+from qe.elimination.vs.sign_knowledge import Signs, factor_parts
+from qe.exact.ring import Poly
+from qe.formula.build import conj, disj
+from qe.formula.syntax import FALSE, And, Atom, Formula, Or, Relation
+
+EQ, NE, LT, GT, GE = Relation.EQ, Relation.NE, Relation.LT, Relation.GT, Relation.GE
+_UPWARD = (GT, GE)
+
+
+@dataclass(frozen=True, slots=True)
+class Candidate:
+    """Try ``formula`` at ``point`` where ``guard`` holds. ``formula`` implies the formula it was taken from.
+
+    ``source`` is the atom that turns true at the point; ``complete``: all such points of it are candidates.
+    """
+
+    point: LinearRoot | QuadraticRoot
+    guard: Formula
+    formula: Formula
+    source: Atom
+    complete: bool = True
+
+
+@dataclass(frozen=True, slots=True)
+class Gauss:
+    """A constituent with finitely many solutions, all among the candidates, except where ``degenerate`` holds."""
+
+    candidates: tuple[Candidate, ...]
+    degenerate: Formula
+
+
+def bounds(
+    formula: Formula, x: int, side: int, signs: Signs, omit: frozenset[Poly] = frozenset()
+) -> tuple[Candidate, ...] | None:
+    """Candidates for the lower (side 1) or upper (side -1) ends of the truth set; None if a degree is too high.
+
+    The roots of the polynomials ``omit``, of degree 2, are left out where their leading coefficient is not 0.
+    """
+    match formula:
+        case Atom(poly, _):
+            return _atom_points(formula, x, side, signs, omit) if poly.degree(x) else ()
+        case And(args):
+            gauss = best_gauss([gauss_constituent(a, x, side, signs) for a in args])
+            if gauss is not None:
+                return _with_gauss(formula, *gauss, x, side, signs, omit)
+            return _joined(_within(formula, args, k, bounds(arg, x, side, signs, omit)) for k, arg in enumerate(args))
+        case Or(args):
+            return _joined(bounds(arg, x, side, signs, omit) for arg in args)
+    return ()
+
+
+def gauss_constituent(formula: Formula, x: int, side: int, signs: Signs) -> Gauss | None:
+    """The formula as a Gauss constituent, or None if it is none (or its degree is too high)."""
+    match formula:
+        case Atom(poly, Relation.EQ) if poly.degree(x):
+            points = _atom_points(formula, x, side, signs)
+            return None if points is None else Gauss(points, vanishing(poly, x, signs))
+        case Or(args):
+            parts = [gauss_constituent(a, x, side, signs) for a in args]
+            found = [p for p in parts if p is not None]
+            if len(found) < len(parts):
+                return None
+            return Gauss(tuple(chain(*(p.candidates for p in found))), disj(p.degenerate for p in found))
+        case And(args):
+            best = best_gauss([gauss_constituent(a, x, side, signs) for a in args])
+            if best is None:
+                return None
+            gauss, k = best
+            inner = _within(formula, args, k, gauss.candidates)
+            return Gauss(inner or (), gauss.degenerate)
+    return None
+
+
+def best_gauss(options: list[Gauss | None]) -> tuple[Gauss, int] | None:
+    """The Gauss constituent with the cheapest candidates, and its position."""
+    found = [(gauss, k) for k, gauss in enumerate(options) if gauss is not None]
+    return min(found, key=lambda pair: gauss_cost(pair[0]), default=None)
+
+
+def gauss_cost(gauss: Gauss) -> float:
+    """An estimate of the work that a Gauss constituent causes."""
+    return points_cost(gauss.candidates) + (0.0 if gauss.degenerate == FALSE else 4.0)
+
+
+def points_cost(candidates: Iterable[Candidate]) -> float:
+    """An estimate of the size of the formulas that substituting these candidates produces."""
+    total = 0.0
+    for candidate in candidates:
+        point = candidate.point
+        if isinstance(point, LinearRoot):
+            weight = 1.0 if point.a.is_constant else 2.0 + 0.5 * point.a.total_degree
+        else:
+            weight = 6.0 + point.a.total_degree + 0.5 * point.b.total_degree
+        total += weight * (2.0 if point.epsilon else 1.0)
+    return total
+
+
+def in_order(candidates: Iterable[Candidate]) -> Iterator[tuple[Candidate, frozenset[Atom]]]:
+    """The distinct candidates, atom by atom, cheap atoms first; each with the atoms *settled* for it.
+
+    THEOREM. Let all candidates of the strict atom p < 0 (or p > 0, p /= 0) have been tried already, and let it be a
+    conjunct of the formula F of a candidate e + epsilon. Then only the case p(e) /= 0 is left to try. Proof: if F
+    is true just right of e and p(e) = 0, then the atom turns true at e, so e + epsilon was one of its candidates,
+    with a formula that F implies.
+    """
+    by_source: dict[Atom, list[Candidate]] = {}
+    for candidate in dict.fromkeys(candidates):
+        by_source.setdefault(candidate.source, []).append(candidate)
+    tried: set[Atom] = set()
+    for source, group in sorted(by_source.items(), key=lambda item: points_cost(item[1])):
+        for candidate in group:
+            args = candidate.formula.args if isinstance(candidate.formula, And) else ()
+            yield candidate, frozenset(a for a in args if a in tried) if candidate.point.epsilon else frozenset()
+        if source.relation.is_strict and all(c.complete for c in group):
+            tried.add(source)
+
+
+def vanishing(f: Poly, x: int, signs: Signs) -> Formula:
+    """The condition that f vanishes identically in x: a factor without x does, or all coefficients of another."""
+    _, parts = factor_parts(f)
+    cases = []
+    for factor, _ in parts:
+        if factor.degree(x):
+            cases.append(conj(signs.atom(c, EQ) for c in reversed(factor.coefficients(x)) if c))
+        else:
+            cases.append(signs.atom(factor, EQ))
+    return disj(cases)
+
+
+def _with_gauss(
+    whole: And, gauss: Gauss, k: int, x: int, side: int, signs: Signs, omit: frozenset[Poly]
+) -> tuple[Candidate, ...] | None:
+    """The Gauss constituent's candidates, and where it degenerates those of the other conjuncts."""
+    args = whole.args
+    inner = _within(whole, args, k, gauss.candidates)
+    if gauss.degenerate == FALSE or inner is None:
+        return inner
+    others = _joined(_within(whole, args, j, bounds(arg, x, side, signs, omit)) for j, arg in enumerate(args) if j != k)
+    if others is None:
+        return None
+    return (*inner, *(replace(c, guard=conj((gauss.degenerate, c.guard))) for c in others))
+
+
+def _within(
+    whole: Formula, args: tuple[Formula, ...], k: int, found: tuple[Candidate, ...] | None
+) -> tuple[Candidate, ...] | None:
+    """Candidates of conjunct k as candidates of the conjunction."""
+    if found is None:
+        return None
+    rest = (*args[:k], *args[k + 1 :])
+    return tuple(replace(c, formula=whole if c.formula is args[k] else conj((c.formula, *rest))) for c in found)
+
+
+def _joined(parts: Iterable[tuple[Candidate, ...] | None]) -> tuple[Candidate, ...] | None:
+    out: list[Candidate] = []
+    for part in parts:
+        if part is None:
+            return None
+        out += part
+    return tuple(out)
+
+
+def _atom_points(
+    given: Atom, x: int, side: int, signs: Signs, omit: frozenset[Poly] = frozenset()
+) -> tuple[Candidate, ...] | None:
+    """The points where the atom can turn true, with guards."""
+    _, parts = factor_parts(given.poly)
+    inside = [(f, e) for f, e in parts if f.degree(x)]
+    if any(f.degree(x) > 2 for f, _ in inside):
+        return None
+    relation = given.relation
+    epsilon = side if relation.is_strict else 0
+    # one odd factor and a one-sided relation: the polynomial must cross zero in a known direction
+    directed = len(inside) == 1 and inside[0][1] % 2 == 1 and relation not in (EQ, NE)
+    content = given.poly.exact_divide(inside[0][0] ** inside[0][1]) if directed else None
+    direction = side if relation in _UPWARD else -side
+    out: list[Candidate] = []
+    for factor, _ in inside:
+        if factor.degree(x) == 1:
+            out += _linear(given, factor, x, epsilon, content, direction, signs)
+        else:
+            found = _quadratic(given, factor, x, epsilon, content, direction, signs)
+            if factor in omit:
+                found = (replace(c, complete=False) for c in found if isinstance(c.point, LinearRoot))
+            out += found
+    return tuple(out)
+
+
+def _linear(
+    given: Atom, f: Poly, x: int, epsilon: int, content: Poly | None, direction: int, signs: Signs
+) -> Iterable[Candidate]:
+    """-b/a: where content*a has the sign ``direction``, or a /= 0 if no direction is known."""
+    b, a = f.coefficients(x)
+    guard = signs.atom(a, NE) if content is None else signs.atom(content * a, GT if direction > 0 else LT)
+    if guard != FALSE:
+        yield Candidate(LinearRoot(a, b, epsilon), guard, given, given)
+
+
+def _quadratic(
+    given: Atom, f: Poly, x: int, epsilon: int, content: Poly | None, direction: int, signs: Signs
+) -> Iterable[Candidate]:
+    """Both roots (one, if the direction is known) where a /= 0 and D >= 0; -c/b where a = 0."""
+    c, b, a = f.coefficients(x)
+    proper = conj((signs.atom(a, NE), signs.atom(b * b - 4 * (a * c), GE)))
+    if proper != FALSE:
+        for branch in (-1, 1):
+            guard = proper
+            if content is not None:
+                guard = conj((proper, signs.atom(content, GT if branch == direction else LT)))
+            if guard != FALSE:
+                yield Candidate(QuadraticRoot(a, b, c, branch, epsilon), guard, given, given)
+    flat = signs.atom(a, EQ)
+    if flat != FALSE and b:
+        for candidate in _linear(given, _affine(f, b, c, x), x, epsilon, content, direction, signs):
+            yield replace(candidate, guard=conj((flat, candidate.guard)))
+
+
+def _affine(model: Poly, b: Poly, c: Poly, x: int) -> Poly:
+    return b * model.ring.gen(x) + c

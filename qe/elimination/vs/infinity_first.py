@@ -1,0 +1,47 @@
+"""Solutions near infinity first: what remains then has a leading coefficient that is zero.
+
+THEOREM. For a quantifier-free F let F(-oo), F(+oo) be its truth for all sufficiently small, large x (``Substitution``,
+for any degree). Then (exists x. F) iff F(-oo) or F(+oo) or exists x. (F and not F(-oo) and not F(+oo)). Where the
+remaining block can only hold with the leading coefficient c of one of its polynomials zero, c = 0 may be added to it,
+and the degree is lower. For an inequality of odd degree that is the usual case.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from qe.elimination.vs.points import Infinity
+from qe.elimination.vs.sign_knowledge import Signs
+from qe.elimination.vs.substitute import Substitution
+from qe.formula.build import atom, conj, disj, exists, neg
+from qe.formula.normal import nnf
+from qe.formula.syntax import FALSE, Formula, Relation
+from qe.formula.traverse import polynomials
+from qe.options import Budget
+from qe.rules.preparation import prepare
+from qe.simplify.simplify import simplify
+
+
+@dataclass(frozen=True, slots=True)
+class FarFirst:
+    """exists x. F iff ``solutions`` or ``rest``; ``rest`` is quantified, prepared, and of lower degree in x."""
+
+    solutions: Formula
+    rest: Formula
+
+
+def far_first(variable: str, body: Formula, *, budget: Budget) -> FarFirst | None:
+    """The two parts of ``exists variable. body`` (body quantifier-free), or None where the degree does not fall."""
+    high = [p for p in polynomials(body) if variable in p.ring.index and p.degree(p.ring.index[variable]) > 2]
+    if not high:
+        return None
+    x = high[0].ring.index[variable]
+    lead = max(high, key=lambda p: p.degree(x)).leading(x)
+    if lead.is_constant:
+        return None
+    far = simplify(disj(Substitution(x, Infinity(side), Signs())(body) for side in (-1, 1)))
+    near = conj((body, nnf(neg(far))))
+    for relation in (Relation.GT, Relation.LT):
+        if prepare(exists([variable], conj((near, atom(lead, relation)))), budget=budget).formula != FALSE:
+            return None
+    return FarFirst(far, prepare(exists([variable], conj((near, atom(lead, Relation.EQ)))), budget=budget).formula)

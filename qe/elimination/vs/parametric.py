@@ -1,0 +1,95 @@
+"""Parametric witnesses: solutions of an existential block as terms in the parameters, each under its guard.
+
+Source: extended quantifier elimination by virtual substitution (Loos & Weispfenning 1993, section 4; Kosta 2016,
+chapter 2: "extended answers").
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from fractions import Fraction
+from itertools import islice
+
+from qe.elimination.vs import Answer, eliminate_block, witness
+from qe.errors import InputError, Unable
+from qe.exact.algebraic import RealAlgebraic
+from qe.exact.sample import Point
+from qe.formula.evaluate import truth_under
+from qe.formula.normal import nnf
+from qe.formula.syntax import FALSE, Exists, ForAll, Formula
+from qe.formula.traverse import free_variables, is_quantifier_free, ring_of
+from qe.options import Budget
+from qe.simplify.simplify import simplify
+
+Number = Fraction | RealAlgebraic
+
+MOST = 1000
+"""So many guarded terms are looked at; a block with more gets ``Unable``."""
+
+
+@dataclass(frozen=True, slots=True)
+class ParametricWitness:
+    """Wherever ``guard`` holds, ``terms`` solve the block (refute it, for a universal block).
+
+    ``terms``: text by variable, in the order in which values are found: a term may mention the parameters and the
+    variables before it. ``epsilon`` in it is a positive number, ``infinity`` a number, that is small or large enough;
+    ``at`` finds one.
+    """
+
+    guard: Formula
+    terms: Mapping[str, str]
+    _answer: Answer = field(repr=False)
+    _variables: tuple[str, ...] = field(repr=False)
+
+    def at(self, parameters: Mapping[str, int | str | Number]) -> dict[str, Number]:
+        """Exact values at these parameters. Raises ``InputError`` where the guard does not hold."""
+        given = {name: v if isinstance(v, RealAlgebraic) else Fraction(v) for name, v in parameters.items()}
+        missing = [name for name in free_variables(self.guard) if name not in given]
+        if missing:
+            raise InputError(f"parameters: a value for {missing[0]} expected")
+        if not _holds(self.guard, given):
+            raise InputError("parameters: the guard does not hold there")
+        found = witness(self._answer, given, budget=Budget())
+        return {name: found.get(name, Fraction(0)) for name in self._variables}
+
+    def __str__(self) -> str:
+        terms = ", ".join(f"{name} = {term}" for name, term in self.terms.items())
+        return f"{terms or 'anything'} if {self.guard}"
+
+
+def parametric_witnesses(block: Formula, *, budget: Budget) -> tuple[ParametricWitness, ...]:
+    """Guarded terms for the variables of ``block`` = ``ex x, ... phi`` or ``all x, ... phi``, phi quantifier-free.
+
+    The disjunction of the guards is equivalent to the existential block (to the negation of the universal one).
+    Raises ``InputError`` for other formulas and ``Unable`` where substitution cannot eliminate the block.
+    """
+    if not isinstance(block, Exists | ForAll) or not is_quantifier_free(block.body):
+        raise InputError("a formula that begins with one quantifier, with a quantifier-free body, expected")
+    body = simplify(nnf(block.body, negate=isinstance(block, ForAll)))
+    result = eliminate_block(block.variables, body, budget=budget, simplify=simplify)
+    if result.remaining:
+        names = ", ".join(result.remaining[0].variables)
+        raise Unable(f"no parametric witness: substitution does not eliminate {names}, whose degree is too high")
+    found = list(islice(result.answers, MOST + 1))
+    if len(found) > MOST:
+        raise Unable(f"more than {MOST} parametric witnesses")
+    guarded = ((simplify(answer.guard), answer) for answer in found)
+    return tuple(
+        ParametricWitness(guard, _terms(answer), answer, block.variables) for guard, answer in guarded if guard != FALSE
+    )
+
+
+def _terms(answer: Answer) -> dict[str, str]:
+    return {
+        c.variable: str(c.point) if c.exponent == 1 else f"root({c.exponent}, {c.point})"
+        for c in reversed(answer.choices)
+    }
+
+
+def _holds(guard: Formula, values: Mapping[str, Number]) -> bool:
+    ring = ring_of(guard)
+    if ring is None:
+        return truth_under(guard, lambda poly: 0) is True
+    numbers = [values.get(name, Fraction(0)) for name in ring.names]
+    return truth_under(guard, Point.of(ring, numbers).sign) is True

@@ -1,0 +1,156 @@
+"""The next variable of a block, and its elimination set (a pure choice; ``block`` carries it out)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from qe.elimination.vs.candidates import (
+    Candidate,
+    Gauss,
+    best_gauss,
+    bounds,
+    gauss_constituent,
+    gauss_cost,
+    points_cost,
+)
+from qe.elimination.vs.points import Infinity
+from qe.elimination.vs.radical_free import without_radicals
+from qe.elimination.vs.shift import common_exponent, shifted
+from qe.elimination.vs.sign_knowledge import Signs, factor_parts
+from qe.formula.build import conj
+from qe.formula.syntax import FALSE, And, Atom, Formula, Relation, RootAtom
+from qe.formula.traverse import atoms, children
+
+_INFINITY_COST = 2.0  # substituting an infinity, in units of a linear root with constant denominator
+_QUADRATIC_SPREAD = 1.5  # how much worse it is when a block variable's degree grows, per degree
+
+
+@dataclass(frozen=True, slots=True)
+class Plan:
+    """Substitute ``candidates`` (and ``infinities``) for x in ``formula``; ``exponent``: degree shift done before.
+
+    ``degenerate`` is a further subproblem, still with x, or FALSE: the Gauss constituent vanishes there.
+    """
+
+    x: int
+    exponent: int
+    formula: Formula
+    candidates: tuple[Candidate, ...]
+    infinities: tuple[Infinity, ...]
+    infinity_guard: Formula | None
+    degenerate: Formula
+    cost: float
+
+
+def occurring(formula: Formula) -> frozenset[int]:
+    """The indices of the variables that occur in a quantifier-free formula."""
+    match formula:
+        case Atom(poly, _):
+            return frozenset(poly.variables)
+        case RootAtom(variable, _, poly, _):
+            return frozenset(poly.variables) | {poly.ring.index[variable]}
+    found: frozenset[int] = frozenset()
+    for child in children(formula):
+        found |= occurring(child)
+    return found
+
+
+def choose(formula: Formula, block: frozenset[int], *, strict: bool) -> Plan | None:
+    """The cheapest plan over the variables of the block, all occurring; None if every degree is too high.
+
+    ``strict``: the solution set in the block is open (see ``openness``).
+    """
+    signs = Signs.of(formula)
+    best: Plan | None = None
+    for x in sorted(block):
+        plan = _plan(formula, x, block - {x}, signs, strict)
+        if plan is not None and (best is None or plan.cost < best.cost):
+            best = plan
+            if best.cost <= 1.0:
+                break
+    return best
+
+
+def _plan(formula: Formula, x: int, others: frozenset[int], signs: Signs, strict: bool) -> Plan | None:
+    if any(isinstance(a, RootAtom) and x in occurring(a) for a in atoms(formula)):
+        return None
+    exponent = common_exponent(formula, x)
+    originals = args = formula.args if isinstance(formula, And) else (formula,)
+    if exponent > 1:
+        args = shifted(args, x, exponent, strict=strict)
+        formula = conj(args)
+        table = {p: s for p, s in signs.table.items() if not p.degree(x)}
+        signs = Signs(table).given(formula)
+    size = sum(1.0 + _spread(a, x, others) for a in atoms(formula) if a.poly.degree(x))
+    gauss = best_gauss([gauss_constituent(a, x, 1, signs) for a in args])
+    if gauss is not None:
+        found = _with_gauss(formula, args, originals, *gauss, x, exponent, size, signs)
+        if found is not None:
+            return found
+    return _with_bounds(formula, x, exponent, size, signs)
+
+
+def _spread(found: Atom | RootAtom, x: int, others: frozenset[int]) -> float:
+    """A penalty for atoms whose other block variables would get a higher degree."""
+    if found.poly.degree(x) < 2:
+        return 0.0
+    return _QUADRATIC_SPREAD * sum(found.poly.degree(i) for i in others)
+
+
+def _with_gauss(
+    formula: Formula,
+    args: tuple[Formula, ...],
+    originals: tuple[Formula, ...],
+    gauss: Gauss,
+    k: int,
+    x: int,
+    exponent: int,
+    size: float,
+    signs: Signs,
+) -> Plan | None:
+    """Only the points of the Gauss constituent; where it vanishes identically, the problem without it."""
+    rest = (*args[:k], *args[k + 1 :])
+    candidates = tuple(
+        replace(c, formula=formula if c.formula is args[k] else conj((c.formula, *rest))) for c in gauss.candidates
+    )
+    cost = gauss_cost(gauss) * size if size > 1 or gauss.degenerate != FALSE else points_cost(candidates) * 0.5
+    if gauss.degenerate == FALSE:
+        return Plan(x, exponent, formula, candidates, (), None, FALSE, cost)
+    if isinstance(args[k], Atom):
+        without = conj((gauss.degenerate, *originals[:k], *originals[k + 1 :]))
+        return Plan(x, exponent, formula, candidates, (), None, without, cost)
+    plain = _with_bounds(formula, x, exponent, size, signs)
+    if plain is None:
+        return None
+    others = tuple(replace(c, guard=conj((gauss.degenerate, c.guard))) for c in plain.candidates)
+    return Plan(x, exponent, formula, candidates + others, plain.infinities, gauss.degenerate, FALSE, cost + plain.cost)
+
+
+def _with_bounds(formula: Formula, x: int, exponent: int, size: float, signs: Signs) -> Plan | None:
+    """Lower bounds with -infinity, upper bounds with +infinity, or a set without radicals: the cheapest."""
+    best: Plan | None = None
+    for side in (1, -1):
+        found = bounds(formula, x, side, signs)
+        if found is None:
+            return None
+        cost = (points_cost(found) + _INFINITY_COST) * size
+        if best is None or cost < best.cost:
+            best = Plan(x, exponent, formula, found, (Infinity(-side),), None, FALSE, cost)
+    plain = without_radicals(formula, x, signs)
+    if plain is not None and best is not None:
+        cost = (points_cost(plain) + 2 * _INFINITY_COST) * size
+        if cost < best.cost:
+            best = Plan(x, exponent, formula, plain, (Infinity(-1), Infinity(1)), None, FALSE, cost)
+    return best
+
+
+def split_equation(formula: Formula, block: frozenset[int]) -> tuple[Formula, ...] | None:
+    """f*g = 0 and F as the two problems f = 0 and F, g = 0 and F, if a conjoined equation factors so."""
+    args = formula.args if isinstance(formula, And) else (formula,)
+    for k, arg in enumerate(args):
+        if isinstance(arg, Atom) and arg.relation is Relation.EQ:
+            _, parts = factor_parts(arg.poly)
+            if len(parts) > 1 and block & set(arg.poly.variables):
+                rest = (*args[:k], *args[k + 1 :])
+                return tuple(conj((Atom(f, Relation.EQ), *rest)) for f, _ in parts)
+    return None

@@ -1,0 +1,137 @@
+"""Substitution of a test point into a quantifier-free formula (virtual: no roots or infinitesimals appear).
+
+THEOREM (Weispfenning 1997; Loos & Weispfenning 1993 for the infinitesimals). Where the guard of the point and
+the given sign facts hold, the result is equivalent to the formula at the point: at a real root, at a root plus or
+minus every sufficiently small positive number, or at every sufficiently large (small) number.
+"""
+
+from __future__ import annotations
+
+from qe.elimination.vs.points import Infinity, LinearRoot, QuadraticRoot, SymbolicPoint
+from qe.elimination.vs.sign_knowledge import Signs
+from qe.elimination.vs.tables import root_condition
+from qe.exact.ring import Poly
+from qe.formula.build import conj, disj
+from qe.formula.syntax import Atom, Formula, Relation, RootAtom
+from qe.formula.traverse import map_atoms
+
+EQ, NE, LT = Relation.EQ, Relation.NE, Relation.LT
+_UPWARD = (Relation.GT, Relation.GE)
+
+
+class Substitution:
+    """``x`` (an index into the ring) replaced by ``point``, in places where ``signs`` hold. Caches per atom.
+
+    The strict atoms in ``settled`` are known not to vanish at the root that a point is beside.
+    """
+
+    __slots__ = ("_done", "point", "settled", "signs", "x")
+
+    def __init__(self, x: int, point: SymbolicPoint, signs: Signs, settled: frozenset[Atom] = frozenset()) -> None:
+        self.x, self.point, self.signs, self.settled = x, point, signs, settled
+        self._done: dict[Atom, Formula] = {}
+
+    def __call__(self, formula: Formula) -> Formula:
+        """The formula at the point. Root atoms must not contain the variable."""
+        return map_atoms(formula, self._leaf)
+
+    def _leaf(self, leaf: Atom | RootAtom) -> Formula:
+        if isinstance(leaf, RootAtom) or not leaf.poly.degree(self.x):
+            return leaf
+        found = self._done.get(leaf)
+        if found is None:
+            plain = leaf in self.settled and not isinstance(self.point, Infinity)
+            evaluate = self._exactly if plain else self.atom
+            found = self._done[leaf] = evaluate(leaf.poly, leaf.relation)
+        return found
+
+    def atom(self, f: Poly, relation: Relation) -> Formula:
+        """``f relation 0`` at the point."""
+        if not f.degree(self.x):
+            return self.signs.atom(f, relation)
+        if isinstance(self.point, Infinity):
+            return self._identically(f, relation) or self._at_infinity(f, relation, self.point.sign)
+        if self.point.epsilon:
+            return self._identically(f, relation) or self._beside(f, relation, self.point.epsilon)
+        return self._exactly(f, relation)
+
+    def _identically(self, f: Poly, relation: Relation) -> Formula | None:
+        """At a transcendental point f = 0 iff all coefficients vanish; None for an inequality."""
+        if relation is EQ:
+            return conj(self.signs.atom(c, EQ) for c in f.coefficients(self.x))
+        if relation is NE:
+            return disj(self.signs.atom(c, NE) for c in f.coefficients(self.x))
+        return None
+
+    def _at_infinity(self, f: Poly, relation: Relation, side: int) -> Formula:
+        """The first coefficient from above that is not zero decides (with alternating signs at -infinity)."""
+        strict = Relation.GT if relation in _UPWARD else LT
+        coefficients = f.coefficients(self.x)
+        result = self.signs.atom(coefficients[0], relation)
+        for k in range(1, len(coefficients)):
+            c = coefficients[k] if side > 0 or k % 2 == 0 else -coefficients[k]
+            result = disj((self.signs.atom(c, strict), conj((self.signs.atom(c, EQ), result))))
+        return result
+
+    def _beside(self, f: Poly, relation: Relation, side: int) -> Formula:
+        """f < 0 just right of e iff f(e) < 0, or f(e) = 0 and f' < 0 just right of e (left: -f')."""
+        if not f.degree(self.x):
+            return self.signs.atom(f, relation)
+        strict = Relation.GT if relation in _UPWARD else LT
+        slope = f.derivative(self.x)
+        here = self._exactly(f, EQ)
+        further = self._beside(slope if side > 0 else -slope, relation, side)
+        return disj((self._exactly(f, strict), conj((here, further))))
+
+    def _exactly(self, f: Poly, relation: Relation) -> Formula:
+        """``f relation 0`` at the real number."""
+        if isinstance(self.point, LinearRoot):
+            return self._at_quotient(f, relation, self.point)
+        assert isinstance(self.point, QuadraticRoot)
+        return self._at_quadratic(f, relation, self.point)
+
+    def _at_quotient(self, f: Poly, relation: Relation, e: LinearRoot) -> Formula:
+        """a^n * f(-b/a) is a polynomial; for odd n its sign is corrected by that of a."""
+        coefficients = f.coefficients(self.x)
+        n = len(coefficients) - 1
+        value, power, minus = coefficients[n], f.ring.constant(1), -e.b
+        for k in range(n - 1, -1, -1):
+            power = power * e.a
+            value = value * minus
+            if coefficients[k]:
+                value = value + coefficients[k] * power
+        if n % 2 and relation not in (EQ, NE):
+            sign = self.signs.sign(e.a)
+            value = value * (e.a if sign is None else sign)
+        return self.signs.atom(value, relation)
+
+    def _at_quadratic(self, f: Poly, relation: Relation, e: QuadraticRoot) -> Formula:
+        """Reduce f to u*x + v modulo the quadratic g, then a sign table.
+
+        With w = a^k*f = u*x + v (mod g): 2*a*w(e) = A + B*sqrt(D), A = 2*a*v - u*b, B = branch*u, and
+        A^2 - B^2*D = 4*a*R with R = a*v^2 - b*u*v + c*u^2, the resultant of g and u*x + v.
+        """
+        u, v, k = _remainder(f, self.x, e)
+        a, b, c = e.a, e.b, e.c
+        first, second = 2 * (a * v) - u * b, u if e.branch > 0 else -u
+        norm = a * (v * v) - b * (u * v) + c * (u * u)
+        sign = self.signs.sign(a)
+        scale: Poly | int = a if sign is None else sign
+        if k % 2 == 0:  # the factor a^(k+1) has the sign of a
+            first, second = first * scale, second * scale
+        return root_condition(first, second, norm * scale, relation, self.signs.atom)
+
+
+def _remainder(f: Poly, x: int, e: QuadraticRoot) -> tuple[Poly, Poly, int]:
+    """(u, v, k) with a^k * f = u*x + v modulo a*x^2 + b*x + c."""
+    c = list(f.coefficients(x))
+    k = 0
+    while len(c) > 2:
+        lead = c.pop()
+        if not lead:
+            continue
+        c = [e.a * p for p in c]
+        c[-1] = c[-1] - lead * e.b
+        c[-2] = c[-2] - lead * e.c
+        k += 1
+    return c[1], c[0], k

@@ -1,0 +1,235 @@
+"""Polynomial witnesses: for all parameters p of a set G, values of existential variables y as polynomials in p.
+
+THEOREM. If f(p, y(p)) holds wherever G(p) does, then  all p (G(p) -> ex y f(p, y)).
+The converse is wrong, so a candidate that fails proves nothing: the caller goes on with a complete method.
+
+Candidates are centres. For g_1, ..., g_m convex in y with bounded level sets,  ex y (all g_i(p, y) <= 0)  holds iff
+min_y sum w_i g_i(p, y) <= 0 for all weights w >= 0 (minimax theorem; Rockafellar, Convex Analysis, 1970, cor. 37.3.2),
+and a point that does it minimises such a sum. Where the second derivatives in y are constants, that minimiser is
+a polynomial in p; it is tried for the sum over every subset of the conditions.
+"""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import chain, combinations, islice
+from math import lcm
+
+from qe.errors import InputError
+from qe.exact.quadratic_form import solve_linear
+from qe.exact.ring import Poly, format_poly
+from qe.formula.build import atom, conj, disj, exists, forall, neg
+from qe.formula.evaluate import holds_at
+from qe.formula.normal import nnf, rename_apart
+from qe.formula.syntax import TRUE, And, Atom, Exists, ForAll, Formula, Or, Relation, RootAtom
+from qe.formula.traverse import atoms, free_variables, is_quantifier_free, map_atoms, ring_of
+from qe.options import Budget
+from qe.rules.preparation import prepare
+from qe.simplify.simplify import simplify
+
+MOST = 500
+"""Subsets of the conditions that are tried at most, small ones first."""
+
+PROBES, UNPROBED = 8, 200
+"""Parameter points at which a candidate must hold before a proof is tried; candidates tried where there are none."""
+
+
+@dataclass(frozen=True, slots=True)
+class Term:
+    """The polynomial ``numerator / denominator`` in the parameters. Invariant: ``denominator`` > 0."""
+
+    numerator: Poly
+    denominator: int = 1
+
+    @staticmethod
+    def of(poly: Poly, factor: Fraction) -> Term:
+        """``factor * poly`` in lowest terms."""
+        unit, primitive = poly.normal()
+        scale = unit * factor
+        return Term(primitive * scale.numerator, scale.denominator)
+
+    def __str__(self) -> str:
+        text = format_poly(self.numerator)
+        return text if self.denominator == 1 else f"({text})/{self.denominator}"
+
+
+@dataclass(frozen=True, slots=True)
+class PolynomialWitness:
+    """Wherever ``assumptions`` hold, ``terms`` satisfy ``claim``, the prepared body of an existential block."""
+
+    terms: Mapping[str, Term]
+    assumptions: Formula
+    claim: Formula
+
+    def __str__(self) -> str:
+        return ", ".join(f"{name} = {term}" for name, term in self.terms.items())
+
+
+def find(sentence: Formula, *, budget: Budget) -> tuple[PolynomialWitness, ...] | None:
+    """Witnesses for the existential blocks that together prove the sentence; None when none were found."""
+    return _prove(nnf(rename_apart(sentence)), TRUE, budget)
+
+
+def instantiate(sentence: Formula, terms: Mapping[str, Term]) -> Formula:
+    """A formula that implies the given one: existential variables replaced by polynomials, negations pushed inside.
+
+    ``terms``: by variable, in the ring of the sentence. A term may use the free variables, those quantified further
+    outside, and those of the same block that are not replaced. Raises ``InputError`` for other terms and names.
+    """
+    prepared = nnf(rename_apart(sentence))
+    unused = dict(terms)
+    result = _instantiated(prepared, terms, frozenset(free_variables(prepared)), unused)
+    if unused:
+        raise InputError(f"witness: {', '.join(unused)} not found among the existential variables")
+    return result
+
+
+def _instantiated(
+    formula: Formula, terms: Mapping[str, Term], scope: frozenset[str], unused: dict[str, Term]
+) -> Formula:
+    match formula:
+        case Exists(variables, body):
+            given = {name: terms[name] for name in variables if name in terms}
+            left = [name for name in variables if name not in given]
+            visible = scope | set(left)
+            for name, term in given.items():
+                ring, unknown = term.numerator.ring, term.numerator.variables
+                hidden = [ring.names[i] for i in unknown if ring.names[i] not in visible]
+                if hidden:
+                    raise InputError(f"witness: {name} depends on {', '.join(hidden)}, which is not known at its place")
+                unused.pop(name, None)
+            return exists(left, _instantiated(substituted(body, given), terms, visible, unused))
+        case ForAll(variables, body):
+            return forall(variables, _instantiated(body, terms, scope | set(variables), unused))
+        case And(args):
+            return conj(_instantiated(a, terms, scope, unused) for a in args)
+        case Or(args):
+            return disj(_instantiated(a, terms, scope, unused) for a in args)
+    return formula
+
+
+def substituted(formula: Formula, terms: Mapping[str, Term]) -> Formula:
+    """The formula with variables replaced by polynomials; every atom is multiplied by a positive number."""
+
+    def change(found: Atom | RootAtom) -> Formula:
+        if isinstance(found, RootAtom):
+            return found
+        return atom(_composed(found.poly, terms), found.relation)
+
+    return map_atoms(formula, change) if terms else formula
+
+
+def _composed(poly: Poly, terms: Mapping[str, Term]) -> Poly:
+    """D^d * poly(p, N/D) for the common denominator D and the degree d in the replaced variables."""
+    ring = poly.ring
+    places = {ring.index[name]: term for name, term in terms.items() if poly.degree(ring.index[name])}
+    common = lcm(*(term.denominator for term in places.values()))
+    top = max((sum(e[i] for i in places) for e, _ in poly.terms()), default=0)
+    scaled = ring.from_terms({e: c * common ** (top - sum(e[i] for i in places)) for e, c in poly.terms()})
+    return scaled.compose({i: term.numerator * (common // term.denominator) for i, term in places.items()})
+
+
+# --- the proof --------------------------------------------------------------------------------------------
+def _prove(formula: Formula, known: Formula, budget: Budget) -> tuple[PolynomialWitness, ...] | None:
+    """Witnesses that prove ``formula``, in negation normal form, where ``known`` holds."""
+    if is_quantifier_free(formula):
+        return () if simplify(formula, known) == TRUE else None
+    match formula:
+        case ForAll(_, body):
+            return _prove(body, known, budget)
+        case And(args):
+            parts = [_prove(a, known, budget) for a in args]
+            return None if any(p is None for p in parts) else tuple(w for p in parts if p is not None for w in p)
+        case Or(args):
+            plain = [a for a in args if is_quantifier_free(a)]
+            extended = conj((known, *(nnf(neg(a)) for a in plain)))
+            proofs = (_prove(a, extended, budget) for a in args if not is_quantifier_free(a))
+            return next((p for p in proofs if p is not None), None)
+        case Exists():
+            ready = prepare(formula, budget=budget).formula
+            if not isinstance(ready, Exists):
+                return _prove(ready, known, budget)
+            found = _witness(ready, known, budget) if is_quantifier_free(ready.body) else None
+            return None if found is None else (found,)
+    return None
+
+
+def _witness(block: Exists, known: Formula, budget: Budget) -> PolynomialWitness | None:
+    names = dict.fromkeys((*free_variables(known), *free_variables(block)))
+    probes = list(_probes(known, names))
+    for terms in islice(_candidates(block), None if probes else UNPROBED):
+        budget.check("polynomial witness")
+        claim = substituted(block.body, terms)
+        if all(holds_at(claim, probe) for probe in probes) and simplify(claim, known) == TRUE:
+            return PolynomialWitness(terms, known, block.body)
+    return None
+
+
+def _probes(known: Formula, names: Iterable[str]) -> Iterator[dict[str, Fraction]]:
+    """A few small points where ``known`` holds, many coordinates 0: they only spare proofs that cannot succeed."""
+    source, found = random.Random(1), 0
+    for _ in range(40 * PROBES):
+        point = {name: Fraction(source.choice((0, 0, 0, 0, -1, 1, -2, 2, -3, 4))) for name in names}
+        if found < PROBES and holds_at(known, point):
+            found += 1
+            yield point
+
+
+# --- the candidates -----------------------------------------------------------------------------------------
+@dataclass(frozen=True, slots=True)
+class _Slope:
+    """The gradient of a condition g <= 0 with respect to y: ``hessian`` * y + ``rest``."""
+
+    hessian: tuple[tuple[int, ...], ...]
+    rest: tuple[Poly, ...]
+
+
+def _candidates(block: Exists) -> Iterator[dict[str, Term]]:
+    """The minimisers of the sums over subsets of the conditions, each once."""
+    ring = ring_of(block.body)
+    assert ring is not None
+    places = [ring.index[name] for name in block.variables]
+    slopes = [s for a in dict.fromkeys(atoms(block.body)) if (s := _slope(a, places)) is not None]
+    seen = set()
+    sizes = range(1, len(slopes) + 1)
+    for chosen in islice(chain.from_iterable(combinations(slopes, k) for k in sizes), MOST):
+        centre = _centre(chosen)
+        if centre is not None and centre not in seen:
+            seen.add(centre)
+            yield dict(zip(block.variables, centre, strict=True))
+
+
+def _slope(condition: Atom | RootAtom, places: Sequence[int]) -> _Slope | None:
+    """None for atoms that are no weak or strict inequality of constant second derivatives in y."""
+    if isinstance(condition, RootAtom) or condition.relation in (Relation.EQ, Relation.NE):
+        return None
+    g = condition.poly if condition.relation in (Relation.LE, Relation.LT) else -condition.poly
+    gradient = [g.derivative(i) for i in places]
+    second = [[slope.derivative(j) for j in places] for slope in gradient]
+    if not all(entry.is_constant for row in second for entry in row):
+        return None
+    hessian = tuple(tuple(entry.constant_value() for entry in row) for row in second)
+    rest = tuple(slope.compose({i: g.ring.constant(0) for i in places}) for slope in gradient)
+    return _Slope(hessian, rest)
+
+
+def _centre(chosen: Sequence[_Slope]) -> tuple[Term, ...] | None:
+    """The point where the slopes add up to zero, if there is exactly one."""
+    size = len(chosen[0].rest)
+    total = [[Fraction(sum(s.hessian[i][j] for s in chosen)) for j in range(size)] for i in range(size)]
+    rest = [sum((s.rest[i] for s in chosen[1:]), chosen[0].rest[i]) for i in range(size)]
+    columns = []
+    for k in range(size):
+        solved = solve_linear(total, [Fraction(int(i == k)) for i in range(size)], size)
+        if solved is None or solved.kernel:
+            return None
+        columns.append(solved.particular)
+    terms = []
+    for i in range(size):
+        common = lcm(*(column[i].denominator for column in columns))
+        numerator = sum((rest[k] * int(-columns[k][i] * common) for k in range(size)), rest[0] * 0)
+        terms.append(Term.of(numerator, Fraction(1, common)))
+    return tuple(terms)

@@ -1,0 +1,1 @@
+"""The loop from a formula to an answer, and the choice of methods."""

@@ -1,0 +1,63 @@
+"""A certificate for answers that linear equations alone give, such as those of control point problems."""
+
+from __future__ import annotations
+
+from qe.exact.ring import Poly, Ring
+from qe.formula.build import atom, conj, convert
+from qe.formula.syntax import And, Atom, Exists, Formula, Relation, RootAtom
+from qe.formula.traverse import free_variables, is_quantifier_free, map_atoms
+from qe.proof.certificate import Certificate
+
+
+def substitution_certificate(block: Formula, answer: Formula) -> Certificate | None:
+    """A certificate for ``block`` <-> ``answer``, or None where linear equations with constant pivots do not give it.
+
+    ``block`` must be ``ex variables. conjunction``. Source: the Gauss case of Loos & Weispfenning 1993, section 3.
+    """
+    if not isinstance(block, Exists) or not is_quantifier_free(block.body) or not isinstance(block.body, And):
+        return None
+    ring = Ring.of(dict.fromkeys((*free_variables(block.body), *block.variables)))
+    body = matrix = convert(block.body, ring)
+    solved: list[tuple[str, Poly]] = []
+    left = list(block.variables)
+    while left:
+        found = _solvable(body, ring, left)
+        if found is None:
+            return None
+        name, equation = found
+        body = _replaced(body, ring.index[name], equation)
+        solved.append(found)
+        left.remove(name)
+    if _set(body) != _set(convert(answer, ring)):
+        return None
+    return Certificate.substitution(matrix, ring.names, solved, body)
+
+
+def _solvable(body: Formula, ring: Ring, names: list[str]) -> tuple[str, Poly] | None:
+    """A variable and an equation among the conjuncts that is linear in it with a constant coefficient."""
+    for conjunct in body.args if isinstance(body, And) else (body,):
+        if isinstance(conjunct, Atom) and conjunct.relation is Relation.EQ:
+            for name in names:
+                i = ring.index[name]
+                if conjunct.poly.degree(i) == 1 and conjunct.poly.leading(i).is_constant:
+                    return name, conjunct.poly
+    return None
+
+
+def _replaced(body: Formula, i: int, equation: Poly) -> Formula:
+    rest, lead = equation.coefficients(i)
+    c = lead.constant_value()
+    value, scale = (-rest, c) if c > 0 else (rest, -c)
+
+    def change(found: Atom | RootAtom) -> Formula:
+        if isinstance(found, RootAtom) or not (degree := found.poly.degree(i)):
+            return found
+        terms = (p * value**k * scale ** (degree - k) for k, p in enumerate(found.poly.coefficients(i)))
+        return atom(sum(terms, start=found.poly.ring.constant(0)), found.relation)
+
+    used = Atom(equation, Relation.EQ)
+    return conj(map_atoms(c, change) for c in (body.args if isinstance(body, And) else ()) if c != used)
+
+
+def _set(formula: Formula) -> frozenset[Formula]:
+    return frozenset(formula.args if isinstance(formula, And) else (formula,))

@@ -1,1 +1,0 @@
-"""The choice of methods and variable orders; nothing here carries them out."""

@@ -1,0 +1,91 @@
+"""The answer to a quantifier elimination problem: what the public functions return."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from enum import Enum
+from typing import Any
+
+from qe.errors import Unable
+from qe.formula.syntax import Constant, Formula
+from qe.proof.certificate import Certificate
+from qe.proof.elimination import Assignment
+from qe.proof.run_log import told
+
+
+class Status(Enum):
+    """Whether the problem was answered. UNABLE always carries a reason."""
+
+    SOLVED = "solved"
+    UNABLE = "unable"
+
+
+class Guarantee(Enum):
+    """CHECKED: separate code accepted the certificate. DERIVED: it follows from the algorithms' theorems only."""
+
+    CHECKED = "checked"
+    DERIVED = "derived"
+
+
+@dataclass(frozen=True, slots=True)
+class Answer:
+    """``formula``: quantifier-free and equivalent to the input over R (None if unable).
+
+    ``truth``: True or False for sentences. ``witness``: exact values for the outermost block of a true existential
+    sentence, or a counterexample to a false universal one. ``certificate``: what ``qe.verify`` accepts, when the
+    method produces one. ``stats``: what was done, seconds per phase, cells.
+    """
+
+    status: Status
+    formula: Formula | None
+    witness: Assignment | None = None
+    certificate: Certificate | None = None
+    guarantee: Guarantee = Guarantee.DERIVED
+    reason: str = ""
+    stats: Mapping[str, Any] = field(default_factory=dict)
+
+    @property
+    def truth(self) -> bool | None:
+        """The truth value of a sentence, None for a formula with free variables."""
+        return self.formula.value if isinstance(self.formula, Constant) else None
+
+    @property
+    def explanation(self) -> str:
+        """What was done and why, a sentence a line."""
+        return told(self.stats)
+
+    def _written(self, format: str) -> str:
+        """Raises ``Unable`` where there is no answer."""
+        from qe.io import formats
+
+        if self.formula is None:
+            raise Unable(f"there is no formula to write: {self.reason}")
+        return formats.write(self.formula, format)
+
+    def to_smtlib(self) -> str:
+        """An SMT-LIB 2 script that asserts the formula."""
+        return self._written("smtlib")
+
+    def to_qepcad(self) -> str:
+        """QEPCAD's notation."""
+        return self._written("qepcad")
+
+    def to_redlog(self) -> str:
+        """Redlog's notation."""
+        return self._written("redlog")
+
+    def to_latex(self) -> str:
+        """LaTeX."""
+        return self._written("latex")
+
+    def to_sympy(self) -> Any:
+        """A SymPy Boolean."""
+        from qe.io.sympy import to_sympy
+
+        if self.formula is None:
+            raise Unable(f"there is no formula to convert: {self.reason}")
+        return to_sympy(self.formula)
+
+    def __str__(self) -> str:
+        return str(self.formula) if self.formula is not None else f"unable: {self.reason}"

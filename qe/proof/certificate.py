@@ -1,0 +1,209 @@
+"""Certificates: what an answer hands over so that code sharing nothing with its producer can check it.
+
+A certificate has a kind and a payload. As JSON it carries a format version and, as the last and weakest line of
+defence, the SHA-256 digest of its content: the checker looks at the meaning of every entry first.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+from enum import Enum
+from fractions import Fraction
+
+from qe.errors import CertificateRejected, InputError
+from qe.exact.algebraic import RealAlgebraic
+from qe.exact.ring import Poly, Ring, format_poly
+from qe.formula.syntax import Formula
+from qe.proof.cells import CellTable
+from qe.proof.cells_json import CellEvidence, cells_from_json, cells_to_json
+from qe.proof.entry import Entry, Json, formula_to_json
+
+FORMAT, VERSION = "bezier-qe certificate", 1
+
+
+class Kind(Enum):
+    """What a certificate proves.
+
+    CELLS: truth values on the cells of a (partial) cylindrical algebraic decomposition, and the formula that
+    follows. OPTIMUM: an optimal point of a convex problem, or that there is none. WITNESS: that an assignment
+    satisfies a quantifier-free formula. SUBSTITUTION: that linear equations eliminate an existential block.
+    CONTAINMENT: that a Bezier curve stays in a ball or half-space. CLEARANCE: that one never meets an obstacle, or
+    where it first does. BUNDLE: several certificates with labels.
+    """
+
+    CELLS = "cells"
+    OPTIMUM = "optimum"
+    WITNESS = "witness"
+    SUBSTITUTION = "substitution"
+    CONTAINMENT = "containment"
+    CLEARANCE = "clearance"
+    BUNDLE = "bundle"
+
+
+@dataclass(frozen=True, slots=True)
+class Labelled:
+    """One member of a bundle."""
+
+    label: str
+    certificate: Certificate
+
+
+@dataclass(frozen=True, slots=True)
+class Root:
+    """The only real root in (low, high) of the polynomial with these integer coefficients, from degree 0 up."""
+
+    coefficients: tuple[int, ...]
+    low: Fraction
+    high: Fraction
+
+    @staticmethod
+    def of(value: Fraction | RealAlgebraic) -> Root | Fraction:
+        """A number as the witness certificate wants it: rational, or by polynomial and isolating interval."""
+        if isinstance(value, Fraction):
+            return value
+        return value.as_fraction() if value.is_rational else Root(value.minimal_polynomial, *value.interval())
+
+
+Payload = CellEvidence | tuple[Labelled, ...] | dict[str, Json]
+
+
+@dataclass(frozen=True, slots=True)
+class Certificate:
+    """Payload by kind: CELLS: ``CellEvidence``; BUNDLE: a tuple of ``Labelled``; the others: plain JSON data.
+
+    ``digests`` is set for certificates read from text: the digest stated there and the one of what was read.
+    """
+
+    kind: Kind
+    payload: Payload
+    digests: tuple[str, str] | None = field(default=None, compare=False)
+
+    @staticmethod
+    def cells(table: CellTable, answer: Formula | None = None) -> Certificate:
+        """That ``table`` is a correct cell table and (if given) that ``answer`` is equivalent to its formula."""
+        return Certificate(Kind.CELLS, CellEvidence(table, answer))
+
+    @staticmethod
+    def bundle(members: Iterable[tuple[str, Certificate]]) -> Certificate:
+        """Several certificates, each with a label."""
+        return Certificate(Kind.BUNDLE, tuple(Labelled(label, c) for label, c in members))
+
+    @staticmethod
+    def witness(matrix: Formula, order: Sequence[str], values: Sequence[Root | Fraction]) -> Certificate:
+        """That the quantifier-free ``matrix`` (over the ring of ``order``) holds where the variables have ``values``.
+
+        A value is a rational number or a ``Root``.
+        """
+        numbers: list[Json] = [_value_to_json(v, name) for v, name in zip(values, order, strict=True)]
+        payload: dict[str, Json] = {"order": list(order), "matrix": formula_to_json(matrix), "values": numbers}
+        return Certificate(Kind.WITNESS, payload)
+
+    @staticmethod
+    def substitution(
+        matrix: Formula, order: Sequence[str], solved: Sequence[tuple[str, Poly]], answer: Formula
+    ) -> Certificate:
+        """That the existential variables ``solved`` (with their equations, in order of use) give ``answer``."""
+        payload: dict[str, Json] = {
+            "order": list(order),
+            "variables": [name for name, _ in solved],
+            "matrix": formula_to_json(matrix),
+            "solved": [[name, format_poly(equation)] for name, equation in solved],
+            "answer": formula_to_json(answer),
+        }
+        return Certificate(Kind.SUBSTITUTION, payload)
+
+    def to_data(self) -> dict[str, Json]:
+        """Kind and payload as JSON data."""
+        if isinstance(self.payload, CellEvidence):
+            return {"kind": self.kind.value, "payload": cells_to_json(self.payload)}
+        if isinstance(self.payload, tuple):
+            members: list[Json] = [{"label": m.label, **m.certificate.to_data()} for m in self.payload]
+            return {"kind": self.kind.value, "certificates": members}
+        return {"kind": self.kind.value, "payload": self.payload}
+
+    def to_json(self, *, indent: int | None = None) -> str:
+        """The certificate as text, with version and digest; equal certificates give equal text."""
+        whole: dict[str, Json] = {"format": FORMAT, "version": VERSION, **self.to_data()}
+        whole["digest"] = digest(whole)
+        separators = (",", ":") if indent is None else None
+        return json.dumps(whole, ensure_ascii=False, indent=indent, separators=separators)
+
+    @staticmethod
+    def from_json(text: str) -> Certificate:
+        """The certificate in ``text``. ``InputError`` if it is not JSON of this format and version;
+        ``CertificateRejected``, naming the entry, if something in it is malformed. A wrong digest is kept for the
+        checker, which reports it when it finds nothing worse.
+        """
+        try:
+            whole = json.loads(text, parse_float=_no_floats, parse_constant=_no_floats, object_pairs_hook=_no_repeats)
+        except (ValueError, RecursionError) as error:
+            raise InputError(f"not a certificate: {error}") from None
+        if not isinstance(whole, dict) or whole.get("format") != FORMAT:
+            raise InputError(f'not a certificate: expected an object with "format": "{FORMAT}"')
+        if whole.get("version") != VERSION or isinstance(whole.get("version"), bool):
+            raise InputError(f"certificate version {whole.get('version')!r} is not {VERSION}, the one known here")
+        stated = whole.get("digest")
+        if not isinstance(stated, str):
+            raise CertificateRejected("digest", "expected a string")
+        content = {k: v for k, v in whole.items() if k not in ("format", "version", "digest")}
+        try:
+            read = _from_data(Entry(content, ""))
+        except RecursionError:
+            raise InputError("certificate nested too deeply") from None
+        return Certificate(read.kind, read.payload, (stated, digest(whole)))
+
+
+def digest(whole: dict[str, Json]) -> str:
+    """The SHA-256 digest of the canonical text of everything but the digest itself."""
+    content = {k: v for k, v in whole.items() if k != "digest"}
+    canonical = json.dumps(content, ensure_ascii=True, sort_keys=True, separators=(",", ":"))
+    return hashlib.sha256(canonical.encode()).hexdigest()
+
+
+def _value_to_json(value: Root | Fraction, name: str) -> Json:
+    if isinstance(value, Fraction):
+        return str(value)
+    ring = Ring.of((name,))
+    poly = ring.from_terms({(k,): c for k, c in enumerate(value.coefficients) if c})
+    return {"polynomial": format_poly(poly.normal()[1]), "interval": [str(value.low), str(value.high)]}
+
+
+def _from_data(entry: Entry, labelled: bool = False) -> Certificate:
+    extra = ("label",) if labelled else ()
+    if not isinstance(entry.value, dict):
+        raise entry.fail("expected an object")
+    prefix = f"{entry.path}." if entry.path else ""
+    try:
+        kind = Kind(Entry(entry.value.get("kind"), f"{prefix}kind").text())
+    except ValueError:
+        raise CertificateRejected(f"{prefix}kind", "unknown kind of certificate") from None
+    if kind is Kind.BUNDLE:
+        members = entry.fields("kind", "certificates", *extra)[1]
+        return Certificate(kind, tuple(_member(m) for m in members.items()))
+    payload = entry.fields("kind", "payload", *extra)[1]
+    if kind is Kind.CELLS:
+        return Certificate(kind, cells_from_json(payload))
+    if not isinstance(payload.value, dict):
+        raise payload.fail("expected an object")
+    return Certificate(kind, payload.value)
+
+
+def _member(entry: Entry) -> Labelled:
+    if not isinstance(entry.value, dict):
+        raise entry.fail("expected an object")
+    label = Entry(entry.value.get("label"), f"{entry.path}.label").text()
+    return Labelled(label, _from_data(entry, labelled=True))
+
+
+def _no_floats(text: str) -> Json:
+    raise ValueError(f"inexact number {text}")
+
+
+def _no_repeats(pairs: list[tuple[str, Json]]) -> dict[str, Json]:
+    found = dict(pairs)
+    if len(found) != len(pairs):
+        raise ValueError("a name occurs twice in one object")
+    return found

@@ -1,0 +1,1 @@
+"""Regions: solution sets with membership, bounds, measures and pictures."""

@@ -1,0 +1,195 @@
+"""Convex regions without a decomposition: membership, fibres and bounds by exact convex optimisation."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+
+from qe.cad.decompose import decompose
+from qe.cells.interval import Interval, Number
+from qe.cells.sampled_cells import coordinates, leaves
+from qe.convex.optimum import OptimumStatus, maximize, minimize
+from qe.convex.read import NotConvex, read_problem
+from qe.errors import BudgetExceeded, InputError, Unable
+from qe.exact.algebraic import RealAlgebraic
+from qe.exact.field import FieldElement
+from qe.exact.ring import Ring
+from qe.formula.build import convert, exists
+from qe.formula.evaluate import substituted
+from qe.formula.normal import nnf
+from qe.formula.syntax import FALSE, TRUE, Exists, Formula
+from qe.formula.traverse import free_variables
+from qe.options import Budget
+from qe.proof.cells import CellTable
+from qe.regions.region import Region, checked_order, is_true
+
+TABLE_VARIABLES = 2
+"""Up to this many variables the decomposition is used for questions that optimisation does not answer."""
+
+
+@dataclass(frozen=True, slots=True)
+class Shadow:
+    """``exists hidden. conditions``: a conjunction of convex quadratic conditions, over a ring of all variables.
+
+    ``formula()`` eliminates the hidden variables.
+    """
+
+    conditions: Formula
+    hidden: tuple[str, ...]
+    formula: Callable[[], Formula]
+
+
+def shadow_of(formula: Formula, eliminate: Callable[[Formula], Formula]) -> Shadow | None:
+    """The formula as a shadow of a convex set, None where it is not seen to be one (decided exactly)."""
+    body, hidden = (formula.body, formula.variables) if isinstance(formula, Exists) else (formula, ())
+    body = nnf(body)
+    try:
+        read_problem(Ring.of(()).constant(0), body)
+    except NotConvex:
+        return None
+    return Shadow(body, hidden, lambda: eliminate(formula))
+
+
+class ConvexRegion(Region):
+    """The set of points that convex quadratic conditions allow, perhaps together with values of hidden variables.
+
+    ``contains``, ``fibre``, ``bounds`` and ``is_empty`` are answered by exact convex optimisation, in any number of
+    variables, and bounds carry certificates. ``formula`` (where variables are hidden) and ``table``, which all the
+    other questions rest on, are only computed when they are asked for. ``limits()`` makes the budget of one question.
+    """
+
+    __slots__ = ("_limits", "_shadow")
+
+    def __init__(self, shadow: Shadow, order: tuple[str, ...] | None, *, limits: Callable[[], Budget]) -> None:
+        free = free_variables(exists(shadow.hidden, shadow.conditions))
+        super().__init__(None, None, checked_order(free, order))
+        ring = Ring.of((*self.order, *shadow.hidden))
+        self._shadow = Shadow(convert(shadow.conditions, ring), shadow.hidden, shadow.formula)
+        self._limits = limits
+
+    @property
+    def formula(self) -> Formula:
+        """The defining quantifier-free formula; computed when first asked for."""
+        if self._formula is None:
+            found = self._shadow.formula() if self._shadow.hidden else self._shadow.conditions
+            self._formula = nnf(convert(found, Ring.of(self.order)))
+        return self._formula
+
+    @property
+    def table(self) -> CellTable:
+        """The decomposition of the space of ``order``; computed when first asked for."""
+        if self._table is None:
+            done = decompose(self.formula, self.order, ("",) * len(self.order), budget=self._limits())
+            self._table = done.table
+        return self._table
+
+    @property
+    def is_empty(self) -> bool:
+        return self._somewhere(self._shadow.conditions) is None
+
+    def sample_points(self) -> list[dict[str, Number]]:
+        """Exact points: in up to two variables a rational one in every true cell of full dimension (in every true cell
+        if there is none of full dimension), otherwise one point in all."""
+        if len(self.order) <= TABLE_VARIABLES:
+            inner = [p for p in leaves(self.table, is_true) if p.dimension == p.depth]
+            return [coordinates(self.table, p) for p in inner] if inner else super().sample_points()
+        point = self._somewhere(self._shadow.conditions)
+        return [] if point is None else [{name: point.get(name, Fraction(0)) for name in self.order}]
+
+    def _holds(self, values: list[Number]) -> bool:
+        if self._formula is not None or not self._shadow.hidden:
+            return super()._holds(values)
+        given = dict(zip(self.order, values, strict=True))
+        irrational = [name for name, value in given.items() if _rational(value) is None]
+        if not irrational:
+            return self._somewhere(self._under(given)) is not None
+        if len(irrational) == 1:
+            value = given.pop(irrational[0])
+            allowed = self._range(irrational[0], self._under(given))
+            return allowed is not None and value in allowed
+        if len(self.order) > TABLE_VARIABLES:
+            raise Unable("membership: at most one irrational coordinate expected; others need the elimination first")
+        return super()._holds(values)
+
+    def _under(self, given: Mapping[str, Number]) -> Formula:
+        """The conditions with rational values put in."""
+        return substituted(self._shadow.conditions, {n: q for n, v in given.items() if (q := _rational(v)) is not None})
+
+    def _somewhere(self, conditions: Formula) -> dict[str, Number] | None:
+        """A point that satisfies the conditions, None if there is none."""
+        if conditions in (TRUE, FALSE):
+            return {} if conditions == TRUE else None
+        nothing = Ring.of((*self.order, *self._shadow.hidden)).constant(0)
+        found = minimize(nothing, conditions, budget=self._limits())
+        if found.status is OptimumStatus.INFEASIBLE:
+            return None
+        strictly = found.evidence.inner_point if found.attained is False else tuple(found.point.values())
+        return {name: _number(value) for name, value in zip(found.point, strictly, strict=True)}
+
+    def bounds(self, variable: str) -> Interval:
+        """The exact infimum and supremum of a variable, whether they are attained, and the certificates of both."""
+        if variable not in self.order:
+            raise InputError(f"variable: one of {', '.join(self.order)} expected, {variable} found")
+        if variable not in self._bounds:
+            try:
+                found = self._range(variable, self._shadow.conditions)
+            except Unable as error:
+                if not self._has_small_table(error):
+                    raise
+                return super().bounds(variable)
+            if found is None:
+                raise InputError("an empty region has no bounds")
+            self._bounds[variable] = found
+        return self._bounds[variable]
+
+    def _fibre(self, values: list[Number]) -> list[Interval]:
+        if any(_rational(value) is None for value in values):
+            if len(self.order) > TABLE_VARIABLES:
+                raise Unable("fibre: rational values expected; take them inside the interval")
+            return super()._fibre(values)
+        given = dict(zip(self.order, values, strict=False))
+        try:
+            found = self._range(self.order[len(values)], self._under(given))
+        except Unable as error:
+            if not self._has_small_table(error):
+                raise
+            return super()._fibre(values)
+        return [] if found is None else [found]
+
+    def _has_small_table(self, error: Unable) -> bool:
+        """Whether the decomposition may take over from optimisation that could not prove its answer."""
+        return len(self.order) <= TABLE_VARIABLES and not isinstance(error, BudgetExceeded)
+
+    def _range(self, variable: str, conditions: Formula) -> Interval | None:
+        """The interval of a variable under convex conditions, None if they contradict each other."""
+        if conditions == FALSE:
+            return None
+        objective = Ring.of((*self.order, *self._shadow.hidden)).var(variable)
+        low = minimize(objective, conditions, budget=self._limits())
+        if low.status is OptimumStatus.INFEASIBLE:
+            return None
+        high = maximize(objective, conditions, budget=self._limits())
+        return Interval(
+            None if low.value is None else _number(low.value),
+            None if high.value is None else _number(high.value),
+            low.attained is True,
+            high.attained is True,
+            (low.certificate, high.certificate),
+        )
+
+    def __repr__(self) -> str:
+        hidden = f"exists {', '.join(self._shadow.hidden)}. " if self._shadow.hidden else ""
+        return f"Region({', '.join(self.order)}: {hidden}{self._shadow.conditions})"
+
+
+def _rational(value: Number) -> Fraction | None:
+    if isinstance(value, RealAlgebraic):
+        return value.as_fraction() if value.is_rational else None
+    return value
+
+
+def _number(value: Fraction | FieldElement) -> Number:
+    if isinstance(value, FieldElement):
+        return value.as_fraction() if value.is_rational else value.to_algebraic()
+    return value

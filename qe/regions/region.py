@@ -1,0 +1,197 @@
+"""Regions: the solution set of a quantifier-free formula, described cylindrically, with a certificate."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from fractions import Fraction
+from pathlib import Path
+
+from qe.cad.decompose import decompose
+from qe.cells.fibres import any_true, fibre_of
+from qe.cells.interval import Coordinate, Interval, Number, number_of
+from qe.cells.pieces import Piece, merge
+from qe.cells.sampled_cells import coordinates, free_part, leaves
+from qe.errors import InputError
+from qe.exact.algebraic import RealAlgebraic
+from qe.exact.ring import Ring
+from qe.exact.sample import Point
+from qe.formula.build import convert
+from qe.formula.evaluate import truth_under
+from qe.formula.normal import nnf
+from qe.formula.syntax import Formula
+from qe.formula.traverse import free_variables
+from qe.options import Budget
+from qe.proof.cells import Cell, CellTable
+from qe.proof.certificate import Certificate
+
+
+class Region:
+    """The set of real points that satisfy ``formula``; ``table`` proves where it is true."""
+
+    __slots__ = ("_bounds", "_formula", "_pieces", "_table", "order")
+
+    def __init__(self, formula: Formula | None, table: CellTable | None, order: tuple[str, ...]) -> None:
+        self._formula, self._table, self.order = formula, table, order
+        self._pieces: list[Piece] | None = None
+        self._bounds: dict[str, Interval] = {}
+
+    @staticmethod
+    def of(formula: Formula, order: tuple[str, ...] | None = None, *, budget: Budget | None = None) -> Region:
+        """Decompose the space of the free variables (or of ``order``, which may name more).
+
+        Raises ``InputError`` when ``order`` misses a free variable.
+        """
+        chosen = checked_order(free_variables(formula), order)
+        matrix = nnf(convert(formula, Ring.of(chosen)))
+        done = decompose(matrix, chosen, ("",) * len(chosen), budget=budget or Budget())
+        return Region(matrix, done.table, chosen)
+
+    # --- what it is --------------------------------------------------------------------------
+    @property
+    def formula(self) -> Formula:
+        """The defining quantifier-free formula."""
+        assert self._formula is not None
+        return self._formula
+
+    @property
+    def table(self) -> CellTable:
+        """The decomposition that proves where the formula is true."""
+        assert self._table is not None
+        return self._table
+
+    @property
+    def is_empty(self) -> bool:
+        return not any_true(self.table.root)
+
+    @property
+    def cells(self) -> list[Piece]:
+        """The cylindrical pieces, merged from the true cells."""
+        if self._pieces is None:
+            self._pieces = merge(self.table)
+        return self._pieces
+
+    @property
+    def dimension(self) -> int:
+        """The dimension of the set, -1 if it is empty."""
+        size = len(self.order)
+        return max((p.dimension + size - p.depth for p in leaves(self.table, is_true)), default=-1)
+
+    def contains(self, point: Mapping[str, Coordinate]) -> bool:
+        """Exact membership. Coordinates: int, Fraction, decimal or fraction text, RealAlgebraic."""
+        return self._holds(self._values(point, len(self.order)))
+
+    def _values(self, point: Mapping[str, Coordinate], count: int) -> list[Number]:
+        """The numbers given for the first ``count`` variables."""
+        for name in self.order[:count]:
+            if name not in point:
+                raise InputError(f"point: a value for {name} expected")
+        return [number_of(point[name], name) for name in self.order[:count]]
+
+    def _holds(self, values: list[Number]) -> bool:
+        place = Point.of(Ring.of(self.order), values)
+        truth = truth_under(self.formula, place.sign)
+        assert truth is not None
+        return truth
+
+    def fibre(self, prefix: Mapping[str, Coordinate] | Sequence[Coordinate] = ()) -> list[Interval]:
+        """The exact set still possible for the next variable of ``order`` when the first ones have these values.
+
+        ``prefix``: values by name (of the first variables of ``order``) or in order. Disjoint intervals, ascending;
+        at most one for a convex set, none when no point begins like that. A walk that takes each value from the
+        interval it is offered ends in a point of the region.
+        """
+        named = prefix if isinstance(prefix, Mapping) else dict(zip(self.order, prefix, strict=False))
+        if len(named) < len(prefix) or len(named) >= len(self.order) or set(named) != set(self.order[: len(named)]):
+            expected = ", ".join(self.order[:-1])
+            raise InputError(f"prefix: values for the first variables of {expected} expected")
+        return self._fibre(self._values(named, len(named)))
+
+    def _fibre(self, values: list[Number]) -> list[Interval]:
+        return fibre_of(self.table, values)
+
+    def sample_points(self) -> list[dict[str, Number]]:
+        """One exact point in every true cell of the decomposition."""
+        return [coordinates(self.table, place) for place in leaves(self.table, is_true)]
+
+    def bounds(self, variable: str) -> Interval:
+        """The exact infimum and supremum of a variable over the region, and whether they are attained."""
+        if variable not in self.order:
+            raise InputError(f"variable: one of {', '.join(self.order)} expected, {variable} found")
+        if self.is_empty:
+            raise InputError("an empty region has no bounds")
+        if variable not in self._bounds:
+            self._bounds[variable] = self._projected(variable)
+        return self._bounds[variable]
+
+    def _projected(self, variable: str) -> Interval:
+        order = (variable, *(v for v in reversed(self.order) if v != variable))
+        quantifiers = ("", *("E" for _ in order[1:]))
+        table = decompose(self.formula, order, quantifiers, budget=Budget()).table
+        pieces = merge(free_part(table))
+        first, last = pieces[0].ranges[0], pieces[-1].ranges[0]
+        lower = None if first.lower is None else _value(first.lower.value)
+        upper = None if last.upper is None else _value(last.upper.value)
+        return Interval(lower, upper, first.lower_closed, last.upper_closed)
+
+    def volume(self, rel_error: float = 0.01) -> tuple[Fraction, Fraction]:
+        """Rational numbers lo <= volume <= hi with hi - lo <= rel_error * hi (area in 2-D, length in 1-D).
+
+        Regions bounded by planes and ellipsoids take well under a second at 0.01; other regions in space take longer.
+        Raises ``Unable`` for unbounded regions.
+        """
+        from qe.regions.volume import enclose
+
+        return enclose(self, rel_error)
+
+    def to_formula(self) -> Formula:
+        """The defining quantifier-free formula."""
+        return self.formula
+
+    # --- evidence and files ----------------------------------------------------------------------
+    @property
+    def certificate(self) -> Certificate:
+        """What ``qe.verify`` accepts: the whole cell table."""
+        return Certificate.cells(self.table)
+
+    def to_json(self) -> str:
+        """The certificate's JSON, from which ``from_json`` restores the region."""
+        return self.certificate.to_json()
+
+    @staticmethod
+    def from_json(text: str) -> Region:
+        """The region of a JSON text. Nothing is verified; use ``qe.verify`` on ``certificate`` for that."""
+        from qe.proof.cells_json import CellEvidence
+
+        payload = Certificate.from_json(text).payload
+        if not isinstance(payload, CellEvidence) or any(payload.table.quantifiers):
+            raise InputError("a region in JSON expected")
+        return Region(payload.table.matrix, payload.table, payload.table.order)
+
+    def plot(self, path: str | Path) -> None:
+        """Write a picture (PNG, SVG or PDF by the ending) of a region in one to three variables."""
+        from qe.regions.picture import draw
+
+        draw(self, Path(path))
+
+    def __repr__(self) -> str:
+        return f"Region({', '.join(self.order)}: {self.formula})"
+
+
+def checked_order(free: tuple[str, ...], order: tuple[str, ...] | None) -> tuple[str, ...]:
+    """The order asked for, else that of the free variables; ``InputError`` when it misses one or repeats a name."""
+    chosen = free if order is None else order
+    missing = [v for v in free if v not in chosen]
+    if missing or len(set(chosen)) != len(chosen):
+        raise InputError(f"order: each of {', '.join(free)} once expected, {', '.join(chosen)} found")
+    return chosen
+
+
+def is_true(cell: Cell) -> bool:
+    """Whether a cell is an undecomposed one on which the formula is true."""
+    return cell.stack is None and cell.truth is True
+
+
+def _value(number: RealAlgebraic | None) -> Number | None:
+    if number is None:
+        return None
+    return number.as_fraction() if number.is_rational else number

@@ -1,0 +1,134 @@
+"""Rigorous measures of regions: length, area, volume as rational enclosures.
+
+A full-dimensional piece x_1 in (a, b), x_2 in (lower(x_1), upper(x_1)), … is the image of a unit cube; the integrand is
+the product of the widths. Boxes with the largest contribution to the error are halved until the enclosure is
+tight enough. The last variable is integrated exactly by its width, so the cube has one side fewer; where
+``slices`` knows the area of a plane slice, two fewer.
+"""
+
+from __future__ import annotations
+
+import heapq
+from collections.abc import Sequence
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+from qe.cells.pieces import Piece, RootFunction
+from qe.errors import InputError, Unable
+from qe.exact.enclosure import Jet, Sides, box_sides, constant, ends, root_jet, smooth_side
+from qe.regions.slices import has_closed_slices, slice_area
+
+if TYPE_CHECKING:
+    from qe.regions.region import Region
+
+MOST_BOXES = 60_000
+_HALF = Fraction(1, 2)
+Box = tuple[tuple[Fraction, Fraction], ...]
+
+
+def enclose(region: Region, rel_error: float) -> tuple[Fraction, Fraction]:
+    """lo <= measure <= hi, rational, with hi - lo <= rel_error * hi (0, 0 for a region without interior).
+
+    Raises ``Unable`` for unbounded pieces and when the error is not reached within ``MOST_BOXES`` boxes.
+    """
+    if not 0 < rel_error < 1:
+        raise InputError(f"rel_error: a number between 0 and 1 expected, {rel_error} found")
+    pieces = [p for p in region.cells if p.dimension == len(region.order)]
+    for piece in pieces:
+        for r in piece.ranges:
+            if r.lower is None or r.upper is None:
+                raise Unable(f"the region is unbounded in {r.variable}")
+    return _Sum(region, pieces).refine(Fraction(rel_error))
+
+
+class _Sum:
+    """The boxes of all pieces, worst first."""
+
+    def __init__(self, region: Region, pieces: Sequence[Piece]) -> None:
+        self.region, self.sides = region, len(region.order) - 1
+        self.queue: list[tuple[Fraction, int, Piece, Box, Fraction, Fraction]] = []
+        self.low = self.high = Fraction(0)
+        self.count = 0
+        for piece in pieces:
+            sides = self.sides - 1 if has_closed_slices(piece) else self.sides
+            self._push(piece, ((Fraction(0), Fraction(1)),) * sides)
+
+    def refine(self, rel_error: Fraction) -> tuple[Fraction, Fraction]:
+        while self.queue and self.high - self.low > rel_error * self.high:
+            if self.count > MOST_BOXES:
+                raise Unable(f"volume known only between {float(self.low):.6g} and {float(self.high):.6g}")
+            _, _, piece, box, low, high = heapq.heappop(self.queue)
+            self.low -= low
+            self.high -= high
+            for half in _halves(box):
+                self._push(piece, half)
+        return max(self.low, Fraction(0)), self.high
+
+    def _push(self, piece: Piece, box: Box) -> None:
+        self.count += 1
+        low, high = self._contribution(piece, box)
+        self.low += low
+        self.high += high
+        heapq.heappush(self.queue, (low - high, self.count, piece, box, low, high))
+
+    def _contribution(self, piece: Piece, box: Box) -> tuple[Fraction, Fraction]:
+        whole = self._integrand(piece, box)
+        size = Fraction(1)
+        for a, b in box:
+            size *= b - a
+        if whole is None:
+            return Fraction(0), size * self._crude(piece)
+        low, high = ends(whole.mean())
+        return max(low, Fraction(0)) * size, max(high, Fraction(0)) * size
+
+    def _integrand(self, piece: Piece, box: Box) -> Jet | None:
+        """The product of the widths over a box of the unit cube; None if a root could not be enclosed."""
+        at: dict[int, Jet] = {}
+        product: Jet | None = None
+        sides = box_sides(box)
+        for i, r in enumerate(piece.ranges):
+            lower, upper = _end(r.lower, at, sides), _end(r.upper, at, sides)
+            if lower is None or upper is None:
+                return None
+            if i == len(box) and i < self.sides:  # the slice over what is fixed so far has a closed form
+                area = slice_area(piece, lower, upper, at, sides)
+                return None if area is None or product is None else product * area
+            width = upper - lower
+            product = width if product is None else product * width
+            if i < self.sides:
+                place, weight = smooth_side(*box[i], i, sides)
+                at[i] = lower + width * place
+                product = product * weight
+        return product
+
+    def _crude(self, piece: Piece) -> Fraction:
+        """A bound for the integrand on the whole cube: the region's extents, times the greatest weight 3/2 per side."""
+        bound = Fraction(1)
+        for i, r in enumerate(piece.ranges):
+            extent = self.region.bounds(r.variable)
+            if extent.lower is None or extent.upper is None:
+                raise Unable(f"the region is unbounded in {r.variable}")
+            lo, hi = _outer(extent.lower, False), _outer(extent.upper, True)
+            bound *= (hi - lo) * (Fraction(3, 2) if i < self.sides else 1)
+        return bound
+
+
+def _end(root: RootFunction | None, at: dict[int, Jet], sides: Sides) -> Jet | None:
+    assert root is not None
+    if root.value is not None:
+        return constant(root.value, sides)
+    return root_jet(root.poly, root.k, at, sides)
+
+
+def _outer(value: object, up: bool) -> Fraction:
+    if isinstance(value, Fraction):
+        return value
+    pair: tuple[Fraction, Fraction] = value.interval(53)  # type: ignore[attr-defined]
+    return pair[1] if up else pair[0]
+
+
+def _halves(box: Box) -> list[Box]:
+    longest = max(range(len(box)), key=lambda i: box[i][1] - box[i][0])
+    a, b = box[longest]
+    middle = (a + b) * _HALF
+    return [(*box[:longest], side, *box[longest + 1 :]) for side in ((a, middle), (middle, b))]

@@ -1,0 +1,1 @@
+"""Equivalence-preserving rules on quantifier blocks, with the way back for witnesses."""

@@ -1,0 +1,148 @@
+"""The equational part of a conjunction: Groebner reduction, splitting on factors, equations at a minimum.
+
+Theorem (Groebner). Let I be the ideal of the polynomials of the equations in a conjunction E and f. Any other
+generating set of I (or of an ideal between I and its radical) may replace E. If s*g - r is in I with s > 0, then
+g and r have the same sign wherever E holds, so r may replace g in f. If 1 is in I, the conjunction is false.
+Theorem (factors). g*h = 0 and f  iff  (g = 0 and f) or (h = 0 and f).
+Theorem (minimum). A polynomial whose least value is 0 vanishes exactly where it attains that value.
+No step introduces, removes or changes a variable: they all lift to themselves.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from qe.exact.groebner import Basis, Limits, MonomialOrder, groebner_basis
+from qe.exact.ring import Poly, format_poly
+from qe.formula.build import atom, conj
+from qe.formula.syntax import Atom, Exists, ForAll, Formula, Relation
+from qe.formula.traverse import atoms, children
+from qe.rules.linear import Conjuncts
+from qe.rules.rewrite import rewrite
+from qe.simplify.factors import factor_list
+
+_LARGE = 300  # terms: equations with more in all are not given to the Groebner engine
+_LIMITS = Limits(elements=60, terms=250, bits=600)
+
+
+def split_equations(parts: Conjuncts) -> tuple[list[Poly], list[Formula]]:
+    """The polynomials of the equations, and the other conjuncts."""
+    equations = [p.poly for p in parts if isinstance(p, Atom) and p.relation is Relation.EQ]
+    others = [p for p in parts if not (isinstance(p, Atom) and p.relation is Relation.EQ)]
+    return equations, others
+
+
+def variable_order(formula: Formula, block: Sequence[str]) -> tuple[int, ...]:
+    """The variables of the formula, those of the block first, within each part the ones in fewer atoms first."""
+    counts: dict[int, int] = {}
+    names: tuple[str, ...] = ()
+    for found in atoms(formula):
+        names = found.poly.ring.names
+        for i in found.poly.variables:
+            counts[i] = counts.get(i, 0) + 1
+    return tuple(sorted(counts, key=lambda i: (names[i] not in block, counts[i], -i)))
+
+
+def ideal_basis(polys: Sequence[Poly], variables: Sequence[int]) -> Basis | None:
+    """A Groebner basis of the equations in a graded order, or None where it is too large."""
+    if not polys or sum(p.term_count() for p in polys) > _LARGE:
+        return None
+    return groebner_basis(polys, variables=variables, limits=_LIMITS)
+
+
+def reduce_atoms(formula: Formula, basis: Basis) -> Formula:
+    """The formula with every atom's polynomial replaced by its normal form where that is simpler."""
+
+    def change(found: Atom) -> Formula:
+        scale, rest = basis.reduce(found.poly)
+        if not rest:
+            return atom(rest, found.relation)
+        rest = rest if scale > 0 else -rest
+        if complexity(rest) < complexity(found.poly):
+            return atom(rest, found.relation)
+        return found
+
+    names = {basis.ring.names[i] for i in basis.variables}
+    return rewrite(formula, change, names)
+
+
+def complexity(poly: Poly) -> tuple[int, int, int]:
+    """How bad a polynomial is: total degree, number of variables, number of terms."""
+    return poly.total_degree, len(poly.variables), poly.term_count()
+
+
+def better_equations(old: Sequence[Poly], basis: Basis, block: Sequence[str]) -> tuple[Poly, ...]:
+    """The generators to go on with: the old ones, the basis, or a lexicographic basis.
+
+    Variables that can be solved for count first (as long as the size stays moderate), then the size.
+    """
+    best: tuple[Poly, ...] = tuple(dict.fromkeys(old))
+    candidates = [basis.polys]
+    if len(basis.polys) > 1:
+        triangular = groebner_basis(basis.polys, variables=basis.variables, order=MonomialOrder.LEX, limits=_LIMITS)
+        if triangular is not None:
+            candidates.append(triangular.polys)
+    for polys in candidates:
+        gain = _solvable(polys, block) - _solvable(best, block)
+        size, room = total(polys), total(best)
+        if (gain >= 0 and size < room) or (gain >= 3 and size <= 6 * room + 60) or (gain > 0 and size <= 2 * room + 20):
+            best = polys
+    return best
+
+
+def total(polys: Sequence[Poly]) -> int:
+    """The size of a system: terms weighted with degrees."""
+    return sum(p.term_count() * max(1, p.total_degree) for p in polys)
+
+
+def _solvable(polys: Sequence[Poly], block: Sequence[str]) -> int:
+    """Variables of the block with an equation linear in them: 3 for a constant coefficient, 1 for another.
+
+    The latter counts only in a block of several variables: a single one is left to methods that need no guards.
+    """
+    names = polys[0].ring.names
+    worth: dict[int, int] = {}
+    for p in polys:
+        for i in p.variables:
+            if names[i] in block and p.degree(i) == 1:
+                worth[i] = max(worth.get(i, 0), 3 if p.leading(i).is_constant else int(len(block) > 1))
+    return sum(worth.values())
+
+
+def squarefree(polys: Sequence[Poly]) -> tuple[Poly, ...]:
+    """Every polynomial replaced by the product of its distinct factors (between the ideal and its radical)."""
+    out = []
+    for p in polys:
+        product = p.ring.constant(1)
+        for factor, _ in factor_list(p):
+            product = product * factor
+        out.append(product if not p.is_constant else p)
+    return tuple(out)
+
+
+def factor_choice(equations: Sequence[Poly], limit: int) -> tuple[int, tuple[Poly, ...]] | None:
+    """The equation with the simplest proper factorisation: (its position, its distinct factors)."""
+    best: tuple[int, tuple[Poly, ...]] | None = None
+    for position, poly in enumerate(equations):
+        factors = tuple(f for f, _ in factor_list(poly))
+        if 1 < len(factors) <= limit:
+            key = (len(factors), sum(f.total_degree for f in factors))
+            if best is None or key < (len(best[1]), sum(f.total_degree for f in best[1])):
+                best = position, factors
+    return best
+
+
+def has_quantifier(formula: Formula) -> bool:
+    """Whether a quantifier occurs."""
+    return isinstance(formula, Exists | ForAll) or any(has_quantifier(c) for c in children(formula))
+
+
+def equal_to_zero(polys: Sequence[Poly]) -> Formula:
+    """The conjunction of the equations."""
+    return conj(atom(p, Relation.EQ) for p in polys)
+
+
+def describe(polys: Sequence[Poly]) -> str:
+    """The equations for the record."""
+    shown = [format_poly(p) for p in polys[:3]]
+    return ", ".join(shown) + (", ..." if len(polys) > 3 else "")

@@ -1,0 +1,153 @@
+"""Equations that are linear in a quantified variable.
+
+Theorem (Loos & Weispfenning 1993, the Gauss case). Let a, b be polynomials without x.
+* If a is nowhere zero (a constant, or under the facts):  ex x (a*x + b = 0 and f)  iff  f[-b/a].
+* In general:  iff  (a /= 0 and f[-b/a])  or  ex x (a = 0 and b = 0 and f).
+* If x occurs nowhere else:  ex x (a*x + b = 0) and f  iff  (a /= 0 or b = 0) and f.
+Lift: x = -b/a (where a /= 0; any value will do in the third rule otherwise).
+f[-b/a] replaces g(x) rel 0, deg_x g = d, by a^d * g(-b/a) rel 0, times a once more if d is odd and the
+sign of a is not known, so the factor is positive.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+from qe.exact.ring import Poly
+from qe.formula.build import atom, conj, disj, exists, forall, neg
+from qe.formula.syntax import And, Atom, Exists, ForAll, Formula, Not, Or, Relation, RootAtom
+from qe.formula.traverse import atoms
+from qe.simplify.facts import Facts
+
+_TERMS = 3000  # a substitution whose result has more terms than this is not done
+
+Conjuncts = tuple[Formula, ...]
+
+
+def conjuncts(body: Formula) -> Conjuncts:
+    """The members of a conjunction."""
+    return body.args if isinstance(body, And) else (body,)
+
+
+@dataclass(frozen=True, slots=True)
+class Pivot:
+    """The equation lead*x + rest = 0 at ``position`` of a conjunction.
+
+    ``sign``: of lead, when known (1, -1), 0 when only known not to vanish, None when it may vanish.
+    ``alone``: x occurs nowhere else.
+    """
+
+    position: int
+    variable: int
+    lead: Poly
+    rest: Poly
+    sign: int | None
+    alone: bool
+
+    @property
+    def name(self) -> str:
+        """The variable to be solved for."""
+        return self.lead.ring.names[self.variable]
+
+    @property
+    def guarded(self) -> bool:
+        """Whether solving needs a case distinction that keeps x in one case."""
+        return self.sign is None and not self.alone
+
+
+def choose_pivot(parts: Sequence[Formula], variables: Sequence[str], facts: Callable[[int], Facts]) -> Pivot | None:
+    """The cheapest linear equation among the conjuncts: without guard first, then few terms times few occurrences.
+
+    ``facts(position)``: what is known from the other conjuncts.
+    """
+    best: Pivot | None = None
+    best_cost: tuple[int, int, int] | None = None
+    occurrences: dict[int, int] = {}
+    for part in parts:
+        for found in atoms(part):
+            for i in found.poly.variables:
+                occurrences[i] = occurrences.get(i, 0) + 1
+            if isinstance(found, RootAtom):
+                named = found.poly.ring.index[found.variable]
+                occurrences[named] = occurrences.get(named, 0) + 1
+    for position, part in enumerate(parts):
+        if not isinstance(part, Atom) or part.relation is not Relation.EQ:
+            continue
+        poly = part.poly
+        for i in poly.variables:
+            if poly.degree(i) != 1 or poly.ring.names[i] not in variables:
+                continue
+            rest, lead = poly.coefficients(i)
+            alone = occurrences[i] == 1
+            sign = _sign(lead, position, facts)
+            work = max(1, rest.term_count()) * (occurrences[i] - 1) * lead.term_count()
+            cost = (2 if sign is None and not alone else 0 if lead.is_constant else 1, work, poly.total_degree)
+            if best_cost is None or cost < best_cost:
+                best_cost, best = cost, Pivot(position, i, lead, rest, sign, alone)
+    return best
+
+
+def _sign(lead: Poly, position: int, facts: Callable[[int], Facts]) -> int | None:
+    if lead.is_constant:
+        return 1 if lead.constant_value() > 0 else -1
+    signs = facts(position).signs(lead)
+    if 0 in signs:
+        return None
+    return next(iter(signs)) if len(signs) == 1 else 0
+
+
+def substitute(formula: Formula, pivot: Pivot) -> Formula | None:
+    """The formula with x = -rest/lead, or None where that is not possible.
+
+    Not possible: a quantifier inside binds a variable of the equation, x is in a root atom, or the result is huge.
+    """
+    i, ring = pivot.variable, pivot.lead.ring
+    name = ring.names[i]
+    used = {ring.names[v] for p in (pivot.lead, pivot.rest) for v in p.variables}
+
+    def walk(f: Formula) -> Formula | None:
+        match f:
+            case Atom(poly, relation):
+                return f if not poly.degree(i) else _substituted(poly, relation, pivot)
+            case RootAtom(variable, _, poly, _):
+                return None if variable == name or poly.degree(i) else f
+            case And(args) | Or(args):
+                parts = [walk(a) for a in args]
+                if any(p is None for p in parts):
+                    return None
+                done = [p for p in parts if p is not None]
+                return conj(done) if isinstance(f, And) else disj(done)
+            case Not(arg):
+                inner = walk(arg)
+                return None if inner is None else neg(inner)
+            case Exists(variables, body) | ForAll(variables, body):
+                if name in variables:
+                    return f
+                inner = walk(body)
+                if inner is None or (inner != body and used & set(variables)):
+                    return None
+                return exists(variables, inner) if isinstance(f, Exists) else forall(variables, inner)
+        return f
+
+    return walk(formula)
+
+
+def _substituted(poly: Poly, relation: Relation, pivot: Pivot) -> Formula | None:
+    coefficients = poly.coefficients(pivot.variable)
+    degree = len(coefficients) - 1
+    image, power = coefficients[degree], pivot.lead
+    numerator = -pivot.rest
+    for k in range(degree - 1, -1, -1):
+        image = image * numerator
+        if coefficients[k]:
+            image = image + coefficients[k] * power
+        power = power * pivot.lead
+        if image.term_count() > _TERMS:
+            return None
+    if degree % 2 and relation not in (Relation.EQ, Relation.NE):
+        if pivot.sign == -1:
+            image = -image
+        elif pivot.sign != 1:
+            image = image * pivot.lead
+    return atom(image, relation)

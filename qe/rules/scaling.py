@@ -1,0 +1,94 @@
+"""Scaling: a block whose polynomials are homogeneous for some weights loses a variable."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from fractions import Fraction
+
+from qe.exact.ring import Poly
+from qe.formula.build import atom
+from qe.formula.syntax import Atom, Formula, RootAtom
+from qe.formula.traverse import atoms
+from qe.rules.block_context import Recur, Workshop, either
+from qe.rules.lift import Solve
+from qe.rules.linear import conjuncts
+from qe.rules.nullspace import kernel_vector, occurring
+from qe.rules.rewrite import bound_names, rewrite
+from qe.rules.step import StepKind
+from qe.rules.tree import Lifted, Node
+
+_TERMS = 600  # terms in all atoms together up to which weights are looked for
+
+
+def fix_scale(variables: tuple[str, ...], body: Formula, shop: Workshop, recur: Recur) -> Node | None:
+    """Let weights w (0 for the free variables) make every atom's polynomial homogeneous: p(t^w * v) = t^d p(v).
+    Then the truth of f is the same at v and at t^w * v for all t > 0, and where w_x /= 0 a suitable t makes x one of
+    -1, 0, 1:  ex x, y f  iff  ex y (f[1]) or ex y (f[0]) or ex y (f[-1]), of which those are left out that the
+    conjuncts (x > 0, say) exclude.
+
+    Lift: x is the number that was put in for it.
+    """
+    if StepKind.SCALING not in shop.enabled or not _worthwhile(body):
+        return None
+    inner = bound_names(body)
+    weights = find_weights(body, frozenset(variables) | inner)
+    if weights is None:
+        return None
+    known = shop.facts.extended(conjuncts(body))
+    ring = next(atoms(body)).poly.ring
+    candidates = []
+    for name in variables:
+        index = ring.index[name]
+        if name in inner or not weights.get(index):
+            continue
+        signs = known.signs(ring.gen(index))
+        degree = max(found.poly.degree(index) for found in atoms(body))
+        candidates.append((len(signs), -degree, name, signs))
+    if not candidates:
+        return None
+    count, _, name, signs = min(candidates)
+    if not shop.may_split(StepKind.SCALING, max(1, count)):
+        return None
+    shop.note(StepKind.SCALING, f"{name} in {sorted(signs)}", count)
+    rest = tuple(v for v in variables if v != name)
+    one = ring.constant(1)
+    nodes: list[Node] = []
+    for sign in sorted(signs, reverse=True):
+        fixed = _at(body, ring.index[name], sign)
+        nodes.append(Lifted((Solve(name, ring.constant(sign), one),), recur(rest, fixed, shop)))
+    return either(nodes)
+
+
+def _worthwhile(body: Formula) -> bool:
+    """Some atom is not linear, none is a root atom, and there are not too many terms."""
+    size, degree = 0, 0
+    for found in atoms(body):
+        if isinstance(found, RootAtom):
+            return False
+        size += found.poly.term_count()
+        degree = max(degree, found.poly.total_degree)
+    return degree > 1 and size <= _TERMS
+
+
+def _at(body: Formula, index: int, value: int) -> Formula:
+    def change(found: Atom) -> Formula:
+        if not found.poly.degree(index):
+            return found
+        return atom(found.poly.at_rational(index, Fraction(value)), found.relation)
+
+    return rewrite(body, change, ())
+
+
+def find_weights(body: Formula, names: frozenset[str]) -> dict[int, Fraction] | None:
+    """Weights, not all 0, on the named variables that make every polynomial homogeneous; None if there are none.
+
+    One row per pair of terms of a polynomial: the weights annihilate the differences of exponents.
+    """
+    polys, columns = occurring(body, names)
+    return kernel_vector(columns, (row for poly in polys for row in _differences(poly, columns)))
+
+
+def _differences(poly: Poly, columns: Sequence[int]) -> Iterator[list[Fraction]]:
+    exponents = [e for e, _ in poly.terms()]
+    for other in exponents[1:]:
+        yield [Fraction(other[i] - exponents[0][i]) for i in columns]

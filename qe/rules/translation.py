@@ -1,0 +1,61 @@
+"""Translation: a block that only looks at differences loses a variable."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from fractions import Fraction
+
+from qe.exact.ring import Poly
+from qe.formula.build import atom
+from qe.formula.syntax import Atom, Formula, RootAtom
+from qe.formula.traverse import atoms
+from qe.rules.block_context import Recur, Workshop
+from qe.rules.lift import Solve
+from qe.rules.nullspace import kernel_vector, occurring
+from qe.rules.rewrite import bound_names, rewrite
+from qe.rules.step import StepKind
+from qe.rules.tree import Lifted, Node
+
+_TERMS = 600  # terms in all atoms together up to which directions are looked for
+
+
+def fix_origin(variables: tuple[str, ...], body: Formula, shop: Workshop, recur: Recur) -> Node | None:
+    """Let w be a vector (0 for the free variables) with sum of w_i * dp/dv_i = 0 for every atom's polynomial p. Then
+    p(v + t*w) = p(v) for all real t, so the truth of f is the same along w, and where w_x /= 0 some t makes x = 0:
+    ex x, y f  iff  ex y f[0].
+
+    Lift: x = 0.
+    """
+    if StepKind.TRANSLATION not in shop.enabled:
+        return None
+    found = list(atoms(body))
+    if any(isinstance(a, RootAtom) for a in found) or sum(a.poly.term_count() for a in found) > _TERMS:
+        return None
+    inner = bound_names(body)
+    polys, columns = occurring(body, frozenset(variables) | inner)
+    direction = kernel_vector(columns, (row for poly in polys for row in _derivatives(poly, columns)))
+    if direction is None:
+        return None
+    ring = polys[0].ring
+    moving = [v for v in variables if v not in inner and direction.get(ring.index[v])]
+    if not moving:
+        return None
+    name = max(moving, key=lambda v: (sum(p.degree(ring.index[v]) > 0 for p in polys), v))
+    shop.note(StepKind.TRANSLATION, f"{name} = 0")
+    index = ring.index[name]
+
+    def change(given: Atom) -> Formula:
+        return atom(given.poly.at_rational(index, 0), given.relation) if given.poly.degree(index) else given
+
+    rest = tuple(v for v in variables if v != name)
+    child = recur(rest, rewrite(body, change, ()), shop)
+    return Lifted((Solve(name, ring.constant(0), ring.constant(1)),), child)
+
+
+def _derivatives(poly: Poly, columns: Sequence[int]) -> Iterator[list[Fraction]]:
+    """One row per monomial: its coefficient in each partial derivative."""
+    rows: dict[tuple[int, ...], list[Fraction]] = {}
+    for k, i in enumerate(columns):
+        for exponents, coefficient in poly.derivative(i).terms():
+            rows.setdefault(exponents, [Fraction(0)] * len(columns))[k] = Fraction(coefficient)
+    yield from rows.values()

@@ -1,0 +1,128 @@
+"""What became of one existential block: a tree of smaller problems, with the way back to a witness.
+
+Every node stands for a formula (``formula``) and for the block's variables that still occur under it.
+``lift`` turns values that satisfy the node's matrix into values for the variables the node started with.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from qe.errors import Unable
+from qe.formula.build import conj, disj, exists
+from qe.formula.syntax import FALSE, Formula
+from qe.rules.lift import Assignment, Lift, Value, holds_at, nudge
+
+
+@dataclass(frozen=True, slots=True)
+class Leaf:
+    """exists variables. body: nothing more was done. Lifts to itself."""
+
+    variables: tuple[str, ...]
+    body: Formula
+
+    @property
+    def formula(self) -> Formula:
+        return exists(self.variables, self.body)
+
+    def satisfied(self, at: Assignment) -> bool:
+        return holds_at(self.body, at)
+
+    def lift(self, at: Assignment) -> dict[str, Value]:
+        return dict(at)
+
+
+@dataclass(frozen=True, slots=True)
+class Lifted:
+    """The child's formula; the ``rules``, last one first, give their variables values from the child's assignment."""
+
+    rules: tuple[Lift, ...]
+    child: Node
+
+    @property
+    def formula(self) -> Formula:
+        return self.child.formula
+
+    def satisfied(self, at: Assignment) -> bool:
+        return self.child.satisfied(at)
+
+    def lift(self, at: Assignment) -> dict[str, Value]:
+        known = self.child.lift(at)
+        for rule in reversed(self.rules):
+            known[rule.variable] = rule.value(known)
+        return known
+
+
+@dataclass(frozen=True, slots=True)
+class Nudged:
+    """The child's formula, which left out inequations of ``body``; its solution is moved a little where they fail."""
+
+    variables: tuple[str, ...]
+    body: Formula
+    child: Node
+
+    @property
+    def formula(self) -> Formula:
+        return self.child.formula
+
+    def satisfied(self, at: Assignment) -> bool:
+        return self.child.satisfied(at)
+
+    def lift(self, at: Assignment) -> dict[str, Value]:
+        return nudge(self.variables, self.body, self.child.lift(at))
+
+
+@dataclass(frozen=True, slots=True)
+class Any:
+    """The disjunction of the children; an assignment is lifted by a child that it satisfies."""
+
+    children: tuple[Node, ...]
+
+    @property
+    def formula(self) -> Formula:
+        return disj(c.formula for c in self.children)
+
+    def satisfied(self, at: Assignment) -> bool:
+        return any(c.satisfied(at) for c in self.children)
+
+    def lift(self, at: Assignment) -> dict[str, Value]:
+        if len(self.children) == 1:
+            return self.children[0].lift(at)
+        for child in self.children:
+            if child.satisfied(at):
+                return child.lift(at)
+        raise Unable("the assignment satisfies no branch of the prepared formula")
+
+
+@dataclass(frozen=True, slots=True)
+class All:
+    """The conjunction of the children, which share no variable of the block: their values are put together."""
+
+    children: tuple[Node, ...]
+
+    @property
+    def formula(self) -> Formula:
+        return conj(c.formula for c in self.children)
+
+    def satisfied(self, at: Assignment) -> bool:
+        return all(c.satisfied(at) for c in self.children)
+
+    def lift(self, at: Assignment) -> dict[str, Value]:
+        values = dict(at)
+        for child in self.children:
+            values = child.lift(values)
+        return values
+
+
+Node = Leaf | Lifted | Nudged | Any | All
+NEVER = Leaf((), FALSE)
+
+
+def leaves(node: Node) -> tuple[Leaf, ...]:
+    """The problems that are left."""
+    match node:
+        case Leaf():
+            return (node,)
+        case Lifted(_, child) | Nudged(_, _, child):
+            return leaves(child)
+    return tuple(leaf for child in node.children for leaf in leaves(child))

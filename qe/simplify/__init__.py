@@ -1,0 +1,1 @@
+"""The standard simplifier, on one theory of ranges."""

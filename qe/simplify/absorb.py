@@ -1,0 +1,59 @@
+"""Absorption and complementary merging between the compound members of one level."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+
+from qe.formula.build import conj, disj
+from qe.formula.syntax import And, Atom, Constant, Formula, Or
+from qe.simplify.facts import key_of
+
+_MEMBERS = 60  # more members than this are left alone
+
+Level = Callable[[tuple[Formula, ...], bool], Formula]
+
+
+def absorb(members: list[Formula], conjunctive: bool, level: Level) -> list[Formula]:
+    """Members of a disjunction (conjunction) with (A) or (A and B) = A, and (A and p) or (A and q) = A and r
+    where ``p or q`` is one atom or a constant. ``level`` simplifies such a pair.
+    """
+    if not 1 < len(members) <= _MEMBERS:
+        return members
+    inner = Or if conjunctive else And
+    sets: dict[Formula, frozenset[Formula]] = {m: frozenset(m.args) for m in members if isinstance(m, inner)}
+    if len(sets) < 2:
+        return members
+    kept = [m for m in members if m not in sets or not any(o != m and s < sets[m] for o, s in sets.items())]
+    merged = _merge_pair(kept, sets, disj if conjunctive else conj, lambda parts: level(parts, conjunctive))
+    return absorb(merged, conjunctive, level) if merged is not None else kept
+
+
+def _merge_pair(
+    members: list[Formula],
+    sets: dict[Formula, frozenset[Formula]],
+    build: Callable[[Iterable[Formula]], Formula],
+    join: Callable[[tuple[Formula, ...]], Formula],
+) -> list[Formula] | None:
+    """The members with one mergeable pair replaced, or None."""
+    seen: dict[tuple[object, ...], tuple[Formula, Formula]] = {}
+    for member in members:
+        if member not in sets:
+            continue
+        for part in sets[member]:
+            if not isinstance(part, Atom):
+                continue
+            rest = sets[member] - {part}
+            slot = (key_of(part.poly)[0], rest)
+            earlier = seen.get(slot)
+            if earlier is None:
+                seen[slot] = (member, part)
+                continue
+            union = join((earlier[1], part))
+            if not isinstance(union, Atom | Constant):
+                continue
+            ordered = [p for p in member.args if p is not part and p in rest]  # type: ignore[attr-defined]
+            if isinstance(union, Atom):
+                ordered.append(union)
+            replacement = build(ordered)
+            return [replacement if m is earlier[0] else m for m in members if m is not member]
+    return None

@@ -1,0 +1,140 @@
+"""Facts: a background theory of ranges, one per polynomial up to a constant.
+
+Every atom compares a polynomial p = u*q + c (q primitive, without constant term, positive leading
+coefficient) with zero, that is q with the rational number -c/u. All atoms with the same q are
+about one quantity, so a conjunction of them is a ``Range`` of q (Dolzmann & Sturm, Simplification of
+quantifier-free formulae over ordered fields, JSC 24 (1997), section 5: "smart" simplification with an
+implicit theory, here with ranges instead of pairwise rules).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from fractions import Fraction
+from functools import lru_cache
+
+from qe.exact.ring import Poly, Ring
+from qe.formula.syntax import Atom, Formula, Relation, RootAtom
+from qe.simplify.minima import minimum
+from qe.simplify.ranges import EVERYTHING, Range, add, compare, meet, multiply, power, scale
+
+_ENCLOSED_TERMS = 24  # term count up to which ranges of the variables are propagated through a polynomial
+
+
+@lru_cache(maxsize=5_000)
+def generator(ring: Ring, i: int) -> Poly:
+    """Variable ``i`` as a polynomial (one object, so that its hash is computed once)."""
+    return ring.gen(i)
+
+
+@lru_cache(maxsize=20_000)
+def key_of(poly: Poly) -> tuple[Poly, int, int]:
+    """(q, u, c) with poly = u*q + c, u > 0, q primitive without constant term. poly is not constant."""
+    ring = poly.ring
+    constant = int(poly.evaluate((0,) * ring.size))
+    unit, key = (poly - constant).normal() if constant else poly.normal()
+    if unit < 0:
+        raise AssertionError("an atom's polynomial has a positive leading coefficient")
+    return key, unit, constant
+
+
+@lru_cache(maxsize=20_000)
+def inherent(key: Poly) -> Range:
+    """A range of the polynomial that holds at every real point: above its global minimum, where that is easy."""
+    least = minimum(key)
+    return EVERYTHING if least is None else Range(least.value, None, False, True)
+
+
+def variable_of(key: Poly) -> int | None:
+    """The index if the polynomial is a bare variable, else None."""
+    return key.variables[0] if key.total_degree == 1 and len(key.variables) == 1 else None
+
+
+@dataclass(frozen=True, slots=True)
+class Facts:
+    """What is known to hold: ranges by key polynomial, and literals that are opaque to ranges.
+
+    ``ranges``: key -> range (inherent ranges are not stored). ``literals``: root atoms and quantified
+    subformulas known to be true or false.
+    """
+
+    ranges: Mapping[Poly, Range] = field(default_factory=dict)
+    literals: Mapping[Formula, bool] = field(default_factory=dict)
+
+    def known(self, key: Poly) -> Range:
+        """The best range of a key: stored, inherent and enclosed from the ranges of its variables."""
+        found = meet(self.ranges.get(key, EVERYTHING), inherent(key))
+        if self.ranges and variable_of(key) is None:
+            found = meet(found, self.enclose(key))
+        return found
+
+    def enclose(self, key: Poly) -> Range:
+        """The range that follows term by term from the ranges of the variables."""
+        if key.term_count() > _ENCLOSED_TERMS:
+            return EVERYTHING
+        gens = {i: self.ranges.get(generator(key.ring, i), EVERYTHING) for i in key.variables}
+        if all(r is EVERYTHING for r in gens.values()):
+            return EVERYTHING
+        total: Range | None = None
+        for exponents, coefficient in key.terms():
+            term: Range | None = None
+            for i in key.variables:
+                if exponents[i]:
+                    part = power(gens[i], exponents[i])
+                    term = part if term is None else multiply(term, part)
+            if term is None:
+                piece = Range(Fraction(coefficient), Fraction(coefficient), False, False)
+            else:
+                piece = scale(term, Fraction(coefficient))
+            total = piece if total is None else add(total, piece)
+            if total.lo is None and total.hi is None and not total.holes:
+                return EVERYTHING
+        return total if total is not None else EVERYTHING
+
+    def signs(self, poly: Poly) -> frozenset[int]:
+        """The signs that a polynomial can have, as far as known."""
+        if poly.is_constant:
+            value = poly.constant_value()
+            return frozenset(((value > 0) - (value < 0),))
+        unit, primitive = poly.normal()
+        key, scale_by, constant = key_of(primitive)
+        signs = self.known(key).signs(Fraction(-constant, scale_by))
+        return signs if unit > 0 else frozenset(-s for s in signs)
+
+    def extended(self, atoms: Iterable[Formula]) -> Facts:
+        """These facts and the given atoms."""
+        ranges = dict(self.ranges)
+        for given in atoms:
+            if isinstance(given, Atom):
+                key, wanted = constraint(given)
+                ranges[key] = meet(ranges.get(key, EVERYTHING), wanted)
+        return Facts(ranges, self.literals)
+
+    def without(self, names: tuple[str, ...]) -> Facts:
+        """The facts that do not mention these variables (they get bound)."""
+
+        def free(poly: Poly) -> bool:
+            return not any(poly.ring.names[i] in names for i in poly.variables)
+
+        literals: dict[Formula, bool] = {
+            f: value
+            for f, value in self.literals.items()
+            if isinstance(f, RootAtom) and free(f.poly) and f.variable not in names
+        }
+        return Facts({key: r for key, r in self.ranges.items() if free(key)}, literals)
+
+
+NOTHING = Facts()
+
+
+def constraint(atom: Atom) -> tuple[Poly, Range]:
+    """The key of an atom and the range that the atom gives it."""
+    key, unit, constant = key_of(atom.poly)
+    return key, compare(atom.relation, Fraction(-constant, unit))
+
+
+def atom_of(key: Poly, relation: Relation, value: Fraction) -> Atom:
+    """The atom ``key relation value``; the inverse of ``constraint`` for one comparison."""
+    poly = key * value.denominator - value.numerator
+    return Atom(poly.normal()[1], relation)

@@ -1,1 +1,0 @@
-"""What is read off an elimination: formulas, regions, witnesses, optima."""
