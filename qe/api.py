@@ -9,8 +9,9 @@ from enum import Enum
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from qe.engine import run as pipeline
+from qe.engine.run import solve
 from qe.errors import InputError, InternalError, Unable
+from qe.exact.number import Assignment
 from qe.exact.ring import Poly
 from qe.formula.build import conj, convert, exists, forall, iff
 from qe.formula.counting import without_root_atoms
@@ -21,7 +22,7 @@ from qe.options import Budget, Method, Options, Stage
 from qe.progress import Event, silent
 from qe.proof.answer import Answer, Guarantee, Status
 from qe.proof.certificate import Certificate, Kind
-from qe.proof.elimination import Assignment
+from qe.proof.run_log import RunLog
 
 if TYPE_CHECKING:  # the checker and the optimiser are loaded where they are used
     from qe.certify.verdict import Verdict
@@ -140,17 +141,19 @@ def _limited(formula: Formula, options: Options, timeout: float | None, memory: 
 def _answer(formula: Formula, options: Options, timeout: float | None, check: bool) -> Answer:
     budget = Budget(timeout, listener=options.progress)
     try:
-        found = pipeline.solve(formula, options, budget)
+        found = solve(formula, options, budget)
     except Unable as error:
-        return Answer(Status.UNABLE, None, reason=str(error), stats={"cells": budget.used_cells})
-    certificate = found.evidence if isinstance(found.evidence, Certificate) else None
+        log = RunLog()
+        log.work("limits", {"work": budget.used})
+        return Answer(Status.UNABLE, None, reason=str(error), question=formula, log=log)
+    certificate = found.certificate
     guarantee = Guarantee.DERIVED
     if certificate is not None and (check or certificate.kind is Kind.WITNESS):
         verdict = verify(certificate)
         if not verdict.accepted:
             raise InternalError(f"the certificate of an answer was rejected at {verdict.step}: {verdict.reason}")
         guarantee = Guarantee.CHECKED
-    return Answer(Status.SOLVED, found.formula, found.witness, certificate, guarantee, stats=found.stats)
+    return Answer(Status.SOLVED, found.formula, found.witness, certificate, guarantee, question=formula, log=found.log)
 
 
 def decide(formula: AnyFormula, **keywords: Any) -> bool:
@@ -194,7 +197,7 @@ def parametric_witnesses(
     given = read_formula(formula, format)
     if isinstance(given, Exists | ForAll) and not is_quantifier_free(given.body):
         rebuilt = exists if isinstance(given, Exists) else forall
-        inner = pipeline.solve(given.body, Options(), Budget(timeout, listener=progress)).formula
+        inner = solve(given.body, Options(), Budget(timeout, listener=progress)).formula
         given = rebuilt(given.variables, inner)
     return find(given, budget=Budget(timeout, listener=progress))
 
@@ -254,7 +257,7 @@ def region(
         return Budget(timeout, listener=progress)
 
     def eliminated(part: Formula) -> Formula:
-        return pipeline.solve(part, Options(order=names), limits()).formula
+        return solve(part, Options(order=names), limits()).formula
 
     if quantified or len(free_variables(given)) > TABLE_VARIABLES:
         from qe.regions.convex_region import ConvexRegion, shadow_of
@@ -267,8 +270,8 @@ def region(
     budget = limits()
     if not quantified:
         return Region.of(given, names, budget=budget)
-    found = pipeline.solve(given, Options(order=names), budget)
-    return Region.of(found.formula, names or found.parameter_order, budget=budget)
+    found = solve(given, Options(order=names), budget)
+    return Region.of(found.formula, names or found.order, budget=budget)
 
 
 def minimize(

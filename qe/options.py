@@ -1,4 +1,4 @@
-"""Frozen options, and the budget (time, cells) with cancellation that is passed into every step."""
+"""Frozen options, and the budget (time, work) with cancellation that is passed into every step."""
 
 from __future__ import annotations
 
@@ -48,15 +48,23 @@ class Stage(Enum):
 class Budget:
     """Soft limits, checked between FLINT calls: ``check`` raises ``BudgetExceeded``.
 
-    ``seconds`` counts from construction; ``cells`` bounds the number of CAD cells built.
-    A budget can be narrowed for a part of the work by ``share``; the tighter deadline wins.
+    ``seconds`` counts from construction. ``work`` bounds what ``spend`` is told: one unit is a cell of a decomposition,
+    or about the time of one; unlike seconds it is the same on every machine, so what depends on it is too.
+    A budget for a part of the work (``share``, ``part``) sees the deadline, the limit on work and the cancellation of
+    the budget that it came from.
     """
 
-    __slots__ = ("_cancelled", "_last_note", "cells", "deadline", "listener", "used_cells")
+    __slots__ = ("_cancelled", "_last_note", "deadline", "listener", "parent", "used", "work")
 
-    def __init__(self, seconds: float | None = None, cells: int | None = None, listener: Listener = silent) -> None:
+    def __init__(
+        self,
+        seconds: float | None = None,
+        work: int | None = None,
+        listener: Listener = silent,
+        parent: Budget | None = None,
+    ) -> None:
         self.deadline = None if seconds is None else time.monotonic() + seconds
-        self.cells, self.used_cells, self.listener = cells, 0, listener
+        self.work, self.used, self.listener, self.parent = work, 0, listener, parent
         self._cancelled, self._last_note = False, 0.0
 
     def cancel(self) -> None:
@@ -70,24 +78,36 @@ class Budget:
     def share(self, fraction: float) -> Budget:
         """A budget for a part of the work: at most ``fraction`` of the time that remains."""
         left = self.remaining()
-        part = Budget(None if left is None else max(0.0, left * fraction), self.cells, self.listener)
-        part.used_cells = self.used_cells
-        return part
+        return Budget(None if left is None else max(0.0, left * fraction), None, self.listener, self)
 
-    def brief(self, seconds: float, fraction: float, cells: int | None = None) -> Budget:
-        """A silent budget for something that is not needed: a short time, and little of what remains."""
-        left = self.remaining()
-        return Budget(seconds if left is None else min(seconds, fraction * left), cells)
+    def part(self, work: int | None) -> Budget:
+        """A budget for a part of the work: at most so many units."""
+        return Budget(self.remaining(), work, self.listener, self)
+
+    @property
+    def is_limited(self) -> bool:
+        """Whether there is a limit on work, here or in the budgets this one is a part of."""
+        return self.work is not None or (self.parent is not None and self.parent.is_limited)
+
+    def spend(self, units: int) -> None:
+        """Count units of work, here and in the budgets this one is a part of."""
+        budget: Budget | None = self
+        while budget is not None:
+            budget.used += units
+            budget = budget.parent
 
     def check(self, phase: str = "work", done: int = 0, total: int | None = None) -> None:
         """Report progress (at most ten times a second) and raise ``BudgetExceeded`` past a limit."""
-        if self._cancelled:
-            raise BudgetExceeded("cancelled", limit="cancel")
         now = time.monotonic()
         if self.deadline is not None and now > self.deadline:
             raise BudgetExceeded(f"time limit reached while doing: {phase}", limit="time")
-        if self.cells is not None and self.used_cells > self.cells:
-            raise BudgetExceeded(f"limit of {self.cells} cells reached", limit="cells")
+        budget: Budget | None = self
+        while budget is not None:
+            if budget._cancelled:
+                raise BudgetExceeded("cancelled", limit="cancel")
+            if budget.work is not None and budget.used > budget.work:
+                raise BudgetExceeded(f"limit of {budget.work} units of work reached", limit="work")
+            budget = budget.parent
         if now - self._last_note > 0.1:
             self._last_note = now
             self.listener(Event(phase, done, total))

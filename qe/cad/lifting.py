@@ -66,7 +66,7 @@ class Lifter:
         self.stacks += 1
         count = len(layers.texts)
         self.cells += count
-        self.budget.used_cells += count
+        self.budget.spend(count)
         self.budget.check("lift", self.cells)
         return self._stack(point, node, signs, dimension, used, layers)
 

@@ -1,4 +1,4 @@
-"""Decomposition in the pipeline: prenex form, order, cell table, solution formula, certificate."""
+"""Decomposition as a method: prenex form, order, cell table, solution formula, certificate."""
 
 from __future__ import annotations
 
@@ -6,13 +6,16 @@ import time
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from qe.cad.decompose import Decomposition, Tactics, decompose
+from qe.cad.decompose import Decomposition as Table
+from qe.cad.decompose import Tactics, decompose
 from qe.cad.order import OrderRule
 from qe.cad.order_by_projection import choose_order
 from qe.cells.extended_tarski import extended_formula
 from qe.cells.formulas import construct
 from qe.cells.sampled_cells import deciding_point
+from qe.elimination.protocol import Context, Outcome, Problem
 from qe.errors import BudgetExceeded, InternalError
+from qe.exact.number import Values
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import convert
 from qe.formula.normal import Quantifier, nnf, prenex
@@ -22,8 +25,7 @@ from qe.options import Budget, Options, Projection, Stage
 from qe.proof.cells import CellTable
 from qe.proof.cells_json import CellEvidence
 from qe.proof.certificate import Certificate
-from qe.proof.elimination import Values
-from qe.proof.run_log import Story
+from qe.proof.run_log import RunLog
 from qe.simplify.simplify import simplify
 
 WHOLE_FROM, WHOLE_CELLS = 300, 2000
@@ -34,25 +36,27 @@ SMALL_DEGREE = {1: 40, 2: 12, 3: 4, 4: 2}
 """An answer in so many variables is small up to this total degree: its whole space is decomposed in no time."""
 
 
-@dataclass(frozen=True, slots=True)
-class Decomposed:
-    """``formula``: equivalent to what was asked. ``values``: a witness or counterexample of a sentence's outermost
-    block, where there is one. ``certificate``: of exactly this question
-    and answer; None where nothing was decomposed, or where simplifying brought in other polynomials.
-    """
+class Decomposition:
+    """Cylindrical algebraic decomposition of the whole problem, with any prefix."""
 
-    formula: Formula
-    values: Values | None = None
-    certificate: Certificate | None = None
+    name = "cad"
+
+    def suits(self, problem: Problem, options: Options) -> str | None:
+        """Every problem."""
+        return "complete for every formula"
+
+    def run(self, problem: Problem, context: Context) -> Outcome:
+        """The answer read off the cells, with a witness of a sentence and a certificate. Raises ``BudgetExceeded``."""
+        return decomposed(problem.formula, context.options, context.budget, context.log)
 
 
-def decomposed(formula: Formula, options: Options, budget: Budget, story: Story) -> Decomposed:
+def decomposed(formula: Formula, options: Options, budget: Budget, log: RunLog) -> Outcome:
     """Any formula, as a whole, by cylindrical algebraic decomposition. Raises ``BudgetExceeded``."""
     start = time.perf_counter()
     prefix, matrix = prenex(formula)
     matrix = nnf(matrix)
     if isinstance(matrix, Constant):
-        return Decomposed(matrix, {} if matrix.value else None)
+        return Outcome(matrix, {} if matrix.value else None)
     free = free_variables(formula)
     order, quantifiers, reason = _order(prefix, free, matrix, options, budget)
     question = _Question(matrix, order, quantifiers, free, options)
@@ -65,11 +69,12 @@ def decomposed(formula: Formula, options: Options, budget: Budget, story: Story)
         answer = TRUE if truth else FALSE
         if truth is (quantifiers[0] == "E"):
             values = deciding_point(proof, truth)
-    story.note("cad", _figures(order, reason, first, time.perf_counter() - start))
+    log.step("cells", formula, answer)
+    log.work("cad", _figures(order, reason, first, time.perf_counter() - start))
     certificate = Certificate.cells(proof, convert(answer, Ring.of(order))) if _is_listed(answer, proof) else None
     # back into the ring of the formula it came from: it is joined with parts of that formula
     ring = ring_of(formula)
-    return Decomposed(answer if ring is None else convert(answer, ring), values, certificate)
+    return Outcome(answer if ring is None else convert(answer, ring), values, certificate)
 
 
 def certificate_for(formula: Formula, answer: Formula, options: Options, budget: Budget) -> Certificate | None:
@@ -111,7 +116,7 @@ class _Question:
         *,
         whole_free: bool = False,
         beside: tuple[Poly, ...] = (),
-    ) -> Decomposition:
+    ) -> Table:
         """Its decomposition by the tactics that the options allow; see ``Tactics`` for ``whole_free``.
 
         With ``beside`` the signs of these polynomials in the free variables are wanted on every free cell.
@@ -134,7 +139,7 @@ class _Question:
             beside=beside,
         )
 
-    def answer(self, found: Decomposition, budget: Budget, *, whole_free: bool = False) -> tuple[Formula, CellTable]:
+    def answer(self, found: Table, budget: Budget, *, whole_free: bool = False) -> tuple[Formula, CellTable]:
         """The formula that a decomposition gives, and the table (refined if need be) that proves it."""
 
         def refined(levels: frozenset[int]) -> CellTable:
@@ -146,14 +151,14 @@ class _Question:
         simple = simplify(convert(answer, Ring.of(self.free)))
         return simple, proof
 
-    def shortest(self, first: Decomposition, budget: Budget) -> tuple[Formula, CellTable]:
+    def shortest(self, first: Table, budget: Budget) -> tuple[Formula, CellTable]:
         """The answer; a small one is compared with that of the whole space of the free variables, for which formula
         construction knows the signs of all factors everywhere."""
         answer, proof = self.answer(first, budget)
         plain = not self.options.root_atoms and Stage.PARTIAL not in self.options.without
         if not plain or first.cells > WHOLE_FROM or not is_small(answer):
             return answer, proof
-        part = Budget(budget.remaining(), WHOLE_CELLS, budget.listener)
+        part = budget.part(WHOLE_CELLS)
         try:
             other, table = self.answer(self.table(part, whole_free=True), part, whole_free=True)
         except BudgetExceeded:
@@ -179,12 +184,21 @@ def length(formula: Formula) -> tuple[int, int]:
     return len(polys), sum(p.term_count() for p in polys)
 
 
-def claims(certificate: Certificate, answer: Formula) -> bool:
-    """Whether a certificate by cells is about this very answer."""
+def claims(certificate: Certificate, question: Formula, answer: Formula) -> bool:
+    """Whether a certificate by cells is about this very question and answer; others are made for the question only."""
     evidence = certificate.payload
     if not isinstance(evidence, CellEvidence) or evidence.answer is None:
         return True
-    return evidence.answer == convert(answer, Ring.of(evidence.table.order))
+    table, ring = evidence.table, Ring.of(evidence.table.order)
+    prefix, matrix = prenex(question)
+    if not set(free_variables(matrix)).issubset(ring.names):
+        return False
+    bound = {name: kind.value for kind, names in prefix for name in names}
+    return (
+        evidence.answer == convert(answer, ring)
+        and table.matrix == convert(nnf(matrix), ring)
+        and table.quantifiers == tuple(bound.get(name, "") for name in table.order)
+    )
 
 
 def _is_listed(answer: Formula, table: CellTable) -> bool:
@@ -194,7 +208,7 @@ def _is_listed(answer: Formula, table: CellTable) -> bool:
     return all(f in factors for p in polynomials(answer) for f, _ in p.convert(ring).factors()[1])
 
 
-def _figures(order: Sequence[str], reason: str, found: Decomposition, seconds: float) -> dict[str, object]:
+def _figures(order: Sequence[str], reason: str, found: Table, seconds: float) -> dict[str, object]:
     return {
         "order": list(order),
         "order by": reason,

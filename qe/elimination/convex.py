@@ -8,14 +8,38 @@ from fractions import Fraction
 
 from qe.convex.optimum import Optimum, minimize
 from qe.convex.read import NotConvex
+from qe.elimination.protocol import Context, Outcome, Problem
 from qe.errors import Unable
 from qe.exact.algebraic import RealAlgebraic
 from qe.exact.field import FieldElement
-from qe.formula.syntax import Exists
+from qe.formula.syntax import FALSE, TRUE, Exists
 from qe.formula.traverse import ring_of
-from qe.options import Budget
+from qe.options import Budget, Options
 from qe.proof.certificate import Certificate
 from qe.proof.multipliers import OptimumStatus
+
+
+class ConvexOptimisation:
+    """Sentences about convex sets, however many variables there are."""
+
+    name = "convex"
+
+    def suits(self, problem: Problem, options: Options) -> str | None:
+        """Sentences of one block."""
+        return f"{len(problem.variables)} variables, a convex set" if problem.is_flat and not problem.free else None
+
+    def run(self, problem: Problem, context: Context) -> Outcome | None:
+        """A decision with its certificate; None where the set is not a convex one that can be read."""
+        dual = problem.dual
+        sentence = Exists(dual.variables, dual.body)
+        found = decide_convex(sentence, budget=context.budget)
+        if found is None:
+            return None
+        truth = FALSE if found.values is None else TRUE
+        context.log.step("convex", sentence, truth)
+        if found.values is None:
+            return Outcome(problem.asked(truth), certificate=found.certificate)
+        return Outcome(problem.asked(truth), dict(found.values))
 
 
 @dataclass(frozen=True, slots=True)

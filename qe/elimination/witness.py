@@ -18,6 +18,7 @@ from fractions import Fraction
 from itertools import chain, combinations, islice
 from math import lcm
 
+from qe.elimination.protocol import Context, Outcome, Problem
 from qe.errors import InputError
 from qe.exact.quadratic_form import solve_linear
 from qe.exact.ring import Poly, format_poly
@@ -26,7 +27,7 @@ from qe.formula.evaluate import holds_at
 from qe.formula.normal import nnf, rename_apart
 from qe.formula.syntax import TRUE, And, Atom, Exists, ForAll, Formula, Or, Relation, RootAtom
 from qe.formula.traverse import atoms, free_variables, is_quantifier_free, map_atoms, ring_of
-from qe.options import Budget
+from qe.options import Budget, Options
 from qe.rules.preparation import prepare
 from qe.simplify.simplify import simplify
 
@@ -35,6 +36,25 @@ MOST = 500
 
 PROBES, UNPROBED = 8, 200
 """Parameter points at which a candidate must hold before a proof is tried; candidates tried where there are none."""
+
+
+class PolynomialWitnesses:
+    """Sentences and formulas ``all p. ... ex y. ...`` that polynomials in p prove."""
+
+    name = "witness"
+
+    def suits(self, problem: Problem, options: Options) -> str | None:
+        """Universal blocks with quantifiers inside."""
+        return "polynomials may solve the inner blocks" if problem.universal and not problem.is_flat else None
+
+    def run(self, problem: Problem, context: Context) -> Outcome | None:
+        """TRUE where witnesses were found and proved; None says nothing."""
+        found = find(problem.formula, budget=context.budget)
+        if found is None:
+            return None
+        for proof in found:
+            context.log.choice(self.name, (), f"witness in the parameters: {proof}")
+        return Outcome(context.log.step("witness in the parameters", problem.formula, TRUE))
 
 
 @dataclass(frozen=True, slots=True)

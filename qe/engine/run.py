@@ -1,400 +1,269 @@
-"""The line from a formula to an answer: rename, prepare, choose, eliminate, construct, answer.
+"""The line from a formula to an answer: rename, prepare, eliminate by the strategy, shorten, certify.
 
-Innermost quantifiers go first. A block that substitution cannot finish is handed to decomposition, alone when its
-body is quantifier-free, together with the quantifiers inside it otherwise. This is the only place that catches
-``Unable`` and goes on with another method; every switch is recorded in the statistics.
+Innermost quantifiers go first. Every block goes through the attempts of ``STRATEGY`` in their order until one ends;
+what that one leaves quantified goes through them again. This is the only place that catches ``Unable`` and lets
+another method try; every choice and every switch is in the log, and every change of a formula is a step of it.
 """
 
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterable
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from typing import TypeVar
 
-from qe.elimination.cad import certificate_for, claims, decomposed, is_small, length
-from qe.elimination.vs.infinity_first import far_first
-from qe.elimination.vs.method import substituted
-from qe.engine.choice import allows, choose, planned
-from qe.engine.constant import constant_value
+from qe.elimination.protocol import Context, Outcome, Problem
+from qe.engine.finish import settled, shortened
 from qe.engine.linear_proof import substitution_certificate
+from qe.engine.strategy import Attempt, Scope, alone, attempts
 from qe.errors import Unable
+from qe.exact.number import Values
 from qe.exact.ring import Ring
 from qe.formula.build import conj, convert, disj, exists, forall, neg
 from qe.formula.counting import without_root_atoms
-from qe.formula.features import features
 from qe.formula.normal import nnf, rename_apart
 from qe.formula.syntax import FALSE, TRUE, And, Constant, Exists, ForAll, Formula, Not, Or
-from qe.formula.traverse import atoms, free_variables, has_root_atoms, is_quantifier_free
-from qe.options import Budget, Method, Options, Stage
+from qe.formula.traverse import free_variables, is_quantifier_free
+from qe.options import Budget, Options, Stage
 from qe.proof.certificate import Certificate, Root
-from qe.proof.elimination import Elimination, Values
-from qe.proof.run_log import Story
-from qe.rules.nonzero import only_nonzero
+from qe.proof.run_log import RunLog
 from qe.rules.preparation import Prepared, prepare
 from qe.rules.step import ALL_STEPS, EQUATION_STEPS
 from qe.simplify.simplify import simplify
 
-Found = TypeVar("Found")
-
-FIRST_SHARE = 0.4
-"""The share of the remaining time that the first method gets while another one could take over."""
-
-PROBE_ABOVE, PROBE_SECONDS, PROBE_SHARE, PROBE_ATOMS = 3, 1.0, 0.1, 30
-"""Substitution is tried for this long before a decomposition in more variables, and taken if its answer is small."""
-
 CERTIFY_SHARE = 0.4
 """The share of the time left after the answer that a decomposition may take for nothing but its certificate."""
 
-CONVEX_FROM = 4
-"""Existential sentences in so many variables are first tried as convex problems; with fewer, the others are faster."""
 
-SHORTEN_CELLS, SHORTEN_SHARE, SHORTEN_SECONDS = 2000, 0.25, 0.7
-SETTLE_CELLS = 500
-"""Cells that may be built to find out that an answer is true or false everywhere."""
-
-
-def solve(formula: Formula, options: Options, budget: Budget) -> Elimination:
+def solve(formula: Formula, options: Options, budget: Budget) -> Outcome:
     """A quantifier-free formula equivalent to ``formula`` over R, with what is known beside it.
 
     Raises ``Unable`` (``BudgetExceeded`` at a limit) when no method finished.
     """
+    started = time.perf_counter()
     run, free = _Run(options, budget), free_variables(formula)
-    if not (options.root_atoms and is_quantifier_free(formula)):
-        formula = without_root_atoms(formula)
-    renamed = rename_apart(formula)
-    result, values = run.sentence_or_formula(renamed)
-    run.keep_or_make_certificate(renamed, result)
-    if free:
-        result = convert(result, Ring.of(free))
-    run.story.stats["seconds"] = round(time.perf_counter() - run.started, 6)
-    return Elimination(result, values, run.certificate, run.story.stats)
+    plain = formula if options.root_atoms and is_quantifier_free(formula) else without_root_atoms(formula)
+    question = run.log.step("renaming", formula, rename_apart(run.log.step("roots counted", formula, plain)))
+    found = run.question(question)
+    certificate = run.certificate(question, found)
+    answer = convert(found.formula, Ring.of(free)) if free else found.formula
+    run.log.seconds = round(time.perf_counter() - started, 6)
+    return replace(found, formula=answer, certificate=certificate, log=run.log)
 
 
 @dataclass(slots=True)
 class _Run:
     options: Options
     budget: Budget
-    started: float = field(default_factory=time.perf_counter)
-    story: Story = field(default_factory=Story)
-    certificate: Certificate | None = None
-    whole: Formula | None = None
-    shortest: Formula | None = None  # the last answer of a decomposition, which needs no shortening
+    log: RunLog = field(default_factory=RunLog)
 
-    # --- the outermost shape -----------------------------------------------------------------
-    def sentence_or_formula(self, formula: Formula) -> tuple[Formula, Values | None]:
+    # --- the question as a whole ---------------------------------------------------------------
+    def question(self, formula: Formula) -> Outcome:
         """The answer; for sentences that begin with a quantifier also a witness or counterexample."""
-        if isinstance(formula, ForAll) and self._by_witness(formula):
-            return TRUE, None
-        if isinstance(formula, ForAll) and not free_variables(formula):
-            answer, values = self.existential(Exists(formula.variables, nnf(formula.body, negate=True)))
-            return neg(answer), values
-        if isinstance(formula, Exists) and not free_variables(formula):
-            return self.existential(formula)
-        self.whole = formula
-        found = self._convex_universal(formula) if isinstance(formula, ForAll) else None
+        problem = Problem.of(formula)
+        found = None if problem is None else self.first_of(Scope.ASKED, problem)
+        if found is None and problem is not None and not problem.free:
+            found = self.sentence(problem)
+            if found.witness is not None:
+                known = found.witness
+                return replace(found, witness={v: known.get(v, Fraction(0)) for v in problem.variables})
+            return found
         if found is None:
-            ready = self.prepared(formula)
-            found = self._convex_block(ready) or self.eliminate(ready)
-        if self.certificate is None:
-            found = self._settled(self._shortened(found))
-            self.certificate = substitution_certificate(formula, found)
-        return found, None
+            found = self.formula(formula)
+        if found.certificate is not None or isinstance(found.formula, Constant):
+            return found
+        return replace(found, formula=self.finished(found.formula))
 
-    def _convex_universal(self, formula: ForAll) -> Formula | None:
-        """The answer for a universal block whose truth set is seen to be convex, by critical values."""
-        from qe.elimination.critical.method import convex_universal
-
-        return self._tried(
-            "convex set", lambda part: convex_universal(formula, self.options, part, self.story, self._plainly)
-        )
-
-    def _convex_block(self, ready: Formula) -> Formula | None:
-        """The answer for a convex existential block with the conditions that preparation moved out of it."""
-        if is_quantifier_free(ready):
-            return None
-        from qe.elimination.critical.method import convex_block  # a large part of the engine, loaded where it may serve
-
-        block = convex_block(ready, self.options)
-        if block is None or choose(*block).methods[0] is not Method.CRITICAL:
-            return None
-        return self._tried("convex block", lambda part: self._by_critical_values(*block, part))
-
-    def _by_witness(self, formula: ForAll) -> bool:
-        """Whether polynomials in the universal variables solve the blocks inside; ``False`` says nothing."""
-        if is_quantifier_free(formula.body) or self.options.method is not Method.AUTO:
-            return False
-        from qe.elimination.witness import find as polynomial_witnesses
-
-        found = self._tried("witness in the parameters", lambda part: polynomial_witnesses(formula, budget=part))
-        for proof in found or ():
-            self.story.note("plan", f"witness in the parameters: {proof}")
-        return found is not None
-
-    def existential(self, formula: Exists) -> tuple[Formula, Values | None]:
-        """An existential sentence, with values for its variables if it is true."""
-        self.whole = formula
-        answer, lifted = self._by_convexity(formula) or self._prepared_sentence(formula)
-        if answer != TRUE or lifted is None:
-            return answer, None
-        found = {name: lifted.get(name, Fraction(0)) for name in formula.variables}
-        if self.certificate is None and is_quantifier_free(formula.body):
-            matrix = convert(formula.body, Ring.of(tuple(found)))
-            self.certificate = Certificate.witness(matrix, tuple(found), [Root.of(v) for v in found.values()])
-        return answer, found
-
-    def _by_convexity(self, formula: Exists) -> tuple[Formula, Values | None] | None:
-        """A sentence in many variables about a convex set, if it is one."""
-        if len(formula.variables) < CONVEX_FROM or self.options.method is not Method.AUTO:
-            return None
-        from qe.elimination.convex import decide_convex
-
-        found = self._tried("convexity", lambda part: decide_convex(formula, budget=part))
-        if found is None:
-            return None
-        self.story.note("plan", f"convex optimisation: {len(formula.variables)} variables, a convex set")
-        if found.values is None:
-            self.certificate = found.certificate
-            return FALSE, None
-        return TRUE, dict(found.values)
-
-    def _prepared_sentence(self, formula: Exists) -> tuple[Formula, Values | None]:
-        """Prepared, decided, and the values carried back."""
-        ready = self._prepare(formula)
-        answer, values = self.with_values(ready.formula)
-        if answer != TRUE or values is None:
-            return answer, None
+    def sentence(self, problem: Problem) -> Outcome:
+        """A sentence of one outermost block, by its existential dual, with values for the block's variables."""
+        dual = problem.dual
+        ready = self.prepared(dual.formula)
+        if ready.formula == dual.formula and dual.is_flat:
+            return self.block(problem)
+        found = self.decided(ready.formula)
+        truth = problem.asked(found.formula)
+        if found.formula != TRUE or found.witness is None:
+            return Outcome(truth)
         try:
-            return answer, ready.lift(values)
+            return Outcome(truth, ready.lift(found.witness))
         except Unable as error:
-            self.story.note("switches", f"no witness: {error}")
-            return answer, None
+            self.log.switch("no witness", error)
+            return Outcome(truth)
 
-    def with_values(self, formula: Formula) -> tuple[Formula, Values | None]:
+    def formula(self, formula: Formula) -> Outcome:
+        """A formula with parameters, or one that does not begin with a quantifier."""
+        ready = self.prepared(formula).formula
+        gathered = gathered_block(ready)
+        found = None if gathered is None else self.first_of(Scope.PREPARED, gathered)
+        problem = Problem.of(ready)
+        if found is None and problem is not None:
+            found = self.eliminated(problem)
+        return found if found is not None else Outcome(self.without_quantifiers(ready))
+
+    def finished(self, formula: Formula) -> Formula:
+        """A last look: shorter, and TRUE or FALSE where it is that."""
+        return settled(shortened(formula, self.context()), self.context(), self.satisfiable)
+
+    def satisfiable(self, sentence: Formula, context: Context) -> bool:
+        """Whether a sentence is true, found in a run of its own within the limits of the context."""
+        plain = context.options.with_(certify=False, root_atoms=False)
+        return _Run(plain, context.budget).question(sentence).formula == TRUE
+
+    def context(self, budget: Budget | None = None) -> Context:
+        return Context(self.options, budget or self.budget, self.log)
+
+    # --- certificates --------------------------------------------------------------------------
+    def certificate(self, question: Formula, found: Outcome) -> Certificate | None:
+        """The certificate that a method made if it is about this very question and answer; else one by a witness,
+        by linear equations, or, where one was asked for, by a decomposition if time allows."""
+        from qe.elimination.cad import certificate_for, claims
+
+        if found.certificate is not None and claims(found.certificate, question, found.formula):
+            return found.certificate
+        problem = Problem.of(question)
+        if found.witness is not None and problem is not None and problem.is_flat and not problem.free:
+            return witness_certificate(problem, found.witness)
+        linear = substitution_certificate(question, found.formula)
+        if linear is not None or not self.options.certify:
+            return linear
+        try:
+            return certificate_for(question, found.formula, self.options, self.budget.share(CERTIFY_SHARE))
+        except Unable as error:
+            self.log.switch("no certificate", error)
+            return None
+
+    # --- preparation ---------------------------------------------------------------------------
+    def prepared(self, formula: Formula) -> Prepared:
+        """Every block brought to its real dimension by the rules."""
+        enabled = ALL_STEPS - EQUATION_STEPS if Stage.EQUATIONS in self.options.without else ALL_STEPS
+        return prepare(formula, budget=self.budget, enabled=enabled, log=self.log)
+
+    # --- sentences, with their witnesses ---------------------------------------------------------
+    def decided(self, formula: Formula) -> Outcome:
         """A sentence of existential blocks under conjunction and disjunction, with values when true."""
         match formula:
             case Constant(value):
-                return formula, {} if value else None
-            case Exists(variables, body) if is_quantifier_free(body):
-                return self.block(variables, body)
+                return Outcome(formula, {} if value else None)
             case And(args):
-                values: Values = {}
-                for arg in args:
-                    truth, found = self.with_values(arg)
-                    if truth == FALSE:
-                        return FALSE, None
-                    values |= found or {}
-                return TRUE, values
+                return self.conjunction(args)
             case Or(args):
                 for arg in args:
-                    truth, found = self.with_values(arg)
-                    if truth == TRUE:
-                        return TRUE, found
-                return FALSE, None
-            case Exists(variables, body):
-                inner = self.eliminate(body, substitution_only=True)
-                if is_quantifier_free(inner):
-                    return self.block(variables, inner)
-                return self.decomposed(exists(variables, inner))
-        return self.eliminate(formula), None
+                    found = self.decided(arg)
+                    if found.formula == TRUE:
+                        return found
+                return Outcome(FALSE)
+            case Exists(variables, body) | ForAll(variables, body):
+                return self.eliminated(Problem(variables, body, isinstance(formula, ForAll)))
+        return Outcome(self.without_quantifiers(formula))
 
-    def keep_or_make_certificate(self, formula: Formula, answer: Formula) -> None:
-        """A certificate is kept if it is about this very answer; one that was asked for is made where time allows."""
-        if self.certificate is not None and not claims(self.certificate, answer):
-            self.certificate = None
-        if self.certificate is not None or not self.options.certify:
-            return
-        try:
-            self.certificate = certificate_for(formula, answer, self.options, self.budget.share(CERTIFY_SHARE))
-        except Unable as error:
-            self.story.note("switches", f"no certificate: {error}")
+    def conjunction(self, args: Iterable[Formula]) -> Outcome:
+        values: Values = {}
+        for arg in args:
+            found = self.decided(arg)
+            if found.formula == FALSE:
+                return Outcome(FALSE)
+            values |= found.witness or {}
+        return Outcome(TRUE, values)
 
-    # --- inner formulas ------------------------------------------------------------------------
-    def prepared(self, formula: Formula) -> Formula:
-        return self._prepare(formula).formula
-
-    def _prepare(self, formula: Formula) -> Prepared:
-        enabled = ALL_STEPS - EQUATION_STEPS if Stage.EQUATIONS in self.options.without else ALL_STEPS
-        ready = prepare(formula, budget=self.budget, enabled=enabled)
-        if ready.steps:
-            self.story.note("preparation", [f"{s.kind.value}: {s.detail}" for s in ready.steps])
-        return ready
-
-    def eliminate(self, formula: Formula, *, substitution_only: bool = False) -> Formula:
-        """All quantifiers removed, innermost first; with ``substitution_only`` those that substitution can remove."""
+    # --- formulas ----------------------------------------------------------------------------------
+    def without_quantifiers(self, formula: Formula, *, inner: bool = False) -> Formula:
+        """All quantifiers removed, innermost first; with ``inner`` only those that an inner block's methods remove."""
         if is_quantifier_free(formula):
             return formula
         match formula:
-            case And(args):
-                return simplify(conj(self.eliminate(a, substitution_only=substitution_only) for a in args))
-            case Or(args):
-                return simplify(disj(self.eliminate(a, substitution_only=substitution_only) for a in args))
+            case And(args) | Or(args):
+                parts = [self.without_quantifiers(a, inner=inner) for a in args]
+                joined = (conj if isinstance(formula, And) else disj)(parts)
+                return self.log.step("simplification", joined, simplify(joined))
             case Not(arg):
-                return neg(self.eliminate(arg, substitution_only=substitution_only))
-            case Exists(variables, body):
-                return self._quantified(variables, body, universal=False, substitution_only=substitution_only)
-            case ForAll(variables, body):
-                return self._quantified(variables, body, universal=True, substitution_only=substitution_only)
+                return neg(self.without_quantifiers(arg, inner=inner))
+            case Exists(variables, body) | ForAll(variables, body):
+                problem = Problem(variables, body, isinstance(formula, ForAll))
+                return self.inner_block(problem) if inner else self.eliminated(problem).formula
         return formula
 
-    def _quantified(
-        self, variables: Sequence[str], body: Formula, *, universal: bool, substitution_only: bool
-    ) -> Formula:
-        inner = self.eliminate(body, substitution_only=self.options.method is not Method.CRITICAL)
-        rebuilt = (forall if universal else exists)(variables, inner)
-        if not is_quantifier_free(inner):
-            return rebuilt if substitution_only else self.decomposed(rebuilt)[0]
-        positive = simplify(nnf(inner, negate=universal))
-        if substitution_only:
-            if not allows(self.options, Method.VS):
-                return rebuilt
-            answer, _ = substituted(variables, positive, self.budget, self.story)
-            if not is_quantifier_free(answer):
-                return rebuilt
-        else:
-            answer = self.block(variables, positive, universal=universal)[0]
-        return simplify(nnf(answer, negate=universal))
+    def reduced(self, problem: Problem) -> Problem | Formula:
+        """The problem with its body as far as inner blocks can be eliminated, simplified; a formula where no block is
+        left."""
+        body = self.without_quantifiers(problem.body, inner=True)
+        if not is_quantifier_free(body):
+            return replace(problem, body=body)
+        before = replace(problem, body=body).formula
+        simple = problem.asked(simplify(nnf(body, negate=problem.universal)))
+        after = (forall if problem.universal else exists)(problem.variables, simple)
+        self.log.step("simplification", before, after)
+        return Problem.of(after) or after
 
-    # --- one existential block over a quantifier-free body ----------------------------------------
-    def block(
-        self, variables: Sequence[str], body: Formula, *, universal: bool = False
-    ) -> tuple[Formula, Values | None]:
-        """``exists variables. body`` by the methods that the planner proposes, in their order.
+    def eliminated(self, problem: Problem) -> Outcome:
+        """The block without quantifiers."""
+        reduced = self.reduced(problem)
+        if not isinstance(reduced, Problem):
+            return Outcome(reduced, {} if reduced == (FALSE if problem.universal else TRUE) else None)
+        return self.block(reduced)
 
-        With ``universal`` the block was the negation of a universal one: decomposition then works on that directly,
-        so that its formula and its certificate are about the question that was asked.
-        """
-        if free_variables(exists(variables, body)) and self.options.method is Method.AUTO:
-            settled = only_nonzero(variables, body)
-            if settled is not None:
-                self.story.note("plan", f"{', '.join(variables)}: only asked to be no root")
-                return simplify(settled), None
-            far = far_first(variables[0], body, budget=self.budget) if len(variables) == 1 else None
-            if far is not None:
-                self.story.note("plan", f"{variables[0]}: solutions near infinity first")
-                return simplify(disj((far.solutions, self.eliminate(far.rest)))), None
-        plan = planned(variables, body, self.options)
-        self.story.note("plan", f"{plan.methods[0].value} first for {', '.join(variables)}: {plan.reason}")
-        may_probe = plan.methods[0] is Method.CAD and allows(self.options, Method.VS)
-        if may_probe and len(free_variables(body)) > PROBE_ABOVE:
-            probed = self._probe(variables, body)
-            if probed is not None:
-                return probed
-        for position, method in enumerate(plan.methods):
-            last = position == len(plan.methods) - 1
-            share = self.budget if last else self.budget.share(FIRST_SHARE)
+    def block(self, problem: Problem) -> Outcome:
+        """One block by the strategy; raises ``Unable`` where no attempt ends."""
+        found = self.first_of(Scope.BLOCK if problem.is_flat else Scope.NESTED, problem)
+        if found is None:
+            raise alone(self.options.method.value)
+        return found
+
+    def inner_block(self, problem: Problem) -> Formula:
+        """A block inside another, eliminated if the strategy has an attempt that ends; as it was otherwise."""
+        reduced = self.reduced(problem)
+        if not isinstance(reduced, Problem):
+            return reduced
+        found = self.first_of(Scope.INNER, reduced) if reduced.is_flat else None
+        return reduced.formula if found is None else found.formula
+
+    # --- the loop -------------------------------------------------------------------------------------
+    def first_of(self, scope: Scope, problem: Problem) -> Outcome | None:
+        """What the first attempt gives that comes to an end; None if there is none."""
+        last: Unable | None = None
+        for attempt, method, reason in attempts(scope, problem, self.options):
+            mark = self.log.mark()
             try:
-                if method is Method.VS:
-                    return self._by_substitution(variables, body, share)
-                if method is Method.CRITICAL:
-                    return self._by_critical_values(variables, body, share), None
-                if universal:
-                    answer, values = self._decomposed(forall(variables, nnf(body, negate=True)), share)
-                    return nnf(answer, negate=True), values
-                return self._decomposed(exists(variables, body), share)
+                found = method.run(problem, self.context(self.budget.part(attempt.work)))
+                if found is not None and attempt.keep(found, problem):
+                    self.log.choice(method.name, problem.variables, reason)
+                    return self.whole_of(found, problem, attempt, method.name)
+                if found is not None:
+                    self.log.switch(method.name, "its answer is long, or leaves something to others")
             except Unable as error:
-                if last:
-                    raise
                 self.budget.check("switch")
-                self.story.note("switches", f"{method.value}: {error}")
-        raise Unable("no method applies")
+                self.log.switch(method.name, error)
+                last = error
+            self.log.forget_steps(mark)
+        if last is not None and scope in (Scope.BLOCK, Scope.NESTED):
+            raise last
+        return None
 
-    def _probe(self, variables: Sequence[str], body: Formula) -> tuple[Formula, Values | None] | None:
-        """A short try of substitution where decomposition is planned: a small complete answer is taken."""
-        part = self.budget.brief(PROBE_SECONDS, PROBE_SHARE)
-        try:
-            result = substituted(variables, body, part, self.story)
-        except Unable as error:
-            self.story.note("switches", f"vs probe: {error}")
-            return None
-        formula, values = result
-        if not is_quantifier_free(formula) or sum(1 for _ in atoms(formula)) > PROBE_ATOMS:
-            return None
-        return self._shortened(formula), values
+    def whole_of(self, found: Outcome, problem: Problem, attempt: Attempt, name: str) -> Outcome:
+        """An outcome without what a method left quantified, and short where that is worth a look."""
+        formula = found.formula
+        if not is_quantifier_free(formula) and attempt.scope is not Scope.INNER:
+            if formula == problem.formula:
+                raise alone(name)
+            formula = self.without_quantifiers(formula)
+        if attempt.shorten and problem.free:
+            formula = shortened(formula, self.context())
+        simple = self.log.step("simplification", formula, simplify(formula))
+        return found if simple == found.formula else replace(found, formula=simple)
 
-    def _by_substitution(
-        self, variables: Sequence[str], body: Formula, budget: Budget
-    ) -> tuple[Formula, Values | None]:
-        result = substituted(variables, body, budget, self.story)
-        formula, values = result
-        if not is_quantifier_free(formula):
-            if not allows(self.options, Method.CAD):
-                raise Unable("virtual substitution alone does not eliminate all quantifiers of this formula")
-            self.story.note("switches", f"vs: {', '.join(features(formula).bound)} left for decomposition")
-            if not free_variables(exists(variables, body)):
-                return self._decomposed(exists(variables, body), budget)
-            formula = self._finish(formula, budget)
-        return self._shortened(formula), values
 
-    def _finish(self, formula: Formula, budget: Budget) -> Formula:
-        """Decompose the existential parts that substitution left."""
-        match formula:
-            case And(args):
-                return simplify(conj(self._finish(a, budget) for a in args))
-            case Or(args):
-                return simplify(disj(self._finish(a, budget) for a in args))
-            case Exists():
-                return self._decomposed(formula, budget)[0]
-        return formula
+def gathered_block(formula: Formula) -> Problem | None:
+    """The existential block of a conjunction together with the conditions that preparation moved out of it."""
+    args = formula.args if isinstance(formula, And) else (formula,)
+    blocks = [a for a in args if isinstance(a, Exists)]
+    if len(blocks) != 1:
+        return None
+    rest = [a for a in args if a is not blocks[0]]
+    body = conj((*rest, blocks[0].body))
+    return Problem(blocks[0].variables, body) if is_quantifier_free(body) else None
 
-    def _shortened(self, formula: Formula) -> Formula:
-        """A shorter equivalent of a small quantifier-free answer, read off a decomposition of its space."""
-        if formula == self.shortest:
-            return formula
-        if has_root_atoms(formula) or not is_small(formula) or not allows(self.options, Method.CAD):
-            return formula
-        try:
-            shorter, _ = self._decomposed(formula, self.budget.brief(SHORTEN_SECONDS, SHORTEN_SHARE, SHORTEN_CELLS))
-        except Unable:
-            return formula
-        return shorter if length(shorter) < length(formula) else formula
 
-    def _settled(self, formula: Formula) -> Formula:
-        """TRUE or FALSE where the answer turns out to be that, if this is cheap to find out."""
-        if has_root_atoms(formula):
-            return formula
-        limits = self.budget.brief(SHORTEN_SECONDS, SHORTEN_SHARE, SETTLE_CELLS)
-        plain = self.options.with_(certify=False, root_atoms=False)
-
-        def is_satisfiable(sentence: Formula) -> bool:
-            return _Run(plain, limits).sentence_or_formula(sentence)[0] == TRUE
-
-        try:
-            constant = constant_value(formula, is_satisfiable)
-        except Unable:
-            return formula
-        if constant is not None:
-            self.story.note("plan", f"the answer was decided to be {constant}")
-        return constant or formula
-
-    def _tried(self, what: str, work: Callable[[Budget], Found | None]) -> Found | None:
-        """A shortcut, with a share of the time; None where it does not lead to an answer."""
-        try:
-            return work(self.budget.share(FIRST_SHARE))
-        except Unable as error:
-            self.story.note("switches", f"{what}: {error}")
-            return None
-
-    def _by_critical_values(self, variables: Sequence[str], body: Formula, budget: Budget) -> Formula:
-        from qe.elimination.critical.method import by_critical_values
-
-        return by_critical_values(variables, body, self.options, budget, self.story, self._plainly)
-
-    def _plainly(self, formula: Formula, budget: Budget) -> Formula:
-        """Decomposed without root atoms: an inner block's answer is read by the next elimination."""
-        return decomposed(formula, self.options.with_(root_atoms=False), budget, self.story).formula
-
-    # --- decomposition -----------------------------------------------------------------------------
-    def decomposed(self, formula: Formula) -> tuple[Formula, Values | None]:
-        """Any formula, as a whole, by cylindrical algebraic decomposition."""
-        if not allows(self.options, Method.CAD):
-            raise Unable("virtual substitution alone does not eliminate all quantifiers of this formula")
-        return self._decomposed(formula, self.budget)
-
-    def _decomposed(self, formula: Formula, budget: Budget) -> tuple[Formula, Values | None]:
-        found = decomposed(formula, self.options, budget, self.story)
-        if self.certificate is None and formula == self.whole:
-            self.certificate = found.certificate
-        self.shortest = found.formula
-        return found.formula, found.values
+def witness_certificate(problem: Problem, values: Values) -> Certificate:
+    """That the matrix of the existential dual holds at these values."""
+    ring = Ring.of(problem.variables)
+    listed = [values[name] for name in problem.variables]
+    return Certificate.witness(convert(problem.positive, ring), problem.variables, [Root.of(v) for v in listed])

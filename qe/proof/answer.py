@@ -8,10 +8,12 @@ from enum import Enum
 from typing import Any
 
 from qe.errors import Unable
+from qe.exact.number import Assignment
 from qe.formula.syntax import Constant, Formula
 from qe.proof.certificate import Certificate
-from qe.proof.elimination import Assignment
-from qe.proof.run_log import told
+from qe.proof.derivation import Derivation, put_together
+from qe.proof.explanation import explained
+from qe.proof.run_log import RunLog
 
 
 class Status(Enum):
@@ -34,7 +36,7 @@ class Answer:
 
     ``truth``: True or False for sentences. ``witness``: exact values for the outermost block of a true existential
     sentence, or a counterexample to a false universal one. ``certificate``: what ``qe.verify`` accepts, when the
-    method produces one. ``stats``: what was done, seconds per phase, cells.
+    method produces one. ``question`` and ``log``: what was asked, and how it was answered.
     """
 
     status: Status
@@ -43,7 +45,8 @@ class Answer:
     certificate: Certificate | None = None
     guarantee: Guarantee = Guarantee.DERIVED
     reason: str = ""
-    stats: Mapping[str, Any] = field(default_factory=dict)
+    question: Formula | None = field(default=None, repr=False)
+    log: RunLog = field(default_factory=RunLog, repr=False)
 
     @property
     def truth(self) -> bool | None:
@@ -51,9 +54,21 @@ class Answer:
         return self.formula.value if isinstance(self.formula, Constant) else None
 
     @property
+    def stats(self) -> Mapping[str, Any]:
+        """What was done: figures by method, choices, switches, seconds."""
+        return self.log.stats()
+
+    @property
+    def derivation(self) -> Derivation:
+        """The steps from the question to the formula. Raises ``Unable`` where there is no answer."""
+        if self.formula is None or self.question is None:
+            raise Unable(f"there is no derivation: {self.reason or 'nothing was asked'}")
+        return put_together(self.question, self.log.steps(), self.formula)
+
+    @property
     def explanation(self) -> str:
-        """What was done and why, a sentence a line."""
-        return told(self.stats)
+        """The steps in words and formulas, numbered, with the choices and figures between them."""
+        return explained(self.log)
 
     def _written(self, format: str) -> str:
         """Raises ``Unable`` where there is no answer."""

@@ -1,54 +1,112 @@
-"""The story of a run: what was prepared, chosen, given up and done, for ``stats`` and for people."""
+"""The log of a run: steps taken, methods chosen and given up, in their order. Statistics are counted from it."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
+
+from qe.formula.syntax import TRUE, Formula
+from qe.proof.derivation import Step
+
+
+@dataclass(frozen=True, slots=True)
+class Choice:
+    """A method was chosen for a block."""
+
+    method: str
+    variables: tuple[str, ...]
+    reason: str
+
+    def __str__(self) -> str:
+        return f"{self.method} for {', '.join(self.variables)}: {self.reason}" if self.variables else self.reason
+
+
+@dataclass(frozen=True, slots=True)
+class Switch:
+    """Something was given up."""
+
+    what: str
+    reason: str
+
+    def __str__(self) -> str:
+        return f"{self.what}: {self.reason}"
+
+
+@dataclass(frozen=True, slots=True)
+class Work:
+    """What a part of the work cost: ``method`` and its figures."""
+
+    method: str
+    figures: Mapping[str, object]
+
+
+Entry = Step | Choice | Switch | Work
 
 
 @dataclass(slots=True)
-class Story:
-    """``stats``: lists of entries by kind (``preparation``, ``plan``, ``vs``, ``cad``, ``switches``)."""
+class RunLog:
+    """Entries in order. Nothing in the engine reads them back: they are for people, derivations and statistics."""
 
-    stats: dict[str, object] = field(default_factory=dict)
+    entries: list[Entry] = field(default_factory=list)
+    seconds: float | None = None
 
-    def note(self, kind: str, detail: object) -> None:
-        """Add an entry of this kind."""
-        entries = self.stats.setdefault(kind, [])
-        assert isinstance(entries, list)
-        entries.append(detail)
+    def step(
+        self,
+        rule: str,
+        before: Formula,
+        after: Formula,
+        *,
+        context: Formula = TRUE,
+        evidence: Mapping[str, object] | None = None,
+    ) -> Formula:
+        """Record that ``before`` <-> ``after`` under ``context``; returns ``after``."""
+        if before != after:
+            self.entries.append(Step(rule, before, after, context, evidence or {}))
+        return after
 
+    def choice(self, method: str, variables: tuple[str, ...], reason: str) -> None:
+        """Record why a method was chosen."""
+        self.entries.append(Choice(method, variables, reason))
 
-def told(stats: Mapping[str, object]) -> str:
-    """The story in sentences, one a line: what ``explain=True`` shows."""
-    lines = []
-    for entry in _entries(stats, "preparation"):
-        lines += [f"prepared by {step}" for step in entry] if isinstance(entry, Sequence) else [str(entry)]
-    lines += [f"planned {entry}" for entry in _entries(stats, "plan")]
-    for entry in _entries(stats, "vs"):
-        lines.append("substitution " + _figures(entry))
-    for entry in _entries(stats, "cad"):
-        lines.append("decomposition " + _figures(entry))
-    for entry in _entries(stats, "critical"):
-        lines.append("critical values " + _figures(entry))
-    lines += [f"gave up {entry}" for entry in _entries(stats, "switches")]
-    if "seconds" in stats:
-        lines.append(f"took {stats['seconds']} s")
-    return "\n".join(lines)
+    def switch(self, what: str, reason: object) -> None:
+        """Record why something was given up."""
+        self.entries.append(Switch(what, str(reason)))
 
+    def work(self, method: str, figures: Mapping[str, object]) -> None:
+        """Record what a method did, in figures."""
+        self.entries.append(Work(method, figures))
 
-def _entries(stats: Mapping[str, object], kind: str) -> Sequence[object]:
-    found = stats.get(kind, ())
-    return found if isinstance(found, list) else ()
+    def mark(self) -> int:
+        """A place to which ``forget_steps`` goes back."""
+        return len(self.entries)
 
+    def forget_steps(self, mark: int) -> None:
+        """Leave out the steps since a mark: the attempt was given up. Choices, switches and figures stay."""
+        self.entries[mark:] = [e for e in self.entries[mark:] if not isinstance(e, Step)]
 
-def _figures(entry: object) -> str:
-    if not isinstance(entry, Mapping):
-        return str(entry)
-    return "; ".join(f"{name} {_plain(value)}" for name, value in entry.items())
+    def steps(self) -> Iterator[Step]:
+        """The steps in order."""
+        return (e for e in self.entries if isinstance(e, Step))
 
+    def stats(self) -> dict[str, object]:
+        """Lists by kind: ``preparation``, ``plan`` (choices), figures by method, ``switches``; and ``seconds``."""
+        found: dict[str, object] = {}
 
-def _plain(value: object) -> str:
-    if isinstance(value, list | tuple):
-        return ", ".join(map(str, value)) or "none"
-    return {True: "yes", False: "no"}.get(value, str(value)) if isinstance(value, bool) else str(value)
+        def add(kind: str, entry: object) -> None:
+            entries = found.setdefault(kind, [])
+            assert isinstance(entries, list)
+            entries.append(entry)
+
+        for entry in self.entries:
+            match entry:
+                case Step(evidence=evidence) if evidence.get("detail"):
+                    add("preparation", evidence["detail"])
+                case Choice():
+                    add("plan", str(entry))
+                case Switch():
+                    add("switches", str(entry))
+                case Work(method, figures):
+                    add(method, figures)
+        if self.seconds is not None:
+            found["seconds"] = self.seconds
+        return found

@@ -10,6 +10,7 @@ from qe.formula.build import conj, disj
 from qe.formula.normal import nnf
 from qe.formula.syntax import And, Exists, ForAll, Formula, Or
 from qe.options import Budget
+from qe.proof.run_log import RunLog
 from qe.rules.block import reduce_block
 from qe.rules.block_context import Workshop
 from qe.rules.lift import Assignment, Value
@@ -46,24 +47,38 @@ class Prepared:
         return values
 
 
-def prepare(formula: Formula, *, budget: Budget | None = None, enabled: Collection[StepKind] = ALL_STEPS) -> Prepared:
+def prepare(
+    formula: Formula,
+    *,
+    budget: Budget | None = None,
+    enabled: Collection[StepKind] = ALL_STEPS,
+    log: RunLog | None = None,
+) -> Prepared:
     """An equivalent formula with fewer and lower-degree quantified variables.
 
     ``enabled`` switches single steps (for measurements). Raises ``BudgetExceeded``.
     """
     steps: list[Step] = []
+    log = log or RunLog()
     shop = Workshop(budget or Budget(), frozenset(enabled), steps=steps)
     current = nnf(formula)
     if StepKind.SIMPLIFY in shop.enabled:
         current = simplify(current)
     if not isinstance(current, Exists | ForAll):
-        return Prepared(_finish(_inside(current, shop), shop), tuple(steps))
+        result = _finish(_inside(current, shop), shop)
+        _logged(log, formula, result, steps)
+        return Prepared(result, tuple(steps))
     universal = isinstance(current, ForAll)
     body = _inside(nnf(current.body, negate=universal), shop)
     tree = reduce_block(current.variables, body, shop)
     result = _finish(nnf(tree.formula, negate=universal), shop)
+    _logged(log, formula, result, steps)
     outer = formula.variables if isinstance(formula, Exists | ForAll) else current.variables
     return Prepared(result, tuple(steps), tree, universal, outer)
+
+
+def _logged(log: RunLog, before: Formula, after: Formula, steps: list[Step]) -> None:
+    log.step("preparation", before, after, evidence={"detail": [f"{s.kind.value}: {s.detail}" for s in steps]})
 
 
 def _finish(formula: Formula, shop: Workshop) -> Formula:

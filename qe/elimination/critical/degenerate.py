@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 
 from qe.convex.facial_reduction import implied_equations
 from qe.convex.read import NotConvex
@@ -13,17 +13,13 @@ from qe.formula.traverse import ring_of
 from qe.options import Budget
 from qe.rules.linear import Pivot, substitute
 
-Decompose = Callable[[Formula, Budget], Formula]
 
-
-def thin_universal(
-    formula: ForAll, negated: Formula, parameters: Sequence[str], budget: Budget, otherwise: Decompose
-) -> Formula | None:
+def thin_universal(formula: ForAll, negated: Formula, parameters: Sequence[str], budget: Budget) -> Formula | None:
     """The formula of a universal block, where necessary conditions at a few values of its variable contradict each
     other or imply a linear equation of the parameters; None elsewhere.
 
-    The block is then equivalent to that equation together with the block with a parameter put in, which goes to
-    ``otherwise``.
+    The block is then equivalent to that equation together with the block with a parameter put in, which stays
+    quantified.
     """
     conditions = necessary_conditions(formula.variables, negated, parameters)
     if conditions is None or conditions == FALSE:
@@ -42,5 +38,4 @@ def thin_universal(
     if rest is None:
         return None
     ring = ring_of(formula) or equation.ring
-    parts = (atom(equation, Relation.EQ), otherwise(rest, budget))
-    return conj(convert(part, ring) for part in parts)
+    return conj(convert(part, ring) for part in (atom(equation, Relation.EQ), rest))

@@ -25,94 +25,91 @@ from qe.elimination.critical import (
     eliminate_block,
     eliminate_universal,
 )
-from qe.elimination.critical.degenerate import Decompose, thin_universal
+from qe.elimination.critical.degenerate import thin_universal
+from qe.elimination.protocol import Context, Outcome, Problem
 from qe.exact.fibre_stack import isolate_over
 from qe.exact.nearby import approximation, rational_values
 from qe.exact.ring import Poly, Ring
 from qe.exact.sample import Point
 from qe.formula.build import atom, conj, convert, disj, exists
 from qe.formula.evaluate import substituted, truth_under
-from qe.formula.normal import nnf
-from qe.formula.syntax import FALSE, TRUE, And, Exists, ForAll, Formula, Relation
-from qe.formula.traverse import free_variables, is_quantifier_free, polynomials, ring_of
-from qe.options import Budget, Method, Options, Projection, Stage
+from qe.formula.syntax import FALSE, TRUE, ForAll, Formula, Relation
+from qe.formula.traverse import free_variables, polynomials, ring_of
+from qe.options import Budget, Options, Projection, Stage
 from qe.proof.cells import FreeCell
-from qe.proof.run_log import Story
 from qe.simplify.simplify import simplify
 
 MOST_CUTS = 4
 """How often stray points of a formula read from open cells are cut away before the whole table is made."""
 
 
-def by_critical_values(
-    variables: Sequence[str],
-    body: Formula,
-    options: Options,
-    budget: Budget,
-    story: Story,
-    otherwise: Decompose,
-) -> Formula:
-    """``exists variables. body`` (quantifier-free, positive) by ``qe.elimination.critical``.
+class CriticalValues:
+    """Existential blocks over bounded fibres: where their truth can change, and whether it does."""
 
-    ``otherwise`` eliminates the block on hypersurfaces that the method leaves open. Raises ``Unable`` where the
-    method's side conditions are not met.
+    name = "critical"
+
+    def suits(self, problem: Problem, options: Options) -> str | None:
+        """Blocks over quantifier-free bodies."""
+        return "critical values are few" if problem.is_flat else None
+
+    def run(self, problem: Problem, context: Context) -> Outcome:
+        """The block's formula; quantified parts of it are the block on hypersurfaces that the method leaves open.
+
+        Raises ``Unable`` where the method's side conditions are not met.
+        """
+        dual = problem.dual
+        formula, order = by_critical_values(dual.variables, dual.body, context)
+        context.log.step("critical values", dual.formula, formula)
+        return Outcome(problem.asked(formula), order=order)
+
+
+class ConvexUniversal:
+    """Universal blocks in one or two parameters whose truth set is seen to be convex, or thin.
+
+    To be asked before preparation splits the conjuncts: the whole set has fewer boundary pieces.
     """
+
+    name = "critical"
+
+    def suits(self, problem: Problem, options: Options) -> str | None:
+        """Universal blocks over quantifier-free bodies, one or two parameters."""
+        return "a convex truth set" if problem.universal and problem.is_flat and 0 < len(problem.free) <= 2 else None
+
+    def run(self, problem: Problem, context: Context) -> Outcome | None:
+        """None where the set is not seen to be convex. Raises ``Unable`` where side conditions are not met."""
+        start = time.perf_counter()
+        budget = context.budget
+        negated = simplify(problem.positive)
+        order = _order(problem.variables, negated, context.options)
+        found = eliminate_universal(problem.variables, negated, order, procedures=procedures(budget), budget=budget)
+        if found is None:
+            thin = thin_universal(ForAll(problem.variables, problem.body), negated, order, budget)
+            return None if thin is None else Outcome(context.log.step("degenerate truth set", problem.formula, thin))
+        assert isinstance(found.found, ConvexBody)
+        answer = _of_open_cells(found.found, order, budget)
+        if answer is None:  # in the plane the table of a convex set settles every cell
+            whole = found.found.tabulate()
+            answer = construct(whole.table, whole.refine)[0]
+        formula = _logged(simplify(answer), negated, order, [found], context, start)
+        return Outcome(context.log.step("critical values", problem.formula, formula), order=order)
+
+
+def by_critical_values(
+    variables: Sequence[str], body: Formula, context: Context
+) -> tuple[Formula, tuple[str, ...] | None]:
+    """``exists variables. body`` (quantifier-free, positive), and the order of the parameters in which it was found."""
     start = time.perf_counter()
+    budget = context.budget
     flat = on_flat(variables, body, budget=budget)
     if flat is not None:
         outside, rest = flat
         left = [v for v in variables if v in free_variables(rest)]
-        inside = by_critical_values(left, rest, options, budget, story, otherwise) if left else rest
-        return simplify(conj((*outside, inside)))
-    parameters = _order(variables, body, options)
+        inside, order = by_critical_values(left, rest, context) if left else (rest, None)
+        return simplify(conj((*outside, inside))), order
+    parameters = _order(variables, body, context.options)
     found = eliminate_block(variables, body, parameters, procedures=procedures(budget), budget=budget)
-    parts = [_formula(variables, parameters, part, budget, otherwise) for part in found]
-    return _told(simplify(disj(parts)), body, parameters, found, story, start)
-
-
-def convex_universal(
-    formula: Formula, options: Options, budget: Budget, story: Story, otherwise: Decompose
-) -> Formula | None:
-    """The formula of a universal block in one or two parameters whose truth set is seen to be convex, or thin.
-
-    None where that is not seen, where another method is asked for, and, unless this one is, where substitution can do
-    it (degree up to 2). To be asked before preparation splits the conjuncts: the whole set has fewer boundary pieces.
-    Raises ``Unable`` where the method's side conditions are not met.
-    """
-    if options.method not in (Method.AUTO, Method.CRITICAL) or not isinstance(formula, ForAll):
-        return None
-    if not is_quantifier_free(formula.body) or not 0 < len(free_variables(formula)) <= 2:
-        return None
-    start = time.perf_counter()
-    negated = simplify(nnf(formula.body, negate=True))
-    if options.method is Method.AUTO and _degree(negated, formula.variables) <= 2:
-        return None
-    parameters = _order(formula.variables, negated, options)
-    found = eliminate_universal(formula.variables, negated, parameters, procedures=procedures(budget), budget=budget)
-    if found is None:
-        return thin_universal(formula, negated, parameters, budget, otherwise)
-    assert isinstance(found.found, ConvexBody)
-    answer = _of_open_cells(found.found, parameters, budget)
-    if answer is None:  # in the plane the table of a convex set settles every cell
-        whole = found.found.tabulate()
-        answer = construct(whole.table, whole.refine)[0]
-    return _told(simplify(answer), negated, parameters, [found], story, start)
-
-
-def convex_block(formula: Formula, options: Options) -> tuple[tuple[str, ...], Formula] | None:
-    """(variables, body) of a convex existential block together with the conditions that preparation moved out of it.
-
-    The whole set has fewer boundary pieces than the block alone. None for formulas of other shapes.
-    """
-    if options.method not in (Method.AUTO, Method.CRITICAL):
-        return None
-    args = formula.args if isinstance(formula, And) else (formula,)
-    blocks = [a for a in args if isinstance(a, Exists)]
-    if len(blocks) != 1 or not all(is_quantifier_free(b.body) for b in blocks):
-        return None
-    rest = [a for a in args if a is not blocks[0]]
-    body = conj((*rest, blocks[0].body))
-    return (blocks[0].variables, body) if is_quantifier_free(body) else None
+    parts = [_formula(variables, parameters, part, budget) for part in found]
+    return _logged(simplify(disj(parts)), body, parameters, found, context, start), parameters
 
 
 def _degree(formula: Formula, variables: Sequence[str]) -> int:
@@ -121,13 +118,13 @@ def _degree(formula: Formula, variables: Sequence[str]) -> int:
     return max((p.degree(i) for p, i in named), default=0)
 
 
-def _told(
-    formula: Formula, body: Formula, parameters: tuple[str, ...], found: list[Disjunct], story: Story, start: float
+def _logged(
+    formula: Formula, body: Formula, parameters: tuple[str, ...], found: list[Disjunct], context: Context, start: float
 ) -> Formula:
-    """The formula over the ring of the body; what was done goes into the story."""
+    """The formula over the ring of the body; what was done goes into the log."""
     seconds = round(time.perf_counter() - start, 6)
     stats = [part.stats for part in found]
-    story.note("critical", {"order": list(parameters), "disjuncts": stats, "seconds": seconds})
+    context.log.work("critical", {"order": list(parameters), "disjuncts": stats, "seconds": seconds})
     ring = ring_of(body)
     return formula if ring is None else convert(formula, ring)
 
@@ -191,9 +188,8 @@ def _formula(
     parameters: tuple[str, ...],
     part: Disjunct,
     budget: Budget,
-    otherwise: Decompose,
 ) -> Formula:
-    """The quantifier-free formula of one disjunct, over the ring of the parameters."""
+    """The formula of one disjunct; quantified on the hypersurfaces where the block is not settled."""
     found = part.found
     if isinstance(found, bool):
         return TRUE if found else FALSE
@@ -204,8 +200,8 @@ def _formula(
         found = found.tabulate()
     formula, _ = construct(found.table, found.refine)
     surfaces = [exists(variables, conj((atom(f, Relation.EQ), part.body))) for f in found.unsettled]
-    ring = Ring.of(parameters)
-    return disj((formula, *(convert(otherwise(on_surface, budget), ring) for on_surface in surfaces)))
+    ring = ring_of(part.body) or Ring.of(parameters)
+    return disj((convert(formula, ring), *(convert(on_surface, ring) for on_surface in surfaces)))
 
 
 def _of_open_cells(body: ConvexBody, parameters: tuple[str, ...], budget: Budget) -> Formula | None:

@@ -21,6 +21,9 @@ from qe.options import Budget
 
 Simplifier = Callable[[Formula], Formula]
 
+SUBSTITUTION_COST = 5
+"""Units of work of one test point: its substitution and simplification take as long as five cells (measured)."""
+
 
 def eliminate_block(variables: Sequence[str], matrix: Formula, *, budget: Budget, simplify: Simplifier) -> BlockResult:
     """A formula equivalent to ``exists variables. matrix`` (matrix quantifier-free), see ``BlockResult``.
@@ -145,6 +148,7 @@ class _Run:
         """The subproblem that a choice leaves, solved."""
         self.budget.check("virtual substitution", self.stats["test points"])
         self.stats["test points"] += 1
+        self.budget.spend(SUBSTITUTION_COST)
         simple = self.simplify(result)
         if simple == FALSE:
             return FALSE, Done(FALSE)

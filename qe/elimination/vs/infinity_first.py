@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from qe.elimination.protocol import Context, Outcome, Problem
 from qe.elimination.vs.points import Infinity
 from qe.elimination.vs.sign_knowledge import Signs
 from qe.elimination.vs.substitute import Substitution
@@ -17,9 +18,27 @@ from qe.formula.build import atom, conj, disj, exists, neg
 from qe.formula.normal import nnf
 from qe.formula.syntax import FALSE, Formula, Relation
 from qe.formula.traverse import polynomials
-from qe.options import Budget
+from qe.options import Budget, Options
 from qe.rules.preparation import prepare
 from qe.simplify.simplify import simplify
+
+
+class InfinityFirst:
+    """Solutions near infinity, and a rest of lower degree."""
+
+    name = "infinity first"
+
+    def suits(self, problem: Problem, options: Options) -> str | None:
+        """Blocks of one variable over quantifier-free bodies."""
+        return self.name if problem.is_flat and len(problem.variables) == 1 else None
+
+    def run(self, problem: Problem, context: Context) -> Outcome | None:
+        """The solutions near infinity, or a block of lower degree; None where the degree does not fall."""
+        dual = problem.dual
+        found = far_first(dual.variables[0], dual.body, budget=context.budget)
+        if found is None:
+            return None
+        return Outcome(problem.asked(context.log.step(self.name, dual.formula, disj((found.solutions, found.rest)))))
 
 
 @dataclass(frozen=True, slots=True)

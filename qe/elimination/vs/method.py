@@ -3,22 +3,35 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Sequence
 
+from qe.elimination.protocol import Context, Outcome, Problem
 from qe.elimination.vs import eliminate_block, witness
-from qe.formula.syntax import TRUE, Formula
-from qe.options import Budget
-from qe.proof.elimination import Values
-from qe.proof.run_log import Story
+from qe.exact.number import Values
+from qe.formula.build import exists
+from qe.formula.syntax import TRUE
+from qe.options import Options
 from qe.simplify.simplify import simplify
 
 
-def substituted(variables: Sequence[str], body: Formula, budget: Budget, story: Story) -> tuple[Formula, Values | None]:
-    """``exists variables. body`` as far as substitution goes (it may keep quantifiers), with values if it is true."""
-    start = time.perf_counter()
-    result = eliminate_block(variables, body, budget=budget, simplify=simplify)
-    story.note("vs", {"variables": list(variables), **result.stats, "seconds": round(time.perf_counter() - start, 6)})
-    if result.remaining or result.formula != TRUE:
-        return result.formula, None
-    certain = next((found for found in result.answers if simplify(found.guard) == TRUE), None)
-    return result.formula, None if certain is None else witness(certain, budget=budget)
+class VirtualSubstitution:
+    """Elimination sets for variables of degree at most 2 (after factoring and degree shift); the others stay."""
+
+    name = "vs"
+
+    def suits(self, problem: Problem, options: Options) -> str | None:
+        """Blocks over quantifier-free bodies."""
+        return "degrees up to 2 are eliminated" if problem.is_flat else None
+
+    def run(self, problem: Problem, context: Context) -> Outcome:
+        """The block as far as substitution goes: what it could not eliminate stays quantified in the formula."""
+        start = time.perf_counter()
+        matrix = problem.positive
+        result = eliminate_block(problem.variables, matrix, budget=context.budget, simplify=simplify)
+        seconds = round(time.perf_counter() - start, 6)
+        context.log.work(self.name, {"variables": list(problem.variables), **result.stats, "seconds": seconds})
+        context.log.step("elimination set", exists(problem.variables, matrix), result.formula, evidence=result.stats)
+        values: Values | None = None
+        if not result.remaining and result.formula == TRUE:
+            certain = next((found for found in result.answers if simplify(found.guard) == TRUE), None)
+            values = None if certain is None else witness(certain, budget=context.budget)
+        return Outcome(problem.asked(result.formula), values)

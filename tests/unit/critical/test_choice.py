@@ -5,9 +5,10 @@ from __future__ import annotations
 import pytest
 
 import qe
-from qe.engine.choice import choose
+from qe.elimination.protocol import Problem
+from qe.engine.conditions import convex_conditions
 from qe.io import formats
-from qe.options import Method
+from qe.options import Options
 
 BALLS = "(y - a)^2 + (z - b)^2 <= 1 and y^2 + z^2 <= 4"
 
@@ -27,7 +28,8 @@ BALLS = "(y - a)^2 + (z - b)^2 <= 1 and y^2 + z^2 <= 4"
     ],
 )
 def test_convex_conditions_on_several_variables(variables: tuple[str, ...], body: str, expected: bool) -> None:
-    assert (choose(variables, formats.read(body, "text")).methods[0] is Method.CRITICAL) is expected
+    problem = Problem(variables, formats.read(body, "text"))
+    assert (convex_conditions(problem, Options()) is not None) is expected
 
 
 def test_the_story_tells_it_and_the_method_can_be_asked_for() -> None:
@@ -46,5 +48,12 @@ def test_universal_blocks_by_negation() -> None:
 
 
 def test_quantifiers_inside() -> None:
-    text = "ex y. y^2 <= 4 and (all z. z^2 <= 1 -> z <= x + y)"
+    text = "ex y. y^2 <= 4 and (all z. z^2 <= 1 -> z < x + y)"
     assert qe.equivalent(qe.eliminate(text, method="critical"), qe.eliminate(text, method="cad"))
+
+
+def test_hypersurfaces_that_are_left_open_are_not_handed_to_another_method() -> None:
+    """The strict inner set leaves two lines open, on which only decomposition would go on."""
+    text = "ex y. y^2 <= 4 and (all z. z^2 <= 1 -> z <= x + y)"
+    alone = qe.eliminate(text, method="critical")
+    assert alone.formula is None and "critical values alone" in alone.reason

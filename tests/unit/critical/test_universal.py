@@ -9,12 +9,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import qe
-from qe.elimination.critical.method import convex_universal
+from qe.elimination.critical.method import ConvexUniversal
+from qe.elimination.protocol import Context, Problem
 from qe.formula.build import forall
 from qe.formula.evaluate import holds_at, substituted
 from qe.formula.syntax import ForAll, Formula
 from qe.options import Budget, Method, Options
-from qe.proof.run_log import Story
+from qe.proof.run_log import RunLog
 
 ASKED = Options(method=Method.CRITICAL)
 
@@ -26,7 +27,14 @@ def block(text: str) -> ForAll:
 
 
 def by_critical_values(text: str) -> Formula | None:
-    return convex_universal(block(text), ASKED, Budget(60), Story())
+    return tried(block(text), 60)
+
+
+def tried(formula: ForAll, seconds: float) -> Formula | None:
+    found = ConvexUniversal().run(
+        Problem(formula.variables, formula.body, True), Context(ASKED, Budget(seconds), RunLog())
+    )
+    return None if found is None else found.formula
 
 
 def agree(text: str, answer: Formula, points: list[dict[str, Fraction]]) -> set[bool]:
@@ -119,7 +127,7 @@ def examine(given_family: tuple[list[int], int, int], seconds: float) -> None:
     if not isinstance(formula := qe.api.read_formula(text), ForAll):
         return
     try:
-        answer = convex_universal(formula, ASKED, Budget(seconds), Story())
+        answer = tried(formula, seconds)
     except qe.Unable:
         return
     if answer is not None:

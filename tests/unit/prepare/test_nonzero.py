@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 
 import qe
+from qe.elimination.nonzero import only_nonzero
 from qe.io.text import read
-from qe.rules.nonzero import only_nonzero
 
 
 @pytest.mark.parametrize(

@@ -4,10 +4,31 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from qe.elimination.protocol import Context, Outcome, Problem
 from qe.exact.ring import Poly
 from qe.formula.build import atom, conj, disj
 from qe.formula.syntax import And, Atom, Formula, Relation
 from qe.formula.traverse import ring_of
+from qe.options import Options
+from qe.simplify.simplify import simplify
+
+
+class OnlyNonzero:
+    """Blocks that only ask polynomials not to vanish."""
+
+    name = "only asked to be no root"
+
+    def suits(self, problem: Problem, options: Options) -> str | None:
+        """Blocks over quantifier-free bodies."""
+        return self.name if problem.is_flat else None
+
+    def run(self, problem: Problem, context: Context) -> Outcome | None:
+        """The coefficients that must not all vanish; None where the body asks for something else."""
+        dual = problem.dual
+        settled = only_nonzero(dual.variables, dual.body)
+        if settled is None:
+            return None
+        return Outcome(problem.asked(context.log.step(self.name, dual.formula, simplify(settled))))
 
 
 def only_nonzero(variables: Sequence[str], body: Formula) -> Formula | None:

@@ -1,0 +1,132 @@
+"""When a method is worth trying: pure functions of a problem, each with its reason and what it was measured on."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from qe.elimination.protocol import Problem
+from qe.exact.quadratic_form import Definiteness, definiteness, quadratic
+from qe.formula.syntax import And, Atom, Formula, Relation
+from qe.formula.traverse import free_variables, polynomials
+from qe.options import Options
+
+Condition = Callable[[Problem, Options], str | None]
+
+CAD_VARIABLES = 3
+"""Up to this many variables decomposition is fast and its answers are short (measured: tens of milliseconds)."""
+
+CAD_FIRST_VARIABLES = 4
+"""Up to this many variables decomposition goes first where substitution would square degrees."""
+
+CRITICAL_PARAMETERS = 2
+"""Up to this many parameters critical values go first for convex conditions (measured on four to six discs: half a
+second to three seconds, where neither decomposition nor substitution ends in a minute)."""
+
+CONVEX_FROM = 4
+"""Existential sentences in so many variables are first tried as convex problems; with fewer, the others are faster."""
+
+
+def always(problem: Problem, options: Options) -> str | None:
+    """A method of last resort."""
+    return "nothing speaks against it"
+
+
+def complete(problem: Problem, options: Options) -> str | None:
+    """Decomposition takes everything; the reason says how much there is."""
+    total = _sizes(problem)[1]
+    short = (
+        ": decomposition is cheap and its answer short" if total <= CAD_VARIABLES else f" of degree {_degree(problem)}"
+    )
+    return f"{total} variables in all{short}"
+
+
+def never(problem: Problem, options: Options) -> str | None:
+    """Only where the caller asks for the method."""
+    return None
+
+
+def inner_blocks(problem: Problem, options: Options) -> str | None:
+    """Quantifiers inside a universal block."""
+    return "blocks inside a universal one" if problem.universal and not problem.is_flat else None
+
+
+def closed_in_many_variables(problem: Problem, options: Options) -> str | None:
+    """A sentence in at least ``CONVEX_FROM`` variables."""
+    many = len(problem.variables) >= CONVEX_FROM and problem.is_flat and not problem.free
+    return f"a sentence in {len(problem.variables)} variables" if many else None
+
+
+def curved_in_the_block(problem: Problem, options: Options) -> str | None:
+    """A universal block of degree above 2 in its variables: substitution cannot do it."""
+    if not problem.universal or not problem.is_flat:
+        return None
+    return "degree above 2 in the quantified variables" if _degree(problem) > 2 else None
+
+
+def parameters(problem: Problem, options: Options) -> str | None:
+    """There are free variables."""
+    return "a block with parameters" if problem.free else None
+
+
+def one_variable_and_parameters(problem: Problem, options: Options) -> str | None:
+    """A block of one variable with parameters."""
+    return "one variable and parameters" if len(problem.variables) == 1 and problem.free else None
+
+
+def convex_conditions(problem: Problem, options: Options) -> str | None:
+    """Weak convex conditions in several quantified variables and few parameters."""
+    bound, total = _sizes(problem)
+    if bound <= 1 or total <= CAD_VARIABLES or total - bound > CRITICAL_PARAMETERS or not _is_convex(problem.positive):
+        return None
+    return "convex conditions on several quantified variables: critical values are few"
+
+
+def low_degrees(problem: Problem, options: Options) -> str | None:
+    """Where substitution is quick, or the variables are too many for anything else."""
+    if convex_conditions(problem, options) is not None:
+        return None
+    (bound, total), degree = _sizes(problem), _degree(problem)
+    if degree <= 1:
+        return "every quantified variable is linear"
+    if total <= CAD_VARIABLES:
+        return None
+    if bound == 1 and degree <= 2:
+        return "one quadratic variable and many parameters"
+    return None if total <= CAD_FIRST_VARIABLES else f"{total} variables: substitution removes what it can first"
+
+
+def worth_a_short_try(problem: Problem, options: Options) -> str | None:
+    """Where decomposition goes first but has many variables: a small complete answer may come at once."""
+    if low_degrees(problem, options) is not None or convex_conditions(problem, options) is not None:
+        return None
+    total = _sizes(problem)[1]
+    return f"a short try before decomposing {total} variables" if total > CAD_VARIABLES else None
+
+
+def _sizes(problem: Problem) -> tuple[int, int]:
+    """(quantified variables that occur, all variables)."""
+    names = free_variables(problem.body)
+    return sum(v in names for v in problem.variables), len(names)
+
+
+def _degree(problem: Problem) -> int:
+    """The highest degree of a quantified variable."""
+    named = [(p, p.ring.index[v]) for p in polynomials(problem.body) for v in problem.variables if v in p.ring.index]
+    return max((p.degree(i) for p, i in named), default=0)
+
+
+def _is_convex(body: Formula) -> bool:
+    """Whether the body is a conjunction of weak convex quadratic inequalities of which one is not linear."""
+    if not isinstance(body, And) or not all(isinstance(a, Atom) for a in body.args):
+        return False
+    curved = False
+    for found in body.args:
+        assert isinstance(found, Atom)
+        form = quadratic(found.poly, range(found.poly.ring.size))
+        if form is None or found.relation not in (Relation.LE, Relation.GE):
+            return False
+        hessian = [[-h for h in row] for row in form.hessian] if found.relation is Relation.GE else form.hessian
+        if definiteness(hessian) is Definiteness.NOT_SEMIDEFINITE:
+            return False
+        curved = curved or not form.is_linear
+    return curved

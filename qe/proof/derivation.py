@@ -1,0 +1,101 @@
+"""Answers as derivations: steps, each of which replaces a formula by an equivalent one.
+
+THEOREM. Equivalence is a congruence: if A <-> B holds over R, then so does F <-> F', where F' has B in place of A. So a
+derivation F0, F1, ..., Fn whose steps are equivalences proves F0 <-> Fn. A step may use what its place says: with
+facts C that hold wherever the place matters (conjuncts beside it), C implies (A <-> B) is enough.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
+
+from qe.exact.ring import Ring
+from qe.formula.build import conj, convert, disj, exists, forall, neg
+from qe.formula.syntax import TRUE, And, Exists, ForAll, Formula, Not, Or
+from qe.formula.traverse import children
+from qe.io.names import names_in
+
+Place = tuple[int, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """``before`` <-> ``after`` wherever ``context`` holds, by the theorem of the rule with this name.
+
+    ``evidence``: what the rule found, as plain data. ``places``: where ``before`` stood (paths of argument numbers from
+    the root); found when the derivation is put together, and empty until then.
+    """
+
+    rule: str
+    before: Formula
+    after: Formula
+    context: Formula = TRUE
+    evidence: Mapping[str, object] = field(default_factory=dict)
+    places: tuple[Place, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Derivation:
+    """``start`` and the steps in their order. ``whole[k]`` is the formula after k steps; ``answer`` is the last one.
+
+    ``is_complete``: replaying the steps leads from ``start`` to the answer that was given; else the steps say how the
+    answer was found, but some are missing.
+    """
+
+    start: Formula
+    steps: tuple[Step, ...] = ()
+    whole: tuple[Formula, ...] = field(default=(), repr=False)
+    is_complete: bool = False
+
+    @property
+    def answer(self) -> Formula:
+        """The formula after the last step."""
+        return self.whole[-1] if self.whole else self.start
+
+
+def put_together(start: Formula, steps: Iterable[Step], answer: Formula) -> Derivation:
+    """The derivation with its places. A step whose formula stands nowhere belongs to an attempt that was given up."""
+    listed = list(steps)
+    ring = Ring.of(dict.fromkeys(n for f in (start, answer, *_formulas(listed)) for n in names_in(f)))
+    current = start = convert(start, ring)
+    kept: list[Step] = []
+    whole = [current]
+    for step in listed:
+        before, after = convert(step.before, ring), convert(step.after, ring)
+        if before == after:
+            continue
+        places: list[Place] = []
+        changed = _replaced(current, before, after, (), places)
+        if places:
+            current = changed
+            whole.append(current)
+            kept.append(Step(step.rule, before, after, convert(step.context, ring), step.evidence, tuple(places)))
+    return Derivation(start, tuple(kept), tuple(whole), current == convert(answer, ring))
+
+
+def _formulas(steps: Iterable[Step]) -> Iterator[Formula]:
+    for step in steps:
+        yield from (step.before, step.after, step.context)
+
+
+def _replaced(formula: Formula, before: Formula, after: Formula, path: Place, places: list[Place]) -> Formula:
+    """The formula with ``after`` for every occurrence of ``before``, also as a part of a conjunction or disjunction."""
+    if formula == before:
+        places.append(path)
+        return after
+    changed = [_replaced(c, before, after, (*path, k), places) for k, c in enumerate(children(formula))]
+    match formula:
+        case And(args) | Or(args):
+            build = conj if isinstance(formula, And) else disj
+            if type(before) is type(formula) and set(before.args) < set(args):
+                rest = [c for c, old in zip(changed, args, strict=True) if old not in before.args]
+                places.append(path)
+                return build((*rest, after))
+            return build(changed) if changed != list(args) else formula
+        case Not(arg):
+            return neg(changed[0]) if changed[0] is not arg else formula
+        case Exists(variables, body) | ForAll(variables, body):
+            rebuilt = exists if isinstance(formula, Exists) else forall
+            return rebuilt(variables, changed[0]) if changed[0] is not body else formula
+    return formula
