@@ -21,6 +21,7 @@ from qe.exact.number import Values
 from qe.exact.ring import Ring
 from qe.formula.build import conj, convert, disj, exists, forall, neg
 from qe.formula.counting import without_root_atoms
+from qe.formula.features import features
 from qe.formula.normal import nnf, rename_apart
 from qe.formula.syntax import FALSE, TRUE, And, Constant, Exists, ForAll, Formula, Not, Or
 from qe.formula.traverse import free_variables, is_quantifier_free
@@ -244,6 +245,7 @@ class _Run:
         if not is_quantifier_free(formula) and attempt.scope is not Scope.INNER:
             if formula == problem.formula:
                 raise alone(name)
+            self.log.switch(name, f"{', '.join(features(formula).bound)} left for another method")
             formula = self.without_quantifiers(formula)
         if attempt.shorten and problem.free:
             formula = shortened(formula, self.context())
