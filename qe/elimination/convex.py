@@ -36,7 +36,7 @@ class ConvexOptimisation:
         if found is None:
             return None
         truth = FALSE if found.values is None else TRUE
-        context.log.step("convex", sentence, truth)
+        context.log.step("convex", problem.formula, problem.asked(truth))
         if found.values is None:
             return Outcome(problem.asked(truth), certificate=found.certificate)
         return Outcome(problem.asked(truth), dict(found.values))

@@ -28,7 +28,7 @@ class OnlyNonzero:
         settled = only_nonzero(dual.variables, dual.body)
         if settled is None:
             return None
-        return Outcome(problem.asked(context.log.step(self.name, dual.formula, simplify(settled))))
+        return Outcome(context.log.step(self.name, problem.formula, problem.asked(simplify(settled))))
 
 
 def only_nonzero(variables: Sequence[str], body: Formula) -> Formula | None:

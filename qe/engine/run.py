@@ -78,8 +78,12 @@ class _Run:
     def sentence(self, problem: Problem) -> Outcome:
         """A sentence of one outermost block, by its existential dual, with values for the block's variables."""
         dual = problem.dual
+        mark = self.log.mark()
+        if problem.universal:
+            self.log.step("duality", problem.formula, neg(dual.formula))
         ready = self.prepared(dual.formula)
         if ready.formula == dual.formula and dual.is_flat:
+            self.log.forget_steps(mark)
             return self.block(problem)
         found = self.decided(ready.formula)
         truth = problem.asked(found.formula)

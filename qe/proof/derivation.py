@@ -7,32 +7,16 @@ facts C that hold wherever the place matters (conjuncts beside it), C implies (A
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 
 from qe.exact.ring import Ring
 from qe.formula.build import conj, convert, disj, exists, forall, neg
-from qe.formula.syntax import TRUE, And, Exists, ForAll, Formula, Not, Or
+from qe.formula.syntax import And, Exists, ForAll, Formula, Not, Or
 from qe.formula.traverse import children
 from qe.io.names import names_in
-
-Place = tuple[int, ...]
-
-
-@dataclass(frozen=True, slots=True)
-class Step:
-    """``before`` <-> ``after`` wherever ``context`` holds, by the theorem of the rule with this name.
-
-    ``evidence``: what the rule found, as plain data. ``places``: where ``before`` stood (paths of argument numbers from
-    the root); found when the derivation is put together, and empty until then.
-    """
-
-    rule: str
-    before: Formula
-    after: Formula
-    context: Formula = TRUE
-    evidence: Mapping[str, object] = field(default_factory=dict)
-    places: tuple[Place, ...] = ()
+from qe.proof import writing
+from qe.proof.step import Place, Step
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,6 +31,14 @@ class Derivation:
     steps: tuple[Step, ...] = ()
     whole: tuple[Formula, ...] = field(default=(), repr=False)
     is_complete: bool = False
+
+    def to_latex(self) -> str:
+        """The derivation as numbered LaTeX lines, each with the name of its rule."""
+        return writing.latex(self.start, self.steps)
+
+    def to_html(self) -> str:
+        """The derivation as one page that needs nothing from elsewhere: formulas in MathML, evidence folded."""
+        return writing.page(self.start, self.steps, is_complete=self.is_complete)
 
     @property
     def answer(self) -> Formula:

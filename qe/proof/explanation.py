@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from qe.formula.syntax import TRUE, Formula
-from qe.proof.derivation import Step
 from qe.proof.run_log import Choice, Entry, RunLog, Switch, Work
+from qe.proof.step import Step
 
 WORDS = {
     "vs": "substitution",

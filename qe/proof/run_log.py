@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 
 from qe.formula.syntax import TRUE, Formula
-from qe.proof.derivation import Step
+from qe.proof.step import Step
 
 
 @dataclass(frozen=True, slots=True)

@@ -59,8 +59,8 @@ class CriticalValues:
         """
         dual = problem.dual
         formula, order = by_critical_values(dual.variables, dual.body, context)
-        context.log.step("critical values", dual.formula, formula)
-        return Outcome(problem.asked(formula), order=order)
+        answer = context.log.step("critical values", problem.formula, problem.asked(formula))
+        return Outcome(answer, order=order)
 
 
 class ConvexUniversal:

@@ -38,7 +38,8 @@ class InfinityFirst:
         found = far_first(dual.variables[0], dual.body, budget=context.budget)
         if found is None:
             return None
-        return Outcome(problem.asked(context.log.step(self.name, dual.formula, disj((found.solutions, found.rest)))))
+        whole = problem.asked(disj((found.solutions, found.rest)))
+        return Outcome(context.log.step(self.name, problem.formula, whole))
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,7 +7,6 @@ import time
 from qe.elimination.protocol import Context, Outcome, Problem
 from qe.elimination.vs import eliminate_block, witness
 from qe.exact.number import Values
-from qe.formula.build import exists
 from qe.formula.syntax import TRUE
 from qe.options import Options
 from qe.simplify.simplify import simplify
@@ -29,9 +28,11 @@ class VirtualSubstitution:
         result = eliminate_block(problem.variables, matrix, budget=context.budget, simplify=simplify)
         seconds = round(time.perf_counter() - start, 6)
         context.log.work(self.name, {"variables": list(problem.variables), **result.stats, "seconds": seconds})
-        context.log.step("elimination set", exists(problem.variables, matrix), result.formula, evidence=result.stats)
+        answer = context.log.step(
+            "elimination set", problem.formula, problem.asked(result.formula), evidence=result.stats
+        )
         values: Values | None = None
         if not result.remaining and result.formula == TRUE:
             certain = next((found for found in result.answers if simplify(found.guard) == TRUE), None)
             values = None if certain is None else witness(certain, budget=context.budget)
-        return Outcome(problem.asked(result.formula), values)
+        return Outcome(answer, values)

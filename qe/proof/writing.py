@@ -1,0 +1,74 @@
+"""Derivations on paper and on screen: what each rule says, and the steps as LaTeX and as a page."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from html import escape
+
+from qe.formula.syntax import TRUE, Formula
+from qe.io import latex as tex
+from qe.io import mathml
+from qe.proof.step import Step
+
+RULES: Mapping[str, str] = {
+    "renaming": "Bound variables get names of their own.",
+    "roots counted": "A comparison with the k-th root of a polynomial is one of numbers of roots.",
+    "duality": "Something holds everywhere if and only if its negation holds nowhere.",
+    "preparation": "Equations are solved, blocks split and symmetries used until every block has its real dimension.",
+    "simplification": "Both sides have the same truth for all signs of the polynomials that are possible.",
+    "elimination set": "A block holds somewhere if and only if it holds at one of finitely many test points "
+    "(Loos, Weispfenning 1993; Weispfenning 1997).",
+    "infinity first": "Solutions near infinity follow from leading terms; elsewhere a leading coefficient is zero.",
+    "only asked to be no root": "Polynomials that are not identically zero have a common point where none vanishes.",
+    "cells": "On every cell of a cylindrical algebraic decomposition the formula has one truth value "
+    "(Collins 1975; Collins, Hong 1991).",
+    "critical values": "The truth of a block over bounded fibres changes only at critical values.",
+    "degenerate truth set": "A convex truth set without interior points lies on a hyperplane.",
+    "convex": "A convex set has a point, or multipliers combine its conditions to a contradiction.",
+    "witness in the parameters": "Polynomials in the universal variables satisfy the inner blocks.",
+    "shorter": "A decomposition of the space of the free variables shows that the shorter formula is equivalent.",
+    "constant": "The formula holds everywhere, or nowhere.",
+}
+"""What each rule claims, in a sentence."""
+
+
+def latex(start: Formula, steps: Sequence[Step]) -> str:
+    """An ``align*`` body: the start, then a line for each step."""
+    lines = [f"& {tex.write(start)}"]
+    for step in steps:
+        where = "" if step.context == TRUE else rf",\ {tex.write(step.context)}"
+        lines.append(rf"\overset{{\text{{{step.rule}}}{where}}}{{\Longleftrightarrow}}\ & {tex.write(step.after)}")
+    return "\\begin{align*}\n" + " \\\\\n".join(lines) + "\n\\end{align*}"
+
+
+def page(start: Formula, steps: Sequence[Step], *, is_complete: bool) -> str:
+    """One self-contained page."""
+    note = "" if is_complete else "<p>Some steps are not recorded one by one.</p>"
+    rows = "\n".join(_row(number, step) for number, step in enumerate(steps, start=1))
+    return (
+        '<!doctype html>\n<html lang="en"><head><meta charset="utf-8"><title>Derivation</title>'
+        "<meta name=viewport content='width=device-width, initial-scale=1'>"
+        f"<style>{STYLE}</style></head>\n<body><h1>Derivation</h1>\n<p>{_math(start)}</p>{note}\n<ol>\n{rows}\n</ol>\n"
+        "</body></html>\n"
+    )
+
+
+STYLE = (
+    "body{font:16px/1.5 system-ui,sans-serif;max-width:60rem;margin:2rem auto;padding:0 1rem;color-scheme:light dark}"
+    "li{margin:1.2rem 0}.rule{font-weight:600}.says{opacity:.75}math{overflow-x:auto;max-width:100%}"
+)
+
+
+def _row(number: int, step: Step) -> str:
+    where = "" if step.context == TRUE else f"<p>where {_math(step.context)}</p>"
+    evidence = "".join(f"<li>{escape(str(k))}: {escape(str(v))}</li>" for k, v in step.evidence.items())
+    folded = f"<details><summary>evidence</summary><ul>{evidence}</ul></details>" if evidence else ""
+    return (
+        f'<li id="step-{number}"><span class="rule">{escape(step.rule)}</span> '
+        f'<span class="says">{escape(RULES.get(step.rule, ""))}</span>{where}'
+        f"<p>{_math(step.before)}</p><p>⟺ {_math(step.after)}</p>{folded}</li>"
+    )
+
+
+def _math(formula: Formula) -> str:
+    return mathml.write(formula)
