@@ -17,6 +17,8 @@ class Method(Enum):
     VS = "vs"
     CAD = "cad"
     CRITICAL = "critical"
+    CONVEX = "convex"
+    WITNESS = "witness"
     CGS = "cgs"
 
 

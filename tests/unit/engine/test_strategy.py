@@ -1,0 +1,90 @@
+"""The strategy is data: it loads, its conditions are pure, a method asked for is alone, and no clock decides a form."""
+
+from __future__ import annotations
+
+import random
+import time
+
+import pytest
+
+import qe
+from qe.elimination.protocol import Problem
+from qe.engine.strategy import METHODS, STRATEGY, Attempt, Scope, attempts
+from qe.io import formats
+from qe.options import Method, Options, Stage
+from tests.differential.generate import LARGE, NESTED, SMALL, random_formula
+
+CONVEX = "ex x, y, z, u. x^2 + y^2 + z^2 + u^2 <= 1 and x + y + z + u >= 2"
+QUESTIONS = {
+    "vs": "ex x. a*x^2 + b*x + c = 0",
+    "cad": "all x. x^4 + p*x + q > 0",
+    "critical": "ex y, z. (y - a)^2 + (z - b)^2 <= 1 and y^2 + z^2 <= 4",
+    "convex": CONVEX,
+    "witness": "all a, b. ex x, y. (x - a)^2 + (y - b)^2 <= 0",
+}
+
+
+def problem(text: str) -> Problem:
+    found = Problem.of(formats.read(text, "text"))
+    assert found is not None
+    return found
+
+
+def test_every_attempt_loads_and_every_method_has_one() -> None:
+    for attempt in STRATEGY:
+        method = attempt.load()
+        assert attempt.method.startswith(method.name), attempt
+    assert {attempt.method for attempt in STRATEGY} == set(METHODS)
+
+
+@pytest.mark.parametrize("name", QUESTIONS)
+def test_a_method_asked_for_is_alone(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    loaded: list[str] = []
+    load = Attempt.load
+
+    def seen(attempt: Attempt) -> object:
+        loaded.append(attempt.method)
+        return load(attempt)
+
+    monkeypatch.setattr(Attempt, "load", seen)
+    answer = qe.eliminate(QUESTIONS[name], method=name)
+    assert answer.formula is not None and answer.formula == qe.eliminate(QUESTIONS[name], method=name).formula
+    assert loaded and all(method.startswith(name) for method in loaded)
+    figures = {"vs", "cad", "critical"} & set(answer.stats)
+    assert figures <= {name}
+
+
+@pytest.mark.parametrize("name", QUESTIONS)
+def test_a_method_that_does_not_suffice_says_so(name: str) -> None:
+    hard = "ex x, y. x^3 + y^5 + a*x*y = b and x*y^3 + x > 2"
+    if name != "cad":
+        answer = qe.eliminate(hard, method=name)
+        assert (answer.formula is None and "does not eliminate" in answer.reason) or "bounded" in answer.reason
+
+
+def test_the_order_of_attempts_follows_from_the_problem() -> None:
+    def methods(text: str, **options: object) -> list[str]:
+        return [a.method for a, _, _ in attempts(Scope.BLOCK, problem(text), Options(**options))]  # type: ignore[arg-type]
+
+    assert methods("ex x. a*x + b > 0 and x < c")[2] == "vs"
+    assert methods("ex x. x^3 + a*x + b = 0")[2:] == ["cad", "vs"]
+    assert methods("ex x, y. x^3 + a*y + b = 0 and y^3 > x")[1:] == ["vs", "cad", "vs"]
+    assert methods(QUESTIONS["critical"])[1] == "critical"
+    assert methods("ex x. a*x + b > 0 and x < c", without=frozenset({Stage.SUBSTITUTION}))[2:] == ["cad"]
+    assert methods("ex x. a*x + b > 0", method=Method.CAD) == ["cad"]
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_the_form_of_an_answer_does_not_depend_on_the_clock(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    """On a machine four times slower the same answer comes, or none in time; never another one."""
+    formula = random_formula(random.Random(7000 + seed), (*SMALL, *LARGE, *NESTED)[seed])
+    quick = qe.eliminate(formula, timeout=60)
+    start, clock = time.monotonic(), time.monotonic
+    monkeypatch.setattr("qe.options.time.monotonic", lambda: start + 4 * (clock() - start))
+    slow = qe.eliminate(formula)
+    assert slow.formula is not None and str(slow.formula) == str(quick.formula)
+    assert [s.rule for s in slow.log.steps()] == [s.rule for s in quick.log.steps()]
+
+
+def test_no_attempt_is_limited_by_seconds() -> None:
+    assert not any("seconds" in name or "share" in name for name in Attempt.__slots__)

@@ -1,0 +1,93 @@
+"""Derivations replay from the question to the answer, and every step is an equivalence."""
+
+from __future__ import annotations
+
+import pickle
+import random
+import xml.etree.ElementTree as ET
+
+import pytest
+
+import qe
+from qe.formula.syntax import FALSE, TRUE, ForAll, Formula
+from qe.formula.traverse import free_variables
+from qe.io import formats
+from qe.proof.derivation import put_together
+from qe.proof.step import Step
+from qe.proof.writing import RULES
+from tests.differential.generate import NESTED, SMALL, random_formula
+
+
+def read(text: str) -> Formula:
+    return formats.read(text, "text")
+
+
+def step(before: str, after: str) -> Step:
+    both = read(f"({before}) or ({after})")  # one ring for both
+    assert both is not None
+    return Step("test", read(before), read(after))
+
+
+def test_a_step_is_placed_wherever_its_formula_stands() -> None:
+    start = read("(x > 0 and y > 0) or (x > 0 and z = 0)")
+    found = put_together(start, [step("x > 0", "x - 1 > 0")], read("(x > 1 and y > 0) or (x > 1 and z = 0)"))
+    assert found.is_complete and found.steps[0].places == ((0, 0), (1, 0))
+
+
+def test_a_step_may_replace_a_part_of_a_conjunction() -> None:
+    start = read("x > 0 and y > 0 and x*y < 1")
+    found = put_together(
+        start, [step("x > 0 and x*y < 1", "x*y < 1 and 2 > 1 and x > 3")], read("y > 0 and x*y < 1 and x > 3")
+    )
+    assert found.is_complete and found.steps[0].places == ((),)
+
+
+def test_steps_of_attempts_that_were_given_up_are_left_out() -> None:
+    start = read("x > 0")
+    found = put_together(start, [step("y > 0", "true"), step("x > 0", "x >= 1")], read("x >= 1"))
+    assert [s.before for s in found.steps] == [found.start] and found.is_complete
+
+
+def test_an_incomplete_derivation_says_so() -> None:
+    assert not put_together(read("x > 0"), [], read("x >= 0")).is_complete
+
+
+def test_quantified_places_and_negations() -> None:
+    start = read("all y. not (ex x. x^2 = y)")
+    found = put_together(start, [step("ex x. x^2 = y", "y >= 0"), Step("end", read("all y. y < 0"), FALSE)], FALSE)
+    assert found.is_complete and found.steps[0].places == ((0, 0),)
+
+
+@pytest.mark.parametrize("seed", range(30))
+def test_answers_replay_and_every_step_is_an_equivalence(seed: int) -> None:
+    formula = random_formula(random.Random(9000 + seed), (*SMALL, *NESTED)[seed % 8])
+    answer = qe.eliminate(formula)
+    derivation = answer.derivation
+    assert derivation.is_complete, str(formula)
+    assert {s.rule for s in derivation.steps} <= set(RULES)
+    for taken in derivation.steps:
+        if taken.context == TRUE:
+            names = dict.fromkeys((*free_variables(taken.before), *free_variables(taken.after)))
+            if len(names) <= 2:
+                assert qe.equivalent(taken.before, taken.after), taken
+
+
+def test_the_counterexample_of_a_universal_sentence_keeps_its_derivation() -> None:
+    answer = qe.eliminate("all x, y. x^2 + y > 0")
+    assert answer.truth is False and answer.derivation.is_complete
+    assert isinstance(answer.derivation.start, ForAll)
+
+
+def test_derivations_are_printed_and_pickled() -> None:
+    answer = qe.eliminate("ex x, y. x + y = a and x^2 < b")
+    derivation = pickle.loads(pickle.dumps(answer)).derivation
+    assert derivation == answer.derivation
+    assert derivation.to_latex().count(r"\Longleftrightarrow") == len(derivation.steps)
+    page = derivation.to_html()
+    assert page.count('<li id="step-') == len(derivation.steps)
+    ET.fromstring(page[page.index("<ol>") : page.index("</ol>") + 5].replace("&nbsp;", " "))
+
+
+def test_no_derivation_without_an_answer() -> None:
+    with pytest.raises(qe.Unable, match="no derivation"):
+        _ = qe.eliminate("ex x. x^3 + a*x + b = 0", method="vs").derivation
