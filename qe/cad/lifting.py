@@ -17,7 +17,7 @@ from qe.exact.lazard import lazard_derivative
 from qe.exact.ring import Poly
 from qe.exact.sample import Point
 from qe.formula.syntax import Atom, Formula, Not
-from qe.formula.traverse import atoms, children
+from qe.formula.traverse import atoms, subformulas
 from qe.options import Budget, Projection
 from qe.proof.cells import Cell, Stack
 
@@ -192,7 +192,7 @@ def sector_levels(matrix: Formula, quantifiers: tuple[str, ...]) -> int:
     """
     last = quantifiers[-1] if quantifiers else ""
     relations = {a.relation for a in atoms(matrix)}
-    plain = all(isinstance(a, Atom) for a in atoms(matrix)) and not _has_negation(matrix)
+    plain = all(isinstance(a, Atom) for a in atoms(matrix)) and not any(isinstance(f, Not) for f in subformulas(matrix))
     strict = all(r.is_strict for r in relations)
     weak = not any(r.is_strict for r in relations)
     if not plain or not ((last == "E" and strict) or (last == "A" and weak)):
@@ -201,7 +201,3 @@ def sector_levels(matrix: Formula, quantifiers: tuple[str, ...]) -> int:
     while level and quantifiers[level - 1] == last:
         level -= 1
     return level
-
-
-def _has_negation(formula: Formula) -> bool:
-    return isinstance(formula, Not) or any(_has_negation(c) for c in children(formula))

@@ -5,8 +5,8 @@ from __future__ import annotations
 from qe.exact.ring import Poly
 from qe.formula.build import atom, conj, disj
 from qe.formula.syntax import And, Atom, Formula, Or, Relation
+from qe.formula.traverse import conjuncts
 from qe.rules.block_context import Recur, Workshop, either
-from qe.rules.linear import conjuncts
 from qe.rules.step import StepKind
 from qe.rules.tree import Node, Nudged
 

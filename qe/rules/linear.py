@@ -22,13 +22,6 @@ from qe.simplify.facts import Facts
 
 _TERMS = 3000  # a substitution whose result has more terms than this is not done
 
-Conjuncts = tuple[Formula, ...]
-
-
-def conjuncts(body: Formula) -> Conjuncts:
-    """The members of a conjunction."""
-    return body.args if isinstance(body, And) else (body,)
-
 
 @dataclass(frozen=True, slots=True)
 class Pivot:

@@ -6,8 +6,8 @@ from collections.abc import Sequence
 
 from qe.exact.ring import Poly
 from qe.formula.build import atom, conj, disj
-from qe.formula.syntax import And, Atom, Formula, Relation
-from qe.formula.traverse import ring_of
+from qe.formula.syntax import Atom, Formula, Relation
+from qe.formula.traverse import conjuncts, ring_of
 
 
 def only_nonzero(variables: Sequence[str], body: Formula) -> Formula | None:
@@ -22,7 +22,7 @@ def only_nonzero(variables: Sequence[str], body: Formula) -> Formula | None:
         return None
     block = {ring.index[v] for v in variables if v in ring.index}
     parts: list[Formula] = []
-    for arg in body.args if isinstance(body, And) else (body,):
+    for arg in conjuncts(body):
         if not isinstance(arg, Atom):
             return None
         if not block & set(arg.poly.variables):

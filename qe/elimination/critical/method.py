@@ -33,8 +33,8 @@ from qe.exact.sample import Point
 from qe.formula.build import atom, conj, convert, disj, exists
 from qe.formula.evaluate import substituted, truth_under
 from qe.formula.normal import nnf
-from qe.formula.syntax import FALSE, TRUE, And, Exists, ForAll, Formula, Relation
-from qe.formula.traverse import free_variables, is_quantifier_free, polynomials, ring_of
+from qe.formula.syntax import FALSE, TRUE, Exists, ForAll, Formula, Relation
+from qe.formula.traverse import conjuncts, free_variables, is_quantifier_free, polynomials, ring_of
 from qe.options import Budget, Method, Options, Projection, Stage
 from qe.proof.cells import FreeCell
 from qe.proof.run_log import Story
@@ -106,7 +106,7 @@ def convex_block(formula: Formula, options: Options) -> tuple[tuple[str, ...], F
     """
     if options.method not in (Method.AUTO, Method.CRITICAL):
         return None
-    args = formula.args if isinstance(formula, And) else (formula,)
+    args = conjuncts(formula)
     blocks = [a for a in args if isinstance(a, Exists)]
     if len(blocks) != 1 or not all(is_quantifier_free(b.body) for b in blocks):
         return None

@@ -16,7 +16,7 @@ from qe.exact.ring import Ring
 from qe.formula.build import conj, disj
 from qe.formula.normal import nnf
 from qe.formula.syntax import FALSE, TRUE, And, Atom, Exists, Formula, Or
-from qe.formula.traverse import has_root_atoms, ring_of
+from qe.formula.traverse import conjuncts, has_root_atoms, ring_of
 from qe.options import Budget
 
 Simplifier = Callable[[Formula], Formula]
@@ -167,7 +167,7 @@ def _independent(formula: Formula, block: frozenset[int]) -> tuple[tuple[Formula
     """The conjuncts free of the block, and the others grouped so that groups share no block variable."""
     context: list[Formula] = []
     groups: list[tuple[frozenset[int], list[Formula]]] = []
-    for arg in formula.args if isinstance(formula, And) else (formula,):
+    for arg in conjuncts(formula):
         inside = occurring(arg) & block
         if not inside:
             context.append(arg)
@@ -185,8 +185,7 @@ def _independent(formula: Formula, block: frozenset[int]) -> tuple[tuple[Formula
 
 def _free_of(formula: Formula, x: int) -> Formula:
     """The conjuncts that do not contain the variable."""
-    args = formula.args if isinstance(formula, And) else (formula,)
-    return conj(a for a in args if x not in occurring(a))
+    return conj(a for a in conjuncts(formula) if x not in occurring(a))
 
 
 def _without(formula: Formula, context: tuple[Formula, ...]) -> Formula:

@@ -23,6 +23,7 @@ from qe.elimination.vs.sign_knowledge import Signs, factor_parts
 from qe.exact.ring import Poly
 from qe.formula.build import conj, disj
 from qe.formula.syntax import FALSE, And, Atom, Formula, Or, Relation
+from qe.formula.traverse import conjuncts
 
 EQ, NE, LT, GT, GE = Relation.EQ, Relation.NE, Relation.LT, Relation.GT, Relation.GE
 _UPWARD = (GT, GE)
@@ -130,8 +131,8 @@ def in_order(candidates: Iterable[Candidate]) -> Iterator[tuple[Candidate, froze
     tried: set[Atom] = set()
     for source, group in sorted(by_source.items(), key=lambda item: points_cost(item[1])):
         for candidate in group:
-            args = candidate.formula.args if isinstance(candidate.formula, And) else ()
-            yield candidate, frozenset(a for a in args if a in tried) if candidate.point.epsilon else frozenset()
+            members = conjuncts(candidate.formula) if candidate.point.epsilon else ()
+            yield candidate, frozenset(a for a in members if isinstance(a, Atom) and a in tried)
         if source.relation.is_strict and all(c.complete for c in group):
             tried.add(source)
 

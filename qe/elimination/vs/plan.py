@@ -18,8 +18,8 @@ from qe.elimination.vs.radical_free import without_radicals
 from qe.elimination.vs.shift import common_exponent, shifted
 from qe.elimination.vs.sign_knowledge import Signs, factor_parts
 from qe.formula.build import conj
-from qe.formula.syntax import FALSE, And, Atom, Formula, Relation, RootAtom
-from qe.formula.traverse import atoms, children
+from qe.formula.syntax import FALSE, Atom, Formula, Relation, RootAtom
+from qe.formula.traverse import atoms, children, conjuncts
 
 _INFINITY_COST = 2.0  # substituting an infinity, in units of a linear root with constant denominator
 _QUADRATIC_SPREAD = 1.5  # how much worse it is when a block variable's degree grows, per degree
@@ -75,7 +75,7 @@ def _plan(formula: Formula, x: int, others: frozenset[int], signs: Signs, strict
     if any(isinstance(a, RootAtom) and x in occurring(a) for a in atoms(formula)):
         return None
     exponent = common_exponent(formula, x)
-    originals = args = formula.args if isinstance(formula, And) else (formula,)
+    originals = args = conjuncts(formula)
     if exponent > 1:
         args = shifted(args, x, exponent, strict=strict)
         formula = conj(args)
@@ -146,7 +146,7 @@ def _with_bounds(formula: Formula, x: int, exponent: int, size: float, signs: Si
 
 def split_equation(formula: Formula, block: frozenset[int]) -> tuple[Formula, ...] | None:
     """f*g = 0 and F as the two problems f = 0 and F, g = 0 and F, if a conjoined equation factors so."""
-    args = formula.args if isinstance(formula, And) else (formula,)
+    args = conjuncts(formula)
     for k, arg in enumerate(args):
         if isinstance(arg, Atom) and arg.relation is Relation.EQ:
             _, parts = factor_parts(arg.poly)

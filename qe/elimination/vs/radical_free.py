@@ -9,8 +9,8 @@ from qe.elimination.vs.candidates import Candidate, bounds
 from qe.elimination.vs.points import LinearRoot
 from qe.elimination.vs.sign_knowledge import Signs, factor_parts
 from qe.exact.ring import Poly
-from qe.formula.syntax import FALSE, And, Atom, Formula, Relation
-from qe.formula.traverse import atoms
+from qe.formula.syntax import FALSE, Atom, Formula, Relation
+from qe.formula.traverse import atoms, conjuncts
 
 EQ, NE, LT, LE, GT = Relation.EQ, Relation.NE, Relation.LT, Relation.LE, Relation.GT
 
@@ -74,7 +74,7 @@ def convex_family(formula: Formula, x: int, signs: Signs) -> tuple[Parabola, ...
     """The conjuncts f < 0 and f <= 0 (f of degree 2, known positive leading coefficient) met nowhere else."""
     found: list[Parabola] = []
     elsewhere: set[Poly] = set()
-    for part in formula.args if isinstance(formula, And) else (formula,):
+    for part in conjuncts(formula):
         parabola = _parabola(part, x, signs) if isinstance(part, Atom) else None
         if parabola is not None:
             found.append(parabola)

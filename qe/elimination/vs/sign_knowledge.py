@@ -7,7 +7,8 @@ from dataclasses import dataclass, field
 
 from qe.exact.ring import Poly
 from qe.formula.build import atom, conj, disj
-from qe.formula.syntax import FALSE, TRUE, And, Atom, Formula, Relation
+from qe.formula.syntax import FALSE, TRUE, Atom, Formula, Relation
+from qe.formula.traverse import conjuncts
 from qe.simplify.facts import NOTHING
 
 _ANY = frozenset((-1, 0, 1))
@@ -27,9 +28,8 @@ class Signs:
 
     def given(self, formula: Formula) -> Signs:
         """These facts and the conjoined atoms of ``formula``."""
-        parts = formula.args if isinstance(formula, And) else (formula,)
         table = dict(self.table)
-        for part in parts:
+        for part in conjuncts(formula):
             if isinstance(part, Atom):
                 table[part.poly] = table.get(part.poly, _ANY) & part.relation.signs
         return Signs(table)
