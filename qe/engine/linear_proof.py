@@ -46,14 +46,12 @@ def _solvable(body: Formula, ring: Ring, names: list[str]) -> tuple[str, Poly] |
 
 def _replaced(body: Formula, i: int, equation: Poly) -> Formula:
     rest, lead = equation.coefficients(i)
-    c = lead.constant_value()
-    value, scale = (-rest, c) if c > 0 else (rest, -c)
+    top, bottom = (-rest, lead) if lead.constant_value() > 0 else (rest, -lead)
 
     def change(found: Atom | RootAtom) -> Formula:
-        if isinstance(found, RootAtom) or not (degree := found.poly.degree(i)):
+        if isinstance(found, RootAtom) or not found.poly.degree(i):
             return found
-        terms = (p * value**k * scale ** (degree - k) for k, p in enumerate(found.poly.coefficients(i)))
-        return atom(sum(terms, start=found.poly.ring.constant(0)), found.relation)
+        return atom(found.poly.at_quotient(i, top, bottom), found.relation)
 
     used = Atom(equation, Relation.EQ)
     return conj(map_atoms(c, change) for c in conjuncts(body) if c != used)

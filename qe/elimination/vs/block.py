@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Sequence
 
 from qe.elimination.vs.candidates import in_order
-from qe.elimination.vs.openness import is_open, thinned
 from qe.elimination.vs.plan import Plan, choose, occurring, split_equation
 from qe.elimination.vs.points import SymbolicPoint, Value
 from qe.elimination.vs.result import All, Any, BlockResult, Choice, Chosen, Done, Open, Tree
@@ -15,6 +14,7 @@ from qe.elimination.vs.univariate_samples import solution
 from qe.exact.ring import Ring
 from qe.formula.build import conj, disj
 from qe.formula.normal import nnf
+from qe.formula.openness import is_open, thinned
 from qe.formula.syntax import FALSE, TRUE, And, Atom, Exists, Formula, Or
 from qe.formula.traverse import conjuncts, has_root_atoms, ring_of
 from qe.options import Budget

@@ -58,7 +58,7 @@ def occurring(formula: Formula) -> frozenset[int]:
 def choose(formula: Formula, block: frozenset[int], *, strict: bool) -> Plan | None:
     """The cheapest plan over the variables of the block, all occurring; None if every degree is too high.
 
-    ``strict``: the solution set in the block is open (see ``openness``).
+    ``strict``: the solution set in the block is open (see ``qe.formula.openness``).
     """
     signs = Signs.of(formula)
     best: Plan | None = None

@@ -92,15 +92,8 @@ class Substitution:
 
     def _at_quotient(self, f: Poly, relation: Relation, e: LinearRoot) -> Formula:
         """a^n * f(-b/a) is a polynomial; for odd n its sign is corrected by that of a."""
-        coefficients = f.coefficients(self.x)
-        n = len(coefficients) - 1
-        value, power, minus = coefficients[n], f.ring.constant(1), -e.b
-        for k in range(n - 1, -1, -1):
-            power = power * e.a
-            value = value * minus
-            if coefficients[k]:
-                value = value + coefficients[k] * power
-        if n % 2 and relation not in (EQ, NE):
+        value = f.at_quotient(self.x, -e.b, e.a)
+        if f.degree(self.x) % 2 and relation not in (EQ, NE):
             sign = self.signs.sign(e.a)
             value = value * (e.a if sign is None else sign)
         return self.signs.atom(value, relation)

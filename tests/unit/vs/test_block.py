@@ -8,13 +8,13 @@ import pytest
 
 from qe.elimination.vs import BlockResult, eliminate_block, witness
 from qe.elimination.vs.candidates import bounds, in_order
-from qe.elimination.vs.openness import is_open, thinned
 from qe.elimination.vs.radical_free import convex_family, lone_quadratic, without_radicals
 from qe.elimination.vs.sign_knowledge import Signs
 from qe.elimination.vs.substitute import Substitution
 from qe.exact.ring import Ring
 from qe.formula.build import conj, disj
 from qe.formula.evaluate import holds_at
+from qe.formula.openness import is_open, thinned
 from qe.formula.syntax import FALSE, TRUE, And, Atom, Exists, Formula
 from qe.formula.traverse import atoms, free_variables, polynomials
 from qe.io.text import read
