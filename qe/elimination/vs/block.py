@@ -8,7 +8,6 @@ from qe.elimination.vs.candidates import in_order
 from qe.elimination.vs.plan import Plan, choose, occurring, split_equation
 from qe.elimination.vs.points import SymbolicPoint, Value
 from qe.elimination.vs.result import All, Any, BlockResult, Choice, Chosen, Done, Open, Tree
-from qe.elimination.vs.sign_knowledge import Signs
 from qe.elimination.vs.substitute import Substitution
 from qe.elimination.vs.univariate_samples import solution
 from qe.exact.ring import Ring
@@ -18,6 +17,7 @@ from qe.formula.openness import is_open, thinned
 from qe.formula.syntax import FALSE, TRUE, And, Atom, Exists, Formula, Or
 from qe.formula.traverse import conjuncts, has_root_atoms, ring_of
 from qe.options import Budget
+from qe.simplify.facts import NOTHING
 
 Simplifier = Callable[[Formula], Formula]
 
@@ -129,7 +129,7 @@ class _Run:
         rest = block - {plan.x}
 
         def attempt(point: SymbolicPoint, guard: Formula, formula: Formula, settled: frozenset[Atom]) -> Solved:
-            known = Signs.of(_free_of(formula, plan.x)).given(guard)
+            known = NOTHING.extended((*_free_of(formula, plan.x), *conjuncts(guard)))
             result = conj((guard, Substitution(plan.x, point, known, settled)(formula)))
             choice = Choice(self.ring.names[plan.x], point, plan.exponent, before)
             return self._substituted(choice, thinned(result, rest) if strict else result, rest)
@@ -183,9 +183,9 @@ def _independent(formula: Formula, block: frozenset[int]) -> tuple[tuple[Formula
     return tuple(context), [conj(members) for _, members in groups]
 
 
-def _free_of(formula: Formula, x: int) -> Formula:
+def _free_of(formula: Formula, x: int) -> list[Formula]:
     """The conjuncts that do not contain the variable."""
-    return conj(a for a in conjuncts(formula) if x not in occurring(a))
+    return [a for a in conjuncts(formula) if x not in occurring(a)]
 
 
 def _without(formula: Formula, context: tuple[Formula, ...]) -> Formula:
