@@ -15,6 +15,7 @@ from typing import Any
 from bezier.curves.scalar import exact_text
 from qe.exact.ring import Poly
 from qe.formula.syntax import And, Atom, Constant, Formula, Not, Or, Relation
+from qe.formula.traverse import conjuncts
 
 _RELATIONS = {Relation.EQ: "=", Relation.NE: "≠", Relation.LT: "&lt;", Relation.LE: "≤"}
 _RELATIONS |= {Relation.GT: "&gt;", Relation.GE: "≥"}
@@ -149,7 +150,7 @@ def _bracketed(node: Formula) -> str:
 
 def conjunction_lines(node: Formula) -> list[str]:
     """The parts of a conjunction, one ``<math>`` element each; one element for anything else."""
-    return [math(formula(part)) for part in (node.args if isinstance(node, And) else (node,))]
+    return [math(formula(part)) for part in conjuncts(node)]
 
 
 def rational(value: Fraction) -> str:

@@ -10,15 +10,15 @@ from collections.abc import Sequence
 from fractions import Fraction
 
 from bezier.curves.workspace import Ball, Condition, HalfSpace
-from qe.formula.syntax import And, Atom, Constant, Formula, Relation
+from qe.formula.syntax import Atom, Constant, Formula, Relation
+from qe.formula.traverse import conjuncts
 
 
 def as_conditions(formula: Formula, variables: Sequence[str]) -> tuple[Condition, ...] | None:
     """The conditions whose intersection the formula describes (up to strictness), or None."""
     if isinstance(formula, Constant):
         return () if formula.value else None
-    parts = formula.args if isinstance(formula, And) else (formula,)
-    found = [_condition(part, variables) for part in parts]
+    found = [_condition(part, variables) for part in conjuncts(formula)]
     return None if any(c is None for c in found) else tuple(c for c in found if c is not None)
 
 

@@ -25,6 +25,7 @@ from dataclasses import dataclass, field
 
 from qe.exact.ring import Poly
 from qe.formula.syntax import And, Atom, Formula, Or, Relation
+from qe.formula.traverse import conjuncts, disjuncts
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,7 +46,7 @@ def equational_constraints(matrix: Formula, size: int) -> Constraints:
     """
     dual = isinstance(matrix, Or) or (isinstance(matrix, Atom) and matrix.relation is Relation.NE)
     relation = Relation.NE if dual else Relation.EQ
-    parts = matrix.args if isinstance(matrix, And | Or) else (matrix,)
+    parts = disjuncts(matrix) if dual else conjuncts(matrix)
     equations = [a.poly for a in parts if isinstance(a, Atom) and a.relation is relation]
     chosen: dict[int, frozenset[Poly]] = {}
     implied: list[Poly] = []

@@ -16,8 +16,8 @@ from qe.errors import InternalError, NotWellOriented
 from qe.exact.lazard import lazard_derivative
 from qe.exact.ring import Poly
 from qe.exact.sample import Point
-from qe.formula.syntax import Atom, Formula, Not
-from qe.formula.traverse import atoms, children
+from qe.formula.openness import is_closed, is_open
+from qe.formula.syntax import Formula
 from qe.options import Budget, Projection
 from qe.proof.cells import Cell, Stack
 
@@ -186,22 +186,15 @@ def _visiting_order(size: int, *, sectors_only: bool) -> list[int]:
 def sector_levels(matrix: Formula, quantifiers: tuple[str, ...]) -> int:
     """The first level from which on quantified stacks are decided by their sectors alone.
 
-    THEOREM. With only strict atoms (<, >, /=, no negation) and only existential quantifiers from a level on, the values
-    of its variable that can be completed to a solution over any point form an open set, which meets a
-    sector if it is not empty. Dually for weak atoms (<=, >=, =) and universal quantifiers.
+    THEOREM. Where the matrix is open (``qe.formula.openness``) and there are only existential quantifiers from a level
+    on, the values of its variable that can be completed to a solution over any point form an open set, the projection
+    of one; it meets a sector if it is not empty. Dually for a closed matrix and universal quantifiers.
     """
     last = quantifiers[-1] if quantifiers else ""
-    relations = {a.relation for a in atoms(matrix)}
-    plain = all(isinstance(a, Atom) for a in atoms(matrix)) and not _has_negation(matrix)
-    strict = all(r.is_strict for r in relations)
-    weak = not any(r.is_strict for r in relations)
-    if not plain or not ((last == "E" and strict) or (last == "A" and weak)):
+    everything = range(len(quantifiers))  # also the levels below: the checker of the cell tables wants no less
+    if not ((last == "E" and is_open(matrix, everything)) or (last == "A" and is_closed(matrix, everything))):
         return len(quantifiers)
     level = len(quantifiers)
     while level and quantifiers[level - 1] == last:
         level -= 1
     return level
-
-
-def _has_negation(formula: Formula) -> bool:
-    return isinstance(formula, Not) or any(_has_negation(c) for c in children(formula))

@@ -14,6 +14,7 @@ from qe.errors import InternalError
 from qe.exact.ring import Poly
 from qe.formula.build import atom
 from qe.formula.syntax import And, Atom, Constant, Formula, Not, Or, Relation
+from qe.formula.traverse import conjuncts, disjuncts
 
 _ALL = frozenset((-1, 0, 1))
 
@@ -140,7 +141,7 @@ def strengthened(matrix: Formula, implied: Iterable[Poly], places: Mapping[Poly,
     matrix implies is added negated.
     """
     dual = isinstance(matrix, Or)
-    parts = list(matrix.args) if isinstance(matrix, And | Or) else [matrix]
+    parts = [*(disjuncts(matrix) if dual else conjuncts(matrix))]
     parts += [atom(p, Relation.NE if dual else Relation.EQ) for p in implied]
     for part in parts:  # grows while it is read: implied atoms imply further ones
         if isinstance(part, Atom):

@@ -12,8 +12,8 @@ from __future__ import annotations
 
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj
-from qe.formula.syntax import And, Atom, Formula, Relation, RootAtom
-from qe.formula.traverse import free_variables, map_atoms
+from qe.formula.syntax import Atom, Formula, Relation, RootAtom
+from qe.formula.traverse import conjuncts, free_variables, map_atoms
 from qe.proof.entry import Entry, Json, formula_from_json
 
 
@@ -50,9 +50,9 @@ def _without(body: Formula, i: int, equation: Poly, entry: Entry) -> Formula:
     """The rest of the body with variable ``i`` replaced by its value from the equation."""
     if equation.degree(i) != 1 or not equation.leading(i).is_constant:
         raise entry.fail("expected an equation of degree 1 with a constant coefficient")
-    conjuncts = body.args if isinstance(body, And) else (body,)
+    parts = conjuncts(body)
     needed = Atom(equation, Relation.EQ)
-    if needed not in conjuncts:
+    if needed not in parts:
         raise entry.fail("not a conjunct here")
 
     def replaced(found: Atom | RootAtom) -> Formula:
@@ -62,7 +62,7 @@ def _without(body: Formula, i: int, equation: Poly, entry: Entry) -> Formula:
             return found
         return atom(_replaced(found.poly, i, equation), found.relation)
 
-    return conj(map_atoms(c, replaced) for c in conjuncts if c != needed)
+    return conj(map_atoms(c, replaced) for c in parts if c != needed)
 
 
 def _replaced(poly: Poly, i: int, equation: Poly) -> Poly:
@@ -78,5 +78,4 @@ def _replaced(poly: Poly, i: int, equation: Poly) -> Poly:
 
 
 def _conjuncts(formula: Formula) -> frozenset[Formula]:
-    whole = conj([formula])
-    return frozenset(whole.args) if isinstance(whole, And) else frozenset((whole,))
+    return frozenset(conjuncts(conj([formula])))

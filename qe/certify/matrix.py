@@ -11,6 +11,7 @@ from qe.errors import CertificateRejected
 from qe.exact.ring import Poly, format_poly
 from qe.formula.build import atom, neg
 from qe.formula.syntax import And, Atom, Constant, Formula, Not, Or, Relation, RootAtom
+from qe.formula.traverse import conjuncts, disjuncts
 from qe.truth import Truth
 
 
@@ -144,7 +145,7 @@ def strengthened(matrix: Formula, lists: FactorLists, closure: Closure, step: st
     equational constraints only. A disjunction is treated as the negated conjunction of its negated parts.
     """
     tests, dual = [compiled(matrix, lists, step)], isinstance(matrix, Or)
-    pending = list(matrix.args) if isinstance(matrix, And | Or) else [matrix]
+    pending = [*(disjuncts(matrix) if dual else conjuncts(matrix))]
     equations: list[Poly] = []
     while pending:
         part = pending.pop()

@@ -20,7 +20,7 @@ from qe.exact.ring import Poly, Ring
 from qe.formula.build import convert
 from qe.formula.normal import Quantifier, nnf, prenex
 from qe.formula.syntax import FALSE, TRUE, Constant, Formula, Or
-from qe.formula.traverse import atoms, children, free_variables, polynomials, ring_of
+from qe.formula.traverse import atoms, free_variables, polynomials, ring_of, subformulas
 from qe.options import Budget, Options, Projection, Stage
 from qe.proof.cells import CellTable
 from qe.proof.cells_json import CellEvidence
@@ -168,14 +168,10 @@ class _Question:
 
 def is_small(formula: Formula) -> bool:
     """Whether a shorter equivalent is easily found: few variables and low degrees. Conjunctions are short enough."""
-    if not _has_disjunction(formula):
+    if not any(isinstance(part, Or) for part in subformulas(formula)):
         return False
     degree = max((a.poly.total_degree for a in atoms(formula)), default=0)
     return degree <= SMALL_DEGREE.get(len(free_variables(formula)), 0)
-
-
-def _has_disjunction(formula: Formula) -> bool:
-    return isinstance(formula, Or) or any(_has_disjunction(part) for part in children(formula))
 
 
 def length(formula: Formula) -> tuple[int, int]:

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from qe.elimination.protocol import Context, Outcome, Problem
-from qe.exact.ring import Poly
-from qe.formula.build import atom, conj, disj
-from qe.formula.syntax import And, Atom, Formula, Relation
-from qe.formula.traverse import ring_of
+from qe.formula.build import conj
+from qe.formula.openness import somewhere_nonzero
+from qe.formula.syntax import Atom, Formula, Relation
+from qe.formula.traverse import conjuncts, ring_of
 from qe.options import Options
 from qe.simplify.simplify import simplify
 
@@ -34,8 +34,8 @@ class OnlyNonzero:
 def only_nonzero(variables: Sequence[str], body: Formula) -> Formula | None:
     """A formula equivalent to ``exists variables. body`` if body is a conjunction of p /= 0 as far as they occur in it.
 
-    THEOREM: finitely many polynomials that are not identically zero have a common non-root in R^n. So
-    (exists x. p_1 /= 0 and … and p_k /= 0) iff every p_i has a coefficient, as a polynomial in x, that is not 0.
+    By the second theorem of ``qe.formula.openness``, on all of R^n: (exists x. p_1 /= 0 and … and p_k /= 0) iff every
+    p_i has a coefficient, as a polynomial in x, that is not 0.
     None if the body has another shape.
     """
     ring = ring_of(body)
@@ -43,7 +43,7 @@ def only_nonzero(variables: Sequence[str], body: Formula) -> Formula | None:
         return None
     block = {ring.index[v] for v in variables if v in ring.index}
     parts: list[Formula] = []
-    for arg in body.args if isinstance(body, And) else (body,):
+    for arg in conjuncts(body):
         if not isinstance(arg, Atom):
             return None
         if not block & set(arg.poly.variables):
@@ -51,18 +51,5 @@ def only_nonzero(variables: Sequence[str], body: Formula) -> Formula | None:
         elif arg.relation is not Relation.NE:
             return None
         else:
-            parts.append(disj(atom(c, Relation.NE) for c in _coefficients(arg.poly, block)))
+            parts.append(somewhere_nonzero(arg.poly, block))
     return conj(parts)
-
-
-def _coefficients(p: Poly, block: set[int]) -> list[Poly]:
-    """The nonzero coefficients of p as a polynomial in the block's variables."""
-    pending, out = [p], []
-    while pending:
-        q = pending.pop()
-        inside = [i for i in q.variables if i in block]
-        if inside:
-            pending += [c for c in q.coefficients(inside[0]) if c]
-        else:
-            out.append(q)
-    return out

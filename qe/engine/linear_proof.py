@@ -5,7 +5,7 @@ from __future__ import annotations
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj, convert
 from qe.formula.syntax import And, Atom, Exists, Formula, Relation, RootAtom
-from qe.formula.traverse import free_variables, is_quantifier_free, map_atoms
+from qe.formula.traverse import conjuncts, free_variables, is_quantifier_free, map_atoms
 from qe.proof.certificate import Certificate
 
 
@@ -35,7 +35,7 @@ def substitution_certificate(block: Formula, answer: Formula) -> Certificate | N
 
 def _solvable(body: Formula, ring: Ring, names: list[str]) -> tuple[str, Poly] | None:
     """A variable and an equation among the conjuncts that is linear in it with a constant coefficient."""
-    for conjunct in body.args if isinstance(body, And) else (body,):
+    for conjunct in conjuncts(body):
         if isinstance(conjunct, Atom) and conjunct.relation is Relation.EQ:
             for name in names:
                 i = ring.index[name]
@@ -46,18 +46,16 @@ def _solvable(body: Formula, ring: Ring, names: list[str]) -> tuple[str, Poly] |
 
 def _replaced(body: Formula, i: int, equation: Poly) -> Formula:
     rest, lead = equation.coefficients(i)
-    c = lead.constant_value()
-    value, scale = (-rest, c) if c > 0 else (rest, -c)
+    top, bottom = (-rest, lead) if lead.constant_value() > 0 else (rest, -lead)
 
     def change(found: Atom | RootAtom) -> Formula:
-        if isinstance(found, RootAtom) or not (degree := found.poly.degree(i)):
+        if isinstance(found, RootAtom) or not found.poly.degree(i):
             return found
-        terms = (p * value**k * scale ** (degree - k) for k, p in enumerate(found.poly.coefficients(i)))
-        return atom(sum(terms, start=found.poly.ring.constant(0)), found.relation)
+        return atom(found.poly.at_quotient(i, top, bottom), found.relation)
 
     used = Atom(equation, Relation.EQ)
-    return conj(map_atoms(c, change) for c in (body.args if isinstance(body, And) else ()) if c != used)
+    return conj(map_atoms(c, change) for c in conjuncts(body) if c != used)
 
 
 def _set(formula: Formula) -> frozenset[Formula]:
-    return frozenset(formula.args if isinstance(formula, And) else (formula,))
+    return frozenset(conjuncts(formula))

@@ -36,16 +36,4 @@ def _identically_zero(prefix: Point, f: Poly) -> bool:
         return True
     if not prefix.algebraic:
         return False
-    return all(prefix.vanishes(c) for c in _coefficients_above(g, prefix.depth))
-
-
-def _coefficients_above(g: Poly, depth: int) -> list[Poly]:
-    """The coefficients of g as a polynomial in the variables with index >= depth."""
-    pending, out = [g], []
-    while pending:
-        p = pending.pop()
-        if p.level >= depth:
-            pending += [c for c in p.coefficients(p.level) if c]
-        else:
-            out.append(p)
-    return out
+    return all(prefix.vanishes(c) for c in g.coefficients_in(range(prefix.depth, g.ring.size)))

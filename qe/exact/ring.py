@@ -8,14 +8,15 @@ makes triangular sets of main-variable-monic polynomials Groebner bases for free
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from fractions import Fraction
 from functools import cache, cached_property
 from typing import Any
 
 from flint import fmpq, fmpq_mpoly, fmpq_mpoly_ctx, fmpz, fmpz_mpoly, fmpz_mpoly_ctx, fmpz_poly
 
-from qe.errors import InternalError
+from qe.errors import BudgetExceeded, InternalError
+from qe.exact.factor import guarded_factor
 
 _PRIMES = (3, -7, 11, -13, 17, -19, 23, -29, 31, -37, 41, -43, 47, -53, 59, -61)
 _ZERO = fmpz(0)
@@ -84,28 +85,6 @@ class Ring:
 def _intern(names: tuple[str, ...]) -> Ring:
     # FLINT contexts are immortal too, so nothing is lost by keeping the (small) rings.
     return Ring(names)
-
-
-def guarded_factor(p: fmpz_mpoly) -> tuple[fmpz, list[tuple[fmpz_mpoly, int]]]:
-    """``p.factor()``, redone over Q where python-flint 0.9 overflows while sorting the factors."""
-    try:
-        unit, factors = p.factor()
-        return unit, [(f, int(e)) for f, e in factors]
-    except OverflowError:
-        context = p.context()
-        rational = fmpq_mpoly_ctx.get(context.names(), "lex")
-        unit, factors = fmpq_mpoly(p, rational).factor()
-        result: list[tuple[fmpz_mpoly, int]] = []
-        constant = fmpq(unit)
-        for factor, exponent in factors:
-            scale = fmpz(1)
-            for c in factor.coeffs():
-                scale = scale * c.q // scale.gcd(c.q)
-            integral = context.from_dict({m: int((c * scale).p) for m, c in factor.terms()})
-            content = integral.content()
-            constant = constant * (fmpq(content) / scale) ** int(exponent)
-            result.append((integral / content, int(exponent)))
-        return constant.p, result
 
 
 class Poly:
@@ -226,6 +205,29 @@ class Poly:
             stored = memory[key] = tuple(out)
         return stored
 
+    def collected(self, indices: Collection[int]) -> dict[tuple[int, ...], Poly]:
+        """The polynomial as one in the variables ``indices``: exponents there (in the order given) -> coefficient.
+
+        The coefficients are not zero and free of these variables; highest term first.
+        """
+        inside, found = tuple(indices), dict[tuple[int, ...], dict[tuple[int, ...], int]]()
+        for exponents, c in self.terms():
+            rest = tuple(0 if i in inside else k for i, k in enumerate(exponents))
+            found.setdefault(tuple(exponents[i] for i in inside), {})[rest] = c
+        return {key: self.ring.from_terms(terms) for key, terms in found.items()}
+
+    def coefficients_in(self, indices: Collection[int]) -> tuple[Poly, ...]:
+        """The distinct coefficients, none zero, of the polynomial as one in the variables ``indices``.
+
+        So it vanishes identically in these variables iff all of them are zero.
+        """
+        inside = [i for i in self.variables if i in indices]
+        if not inside:
+            return (self,) if self else ()
+        if len(inside) == 1:
+            return tuple(dict.fromkeys(c for c in reversed(self.coefficients(inside[0])) if c))
+        return tuple(dict.fromkeys(self.collected(inside).values()))
+
     def leading(self, i: int) -> Poly:
         """The leading coefficient with respect to variable ``i``."""
         return self.coefficients(i)[-1]
@@ -305,6 +307,22 @@ class Poly:
         rational = fmpq_mpoly(self.p, self.ring.qctx)
         value = rational(*[fmpq(v.numerator, v.denominator) for v in reversed(point)])
         return Fraction(int(value.p), int(value.q))
+
+    def at_quotient(self, i: int, top: Poly, bottom: Poly, *, most_terms: int | None = None) -> Poly:
+        """bottom^d * p(x_i = top/bottom), a polynomial, where d is the degree of p in x_i.
+
+        Raises ``BudgetExceeded`` where it, or a step on the way to it, has more than ``most_terms`` terms.
+        """
+        coefficients = self.coefficients(i)
+        if not coefficients:
+            return self
+        image, power = coefficients[-1], self.ring.constant(1)
+        for c in reversed(coefficients[:-1]):
+            power = power * bottom
+            image = image * top + c * power if c else image * top
+            if most_terms is not None and image.term_count() > most_terms:
+                raise BudgetExceeded("a substitution grows too large", limit="terms")
+        return image
 
     def compose(self, substitution: Mapping[int, Poly]) -> Poly:
         """Replace variables by polynomials of the same ring, simultaneously."""

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from qe.formula.syntax import Exists, ForAll, Formula
-from qe.formula.traverse import atoms, children, free_variables
+from qe.formula.syntax import Formula
+from qe.formula.traverse import atoms, bound_variables, free_variables
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -24,12 +24,7 @@ def features(formula: Formula) -> Features:
     found = list(atoms(formula))
     return Features(
         free=free_variables(formula),
-        bound=tuple(dict.fromkeys(_bound(formula))),
+        bound=bound_variables(formula),
         atoms=len(found),
         total_degree=max((a.poly.total_degree for a in found), default=0),
     )
-
-
-def _bound(formula: Formula) -> list[str]:
-    own = list(formula.variables) if isinstance(formula, Exists | ForAll) else []
-    return own + [name for child in children(formula) for name in _bound(child)]

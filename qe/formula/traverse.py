@@ -21,6 +21,29 @@ def children(formula: Formula) -> tuple[Formula, ...]:
     return ()
 
 
+def conjuncts(formula: Formula) -> tuple[Formula, ...]:
+    """The members of a conjunction; any other formula is its own only member."""
+    return formula.args if isinstance(formula, And) else (formula,)
+
+
+def disjuncts(formula: Formula) -> tuple[Formula, ...]:
+    """The members of a disjunction; any other formula is its own only member."""
+    return formula.args if isinstance(formula, Or) else (formula,)
+
+
+def subformulas(formula: Formula) -> Iterator[Formula]:
+    """The formula and everything inside it, from the outside in, left to right."""
+    yield formula
+    for child in children(formula):
+        yield from subformulas(child)
+
+
+def bound_variables(formula: Formula) -> tuple[str, ...]:
+    """The names that quantifiers bind, in the order of the quantifiers, without repetition."""
+    blocks = (f.variables for f in subformulas(formula) if isinstance(f, Exists | ForAll))
+    return tuple(dict.fromkeys(name for block in blocks for name in block))
+
+
 def atoms(formula: Formula) -> Iterator[Atom | RootAtom]:
     """Every atom occurrence, left to right."""
     if isinstance(formula, Atom | RootAtom):

@@ -6,8 +6,8 @@ import re
 from collections.abc import Callable
 
 from qe.errors import InputError
-from qe.formula.syntax import Exists, ForAll, Formula, RootAtom
-from qe.formula.traverse import atoms, children, ring_of
+from qe.formula.syntax import Formula, RootAtom
+from qe.formula.traverse import atoms, bound_variables, ring_of
 
 _FORBIDDEN = re.compile(r"[|\\\n\r]")
 
@@ -56,10 +56,5 @@ def names_in(formula: Formula) -> list[str]:
     ring = ring_of(formula)
     found = dict.fromkeys(ring.names if ring is not None else ())
     found.update(dict.fromkeys(a.variable for a in atoms(formula) if isinstance(a, RootAtom)))
-    found.update(dict.fromkeys(_bound(formula)))
+    found.update(dict.fromkeys(bound_variables(formula)))
     return list(found)
-
-
-def _bound(formula: Formula) -> list[str]:
-    own = list(formula.variables) if isinstance(formula, Exists | ForAll) else []
-    return own + [name for child in children(formula) for name in _bound(child)]

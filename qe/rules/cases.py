@@ -5,9 +5,9 @@ from __future__ import annotations
 from qe.exact.ring import Poly
 from qe.formula.build import atom, conj
 from qe.formula.syntax import FALSE, Formula, Relation
+from qe.formula.traverse import conjuncts
 from qe.rules import equations as eq
 from qe.rules.block_context import Recur, Workshop, either
-from qe.rules.linear import conjuncts
 from qe.rules.step import StepKind
 from qe.rules.tree import NEVER, Node
 from qe.simplify.minima import vanishing

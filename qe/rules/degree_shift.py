@@ -7,11 +7,10 @@ from math import gcd
 from qe.exact.ring import Poly
 from qe.formula.build import atom, conj
 from qe.formula.syntax import Atom, Formula, Relation, RootAtom
-from qe.formula.traverse import atoms
+from qe.formula.traverse import atoms, bound_variables, conjuncts
 from qe.rules.block_context import Recur, Workshop
 from qe.rules.lift import RootOf
-from qe.rules.linear import conjuncts
-from qe.rules.rewrite import bound_names, rewrite
+from qe.rules.rewrite import rewrite
 from qe.rules.step import StepKind
 from qe.rules.tree import Lifted, Node
 
@@ -25,7 +24,7 @@ def shift_degree(variables: tuple[str, ...], body: Formula, shop: Workshop, recu
     """
     if StepKind.DEGREE_SHIFT not in shop.enabled:
         return None
-    inner = bound_names(body)
+    inner = frozenset(bound_variables(body))
     ring = next(atoms(body)).poly.ring
     known = shop.facts.extended(conjuncts(body))
     for name in variables:

@@ -15,17 +15,16 @@ from collections.abc import Sequence
 from qe.exact.groebner import Basis, Limits, MonomialOrder, groebner_basis
 from qe.exact.ring import Poly, format_poly
 from qe.formula.build import atom, conj
-from qe.formula.syntax import Atom, Exists, ForAll, Formula, Relation
-from qe.formula.traverse import atoms, children
-from qe.rules.linear import Conjuncts
+from qe.formula.syntax import Atom, Formula, Relation
+from qe.formula.traverse import atoms
 from qe.rules.rewrite import rewrite
-from qe.simplify.factors import factor_list
+from qe.simplify.facts import factor_list
 
 _LARGE = 300  # terms: equations with more in all are not given to the Groebner engine
 _LIMITS = Limits(elements=60, terms=250, bits=600)
 
 
-def split_equations(parts: Conjuncts) -> tuple[list[Poly], list[Formula]]:
+def split_equations(parts: Sequence[Formula]) -> tuple[list[Poly], list[Formula]]:
     """The polynomials of the equations, and the other conjuncts."""
     equations = [p.poly for p in parts if isinstance(p, Atom) and p.relation is Relation.EQ]
     others = [p for p in parts if not (isinstance(p, Atom) and p.relation is Relation.EQ)]
@@ -130,11 +129,6 @@ def factor_choice(equations: Sequence[Poly], limit: int) -> tuple[int, tuple[Pol
             if best is None or key < (len(best[1]), sum(f.total_degree for f in best[1])):
                 best = position, factors
     return best
-
-
-def has_quantifier(formula: Formula) -> bool:
-    """Whether a quantifier occurs."""
-    return isinstance(formula, Exists | ForAll) or any(has_quantifier(c) for c in children(formula))
 
 
 def equal_to_zero(polys: Sequence[Poly]) -> Formula:

@@ -14,6 +14,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
+from qe.errors import BudgetExceeded
 from qe.exact.ring import Poly
 from qe.formula.build import atom, conj, disj, exists, forall, neg
 from qe.formula.syntax import And, Atom, Exists, ForAll, Formula, Not, Or, Relation, RootAtom
@@ -21,13 +22,6 @@ from qe.formula.traverse import atoms
 from qe.simplify.facts import Facts
 
 _TERMS = 3000  # a substitution whose result has more terms than this is not done
-
-Conjuncts = tuple[Formula, ...]
-
-
-def conjuncts(body: Formula) -> Conjuncts:
-    """The members of a conjunction."""
-    return body.args if isinstance(body, And) else (body,)
 
 
 @dataclass(frozen=True, slots=True)
@@ -134,18 +128,11 @@ def substitute(formula: Formula, pivot: Pivot) -> Formula | None:
 
 
 def _substituted(poly: Poly, relation: Relation, pivot: Pivot) -> Formula | None:
-    coefficients = poly.coefficients(pivot.variable)
-    degree = len(coefficients) - 1
-    image, power = coefficients[degree], pivot.lead
-    numerator = -pivot.rest
-    for k in range(degree - 1, -1, -1):
-        image = image * numerator
-        if coefficients[k]:
-            image = image + coefficients[k] * power
-        power = power * pivot.lead
-        if image.term_count() > _TERMS:
-            return None
-    if degree % 2 and relation not in (Relation.EQ, Relation.NE):
+    try:
+        image = poly.at_quotient(pivot.variable, -pivot.rest, pivot.lead, most_terms=_TERMS)
+    except BudgetExceeded:
+        return None
+    if poly.degree(pivot.variable) % 2 and relation not in (Relation.EQ, Relation.NE):
         if pivot.sign == -1:
             image = -image
         elif pivot.sign != 1:

@@ -25,15 +25,3 @@ def rewrite(formula: Formula, change: Callable[[Atom], Formula], names: Collecti
             inner = rewrite(body, change, names)
             return exists(variables, inner) if isinstance(formula, Exists) else forall(variables, inner)
     return formula
-
-
-def bound_names(formula: Formula) -> frozenset[str]:
-    """Every name that some quantifier inside the formula binds."""
-    match formula:
-        case And(args) | Or(args):
-            return frozenset().union(*(bound_names(a) for a in args))
-        case Not(arg):
-            return bound_names(arg)
-        case Exists(variables, body) | ForAll(variables, body):
-            return frozenset(variables) | bound_names(body)
-    return frozenset()

@@ -8,12 +8,11 @@ from fractions import Fraction
 from qe.exact.ring import Poly
 from qe.formula.build import atom
 from qe.formula.syntax import Atom, Formula, RootAtom
-from qe.formula.traverse import atoms
+from qe.formula.traverse import atoms, bound_variables, conjuncts
 from qe.rules.block_context import Recur, Workshop, either
 from qe.rules.lift import Solve
-from qe.rules.linear import conjuncts
 from qe.rules.nullspace import kernel_vector, occurring
-from qe.rules.rewrite import bound_names, rewrite
+from qe.rules.rewrite import rewrite
 from qe.rules.step import StepKind
 from qe.rules.tree import Lifted, Node
 
@@ -30,7 +29,7 @@ def fix_scale(variables: tuple[str, ...], body: Formula, shop: Workshop, recur: 
     """
     if StepKind.SCALING not in shop.enabled or not _worthwhile(body):
         return None
-    inner = bound_names(body)
+    inner = frozenset(bound_variables(body))
     weights = find_weights(body, frozenset(variables) | inner)
     if weights is None:
         return None

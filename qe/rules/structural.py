@@ -9,10 +9,10 @@ from fractions import Fraction
 from qe.exact.ring import format_poly
 from qe.formula.build import atom, conj, disj
 from qe.formula.syntax import FALSE, Atom, Constant, Formula, Or, Relation
-from qe.formula.traverse import free_variables
+from qe.formula.traverse import conjuncts, free_variables
 from qe.rules.block_context import Recur, Workshop, either
 from qe.rules.lift import Solve
-from qe.rules.linear import Pivot, choose_pivot, conjuncts, substitute
+from qe.rules.linear import Pivot, choose_pivot, substitute
 from qe.rules.step import StepKind
 from qe.rules.tree import NEVER, All, Leaf, Lifted, Node
 from qe.simplify.facts import Facts

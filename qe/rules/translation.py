@@ -8,11 +8,11 @@ from fractions import Fraction
 from qe.exact.ring import Poly
 from qe.formula.build import atom
 from qe.formula.syntax import Atom, Formula, RootAtom
-from qe.formula.traverse import atoms
+from qe.formula.traverse import atoms, bound_variables
 from qe.rules.block_context import Recur, Workshop
 from qe.rules.lift import Solve
 from qe.rules.nullspace import kernel_vector, occurring
-from qe.rules.rewrite import bound_names, rewrite
+from qe.rules.rewrite import rewrite
 from qe.rules.step import StepKind
 from qe.rules.tree import Lifted, Node
 
@@ -31,7 +31,7 @@ def fix_origin(variables: tuple[str, ...], body: Formula, shop: Workshop, recur:
     found = list(atoms(body))
     if any(isinstance(a, RootAtom) for a in found) or sum(a.poly.term_count() for a in found) > _TERMS:
         return None
-    inner = bound_names(body)
+    inner = frozenset(bound_variables(body))
     polys, columns = occurring(body, frozenset(variables) | inner)
     direction = kernel_vector(columns, (row for poly in polys for row in _derivatives(poly, columns)))
     if direction is None:

@@ -11,22 +11,61 @@ The sum over the atoms of total degree times number of variables never grows.
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable, Sequence
 from math import prod
 
 from qe.exact.ring import Poly
 from qe.formula.build import atom, conj, disj
 from qe.formula.syntax import FALSE, TRUE, Atom, Formula, Relation
-from qe.simplify.facts import Facts
+from qe.simplify.facts import Facts, factor_list
 from qe.simplify.minima import vanishing
 
-_FACTORED_TERMS = 400  # above this many terms a polynomial is taken as one factor
+
+def atom_under(poly: Poly, relation: Relation, facts: Facts) -> Formula:
+    """A formula equivalent to ``poly relation 0`` under the facts, by the rules above; a constant if they decide it."""
+    given = atom(poly, relation)
+    if not isinstance(given, Atom) or given.poly.total_degree == 1:
+        return _decided(given, facts)
+    parts = factor_list(given.poly)
+    one = poly.ring.constant(1)
+    if relation in (Relation.EQ, Relation.NE):
+        kept = (f for f, _ in parts if 0 in facts.signs(f))
+        return _decided(atom(prod(kept, start=one), relation), facts)
+    sign, even, odd = _by_sign(parts, facts)
+    return _assemble(given.relation, prod(odd, start=one) * sign, even, lambda made: _decided(made, facts))
 
 
-def factor_list(poly: Poly) -> tuple[tuple[Poly, int], ...]:
-    """The irreducible factors with exponents; a large polynomial counts as irreducible."""
-    if poly.term_count() > _FACTORED_TERMS or poly.total_degree == 1:
-        return ((poly, 1),)
-    return poly.factors()[1]
+def _decided(given: Formula, facts: Facts) -> Formula:
+    """The atom, or a constant where the sign of the whole settles it."""
+    if not isinstance(given, Atom):
+        return given
+    signs = facts.signs(given.poly)
+    allowed = signs & given.relation.signs
+    if allowed == signs:
+        return TRUE
+    if not allowed:
+        return FALSE
+    if allowed == {0}:
+        zeros = vanishing(given.poly)
+        return conj(atom(z, Relation.EQ) for z in reversed(zeros)) if zeros else Atom(given.poly, Relation.EQ)
+    return given
+
+
+def _by_sign(parts: Iterable[tuple[Poly, int]], facts: Facts) -> tuple[int, list[Poly], list[Poly]]:
+    """(s, E, O) of the rule above, without the factors of known sign."""
+    sign = 1
+    even: list[Poly] = []
+    odd: list[Poly] = []
+    for factor, exponent in parts:
+        signs = facts.signs(factor)
+        if -1 in signs and 1 not in signs and exponent % 2:
+            sign = -sign
+        if exponent % 2 == 0 or not (-1 in signs and 1 in signs):
+            if 0 in signs:
+                even.append(factor)
+        else:
+            odd.append(factor)
+    return sign, even, odd
 
 
 def reduce_atom(given: Atom, facts: Facts, conjunctive: bool) -> Formula:
@@ -35,53 +74,38 @@ def reduce_atom(given: Atom, facts: Facts, conjunctive: bool) -> Formula:
     Products in /= are split where they stand in a conjunction, products in = where they stand in a disjunction.
     """
     parts = factor_list(given.poly)
-    if given.relation in (Relation.EQ, Relation.NE):
-        return _reduce_equation(given, parts, facts, conjunctive)
-    if len(parts) == 1 and parts[0][1] == 1:
+    equation = given.relation in (Relation.EQ, Relation.NE)
+    if not equation and len(parts) == 1 and parts[0][1] == 1:
         return given  # what the sign of the whole says is left to the ranges
-    sign = 1
-    even: list[Poly] = []
-    odd: list[Poly] = []
-    for factor, exponent in parts:
-        signs = facts.signs(factor)
-        if not signs:
-            return given  # contradictory facts: the caller finds out from the ranges
-        if signs == {0}:
-            return TRUE if given.relation.holds(0) else FALSE
-        if -1 in signs and 1 not in signs and exponent % 2:
-            sign = -sign
-        one_sided = exponent % 2 == 0 or not (-1 in signs and 1 in signs)
-        if one_sided:
-            if 0 in signs:
-                even.append(factor)
-        else:
-            odd.append(factor)
+    known = [facts.signs(factor) for factor, _ in parts]
+    if frozenset() in known:
+        return given  # contradictory facts: the caller finds out from the ranges
+    if {0} in known:
+        return TRUE if given.relation.holds(0) else FALSE
+    if equation:
+        kept = [f for (f, _), signs in zip(parts, known, strict=True) if 0 in signs]
+        return _reduce_equation(given, parts, kept, conjunctive)
+    sign, even, odd = _by_sign(parts, facts)
     if not even and sign == 1 and len(odd) == len(parts) and all(e == 1 for _, e in parts):
         return given
-    return _assemble(given.relation, sign, even, odd, given.poly)
+    return _assemble(given.relation, prod(odd, start=given.poly.ring.constant(1)) * sign, even, lambda made: made)
 
 
-def _assemble(relation: Relation, sign: int, even: list[Poly], odd: list[Poly], model: Poly) -> Formula:
-    one = model.ring.constant(1)
-    rest = atom(prod(odd, start=one) * sign, relation)
+def _assemble(relation: Relation, odd: Poly, even: Sequence[Poly], settled: Callable[[Formula], Formula]) -> Formula:
+    """The last rule: ``odd`` stands for s*prod(O), ``settled`` may decide the atoms that are made."""
+    rest = settled(atom(odd, relation))
     if not even:
         return rest
-    square = prod(even, start=one)
+    square = prod(even, start=odd.ring.constant(1))
     if relation.is_strict:
-        return conj((atom(square, Relation.NE), rest))
-    return disj((atom(square, Relation.EQ), rest))
+        return conj((settled(atom(square, Relation.NE)), rest))
+    return disj((settled(atom(square, Relation.EQ)), rest))
 
 
-def _reduce_equation(given: Atom, parts: tuple[tuple[Poly, int], ...], facts: Facts, conjunctive: bool) -> Formula:
-    kept: list[Poly] = []
-    for factor, _ in parts:
-        signs = facts.signs(factor)
-        if not signs:
-            return given
-        if signs == {0}:
-            return TRUE if given.relation is Relation.EQ else FALSE
-        if 0 in signs:
-            kept.append(factor)
+def _reduce_equation(
+    given: Atom, parts: Sequence[tuple[Poly, int]], kept: Sequence[Poly], conjunctive: bool
+) -> Formula:
+    """The rules for = and /=; ``kept``: the factors that may vanish."""
     if len(kept) > 1 and conjunctive == (given.relation is Relation.NE):
         pieces = [atom(f, given.relation) for f in kept]
         return conj(pieces) if conjunctive else disj(pieces)

@@ -20,6 +20,7 @@ from qe.simplify.minima import minimum
 from qe.simplify.ranges import EVERYTHING, Range, add, compare, meet, multiply, power, scale
 
 _ENCLOSED_TERMS = 24  # term count up to which ranges of the variables are propagated through a polynomial
+_FACTORED_TERMS = 400  # above this many terms a polynomial is taken as one factor
 
 
 @lru_cache(maxsize=5_000)
@@ -49,6 +50,14 @@ def inherent(key: Poly) -> Range:
 def variable_of(key: Poly) -> int | None:
     """The index if the polynomial is a bare variable, else None."""
     return key.variables[0] if key.total_degree == 1 and len(key.variables) == 1 else None
+
+
+def factor_list(poly: Poly) -> tuple[tuple[Poly, int], ...]:
+    """The irreducible factors with exponents; a polynomial of very many terms counts as irreducible."""
+    primitive = poly.normal()[1]
+    if primitive.total_degree == 1 or primitive.term_count() > _FACTORED_TERMS:
+        return ((primitive, 1),)
+    return primitive.factors()[1]
 
 
 @dataclass(frozen=True, slots=True)
@@ -93,14 +102,27 @@ class Facts:
         return total if total is not None else EVERYTHING
 
     def signs(self, poly: Poly) -> frozenset[int]:
-        """The signs that a polynomial can have, as far as known."""
+        """The signs that a polynomial can have, as far as known: from its range and from those of its factors."""
         if poly.is_constant:
             value = poly.constant_value()
             return frozenset(((value > 0) - (value < 0),))
         unit, primitive = poly.normal()
-        key, scale_by, constant = key_of(primitive)
-        signs = self.known(key).signs(Fraction(-constant, scale_by))
+        signs = self._signs(primitive)
+        if len(signs) > 1 and len(parts := factor_list(primitive)) + parts[0][1] > 2:
+            product = frozenset((1,))
+            for factor, exponent in parts:
+                product = frozenset(a * b**exponent for a in product for b in self._signs(factor))
+            signs &= product
         return signs if unit > 0 else frozenset(-s for s in signs)
+
+    def _signs(self, primitive: Poly) -> frozenset[int]:
+        key, scale_by, constant = key_of(primitive)
+        return self.known(key).signs(Fraction(-constant, scale_by))
+
+    def sign(self, poly: Poly) -> int | None:
+        """1 or -1 where the polynomial is known to be positive or negative, else None."""
+        signs = self.signs(poly)
+        return next(iter(signs)) if len(signs) == 1 and 0 not in signs else None
 
     def extended(self, atoms: Iterable[Formula]) -> Facts:
         """These facts and the given atoms."""

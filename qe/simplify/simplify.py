@@ -15,7 +15,7 @@ from qe.exact.ring import Poly
 from qe.formula.build import atom, conj, disj, exists, forall
 from qe.formula.normal import nnf
 from qe.formula.syntax import FALSE, TRUE, And, Atom, Constant, Exists, ForAll, Formula, Not, Or, RootAtom
-from qe.formula.traverse import free_variables, ring_of
+from qe.formula.traverse import conjuncts, free_variables, ring_of
 from qe.simplify.absorb import absorb
 from qe.simplify.factors import reduce_atom
 from qe.simplify.facts import NOTHING, Facts, atom_of, constraint, generator
@@ -57,7 +57,7 @@ def facts_of(known: Formula, formula: Formula) -> Facts:
         return NOTHING
     usable = [
         Atom(a.poly.convert(ring), a.relation)
-        for a in (known.args if isinstance(known, And) else (known,))
+        for a in conjuncts(known)
         if isinstance(a, Atom) and all(a.poly.ring.names[i] in ring.index for i in a.poly.variables)
     ]
     return NOTHING.extended(atom(a.poly, a.relation) for a in usable)

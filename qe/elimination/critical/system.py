@@ -10,6 +10,7 @@ from qe.errors import Unable
 from qe.exact.quadratic_form import Definiteness, definiteness, quadratic
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj
+from qe.formula.openness import is_closed, is_open
 from qe.formula.syntax import And, Atom, Constant, Formula, Or, Relation
 from qe.proof.multipliers import FormRelation
 
@@ -53,14 +54,12 @@ class System:
     @cached_property
     def is_closed(self) -> bool:
         """Whether all relations are weak: over bounded fibres the truth set in the parameters is then closed."""
-        strict = any(c.relation is FormRelation.LT for c in self.conditions)
-        return not strict and not any(a.relation.is_strict for a in self.guards)
+        return is_closed(self.formula, range(self.ring.size))
 
     @cached_property
     def is_open(self) -> bool:
         """Whether all relations are strict: the truth set is then open."""
-        conditions = all(c.relation is FormRelation.LT for c in self.conditions)
-        return conditions and all(a.relation.is_strict for a in self.guards)
+        return is_open(self.formula, range(self.ring.size))
 
     @cached_property
     def is_convex(self) -> bool:

@@ -5,19 +5,19 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Sequence
 
 from qe.elimination.vs.candidates import in_order
-from qe.elimination.vs.openness import is_open, thinned
 from qe.elimination.vs.plan import Plan, choose, occurring, split_equation
 from qe.elimination.vs.points import SymbolicPoint, Value
 from qe.elimination.vs.result import All, Any, BlockResult, Choice, Chosen, Done, Open, Tree
-from qe.elimination.vs.sign_knowledge import Signs
 from qe.elimination.vs.substitute import Substitution
 from qe.elimination.vs.univariate_samples import solution
 from qe.exact.ring import Ring
 from qe.formula.build import conj, disj
 from qe.formula.normal import nnf
+from qe.formula.openness import is_open, thinned
 from qe.formula.syntax import FALSE, TRUE, And, Atom, Exists, Formula, Or
-from qe.formula.traverse import has_root_atoms, ring_of
+from qe.formula.traverse import conjuncts, has_root_atoms, ring_of
 from qe.options import Budget
+from qe.simplify.facts import NOTHING
 
 Simplifier = Callable[[Formula], Formula]
 
@@ -132,7 +132,7 @@ class _Run:
         rest = block - {plan.x}
 
         def attempt(point: SymbolicPoint, guard: Formula, formula: Formula, settled: frozenset[Atom]) -> Solved:
-            known = Signs.of(_free_of(formula, plan.x)).given(guard)
+            known = NOTHING.extended((*_free_of(formula, plan.x), *conjuncts(guard)))
             result = conj((guard, Substitution(plan.x, point, known, settled)(formula)))
             choice = Choice(self.ring.names[plan.x], point, plan.exponent, before)
             return self._substituted(choice, thinned(result, rest) if strict else result, rest)
@@ -171,7 +171,7 @@ def _independent(formula: Formula, block: frozenset[int]) -> tuple[tuple[Formula
     """The conjuncts free of the block, and the others grouped so that groups share no block variable."""
     context: list[Formula] = []
     groups: list[tuple[frozenset[int], list[Formula]]] = []
-    for arg in formula.args if isinstance(formula, And) else (formula,):
+    for arg in conjuncts(formula):
         inside = occurring(arg) & block
         if not inside:
             context.append(arg)
@@ -187,10 +187,9 @@ def _independent(formula: Formula, block: frozenset[int]) -> tuple[tuple[Formula
     return tuple(context), [conj(members) for _, members in groups]
 
 
-def _free_of(formula: Formula, x: int) -> Formula:
+def _free_of(formula: Formula, x: int) -> list[Formula]:
     """The conjuncts that do not contain the variable."""
-    args = formula.args if isinstance(formula, And) else (formula,)
-    return conj(a for a in args if x not in occurring(a))
+    return [a for a in conjuncts(formula) if x not in occurring(a)]
 
 
 def _without(formula: Formula, context: tuple[Formula, ...]) -> Formula:

@@ -19,10 +19,12 @@ from dataclasses import dataclass, replace
 from itertools import chain
 
 from qe.elimination.vs.points import LinearRoot, QuadraticRoot
-from qe.elimination.vs.sign_knowledge import Signs, factor_parts
 from qe.exact.ring import Poly
 from qe.formula.build import conj, disj
 from qe.formula.syntax import FALSE, And, Atom, Formula, Or, Relation
+from qe.formula.traverse import conjuncts
+from qe.simplify.factors import atom_under
+from qe.simplify.facts import Facts, factor_list
 
 EQ, NE, LT, GT, GE = Relation.EQ, Relation.NE, Relation.LT, Relation.GT, Relation.GE
 _UPWARD = (GT, GE)
@@ -51,7 +53,7 @@ class Gauss:
 
 
 def bounds(
-    formula: Formula, x: int, side: int, signs: Signs, omit: frozenset[Poly] = frozenset()
+    formula: Formula, x: int, side: int, facts: Facts, omit: frozenset[Poly] = frozenset()
 ) -> tuple[Candidate, ...] | None:
     """Candidates for the lower (side 1) or upper (side -1) ends of the truth set; None if a degree is too high.
 
@@ -59,31 +61,31 @@ def bounds(
     """
     match formula:
         case Atom(poly, _):
-            return _atom_points(formula, x, side, signs, omit) if poly.degree(x) else ()
+            return _atom_points(formula, x, side, facts, omit) if poly.degree(x) else ()
         case And(args):
-            gauss = best_gauss([gauss_constituent(a, x, side, signs) for a in args])
+            gauss = best_gauss([gauss_constituent(a, x, side, facts) for a in args])
             if gauss is not None:
-                return _with_gauss(formula, *gauss, x, side, signs, omit)
-            return _joined(_within(formula, args, k, bounds(arg, x, side, signs, omit)) for k, arg in enumerate(args))
+                return _with_gauss(formula, *gauss, x, side, facts, omit)
+            return _joined(_within(formula, args, k, bounds(arg, x, side, facts, omit)) for k, arg in enumerate(args))
         case Or(args):
-            return _joined(bounds(arg, x, side, signs, omit) for arg in args)
+            return _joined(bounds(arg, x, side, facts, omit) for arg in args)
     return ()
 
 
-def gauss_constituent(formula: Formula, x: int, side: int, signs: Signs) -> Gauss | None:
+def gauss_constituent(formula: Formula, x: int, side: int, facts: Facts) -> Gauss | None:
     """The formula as a Gauss constituent, or None if it is none (or its degree is too high)."""
     match formula:
         case Atom(poly, Relation.EQ) if poly.degree(x):
-            points = _atom_points(formula, x, side, signs)
-            return None if points is None else Gauss(points, vanishing(poly, x, signs))
+            points = _atom_points(formula, x, side, facts)
+            return None if points is None else Gauss(points, vanishing(poly, x, facts))
         case Or(args):
-            parts = [gauss_constituent(a, x, side, signs) for a in args]
+            parts = [gauss_constituent(a, x, side, facts) for a in args]
             found = [p for p in parts if p is not None]
             if len(found) < len(parts):
                 return None
             return Gauss(tuple(chain(*(p.candidates for p in found))), disj(p.degenerate for p in found))
         case And(args):
-            best = best_gauss([gauss_constituent(a, x, side, signs) for a in args])
+            best = best_gauss([gauss_constituent(a, x, side, facts) for a in args])
             if best is None:
                 return None
             gauss, k = best
@@ -130,33 +132,33 @@ def in_order(candidates: Iterable[Candidate]) -> Iterator[tuple[Candidate, froze
     tried: set[Atom] = set()
     for source, group in sorted(by_source.items(), key=lambda item: points_cost(item[1])):
         for candidate in group:
-            args = candidate.formula.args if isinstance(candidate.formula, And) else ()
-            yield candidate, frozenset(a for a in args if a in tried) if candidate.point.epsilon else frozenset()
+            members = conjuncts(candidate.formula) if candidate.point.epsilon else ()
+            yield candidate, frozenset(a for a in members if isinstance(a, Atom) and a in tried)
         if source.relation.is_strict and all(c.complete for c in group):
             tried.add(source)
 
 
-def vanishing(f: Poly, x: int, signs: Signs) -> Formula:
+def vanishing(f: Poly, x: int, facts: Facts) -> Formula:
     """The condition that f vanishes identically in x: a factor without x does, or all coefficients of another."""
-    _, parts = factor_parts(f)
+    parts = factor_list(f)
     cases = []
     for factor, _ in parts:
         if factor.degree(x):
-            cases.append(conj(signs.atom(c, EQ) for c in reversed(factor.coefficients(x)) if c))
+            cases.append(conj(atom_under(c, EQ, facts) for c in reversed(factor.coefficients(x)) if c))
         else:
-            cases.append(signs.atom(factor, EQ))
+            cases.append(atom_under(factor, EQ, facts))
     return disj(cases)
 
 
 def _with_gauss(
-    whole: And, gauss: Gauss, k: int, x: int, side: int, signs: Signs, omit: frozenset[Poly]
+    whole: And, gauss: Gauss, k: int, x: int, side: int, facts: Facts, omit: frozenset[Poly]
 ) -> tuple[Candidate, ...] | None:
     """The Gauss constituent's candidates, and where it degenerates those of the other conjuncts."""
     args = whole.args
     inner = _within(whole, args, k, gauss.candidates)
     if gauss.degenerate == FALSE or inner is None:
         return inner
-    others = _joined(_within(whole, args, j, bounds(arg, x, side, signs, omit)) for j, arg in enumerate(args) if j != k)
+    others = _joined(_within(whole, args, j, bounds(arg, x, side, facts, omit)) for j, arg in enumerate(args) if j != k)
     if others is None:
         return None
     return (*inner, *(replace(c, guard=conj((gauss.degenerate, c.guard))) for c in others))
@@ -182,10 +184,10 @@ def _joined(parts: Iterable[tuple[Candidate, ...] | None]) -> tuple[Candidate, .
 
 
 def _atom_points(
-    given: Atom, x: int, side: int, signs: Signs, omit: frozenset[Poly] = frozenset()
+    given: Atom, x: int, side: int, facts: Facts, omit: frozenset[Poly] = frozenset()
 ) -> tuple[Candidate, ...] | None:
     """The points where the atom can turn true, with guards."""
-    _, parts = factor_parts(given.poly)
+    parts = factor_list(given.poly)
     inside = [(f, e) for f, e in parts if f.degree(x)]
     if any(f.degree(x) > 2 for f, _ in inside):
         return None
@@ -198,9 +200,9 @@ def _atom_points(
     out: list[Candidate] = []
     for factor, _ in inside:
         if factor.degree(x) == 1:
-            out += _linear(given, factor, x, epsilon, content, direction, signs)
+            out += _linear(given, factor, x, epsilon, content, direction, facts)
         else:
-            found = _quadratic(given, factor, x, epsilon, content, direction, signs)
+            found = _quadratic(given, factor, x, epsilon, content, direction, facts)
             if factor in omit:
                 found = (replace(c, complete=False) for c in found if isinstance(c.point, LinearRoot))
             out += found
@@ -208,31 +210,31 @@ def _atom_points(
 
 
 def _linear(
-    given: Atom, f: Poly, x: int, epsilon: int, content: Poly | None, direction: int, signs: Signs
+    given: Atom, f: Poly, x: int, epsilon: int, content: Poly | None, direction: int, facts: Facts
 ) -> Iterable[Candidate]:
     """-b/a: where content*a has the sign ``direction``, or a /= 0 if no direction is known."""
     b, a = f.coefficients(x)
-    guard = signs.atom(a, NE) if content is None else signs.atom(content * a, GT if direction > 0 else LT)
+    guard = atom_under(a, NE, facts) if content is None else atom_under(content * a, GT if direction > 0 else LT, facts)
     if guard != FALSE:
         yield Candidate(LinearRoot(a, b, epsilon), guard, given, given)
 
 
 def _quadratic(
-    given: Atom, f: Poly, x: int, epsilon: int, content: Poly | None, direction: int, signs: Signs
+    given: Atom, f: Poly, x: int, epsilon: int, content: Poly | None, direction: int, facts: Facts
 ) -> Iterable[Candidate]:
     """Both roots (one, if the direction is known) where a /= 0 and D >= 0; -c/b where a = 0."""
     c, b, a = f.coefficients(x)
-    proper = conj((signs.atom(a, NE), signs.atom(b * b - 4 * (a * c), GE)))
+    proper = conj((atom_under(a, NE, facts), atom_under(b * b - 4 * (a * c), GE, facts)))
     if proper != FALSE:
         for branch in (-1, 1):
             guard = proper
             if content is not None:
-                guard = conj((proper, signs.atom(content, GT if branch == direction else LT)))
+                guard = conj((proper, atom_under(content, GT if branch == direction else LT, facts)))
             if guard != FALSE:
                 yield Candidate(QuadraticRoot(a, b, c, branch, epsilon), guard, given, given)
-    flat = signs.atom(a, EQ)
+    flat = atom_under(a, EQ, facts)
     if flat != FALSE and b:
-        for candidate in _linear(given, _affine(f, b, c, x), x, epsilon, content, direction, signs):
+        for candidate in _linear(given, _affine(f, b, c, x), x, epsilon, content, direction, facts):
             yield replace(candidate, guard=conj((flat, candidate.guard)))
 
 

@@ -12,7 +12,6 @@ from dataclasses import dataclass
 
 from qe.elimination.protocol import Context, Outcome, Problem
 from qe.elimination.vs.points import Infinity
-from qe.elimination.vs.sign_knowledge import Signs
 from qe.elimination.vs.substitute import Substitution
 from qe.formula.build import atom, conj, disj, exists, neg
 from qe.formula.normal import nnf
@@ -20,6 +19,7 @@ from qe.formula.syntax import FALSE, Formula, Relation
 from qe.formula.traverse import polynomials
 from qe.options import Budget, Options
 from qe.rules.preparation import prepare
+from qe.simplify.facts import NOTHING
 from qe.simplify.simplify import simplify
 
 
@@ -59,7 +59,7 @@ def far_first(variable: str, body: Formula, *, budget: Budget) -> FarFirst | Non
     lead = max(high, key=lambda p: p.degree(x)).leading(x)
     if lead.is_constant:
         return None
-    far = simplify(disj(Substitution(x, Infinity(side), Signs())(body) for side in (-1, 1)))
+    far = simplify(disj(Substitution(x, Infinity(side), NOTHING)(body) for side in (-1, 1)))
     near = conj((body, nnf(neg(far))))
     for relation in (Relation.GT, Relation.LT):
         if prepare(exists([variable], conj((near, atom(lead, relation)))), budget=budget).formula != FALSE:

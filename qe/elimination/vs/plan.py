@@ -16,10 +16,10 @@ from qe.elimination.vs.candidates import (
 from qe.elimination.vs.points import Infinity
 from qe.elimination.vs.radical_free import without_radicals
 from qe.elimination.vs.shift import common_exponent, shifted
-from qe.elimination.vs.sign_knowledge import Signs, factor_parts
 from qe.formula.build import conj
-from qe.formula.syntax import FALSE, And, Atom, Formula, Relation, RootAtom
-from qe.formula.traverse import atoms, children
+from qe.formula.syntax import FALSE, Atom, Formula, Relation, RootAtom
+from qe.formula.traverse import atoms, children, conjuncts
+from qe.simplify.facts import NOTHING, Facts, factor_list
 
 _INFINITY_COST = 2.0  # substituting an infinity, in units of a linear root with constant denominator
 _QUADRATIC_SPREAD = 1.5  # how much worse it is when a block variable's degree grows, per degree
@@ -58,12 +58,12 @@ def occurring(formula: Formula) -> frozenset[int]:
 def choose(formula: Formula, block: frozenset[int], *, strict: bool) -> Plan | None:
     """The cheapest plan over the variables of the block, all occurring; None if every degree is too high.
 
-    ``strict``: the solution set in the block is open (see ``openness``).
+    ``strict``: the solution set in the block is open (see ``qe.formula.openness``).
     """
-    signs = Signs.of(formula)
+    facts = NOTHING.extended(conjuncts(formula))
     best: Plan | None = None
     for x in sorted(block):
-        plan = _plan(formula, x, block - {x}, signs, strict)
+        plan = _plan(formula, x, block - {x}, facts, strict)
         if plan is not None and (best is None or plan.cost < best.cost):
             best = plan
             if best.cost <= 1.0:
@@ -71,23 +71,22 @@ def choose(formula: Formula, block: frozenset[int], *, strict: bool) -> Plan | N
     return best
 
 
-def _plan(formula: Formula, x: int, others: frozenset[int], signs: Signs, strict: bool) -> Plan | None:
+def _plan(formula: Formula, x: int, others: frozenset[int], facts: Facts, strict: bool) -> Plan | None:
     if any(isinstance(a, RootAtom) and x in occurring(a) for a in atoms(formula)):
         return None
     exponent = common_exponent(formula, x)
-    originals = args = formula.args if isinstance(formula, And) else (formula,)
+    originals = args = conjuncts(formula)
     if exponent > 1:
         args = shifted(args, x, exponent, strict=strict)
         formula = conj(args)
-        table = {p: s for p, s in signs.table.items() if not p.degree(x)}
-        signs = Signs(table).given(formula)
+        facts = NOTHING.extended(args)
     size = sum(1.0 + _spread(a, x, others) for a in atoms(formula) if a.poly.degree(x))
-    gauss = best_gauss([gauss_constituent(a, x, 1, signs) for a in args])
+    gauss = best_gauss([gauss_constituent(a, x, 1, facts) for a in args])
     if gauss is not None:
-        found = _with_gauss(formula, args, originals, *gauss, x, exponent, size, signs)
+        found = _with_gauss(formula, args, originals, *gauss, x, exponent, size, facts)
         if found is not None:
             return found
-    return _with_bounds(formula, x, exponent, size, signs)
+    return _with_bounds(formula, x, exponent, size, facts)
 
 
 def _spread(found: Atom | RootAtom, x: int, others: frozenset[int]) -> float:
@@ -106,7 +105,7 @@ def _with_gauss(
     x: int,
     exponent: int,
     size: float,
-    signs: Signs,
+    facts: Facts,
 ) -> Plan | None:
     """Only the points of the Gauss constituent; where it vanishes identically, the problem without it."""
     rest = (*args[:k], *args[k + 1 :])
@@ -119,24 +118,24 @@ def _with_gauss(
     if isinstance(args[k], Atom):
         without = conj((gauss.degenerate, *originals[:k], *originals[k + 1 :]))
         return Plan(x, exponent, formula, candidates, (), None, without, cost)
-    plain = _with_bounds(formula, x, exponent, size, signs)
+    plain = _with_bounds(formula, x, exponent, size, facts)
     if plain is None:
         return None
     others = tuple(replace(c, guard=conj((gauss.degenerate, c.guard))) for c in plain.candidates)
     return Plan(x, exponent, formula, candidates + others, plain.infinities, gauss.degenerate, FALSE, cost + plain.cost)
 
 
-def _with_bounds(formula: Formula, x: int, exponent: int, size: float, signs: Signs) -> Plan | None:
+def _with_bounds(formula: Formula, x: int, exponent: int, size: float, facts: Facts) -> Plan | None:
     """Lower bounds with -infinity, upper bounds with +infinity, or a set without radicals: the cheapest."""
     best: Plan | None = None
     for side in (1, -1):
-        found = bounds(formula, x, side, signs)
+        found = bounds(formula, x, side, facts)
         if found is None:
             return None
         cost = (points_cost(found) + _INFINITY_COST) * size
         if best is None or cost < best.cost:
             best = Plan(x, exponent, formula, found, (Infinity(-side),), None, FALSE, cost)
-    plain = without_radicals(formula, x, signs)
+    plain = without_radicals(formula, x, facts)
     if plain is not None and best is not None:
         cost = (points_cost(plain) + 2 * _INFINITY_COST) * size
         if cost < best.cost:
@@ -146,10 +145,10 @@ def _with_bounds(formula: Formula, x: int, exponent: int, size: float, signs: Si
 
 def split_equation(formula: Formula, block: frozenset[int]) -> tuple[Formula, ...] | None:
     """f*g = 0 and F as the two problems f = 0 and F, g = 0 and F, if a conjoined equation factors so."""
-    args = formula.args if isinstance(formula, And) else (formula,)
+    args = conjuncts(formula)
     for k, arg in enumerate(args):
         if isinstance(arg, Atom) and arg.relation is Relation.EQ:
-            _, parts = factor_parts(arg.poly)
+            parts = factor_list(arg.poly)
             if len(parts) > 1 and block & set(arg.poly.variables):
                 rest = (*args[:k], *args[k + 1 :])
                 return tuple(conj((Atom(f, Relation.EQ), *rest)) for f, _ in parts)

@@ -7,21 +7,22 @@ from itertools import combinations
 
 from qe.elimination.vs.candidates import Candidate, bounds
 from qe.elimination.vs.points import LinearRoot
-from qe.elimination.vs.sign_knowledge import Signs, factor_parts
 from qe.exact.ring import Poly
-from qe.formula.syntax import FALSE, And, Atom, Formula, Relation
-from qe.formula.traverse import atoms
+from qe.formula.syntax import FALSE, Atom, Formula, Relation
+from qe.formula.traverse import atoms, conjuncts
+from qe.simplify.factors import atom_under
+from qe.simplify.facts import Facts, factor_list
 
 EQ, NE, LT, LE, GT = Relation.EQ, Relation.NE, Relation.LT, Relation.LE, Relation.GT
 
 
-def without_radicals(formula: Formula, x: int, signs: Signs) -> tuple[Candidate, ...] | None:
+def without_radicals(formula: Formula, x: int, facts: Facts) -> tuple[Candidate, ...] | None:
     """Candidates that, with both infinities, are an elimination set without square roots; None if none applies."""
-    family = convex_family(formula, x, signs)
+    family = convex_family(formula, x, facts)
     if family:
-        return _of_family(formula, family, x, signs)
+        return _of_family(formula, family, x, facts)
     g = lone_quadratic(formula, x)
-    return None if g is None else _of_lone(formula, g, x, signs)
+    return None if g is None else _of_lone(formula, g, x, facts)
 
 
 def lone_quadratic(formula: Formula, x: int) -> Poly | None:
@@ -34,7 +35,7 @@ def lone_quadratic(formula: Formula, x: int) -> Poly | None:
     for given in atoms(formula):
         if not given.poly.degree(x):
             continue
-        inside = [(f, e) for f, e in factor_parts(given.poly)[1] if f.degree(x)]
+        inside = [(f, e) for f, e in factor_list(given.poly) if f.degree(x)]
         for factor, exponent in inside:
             if factor.degree(x) < 2:
                 continue
@@ -47,7 +48,7 @@ def lone_quadratic(formula: Formula, x: int) -> Poly | None:
     return found if weak <= 1 else None
 
 
-def _of_lone(formula: Formula, g: Poly, x: int, signs: Signs) -> tuple[Candidate, ...] | None:
+def _of_lone(formula: Formula, g: Poly, x: int, facts: Facts) -> tuple[Candidate, ...] | None:
     """THEOREM. Let g = a*x^2 + b*x + c be the lone quadratic of F. If F holds somewhere, it holds at an infinity, or
 
     at the lower or upper end of a component of its truth set that is a root of another atom's polynomial (or of g
@@ -55,10 +56,10 @@ def _of_lone(formula: Formula, g: Poly, x: int, signs: Signs) -> tuple[Candidate
     atoms in g. If they differ, the vertex of g is between them. If they coincide, the atom turns true at a root
     and false right after it, so it is the weak one and the root is double, the vertex.
     """
-    ends = _other_ends(formula, x, signs, frozenset((g,)))
+    ends = _other_ends(formula, x, facts, frozenset((g,)))
     if ends is None:
         return None
-    return (*ends, *_zero_of(g.derivative(x), x, signs, formula, Atom(g, LT), signs.atom(g.leading(x), NE)))
+    return (*ends, *_zero_of(g.derivative(x), x, facts, formula, Atom(g, LT), atom_under(g.leading(x), NE, facts)))
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,30 +71,30 @@ class Parabola:
     f: Poly
 
 
-def convex_family(formula: Formula, x: int, signs: Signs) -> tuple[Parabola, ...]:
+def convex_family(formula: Formula, x: int, facts: Facts) -> tuple[Parabola, ...]:
     """The conjuncts f < 0 and f <= 0 (f of degree 2, known positive leading coefficient) met nowhere else."""
     found: list[Parabola] = []
     elsewhere: set[Poly] = set()
-    for part in formula.args if isinstance(formula, And) else (formula,):
-        parabola = _parabola(part, x, signs) if isinstance(part, Atom) else None
+    for part in conjuncts(formula):
+        parabola = _parabola(part, x, facts) if isinstance(part, Atom) else None
         if parabola is not None:
             found.append(parabola)
         else:
-            elsewhere |= {f for a in atoms(part) for f, _ in factor_parts(a.poly)[1]}
+            elsewhere |= {f for a in atoms(part) for f, _ in factor_list(a.poly)}
     return tuple(p for p in found if p.factor not in elsewhere)
 
 
-def _parabola(given: Atom, x: int, signs: Signs) -> Parabola | None:
+def _parabola(given: Atom, x: int, facts: Facts) -> Parabola | None:
     if given.relation in (EQ, NE) or given.poly.degree(x) != 2:
         return None
     f = given.poly if given.relation in (LT, LE) else -given.poly
-    inside = [(g, e) for g, e in factor_parts(given.poly)[1] if g.degree(x)]
-    if len(inside) != 1 or inside[0][1] != 1 or signs.sign(f.leading(x)) != 1:
+    inside = [(g, e) for g, e in factor_list(given.poly) if g.degree(x)]
+    if len(inside) != 1 or inside[0][1] != 1 or facts.sign(f.leading(x)) != 1:
         return None
     return Parabola(given, inside[0][0], f)
 
 
-def _of_family(formula: Formula, family: tuple[Parabola, ...], x: int, signs: Signs) -> tuple[Candidate, ...] | None:
+def _of_family(formula: Formula, family: tuple[Parabola, ...], x: int, facts: Facts) -> tuple[Candidate, ...] | None:
     """THEOREM. Let F = f1 ? 0 and ... and fm ? 0 and G (each ? is < or <=), fi with leading coefficient ai > 0. If F
 
     holds somewhere, it holds at an infinity, or at an end of a component of its truth set that comes from an atom
@@ -103,32 +104,32 @@ def _of_family(formula: Formula, family: tuple[Parabola, ...], x: int, signs: Si
     and the root is double, the vertex. If e1 < e2 and hij changes sign, its root is inside. If hij(e1) = 0, then
     fj(e1) = 0 = fj(e2) and the vertex of fj is inside; if hij(e2) = 0, likewise for fi.
     """
-    ends = _other_ends(formula, x, signs, frozenset(p.factor for p in family))
+    ends = _other_ends(formula, x, facts, frozenset(p.factor for p in family))
     if ends is None:
         return None
     out = list(ends)
     for p in family:
-        out += _zero_of(p.f.derivative(x), x, signs, formula, p.source)
+        out += _zero_of(p.f.derivative(x), x, facts, formula, p.source)
     for p, q in combinations(family, 2):
-        out += _zero_of(q.f.leading(x) * p.f - p.f.leading(x) * q.f, x, signs, formula, p.source)
+        out += _zero_of(q.f.leading(x) * p.f - p.f.leading(x) * q.f, x, facts, formula, p.source)
     return tuple(out)
 
 
-def _other_ends(formula: Formula, x: int, signs: Signs, omit: frozenset[Poly]) -> tuple[Candidate, ...] | None:
+def _other_ends(formula: Formula, x: int, facts: Facts, omit: frozenset[Poly]) -> tuple[Candidate, ...] | None:
     """The lower and the upper ends that come from other polynomials."""
-    lower, upper = (bounds(formula, x, side, signs, omit) for side in (1, -1))
+    lower, upper = (bounds(formula, x, side, facts, omit) for side in (1, -1))
     return None if lower is None or upper is None else lower + upper
 
 
 def _zero_of(
-    p: Poly, x: int, signs: Signs, formula: Formula, source: Atom, guard: Formula | None = None
+    p: Poly, x: int, facts: Facts, formula: Formula, source: Atom, guard: Formula | None = None
 ) -> tuple[Candidate, ...]:
     """The root of a polynomial of degree at most 1, tried in the whole formula."""
-    factor = next((f for f, _ in factor_parts(p)[1] if f.degree(x)), None) if p else None
+    factor = next((f for f, _ in factor_list(p) if f.degree(x)), None) if p else None
     if factor is None:
         return ()
     b, a = factor.coefficients(x)
-    condition = signs.atom(a, NE) if guard is None else guard
+    condition = atom_under(a, NE, facts) if guard is None else guard
     if condition == FALSE:
         return ()
     return (Candidate(LinearRoot(a, b), condition, formula, source, complete=False),)

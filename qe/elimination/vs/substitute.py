@@ -8,27 +8,28 @@ minus every sufficiently small positive number, or at every sufficiently large (
 from __future__ import annotations
 
 from qe.elimination.vs.points import Infinity, LinearRoot, QuadraticRoot, SymbolicPoint
-from qe.elimination.vs.sign_knowledge import Signs
 from qe.elimination.vs.tables import root_condition
 from qe.exact.ring import Poly
 from qe.formula.build import conj, disj
 from qe.formula.syntax import Atom, Formula, Relation, RootAtom
 from qe.formula.traverse import map_atoms
+from qe.simplify.factors import atom_under
+from qe.simplify.facts import Facts
 
 EQ, NE, LT = Relation.EQ, Relation.NE, Relation.LT
 _UPWARD = (Relation.GT, Relation.GE)
 
 
 class Substitution:
-    """``x`` (an index into the ring) replaced by ``point``, in places where ``signs`` hold. Caches per atom.
+    """``x`` (an index into the ring) replaced by ``point``, in places where ``facts`` hold. Caches per atom.
 
     The strict atoms in ``settled`` are known not to vanish at the root that a point is beside.
     """
 
-    __slots__ = ("_done", "point", "settled", "signs", "x")
+    __slots__ = ("_done", "facts", "point", "settled", "x")
 
-    def __init__(self, x: int, point: SymbolicPoint, signs: Signs, settled: frozenset[Atom] = frozenset()) -> None:
-        self.x, self.point, self.signs, self.settled = x, point, signs, settled
+    def __init__(self, x: int, point: SymbolicPoint, facts: Facts, settled: frozenset[Atom] = frozenset()) -> None:
+        self.x, self.point, self.facts, self.settled = x, point, facts, settled
         self._done: dict[Atom, Formula] = {}
 
     def __call__(self, formula: Formula) -> Formula:
@@ -48,35 +49,39 @@ class Substitution:
     def atom(self, f: Poly, relation: Relation) -> Formula:
         """``f relation 0`` at the point."""
         if not f.degree(self.x):
-            return self.signs.atom(f, relation)
+            return self._known(f, relation)
         if isinstance(self.point, Infinity):
             return self._identically(f, relation) or self._at_infinity(f, relation, self.point.sign)
         if self.point.epsilon:
             return self._identically(f, relation) or self._beside(f, relation, self.point.epsilon)
         return self._exactly(f, relation)
 
+    def _known(self, f: Poly, relation: Relation) -> Formula:
+        """``f relation 0`` for a polynomial without x."""
+        return atom_under(f, relation, self.facts)
+
     def _identically(self, f: Poly, relation: Relation) -> Formula | None:
         """At a transcendental point f = 0 iff all coefficients vanish; None for an inequality."""
         if relation is EQ:
-            return conj(self.signs.atom(c, EQ) for c in f.coefficients(self.x))
+            return conj(self._known(c, EQ) for c in f.coefficients(self.x))
         if relation is NE:
-            return disj(self.signs.atom(c, NE) for c in f.coefficients(self.x))
+            return disj(self._known(c, NE) for c in f.coefficients(self.x))
         return None
 
     def _at_infinity(self, f: Poly, relation: Relation, side: int) -> Formula:
         """The first coefficient from above that is not zero decides (with alternating signs at -infinity)."""
         strict = Relation.GT if relation in _UPWARD else LT
         coefficients = f.coefficients(self.x)
-        result = self.signs.atom(coefficients[0], relation)
+        result = self._known(coefficients[0], relation)
         for k in range(1, len(coefficients)):
             c = coefficients[k] if side > 0 or k % 2 == 0 else -coefficients[k]
-            result = disj((self.signs.atom(c, strict), conj((self.signs.atom(c, EQ), result))))
+            result = disj((self._known(c, strict), conj((self._known(c, EQ), result))))
         return result
 
     def _beside(self, f: Poly, relation: Relation, side: int) -> Formula:
         """f < 0 just right of e iff f(e) < 0, or f(e) = 0 and f' < 0 just right of e (left: -f')."""
         if not f.degree(self.x):
-            return self.signs.atom(f, relation)
+            return self._known(f, relation)
         strict = Relation.GT if relation in _UPWARD else LT
         slope = f.derivative(self.x)
         here = self._exactly(f, EQ)
@@ -92,18 +97,11 @@ class Substitution:
 
     def _at_quotient(self, f: Poly, relation: Relation, e: LinearRoot) -> Formula:
         """a^n * f(-b/a) is a polynomial; for odd n its sign is corrected by that of a."""
-        coefficients = f.coefficients(self.x)
-        n = len(coefficients) - 1
-        value, power, minus = coefficients[n], f.ring.constant(1), -e.b
-        for k in range(n - 1, -1, -1):
-            power = power * e.a
-            value = value * minus
-            if coefficients[k]:
-                value = value + coefficients[k] * power
-        if n % 2 and relation not in (EQ, NE):
-            sign = self.signs.sign(e.a)
+        value = f.at_quotient(self.x, -e.b, e.a)
+        if f.degree(self.x) % 2 and relation not in (EQ, NE):
+            sign = self.facts.sign(e.a)
             value = value * (e.a if sign is None else sign)
-        return self.signs.atom(value, relation)
+        return self._known(value, relation)
 
     def _at_quadratic(self, f: Poly, relation: Relation, e: QuadraticRoot) -> Formula:
         """Reduce f to u*x + v modulo the quadratic g, then a sign table.
@@ -115,11 +113,11 @@ class Substitution:
         a, b, c = e.a, e.b, e.c
         first, second = 2 * (a * v) - u * b, u if e.branch > 0 else -u
         norm = a * (v * v) - b * (u * v) + c * (u * u)
-        sign = self.signs.sign(a)
+        sign = self.facts.sign(a)
         scale: Poly | int = a if sign is None else sign
         if k % 2 == 0:  # the factor a^(k+1) has the sign of a
             first, second = first * scale, second * scale
-        return root_condition(first, second, norm * scale, relation, self.signs.atom)
+        return root_condition(first, second, norm * scale, relation, self._known)
 
 
 def _remainder(f: Poly, x: int, e: QuadraticRoot) -> tuple[Poly, Poly, int]:

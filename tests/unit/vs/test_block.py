@@ -8,17 +8,17 @@ import pytest
 
 from qe.elimination.vs import BlockResult, eliminate_block, witness
 from qe.elimination.vs.candidates import bounds, in_order
-from qe.elimination.vs.openness import is_open, thinned
 from qe.elimination.vs.radical_free import convex_family, lone_quadratic, without_radicals
-from qe.elimination.vs.sign_knowledge import Signs
 from qe.elimination.vs.substitute import Substitution
 from qe.exact.ring import Ring
 from qe.formula.build import conj, disj
 from qe.formula.evaluate import holds_at
+from qe.formula.openness import is_open, thinned
 from qe.formula.syntax import FALSE, TRUE, And, Atom, Exists, Formula
-from qe.formula.traverse import atoms, free_variables, polynomials
+from qe.formula.traverse import atoms, conjuncts, free_variables, polynomials
 from qe.io.text import read
 from qe.options import Budget
+from qe.simplify.facts import NOTHING
 from qe.simplify.simplify import simplify
 
 
@@ -154,7 +154,7 @@ RING = Ring.of(("a", "x", "y"))
 def test_settled_atoms_are_strict_and_tried_before() -> None:
     matrix = read("ex x. x > a and x > b and x >= c and x /= d and x^2 <= e").body  # type: ignore[attr-defined]
     x = next(iter(matrix.args)).poly.ring.index["x"]
-    found = bounds(matrix, x, 1, Signs())
+    found = bounds(matrix, x, 1, NOTHING)
     assert found is not None
     tried: set[Atom] = set()
     for candidate, settled in in_order(found):
@@ -170,12 +170,12 @@ def test_settled_atoms_lose_only_the_zero_case() -> None:
     matrix = read("ex x. x > a and x > b").body  # type: ignore[attr-defined]
     first, second = matrix.args
     ring = first.poly.ring
-    found = bounds(first, ring.index["x"], 1, Signs())
+    found = bounds(first, ring.index["x"], 1, NOTHING)
     assert found is not None
     point = found[0].point
     assert point.epsilon == 1
-    full = Substitution(ring.index["x"], point, Signs())(second)
-    short = Substitution(ring.index["x"], point, Signs(), frozenset((second,)))(second)
+    full = Substitution(ring.index["x"], point, NOTHING)(second)
+    short = Substitution(ring.index["x"], point, NOTHING, frozenset((second,)))(second)
     agree(full, "a >= b")
     agree(short, "a > b")
 
@@ -219,7 +219,7 @@ def test_lone_quadratic(text: str, alone: bool) -> None:
 def test_convex_family(text: str, size: int) -> None:
     matrix = read(text)
     x = next(iter(polynomials(matrix))).ring.index["x"]
-    assert len(convex_family(matrix, x, Signs.of(matrix))) == size
+    assert len(convex_family(matrix, x, NOTHING.extended(conjuncts(matrix)))) == size
 
 
 def test_vertices_and_crossings_of_circles() -> None:
@@ -235,7 +235,7 @@ def test_vertices_and_crossings_of_circles() -> None:
 
 def test_incomplete_sources_do_not_settle() -> None:
     matrix = read("x^2 - a < 0 and x > b and x < c")
-    found = without_radicals(matrix, next(iter(polynomials(matrix))).ring.index["x"], Signs())
+    found = without_radicals(matrix, next(iter(polynomials(matrix))).ring.index["x"], NOTHING)
     assert found is not None
     quadratic = {a for a in atoms(matrix) if isinstance(a, Atom) and a.poly.total_degree == 2}
     assert all(not settled & quadratic for _, settled in in_order((*reversed(found), *found)))

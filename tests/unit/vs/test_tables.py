@@ -9,7 +9,6 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from qe.elimination.vs.points import Infinity, LinearRoot, QuadraticRoot, TestPoint
-from qe.elimination.vs.sign_knowledge import Signs
 from qe.elimination.vs.substitute import Substitution
 from qe.elimination.vs.tables import root_condition
 from qe.exact.algebraic import RealAlgebraic, real_roots
@@ -17,6 +16,8 @@ from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom
 from qe.formula.evaluate import holds_at
 from qe.formula.syntax import FALSE, TRUE, Relation
+from qe.simplify.factors import atom_under
+from qe.simplify.facts import NOTHING
 from tests.strategies import polynomials, rationals
 from tests.unit.vs.line import between, samples, sign_at, specialise
 
@@ -137,7 +138,7 @@ def check(f: Poly, point: TestPoint, relation: Relation, values: dict[str, Fract
     sign = actual_sign(f, point, values)
     assume(sign is not None)
     assert sign is not None
-    result = Substitution(X, point, Signs())(atom(f, relation))
+    result = Substitution(X, point, NOTHING)(atom(f, relation))
     assert all(not p.degree(X) for p in _polys(result))
     assert holds_at(result, values) == relation.holds(sign)
 
@@ -151,7 +152,7 @@ def _polys(formula: object) -> list[Poly]:
 @given(polynomials(RING, max_degree=4), st.sampled_from(tuple(Relation)), PARAMETER)
 def test_reduced_atom_means_the_same(f: Poly, relation: Relation, values: dict[str, Fraction]) -> None:
     point = {**values, "x": values["a"] + 1}
-    assert holds_at(Signs().atom(f, relation), point) == holds_at(atom(f, relation), point)
+    assert holds_at(atom_under(f, relation, NOTHING), point) == holds_at(atom(f, relation), point)
 
 
 @given(
@@ -168,7 +169,9 @@ def test_reduced_atom_under_facts(
     point = {**values, "x": Fraction(1)}
     assume(holds_at(fact, point))
     product = f * g
-    assert holds_at(Signs.of(fact).atom(product, relation), point) == holds_at(atom(product, relation), point)
+    assert holds_at(atom_under(product, relation, NOTHING.extended((fact,))), point) == holds_at(
+        atom(product, relation), point
+    )
 
 
 @pytest.mark.parametrize("relation", list(Relation))
@@ -177,7 +180,7 @@ def test_sum_of_squares(relation: Relation) -> None:
     for values in ((0, 0), (1, 0), (0, -2), (3, 1)):
         point = {"a": values[0], "b": values[1], "x": 0}
         for p in (a**2 + b**2, -(a**2) - 3 * a**4 * b**2, a**2 + b**2 + 1):
-            assert holds_at(Signs().atom(p, relation), point) == holds_at(atom(p, relation), point)
+            assert holds_at(atom_under(p, relation, NOTHING), point) == holds_at(atom(p, relation), point)
 
 
 def test_specialise_is_substitution() -> None:
