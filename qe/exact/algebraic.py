@@ -15,6 +15,7 @@ from typing import Any
 from flint import arb, fmpq, fmpz, fmpz_mpoly_ctx, fmpz_poly
 
 from qe.errors import InputError
+from qe.exact.algebraic_text import format_root
 from qe.exact.balls import FIRST_PRECISION, ball_sign, hull, lower_end, precision, upper_end
 from qe.exact.isolate import Interval, isolate, sign_at
 
@@ -237,9 +238,7 @@ class RealAlgebraic:
         return _restore, (self.minimal_polynomial, self.index)
 
     def __str__(self) -> str:
-        from qe.exact.algebraic_text import format_algebraic
-
-        return format_algebraic(self)
+        return format_root(self.minimal_polynomial, self.index)
 
     def __repr__(self) -> str:
         return f"RealAlgebraic({self} ≈ {float(self):.6g})"

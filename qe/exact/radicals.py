@@ -8,7 +8,6 @@ from math import gcd, isqrt
 from flint import fmpq, fmpz, fmpz_poly
 
 from qe.exact.algebraic import RealAlgebraic, irreducible_roots
-from qe.exact.algebraic_text import format_algebraic
 
 
 def format_number(a: RealAlgebraic) -> str:
@@ -22,7 +21,7 @@ def format_number(a: RealAlgebraic) -> str:
         text = _biquadratic(a)
         if text is not None:
             return text
-    return format_algebraic(a)
+    return str(a)
 
 
 def _biquadratic(a: RealAlgebraic) -> str | None:
@@ -63,7 +62,7 @@ def _square_root_text(u: RealAlgebraic, positive: bool) -> str:
         if positive:
             return f"{first} {'+' if plus else '-'} {second}"
         return f"-{first} {'-' if plus else '+'} {second}"
-    return f"{'' if positive else '-'}sqrt({format_algebraic(u)})"
+    return f"{'' if positive else '-'}sqrt({u})"
 
 
 def _rational_root(value: Fraction) -> Fraction | None:

@@ -8,70 +8,11 @@ the invariants stated on each class; these constructors do not simplify.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from enum import Enum
 
 from qe.exact.ring import Poly
-
-
-class Relation(Enum):
-    """A comparison with zero. ``value`` is its text form."""
-
-    EQ = "="
-    NE = "/="
-    LT = "<"
-    LE = "<="
-    GT = ">"
-    GE = ">="
-
-    def holds(self, sign: int) -> bool:
-        """Whether a number of this sign (-1, 0, 1) satisfies the relation."""
-        return sign in _SIGNS[self]
-
-    @property
-    def negated(self) -> Relation:
-        """The relation that holds exactly where this one does not."""
-        return _NEGATED[self]
-
-    @property
-    def flipped(self) -> Relation:
-        """The relation r' with: p r 0 iff -p r' 0."""
-        return _FLIPPED[self]
-
-    @property
-    def is_strict(self) -> bool:
-        """Whether the solution set is open (<, >, /=)."""
-        return self in (Relation.LT, Relation.GT, Relation.NE)
-
-    @property
-    def signs(self) -> frozenset[int]:
-        """The signs that satisfy the relation."""
-        return _SIGNS[self]
-
-
-_SIGNS = {
-    Relation.EQ: frozenset((0,)),
-    Relation.NE: frozenset((-1, 1)),
-    Relation.LT: frozenset((-1,)),
-    Relation.LE: frozenset((-1, 0)),
-    Relation.GT: frozenset((1,)),
-    Relation.GE: frozenset((0, 1)),
-}
-_NEGATED = {
-    Relation.EQ: Relation.NE,
-    Relation.NE: Relation.EQ,
-    Relation.LT: Relation.GE,
-    Relation.GE: Relation.LT,
-    Relation.GT: Relation.LE,
-    Relation.LE: Relation.GT,
-}
-_FLIPPED = {
-    Relation.EQ: Relation.EQ,
-    Relation.NE: Relation.NE,
-    Relation.LT: Relation.GT,
-    Relation.GT: Relation.LT,
-    Relation.LE: Relation.GE,
-    Relation.GE: Relation.LE,
-}
+from qe.formula.notation import Level, Notation, bracketed, chain, oriented, polynomial
+from qe.formula.relation import Relation as Relation
+from qe.formula.text import TEXT
 
 
 class Formula:
@@ -80,9 +21,14 @@ class Formula:
     __slots__ = ()
 
     def __str__(self) -> str:
-        from qe.io.text import write
+        return self.written(TEXT)
 
-        return write(self)
+    def written(self, notation: Notation, level: Level = Level.OPEN, last: bool = True) -> str:
+        """The text in a line format, with no more brackets than reading it back needs.
+
+        ``level``: the construct around it; ``last``: nothing follows, so that a quantifier may stay open.
+        """
+        raise TypeError(f"not a formula: {self!r}")
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -94,6 +40,9 @@ class Constant(Formula):
     def __repr__(self) -> str:
         return "TRUE" if self.value else "FALSE"
 
+    def written(self, notation: Notation, level: Level = Level.OPEN, last: bool = True) -> str:
+        return notation.true if self.value else notation.false
+
 
 TRUE, FALSE = Constant(True), Constant(False)
 
@@ -104,6 +53,10 @@ class Atom(Formula):
 
     poly: Poly
     relation: Relation
+
+    def written(self, notation: Notation, level: Level = Level.OPEN, last: bool = True) -> str:
+        parts, relation = oriented(self.poly, self.relation)
+        return f"{polynomial(parts, notation)} {notation.relation(relation)} 0"
 
 
 @dataclass(frozen=True, slots=True)
@@ -120,12 +73,18 @@ class RootAtom(Formula):
     poly: Poly
     k: int
 
+    def written(self, notation: Notation, level: Level = Level.OPEN, last: bool = True) -> str:
+        return notation.root(self.variable, self.relation, self.poly, self.k)
+
 
 @dataclass(frozen=True, slots=True)
 class And(Formula):
     """Conjunction. Invariant (builders): at least two arguments, none an And or a Constant."""
 
     args: tuple[Formula, ...]
+
+    def written(self, notation: Notation, level: Level = Level.OPEN, last: bool = True) -> str:
+        return chain(self.args, Level.AND, level, last, notation)
 
 
 @dataclass(frozen=True, slots=True)
@@ -134,12 +93,20 @@ class Or(Formula):
 
     args: tuple[Formula, ...]
 
+    def written(self, notation: Notation, level: Level = Level.OPEN, last: bool = True) -> str:
+        return chain(self.args, Level.OR, level, last, notation)
+
 
 @dataclass(frozen=True, slots=True)
 class Not(Formula):
     """Negation."""
 
     arg: Formula
+
+    def written(self, notation: Notation, level: Level = Level.OPEN, last: bool = True) -> str:
+        if isinstance(self.arg, RootAtom) or notation.strict:
+            return notation.negation + bracketed(self.arg, notation.brackets, notation)
+        return notation.negation + self.arg.written(notation, Level.NOT, last)
 
 
 @dataclass(frozen=True, slots=True)
@@ -149,6 +116,9 @@ class Exists(Formula):
     variables: tuple[str, ...]
     body: Formula
 
+    def written(self, notation: Notation, level: Level = Level.OPEN, last: bool = True) -> str:
+        return _quantified(self, notation, last)
+
 
 @dataclass(frozen=True, slots=True)
 class ForAll(Formula):
@@ -156,3 +126,15 @@ class ForAll(Formula):
 
     variables: tuple[str, ...]
     body: Formula
+
+    def written(self, notation: Notation, level: Level = Level.OPEN, last: bool = True) -> str:
+        return _quantified(self, notation, last)
+
+
+def _quantified(formula: Exists | ForAll, notation: Notation, last: bool) -> str:
+    prefix = notation.quantifier(isinstance(formula, ForAll), formula.variables)
+    if notation.scope is not None:
+        return prefix + bracketed(formula.body, notation.scope, notation)
+    if not last:
+        return bracketed(formula, notation.brackets, notation)
+    return prefix + formula.body.written(notation)

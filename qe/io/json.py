@@ -16,9 +16,9 @@ from typing import Any
 from qe.errors import InputError
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj, disj, exists, forall, neg, root_atom
+from qe.formula.notation import digits
 from qe.formula.syntax import FALSE, TRUE, And, Atom, Constant, Exists, ForAll, Formula, Not, Or, Relation, RootAtom
 from qe.formula.traverse import ring_of
-from qe.io.infix import digits
 from qe.io.names import check_name, names_in
 from qe.io.surface import MAX_DEPTH
 from qe.io.terms import MAX_DEGREE, TermError, integer

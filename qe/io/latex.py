@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import re
 
-from qe.formula.syntax import And, Exists, ForAll, Formula, Or, Relation, RootAtom
-from qe.io.infix import Notation, formula_text, polynomial, positive
+from qe.exact.ring import Poly
+from qe.formula.notation import Notation, polynomial, positive
+from qe.formula.syntax import And, Exists, ForAll, Formula, Or, Relation
 
 WIDTH = 90
 """Characters of source after which a formula is broken at its outermost operator."""
@@ -23,7 +24,7 @@ _RELATIONS = {Relation.NE: r"\neq", Relation.LE: r"\leq", Relation.GE: r"\geq"}
 
 def write(formula: Formula) -> str:
     """Source for math mode, without dollar signs."""
-    text = formula_text(formula, _NOTATION)
+    text = formula.written(_NOTATION)
     if len(text) <= WIDTH:
         return text
     prefix, body = _prefix(formula)
@@ -31,7 +32,7 @@ def write(formula: Formula) -> str:
         return text
     operator = _NOTATION.conjunction if isinstance(body, And) else _NOTATION.disjunction
     looser = Or | Exists | ForAll if isinstance(body, And) else Exists | ForAll
-    lines = [formula_text(arg, _NOTATION) for arg in body.args]
+    lines = [arg.written(_NOTATION) for arg in body.args]
     lines = [rf"\left({line}\right)" if isinstance(arg, looser) else line for arg, line in zip(body.args, lines)]
     joined = (r" \\" + f"\n{operator.strip()}\\; & ").join(lines)
     return f"{prefix}\\begin{{array}}{{rl}}\n& {joined}\n\\end{{array}}"
@@ -67,10 +68,9 @@ def _quantifier(universal: bool, variables: tuple[str, ...]) -> str:
     return f"{symbol} {', '.join(map(name, variables))}\\colon "
 
 
-def _root(atom: RootAtom) -> str:
-    poly = polynomial(positive(atom.poly), _NOTATION)
-    relation = _NOTATION.relation(atom.relation)
-    return rf"{name(atom.variable)} {relation} \operatorname{{root}}_{{{atom.k}}}\left({poly}\right)"
+def _root(variable: str, relation: Relation, poly: Poly, k: int) -> str:
+    inside = polynomial(positive(poly), _NOTATION)
+    return rf"{name(variable)} {_NOTATION.relation(relation)} \operatorname{{root}}_{{{k}}}\left({inside}\right)"
 
 
 _NOTATION = Notation(

@@ -5,8 +5,8 @@ from __future__ import annotations
 import re
 from html import escape
 
+from qe.formula.notation import Monomial, digits, oriented, positive
 from qe.formula.syntax import And, Atom, Constant, Exists, ForAll, Formula, Not, Or, Relation, RootAtom
-from qe.io.infix import Monomial, digits, oriented, positive
 from qe.io.latex import GREEK
 
 WIDTH = 12
@@ -66,7 +66,7 @@ def _write(formula: Formula, *, bracket: bool) -> str:
         case Constant(value):
             return f"<mi>{'true' if value else 'false'}</mi>"
         case Atom():
-            parts, relation = oriented(formula)
+            parts, relation = oriented(formula.poly, formula.relation)
             return f"<mrow>{_polynomial(parts)}{_relation(relation)}<mn>0</mn></mrow>"
         case RootAtom(variable, relation, poly, k):
             root = f"<msub><mi>root</mi><mn>{k}</mn></msub>{_bracketed(_polynomial(positive(poly)))}"

@@ -13,12 +13,13 @@ from collections.abc import Callable, Iterator
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
+from qe.exact.ring import Poly
 from qe.formula.normal import Quantifier, prenex
-from qe.formula.syntax import Formula, Relation, RootAtom
+from qe.formula.notation import Notation, polynomial, positive
+from qe.formula.syntax import Formula, Relation
 from qe.formula.traverse import free_variables
 from qe.io import surface as s
 from qe.io.grammar import Failing, parse, parser
-from qe.io.infix import Notation, formula_text, polynomial, positive
 from qe.io.names import Renaming
 from qe.io.surface import lower
 from qe.io.text_errors import SyntaxFailure, unknown_character
@@ -164,7 +165,7 @@ def write(formula: Formula) -> str:
         f"({'E' if kind is Quantifier.EXISTS else 'A'} {names[name]})" for kind, block in prefix for name in block
     )
     listing = ",".join(names[name] for name in order) or _UNUSED
-    body = f"{quantifiers}[{formula_text(matrix, _notation(names))}]"
+    body = f"{quantifiers}[{matrix.written(_notation(names))}]"
     return f"[]\n({listing})\n{max(len(free), 0 if order else 1)}\n{body}.\nfinish\n"
 
 
@@ -176,9 +177,8 @@ def _allowed(name: str) -> bool:
 
 
 def _notation(names: Renaming) -> Notation:
-    def root(atom: RootAtom) -> str:
-        poly = polynomial(positive(atom.poly), notation)
-        return f"{names[atom.variable]} {atom.relation.value} _root_{atom.k} {poly}"
+    def root(variable: str, relation: Relation, poly: Poly, k: int) -> str:
+        return f"{names[variable]} {relation.value} _root_{k} {polynomial(positive(poly), notation)}"
 
     notation = Notation(
         name=lambda name: names[name],

@@ -13,10 +13,11 @@ from functools import cache
 from typing import TYPE_CHECKING, Any
 
 from qe.errors import InputError
-from qe.formula.syntax import Formula, Relation, RootAtom
+from qe.exact.ring import Poly
+from qe.formula.notation import Notation
+from qe.formula.syntax import Formula, Relation
 from qe.io import surface as s
 from qe.io.grammar import Failing, parse, parser
-from qe.io.infix import Notation, formula_text
 from qe.io.names import Renaming
 from qe.io.surface import lower
 from qe.io.text_errors import SyntaxFailure, unknown_character
@@ -176,12 +177,12 @@ def write(formula: Formula) -> str:
         false="false",
         scope=("", ")"),
     )
-    return formula_text(formula, notation)
+    return formula.written(notation)
 
 
 def _allowed(name: str) -> bool:
     return bool(_PLAIN.fullmatch(name)) and not _RESERVED.fullmatch(name)
 
 
-def _no_root(atom: RootAtom) -> str:
+def _no_root(variable: str, relation: Relation, poly: Poly, k: int) -> str:
     raise InputError("root(…) cannot be written in Redlog syntax")

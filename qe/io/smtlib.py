@@ -15,10 +15,10 @@ from __future__ import annotations
 import re
 
 from qe.errors import InputError
+from qe.formula.notation import Monomial, digits, oriented
 from qe.formula.syntax import And, Atom, Constant, Exists, ForAll, Formula, Not, Or, Relation
 from qe.formula.traverse import children, free_variables, is_quantifier_free
 from qe.io.grammar import Failing
-from qe.io.infix import Monomial, digits, oriented
 from qe.io.names import Renaming
 from qe.io.smtlib_parser import parse
 from qe.io.smtlib_script import Script
@@ -76,7 +76,7 @@ def _term(formula: Formula, names: Renaming) -> str:
         case Constant(value):
             return "true" if value else "false"
         case Atom():
-            parts, relation = oriented(formula)
+            parts, relation = oriented(formula.poly, formula.relation)
             if relation is Relation.NE:
                 return f"(not (= {_polynomial(parts, names)} 0))"
             return f"({_OPERATORS[relation]} {_polynomial(parts, names)} 0)"

@@ -9,15 +9,11 @@ with primes, or anything between bars: ``|my name|``. ``#`` starts a comment.
 
 from __future__ import annotations
 
-import re
-
-from qe.formula.syntax import Formula, RootAtom
+from qe.formula.syntax import Formula
+from qe.formula.text import TEXT
 from qe.io.grammar import Failing, parse
-from qe.io.infix import Notation, formula_text, polynomial, positive
 from qe.io.surface import lower
-from qe.io.text_parser import KEYWORDS, WORD, text_parser
-
-_PLAIN = re.compile(WORD)
+from qe.io.text_parser import text_parser
 
 
 def read(text: str, *, source: str = "<text>") -> Formula:
@@ -31,31 +27,4 @@ def read(text: str, *, source: str = "<text>") -> Formula:
 
 def write(formula: Formula) -> str:
     """One line of text that ``read`` turns back into the same formula."""
-    return formula_text(formula, _NOTATION)
-
-
-def quoted(name: str) -> str:
-    """The name as ``read`` understands it, between bars if it is not a plain word."""
-    return name if _PLAIN.fullmatch(name) and name not in KEYWORDS else f"|{name}|"
-
-
-def _quantifier(universal: bool, names: tuple[str, ...]) -> str:
-    return f"{'all' if universal else 'ex'} {', '.join(map(quoted, names))}. "
-
-
-def _root(atom: RootAtom) -> str:
-    poly = polynomial(positive(atom.poly), _NOTATION)
-    return f"{quoted(atom.variable)} {atom.relation.value} root({atom.k}, {poly})"
-
-
-_NOTATION = Notation(
-    name=quoted,
-    relation=lambda relation: relation.value,
-    quantifier=_quantifier,
-    root=_root,
-    conjunction=" and ",
-    disjunction=" or ",
-    negation="not ",
-    true="true",
-    false="false",
-)
+    return formula.written(TEXT)

@@ -12,11 +12,11 @@ from qe.io import surface as s
 from qe.io.grammar import parser
 from qe.io.terms import TermError, decimal
 from qe.io.text_errors import SyntaxFailure, unknown_character
+from qe.spelling import WORD
 
 if TYPE_CHECKING:
     from lark import Lark, Token
 
-WORD = r"[^\W\d⁰¹²³⁴-⁹][^\W⁰¹²³⁴-⁹]*'*"
 _LIST = rf"(?:{WORD}|\|[^|\n]*\|)"
 _TOKEN = re.compile(
     rf"(?P<SPACE>\s+|\#[^\n]*)"

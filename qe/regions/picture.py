@@ -5,13 +5,11 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from qe.cells.pieces import Piece, RootFunction
 from qe.errors import InputError
-
-if TYPE_CHECKING:
-    from qe.regions.region import Region
+from qe.regions.described import Described as Region
 
 FILL, EDGE = "#4c78a8", "#1f3b5c"
 SAMPLES_2D, SAMPLES_3D = 400, 60

@@ -23,6 +23,7 @@ from qe.formula.traverse import free_variables
 from qe.options import Budget
 from qe.proof.cells import Cell, CellTable
 from qe.proof.certificate import Certificate
+from qe.regions.volume import enclose
 
 
 class Region:
@@ -139,8 +140,6 @@ class Region:
         Regions bounded by planes and ellipsoids take well under a second at 0.01; other regions in space take longer.
         Raises ``Unable`` for unbounded regions.
         """
-        from qe.regions.volume import enclose
-
         return enclose(self, rel_error)
 
     def to_formula(self) -> Formula:

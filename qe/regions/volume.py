@@ -11,15 +11,12 @@ from __future__ import annotations
 import heapq
 from collections.abc import Sequence
 from fractions import Fraction
-from typing import TYPE_CHECKING
 
 from qe.cells.pieces import Piece, RootFunction
 from qe.errors import InputError, Unable
 from qe.exact.enclosure import Jet, Sides, box_sides, constant, ends, root_jet, smooth_side
+from qe.regions.described import Described as Region
 from qe.regions.slices import has_closed_slices, slice_area
-
-if TYPE_CHECKING:
-    from qe.regions.region import Region
 
 MOST_BOXES = 60_000
 _HALF = Fraction(1, 2)

@@ -1,0 +1,108 @@
+"""Printing with infix operators: one ordering of terms and one bracket policy for every line format."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from enum import IntEnum
+from typing import Protocol
+
+from qe.exact.ring import Poly
+from qe.formula.relation import Relation
+
+Monomial = tuple[int, tuple[tuple[str, int], ...]]
+_BLOCK = 10**4000
+
+
+class Level(IntEnum):
+    """How tightly a construct binds, loosest first."""
+
+    OPEN = 0
+    OR = 1
+    AND = 2
+    NOT = 3
+
+
+def digits(value: int) -> str:
+    """Decimal digits of an integer of any size (``str`` refuses more than 4300 of them)."""
+    if value < 0:
+        return "-" + digits(-value)
+    blocks: list[str] = []
+    while value >= _BLOCK:
+        value, low = divmod(value, _BLOCK)
+        blocks.append(str(low).zfill(4000))
+    return str(value) + "".join(reversed(blocks))
+
+
+def monomials(poly: Poly) -> list[Monomial]:
+    """(coefficient, ((name, exponent), …)) by falling total degree, then in ring order."""
+    names = poly.ring.names
+    ordered = sorted(poly.terms(), key=lambda term: (sum(term[0]), term[0]), reverse=True)
+    return [(c, tuple((names[i], k) for i, k in enumerate(e) if k)) for e, c in ordered]
+
+
+def oriented(poly: Poly, relation: Relation) -> tuple[list[Monomial], Relation]:
+    """The monomials and the relation of ``poly relation 0``, signed so that the first coefficient is positive."""
+    parts = monomials(poly)
+    return (parts, relation) if parts[0][0] > 0 else (positive(poly), relation.flipped)
+
+
+def positive(poly: Poly) -> list[Monomial]:
+    """The monomials of ``poly`` or ``-poly`` (which has the same roots), the first coefficient positive."""
+    parts = monomials(poly)
+    return [(-c, powers) for c, powers in parts] if parts and parts[0][0] < 0 else parts
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Notation:
+    """The tokens of a line format. ``quantifier(universal, names)`` gives a prefix; ``root(variable, relation, poly,
+    k)`` prints a root atom. ``scope``: brackets around the body of a quantifier (None: the body runs on to the right).
+    ``strict``: what follows a negation is bracketed, and so is ``and`` inside ``or``."""
+
+    name: Callable[[str], str]
+    relation: Callable[[Relation], str]
+    quantifier: Callable[[bool, tuple[str, ...]], str]
+    root: Callable[[str, Relation, Poly, int], str]
+    conjunction: str
+    disjunction: str
+    negation: str
+    true: str
+    false: str
+    times: str = "*"
+    power: Callable[[str, int], str] = "{}^{}".format
+    brackets: tuple[str, str] = ("(", ")")
+    scope: tuple[str, str] | None = None
+    strict: bool = False
+
+
+class Written(Protocol):
+    """What prints itself in a notation; see ``qe.formula.syntax.Formula.written``."""
+
+    def written(self, notation: Notation, level: Level = ..., last: bool = ...) -> str: ...
+
+
+def polynomial(parts: list[Monomial], notation: Notation) -> str:
+    """Text such as ``x^2 - 2*x*y + 1``."""
+    pieces: list[str] = []
+    for coefficient, powers in parts:
+        factors = [notation.power(notation.name(n), k) if k > 1 else notation.name(n) for n, k in powers]
+        magnitude = abs(coefficient)
+        if magnitude != 1 or not factors:
+            factors.insert(0, digits(magnitude))
+        sign = ("-" if coefficient < 0 else "") if not pieces else ("- " if coefficient < 0 else "+ ")
+        pieces.append(sign + notation.times.join(factors))
+    return " ".join(pieces) or "0"
+
+
+def bracketed(part: Written, brackets: tuple[str, str], notation: Notation) -> str:
+    """The part, which needs no brackets of its own then, between these brackets."""
+    return brackets[0] + part.written(notation) + brackets[1]
+
+
+def chain(parts: Sequence[Written], own: Level, around: Level, last: bool, notation: Notation) -> str:
+    """A conjunction (``own`` is ``Level.AND``) or disjunction of the parts, bracketed where ``around`` asks for it."""
+    operator = notation.conjunction if own is Level.AND else notation.disjunction
+    enclosed = around >= own or (notation.strict and around is not Level.OPEN)
+    ends = [(last or enclosed) and i == len(parts) - 1 for i in range(len(parts))]
+    text = operator.join(part.written(notation, own, end) for part, end in zip(parts, ends, strict=True))
+    return notation.brackets[0] + text + notation.brackets[1] if enclosed else text

@@ -1,0 +1,26 @@
+"""What pictures and measures ask of a region; ``qe.regions.region.Region`` has it, and knows them in turn."""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+from qe.cells.interval import Interval
+from qe.cells.pieces import Piece
+
+
+class Described(Protocol):
+    """A set of real points as cylindrical pieces."""
+
+    @property
+    def order(self) -> tuple[str, ...]:
+        """The variables, each bounded by functions of those before it."""
+
+    @property
+    def is_empty(self) -> bool: ...
+
+    @property
+    def cells(self) -> list[Piece]:
+        """Disjoint pieces."""
+
+    def bounds(self, variable: str) -> Interval:
+        """The exact infimum and supremum of a variable."""
