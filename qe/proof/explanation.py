@@ -40,10 +40,8 @@ def _lines(entry: Entry, number: int) -> Iterator[str]:
         case Work(method, figures):
             yield f"{WORDS.get(method, method)} {_figures(figures)}"
         case Step(rule, before, after, context, evidence):
-            details = evidence.get("detail")
-            yield f"{number}. {rule}: {_short(before)}"
-            for detail in details if isinstance(details, list) else ():
-                yield f"   prepared by {detail}"
+            detail = f" ({evidence['detail']})" if evidence.get("detail") else ""
+            yield f"{number}. {rule}{detail}: {_short(before)}"
             where = "" if context == TRUE else f"   (where {_short(context)})"
             yield f"   <==> {_short(after)}{where}"
 

@@ -99,8 +99,8 @@ class RunLog:
 
         for entry in self.entries:
             match entry:
-                case Step(evidence=evidence) if evidence.get("detail"):
-                    add("preparation", evidence["detail"])
+                case Step(rule, evidence=evidence) if evidence.get("detail"):
+                    add("preparation", f"{rule}: {evidence['detail']}")
                 case Choice():
                     add("plan", str(entry))
                 case Switch():

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from qe.formula.build import exists
 from qe.formula.syntax import FALSE, Formula
 from qe.formula.traverse import free_variables
-from qe.rules.block_context import Rule, Workshop
+from qe.rules.block_context import BlockContext, Rule
 from qe.rules.cases import groebner_equations, split_factors, split_squares
 from qe.rules.degree_shift import shift_degree
 from qe.rules.generic import drop_inequations
@@ -14,7 +15,7 @@ from qe.rules.scaling import fix_scale
 from qe.rules.step import StepKind
 from qe.rules.structural import guarded_linear_equation, independent_parts, linear_equation
 from qe.rules.translation import fix_origin
-from qe.rules.tree import NEVER, Leaf, Node
+from qe.rules.tree import NEVER, All, Any, Leaf, Lifted, Node, Nudged, Pending, either
 from qe.simplify.simplify import simplify_under
 
 RULES: tuple[Rule, ...] = (
@@ -31,19 +32,53 @@ RULES: tuple[Rule, ...] = (
 )
 
 
-def reduce_block(variables: Sequence[str], body: Formula, shop: Workshop) -> Node:
-    """A tree whose formula is equivalent to ``exists variables. body`` where the facts hold."""
-    shop.budget.check("prepare")
-    if StepKind.SIMPLIFY in shop.enabled:
-        body = simplify_under(body, shop.facts)
-    if body == FALSE:
-        return NEVER
+def reduce_block(variables: Sequence[str], body: Formula, context: BlockContext) -> Node:
+    """A tree whose formula is equivalent to ``exists variables. body`` where the facts hold.
+
+    Every rule makes one step, and its pending leaves are reduced in turn; all steps are in the log.
+    """
+    context.budget.check("prepare")
+    before = body
+    if StepKind.SIMPLIFY in context.enabled:
+        body = simplify_under(body, context.facts)
     occurring = free_variables(body)
     kept = tuple(v for v in variables if v in occurring)
+    if body != before or len(kept) < len(variables):
+        context.step(StepKind.SIMPLIFY.value, exists(variables, before), exists(kept, body))
+    if body == FALSE:
+        return NEVER
     if not kept:
         return Leaf((), body)
     for rule in RULES:
-        result = rule(kept, body, shop, reduce_block)
-        if result is not None:
-            return result
+        found = rule(kept, body, context)
+        if found is not None:
+            context.step(found.kind.value, exists(kept, body), found.node.formula, found.detail)
+            return _reduced(found.node, context)
     return Leaf(kept, body)
+
+
+def _reduced(node: Node, context: BlockContext) -> Node:
+    """The tree with its pending leaves reduced."""
+    match node:
+        case Pending(variables, body, given):
+            if not given:
+                return reduce_block(variables, body, context)
+            inside = context.given(given)
+            child = reduce_block(variables, body, inside)
+            context.splits = inside.splits
+            return child
+        case Lifted(rules, child):
+            return Lifted(rules, _reduced(child, context))
+        case Nudged(variables, body, child):
+            return Nudged(variables, body, _reduced(child, context))
+        case Any(children):
+            return either(_reduced(child, context) for child in children)
+        case All(children):
+            parts: list[Node] = []
+            for child in children:
+                part = _reduced(child, context)
+                if part.formula == FALSE:
+                    return NEVER
+                parts.append(part)
+            return All(tuple(parts))
+    return node

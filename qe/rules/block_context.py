@@ -1,14 +1,16 @@
-"""What the rules of one quantifier block share: limits, switches, facts, and the record of the steps taken."""
+"""What the rules of one quantifier block share: limits, switches, facts; and what a rule hands back."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
-from qe.formula.syntax import FALSE, TRUE, Formula
+from qe.formula.build import conj
+from qe.formula.syntax import Formula
 from qe.options import Budget
-from qe.rules.step import Step, StepKind
-from qe.rules.tree import NEVER, Any, Node
+from qe.proof.run_log import RunLog
+from qe.rules.step import StepKind
+from qe.rules.tree import Node
 from qe.simplify.facts import NOTHING, Facts
 
 _SPLITS = 24  # case distinctions allowed within one block
@@ -16,19 +18,18 @@ _BASES = 40  # Groebner bases computed within one block
 
 
 @dataclass(slots=True)
-class Workshop:
-    """``splits``, ``bases``: case distinctions and Groebner bases still allowed; ``facts``: what holds outside."""
+class BlockContext:
+    """``splits``, ``bases``: case distinctions and Groebner bases still allowed; ``facts``: what holds outside, as the
+    formulas ``known`` say.
+    """
 
     budget: Budget
     enabled: frozenset[StepKind]
     facts: Facts = NOTHING
+    known: tuple[Formula, ...] = ()
     splits: int = _SPLITS
     bases: int = _BASES
-    steps: list[Step] = field(default_factory=list)
-
-    def note(self, kind: StepKind, detail: str, cases: int = 1) -> None:
-        """Record a step."""
-        self.steps.append(Step(kind, detail, cases))
+    log: RunLog = field(default_factory=RunLog)
 
     def may_split(self, kind: StepKind, cases: int) -> bool:
         """Whether a case distinction is allowed; if so, it is charged."""
@@ -37,17 +38,23 @@ class Workshop:
         self.splits -= cases - 1
         return True
 
+    def given(self, formulas: Sequence[Formula]) -> BlockContext:
+        """The same where these hold too."""
+        return replace(self, facts=self.facts.extended(formulas), known=(*self.known, *formulas))
 
-Recur = Callable[[Sequence[str], Formula, Workshop], Node]
-Rule = Callable[[tuple[str, ...], Formula, Workshop, Recur], Node | None]
+    def step(self, rule: str, before: Formula, after: Formula, detail: str = "") -> None:
+        """Record a step under what is known."""
+        evidence = {"detail": detail} if detail else None
+        self.log.step(rule, before, after, context=conj(self.known), evidence=evidence)
 
 
-def either(nodes: Sequence[Node]) -> Node:
-    """The disjunction of nodes: without the impossible ones; one that is certain stands alone."""
-    possible = [n for n in nodes if n is not NEVER and n.formula != FALSE]
-    for node in possible:
-        if node.formula == TRUE:
-            return node
-    if not possible:
-        return NEVER
-    return possible[0] if len(possible) == 1 else Any(tuple(possible))
+@dataclass(frozen=True, slots=True)
+class Found:
+    """What a rule found: the tree, whose pending leaves are reduced next, and a word on what was done."""
+
+    kind: StepKind
+    detail: str
+    node: Node
+
+
+Rule = Callable[[tuple[str, ...], Formula, BlockContext], Found | None]

@@ -8,33 +8,33 @@ from qe.exact.ring import Poly
 from qe.formula.build import atom, conj
 from qe.formula.syntax import Atom, Formula, Relation, RootAtom
 from qe.formula.traverse import atoms, bound_variables, conjuncts
-from qe.rules.block_context import Recur, Workshop
+from qe.rules.block_context import BlockContext, Found
 from qe.rules.lift import RootOf
 from qe.rules.rewrite import rewrite
 from qe.rules.step import StepKind
-from qe.rules.tree import Lifted, Node
+from qe.rules.tree import Lifted, Pending
 
 
-def shift_degree(variables: tuple[str, ...], body: Formula, shop: Workshop, recur: Recur) -> Node | None:
+def shift_degree(variables: tuple[str, ...], body: Formula, context: BlockContext) -> Found | None:
     """Let every exponent of x in f be a multiple of k > 1, f(x) = g(x^k). Then ex x f iff ex x (g and x >= 0) for
     even k, and iff ex x g for odd k, because x^k takes all non-negative (all) real values. Atoms x rel 0 may stay as
     they are for odd k, and for even k if the conjunction says x >= 0: then x and x^k have the same sign.
 
     Lift: x is the k-th root of its present value.
     """
-    if StepKind.DEGREE_SHIFT not in shop.enabled:
+    if StepKind.DEGREE_SHIFT not in context.enabled:
         return None
     inner = frozenset(bound_variables(body))
     ring = next(atoms(body)).poly.ring
-    known = shop.facts.extended(conjuncts(body))
+    known = context.facts.extended(conjuncts(body))
     for name in variables:
         nonnegative = -1 not in known.signs(ring.var(name))
         step = 0 if name in inner else common_exponent(body, name, nonnegative)
         if step > 1:
-            shop.note(StepKind.DEGREE_SHIFT, f"{name}^{step}")
             shifted = rewrite(body, lambda found, n=name, k=step: _shifted(found, n, k), ())  # type: ignore[misc]
             domain = atom(ring.var(name), Relation.GE) if step % 2 == 0 else conj(())
-            return Lifted((RootOf(name, step),), recur(variables, conj((domain, shifted)), shop))
+            node = Lifted((RootOf(name, step),), Pending(variables, conj((domain, shifted))))
+            return Found(StepKind.DEGREE_SHIFT, f"{name}^{step}", node)
     return None
 
 

@@ -6,29 +6,29 @@ from collections.abc import Collection
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
-from qe.formula.build import conj, disj
+from qe.formula.build import conj, disj, exists, forall, neg
 from qe.formula.normal import nnf
-from qe.formula.syntax import And, Exists, ForAll, Formula, Or
+from qe.formula.syntax import And, Atom, Exists, ForAll, Formula, Or
+from qe.formula.traverse import free_variables
 from qe.options import Budget
 from qe.proof.run_log import RunLog
 from qe.rules.block import reduce_block
-from qe.rules.block_context import Workshop
+from qe.rules.block_context import BlockContext
 from qe.rules.lift import Assignment, Value
-from qe.rules.step import ALL_STEPS, Step, StepKind
+from qe.rules.step import ALL_STEPS, StepKind
 from qe.rules.tree import Node
 from qe.simplify.simplify import simplify
 
 
 @dataclass(frozen=True, slots=True)
 class Prepared:
-    """``formula`` is equivalent to the input over R. ``steps``: what was done, in order.
+    """``formula`` is equivalent to the input over R.
 
     ``tree``: what became of the outermost quantifier block (None if the input does not start with one);
     ``universal``: that block is universal, and the tree is that of its negation.
     """
 
     formula: Formula
-    steps: tuple[Step, ...]
     tree: Node | None = None
     universal: bool = False
     variables: tuple[str, ...] = ()
@@ -54,48 +54,54 @@ def prepare(
     enabled: Collection[StepKind] = ALL_STEPS,
     log: RunLog | None = None,
 ) -> Prepared:
-    """An equivalent formula with fewer and lower-degree quantified variables.
+    """An equivalent formula with fewer and lower-degree quantified variables; every step is in the log.
 
     ``enabled`` switches single steps (for measurements). Raises ``BudgetExceeded``.
     """
-    steps: list[Step] = []
-    log = log or RunLog()
-    shop = Workshop(budget or Budget(), frozenset(enabled), steps=steps)
-    current = nnf(formula)
-    if StepKind.SIMPLIFY in shop.enabled:
-        current = simplify(current)
+    context = BlockContext(budget or Budget(), frozenset(enabled), log=log or RunLog())
+    positive = nnf(formula)
+    context.step("negation normal form", formula, positive)
+    current = _simplified(positive, context)
     if not isinstance(current, Exists | ForAll):
-        result = _finish(_inside(current, shop), shop)
-        _logged(log, formula, result, steps)
-        return Prepared(result, tuple(steps))
-    universal = isinstance(current, ForAll)
-    body = _inside(nnf(current.body, negate=universal), shop)
-    tree = reduce_block(current.variables, body, shop)
-    result = _finish(nnf(tree.formula, negate=universal), shop)
-    _logged(log, formula, result, steps)
-    outer = formula.variables if isinstance(formula, Exists | ForAll) else current.variables
-    return Prepared(result, tuple(steps), tree, universal, outer)
+        return Prepared(_simplified(_inside(current, context), context))
+    universal, variables = isinstance(current, ForAll), current.variables
+    tree = _block(current, context)
+    result = _simplified(nnf(tree.formula, negate=universal), context)
+    outer = formula.variables if isinstance(formula, Exists | ForAll) else variables
+    return Prepared(result, tree, universal, outer)
 
 
-def _logged(log: RunLog, before: Formula, after: Formula, steps: list[Step]) -> None:
-    log.step("preparation", before, after, evidence={"detail": [f"{s.kind.value}: {s.detail}" for s in steps]})
+def _simplified(formula: Formula, context: BlockContext) -> Formula:
+    if StepKind.SIMPLIFY not in context.enabled:
+        return formula
+    simple = simplify(formula)
+    context.log.step(StepKind.SIMPLIFY.value, formula, simple)
+    return simple
 
 
-def _finish(formula: Formula, shop: Workshop) -> Formula:
-    return simplify(formula) if StepKind.SIMPLIFY in shop.enabled else formula
+def _block(formula: Exists | ForAll, context: BlockContext) -> Node:
+    """The tree of an existential block, or of the negation of a universal one, inner blocks prepared first."""
+    body = _inside(formula.body, context)
+    if isinstance(formula, Exists):
+        return reduce_block(formula.variables, body, context)
+    negated = nnf(body, negate=True)
+    context.step("duality", forall(formula.variables, body), neg(exists(formula.variables, negated)))
+    tree = reduce_block(formula.variables, negated, context)
+    context.step("negation normal form", neg(tree.formula), nnf(tree.formula, negate=True))
+    return tree
 
 
-def _inside(formula: Formula, shop: Workshop) -> Formula:
+def _inside(formula: Formula, context: BlockContext) -> Formula:
     """Prepare the quantifier blocks inside a formula, innermost first, under their sibling atoms."""
     match formula:
         case And(args):
-            inner = replace(shop, facts=shop.facts.extended(args))
+            plain = tuple(a for a in args if isinstance(a, Atom))
+            inner = context.given(plain) if len(plain) < len(args) else context
             return conj(_inside(a, inner) for a in args)
         case Or(args):
-            return disj(_inside(a, shop) for a in args)
-        case Exists(variables, body) | ForAll(variables, body):
-            universal = isinstance(formula, ForAll)
-            fresh = replace(shop, facts=shop.facts.without(variables))
-            tree = reduce_block(variables, nnf(_inside(body, fresh), negate=universal), replace(fresh))
-            return nnf(tree.formula, negate=universal)
+            return disj(_inside(a, context) for a in args)
+        case Exists(variables) | ForAll(variables):
+            known = tuple(f for f in context.known if not set(variables) & set(free_variables(f)))
+            tree = _block(formula, replace(context, facts=context.facts.without(variables), known=known))
+            return nnf(tree.formula, negate=isinstance(formula, ForAll))
     return formula

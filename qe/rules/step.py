@@ -1,8 +1,7 @@
-"""The steps that preparation can take, each of which can be switched off, and the record of those taken."""
+"""The steps that preparation can take, each of which can be switched off."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from enum import Enum
 
 
@@ -24,12 +23,3 @@ class StepKind(Enum):
 
 ALL_STEPS = frozenset(StepKind)
 EQUATION_STEPS = frozenset({StepKind.LINEAR, StepKind.GUARDED_LINEAR, StepKind.GROEBNER})
-
-
-@dataclass(frozen=True, slots=True)
-class Step:
-    """One step taken: what was done, to which variable or equation, and in how many cases it ended."""
-
-    kind: StepKind
-    detail: str
-    cases: int = 1

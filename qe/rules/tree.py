@@ -6,11 +6,12 @@ Every node stands for a formula (``formula``) and for the block's variables that
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 from qe.errors import Unable
 from qe.formula.build import conj, disj, exists
-from qe.formula.syntax import FALSE, Formula
+from qe.formula.syntax import FALSE, TRUE, Formula
 from qe.rules.lift import Assignment, Lift, Value, holds_at, nudge
 
 
@@ -20,6 +21,25 @@ class Leaf:
 
     variables: tuple[str, ...]
     body: Formula
+
+    @property
+    def formula(self) -> Formula:
+        return exists(self.variables, self.body)
+
+    def satisfied(self, at: Assignment) -> bool:
+        return holds_at(self.body, at)
+
+    def lift(self, at: Assignment) -> dict[str, Value]:
+        return dict(at)
+
+
+@dataclass(frozen=True, slots=True)
+class Pending:
+    """exists variables. body, still to be reduced, where ``given`` holds beside what is known already."""
+
+    variables: tuple[str, ...]
+    body: Formula
+    given: tuple[Formula, ...] = ()
 
     @property
     def formula(self) -> Formula:
@@ -114,7 +134,7 @@ class All:
         return values
 
 
-Node = Leaf | Lifted | Nudged | Any | All
+Node = Leaf | Pending | Lifted | Nudged | Any | All
 NEVER = Leaf((), FALSE)
 
 
@@ -123,6 +143,21 @@ def leaves(node: Node) -> tuple[Leaf, ...]:
     match node:
         case Leaf():
             return (node,)
+        case Pending(variables, body):
+            return (Leaf(variables, body),)
         case Lifted(_, child) | Nudged(_, _, child):
             return leaves(child)
     return tuple(leaf for child in node.children for leaf in leaves(child))
+
+
+def either(nodes: Iterable[Node]) -> Node:
+    """The disjunction of nodes: without the impossible ones; one that is certain stands alone, and ends the search."""
+    possible: list[Node] = []
+    for node in nodes:
+        if node.formula == TRUE:
+            return node
+        if node is not NEVER and node.formula != FALSE:
+            possible.append(node)
+    if not possible:
+        return NEVER
+    return possible[0] if len(possible) == 1 else Any(tuple(possible))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from fractions import Fraction
+from typing import Any
 
 from hypothesis import strategies as st
 
@@ -11,6 +12,9 @@ from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj, disj, neg
 from qe.formula.syntax import And, Atom, Constant, Formula, Not, Or, Relation
 from qe.formula.traverse import atoms
+from qe.proof.run_log import RunLog
+from qe.rules.preparation import Prepared, prepare
+from qe.rules.step import StepKind
 
 RING = Ring.of(("a", "b", "x", "y"))
 VALUES = (-3, -2, Fraction(-3, 2), -1, Fraction(-1, 2), 0, Fraction(1, 3), Fraction(1, 2), 1, Fraction(3, 2), 2, 3)
@@ -85,3 +89,11 @@ def formulas(ring: Ring = RING, leaves: int = 8) -> st.SearchStrategy[Formula]:
         ),
         max_leaves=leaves,
     )
+
+
+def prepared_with_rules(formula: Formula, **keywords: Any) -> tuple[Prepared, list[StepKind], list[str]]:
+    """The prepared formula, the rules that took part (but for plain simplification), and what each says it did."""
+    log = RunLog()
+    found = prepare(formula, log=log, **keywords)
+    taken = [step for step in log.steps() if step.evidence.get("detail")]
+    return found, [StepKind(step.rule) for step in taken], [str(step.evidence["detail"]) for step in taken]

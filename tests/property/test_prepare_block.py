@@ -25,7 +25,7 @@ from qe.rules.rewrite import rewrite
 from qe.rules.step import ALL_STEPS, StepKind
 from qe.rules.tree import Leaf
 
-from .prepare_support import RING, formulas, interesting, points
+from .prepare_support import RING, formulas, interesting, points, prepared_with_rules
 
 STEP_SETS = [
     frozenset({StepKind.SIMPLIFY}),
@@ -111,10 +111,10 @@ def test_degree_shift(
         return atom(found.poly.compose({x: ring.gen(x) ** k}), found.relation)
 
     stretched = rewrite(body, spread, ())
-    prepared = prepare(exists(("x",), stretched), enabled={StepKind.DEGREE_SHIFT})
+    prepared, taken, _ = prepared_with_rules(exists(("x",), stretched), enabled={StepKind.DEGREE_SHIFT})
     if "x" not in free_variables(stretched):
         return
-    assert any(s.kind is StepKind.DEGREE_SHIFT for s in prepared.steps) and prepared.tree is not None
+    assert StepKind.DEGREE_SHIFT in taken and prepared.tree is not None
     for values in (point, *elsewhere):
         at = dict(zip(ring.names, values, strict=True))
         shifted = at | {"x": at["x"] ** common_exponent(stretched, "x")}
@@ -143,12 +143,12 @@ def homogeneous(draw: st.DrawFn) -> tuple[Formula, tuple[Fraction, ...]]:
 def test_scaling(problem: tuple[Formula, tuple[Fraction, ...]], elsewhere: list[tuple[Fraction, ...]]) -> None:
     """A body that holds at a point still holds for some value of the scaled block; what is found is a solution."""
     body, point = problem
-    prepared = prepare(exists(("x", "y"), body), enabled={StepKind.SCALING})
+    prepared, _, details = prepared_with_rules(exists(("x", "y"), body), enabled={StepKind.SCALING})
     if prepared.tree is None:
         return
     known = dict(zip(RING.names, point, strict=True))
-    if len(prepared.steps) == 1:  # one variable is left: try the images of the point under all scalings
-        name = prepared.steps[0].detail[0]
+    if len(details) == 1:  # one variable is left: try the images of the point under all scalings
+        name = details[0][0]
         other = "y" if name == "x" else "x"
         candidates = [known | {other: v} for v in scaled_images(known, name, other)]
         assert any(prepared.tree.satisfied(c) for c in candidates)
@@ -214,8 +214,8 @@ def test_translation(
         return atom(image, found.relation)
 
     body = rewrite(template, merge, ())
-    prepared = prepare(exists(("x", "y"), body), enabled={StepKind.TRANSLATION})
-    if prepared.tree is None or not prepared.steps:
+    prepared, taken, _ = prepared_with_rules(exists(("x", "y"), body), enabled={StepKind.TRANSLATION})
+    if prepared.tree is None or not taken:
         return
     for values in elsewhere:
         at = dict(zip(RING.names, values, strict=True))

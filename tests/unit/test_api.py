@@ -68,7 +68,7 @@ def test_the_explanation_names_what_was_done(capsys: pytest.CaptureFixture[str])
     answer = qe.eliminate("ex x, y. x + y = a and x^3 + y^3 < b", explain=True)
     told = capsys.readouterr().err
     assert told.strip() == answer.explanation
-    assert "prepared by linear equation solved" in told and "planned" in told
+    assert told.startswith("1. linear equation solved (") and "planned" in told and "<==>" in told
     slow = qe.eliminate("ex x, y. x + y = a and x^3 + y^3 < b", without=("substitution",))
     assert "substitution" not in slow.explanation.split("planned")[1] and "decomposition order" in slow.explanation
 
