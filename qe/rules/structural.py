@@ -9,7 +9,7 @@ from fractions import Fraction
 from qe.exact.ring import format_poly
 from qe.formula.build import atom, conj, disj
 from qe.formula.syntax import FALSE, Atom, Constant, Formula, Or, Relation
-from qe.formula.traverse import conjuncts, free_variables
+from qe.formula.traverse import conjuncts, connected, free_variables
 from qe.rules.block_context import Recur, Workshop, either
 from qe.rules.lift import Solve
 from qe.rules.linear import Pivot, choose_pivot, substitute
@@ -29,40 +29,21 @@ def independent_parts(variables: tuple[str, ...], body: Formula, shop: Workshop,
     if isinstance(body, Or):
         shop.note(StepKind.MINISCOPE, "disjunction", len(body.args))
         return either([recur(variables, part, shop) for part in body.args])
-    parts = conjuncts(body)
-    groups = _components(parts, variables)
-    if len(groups) < 2:
+    block = frozenset(variables)
+    outside, groups = connected(conjuncts(body), lambda part: block.intersection(free_variables(part)))
+    count = len(groups) + bool(outside)
+    if count < 2:
         return None
-    outside = [part for names, members in groups if not names for part in members]
-    shop.note(StepKind.MINISCOPE, "conjunction", len(groups))
+    shop.note(StepKind.MINISCOPE, "conjunction", count)
     children: list[Node] = [Leaf((), conj(outside))] if outside else []
     for names, members in groups:
-        if names:
-            inside = replace(shop, facts=shop.facts.extended(outside))
-            child = recur(tuple(v for v in variables if v in names), conj(members), inside)
-            shop.splits = inside.splits
-            if child.formula == FALSE:
-                return NEVER
-            children.append(child)
+        inside = replace(shop, facts=shop.facts.extended(outside))
+        child = recur(tuple(v for v in variables if v in names), conj(members), inside)
+        shop.splits = inside.splits
+        if child.formula == FALSE:
+            return NEVER
+        children.append(child)
     return All(tuple(children))
-
-
-def _components(parts: Sequence[Formula], variables: Sequence[str]) -> list[tuple[set[str], list[Formula]]]:
-    """Groups of conjuncts connected by shared variables of the block; all without one are the first group."""
-    groups: list[tuple[set[str], list[Formula]]] = []
-    free: list[Formula] = []
-    block = set(variables)
-    for part in parts:
-        names = block & set(free_variables(part))
-        if not names:
-            free.append(part)
-            continue
-        touching = [g for g in groups if g[0] & names]
-        members = [m for g in touching for m in g[1]] + [part]
-        for g in touching:
-            names |= g[0]
-        groups = [g for g in groups if g not in touching] + [(names, members)]
-    return ([(set(), free)] if free else []) + groups
 
 
 def linear_equation(variables: tuple[str, ...], body: Formula, shop: Workshop, recur: Recur) -> Node | None:

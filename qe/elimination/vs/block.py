@@ -15,7 +15,7 @@ from qe.formula.build import conj, disj
 from qe.formula.normal import nnf
 from qe.formula.openness import is_open, thinned
 from qe.formula.syntax import FALSE, TRUE, And, Atom, Exists, Formula, Or
-from qe.formula.traverse import conjuncts, has_root_atoms, ring_of
+from qe.formula.traverse import conjuncts, connected, has_root_atoms, ring_of
 from qe.options import Budget
 from qe.rules.tree import NEVER, All, Any, Leaf, Lifted, Node
 from qe.simplify.facts import NOTHING
@@ -79,7 +79,8 @@ class _Run:
     def _solve(self, formula: Formula, block: frozenset[int]) -> Solved:
         if isinstance(formula, Or):
             return self._any(self.solve(part, block) for part in formula.args)
-        context, parts = _independent(formula, block)
+        context, groups = connected(conjuncts(formula), lambda part: occurring(part) & block)
+        parts = [conj(members) for _, members in groups]
         if not context and len(parts) == 1:
             return self._step(formula, parts[0], block)
         return self._all(context, parts, block)
@@ -162,26 +163,6 @@ class _Run:
                 found.setdefault(formula, tree)
         trees = tuple(found.values())
         return disj(found), trees[0] if len(trees) == 1 else Any(trees)
-
-
-def _independent(formula: Formula, block: frozenset[int]) -> tuple[tuple[Formula, ...], list[Formula]]:
-    """The conjuncts free of the block, and the others grouped so that groups share no block variable."""
-    context: list[Formula] = []
-    groups: list[tuple[frozenset[int], list[Formula]]] = []
-    for arg in conjuncts(formula):
-        inside = occurring(arg) & block
-        if not inside:
-            context.append(arg)
-            continue
-        members = [arg]
-        apart = []
-        for variables, group in groups:
-            if variables & inside:
-                inside, members = inside | variables, group + members
-            else:
-                apart.append((variables, group))
-        groups = [*apart, (inside, members)]
-    return tuple(context), [conj(members) for _, members in groups]
 
 
 def _free_of(formula: Formula, x: int) -> list[Formula]:
