@@ -122,8 +122,6 @@ class Options:
     method: Method = Method.AUTO
     projection: Projection = Projection.BROWN_MCCALLUM
     order: tuple[str, ...] | None = None
-    timeout: float | None = None
-    memory: int | None = None
     root_atoms: bool = False
     without: frozenset[Stage] = frozenset()
     certify: bool = False

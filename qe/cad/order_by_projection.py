@@ -7,7 +7,7 @@ from typing import TypeVar
 
 from qe.cad.constraints import equational_constraints
 from qe.cad.order import Candidate, OrderRule, brown_order, greedy_order, preferred, sotd
-from qe.cad.projection import effort, factor_lists, project
+from qe.cad.projection import FactorSet, effort, factor_lists, project
 from qe.errors import BudgetExceeded
 from qe.exact.algebraic import real_roots
 from qe.exact.ring import Poly, Ring
@@ -71,15 +71,14 @@ def _projected(polys: Sequence[Poly], name: str, budget: Budget) -> list[Poly]:
     if not polys or name not in polys[0].ring.index:
         return list(polys)
     i = polys[0].ring.index[name]
-    factors = dict.fromkeys(f for p in polys for f, _ in p.factors()[1])
+    factors = FactorSet(polys)
     inside = [f for f in factors if f.degree(i)]
     if effort(inside, i) > HEAVY:
         raise BudgetExceeded("a trial projection is too heavy", limit="effort")
-    left = {f: None for f in factors if not f.degree(i)}
+    left = FactorSet(f for f in factors if not f.degree(i))
     for p in project(inside, i, Projection.BROWN_MCCALLUM):
         budget.check("order")
-        if p:
-            left.update(dict.fromkeys(f for f, _ in p.factors()[1]))
+        left.add((p,))
     return list(left)
 
 

@@ -12,8 +12,8 @@ from collections.abc import Callable
 
 from qe.cad.lifting import Lifter, sector_levels
 from qe.cad.matrix import compile_matrix, specialise
-from qe.cad.projection import project
-from qe.exact.ring import Poly, Ring
+from qe.cad.projection import factor_lists
+from qe.exact.ring import Ring
 from qe.exact.sample import Point
 from qe.formula.build import convert
 from qe.formula.normal import nnf
@@ -30,20 +30,7 @@ def over_point(matrix: Formula, order: tuple[str, ...], free: int, *, budget: Bu
     """
     ring = Ring.of(order)
     matrix = nnf(convert(matrix, ring))
-    levels: list[dict[Poly, None]] = [{} for _ in order]
-
-    def insert(p: Poly) -> None:
-        if p:
-            for f, _ in p.factors()[1]:
-                levels[f.level][f] = None
-
-    for p in polynomials(matrix):
-        insert(p)
-    for k in range(len(order) - 1, free, -1):
-        for p in project(levels[k], k, Projection.LAZARD):
-            budget.check("project", len(order) - k)
-            insert(p)
-    lists = tuple(tuple(level) for level in levels)
+    lists = factor_lists(polynomials(matrix), len(order), Projection.LAZARD, budget, lowest=free)
     places = {f: (k, j) for k, level in enumerate(lists) for j, f in enumerate(level)}
     node = compile_matrix(matrix, places)
     quantifiers = ("",) * free + ("E",) * (len(order) - free)

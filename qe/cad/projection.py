@@ -24,6 +24,31 @@ EFFORT_OF_A_CELL = 20
 """A projection of so much ``effort`` takes as long as one cell (measured: 20,000 take up to a tenth of a second)."""
 
 
+class FactorSet:
+    """Distinct irreducible polynomials, in the order in which they came.
+
+    Sealed: whatever is added is factored first, and constants (zero too) have no factors.
+    """
+
+    __slots__ = ("_factors",)
+
+    def __init__(self, polys: Iterable[Poly] = ()) -> None:
+        self._factors: dict[Poly, None] = {}
+        self.add(polys)
+
+    def add(self, polys: Iterable[Poly]) -> None:
+        """Take in the factors of these polynomials."""
+        for p in polys:
+            self._factors.update(dict.fromkeys(f for f, _ in p.factors()[1]))
+
+    def __iter__(self) -> Iterator[Poly]:
+        return iter(self._factors)
+
+    def at(self, level: int) -> list[Poly]:
+        """The factors of one level."""
+        return [f for f in self._factors if f.level == level]
+
+
 def project(
     polys: Iterable[Poly],
     variable: int,
@@ -71,38 +96,37 @@ def factor_lists(
     separated: frozenset[int] = frozenset(),
     constraints: Mapping[int, frozenset[Poly]] = MappingProxyType({}),
     heaviest: int | None = None,
+    lowest: int = 0,
 ) -> Levels:
-    """The irreducible factors of ``polys``, closed under projection down to level 0, one list per level.
+    """The irreducible factors of ``polys``, closed under projection down to level ``lowest``, one list per level.
 
     At the levels in ``separated`` all derivatives of the factors with respect to the main variable join.
     ``constraints`` holds the factors of equational constraints by level (see ``equational``). Raises
     ``BudgetExceeded`` rather than start a projection of more ``effort`` than ``heaviest``.
     """
-    levels: list[dict[Poly, None]] = [{} for _ in range(size)]
-
-    def insert(p: Poly) -> None:
-        if p:
-            for f, _ in p.factors()[1]:
-                levels[f.level][f] = None
-
-    for p in polys:
-        insert(p)
+    found = FactorSet(polys)
     for k in range(size - 1, -1, -1):
         if k in separated:
-            for f in list(levels[k]):
-                for _ in range(f.degree(k) - 1):
-                    f = f.derivative(k)
-                    insert(f)
-        if k == 0:
+            for f in found.at(k):
+                found.add(_derivatives(f, k))
+        if k == lowest:
             break
-        if heaviest is not None and effort(levels[k], k) > heaviest:
+        here = found.at(k)
+        if heaviest is not None and effort(here, k) > heaviest:
             raise BudgetExceeded("a projection is too heavy", limit="effort")
         if budget.is_limited:
-            budget.spend(effort(levels[k], k) // EFFORT_OF_A_CELL)
-        for p in project(levels[k], k, operator, constraints.get(k), first=k == size - 1):
+            budget.spend(effort(here, k) // EFFORT_OF_A_CELL)
+        for p in project(here, k, operator, constraints.get(k), first=k == size - 1):
             budget.check("project", size - k, size)
-            insert(p)
-    return tuple(tuple(sorted(level, key=_simplicity)) for level in levels)
+            found.add((p,))
+    return tuple(tuple(sorted(found.at(k), key=_simplicity)) for k in range(size))
+
+
+def _derivatives(f: Poly, variable: int) -> Iterator[Poly]:
+    """The derivatives of positive degree."""
+    for _ in range(f.degree(variable) - 1):
+        f = f.derivative(variable)
+        yield f
 
 
 def _simplicity(p: Poly) -> tuple[object, ...]:

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
+from typing import TypeVar
 
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import conj, disj, exists, forall, neg
 from qe.formula.syntax import And, Atom, Exists, ForAll, Formula, Not, Or, RootAtom
+
+Name = TypeVar("Name")
 
 
 def children(formula: Formula) -> tuple[Formula, ...]:
@@ -108,6 +111,26 @@ def _free(formula: Formula) -> set[str]:
     for child in children(formula):
         found |= _free(child)
     return found
+
+
+def connected(
+    parts: Iterable[Formula], names: Callable[[Formula], frozenset[Name]]
+) -> tuple[tuple[Formula, ...], list[tuple[frozenset[Name], tuple[Formula, ...]]]]:
+    """(parts without a name, groups): two parts are in one group if a chain of shared names connects them.
+
+    Each group comes with its names; groups in the order in which they were completed, their parts in order.
+    """
+    without: list[Formula] = []
+    groups: list[tuple[frozenset[Name], tuple[Formula, ...]]] = []
+    for part in parts:
+        own, members = names(part), (part,)
+        if not own:
+            without.append(part)
+            continue
+        touching = [g for g in groups if g[0] & own]
+        groups = [g for g in groups if g not in touching]
+        groups.append((own.union(*(g[0] for g in touching)), sum((g[1] for g in touching), ()) + members))
+    return tuple(without), groups
 
 
 def is_quantifier_free(formula: Formula) -> bool:

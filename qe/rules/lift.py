@@ -10,6 +10,7 @@ import random
 from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import Protocol
 
 from qe.errors import Unable
 from qe.exact.algebraic import RealAlgebraic, real_roots
@@ -21,6 +22,17 @@ _NUDGES = 400  # each attempt moves half as far as the one before
 
 Value = Fraction | RealAlgebraic
 Assignment = Mapping[str, Value]
+
+
+class Lift(Protocol):
+    """How one variable gets its value from those of the others (``Solve``, ``RootOf``, a choice of substitution)."""
+
+    @property
+    def variable(self) -> str: ...
+
+    def value(self, assignment: Assignment) -> Value:
+        """The value of the variable. Raises ``Unable`` where it is undefined."""
+        ...
 
 
 def value_at(poly: Poly, assignment: Assignment) -> Value:
@@ -101,21 +113,6 @@ class RootOf:
     def value(self, assignment: Assignment) -> Value:
         """The value of the variable. Raises ``Unable`` for an even root of a negative number."""
         return root(assignment.get(self.variable, Fraction(0)), self.degree)
-
-
-@dataclass(frozen=True, slots=True)
-class Multiply:
-    """variable = its present value times ``factor`` (a variable scaled or divided out)."""
-
-    variable: str
-    factor: Poly
-
-    def value(self, assignment: Assignment) -> Value:
-        """The value of the variable."""
-        return simplest(value_at(self.factor, assignment) * assignment.get(self.variable, Fraction(0)))
-
-
-Lift = Solve | RootOf | Multiply
 
 
 def root(value: Value, degree: int) -> Value:

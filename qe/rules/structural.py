@@ -8,7 +8,7 @@ from fractions import Fraction
 from qe.exact.ring import format_poly
 from qe.formula.build import atom, conj, disj
 from qe.formula.syntax import Atom, Constant, Formula, Or, Relation
-from qe.formula.traverse import conjuncts, free_variables
+from qe.formula.traverse import conjuncts, connected, free_variables
 from qe.rules.block_context import BlockContext, Found
 from qe.rules.lift import Solve
 from qe.rules.linear import Pivot, choose_pivot, substitute
@@ -28,35 +28,15 @@ def independent_parts(variables: tuple[str, ...], body: Formula, context: BlockC
     if isinstance(body, Or):
         node = Any(tuple(Pending(variables, part) for part in body.args))
         return Found(StepKind.MINISCOPE, "disjunction", node)
-    parts = conjuncts(body)
-    groups = _components(parts, variables)
-    if len(groups) < 2:
+    block = frozenset(variables)
+    outside, groups = connected(conjuncts(body), lambda part: block.intersection(free_variables(part)))
+    if len(groups) + bool(outside) < 2:
         return None
-    outside = [part for names, members in groups if not names for part in members]
     children: list[Node] = [Leaf((), conj(outside))] if outside else []
     for names, members in groups:
-        if names:
-            own = tuple(v for v in variables if v in names)
-            children.append(Pending(own, conj(members), tuple(outside)))
+        own = tuple(v for v in variables if v in names)
+        children.append(Pending(own, conj(members), tuple(outside)))
     return Found(StepKind.MINISCOPE, "conjunction", All(tuple(children)))
-
-
-def _components(parts: Sequence[Formula], variables: Sequence[str]) -> list[tuple[set[str], list[Formula]]]:
-    """Groups of conjuncts connected by shared variables of the block; all without one are the first group."""
-    groups: list[tuple[set[str], list[Formula]]] = []
-    free: list[Formula] = []
-    block = set(variables)
-    for part in parts:
-        names = block & set(free_variables(part))
-        if not names:
-            free.append(part)
-            continue
-        touching = [g for g in groups if g[0] & names]
-        members = [m for g in touching for m in g[1]] + [part]
-        for g in touching:
-            names |= g[0]
-        groups = [g for g in groups if g not in touching] + [(names, members)]
-    return ([(set(), free)] if free else []) + groups
 
 
 def linear_equation(variables: tuple[str, ...], body: Formula, context: BlockContext) -> Found | None:

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from qe.elimination.vs.candidates import in_order
 from qe.elimination.vs.plan import Plan, choose, occurring, split_equation
 from qe.elimination.vs.points import SymbolicPoint, Value
-from qe.elimination.vs.result import All, Any, BlockResult, Choice, Chosen, Done, Open, Tree
+from qe.elimination.vs.result import BlockResult, Choice
 from qe.elimination.vs.substitute import Substitution
 from qe.elimination.vs.univariate_samples import solution
 from qe.exact.ring import Ring
@@ -15,8 +15,9 @@ from qe.formula.build import conj, disj
 from qe.formula.normal import nnf
 from qe.formula.openness import is_open, thinned
 from qe.formula.syntax import FALSE, TRUE, And, Atom, Exists, Formula, Or
-from qe.formula.traverse import conjuncts, has_root_atoms, ring_of
+from qe.formula.traverse import conjuncts, connected, has_root_atoms, ring_of
 from qe.options import Budget
+from qe.rules.tree import NEVER, All, Any, Leaf, Lifted, Node
 from qe.simplify.facts import NOTHING
 
 Simplifier = Callable[[Formula], Formula]
@@ -36,7 +37,7 @@ def eliminate_block(variables: Sequence[str], matrix: Formula, *, budget: Budget
     formula = simplify(nnf(matrix))
     ring = ring_of(formula)
     if ring is None:
-        return BlockResult(formula, (), Done(formula))
+        return BlockResult(formula, (), Leaf((), formula))
     run = _Run(ring, budget, simplify)
     block = frozenset(ring.index[v] for v in variables if v in ring.index)
     answer, tree = run.solve(formula, block)
@@ -52,7 +53,7 @@ def _existentials(formula: Formula) -> Iterator[Exists]:
             yield from _existentials(arg)
 
 
-Solved = tuple[Formula, Tree]
+Solved = tuple[Formula, Node]
 
 
 class _Run:
@@ -69,7 +70,7 @@ class _Run:
         """``exists block. formula``; the formula is simplified and positive."""
         inside = occurring(formula) & block
         if not inside:
-            return formula, Done(formula)
+            return formula, Leaf((), formula)
         key = (formula, inside)
         found = self.done.get(key)
         if found is None:
@@ -81,7 +82,8 @@ class _Run:
     def _solve(self, formula: Formula, block: frozenset[int]) -> Solved:
         if isinstance(formula, Or):
             return self._any(self.solve(part, block) for part in formula.args)
-        context, parts = _independent(formula, block)
+        context, groups = connected(conjuncts(formula), lambda part: occurring(part) & block)
+        parts = [conj(members) for _, members in groups]
         if not context and len(parts) == 1:
             return self._step(formula, parts[0], block)
         return self._all(context, parts, block)
@@ -89,7 +91,7 @@ class _Run:
     def _all(self, context: tuple[Formula, ...], parts: list[Formula], block: frozenset[int]) -> Solved:
         """exists x, y. C and F(x) and G(y)  iff  C and (exists x. F) and (exists y. G)."""
         answers: list[Formula] = list(context)
-        trees: list[Tree] = []
+        trees: list[Node] = []
         for part in parts:
             # the context comes along as background knowledge and is taken out of the answer again
             if context:
@@ -98,10 +100,10 @@ class _Run:
             else:
                 formula, tree = self._step(part, part, block)
             if formula == FALSE:
-                return FALSE, Done(FALSE)
+                return FALSE, NEVER
             answers.append(formula)
             trees.append(tree)
-        return conj(answers), All(conj(context), tuple(trees))
+        return conj(answers), All((Leaf((), conj(context)), *trees))
 
     def _step(self, formula: Formula, part: Formula, block: frozenset[int]) -> Solved:
         """Eliminate one variable of ``part`` (``formula`` is ``part`` with its context), then the others."""
@@ -117,15 +119,15 @@ class _Run:
         if cases is not None:
             return self._any(self.solve(self.simplify(case), inside) for case in cases)
         left = Exists(tuple(self.ring.names[i] for i in sorted(inside)), part)
-        return left, Open(left)
+        return left, Leaf(left.variables, part)
 
     def _decide(self, formula: Formula, variable: str) -> Solved:
         """A formula in one variable alone, of any degree."""
         self.budget.check("real roots")
         found = solution(formula, variable, {})
         if found is None:
-            return FALSE, Done(FALSE)
-        return TRUE, Chosen(Choice(variable, Value(found), 1, formula), Done(TRUE))
+            return FALSE, NEVER
+        return TRUE, Lifted((Choice(variable, Value(found), 1, formula),), Leaf((), TRUE))
 
     def _alternatives(self, plan: Plan, before: Formula, block: frozenset[int], strict: bool) -> Iterator[Solved]:
         """The subproblems of a plan, solved one after the other, cheap test points first."""
@@ -151,13 +153,13 @@ class _Run:
         self.budget.spend(SUBSTITUTION_COST)
         simple = self.simplify(result)
         if simple == FALSE:
-            return FALSE, Done(FALSE)
+            return FALSE, NEVER
         answer, tree = self.solve(simple, rest)
-        return answer, Chosen(choice, tree)
+        return answer, Lifted((choice,), tree)
 
     def _any(self, alternatives: Iterable[Solved]) -> Solved:
         """The disjunction; stops at the first alternative that is TRUE."""
-        found: dict[Formula, Tree] = {}
+        found: dict[Formula, Node] = {}
         for formula, tree in alternatives:
             if formula == TRUE:
                 return TRUE, tree
@@ -165,26 +167,6 @@ class _Run:
                 found.setdefault(formula, tree)
         trees = tuple(found.values())
         return disj(found), trees[0] if len(trees) == 1 else Any(trees)
-
-
-def _independent(formula: Formula, block: frozenset[int]) -> tuple[tuple[Formula, ...], list[Formula]]:
-    """The conjuncts free of the block, and the others grouped so that groups share no block variable."""
-    context: list[Formula] = []
-    groups: list[tuple[frozenset[int], list[Formula]]] = []
-    for arg in conjuncts(formula):
-        inside = occurring(arg) & block
-        if not inside:
-            context.append(arg)
-            continue
-        members = [arg]
-        apart = []
-        for variables, group in groups:
-            if variables & inside:
-                inside, members = inside | variables, group + members
-            else:
-                apart.append((variables, group))
-        groups = [*apart, (inside, members)]
-    return tuple(context), [conj(members) for _, members in groups]
 
 
 def _free_of(formula: Formula, x: int) -> list[Formula]:

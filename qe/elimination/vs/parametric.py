@@ -12,7 +12,7 @@ from fractions import Fraction
 from itertools import islice
 
 from qe.elimination.vs import Answer, eliminate_block, witness
-from qe.errors import InputError, Unable
+from qe.errors import DegreeTooHigh, InputError, Unable
 from qe.exact.algebraic import RealAlgebraic
 from qe.exact.sample import Point
 from qe.formula.evaluate import truth_under
@@ -62,7 +62,7 @@ def parametric_witnesses(block: Formula, *, budget: Budget) -> tuple[ParametricW
     """Guarded terms for the variables of ``block`` = ``ex x, ... phi`` or ``all x, ... phi``, phi quantifier-free.
 
     The disjunction of the guards is equivalent to the existential block (to the negation of the universal one).
-    Raises ``InputError`` for other formulas and ``Unable`` where substitution cannot eliminate the block.
+    Raises ``InputError`` for other formulas and ``DegreeTooHigh`` where substitution cannot eliminate it.
     """
     if not isinstance(block, Exists | ForAll) or not is_quantifier_free(block.body):
         raise InputError("a formula that begins with one quantifier, with a quantifier-free body, expected")
@@ -70,7 +70,7 @@ def parametric_witnesses(block: Formula, *, budget: Budget) -> tuple[ParametricW
     result = eliminate_block(block.variables, body, budget=budget, simplify=simplify)
     if result.remaining:
         names = ", ".join(result.remaining[0].variables)
-        raise Unable(f"no parametric witness: substitution does not eliminate {names}, whose degree is too high")
+        raise DegreeTooHigh(f"no parametric witness: substitution does not eliminate {names}, whose degree is too high")
     found = list(islice(result.answers, MOST + 1))
     if len(found) > MOST:
         raise Unable(f"more than {MOST} parametric witnesses")

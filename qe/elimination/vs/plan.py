@@ -15,10 +15,10 @@ from qe.elimination.vs.candidates import (
 )
 from qe.elimination.vs.points import Infinity
 from qe.elimination.vs.radical_free import without_radicals
-from qe.elimination.vs.shift import common_exponent, shifted
 from qe.formula.build import conj
 from qe.formula.syntax import FALSE, Atom, Formula, Relation, RootAtom
 from qe.formula.traverse import atoms, children, conjuncts
+from qe.rules.degree_shift import common_exponent, lowered, values
 from qe.simplify.facts import NOTHING, Facts, factor_list
 
 _INFINITY_COST = 2.0  # substituting an infinity, in units of a linear root with constant denominator
@@ -74,10 +74,11 @@ def choose(formula: Formula, block: frozenset[int], *, strict: bool) -> Plan | N
 def _plan(formula: Formula, x: int, others: frozenset[int], facts: Facts, strict: bool) -> Plan | None:
     if any(isinstance(a, RootAtom) and x in occurring(a) for a in atoms(formula)):
         return None
-    exponent = common_exponent(formula, x)
+    ring = next(atoms(formula)).poly.ring
+    exponent = common_exponent(formula, x, nonnegative=-1 not in facts.signs(ring.gen(x)))
     originals = args = conjuncts(formula)
     if exponent > 1:
-        args = shifted(args, x, exponent, strict=strict)
+        args = (*(lowered(a, x, exponent) for a in originals), values(ring.gen(x), exponent, strict=strict))
         formula = conj(args)
         facts = NOTHING.extended(args)
     size = sum(1.0 + _spread(a, x, others) for a in atoms(formula) if a.poly.degree(x))

@@ -4,11 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
+from fractions import Fraction
 from itertools import product
 
 from qe.elimination.vs.points import TestPoint
+from qe.elimination.vs.univariate_samples import solution
+from qe.errors import InternalError
 from qe.formula.build import conj
 from qe.formula.syntax import Exists, Formula
+from qe.formula.traverse import free_variables
+from qe.rules.lift import Assignment, Value
+from qe.rules.tree import All, Any, Leaf, Lifted, Node
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,6 +29,17 @@ class Choice:
     point: TestPoint
     exponent: int
     before: Formula
+
+    def value(self, assignment: Assignment) -> Value:
+        """A solution of ``before`` where the other variables have these values, or 0 if they have none.
+
+        Raises ``Unable`` for formulas with root atoms, ``InternalError`` if there is no solution.
+        """
+        others = {name: assignment.get(name, Fraction(0)) for name in free_variables(self.before)}
+        found = solution(self.before, self.variable, others)
+        if found is None:
+            raise InternalError(f"no solution for {self.variable}: its elimination was not an equivalence")
+        return found
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,58 +59,18 @@ class Answer:
         return f"{terms or 'anything'} if {self.guard}"
 
 
-# --- the tree of solutions, enumerated lazily ------------------------------------------------------
-@dataclass(frozen=True, slots=True)
-class Done:
-    """No variable is left; solutions exist where ``formula`` holds."""
-
-    formula: Formula
-
-
-@dataclass(frozen=True, slots=True)
-class Open:
-    """Variables are left that virtual substitution cannot eliminate: no parametric witness."""
-
-    formula: Exists
-
-
-@dataclass(frozen=True, slots=True)
-class Chosen:
-    """A choice, then the rest."""
-
-    choice: Choice
-    rest: Tree
-
-
-@dataclass(frozen=True, slots=True)
-class Any:
-    """Solutions of any of the alternatives."""
-
-    alternatives: tuple[Tree, ...]
-
-
-@dataclass(frozen=True, slots=True)
-class All:
-    """Where ``context`` holds: a solution of every part, in disjoint variables."""
-
-    context: Formula
-    parts: tuple[Tree, ...]
-
-
-Tree = Done | Open | Chosen | Any | All
-
-
 @dataclass(frozen=True, slots=True)
 class BlockResult:
     """``formula`` is equivalent to the eliminated block.
 
     It is quantifier-free in the other variables if ``remaining`` is empty. Otherwise it contains the existential
     subformulas listed in ``remaining``, over block variables of too high a degree, for another method to continue.
+    ``tree``: how solutions are found; its leaves without variables hold the guards, its rules are choices.
     """
 
     formula: Formula
     remaining: tuple[Exists, ...]
-    tree: Tree
+    tree: Node
     stats: Mapping[str, int] = field(default_factory=dict)
 
     @property
@@ -103,17 +80,17 @@ class BlockResult:
             yield Answer(conj(guards), choices)
 
 
-def _enumerate(tree: Tree) -> Iterator[tuple[tuple[Formula, ...], tuple[Choice, ...]]]:
+def _enumerate(tree: Node) -> Iterator[tuple[tuple[Formula, ...], tuple[Choice, ...]]]:
     match tree:
-        case Done(formula):
-            yield (formula,), ()
-        case Chosen(choice, rest):
-            for guards, choices in _enumerate(rest):
-                yield guards, (choice, *choices)
-        case Any(alternatives):
-            for alternative in alternatives:
-                yield from _enumerate(alternative)
-        case All(context, parts):
-            for picked in product(*(tuple(_enumerate(p)) for p in parts)):
-                guards = sum((g for g, _ in picked), (context,))
-                yield guards, sum((c for _, c in picked), ())
+        case Leaf((), body):
+            yield (body,), ()
+        case Lifted(rules, child):
+            chosen = tuple(rule for rule in rules if isinstance(rule, Choice))
+            for guards, choices in _enumerate(child):
+                yield guards, chosen + choices
+        case Any(children):
+            for child in children:
+                yield from _enumerate(child)
+        case All(children):
+            for picked in product(*(tuple(_enumerate(child)) for child in children)):
+                yield sum((g for g, _ in picked), ()), sum((c for _, c in picked), ())
