@@ -230,7 +230,7 @@ class _Run:
             try:
                 found = method.run(problem, self.context(self.budget.part(attempt.work)))
                 if found is not None and attempt.keep(found, problem):
-                    self.log.choice(method.name, problem.variables, reason)
+                    self.log.choice(method.name, problem.variables, reason, mark)
                     return self.whole_of(found, problem, attempt, method.name)
                 if found is not None:
                     self.log.switch(method.name, "its answer is long, or leaves something to others")

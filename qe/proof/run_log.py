@@ -64,9 +64,9 @@ class RunLog:
             self.entries.append(Step(rule, before, after, context, evidence or {}))
         return after
 
-    def choice(self, method: str, variables: tuple[str, ...], reason: str) -> None:
-        """Record why a method was chosen."""
-        self.entries.append(Choice(method, variables, reason))
+    def choice(self, method: str, variables: tuple[str, ...], reason: str, mark: int | None = None) -> None:
+        """Record why a method was chosen; with ``mark`` before what it did since then."""
+        self.entries.insert(len(self.entries) if mark is None else mark, Choice(method, variables, reason))
 
     def switch(self, what: str, reason: object) -> None:
         """Record why something was given up."""
