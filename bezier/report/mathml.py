@@ -14,11 +14,11 @@ from typing import Any
 
 from bezier.curves.scalar import exact_text
 from qe.exact.ring import Poly
-from qe.formula.syntax import And, Atom, Constant, Formula, Not, Or, Relation
+from qe.formula.syntax import Formula
 from qe.formula.traverse import conjuncts
+from qe.io import mathml
+from qe.io.infix import monomials
 
-_RELATIONS = {Relation.EQ: "=", Relation.NE: "≠", Relation.LT: "&lt;", Relation.LE: "≤"}
-_RELATIONS |= {Relation.GT: "&gt;", Relation.GE: "≥"}
 _HATTED = re.compile(r'<mover accent="true"><mi>(.)</mi><mo>\^</mo></mover>')
 _POINT = re.compile(r"([pqr])([0-9])([xyz])")
 
@@ -82,7 +82,7 @@ def _expression(node: ast.expr) -> str:
             return f"<msqrt>{_expression(inner)}</msqrt>"
         case ast.Call(ast.Name(id), arguments):
             inside = "<mo>,</mo>".join(map(_expression, arguments))
-            return f"<mrow><mi>{escape(id)}</mi><mo>(</mo>{inside}<mo>)</mo></mrow>"
+            return f"<mrow><mi>{escape(id)}</mi>{mathml.bracketed(inside)}</mrow>"
     return f"<mtext>{escape(ast.unparse(node))}</mtext>"
 
 
@@ -94,7 +94,7 @@ def _wrapped(node: ast.expr, kind: type[ast.expr] | None) -> str:
     """With brackets around sums (and around any operation, for ``kind`` BinOp)."""
     additive = isinstance(node, ast.BinOp) and isinstance(node.op, (ast.Add, ast.Sub))
     needed = additive or (kind is not None and isinstance(node, kind) and not _is_fraction(node))
-    return f"<mrow><mo>(</mo>{_expression(node)}<mo>)</mo></mrow>" if needed else _expression(node)
+    return mathml.bracketed(_expression(node)) if needed else _expression(node)
 
 
 def _is_fraction(node: ast.expr) -> bool:
@@ -103,49 +103,17 @@ def _is_fraction(node: ast.expr) -> bool:
 
 def vector(values: Iterable[Any]) -> str:
     """A point as a row of exact numbers."""
-    return "<mrow><mo>(</mo>" + "<mo>,</mo>".join(map(number, values)) + "<mo>)</mo></mrow>"
+    return mathml.bracketed("<mo>,</mo>".join(map(number, values)))
 
 
 def polynomial(poly: Poly) -> str:
     """A polynomial, highest degree first."""
-    pieces = []
-    for position, (exponents, coefficient) in enumerate(_ordered(poly)):
-        powers = [
-            name(n) if k == 1 else f"<msup>{name(n)}<mn>{k}</mn></msup>"
-            for n, k in zip(poly.ring.names, exponents, strict=True)
-            if k
-        ]
-        sign = "−" if coefficient < 0 else "+" if position else ""
-        magnitude = [f"<mn>{abs(coefficient)}</mn>"] if abs(coefficient) != 1 or not powers else []
-        pieces.append((f"<mo>{sign}</mo>" if sign else "") + "".join(magnitude + powers))
-    return "<mrow>" + "".join(pieces or ["<mn>0</mn>"]) + "</mrow>"
-
-
-def _ordered(poly: Poly) -> list[tuple[tuple[int, ...], int]]:
-    return sorted(poly.terms(), key=lambda term: (sum(term[0]), term[0]), reverse=True)
+    return mathml.polynomial(monomials(poly), name)
 
 
 def formula(node: Formula) -> str:
-    """A quantifier-free formula on one line."""
-    match node:
-        case Constant(value):
-            return f"<mtext>{'true' if value else 'false'}</mtext>"
-        case Atom(poly, relation):
-            if _ordered(poly)[0][1] < 0:
-                poly, relation = -poly, relation.flipped
-            return f"<mrow>{polynomial(poly)}<mo>{_RELATIONS[relation]}</mo><mn>0</mn></mrow>"
-        case And(args):
-            return "<mo>∧</mo>".join(_bracketed(arg) for arg in args)
-        case Or(args):
-            return "<mo>∨</mo>".join(_bracketed(arg) for arg in args)
-        case Not(arg):
-            return f"<mo>¬</mo>{_bracketed(arg)}"
-    return f"<mtext>{escape(str(node))}</mtext>"
-
-
-def _bracketed(node: Formula) -> str:
-    body = formula(node)
-    return f"<mrow><mo>(</mo>{body}<mo>)</mo></mrow>" if isinstance(node, (And, Or)) else body
+    """A formula on one line."""
+    return mathml.expression(node, draw=name)
 
 
 def conjunction_lines(node: Formula) -> list[str]:

@@ -7,6 +7,7 @@ from math import gcd, isqrt
 from bezier.report import mathml
 from qe.cells.pieces import Piece, Range, RootFunction
 from qe.exact.ring import Poly
+from qe.io.mathml import bracketed
 
 
 def cell(piece: Piece) -> list[str]:
@@ -40,7 +41,7 @@ def root_function(root: RootFunction) -> str:
     if len(c) == 3 and c[2].is_constant:
         return _quadratic(c[0], c[1], c[2].constant_value(), root.k)
     inside = f"{mathml.polynomial(poly)}<mo>,</mo>{mathml.name(poly.ring.names[poly.level])}"
-    return f"<mrow><msub><mi>root</mi><mn>{root.k}</mn></msub><mo>(</mo>{inside}<mo>)</mo></mrow>"
+    return f"<mrow><msub><mi>root</mi><mn>{root.k}</mn></msub>{bracketed(inside)}</mrow>"
 
 
 def _quadratic(c: Poly, b: Poly, a: int, k: int) -> str:

@@ -140,7 +140,7 @@ class Lifter:
             return Cell(text, child)
         if off_constraint:
             raise InternalError("the matrix is undecided off an equational constraint")
-        return self._cell(layers.sample(point, position), child, text, dimension + (position % 2 == 0))
+        return self._cell(layers.sample(position), child, text, dimension + (position % 2 == 0))
 
     def _collect_lacking(self, point: Point, level: int, nullified: tuple[int, ...]) -> None:
         factors = self.levels[level]

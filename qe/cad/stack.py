@@ -34,14 +34,11 @@ class Layers:
     @property
     def sectors(self) -> tuple[Fraction, ...]:
         """A rational sample of every sector."""
-        return tuple(Fraction(int(q.p), int(q.q)) for q in self.isolation.sectors)
+        return self.isolation.samples
 
-    def sample(self, below: Point, position: int) -> Point:
-        """The sample point of a cell of the stack over ``below``."""
-        if position in self.known:
-            return self.known[position]
-        found = self.isolation
-        return below.extend(found.sections[position // 2].value if position % 2 else found.sectors[position // 2])
+    def sample(self, position: int) -> Point:
+        """The sample point of a cell of the stack."""
+        return self.known.get(position) or self.isolation.sample(position)
 
 
 def layers_over(point: Point, factors: Sequence[Poly], used: tuple[int, ...], *, lazard: bool) -> Layers:
@@ -58,7 +55,7 @@ def restricted_layers(
     own = tuple(j for j in used if j in constraint)
     others = [j for j in used if j not in constraint]
     core = layers_over(point, factors, own, lazard=False)
-    known = {position: core.sample(point, position) for position in range(1, len(core.texts), 2)}
+    known = {position: core.sample(position) for position in range(1, len(core.texts), 2)}
     signs = {j: [place.apparent_sign(factors[j]) for place in known.values()] for j in others}
     unsettled = [j for j in others if None in signs[j]]
     if unsettled and not core.nullified:

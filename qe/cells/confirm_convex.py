@@ -69,14 +69,9 @@ def _over_section(table: CellTable, point: Point, holds: Holds, sides: int, boun
     factors = table.factors[1]
     isolation = isolate_over(point, factors)
     below = {f: point.sign(f) for f in table.factors[0]}
-    texts = isolation.sign_texts()
-    signs = (below | {f: _VALUE[c] for f, c in zip(factors, text, strict=True)} for text in texts)
+    signs = (below | known for known in isolation.sign_maps())
     true = [position for position, known in enumerate(signs) if truth_under(table.matrix, _signs(known))]
-
-    def sample(position: int) -> Point:
-        half = position // 2
-        return point.extend(isolation.sections[half].value if position % 2 else isolation.sectors[half])
-
+    sample = isolation.sample
     if not sides:
         return [sample(p) for p in true]
     run = [p for p in true if p % 2 == 0 or p - 1 in true or p + 1 in true] or true
@@ -118,9 +113,6 @@ def _centre(table: CellTable) -> tuple[Fraction, Fraction] | None:
             if above.truth:
                 return x, y
     return None
-
-
-_VALUE = {"+": 1, "-": -1, "0": 0}
 
 
 def _signs(known: dict[Poly, int]) -> Callable[[Poly], int | None]:

@@ -23,13 +23,13 @@ def fibre_of(table: CellTable, values: Sequence[Number]) -> list[Interval]:
     cell, point = table.root, Point(Ring.of(table.order))
     for value in values:
         if cell.stack is not None:
-            position = _position(_stack_over(table, cell, point), point, value)
+            position = _position(_stack_over(table, cell, point), value)
             cell = cell.stack.cells[position]
         point = point.extend(value if isinstance(value, RealAlgebraic) else RealAlgebraic.rational(value))
     if cell.stack is None:
         return [Interval(None, None, False, False)] if cell.truth else []
     isolation = _stack_over(table, cell, point)
-    return [_interval(isolation, point, run) for run in _runs(cell.stack.cells)]
+    return [_interval(isolation, run) for run in _runs(cell.stack.cells)]
 
 
 def any_true(cell: Cell) -> bool:
@@ -52,17 +52,17 @@ def _first_stack(ring: Ring, factors: tuple[Poly, ...], lazard: bool) -> Isolati
     return isolate_over(Point(ring), factors, lazard=lazard)
 
 
-def _position(isolation: Isolation, point: Point, value: Number) -> int:
+def _position(isolation: Isolation, value: Number) -> int:
     """The place of a value in the stack over the point."""
     for k in range(len(isolation.sections)):
-        root = _root(isolation, point, k)
+        root = _root(isolation, k)
         if value <= root:
             return 2 * k + (value == root)
     return 2 * len(isolation.sections)
 
 
-def _root(isolation: Isolation, point: Point, section: int) -> Number:
-    return point.extend(isolation.sections[section].value).number(point.depth)
+def _root(isolation: Isolation, section: int) -> Number:
+    return isolation.sample(2 * section + 1).number(isolation.point.depth)
 
 
 def _runs(cells: Sequence[Cell]) -> list[range]:
@@ -76,9 +76,9 @@ def _runs(cells: Sequence[Cell]) -> list[range]:
     return found
 
 
-def _interval(isolation: Isolation, point: Point, run: range) -> Interval:
+def _interval(isolation: Isolation, run: range) -> Interval:
     """From the section at or before the first cell of the run to the one at or after the last."""
     first, last = (run.start - 1) // 2, run[-1] // 2
-    lower = None if run.start == 0 else _root(isolation, point, first)
-    upper = None if last == len(isolation.sections) else _root(isolation, point, last)
+    lower = None if run.start == 0 else _root(isolation, first)
+    upper = None if last == len(isolation.sections) else _root(isolation, last)
     return Interval(lower, upper, run.start % 2 == 1, run[-1] % 2 == 1)

@@ -39,15 +39,33 @@ class Section:
 
 @dataclass(frozen=True, slots=True)
 class Isolation:
-    """m sections, m+1 rational sector samples between and around them, and the polynomials that are nullified.
+    """A stack over a point: m sections, and m+1 rational sector samples between and around them.
 
-    ``signs[j][s]`` is the sign of polynomial j at sector sample s (0 throughout for a nullified one).
+    Its cells have positions from below: sector k is 2*k, section k is 2*k+1. ``signs[j][s]`` is the sign of polynomial
+    j at sector sample s; ``nullified``: the polynomials that are zero on the whole line (sign 0 throughout).
     """
 
+    point: Point
+    polys: tuple[Poly, ...]
     sections: tuple[Section, ...]
     sectors: tuple[fmpq, ...]
     signs: tuple[tuple[int, ...], ...]
     nullified: tuple[int, ...] = field(default=())
+
+    @property
+    def samples(self) -> tuple[Fraction, ...]:
+        """The sector samples as fractions."""
+        return tuple(Fraction(int(q.p), int(q.q)) for q in self.sectors)
+
+    def sample(self, position: int) -> Point:
+        """The sample point of a cell."""
+        half = position // 2
+        return self.point.extend(self.sections[half].value if position % 2 else self.sectors[half])
+
+    def sign_maps(self) -> list[dict[Poly, int]]:
+        """The signs of the polynomials on every cell, from below."""
+        value = {"+": 1, "-": -1, "0": 0}
+        return [dict(zip(self.polys, map(value.__getitem__, text), strict=True)) for text in self.sign_texts()]
 
     def sign_texts(self) -> list[str]:
         """The signs of the polynomials on every cell of the stack from below, one character of ``+-0`` each."""
@@ -88,7 +106,7 @@ def isolate_over(point: Point, polys: tuple[Poly, ...], *, lazard: bool = False)
     ordered = _separate(point, [*sections.values(), *loose])
     sectors = _sector_samples(ordered)
     signs = tuple(_signs(shape, j, sectors, ordered) for j, shape in enumerate(shapes))
-    return Isolation(tuple(ordered), tuple(sectors), signs, tuple(nullified))
+    return Isolation(point, polys, tuple(ordered), tuple(sectors), signs, tuple(nullified))
 
 
 def _specialise(point: Point, f: Poly, var: int) -> fmpz_poly | Fibre | None:

@@ -11,6 +11,8 @@ from enum import Enum
 from fractions import Fraction
 from typing import Any
 
+from flint import fmpq, fmpq_mat
+
 from qe.exact.ring import Poly
 
 # A number with + - * / and comparison with 0: Fraction or FieldElement.
@@ -147,15 +149,22 @@ class Solution:
     free: tuple[int, ...]
 
 
-def solve_linear(rows: Matrix, rhs: Vector, width: int) -> Solution | None:
-    """All x with rows.x = rhs (``width`` unknowns); None when there is none. Gauss–Jordan, exact.
+def echelon(rows: Matrix) -> tuple[list[list[Number]], list[int]]:
+    """The nonzero rows of the reduced row echelon form, which is unique, and their pivot columns, ascending.
 
-    Free unknowns are zero in ``particular``. Pivots are taken from the leftmost columns.
+    Over Q by FLINT; over a field of algebraic numbers by Gauss and Jordan.
     """
-    work = [[*map(_exact, row), _exact(b)] for row, b in zip(rows, rhs, strict=True)]
+    work = [[_exact(entry) for entry in row] for row in rows]
+    if not work or not work[0]:
+        return [], []
+    if all(isinstance(entry, Fraction) for row in work for entry in row):
+        flat = [fmpq(entry.numerator, entry.denominator) for row in work for entry in row]
+        reduced, rank = fmpq_mat(len(work), len(work[0]), flat).rref()
+        work = [[Fraction(int(e.p), int(e.q)) for e in row] for row in reduced.tolist()[:rank]]
+        return work, [next(c for c, entry in enumerate(row) if entry) for row in work]
     pivots: list[int] = []
-    top = 0
-    for column in range(width):
+    for column in range(len(work[0])):
+        top = len(pivots)
         found = next((r for r in range(top, len(work)) if work[r][column]), None)
         if found is None:
             continue
@@ -167,8 +176,16 @@ def solve_linear(rows: Matrix, rhs: Vector, width: int) -> Solution | None:
                 factor = row[column]
                 work[r] = [a - factor * b if b else a for a, b in zip(row, work[top], strict=True)]
         pivots.append(column)
-        top += 1
-    if any(row[width] for row in work[top:]):
+    return work[: len(pivots)], pivots
+
+
+def solve_linear(rows: Matrix, rhs: Vector, width: int) -> Solution | None:
+    """All x with rows.x = rhs (``width`` unknowns); None when there is none.
+
+    Free unknowns are zero in ``particular``. Pivots are taken from the leftmost columns.
+    """
+    work, pivots = echelon([[*row, b] for row, b in zip(rows, rhs, strict=True)])
+    if width in pivots:
         return None
     zero, one = Fraction(0), Fraction(1)
     particular: list[Number] = [zero] * width
@@ -187,17 +204,4 @@ def solve_linear(rows: Matrix, rhs: Vector, width: int) -> Solution | None:
 
 def independent_rows(rows: Matrix) -> tuple[int, ...]:
     """Indices of a maximal linearly independent subset of the rows, the earliest ones."""
-    basis: list[tuple[int, list[Number]]] = []
-    chosen: list[int] = []
-    for index, row in enumerate(rows):
-        rest = [_exact(entry) for entry in row]
-        for column, vector in basis:
-            if rest[column]:
-                factor = rest[column]
-                rest = [a - factor * b for a, b in zip(rest, vector, strict=True)]
-        lead = next((c for c, entry in enumerate(rest) if entry), None)
-        if lead is not None:
-            scale = 1 / rest[lead]
-            basis.append((lead, [entry * scale for entry in rest]))
-            chosen.append(index)
-    return tuple(chosen)
+    return tuple(echelon(list(zip(*rows, strict=True)))[1])

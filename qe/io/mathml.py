@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from html import escape
 
 from qe.formula.notation import Monomial, digits, oriented, positive
@@ -25,6 +26,20 @@ _RELATIONS = {
 _AND, _OR = "∧", "∨"
 
 
+def name(variable: str) -> str:
+    """A variable: ``x1`` as x with an index, Greek letters by name, long words upright."""
+    found = _NAME.fullmatch(variable)
+    if found is None:
+        return f"<mi>{escape(variable)}</mi>"
+    letters, number, primes = found.groups()
+    text = _LETTERS.get(letters, escape(letters)) + "′" * len(primes)
+    return f"<msub><mi>{text}</mi><mn>{number}</mn></msub>" if number else f"<mi>{text}</mi>"
+
+
+Draw = Callable[[str], str]
+"""How a variable is drawn."""
+
+
 def write(formula: Formula) -> str:
     """A ``<math>`` element in display style."""
     return f'<math xmlns="http://www.w3.org/1998/Math/MathML" display="block">{_lines(formula)}</math>'
@@ -37,10 +52,10 @@ def _lines(formula: Formula) -> str:
         prefix += _quantifier(formula)
         formula = formula.body
     if not isinstance(formula, And | Or) or _size(formula) <= WIDTH:
-        return f"<mrow>{prefix}{_write(formula, bracket=False)}</mrow>"
+        return f"<mrow>{prefix}{expression(formula)}</mrow>"
     operator = _operator(_AND if isinstance(formula, And) else _OR)
     rows = [
-        f"<mtr><mtd>{operator if i else ''}</mtd><mtd>{_write(arg, bracket=True)}</mtd></mtr>"
+        f"<mtr><mtd>{operator if i else ''}</mtd><mtd>{expression(arg, bracket=True)}</mtd></mtr>"
         for i, arg in enumerate(formula.args)
     ]
     style = ' columnalign="right left" style="text-align:left"'
@@ -60,36 +75,37 @@ def _size(formula: Formula) -> int:
     return 1
 
 
-def _write(formula: Formula, *, bracket: bool) -> str:
-    """One expression; ``bracket``: compound formulas need brackets here."""
+def expression(formula: Formula, *, bracket: bool = False, draw: Draw = name) -> str:
+    """A formula on one line; ``bracket``: compound ones need brackets here."""
     match formula:
         case Constant(value):
             return f"<mi>{'true' if value else 'false'}</mi>"
         case Atom():
             parts, relation = oriented(formula.poly, formula.relation)
-            return f"<mrow>{_polynomial(parts)}{_relation(relation)}<mn>0</mn></mrow>"
+            return f"<mrow>{polynomial(parts, draw)}{_relation(relation)}<mn>0</mn></mrow>"
         case RootAtom(variable, relation, poly, k):
-            root = f"<msub><mi>root</mi><mn>{k}</mn></msub>{_bracketed(_polynomial(positive(poly)))}"
-            return f"<mrow>{name(variable)}{_relation(relation)}{root}</mrow>"
+            root = f"<msub><mi>root</mi><mn>{k}</mn></msub>{bracketed(polynomial(positive(poly), draw))}"
+            return f"<mrow>{draw(variable)}{_relation(relation)}{root}</mrow>"
         case Not(arg):
-            return f"<mrow>{_operator('¬')}{_write(arg, bracket=True)}</mrow>"
+            return f"<mrow>{_operator('¬')}{expression(arg, bracket=True, draw=draw)}</mrow>"
         case Exists(_, body) | ForAll(_, body):
-            inner = f"{_quantifier(formula)}{_write(body, bracket=False)}"
+            inner = f"{_quantifier(formula, draw)}{expression(body, draw=draw)}"
         case And(args) | Or(args):
             operator = _operator(_AND if isinstance(formula, And) else _OR)
-            inner = operator.join(_write(arg, bracket=True) for arg in args)
+            inner = operator.join(expression(arg, bracket=True, draw=draw) for arg in args)
         case _:
             raise TypeError(f"not a formula: {formula!r}")
-    return _bracketed(inner) if bracket else f"<mrow>{inner}</mrow>"
+    return bracketed(inner) if bracket else f"<mrow>{inner}</mrow>"
 
 
-def _bracketed(inner: str) -> str:
+def bracketed(inner: str) -> str:
+    """The expression in brackets."""
     return f'<mrow><mo form="prefix">(</mo>{inner}<mo form="postfix">)</mo></mrow>'
 
 
-def _quantifier(formula: Exists | ForAll) -> str:
+def _quantifier(formula: Exists | ForAll, draw: Draw = name) -> str:
     symbol = "∀" if isinstance(formula, ForAll) else "∃"
-    variables = "<mo>,</mo>".join(map(name, formula.variables))
+    variables = "<mo>,</mo>".join(map(draw, formula.variables))
     return f"<mrow><mo>{symbol}</mo>{variables}<mo>:</mo></mrow>"
 
 
@@ -101,27 +117,18 @@ def _relation(relation: Relation) -> str:
     return f"<mo>{_RELATIONS[relation]}</mo>"
 
 
-def _polynomial(parts: list[Monomial]) -> str:
+def polynomial(parts: list[Monomial], draw: Draw = name) -> str:
+    """A sum of monomials (``qe.io.infix.monomials``)."""
     pieces: list[str] = []
     for coefficient, powers in parts:
         if coefficient < 0 or pieces:
             pieces.append(f"<mo>{'−' if coefficient < 0 else '+'}</mo>")
-        factors = [_power(variable, k) for variable, k in powers]
+        factors = [_power(draw(variable), k) for variable, k in powers]
         if abs(coefficient) != 1 or not factors:
             factors.insert(0, f"<mn>{digits(abs(coefficient))}</mn>")
         pieces.append("<mo>&#x2062;</mo>".join(factors))
     return f"<mrow>{''.join(pieces) or '<mn>0</mn>'}</mrow>"
 
 
-def _power(variable: str, k: int) -> str:
-    return name(variable) if k == 1 else f"<msup>{name(variable)}<mn>{k}</mn></msup>"
-
-
-def name(variable: str) -> str:
-    """A variable: ``x1`` as x with an index, Greek letters by name, long words upright."""
-    found = _NAME.fullmatch(variable)
-    if found is None:
-        return f"<mi>{escape(variable)}</mi>"
-    letters, number, primes = found.groups()
-    text = _LETTERS.get(letters, escape(letters)) + "′" * len(primes)
-    return f"<msub><mi>{text}</mi><mn>{number}</mn></msub>" if number else f"<mi>{text}</mi>"
+def _power(base: str, k: int) -> str:
+    return base if k == 1 else f"<msup>{base}<mn>{k}</mn></msup>"

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from fractions import Fraction
 
+from qe.exact.quadratic_form import solve_linear
 from qe.exact.ring import Poly
 from qe.formula.syntax import Formula
 from qe.formula.traverse import polynomials
@@ -22,26 +23,10 @@ def occurring(body: Formula, names: frozenset[str]) -> tuple[list[Poly], list[in
 def kernel_vector(columns: Sequence[int], rows: Iterable[list[Fraction]]) -> dict[int, Fraction] | None:
     """A nonzero vector, by column name, whose product with every row is 0; None if there is none.
 
-    Gaussian elimination that stops as soon as the rows have full rank.
+    The sum of a basis of them, each with one free coordinate 1 and the others 0.
     """
-    reduced: dict[int, list[Fraction]] = {}
-    for given in rows:
-        row = given
-        for k in sorted(reduced):
-            if row[k]:
-                ratio = row[k] / reduced[k][k]
-                row = [a - ratio * b for a, b in zip(row, reduced[k], strict=True)]
-        if any(row):
-            reduced[next(k for k, v in enumerate(row) if v)] = row
-            if len(reduced) == len(columns):
-                return None
-    free = [k for k in range(len(columns)) if k not in reduced]
-    if not free:
+    listing = list(dict.fromkeys(map(tuple, rows)))
+    solved = solve_linear(listing, [Fraction(0)] * len(listing), len(columns))
+    if solved is None or not solved.kernel:
         return None
-    solution = [Fraction(0)] * len(columns)
-    for k in free:
-        solution[k] = Fraction(1)
-    for k in sorted(reduced, reverse=True):
-        tail = sum((reduced[k][j] * solution[j] for j in range(k + 1, len(columns))), Fraction(0))
-        solution[k] = -tail / reduced[k][k]
-    return {columns[k]: value for k, value in enumerate(solution)}
+    return dict(zip(columns, map(sum, zip(*solved.kernel, strict=True)), strict=True))

@@ -7,6 +7,7 @@ from fractions import Fraction
 from functools import lru_cache
 from math import lcm
 
+from qe.exact.quadratic_form import quadratic
 from qe.exact.ring import Poly
 
 _LARGEST = 8  # number of variables up to which the elimination is tried
@@ -43,51 +44,33 @@ def minimum(poly: Poly) -> Minimum | None:
 def minimum_of_quadratic(poly: Poly) -> Minimum | None:
     """The minimum over R^n of a polynomial of total degree 2, or None when it is unbounded below (or too large).
 
-    Completing squares one variable at a time: a*x^2 + l*x + rest = a*(x + l/(2a))^2 + rest - l^2/(4a) with
-    a > 0 is least over x where 2*a*x + l = 0, and what remains is quadratic in the other variables. With a = 0
+    Completing squares one variable at a time: a*x^2/2 + l*x + rest = a*(x + l/a)^2/2 + rest - l^2/(2a) with
+    a > 0 is least over x where a*x + l = 0, and what remains is quadratic in the other variables. With a = 0
     the polynomial is bounded below only if x does not occur. With a < 0 it is not bounded below.
     """
     n = len(poly.variables)
     if n > _LARGEST:
         return None
-    square, linear, constant = _matrix(poly)
+    form = quadratic(poly, poly.variables)
+    assert form is not None
+    hessian, linear, constant = [list(row) for row in form.hessian], list(form.gradient), form.constant
     zeros: list[Poly] = []
     for k in range(n):
-        a = square[k][k]
+        a = hessian[k][k]
         if a < 0:
             return None
         if a == 0:
-            if linear[k] or any(square[k][j] for j in range(k + 1, n)):
+            if linear[k] or any(hessian[k][k + 1 :]):
                 return None
             continue
-        zeros.append(_linear_form(poly, [2 * square[k][j] for j in range(k, n)], k, linear[k]))
+        zeros.append(_linear_form(poly, hessian[k][k:], k, linear[k]))
         for i in range(k + 1, n):
-            ratio = square[i][k] / a
+            ratio = hessian[i][k] / a
             linear[i] -= ratio * linear[k]
             for j in range(k + 1, n):
-                square[i][j] -= ratio * square[k][j]
-        constant -= linear[k] ** 2 / (4 * a)
+                hessian[i][j] -= ratio * hessian[k][j]
+        constant -= linear[k] ** 2 / (2 * a)
     return Minimum(constant, tuple(zeros))
-
-
-def _matrix(poly: Poly) -> tuple[list[list[Fraction]], list[Fraction], Fraction]:
-    """The symmetric matrix of the quadratic part, the linear part and the constant."""
-    n = len(poly.variables)
-    square = [[Fraction(0)] * n for _ in range(n)]
-    linear = [Fraction(0)] * n
-    constant = Fraction(0)
-    position = {v: k for k, v in enumerate(poly.variables)}
-    for exponents, coefficient in poly.terms():
-        found = [position[v] for v in poly.variables for _ in range(exponents[v])]
-        if len(found) == 2:
-            i, j = found
-            square[i][j] += Fraction(coefficient, 2)
-            square[j][i] += Fraction(coefficient, 2)
-        elif found:
-            linear[found[0]] += coefficient
-        else:
-            constant += coefficient
-    return square, linear, constant
 
 
 def _linear_form(poly: Poly, coefficients: list[Fraction], first: int, constant: Fraction) -> Poly:

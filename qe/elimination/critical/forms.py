@@ -27,23 +27,18 @@ class ParametricForm:
 
 def parametric_form(poly: Poly, free: int) -> ParametricForm | None:
     """The form of a polynomial whose variables from index ``free`` on are the quantified ones, or None."""
-    ring = poly.ring
-    size = ring.size - free
+    size = poly.ring.size - free
     hessian = [[Fraction(0)] * size for _ in range(size)]
-    linear: list[dict[tuple[int, ...], int]] = [{} for _ in range(size)]
-    constant: dict[tuple[int, ...], int] = {}
-    for exponents, coefficient in poly.terms():
-        inner = [k for k in range(size) for _ in range(exponents[free + k])]
-        outer = (*exponents[:free], *((0,) * size))
-        if len(inner) > 2 or (len(inner) == 2 and any(outer)):
-            return None
-        if len(inner) == 2:
-            i, j = inner
-            hessian[i][j] += coefficient
-            hessian[j][i] += coefficient
-        elif inner:
-            linear[inner[0]][outer] = coefficient
-        else:
-            constant[outer] = coefficient
-    gradient = tuple(ring.from_terms(terms) for terms in linear)
-    return ParametricForm(tuple(map(tuple, hessian)), gradient, ring.from_terms(constant))
+    gradient, constant = [poly.ring.constant(0)] * size, poly.ring.constant(0)
+    for exponents, coefficient in poly.collected(range(free, poly.ring.size)).items():
+        match [k for k, e in enumerate(exponents) for _ in range(e)]:
+            case []:
+                constant = coefficient
+            case [i]:
+                gradient[i] = coefficient
+            case [i, j] if coefficient.is_constant:
+                hessian[i][j] += coefficient.constant_value()
+                hessian[j][i] += coefficient.constant_value()
+            case _:
+                return None
+    return ParametricForm(tuple(map(tuple, hessian)), tuple(gradient), constant)

@@ -178,9 +178,7 @@ def _has_solution(formula: Formula) -> bool:
     """Whether a formula in one variable holds somewhere: its polynomials have constant signs between their roots."""
     polys = tuple(polynomials(formula))
     stack = isolate_over(Point(polys[0].ring), polys)
-    value = {"+": 1, "-": -1, "0": 0}
-    cells = (dict(zip(polys, map(value.get, text), strict=True)) for text in stack.sign_texts())
-    return any(truth_under(formula, signs.get) for signs in cells)
+    return any(truth_under(formula, signs.get) for signs in stack.sign_maps())
 
 
 def _formula(

@@ -74,10 +74,10 @@ class OpenCells:
                 return True
             return False
         isolation = isolate_over(point, self.levels[level])
-        samples = [Fraction(int(q.p), int(q.q)) for q in isolation.sectors]
+        samples = isolation.samples
 
         def test(k: int) -> bool:
-            return self._any_true(point.extend(isolation.sectors[k]), (*path, k), (*values, samples[k]))
+            return self._any_true(isolation.sample(2 * k), (*path, k), (*values, samples[k]))
 
         run = _run(samples, self._near[level], test)
         if run:
@@ -112,10 +112,9 @@ class OpenCells:
         self.budget.check("open cells")
         isolation, run = self._stacks.get(path) or (isolate_over(point, self.levels[point.depth]), range(0))
         texts = isolation.sign_texts()
-        for k, q in enumerate(isolation.sectors):
-            value = Fraction(int(q.p), int(q.q))
+        for k, value in enumerate(isolation.samples):
             here = possible and k in run
-            yield from self._cells(point.extend(q), (*path, k), (*signs, texts[2 * k]), (*values, value), here)
+            yield from self._cells(isolation.sample(2 * k), (*path, k), (*signs, texts[2 * k]), (*values, value), here)
 
 
 def _run(samples: Sequence[Fraction], near: Fraction, test: Callable[[int], bool]) -> range:

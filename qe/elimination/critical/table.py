@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from enum import Enum
-from fractions import Fraction
 
 from qe.elimination.critical.procedures import Levels
 from qe.errors import NotWellOriented
-from qe.exact.fibre_stack import Isolation, isolate_over
+from qe.exact.fibre_stack import isolate_over
 from qe.exact.ring import Poly
 from qe.exact.sample import Point
 from qe.options import Budget, Projection
@@ -74,16 +73,15 @@ class TableBuilder:
         for position in (*range(0, len(texts), 2), *range(1, len(texts), 2)):
             zero = frozenset(f for f, c in zip(factors, texts[position], strict=True) if c == "0") & self.boundary
             cells[position] = self._cell(
-                _extended(point, isolation, position),
+                isolation.sample(position),
                 texts[position],
                 vanishing | zero,
                 dimension + (position % 2 == 0),
                 (cells[position - 1], cells[position + 1]) if position % 2 else None,
             )
-        sectors = tuple(Fraction(int(q.p), int(q.q)) for q in isolation.sectors)
         sections = tuple(tuple(sorted(s.members)) for s in isolation.sections)
         complete = tuple(cells[position] for position in range(len(texts)))
-        return Cell(signs, None, Stack(tuple(range(len(factors))), sectors, sections, complete))
+        return Cell(signs, None, Stack(tuple(range(len(factors))), isolation.samples, sections, complete))
 
     def _truth(
         self, point: Point, vanishing: frozenset[Poly], dimension: int, beside: tuple[Cell, Cell] | None
@@ -98,9 +96,3 @@ class TableBuilder:
         if not self.unsettled & vanishing:
             self.unsettled.add(min(vanishing, key=lambda f: (f.total_degree, f.term_count(), f.terms())))
         return False
-
-
-def _extended(point: Point, isolation: Isolation, position: int) -> Point:
-    if position % 2:
-        return point.extend(isolation.sections[position // 2].value)
-    return point.extend(isolation.sectors[position // 2])
