@@ -23,7 +23,7 @@ from qe.proof.cells import CellTable
 from qe.proof.cells_json import CellEvidence
 from qe.proof.certificate import Certificate
 from qe.proof.elimination import Values
-from qe.proof.run_log import Story
+from qe.proof.run_log import RunLog
 from qe.simplify.simplify import simplify
 
 WHOLE_FROM, WHOLE_CELLS = 300, 2000
@@ -46,7 +46,7 @@ class Decomposed:
     certificate: Certificate | None = None
 
 
-def decomposed(formula: Formula, options: Options, budget: Budget, story: Story) -> Decomposed:
+def decomposed(formula: Formula, options: Options, budget: Budget, log: RunLog) -> Decomposed:
     """Any formula, as a whole, by cylindrical algebraic decomposition. Raises ``BudgetExceeded``."""
     start = time.perf_counter()
     prefix, matrix = prenex(formula)
@@ -65,7 +65,7 @@ def decomposed(formula: Formula, options: Options, budget: Budget, story: Story)
         answer = TRUE if truth else FALSE
         if truth is (quantifiers[0] == "E"):
             values = deciding_point(proof, truth)
-    story.note("cad", _figures(order, reason, first, time.perf_counter() - start))
+    log.note("cad", _figures(order, reason, first, time.perf_counter() - start))
     certificate = Certificate.cells(proof, convert(answer, Ring.of(order))) if _is_listed(answer, proof) else None
     # back into the ring of the formula it came from: it is joined with parts of that formula
     ring = ring_of(formula)
@@ -88,7 +88,7 @@ def certificate_for(formula: Formula, answer: Formula, options: Options, budget:
     ring = Ring.of(order)
     claim = convert(answer, ring)
     question = _Question(matrix, order, quantifiers, free, options)
-    proof = question.table(budget, whole_free=True, beside=tuple(polynomials(claim))).table
+    proof = question.table(budget, whole_free=True, extra=tuple(polynomials(claim))).table
     if not free and answer != (TRUE if proof.root.truth else FALSE):
         raise InternalError(f"a decomposition says {proof.root.truth} where the answer is {answer}")
     return Certificate.cells(proof, claim)
@@ -107,14 +107,14 @@ class _Question:
     def table(
         self,
         budget: Budget,
-        separated: frozenset[int] = frozenset(),
+        thom_levels: frozenset[int] = frozenset(),
         *,
         whole_free: bool = False,
-        beside: tuple[Poly, ...] = (),
+        extra: tuple[Poly, ...] = (),
     ) -> Decomposition:
         """Its decomposition by the tactics that the options allow; see ``Tactics`` for ``whole_free``.
 
-        With ``beside`` the signs of these polynomials in the free variables are wanted on every free cell.
+        With ``extra`` the signs of these polynomials in the free variables are wanted on every free cell.
         """
         without = self.options.without
         return decompose(
@@ -123,15 +123,15 @@ class _Question:
             self.quantifiers,
             budget=budget,
             projection=Projection.LAZARD if Stage.MCCALLUM in without else self.options.projection,
-            separated=separated,
+            thom_levels=thom_levels,
             tactics=Tactics(
                 constraints=Stage.CONSTRAINTS not in without,
                 partial=Stage.PARTIAL not in without,
                 open_only=Stage.OPEN not in without,
                 whole_free=whole_free,
-                free_constraints=not beside,
+                free_constraints=not extra,
             ),
-            beside=beside,
+            extra=extra,
         )
 
     def answer(self, found: Decomposition, budget: Budget, *, whole_free: bool = False) -> tuple[Formula, CellTable]:
@@ -218,9 +218,9 @@ def _order(
     parts = [("", tuple(free)), *((kind.value, names) for kind, names in prefix)]
     blocks: list[tuple[str, ...]] = []
     for _, names in parts:
-        wished = [v for v in options.order or () if v in names]
-        rest = tuple(v for v in names if v not in wished)
-        blocks += [*((v,) for v in wished), *([rest] if rest else [])]
-    rule = OrderRule.WRITTEN if Stage.ORDER in options.without else OrderRule.PILOT
+        named = [v for v in options.order or () if v in names]
+        rest = tuple(v for v in names if v not in named)
+        blocks += [*((v,) for v in named), *([rest] if rest else [])]
+    rule = OrderRule.WRITTEN if Stage.ORDER in options.without else OrderRule.BY_PROJECTION
     order, reason = choose_order(matrix, blocks, rule=rule, budget=budget)
     return order, tuple(kind for kind, names in parts for _ in names), reason

@@ -37,16 +37,16 @@ def allows(options: Options, method: Method) -> bool:
 
 
 def planned(variables: Sequence[str], body: Formula, options: Options) -> Choice:
-    """The order of methods for ``exists variables. body``: the one asked for, or that of ``choose``.
+    """The order of methods for ``exists variables. body``: the requested one, or that of ``choose``.
 
     Raises ``Unable`` for a method that eliminates no block.
     """
     asked = options.method
     if asked is Method.AUTO:
-        return choose(variables, body) if allows(options, Method.VS) else Choice((Method.CAD,), "asked for")
+        return choose(variables, body) if allows(options, Method.VS) else Choice((Method.CAD,), "requested")
     if asked is Method.CGS:
         raise Unable(f"the method {asked.value} is not available for this formula")
-    return Choice((asked,), "asked for")
+    return Choice((asked,), "requested")
 
 
 def choose(variables: Sequence[str], body: Formula) -> Choice:

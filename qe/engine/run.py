@@ -30,7 +30,7 @@ from qe.formula.traverse import atoms, free_variables, has_root_atoms, is_quanti
 from qe.options import Budget, Method, Options, Stage
 from qe.proof.certificate import Certificate, Root
 from qe.proof.elimination import Elimination, Values
-from qe.proof.run_log import Story
+from qe.proof.run_log import RunLog
 from qe.rules.nonzero import only_nonzero
 from qe.rules.preparation import Prepared, prepare
 from qe.rules.step import ALL_STEPS, EQUATION_STEPS
@@ -77,7 +77,7 @@ class _Run:
     options: Options
     budget: Budget
     started: float = field(default_factory=time.perf_counter)
-    story: Story = field(default_factory=Story)
+    story: RunLog = field(default_factory=RunLog)
     certificate: Certificate | None = None
     whole: Formula | None = None
     shortest: Formula | None = None  # the last answer of a decomposition, which needs no shortening

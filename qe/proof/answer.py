@@ -11,7 +11,7 @@ from qe.errors import Unable
 from qe.formula.syntax import Constant, Formula
 from qe.proof.certificate import Certificate
 from qe.proof.elimination import Assignment
-from qe.proof.run_log import told
+from qe.proof.run_log import explained
 
 
 class Status(Enum):
@@ -53,7 +53,7 @@ class Answer:
     @property
     def explanation(self) -> str:
         """What was done and why, a sentence a line."""
-        return told(self.stats)
+        return explained(self.stats)
 
     def _written(self, format: str) -> str:
         """Raises ``Unable`` where there is no answer."""

@@ -34,5 +34,5 @@ class Elimination:
     @property
     def parameter_order(self) -> tuple[str, ...] | None:
         """The order of the free variables in which critical values gave the answer, if they did."""
-        told = self.stats.get("critical")
-        return tuple(told[-1]["order"]) if isinstance(told, list) else None
+        entries = self.stats.get("critical")
+        return tuple(entries[-1]["order"]) if isinstance(entries, list) else None

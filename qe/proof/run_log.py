@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 
 @dataclass(slots=True)
-class Story:
+class RunLog:
     """``stats``: lists of entries by kind (``preparation``, ``plan``, ``vs``, ``cad``, ``switches``)."""
 
     stats: dict[str, object] = field(default_factory=dict)
@@ -19,7 +19,7 @@ class Story:
         entries.append(detail)
 
 
-def told(stats: Mapping[str, object]) -> str:
+def explained(stats: Mapping[str, object]) -> str:
     """The story in sentences, one a line: what ``explain=True`` shows."""
     lines = []
     for entry in _entries(stats, "preparation"):

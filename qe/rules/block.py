@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from qe.formula.syntax import FALSE, Formula
 from qe.formula.traverse import free_variables
-from qe.rules.block_context import Rule, Workshop
+from qe.rules.block_context import BlockContext, Rule
 from qe.rules.cases import groebner_equations, split_factors, split_squares
 from qe.rules.degree_shift import shift_degree
 from qe.rules.generic import drop_inequations
@@ -31,11 +31,11 @@ RULES: tuple[Rule, ...] = (
 )
 
 
-def reduce_block(variables: Sequence[str], body: Formula, shop: Workshop) -> Node:
+def reduce_block(variables: Sequence[str], body: Formula, context: BlockContext) -> Node:
     """A tree whose formula is equivalent to ``exists variables. body`` where the facts hold."""
-    shop.budget.check("prepare")
-    if StepKind.SIMPLIFY in shop.enabled:
-        body = simplify_under(body, shop.facts)
+    context.budget.check("prepare")
+    if StepKind.SIMPLIFY in context.enabled:
+        body = simplify_under(body, context.facts)
     if body == FALSE:
         return NEVER
     occurring = free_variables(body)
@@ -43,7 +43,7 @@ def reduce_block(variables: Sequence[str], body: Formula, shop: Workshop) -> Nod
     if not kept:
         return Leaf((), body)
     for rule in RULES:
-        result = rule(kept, body, shop, reduce_block)
+        result = rule(kept, body, context, reduce_block)
         if result is not None:
             return result
     return Leaf(kept, body)

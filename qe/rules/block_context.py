@@ -16,7 +16,7 @@ _BASES = 40  # Groebner bases computed within one block
 
 
 @dataclass(slots=True)
-class Workshop:
+class BlockContext:
     """``splits``, ``bases``: case distinctions and Groebner bases still allowed; ``facts``: what holds outside."""
 
     budget: Budget
@@ -38,8 +38,8 @@ class Workshop:
         return True
 
 
-Recur = Callable[[Sequence[str], Formula, Workshop], Node]
-Rule = Callable[[tuple[str, ...], Formula, Workshop, Recur], Node | None]
+Recur = Callable[[Sequence[str], Formula, BlockContext], Node]
+Rule = Callable[[tuple[str, ...], Formula, BlockContext, Recur], Node | None]
 
 
 def either(nodes: Sequence[Node]) -> Node:

@@ -14,26 +14,26 @@ from qe.exact.ring import Poly
 from qe.formula.build import atom, conj
 from qe.formula.syntax import TRUE, Atom, Formula, Relation, RootAtom
 from qe.formula.traverse import atoms, bound_variables, conjuncts, map_atoms
-from qe.rules.block_context import Recur, Workshop
+from qe.rules.block_context import BlockContext, Recur
 from qe.rules.lift import RootOf
 from qe.rules.step import StepKind
 from qe.rules.tree import Lifted, Node
 
 
-def shift_degree(variables: tuple[str, ...], body: Formula, shop: Workshop, recur: Recur) -> Node | None:
+def shift_degree(variables: tuple[str, ...], body: Formula, context: BlockContext, recur: Recur) -> Node | None:
     """The theorem on the first variable of the block that it applies to."""
-    if StepKind.DEGREE_SHIFT not in shop.enabled:
+    if StepKind.DEGREE_SHIFT not in context.enabled:
         return None
     inner = bound_variables(body)
     ring = next(atoms(body)).poly.ring
-    known = shop.facts.extended(conjuncts(body))
+    known = context.facts.extended(conjuncts(body))
     for name in variables:
         x = ring.index[name]
         step = 1 if name in inner else common_exponent(body, x, nonnegative=-1 not in known.signs(ring.gen(x)))
         if step > 1:
-            shop.note(StepKind.DEGREE_SHIFT, f"{name}^{step}")
+            context.note(StepKind.DEGREE_SHIFT, f"{name}^{step}")
             shifted = conj((values(ring.gen(x), step), lowered(body, x, step)))
-            return Lifted((RootOf(name, step),), recur(variables, shifted, shop))
+            return Lifted((RootOf(name, step),), recur(variables, shifted, context))
     return None
 
 

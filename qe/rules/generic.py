@@ -6,18 +6,18 @@ from qe.formula.build import atom, conj
 from qe.formula.openness import is_open, somewhere_nonzero
 from qe.formula.syntax import Atom, Formula, Relation
 from qe.formula.traverse import atoms, conjuncts
-from qe.rules.block_context import Recur, Workshop, either
+from qe.rules.block_context import BlockContext, Recur, either
 from qe.rules.step import StepKind
-from qe.rules.tree import Node, Nudged
+from qe.rules.tree import Node, Perturbed
 
 
-def drop_inequations(variables: tuple[str, ...], body: Formula, shop: Workshop, recur: Recur) -> Node | None:
+def drop_inequations(variables: tuple[str, ...], body: Formula, context: BlockContext, recur: Recur) -> Node | None:
     """Let f be open in the variables v of the block. Then  ex v (f and p /= 0)  iff  (ex v f) and (some coefficient
     of p with respect to v is not 0): the theorems of ``qe.formula.openness``.
 
     Lift: a solution of f, moved a little where p happens to vanish on it.
     """
-    if StepKind.GENERIC not in shop.enabled:
+    if StepKind.GENERIC not in context.enabled:
         return None
     block = _indices(variables, body)
     removed: list[Atom] = []
@@ -31,14 +31,14 @@ def drop_inequations(variables: tuple[str, ...], body: Formula, shop: Workshop, 
     if not removed:
         return None
     if closed:
-        return _boundary_apart(variables, body, closed, shop, recur)
-    shop.note(StepKind.GENERIC, f"{len(removed)} inequations")
+        return _boundary_apart(variables, body, closed, context, recur)
+    context.note(StepKind.GENERIC, f"{len(removed)} inequations")
     somewhere = [somewhere_nonzero(p.poly, block) for p in removed]
-    return Nudged(variables, body, recur(variables, conj((*others, *somewhere)), shop))
+    return Perturbed(variables, body, recur(variables, conj((*others, *somewhere)), context))
 
 
 def _boundary_apart(
-    variables: tuple[str, ...], body: Formula, closed: list[Formula], shop: Workshop, recur: Recur
+    variables: tuple[str, ...], body: Formula, closed: list[Formula], context: BlockContext, recur: Recur
 ) -> Node | None:
     """g >= 0 iff g > 0 or g = 0: where at most two weak inequalities of low degree in the only variable are in the way.
 
@@ -47,13 +47,13 @@ def _boundary_apart(
     first = closed[0]
     if len(closed) > 2 or len(variables) > 1 or not isinstance(first, Atom) or first.relation is Relation.EQ:
         return None
-    if first.poly.degree(first.poly.ring.index[variables[0]]) > 2 or not shop.may_split(StepKind.GENERIC, 2):
+    if first.poly.degree(first.poly.ring.index[variables[0]]) > 2 or not context.may_split(StepKind.GENERIC, 2):
         return None
     rest = [p for p in conjuncts(body) if p != first]
     strict = Relation.GT if first.relation is Relation.GE else Relation.LT
-    shop.note(StepKind.GENERIC, "boundary apart", 2)
+    context.note(StepKind.GENERIC, "boundary apart", 2)
     cases = [atom(first.poly, strict), atom(first.poly, Relation.EQ)]
-    return either([recur(variables, conj((case, *rest)), shop) for case in cases])
+    return either([recur(variables, conj((case, *rest)), context) for case in cases])
 
 
 def _indices(variables: tuple[str, ...], formula: Formula) -> frozenset[int]:

@@ -11,7 +11,7 @@ from qe.formula.normal import nnf
 from qe.formula.syntax import And, Exists, ForAll, Formula, Or
 from qe.options import Budget
 from qe.rules.block import reduce_block
-from qe.rules.block_context import Workshop
+from qe.rules.block_context import BlockContext
 from qe.rules.lift import Assignment, Value
 from qe.rules.step import ALL_STEPS, Step, StepKind
 from qe.rules.tree import Node
@@ -52,35 +52,35 @@ def prepare(formula: Formula, *, budget: Budget | None = None, enabled: Collecti
     ``enabled`` switches single steps (for measurements). Raises ``BudgetExceeded``.
     """
     steps: list[Step] = []
-    shop = Workshop(budget or Budget(), frozenset(enabled), steps=steps)
+    context = BlockContext(budget or Budget(), frozenset(enabled), steps=steps)
     current = nnf(formula)
-    if StepKind.SIMPLIFY in shop.enabled:
+    if StepKind.SIMPLIFY in context.enabled:
         current = simplify(current)
     if not isinstance(current, Exists | ForAll):
-        return Prepared(_finish(_inside(current, shop), shop), tuple(steps))
+        return Prepared(_finish(_inside(current, context), context), tuple(steps))
     universal = isinstance(current, ForAll)
-    body = _inside(nnf(current.body, negate=universal), shop)
-    tree = reduce_block(current.variables, body, shop)
-    result = _finish(nnf(tree.formula, negate=universal), shop)
+    body = _inside(nnf(current.body, negate=universal), context)
+    tree = reduce_block(current.variables, body, context)
+    result = _finish(nnf(tree.formula, negate=universal), context)
     outer = formula.variables if isinstance(formula, Exists | ForAll) else current.variables
     return Prepared(result, tuple(steps), tree, universal, outer)
 
 
-def _finish(formula: Formula, shop: Workshop) -> Formula:
-    return simplify(formula) if StepKind.SIMPLIFY in shop.enabled else formula
+def _finish(formula: Formula, context: BlockContext) -> Formula:
+    return simplify(formula) if StepKind.SIMPLIFY in context.enabled else formula
 
 
-def _inside(formula: Formula, shop: Workshop) -> Formula:
+def _inside(formula: Formula, context: BlockContext) -> Formula:
     """Prepare the quantifier blocks inside a formula, innermost first, under their sibling atoms."""
     match formula:
         case And(args):
-            inner = replace(shop, facts=shop.facts.extended(args))
+            inner = replace(context, facts=context.facts.extended(args))
             return conj(_inside(a, inner) for a in args)
         case Or(args):
-            return disj(_inside(a, shop) for a in args)
+            return disj(_inside(a, context) for a in args)
         case Exists(variables, body) | ForAll(variables, body):
             universal = isinstance(formula, ForAll)
-            fresh = replace(shop, facts=shop.facts.without(variables))
+            fresh = replace(context, facts=context.facts.without(variables))
             tree = reduce_block(variables, nnf(_inside(body, fresh), negate=universal), replace(fresh))
             return nnf(tree.formula, negate=universal)
     return formula

@@ -9,7 +9,7 @@ from qe.exact.ring import Poly
 from qe.formula.build import atom
 from qe.formula.syntax import Atom, Formula, RootAtom
 from qe.formula.traverse import atoms, bound_variables, conjuncts
-from qe.rules.block_context import Recur, Workshop, either
+from qe.rules.block_context import BlockContext, Recur, either
 from qe.rules.lift import Solve
 from qe.rules.nullspace import kernel_vector, occurring
 from qe.rules.rewrite import rewrite
@@ -19,7 +19,7 @@ from qe.rules.tree import Lifted, Node
 _TERMS = 600  # terms in all atoms together up to which weights are looked for
 
 
-def fix_scale(variables: tuple[str, ...], body: Formula, shop: Workshop, recur: Recur) -> Node | None:
+def fix_scale(variables: tuple[str, ...], body: Formula, context: BlockContext, recur: Recur) -> Node | None:
     """Let weights w (0 for the free variables) make every atom's polynomial homogeneous: p(t^w * v) = t^d p(v).
     Then the truth of f is the same at v and at t^w * v for all t > 0, and where w_x /= 0 a suitable t makes x one of
     -1, 0, 1:  ex x, y f  iff  ex y (f[1]) or ex y (f[0]) or ex y (f[-1]), of which those are left out that the
@@ -27,13 +27,13 @@ def fix_scale(variables: tuple[str, ...], body: Formula, shop: Workshop, recur: 
 
     Lift: x is the number that was put in for it.
     """
-    if StepKind.SCALING not in shop.enabled or not _worthwhile(body):
+    if StepKind.SCALING not in context.enabled or not _worthwhile(body):
         return None
     inner = frozenset(bound_variables(body))
     weights = find_weights(body, frozenset(variables) | inner)
     if weights is None:
         return None
-    known = shop.facts.extended(conjuncts(body))
+    known = context.facts.extended(conjuncts(body))
     ring = next(atoms(body)).poly.ring
     candidates = []
     for name in variables:
@@ -46,15 +46,15 @@ def fix_scale(variables: tuple[str, ...], body: Formula, shop: Workshop, recur: 
     if not candidates:
         return None
     count, _, name, signs = min(candidates)
-    if not shop.may_split(StepKind.SCALING, max(1, count)):
+    if not context.may_split(StepKind.SCALING, max(1, count)):
         return None
-    shop.note(StepKind.SCALING, f"{name} in {sorted(signs)}", count)
+    context.note(StepKind.SCALING, f"{name} in {sorted(signs)}", count)
     rest = tuple(v for v in variables if v != name)
     one = ring.constant(1)
     nodes: list[Node] = []
     for sign in sorted(signs, reverse=True):
         fixed = _at(body, ring.index[name], sign)
-        nodes.append(Lifted((Solve(name, ring.constant(sign), one),), recur(rest, fixed, shop)))
+        nodes.append(Lifted((Solve(name, ring.constant(sign), one),), recur(rest, fixed, context)))
     return either(nodes)
 
 

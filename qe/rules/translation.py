@@ -9,7 +9,7 @@ from qe.exact.ring import Poly
 from qe.formula.build import atom
 from qe.formula.syntax import Atom, Formula, RootAtom
 from qe.formula.traverse import atoms, bound_variables
-from qe.rules.block_context import Recur, Workshop
+from qe.rules.block_context import BlockContext, Recur
 from qe.rules.lift import Solve
 from qe.rules.nullspace import kernel_vector, occurring
 from qe.rules.rewrite import rewrite
@@ -19,14 +19,14 @@ from qe.rules.tree import Lifted, Node
 _TERMS = 600  # terms in all atoms together up to which directions are looked for
 
 
-def fix_origin(variables: tuple[str, ...], body: Formula, shop: Workshop, recur: Recur) -> Node | None:
+def fix_origin(variables: tuple[str, ...], body: Formula, context: BlockContext, recur: Recur) -> Node | None:
     """Let w be a vector (0 for the free variables) with sum of w_i * dp/dv_i = 0 for every atom's polynomial p. Then
     p(v + t*w) = p(v) for all real t, so the truth of f is the same along w, and where w_x /= 0 some t makes x = 0:
     ex x, y f  iff  ex y f[0].
 
     Lift: x = 0.
     """
-    if StepKind.TRANSLATION not in shop.enabled:
+    if StepKind.TRANSLATION not in context.enabled:
         return None
     found = list(atoms(body))
     if any(isinstance(a, RootAtom) for a in found) or sum(a.poly.term_count() for a in found) > _TERMS:
@@ -41,14 +41,14 @@ def fix_origin(variables: tuple[str, ...], body: Formula, shop: Workshop, recur:
     if not moving:
         return None
     name = max(moving, key=lambda v: (sum(p.degree(ring.index[v]) > 0 for p in polys), v))
-    shop.note(StepKind.TRANSLATION, f"{name} = 0")
+    context.note(StepKind.TRANSLATION, f"{name} = 0")
     index = ring.index[name]
 
     def change(given: Atom) -> Formula:
         return atom(given.poly.at_rational(index, 0), given.relation) if given.poly.degree(index) else given
 
     rest = tuple(v for v in variables if v != name)
-    child = recur(rest, rewrite(body, change, ()), shop)
+    child = recur(rest, rewrite(body, change, ()), context)
     return Lifted((Solve(name, ring.constant(0), ring.constant(1)),), child)
 
 

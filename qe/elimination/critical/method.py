@@ -37,7 +37,7 @@ from qe.formula.syntax import FALSE, TRUE, Exists, ForAll, Formula, Relation
 from qe.formula.traverse import conjuncts, free_variables, is_quantifier_free, polynomials, ring_of
 from qe.options import Budget, Method, Options, Projection, Stage
 from qe.proof.cells import FreeCell
-from qe.proof.run_log import Story
+from qe.proof.run_log import RunLog
 from qe.simplify.simplify import simplify
 
 MOST_CUTS = 4
@@ -49,7 +49,7 @@ def by_critical_values(
     body: Formula,
     options: Options,
     budget: Budget,
-    story: Story,
+    log: RunLog,
     otherwise: Decompose,
 ) -> Formula:
     """``exists variables. body`` (quantifier-free, positive) by ``qe.elimination.critical``.
@@ -62,20 +62,20 @@ def by_critical_values(
     if flat is not None:
         outside, rest = flat
         left = [v for v in variables if v in free_variables(rest)]
-        inside = by_critical_values(left, rest, options, budget, story, otherwise) if left else rest
+        inside = by_critical_values(left, rest, options, budget, log, otherwise) if left else rest
         return simplify(conj((*outside, inside)))
     parameters = _order(variables, body, options)
     found = eliminate_block(variables, body, parameters, procedures=procedures(budget), budget=budget)
     parts = [_formula(variables, parameters, part, budget, otherwise) for part in found]
-    return _told(simplify(disj(parts)), body, parameters, found, story, start)
+    return _recorded(simplify(disj(parts)), body, parameters, found, log, start)
 
 
 def convex_universal(
-    formula: Formula, options: Options, budget: Budget, story: Story, otherwise: Decompose
+    formula: Formula, options: Options, budget: Budget, log: RunLog, otherwise: Decompose
 ) -> Formula | None:
     """The formula of a universal block in one or two parameters whose truth set is seen to be convex, or thin.
 
-    None where that is not seen, where another method is asked for, and, unless this one is, where substitution can do
+    None where that is not seen, where another method is requested, and, unless this one is, where substitution can do
     it (degree up to 2). To be asked before preparation splits the conjuncts: the whole set has fewer boundary pieces.
     Raises ``Unable`` where the method's side conditions are not met.
     """
@@ -96,7 +96,7 @@ def convex_universal(
     if answer is None:  # in the plane the table of a convex set settles every cell
         whole = found.found.tabulate()
         answer = construct(whole.table, whole.refine)[0]
-    return _told(simplify(answer), negated, parameters, [found], story, start)
+    return _recorded(simplify(answer), negated, parameters, [found], log, start)
 
 
 def convex_block(formula: Formula, options: Options) -> tuple[tuple[str, ...], Formula] | None:
@@ -121,22 +121,22 @@ def _degree(formula: Formula, variables: Sequence[str]) -> int:
     return max((p.degree(i) for p, i in named), default=0)
 
 
-def _told(
-    formula: Formula, body: Formula, parameters: tuple[str, ...], found: list[Disjunct], story: Story, start: float
+def _recorded(
+    formula: Formula, body: Formula, parameters: tuple[str, ...], found: list[Disjunct], log: RunLog, start: float
 ) -> Formula:
-    """The formula over the ring of the body; what was done goes into the story."""
+    """The formula over the ring of the body; what was done goes into the log."""
     seconds = round(time.perf_counter() - start, 6)
     stats = [part.stats for part in found]
-    story.note("critical", {"order": list(parameters), "disjuncts": stats, "seconds": seconds})
+    log.note("critical", {"order": list(parameters), "disjuncts": stats, "seconds": seconds})
     ring = ring_of(body)
     return formula if ring is None else convert(formula, ring)
 
 
 def _order(variables: Sequence[str], body: Formula, options: Options) -> tuple[str, ...]:
     names = free_variables(exists(variables, body))
-    wished = tuple(v for v in options.order or () if v in names)
-    if len(wished) == len(names):
-        return wished
+    named = tuple(v for v in options.order or () if v in names)
+    if len(named) == len(names):
+        return named
     return names if Stage.ORDER in options.without else brown_order(polynomials(body), names)
 
 
@@ -159,7 +159,7 @@ def procedures(budget: Budget) -> Procedures:
         return at
 
     return Procedures(
-        project=lambda polys, size, projection, part, separated: factor_lists(polys, size, projection, part, separated),
+        project=factor_lists,
         propose=propose,
         feasible=lambda forms, relations: feasible(forms, relations, budget=budget),
         decide=decide,
@@ -217,7 +217,7 @@ def _of_open_cells(body: ConvexBody, parameters: tuple[str, ...], budget: Budget
 
 
 def _confirmed(body: ConvexBody, formula: Formula, parameters: tuple[str, ...], budget: Budget) -> Formula | None:
-    """The closed formula with cuts that exclude what it holds beside the body; None if some cannot be excluded."""
+    """The closed formula with cuts that exclude what it holds besides the body; None if some cannot be excluded."""
     ring = Ring.of(parameters)
     for _ in range(MOST_CUTS):
         order = cheapest_order(polynomials(formula), parameters, budget)

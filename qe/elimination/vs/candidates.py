@@ -187,13 +187,18 @@ def _atom_points(
     given: Atom, x: int, side: int, facts: Facts, omit: frozenset[Poly] = frozenset()
 ) -> tuple[Candidate, ...] | None:
     """The points where the atom can turn true, with guards."""
-    parts = factor_list(given.poly)
-    inside = [(f, e) for f, e in parts if f.degree(x)]
+    inside = [(f, e) for f, e in factor_list(given.poly) if f.degree(x)]
     if any(f.degree(x) > 2 for f, _ in inside):
         return None
     relation = given.relation
+    # A weak atom (=, <=, >=) is true at the root itself. A strict one is false there, and true right after it as seen
+    # from the end that is sought: on the right of a lower end (side 1), on the left of an upper one (side -1).
     epsilon = side if relation.is_strict else 0
-    # one odd factor and a one-sided relation: the polynomial must cross zero in a known direction
+    # With one factor in x, of odd exponent, the polynomial changes its sign at every simple root, by the sign of the
+    # factor's slope and of its content. < and > (also weak) turn true only where it changes in one direction: upwards
+    # for > at a lower end, and the other way for < and for upper ends. So a guard on the content's sign keeps one of
+    # two roots of a quadratic factor, and none is wasted on a linear one. = and /= turn true whatever the direction,
+    # an even exponent gives no change of sign, and several factors leave the sign of the others at the root open.
     directed = len(inside) == 1 and inside[0][1] % 2 == 1 and relation not in (EQ, NE)
     content = given.poly.exact_divide(inside[0][0] ** inside[0][1]) if directed else None
     direction = side if relation in _UPWARD else -side
@@ -203,6 +208,8 @@ def _atom_points(
             out += _linear(given, factor, x, epsilon, content, direction, facts)
         else:
             found = _quadratic(given, factor, x, epsilon, content, direction, facts)
+            # The roots of an omitted quadratic are replaced by other points (``radical_free``); where its leading
+            # coefficient vanishes it is linear, and that root stays. The atom's points are then not all candidates.
             if factor in omit:
                 found = (replace(c, complete=False) for c in found if isinstance(c.point, LinearRoot))
             out += found

@@ -9,15 +9,15 @@ from qe.elimination.vs import eliminate_block, witness
 from qe.formula.syntax import TRUE, Formula
 from qe.options import Budget
 from qe.proof.elimination import Values
-from qe.proof.run_log import Story
+from qe.proof.run_log import RunLog
 from qe.simplify.simplify import simplify
 
 
-def substituted(variables: Sequence[str], body: Formula, budget: Budget, story: Story) -> tuple[Formula, Values | None]:
+def substituted(variables: Sequence[str], body: Formula, budget: Budget, log: RunLog) -> tuple[Formula, Values | None]:
     """``exists variables. body`` as far as substitution goes (it may keep quantifiers), with values if it is true."""
     start = time.perf_counter()
     result = eliminate_block(variables, body, budget=budget, simplify=simplify)
-    story.note("vs", {"variables": list(variables), **result.stats, "seconds": round(time.perf_counter() - start, 6)})
+    log.note("vs", {"variables": list(variables), **result.stats, "seconds": round(time.perf_counter() - start, 6)})
     if result.remaining or result.formula != TRUE:
         return result.formula, None
     certain = next((found for found in result.answers if simplify(found.guard) == TRUE), None)

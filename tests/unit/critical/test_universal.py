@@ -14,7 +14,7 @@ from qe.formula.build import forall
 from qe.formula.evaluate import holds_at, substituted
 from qe.formula.syntax import ForAll, Formula
 from qe.options import Budget, Method, Options
-from qe.proof.run_log import Story
+from qe.proof.run_log import RunLog
 
 ASKED = Options(method=Method.CRITICAL)
 
@@ -26,7 +26,7 @@ def block(text: str) -> ForAll:
 
 
 def by_critical_values(text: str) -> Formula | None:
-    return convex_universal(block(text), ASKED, Budget(60), Story())
+    return convex_universal(block(text), ASKED, Budget(60), RunLog())
 
 
 def agree(text: str, answer: Formula, points: list[dict[str, Fraction]]) -> set[bool]:
@@ -119,7 +119,7 @@ def examine(given_family: tuple[list[int], int, int], seconds: float) -> None:
     if not isinstance(formula := qe.api.read_formula(text), ForAll):
         return
     try:
-        answer = convex_universal(formula, ASKED, Budget(seconds), Story())
+        answer = convex_universal(formula, ASKED, Budget(seconds), RunLog())
     except qe.Unable:
         return
     if answer is not None:
