@@ -230,9 +230,9 @@ class Model:
     def _outside(self, path: Bezier, t: Fraction) -> tuple[Fraction, Vector]:
         """t and P(t) outside the ball; a parameter near t where t is one of those that (4) puts on the sphere."""
         step, at = Fraction(1, GRID), t
-        # At such a t the margin is zero, and at a violated one near it negative. A cut needs a point strictly outside,
-        # so t itself is tried first; then t + s, t - s/2, t + s/4, ...: both sides, since the path may leave the ball
-        # on either, ever closer, since it may be outside only a little; beyond [0, 1] there is no path.
+        # The margin is zero on the sphere and negative outside. A cut needs a point strictly outside, so t itself is
+        # tried first; where it is on the sphere, t + s, t - s/2, t + s/4, ...: on both sides, since the path may leave
+        # the ball on either; ever closer, since it may be outside only for a moment; beyond [0, 1] there is no path.
         while not 0 <= at <= 1 or sign(self.workspace.ball.margin(path.point(at))) >= 0:
             at, step = t + step, -step / 2
         return at, path.point(at)
