@@ -32,7 +32,7 @@ if TYPE_CHECKING:  # the checker and the optimiser are loaded where they are use
 
 Choice = TypeVar("Choice", bound=Enum)
 TABLE_VARIABLES = 3
-"""In more variables than this, convex regions are not decomposed unless that is asked for."""
+"""In more variables than this, convex regions are decomposed on request only."""
 
 Progress = Callable[[Event], None]
 AnyFormula = Any
@@ -246,7 +246,7 @@ def region(
     factors of that projection are part of the answer, and the other order may be much harder.
     A cylindrical description with a certificate; quantifiers are eliminated first. For a conjunction of convex
     quadratic conditions in four or more variables, or with existential quantifiers before it, membership, fibres
-    and bounds are found by exact optimisation, and the description only when it is asked for; ``timeout`` (seconds)
+    and bounds are found by exact optimisation, and the description only on request; ``timeout`` (seconds)
     then holds for every question.
     """
     given = without_root_atoms(read_formula(formula, format))

@@ -1,4 +1,4 @@
-"""Progress events: what the engine is doing, told to a callable that the user passes in."""
+"""Progress events: what the engine is doing, reported to a callable that the user passes in."""
 
 from __future__ import annotations
 

@@ -62,7 +62,7 @@ def _in_words(event: Event) -> str:
 
 
 class WorkerStopped(BudgetExceeded):
-    """A limit ended the worker; ``limit`` is "time" or "memory", ``known`` is what it had told by then."""
+    """A limit ended the worker; ``limit`` is "time" or "memory", ``known`` is what it had reported by then."""
 
     def __init__(self, message: str, *, limit: str, known: Known) -> None:
         self.known = known
@@ -70,7 +70,7 @@ class WorkerStopped(BudgetExceeded):
 
 
 class WorkerDied(Unable):
-    """The worker process ended by a signal that no limit explains; ``known`` is what it had told by then."""
+    """The worker process ended by a signal that no limit explains; ``known`` is what it had reported by then."""
 
     def __init__(self, message: str, *, signal_number: int, known: Known) -> None:
         self.signal_number, self.known = signal_number, known
@@ -213,7 +213,7 @@ def run(
     if kind == "result":
         return value  # type: ignore[return-value]
     error = _rebuilt(value)  # type: ignore[arg-type]
-    if type(error) is BudgetExceeded:  # a soft limit: the same story, told with what is known
+    if type(error) is BudgetExceeded:  # a soft limit: the same, with what is known
         raise WorkerStopped(str(error), limit=error.limit, known=known)
     raise error
 

@@ -10,6 +10,8 @@ from collections.abc import Sequence
 from fractions import Fraction
 
 from bezier.curves.workspace import Ball, Condition, HalfSpace
+from qe.exact.quadratic_form import Quadratic, quadratic
+from qe.exact.ring import Ring
 from qe.formula.syntax import Atom, Constant, Formula, Relation
 from qe.formula.traverse import conjuncts
 
@@ -25,32 +27,20 @@ def as_conditions(formula: Formula, variables: Sequence[str]) -> tuple[Condition
 def _condition(part: Formula, variables: Sequence[str]) -> Condition | None:
     if not isinstance(part, Atom) or part.relation not in (Relation.LE, Relation.LT, Relation.GE, Relation.GT):
         return None
-    sign = -1 if part.relation in (Relation.LE, Relation.LT) else 1
-    names = part.poly.ring.names
-    size = len(variables)
-    constant, linear, squares = Fraction(0), [Fraction(0)] * size, [Fraction(0)] * size
-    for exponents, coefficient in part.poly.terms():
-        used = {names[i]: k for i, k in enumerate(exponents) if k}
-        if any(name not in variables for name in used):
-            return None
-        match tuple(used.values()):
-            case ():
-                constant = Fraction(sign * coefficient)
-            case (1,):
-                linear[variables.index(next(iter(used)))] = Fraction(sign * coefficient)
-            case (2,):
-                squares[variables.index(next(iter(used)))] = Fraction(sign * coefficient)
-            case _:
-                return None
-    return _from_coefficients(constant, linear, squares)
-
-
-def _from_coefficients(constant: Fraction, linear: Sequence[Fraction], squares: Sequence[Fraction]) -> Condition | None:
-    """The set {constant + linear . p + sum squares_i p_i^2 >= 0} as a half-space or a ball."""
-    if not any(squares):
-        return HalfSpace(tuple(linear), constant)
-    lead = squares[0]
-    if lead >= 0 or any(s != lead for s in squares):
+    poly = part.poly if part.relation in (Relation.GE, Relation.GT) else -part.poly
+    if any(poly.ring.names[i] not in variables for i in poly.variables):
         return None
-    centre = tuple(-c / (2 * lead) for c in linear)
-    return Ball(centre, sum((c * c for c in centre), Fraction(0)) - constant / lead)
+    form = quadratic(poly.convert(Ring.of(variables)), range(len(variables)))
+    return None if form is None else _set_of(form)
+
+
+def _set_of(form: Quadratic) -> Condition | None:
+    """The set where the form is at least 0 as a half-space, or as a ball, for lead*|p - c|^2/2 + d."""
+    if form.is_linear:
+        return HalfSpace(form.gradient, form.constant)
+    lead = form.hessian[0][0]
+    sphere = tuple(tuple(lead * (i == j) for j in range(form.size)) for i in range(form.size))
+    if lead >= 0 or form.hessian != sphere:
+        return None
+    centre = tuple(-c / lead for c in form.gradient)
+    return Ball(centre, sum((c * c for c in centre), Fraction(0)) - 2 * form.constant / lead)

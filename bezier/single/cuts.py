@@ -218,7 +218,7 @@ class Model:
             return Cut(CutKind.START, t)
         if t == 1 and self.touches[1]:
             return Cut(CutKind.GOAL, t)
-        t, place = self._beside(path, t)
+        t, place = self._outside(path, t)
         squared = self.workspace.radius_squared
         shrink = (float(squared) / float(dot(place, place))) ** 0.5
         plane = _short((Fraction(float(c) * shrink) for c in place), PLANE_BITS)
@@ -227,9 +227,12 @@ class Model:
             plane, bits = _short(place, bits), 2 * bits
         return Cut(CutKind.BALL, t, plane=plane)
 
-    def _beside(self, path: Bezier, t: Fraction) -> tuple[Fraction, Vector]:
-        """t and P(t) outside the ball; a parameter beside t where t is one of those that (4) puts on the sphere."""
+    def _outside(self, path: Bezier, t: Fraction) -> tuple[Fraction, Vector]:
+        """t and P(t) outside the ball; a parameter near t where t is one of those that (4) puts on the sphere."""
         step, at = Fraction(1, GRID), t
+        # The margin is zero on the sphere and negative outside. A cut needs a point strictly outside, so t itself is
+        # tried first; where it is on the sphere, t + s, t - s/2, t + s/4, ...: on both sides, since the path may leave
+        # the ball on either; ever closer, since it may be outside only for a moment; beyond [0, 1] there is no path.
         while not 0 <= at <= 1 or sign(self.workspace.ball.margin(path.point(at))) >= 0:
             at, step = t + step, -step / 2
         return at, path.point(at)

@@ -59,23 +59,23 @@ def decompose(
     *,
     budget: Budget,
     projection: Projection = Projection.BROWN_MCCALLUM,
-    separated: frozenset[int] = frozenset(),
+    thom_levels: frozenset[int] = frozenset(),
     tactics: Tactics = Tactics(),
-    beside: tuple[Poly, ...] = (),
+    extra: tuple[Poly, ...] = (),
 ) -> Decomposition:
     """The cell table of Q_k x_k … Q_n x_n. matrix over the variables ``order`` (free ones first).
 
-    Where the projection asked for meets a nullified factor that its theorem does not allow, the work is redone
-    with Lazard projection and Lazard evaluation together. ``separated``: levels at which two cells over the same cell
+    Where the chosen projection meets a nullified factor that its theorem does not allow, the work is redone
+    with Lazard projection and Lazard evaluation together. ``thom_levels``: levels at which two cells over the same cell
     differ in signs (derivatives join the factors: see ``factor_lists``, and ``Lifter.lacking`` for nullified ones).
-    ``beside``: polynomials over the ring of ``order`` whose factors are to be in the lists too.
+    ``extra``: polynomials over the ring of ``order`` whose factors are to be in the lists too.
     Raises ``BudgetExceeded``.
     """
-    job = _Job(convert(matrix, Ring.of(order)), order, quantifiers, budget, separated, tactics)
+    job = _Job(convert(matrix, Ring.of(order)), order, quantifiers, budget, thom_levels, tactics)
     try:
-        return job.attempt(projection, nullified=False, added=beside)
+        return job.attempt(projection, nullified=False, added=extra)
     except NotWellOriented:
-        return job.attempt(Projection.LAZARD, nullified=True, added=beside)
+        return job.attempt(Projection.LAZARD, nullified=True, added=extra)
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,7 +84,7 @@ class _Job:
     order: tuple[str, ...]
     quantifiers: tuple[str, ...]
     budget: Budget
-    separated: frozenset[int]
+    thom_levels: frozenset[int]
     tactics: Tactics
 
     def _constraints(self) -> Constraints:
@@ -97,11 +97,11 @@ class _Job:
         return Constraints({k: own for k, own in found.factors.items() if self.quantifiers[k]}, found.implied)
 
     def attempt(self, projection: Projection, *, nullified: bool, added: tuple[Poly, ...] = ()) -> Decomposition:
-        """``added``: polynomials in the factor lists beside those of the matrix."""
+        """``added``: polynomials in the factor lists besides those of the matrix."""
         size = len(self.order)
         constraints = self._constraints() if projection is Projection.BROWN_MCCALLUM else Constraints()
         listed = [*polynomials(self.matrix), *added]
-        levels = factor_lists(listed, size, projection, self.budget, self.separated, constraints.factors)
+        levels = factor_lists(listed, size, projection, self.budget, self.thom_levels, constraints.factors)
         places = {f: (k, j) for k, level in enumerate(levels) for j, f in enumerate(level)}
         strong = strengthened(self.matrix, constraints.implied, places)
         indices = {
@@ -119,7 +119,7 @@ class _Job:
             indices,
             self.tactics.partial,
             self.tactics.whole_free,
-            self.separated,
+            self.thom_levels,
         )
         root = lifter.run(Point(Ring.of(self.order)), compile_matrix(strong, places))
         if lifter.lacking:

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 
 from qe.cad.matrix import Node, mentioned, specialise
 from qe.cad.projection import Levels
-from qe.cad.stack import Layers, is_nullified, layers_over, restricted_layers
+from qe.cad.stack import SampledStack, is_nullified, restricted_stack, stack_over
 from qe.errors import InternalError, NotWellOriented
 from qe.exact.lazard import lazard_derivative
 from qe.exact.ring import Poly
@@ -31,7 +31,7 @@ class Lifter:
     ``constraints``: indices of the factors of equational constraints by level (see ``equational``). Without
     ``partial`` cells are decomposed also where the formula is decided, and every cell of a stack is visited. With
     ``whole_free`` that holds for the levels of free variables: every free cell then has the signs of all factors.
-    ``lacking``: where a factor of a level in ``separated`` is nullified, its signs and derivatives do not tell the
+    ``lacking``: where a factor of a level in ``thom_levels`` is nullified, its signs and derivatives do not tell the
     sections of its Lazard evaluation apart; partial derivatives that do are collected here, where truth depends on it.
     """
 
@@ -43,7 +43,7 @@ class Lifter:
     constraints: Mapping[int, frozenset[int]] = field(default_factory=dict)
     partial: bool = True
     whole_free: bool = False
-    separated: frozenset[int] = frozenset()
+    thom_levels: frozenset[int] = frozenset()
     lacking: dict[Poly, None] = field(default_factory=dict)
     cells: int = 0
     stacks: int = 0
@@ -62,13 +62,13 @@ class Lifter:
         if isinstance(node, bool) and self._leaves(level):
             return Cell(signs, node)
         used = self._used(node, level)
-        layers = self._layers(point, used, dimension)
+        stack = self._stack_over(point, used, dimension)
         self.stacks += 1
-        count = len(layers.texts)
+        count = len(stack.texts)
         self.cells += count
         self.budget.spend(count)
         self.budget.check("lift", self.cells)
-        return self._stack(point, node, signs, dimension, used, layers)
+        return self._stack(point, node, signs, dimension, used, stack)
 
     def _leaves(self, level: int) -> bool:
         """Whether cells with ``level`` coordinates are left as they are when their truth is known."""
@@ -82,41 +82,43 @@ class Lifter:
             return tuple(range(len(self.levels[level])))
         return tuple(sorted(mentioned(node, level)))
 
-    def _layers(self, point: Point, used: tuple[int, ...], dimension: int) -> Layers:
-        """The stack over a cell, by the sections of the level's constraint alone if it has one.
-
-        Brown–McCallum projection needs factors that are not nullified (Brown 2001), except over single points on the
-        last level, where the stack is then made of all factors, and but for factors beside a constraint on the last
-        level (McCallum 1999).
-        """
+    def _stack_over(self, point: Point, used: tuple[int, ...], dimension: int) -> SampledStack:
+        """The stack over a cell, by the sections of the level's constraint alone if it has one."""
         level = point.depth
         factors, constraint = self.levels[level], self.constraints.get(level)
-        last = level == len(self.levels) - 1
+        last, lazard = level == len(self.levels) - 1, self.projection is Projection.LAZARD
         if constraint is not None:
-            layers = restricted_layers(point, factors, used, constraint)
-            nullified = layers.nullified
+            stack = restricted_stack(point, factors, used, constraint)
+            # A nullified factor of the constraint makes it true on the whole line: its sections then say nothing.
+            nullified = stack.nullified
+            # The other factors must be delineable as well where something is lifted above their signs (McCallum 2001);
+            # on the last level their signs on the sections are enough (McCallum 1999).
             if not last:
                 nullified += tuple(j for j in used if j not in constraint and is_nullified(point, factors[j]))
             if not nullified:
-                return layers
-        layers = layers_over(point, factors, used, lazard=self.projection is Projection.LAZARD)
-        if layers.nullified and self.projection is not Projection.LAZARD and not (last and dimension == 0):
+                return stack
+        # No constraint, or one that does not apply over this cell: the sections of all factors.
+        stack = stack_over(point, factors, used, lazard=lazard)
+        # Lazard evaluation gives nullified factors sections of their own, so there nothing is amiss. Brown–McCallum
+        # projection makes factors delineable only where they are not nullified (Brown 2001). Over a single point of
+        # the last level nothing needs to be delineable: the cell below is the point, and nothing is lifted above.
+        if stack.nullified and not lazard and not (last and dimension == 0):
             raise NotWellOriented(f"a factor of level {level} is nullified over a cell of dimension {dimension}")
-        return layers
+        return stack
 
     def _stack(
-        self, point: Point, node: Node, signs: str, dimension: int, used: tuple[int, ...], layers: Layers
+        self, point: Point, node: Node, signs: str, dimension: int, used: tuple[int, ...], stack: SampledStack
     ) -> Cell:
         level = point.depth
         quantifier = self.quantifiers[level]
-        size = len(layers.texts)
+        size = len(stack.texts)
         cells: list[Cell | None] = [None] * size
         truth: bool | None = None
         if quantifier:
             stop = quantifier == "E"
             truth = not stop
             for position in _visiting_order(size, sectors_only=level >= self.sectors_from):
-                cell = self._child(point, node, used, layers, position, dimension)
+                cell = self._child(point, node, used, stack, position, dimension)
                 cells[position] = cell
                 if cell.truth is stop:
                     truth = stop
@@ -124,23 +126,23 @@ class Lifter:
                         break
         else:
             for position in range(size):
-                cells[position] = self._child(point, node, used, layers, position, dimension)
-        complete = tuple(Cell(layers.texts[p], None) if c is None else c for p, c in enumerate(cells))
-        if layers.nullified and level in self.separated and _ambiguous(complete):
-            self._collect_lacking(point, level, layers.nullified)
-        return Cell(signs, truth, Stack(used, layers.sectors, layers.sections, complete))
+                cells[position] = self._child(point, node, used, stack, position, dimension)
+        complete = tuple(Cell(stack.texts[p], None) if c is None else c for p, c in enumerate(cells))
+        if stack.nullified and level in self.thom_levels and _ambiguous(complete):
+            self._collect_lacking(point, level, stack.nullified)
+        return Cell(signs, truth, Stack(used, stack.sectors, stack.sections, complete))
 
     def _child(
-        self, point: Point, node: Node, used: tuple[int, ...], layers: Layers, position: int, dimension: int
+        self, point: Point, node: Node, used: tuple[int, ...], stack: SampledStack, position: int, dimension: int
     ) -> Cell:
-        text = layers.texts[position]
+        text = stack.texts[position]
         child = self._specialised(node, point.depth, used, text)
-        off_constraint = layers.restricted and position % 2 == 0
+        off_constraint = stack.restricted and position % 2 == 0
         if isinstance(child, bool) and (off_constraint or self._leaves(point.depth + 1)):
             return Cell(text, child)
         if off_constraint:
             raise InternalError("the matrix is undecided off an equational constraint")
-        return self._cell(layers.sample(position), child, text, dimension + (position % 2 == 0))
+        return self._cell(stack.sample(position), child, text, dimension + (position % 2 == 0))
 
     def _collect_lacking(self, point: Point, level: int, nullified: tuple[int, ...]) -> None:
         factors = self.levels[level]

@@ -15,12 +15,15 @@ from qe.exact.ring import Poly
 
 
 class OrderRule(Enum):
-    """How the variables of a block are ordered. ``PILOT``: by Brown and greedy, and a comparison if they disagree."""
+    """How the variables of a block are ordered.
+
+    ``BY_PROJECTION``: by Brown and greedy, and where they disagree by comparing their whole projections.
+    """
 
     WRITTEN = "as written"
     BROWN = "brown"
     GREEDY = "greedy"
-    PILOT = "pilot"
+    BY_PROJECTION = "by projection"
 
 
 @dataclass(frozen=True, slots=True)

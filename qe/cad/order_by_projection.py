@@ -30,11 +30,11 @@ ROOTS_UP_TO = 300
 
 
 def choose_order(
-    matrix: Formula, blocks: Sequence[Sequence[str]], *, rule: OrderRule = OrderRule.PILOT, budget: Budget
+    matrix: Formula, blocks: Sequence[Sequence[str]], *, rule: OrderRule = OrderRule.BY_PROJECTION, budget: Budget
 ) -> tuple[tuple[str, ...], str]:
     """The order of all variables (free block first, blocks never mixed) and why it was taken.
 
-    A part of the order that is asked for is written as blocks of one variable.
+    A part of the order that the caller fixes is written as blocks of one variable.
     """
     polys = polynomials(matrix)
     if rule is OrderRule.WRITTEN or all(len(block) < 2 for block in blocks):

@@ -93,20 +93,20 @@ def factor_lists(
     size: int,
     operator: Projection,
     budget: Budget,
-    separated: frozenset[int] = frozenset(),
+    thom_levels: frozenset[int] = frozenset(),
     constraints: Mapping[int, frozenset[Poly]] = MappingProxyType({}),
     heaviest: int | None = None,
     lowest: int = 0,
 ) -> Levels:
     """The irreducible factors of ``polys``, closed under projection down to level ``lowest``, one list per level.
 
-    At the levels in ``separated`` all derivatives of the factors with respect to the main variable join.
+    At the levels in ``thom_levels`` all derivatives of the factors with respect to the main variable join.
     ``constraints`` holds the factors of equational constraints by level (see ``equational``). Raises
     ``BudgetExceeded`` rather than start a projection of more ``effort`` than ``heaviest``.
     """
     found = FactorSet(polys)
     for k in range(size - 1, -1, -1):
-        if k in separated:
+        if k in thom_levels:
             for f in found.at(k):
                 found.add(_derivatives(f, k))
         if k == lowest:

@@ -18,7 +18,7 @@ _CHARACTER = {1: "+", -1: "-", 0: "0", None: "?"}
 
 
 @dataclass(frozen=True, slots=True)
-class Layers:
+class SampledStack:
     """``texts[p]``: the signs of the used factors on the cell at position p from below. ``sections``: for each section
     the factors whose root it is. ``nullified``: factors that are zero on the whole line. ``known``: samples that were
     needed already. ``restricted``: the sections are those of a constraint.
@@ -41,20 +41,20 @@ class Layers:
         return self.known.get(position) or self.isolation.sample(position)
 
 
-def layers_over(point: Point, factors: Sequence[Poly], used: tuple[int, ...], *, lazard: bool) -> Layers:
+def stack_over(point: Point, factors: Sequence[Poly], used: tuple[int, ...], *, lazard: bool) -> SampledStack:
     """The stack of the used factors of a level over the point."""
     found = isolate_over(point, tuple(factors[j] for j in used), lazard=lazard)
     sections = tuple(tuple(sorted(used[j] for j in s.members)) for s in found.sections)
-    return Layers(found, found.sign_texts(), sections, tuple(used[j] for j in found.nullified), {}, False)
+    return SampledStack(found, found.sign_texts(), sections, tuple(used[j] for j in found.nullified), {}, False)
 
 
-def restricted_layers(
+def restricted_stack(
     point: Point, factors: Sequence[Poly], used: tuple[int, ...], constraint: frozenset[int]
-) -> Layers:
+) -> SampledStack:
     """The stack of the constraint's factors alone, with the signs of all used factors on its sections."""
     own = tuple(j for j in used if j in constraint)
     others = [j for j in used if j not in constraint]
-    core = layers_over(point, factors, own, lazard=False)
+    core = stack_over(point, factors, own, lazard=False)
     known = {position: core.sample(position) for position in range(1, len(core.texts), 2)}
     signs = {j: [place.apparent_sign(factors[j]) for place in known.values()] for j in others}
     unsettled = [j for j in others if None in signs[j]]
@@ -66,7 +66,7 @@ def restricted_layers(
         for j in others:
             characters[j] = _CHARACTER[signs[j][position // 2]] if position % 2 else "?"
         texts.append("".join([characters[j] for j in used]))
-    return Layers(core.isolation, texts, core.sections, core.nullified, known, True)
+    return SampledStack(core.isolation, texts, core.sections, core.nullified, known, True)
 
 
 def _common_stack(

@@ -19,14 +19,14 @@ Holds = Callable[[tuple[Fraction, ...]], bool]
 
 def strangers(table: CellTable, holds: Holds, *, bounded: bool) -> list[Point] | None:
     """True points of a table in one or two variables outside a closed convex set T with interior points; if there are
-    none, the true cells are exactly T. None where none is found but that cannot be told, or points of T are missing.
+    none, the true cells are exactly T. None where none is found but that cannot be decided, or points of T are missing.
 
     Known: the true cells agree with T on a dense open set, and the boundary of T lies in the zeros of the matrix'
     polynomials; ``holds`` is membership in T at rational points; ``bounded`` says that T is. THEOREM. Over an open
-    interval the sections of T are those beside its sectors. Over a value a of the first variable T has an interval
+    interval the sections of T are those next to its sectors. Over a value a of the first variable T has an interval
     whose ends are sections (limits of the ends over values near a), so it is the run of true cells from one section to
-    another if the outermost sectors of the run belong to T and the sectors beside it do not. This is decided at a
-    rational point of them, or beside them on the way to an interior point of T. A single section is T over a
+    another if the outermost sectors of the run belong to T and the sectors next to it do not. This is decided at a
+    rational point of them, or next to them on the way to an interior point of T. A single section is T over a
     if no sector is, T is bounded and reaches a from one side.
     """
     root = root_place(table)
@@ -50,7 +50,7 @@ def strangers(table: CellTable, holds: Holds, *, bounded: bool) -> list[Point] |
 
 
 def _beside_sectors(table: CellTable, place: Place) -> list[Point] | None:
-    """The true sections with no true sector beside them; None if a false one has one."""
+    """The true sections with no true sector next to them; None if a false one has one."""
     stack = place.cell.stack
     if stack is None:
         return []
@@ -89,7 +89,7 @@ def _over_section(table: CellTable, point: Point, holds: Holds, sides: int, boun
         """Whether a sector does."""
         if not point.algebraic:
             return holds(rational_values(sample(position)))
-        if sides == 2:  # the ends are continuous at a, so T does not change beside a where no polynomial in y vanishes
+        if sides == 2:  # the ends are continuous at a, so T does not change next to a where no polynomial in y vanishes
             return holds(nearby(sample(position), factors, frozenset(), None))
         if centre is None:
             return None

@@ -140,7 +140,7 @@ def _implicant(signs: SignTable, uncovered: int) -> tuple[Implicant, int]:
     while remaining:
         best = max(usable, key=lambda x: _gain(x, remaining, covered & uncovered), default=None)
         if best is None or best.keeps & remaining == remaining:
-            raise InternalError("a true cell cannot be told from a false one")
+            raise InternalError("a true cell cannot be distinguished from a false one")
         picked.append(best)
         remaining &= best.keeps
         covered &= best.holds

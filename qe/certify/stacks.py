@@ -70,7 +70,7 @@ class Sample:
 
 @dataclass(slots=True)
 class Branch:
-    """One used factor over the sample: ``simple`` has the same real roots, all simple (None: not worked out)."""
+    """One used factor over the sample: ``simple`` has the same real roots, all simple (None: not computed)."""
 
     index: int
     fibre: Fibre
@@ -129,7 +129,7 @@ class StackChecker:
         return checked
 
     def _fill_sections(self, checked: Checked, stack: Stack, sample: Sample, fail: Fail) -> None:
-        """The signs of the factors beside the constraint, at the sample of every section."""
+        """The signs of the factors besides those of the constraint, at the sample of every section."""
         k = sample.depth
         others = [i for i in stack.used if i not in checked.branches]
         for i in others:
@@ -146,7 +146,7 @@ class StackChecker:
                 row[i] = place.point.sign(place.polys[k][i])
 
     def _check_not_nullified(self, i: int, sample: Sample, fail: Fail) -> None:
-        """McCallum 2001 needs the factors beside a constraint delineable too, except on the last level."""
+        """McCallum 2001 needs the factors besides a constraint's delineable too, except on the last level."""
         k = sample.depth
         if not sign(self.closure.leading[k][i], sample.signs):
             if fibre(sample.point, sample.polys[k][i], k).degree < 0:
@@ -157,7 +157,7 @@ class StackChecker:
     def _branch(self, i: int, sample: Sample, at: Values, listed: list[int], fail: Fail) -> Branch:
         k = sample.depth
         poly = sample.polys[k][i]
-        known = self.closure.leading[k].get(i)  # None beside a constraint, over a single point
+        known = self.closure.leading[k].get(i)  # None for factors besides a constraint's, over a single point
         lead = sign(known, sample.signs) if known else None
         f = fibre(sample.point, poly, k, leading_nonzero=bool(lead))
         nullified = f.degree < 0
@@ -256,7 +256,7 @@ class StackChecker:
         low, high = stack.sectors[j], stack.sectors[j + 1]
         for branch in sorted((checked.branches[i] for i in stack.sections[j]), key=lambda b: b.fibre.degree):
             if branch.simple is None:
-                branch.simple = branch.fibre.squarefree()  # not needed for counting, so not worked out before
+                branch.simple = branch.fibre.squarefree()  # not needed for counting, so not computed before
             found = branch.simple.coordinate(low, high)
             if found is not None:
                 return found
@@ -289,7 +289,7 @@ def _check_roots(
 ) -> Simple | None:
     """The listed sections hold exactly one root of f each and there are no others.
 
-    Returns f or a polynomial with the same roots, all simple (None if that was not worked out).
+    Returns f or a polynomial with the same roots, all simple (None if that was not computed).
     """
     changes = [j for j in range(len(signs) - 1) if signs[j] != signs[j + 1]]
     for j in changes:

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 PICTURES = (".png", ".pdf", ".svg")
 DIGITS = 10
-"""Decimal digits shown beside an exact number; for reading only."""
+"""Decimal digits shown next to an exact number; for reading only."""
 
 
 def region(channel: Channel, request: Request, picture: str | None) -> Reply:
@@ -94,7 +94,7 @@ def optimize(channel: Channel, request: Request, objective: str, maximize: bool)
 
 
 def shown(value: object, unbounded: str = "") -> str:
-    """An exact number, with a decimal beside it unless it is an integer."""
+    """An exact number, with a decimal next to it unless it is an integer."""
     if value is None:
         return unbounded
     text = str(value)

@@ -148,7 +148,7 @@ def check_writable(path: Path | None) -> None:
 
 
 def write_file(path: Path, content: str | bytes) -> None:
-    """Write a whole file or nothing: into a temporary file beside it, then renamed."""
+    """Write a whole file or nothing: into a temporary file next to it, then renamed."""
     data = content.encode() if isinstance(content, str) else content
     try:
         descriptor, temporary = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")

@@ -33,7 +33,7 @@ class Reply:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Request:
-    """What the command line asked for."""
+    """What the command line requests."""
 
     source: Source
     method: str = "auto"
@@ -85,7 +85,7 @@ def eliminate(channel: Channel, request: Request, output: OutputFormat) -> Reply
         data = {
             "status": answer.status.name.lower(),
             "formula": formats.write(answer.formula, output.value),
-            **_told(answer, seconds),
+            **_summary(answer, seconds),
         }
         return Reply(json.dumps(data, indent=2, ensure_ascii=False), files=files)
     return Reply(formats.write(answer.formula, output.value).rstrip("\n"), _story(answer, seconds), files)
@@ -110,11 +110,11 @@ def decide(channel: Channel, request: Request) -> Reply:
     text = ("sat" if answer.truth else "unsat") if script else ("true" if answer.truth else "false")
     files = {"certificate": certificate_text(answer)} if request.certificate else {}
     if request.json:
-        return Reply(json.dumps(_told(answer, seconds), indent=2, ensure_ascii=False), files=files)
+        return Reply(json.dumps(_summary(answer, seconds), indent=2, ensure_ascii=False), files=files)
     return Reply(text, _story(answer, seconds), files)
 
 
-def _told(answer: Answer, seconds: float) -> dict[str, Any]:
+def _summary(answer: Answer, seconds: float) -> dict[str, Any]:
     """What the JSON of every answer says."""
     return {
         "truth": answer.truth,

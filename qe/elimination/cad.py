@@ -93,7 +93,7 @@ def certificate_for(formula: Formula, answer: Formula, options: Options, budget:
     ring = Ring.of(order)
     claim = convert(answer, ring)
     question = _Question(matrix, order, quantifiers, free, options)
-    proof = question.table(budget, whole_free=True, beside=tuple(polynomials(claim))).table
+    proof = question.table(budget, whole_free=True, extra=tuple(polynomials(claim))).table
     if not free and answer != (TRUE if proof.root.truth else FALSE):
         raise InternalError(f"a decomposition says {proof.root.truth} where the answer is {answer}")
     return Certificate.cells(proof, claim)
@@ -112,14 +112,14 @@ class _Question:
     def table(
         self,
         budget: Budget,
-        separated: frozenset[int] = frozenset(),
+        thom_levels: frozenset[int] = frozenset(),
         *,
         whole_free: bool = False,
-        beside: tuple[Poly, ...] = (),
+        extra: tuple[Poly, ...] = (),
     ) -> Table:
         """Its decomposition by the tactics that the options allow; see ``Tactics`` for ``whole_free``.
 
-        With ``beside`` the signs of these polynomials in the free variables are wanted on every free cell.
+        With ``extra`` the signs of these polynomials in the free variables are wanted on every free cell.
         """
         without = self.options.without
         return decompose(
@@ -128,15 +128,15 @@ class _Question:
             self.quantifiers,
             budget=budget,
             projection=Projection.LAZARD if Stage.MCCALLUM in without else self.options.projection,
-            separated=separated,
+            thom_levels=thom_levels,
             tactics=Tactics(
                 constraints=Stage.CONSTRAINTS not in without,
                 partial=Stage.PARTIAL not in without,
                 open_only=Stage.OPEN not in without,
                 whole_free=whole_free,
-                free_constraints=not beside,
+                free_constraints=not extra,
             ),
-            beside=beside,
+            extra=extra,
         )
 
     def answer(self, found: Table, budget: Budget, *, whole_free: bool = False) -> tuple[Formula, CellTable]:
@@ -232,9 +232,9 @@ def _order(
     parts = [("", tuple(free)), *((kind.value, names) for kind, names in prefix)]
     blocks: list[tuple[str, ...]] = []
     for _, names in parts:
-        wished = [v for v in options.order or () if v in names]
-        rest = tuple(v for v in names if v not in wished)
-        blocks += [*((v,) for v in wished), *([rest] if rest else [])]
-    rule = OrderRule.WRITTEN if Stage.ORDER in options.without else OrderRule.PILOT
+        named = [v for v in options.order or () if v in names]
+        rest = tuple(v for v in names if v not in named)
+        blocks += [*((v,) for v in named), *([rest] if rest else [])]
+    rule = OrderRule.WRITTEN if Stage.ORDER in options.without else OrderRule.BY_PROJECTION
     order, reason = choose_order(matrix, blocks, rule=rule, budget=budget)
     return order, tuple(kind for kind, names in parts for _ in names), reason

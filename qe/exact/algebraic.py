@@ -79,7 +79,7 @@ class RealAlgebraic:
         return tuple(int(c) for c in self.poly.coeffs())
 
     def interval(self, bits: int = 0) -> tuple[Fraction, Fraction]:
-        """Rational numbers lo <= self <= hi, with hi - lo small when ``bits`` are asked for."""
+        """Rational numbers lo <= self <= hi, with hi - lo small when ``bits`` are requested."""
         if bits:
             x = self.ball(bits)
             with precision(bits + 16):

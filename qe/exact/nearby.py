@@ -1,4 +1,4 @@
-"""A rational point beside an algebraic one, in the same piece of space between the zeros of given polynomials."""
+"""A rational point next to an algebraic one, in the same piece of space between the zeros of given polynomials."""
 
 from __future__ import annotations
 
@@ -80,7 +80,7 @@ def nearby(
         if found is not None:
             return found
         bits *= 2
-    raise Unable("no rational point beside an algebraic one was found")
+    raise Unable("no rational point next to an algebraic one was found")
 
 
 def _coordinates(point: Point, bits: int) -> Balls:

@@ -184,7 +184,7 @@ def prenex(formula: Formula) -> tuple[tuple[Block, ...], Formula]:
     """(prefix, matrix): equivalent to ``formula``, matrix quantifier-free and in negation normal form.
 
     Bound variables are renamed apart first, so every quantifier may move outwards past ``and`` and ``or`` (its
-    variable is not free beside it, and R is not empty). Among all ways to order the moves the number of blocks is
+    variable is not free next to it, and R is not empty). Among all ways to order the moves the number of blocks is
     least: with the kind of the outermost block fixed, putting every quantifier into the first block that is open
     to it is optimal by induction on depth; both kinds are tried. Blocks alternate.
     """

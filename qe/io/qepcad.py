@@ -72,7 +72,9 @@ _FORMULAS = """
      | FALSE                    -> false
      | BEGIN formula END        -> brackets
 """
-_TERMS = TERMS.replace("| product TIMES factor -> times", "| product TIMES factor -> times | product power -> beside")
+_TERMS = TERMS.replace(
+    "| product TIMES factor -> times", "| product TIMES factor -> times | product power -> juxtaposed"
+)
 _TERMS = _TERMS.replace("| NAME OPEN arguments CLOSE -> call", "").replace("arguments: sum | arguments COMMA sum", "")
 
 
@@ -146,7 +148,7 @@ class _Builder(Builder):
     def replied(self, c: list[Any]) -> s.Node:
         return s.Implication(c[2], c[0])
 
-    def beside(self, c: list[Any]) -> s.Term:
+    def juxtaposed(self, c: list[Any]) -> s.Term:
         return s.Product(c[0], c[1], -1)
 
     def root_comparison(self, c: list[Any]) -> s.Node:

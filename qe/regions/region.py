@@ -177,7 +177,7 @@ class Region:
 
 
 def checked_order(free: tuple[str, ...], order: tuple[str, ...] | None) -> tuple[str, ...]:
-    """The order asked for, else that of the free variables; ``InputError`` when it misses one or repeats a name."""
+    """The requested order, else that of the free variables; ``InputError`` when it misses one or repeats a name."""
     chosen = free if order is None else order
     missing = [v for v in free if v not in chosen]
     if missing or len(set(chosen)) != len(chosen):

@@ -15,7 +15,7 @@ from qe.rules.scaling import fix_scale
 from qe.rules.step import StepKind
 from qe.rules.structural import guarded_linear_equation, independent_parts, linear_equation
 from qe.rules.translation import fix_origin
-from qe.rules.tree import NEVER, All, Any, Leaf, Lifted, Node, Nudged, Pending, either
+from qe.rules.tree import NEVER, All, Any, Leaf, Lifted, Node, Pending, Perturbed, either
 from qe.simplify.simplify import simplify_under
 
 RULES: tuple[Rule, ...] = (
@@ -69,8 +69,8 @@ def _reduced(node: Node, context: BlockContext) -> Node:
             return child
         case Lifted(rules, child):
             return Lifted(rules, _reduced(child, context))
-        case Nudged(variables, body, child):
-            return Nudged(variables, body, _reduced(child, context))
+        case Perturbed(variables, body, child):
+            return Perturbed(variables, body, _reduced(child, context))
         case Any(children):
             return either(_reduced(child, context) for child in children)
         case All(children):

@@ -8,7 +8,7 @@ from qe.formula.syntax import Atom, Formula, Relation
 from qe.formula.traverse import atoms, conjuncts
 from qe.rules.block_context import BlockContext, Found
 from qe.rules.step import StepKind
-from qe.rules.tree import Any, Nudged, Pending
+from qe.rules.tree import Any, Pending, Perturbed
 
 
 def drop_inequations(variables: tuple[str, ...], body: Formula, context: BlockContext) -> Found | None:
@@ -33,7 +33,7 @@ def drop_inequations(variables: tuple[str, ...], body: Formula, context: BlockCo
     if closed:
         return _boundary_apart(variables, body, closed, context)
     somewhere = [somewhere_nonzero(p.poly, block) for p in removed]
-    node = Nudged(variables, body, Pending(variables, conj((*others, *somewhere))))
+    node = Perturbed(variables, body, Pending(variables, conj((*others, *somewhere))))
     return Found(StepKind.GENERIC, f"{len(removed)} inequations", node)
 
 

@@ -18,7 +18,7 @@ from qe.exact.ring import Poly, Ring
 from qe.exact.sample import Point
 from qe.formula.syntax import And, Atom, Constant, Formula, Not, Or
 
-_NUDGES = 400  # each attempt moves half as far as the one before
+_ATTEMPTS = 400  # each attempt moves half as far as the one before
 
 Value = Fraction | RealAlgebraic
 Assignment = Mapping[str, Value]
@@ -74,7 +74,7 @@ def holds_at(formula: Formula, assignment: Assignment) -> bool:
             return any(holds_at(a, assignment) for a in args)
         case Not(arg):
             return not holds_at(arg, assignment)
-    raise Unable("a branch that still has quantifiers or root atoms cannot be told from its siblings at a point")
+    raise Unable("a branch that still has quantifiers or root atoms cannot be evaluated at a point")
 
 
 def simplest(value: Value) -> Value:
@@ -121,7 +121,7 @@ def root(value: Value, degree: int) -> Value:
         return value
     if value < 0:
         if degree % 2 == 0:
-            raise Unable("an even root of a negative number was asked for")
+            raise Unable("a negative number has no even root")
         return -root(-value, degree)
     minimal = (-value.numerator, value.denominator) if isinstance(value, Fraction) else value.minimal_polynomial
     line = Ring.of(("t",))
@@ -130,7 +130,7 @@ def root(value: Value, degree: int) -> Value:
     return simplest(next(r for r in candidates if r.sign() > 0 and r**degree == value))
 
 
-def nudge(variables: tuple[str, ...], body: Formula, start: Assignment) -> dict[str, Value]:
+def perturb(variables: tuple[str, ...], body: Formula, start: Assignment) -> dict[str, Value]:
     """A point near ``start`` where the body holds; ``start`` itself if it does.
 
     For a body that is an open condition f and inequations p /= 0, with f true at ``start`` and no p the zero
@@ -139,7 +139,7 @@ def nudge(variables: tuple[str, ...], body: Formula, start: Assignment) -> dict[
     """
     if holds_at(body, start):
         return dict(start)
-    for k in range(1, _NUDGES):
+    for k in range(1, _ATTEMPTS):
         direction = random.Random(k)
         moved: dict[str, Value] = dict(start)
         for name in variables:

@@ -29,4 +29,4 @@ def kernel_vector(columns: Sequence[int], rows: Iterable[list[Fraction]]) -> dic
     solved = solve_linear(listing, [Fraction(0)] * len(listing), len(columns))
     if solved is None or not solved.kernel:
         return None
-    return dict(zip(columns, map(sum, zip(*solved.kernel, strict=True)), strict=True))
+    return {c: sum(entries, Fraction(0)) for c, *entries in zip(columns, *solved.kernel, strict=True)}

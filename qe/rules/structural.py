@@ -52,7 +52,7 @@ def linear_equation(variables: tuple[str, ...], body: Formula, context: BlockCon
         solved = None if pivot is None or pivot.guarded else _solved(parts, pivot)
         if pivot is None or solved is None:
             break
-        details.append(_told(parts, pivot))
+        details.append(_described(parts, pivot))
         rules.append(Solve(pivot.name, -pivot.rest, pivot.lead, Fraction(0) if pivot.alone else None))
         variables = tuple(v for v in variables if v != pivot.name)
         body = solved
@@ -88,7 +88,7 @@ def guarded_linear_equation(variables: tuple[str, ...], body: Formula, context: 
     regular = Lifted((rule,), Pending(remaining, conj((_nonzero(pivot), replaced))))
     vanishing = (atom(pivot.lead, Relation.EQ), atom(pivot.rest, Relation.EQ), others)
     node = Any((regular, Pending(variables, conj(vanishing))))
-    return Found(StepKind.GUARDED_LINEAR, _told(parts, pivot), node)
+    return Found(StepKind.GUARDED_LINEAR, _described(parts, pivot), node)
 
 
 def _pivot(parts: Sequence[Formula], variables: Sequence[str], context: BlockContext) -> Pivot | None:
@@ -102,7 +102,7 @@ def _others(parts: Sequence[Formula], pivot: Pivot) -> Formula:
     return conj(p for k, p in enumerate(parts) if k != pivot.position)
 
 
-def _told(parts: Sequence[Formula], pivot: Pivot) -> str:
+def _described(parts: Sequence[Formula], pivot: Pivot) -> str:
     equation = parts[pivot.position]
     text = format_poly(equation.poly) if isinstance(equation, Atom) else "?"
     return f"{pivot.name} from {text} = 0"

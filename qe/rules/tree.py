@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from qe.errors import Unable
 from qe.formula.build import conj, disj, exists
 from qe.formula.syntax import FALSE, TRUE, Formula
-from qe.rules.lift import Assignment, Lift, Value, holds_at, nudge
+from qe.rules.lift import Assignment, Lift, Value, holds_at, perturb
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,7 +74,7 @@ class Lifted:
 
 
 @dataclass(frozen=True, slots=True)
-class Nudged:
+class Perturbed:
     """The child's formula, which left out inequations of ``body``; its solution is moved a little where they fail."""
 
     variables: tuple[str, ...]
@@ -89,7 +89,7 @@ class Nudged:
         return self.child.satisfied(at)
 
     def lift(self, at: Assignment) -> dict[str, Value]:
-        return nudge(self.variables, self.body, self.child.lift(at))
+        return perturb(self.variables, self.body, self.child.lift(at))
 
 
 @dataclass(frozen=True, slots=True)
@@ -134,7 +134,7 @@ class All:
         return values
 
 
-Node = Leaf | Pending | Lifted | Nudged | Any | All
+Node = Leaf | Pending | Lifted | Perturbed | Any | All
 NEVER = Leaf((), FALSE)
 
 
@@ -145,7 +145,7 @@ def leaves(node: Node) -> tuple[Leaf, ...]:
             return (node,)
         case Pending(variables, body):
             return (Leaf(variables, body),)
-        case Lifted(_, child) | Nudged(_, _, child):
+        case Lifted(_, child) | Perturbed(_, _, child):
             return leaves(child)
     return tuple(leaf for child in node.children for leaf in leaves(child))
 

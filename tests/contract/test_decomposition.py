@@ -55,7 +55,7 @@ def _check(name: str, order: tuple[str, ...], tactics: Tactics, projection: Proj
 
     def table(levels: frozenset[int] = frozenset()) -> object:
         return decompose(
-            matrix, order, quantifiers, budget=Budget(20), projection=projection, separated=levels, tactics=tactics
+            matrix, order, quantifiers, budget=Budget(20), projection=projection, thom_levels=levels, tactics=tactics
         ).table
 
     answer, proof = construct(table(), table)  # type: ignore[arg-type]

@@ -30,7 +30,7 @@ def by_cad(projection: Projection) -> Part:
         kinds = (*("" for _ in free), *(kind.value for kind, names in prefix for _ in names))
 
         def refine(levels: frozenset[int]) -> object:
-            return decompose(matrix, order, kinds, budget=budget, projection=projection, separated=levels).table
+            return decompose(matrix, order, kinds, budget=budget, projection=projection, thom_levels=levels).table
 
         table = decompose(matrix, order, kinds, budget=budget, projection=projection).table
         return construct(table, refine)[0]  # type: ignore[arg-type]

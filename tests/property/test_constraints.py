@@ -124,8 +124,8 @@ def test_answers_over_free_variables(matrix: Formula, kind: str, free: int) -> N
     """The formula agrees with the reference at rational points; also where a free level is restricted."""
     quantifiers = ("",) * free + (kind,) * (3 - free)
 
-    def table(separated: frozenset[int] = frozenset()) -> object:
-        return decompose(matrix, NAMES, quantifiers, budget=Budget(3), separated=separated).table
+    def table(thom_levels: frozenset[int] = frozenset()) -> object:
+        return decompose(matrix, NAMES, quantifiers, budget=Budget(3), thom_levels=thom_levels).table
 
     try:
         answer, proof = construct(table(), table)  # type: ignore[arg-type]

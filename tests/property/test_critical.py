@@ -15,7 +15,7 @@ from qe.formula.build import atom, conj, disj, exists
 from qe.formula.evaluate import holds_at
 from qe.formula.syntax import Formula, Relation
 from qe.options import Budget, Options
-from qe.proof.run_log import Story
+from qe.proof.run_log import RunLog
 
 RELATIONS = (Relation.LE, Relation.LT, Relation.EQ, Relation.GE, Relation.GT, Relation.NE)
 
@@ -24,9 +24,9 @@ def eliminated(variables: tuple[str, ...], body: Formula, seconds: float = 60) -
     """By critical values alone, without the preparation that would solve many of these problems before."""
 
     def otherwise(formula: Formula, budget: Budget) -> Formula:
-        return decomposed(formula, Options(), budget, Story()).formula
+        return decomposed(formula, Options(), budget, RunLog()).formula
 
-    return by_critical_values(variables, body, Options(), Budget(seconds), Story(), otherwise)
+    return by_critical_values(variables, body, Options(), Budget(seconds), RunLog(), otherwise)
 
 
 @st.composite
@@ -63,7 +63,7 @@ def agrees(variables: tuple[str, ...], body: Formula) -> None:
         answer = eliminated(variables, body)
     except qe.Unable:
         return  # the method may refuse: critical points over all parameters, or a body without bounded fibres
-    other = decomposed(exists(variables, body), Options(), Budget(60), Story()).formula
+    other = decomposed(exists(variables, body), Options(), Budget(60), RunLog()).formula
     assert qe.equivalent(answer, other), f"{answer}  |  {other}"
 
 

@@ -153,7 +153,7 @@ class RootField:
     def sign(self, a: Residue) -> int:
         """The sign of the value at theta; 0 only for the zero polynomial.
 
-        Raises ``CertificateRejected`` when a nonzero polynomial cannot be told from zero (p is then reducible).
+        Raises ``CertificateRejected`` when a nonzero polynomial looks like zero (p is then reducible).
         """
         if a.is_zero:
             return 0

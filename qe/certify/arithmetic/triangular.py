@@ -101,7 +101,7 @@ class Point:
                 bits *= 2
         finally:
             ctx.prec = saved
-        raise InternalError("a nonzero value could not be told from zero")
+        raise InternalError("a nonzero value could not be distinguished from zero")
 
     def vanishes(self, p: Poly) -> bool:
         """Whether p is zero at the point, decided by exact algebra alone."""

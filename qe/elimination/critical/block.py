@@ -46,7 +46,7 @@ class ConvexBody:
     """A closed convex truth set with interior points: the closure of its true open cells.
 
     ``boundary``: polynomials whose zeros contain its boundary. ``cells()``: factors of a decomposition for them, by
-    whose signs true and false open cells can be told apart, and its open cells. ``holds``: membership of rational
+    whose signs true and false open cells can be distinguished, and its open cells. ``holds``: membership of rational
     points. ``cut``: a polynomial positive at a rational point outside and <= 0 on the set, if one is known.
     ``bounded``: whether the set is. ``tabulate()``: the whole table.
     """
@@ -119,7 +119,7 @@ class Run:
     stats: dict[str, object]
 
     def general(self) -> Tabulated:
-        """Any truth set: cells off the hypersurfaces by rational points beside them, single points exactly."""
+        """Any truth set: cells off the hypersurfaces by rational points next to them, single points exactly."""
         boundary = critical_hypersurfaces(self.system, thin_parts=True, procedures=self.procedures, budget=self.budget)
         self.stats["hypersurfaces"] = len(boundary)
 

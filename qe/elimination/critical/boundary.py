@@ -52,7 +52,7 @@ def critical_hypersurfaces(
 
 
 def _active_sets(system: System) -> Iterator[tuple[Poly, ...]]:
-    """The sets of inequalities that may be active, beside all equations, at a Fritz John point."""
+    """The sets of inequalities that may be active, besides all equations, at a Fritz John point."""
     most = max(0, len(system.bound) + 1 - len(system.equations))
     for count in range(min(most, len(system.inequalities)) + 1):
         if count or system.equations:

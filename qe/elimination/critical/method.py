@@ -131,9 +131,9 @@ def _logged(
 
 def _order(variables: Sequence[str], body: Formula, options: Options) -> tuple[str, ...]:
     names = free_variables(exists(variables, body))
-    wished = tuple(v for v in options.order or () if v in names)
-    if len(wished) == len(names):
-        return wished
+    named = tuple(v for v in options.order or () if v in names)
+    if len(named) == len(names):
+        return named
     return names if Stage.ORDER in options.without else brown_order(polynomials(body), names)
 
 
@@ -156,7 +156,7 @@ def procedures(budget: Budget) -> Procedures:
         return at
 
     return Procedures(
-        project=lambda polys, size, projection, part, separated: factor_lists(polys, size, projection, part, separated),
+        project=factor_lists,
         propose=propose,
         feasible=lambda forms, relations: feasible(forms, relations, budget=budget),
         decide=decide,
@@ -213,7 +213,7 @@ def _of_open_cells(body: ConvexBody, parameters: tuple[str, ...], budget: Budget
 
 
 def _confirmed(body: ConvexBody, formula: Formula, parameters: tuple[str, ...], budget: Budget) -> Formula | None:
-    """The closed formula with cuts that exclude what it holds beside the body; None if some cannot be excluded."""
+    """The closed formula with cuts that exclude what it holds besides the body; None if some cannot be excluded."""
     ring = Ring.of(parameters)
     for _ in range(MOST_CUTS):
         order = cheapest_order(polynomials(formula), parameters, budget)

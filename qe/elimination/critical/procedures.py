@@ -29,7 +29,7 @@ class Proposal:
 class Procedures:
     """Procedures of the engine.
 
-    ``project(polys, size, projection, budget, separated)``: irreducible factors closed under projection, per level.
+    ``project(polys, size, projection, budget, thom_levels)``: irreducible factors closed under projection, per level.
     ``propose(forms)``: a proposal for the convex system forms <= 0; nothing it says is believed.
     ``feasible(forms, relations)``: whether a convex system has a solution, exactly; raises ``Unable``.
     ``decide(matrix, names, free)``: whether the variables after the first ``free`` ones of ``names`` can be completed,

@@ -29,7 +29,7 @@ class Condition:
 class System:
     """A conjunction over ``ring``, whose first ``free`` variables are the parameters.
 
-    ``guards``: atoms in the parameters alone; ``conditions``: the others. Invariant: no condition is a disequation.
+    ``guards``: atoms in the parameters alone; ``conditions``: the others. Invariant: no condition is an inequation.
     """
 
     ring: Ring
@@ -101,7 +101,7 @@ def _is_convex(condition: Condition, size: int) -> bool:
 def systems(body: Formula, ring: Ring, free: int) -> list[System]:
     """The disjuncts of a quantifier-free positive body over ``ring``: the block distributes over them.
 
-    Disequations in quantified variables are split into < and >. Raises ``Unable`` for too many disjuncts and for
+    Inequations in quantified variables are split into < and >. Raises ``Unable`` for too many disjuncts and for
     root atoms.
     """
     return [_system(literals, ring, free) for literals in _disjuncts(body, free)]

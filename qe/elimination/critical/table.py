@@ -19,7 +19,7 @@ Truth = Callable[[Point, frozenset[Poly]], bool]
 
 
 class Shape(Enum):
-    """What is known about the truth set beside its boundary polynomials.
+    """What is known about the truth set next to its boundary polynomials.
 
     CONVEX: closed and convex with interior points. CLOSED, OPEN: just that.
     """
@@ -37,7 +37,7 @@ class TableBuilder:
     A cell off these zeros is connected, so its sample tells its truth, and so it does for a single point. For a
     CONVEX set it always does: over each base cell the fibre is an interval whose ends depend continuously on the
     base point and lie on sections (in more than two dimensions this takes a bounded set and no nullified polynomial).
-    Otherwise a section of positive dimension is true beside a true sector of a CLOSED set, and false beside a
+    Otherwise a section of positive dimension is true next to a true sector of a CLOSED set, and false next to a
     false sector of an OPEN one; what remains is ``unsettled``: the cell is listed as false, and a polynomial that
     vanishes there is kept for the caller.
     """
@@ -56,14 +56,14 @@ class TableBuilder:
         return self._cell(origin, "", frozenset(), 0, None)
 
     def _cell(
-        self, point: Point, signs: str, vanishing: frozenset[Poly], dimension: int, beside: tuple[Cell, Cell] | None
+        self, point: Point, signs: str, vanishing: frozenset[Poly], dimension: int, neighbours: tuple[Cell, Cell] | None
     ) -> Cell:
-        """``beside``: for a section, the cells of the sectors next to it."""
+        """``neighbours``: for a section, the cells of the sectors next to it."""
         level = point.depth
         if level == len(self.levels):
             self.cells += 1
             self.budget.check("cells", self.cells)
-            return Cell(signs, self._truth(point, vanishing, dimension, beside))
+            return Cell(signs, self._truth(point, vanishing, dimension, neighbours))
         factors = self.levels[level]
         isolation = isolate_over(point, factors, lazard=self.projection is Projection.LAZARD)
         if isolation.nullified and self.projection is not Projection.LAZARD:
@@ -84,9 +84,9 @@ class TableBuilder:
         return Cell(signs, None, Stack(tuple(range(len(factors))), isolation.samples, sections, complete))
 
     def _truth(
-        self, point: Point, vanishing: frozenset[Poly], dimension: int, beside: tuple[Cell, Cell] | None
+        self, point: Point, vanishing: frozenset[Poly], dimension: int, neighbours: tuple[Cell, Cell] | None
     ) -> bool:
-        around = () if beside is None else (beside[0].truth, beside[1].truth)
+        around = () if neighbours is None else (neighbours[0].truth, neighbours[1].truth)
         if True in around and self.shape in (Shape.CLOSED, Shape.CONVEX):
             return True
         if False in around and self.shape is Shape.OPEN:

@@ -22,6 +22,8 @@ from qe.rules.degree_shift import common_exponent, lowered, values
 from qe.simplify.facts import NOTHING, Facts, factor_list
 
 _INFINITY_COST = 2.0  # substituting an infinity, in units of a linear root with constant denominator
+_UNBEATABLE = 1.0  # a plan of one linear root with a constant denominator in one atom: the search ends with it
+_ALONE = 0.5  # factor for a variable that occurs in its equation only: nothing is substituted into
 _QUADRATIC_SPREAD = 1.5  # how much worse it is when a block variable's degree grows, per degree
 
 
@@ -66,7 +68,7 @@ def choose(formula: Formula, block: frozenset[int], *, strict: bool) -> Plan | N
         plan = _plan(formula, x, block - {x}, facts, strict)
         if plan is not None and (best is None or plan.cost < best.cost):
             best = plan
-            if best.cost <= 1.0:
+            if best.cost <= _UNBEATABLE:
                 break
     return best
 
@@ -113,7 +115,7 @@ def _with_gauss(
     candidates = tuple(
         replace(c, formula=formula if c.formula is args[k] else conj((c.formula, *rest))) for c in gauss.candidates
     )
-    cost = gauss_cost(gauss) * size if size > 1 or gauss.degenerate != FALSE else points_cost(candidates) * 0.5
+    cost = gauss_cost(gauss) * size if size > 1 or gauss.degenerate != FALSE else points_cost(candidates) * _ALONE
     if gauss.degenerate == FALSE:
         return Plan(x, exponent, formula, candidates, (), None, FALSE, cost)
     if isinstance(args[k], Atom):

@@ -23,7 +23,7 @@ _UPWARD = (Relation.GT, Relation.GE)
 class Substitution:
     """``x`` (an index into the ring) replaced by ``point``, in places where ``facts`` hold. Caches per atom.
 
-    The strict atoms in ``settled`` are known not to vanish at the root that a point is beside.
+    The strict atoms in ``settled`` are known not to vanish at the root that a point is next to.
     """
 
     __slots__ = ("_done", "facts", "point", "settled", "x")
@@ -53,7 +53,7 @@ class Substitution:
         if isinstance(self.point, Infinity):
             return self._identically(f, relation) or self._at_infinity(f, relation, self.point.sign)
         if self.point.epsilon:
-            return self._identically(f, relation) or self._beside(f, relation, self.point.epsilon)
+            return self._identically(f, relation) or self._next_to(f, relation, self.point.epsilon)
         return self._exactly(f, relation)
 
     def _known(self, f: Poly, relation: Relation) -> Formula:
@@ -78,14 +78,14 @@ class Substitution:
             result = disj((self._known(c, strict), conj((self._known(c, EQ), result))))
         return result
 
-    def _beside(self, f: Poly, relation: Relation, side: int) -> Formula:
+    def _next_to(self, f: Poly, relation: Relation, side: int) -> Formula:
         """f < 0 just right of e iff f(e) < 0, or f(e) = 0 and f' < 0 just right of e (left: -f')."""
         if not f.degree(self.x):
             return self._known(f, relation)
         strict = Relation.GT if relation in _UPWARD else LT
         slope = f.derivative(self.x)
         here = self._exactly(f, EQ)
-        further = self._beside(slope if side > 0 else -slope, relation, side)
+        further = self._next_to(slope if side > 0 else -slope, relation, side)
         return disj((self._exactly(f, strict), conj((here, further))))
 
     def _exactly(self, f: Poly, relation: Relation) -> Formula:

@@ -27,14 +27,14 @@ def test_all_cells_of_a_separated_stack_differ_in_signs() -> None:
     """The discriminant of the cubic is zero where d = c = 0; a derivative tells b < 0 from b > 0 there."""
     order, quantifiers = ("d", "c", "b", "x"), ("", "", "", "E")
 
-    def repeated(separated: frozenset[int]) -> int:
+    def repeated(thom_levels: frozenset[int]) -> int:
         table = decompose(
             read(POSITIVE_ROOT),
             order,
             quantifiers,
             budget=Budget(),
             projection=Projection.LAZARD,
-            separated=separated,
+            thom_levels=thom_levels,
         ).table
         assert verify(Certificate.cells(table)).accepted
         stacks = [s.stack.cells for s in _stacks(table.root, 2) if s.stack is not None]

@@ -1,4 +1,4 @@
-"""Exact values on the way back: polynomials at algebraic points, quotients, roots, nudges."""
+"""Exact values on the way back: polynomials at algebraic points, quotients, roots, perturbations."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from qe.errors import Unable
 from qe.exact.algebraic import RealAlgebraic
 from qe.exact.ring import Ring
 from qe.io.text import read
-from qe.rules.lift import Solve, holds_at, nudge, root, sign_at, value_at
+from qe.rules.lift import Solve, holds_at, perturb, root, sign_at, value_at
 
 RING = Ring.of(("x", "y"))
 x, y = RING.gen(0), RING.gen(1)
@@ -55,11 +55,11 @@ def test_rational_and_odd_roots() -> None:
 def test_nudges_stay_in_the_open_part() -> None:
     body = read("x > 0 and x < 1/1000 and x - y /= 0 and x*y /= 0")
     start = {"x": Fraction(1, 2000), "y": Fraction(0)}
-    moved = nudge(("x", "y"), body, start)
+    moved = perturb(("x", "y"), body, start)
     assert holds_at(body, moved) and moved != start
-    assert nudge(("x",), body, moved) == moved
+    assert perturb(("x",), body, moved) == moved
     with pytest.raises(Unable):
-        nudge(("x",), read("x <= 0 and x /= 0 and x >= 0"), {"x": Fraction(0)})
+        perturb(("x",), read("x <= 0 and x /= 0 and x >= 0"), {"x": Fraction(0)})
 
 
 def test_quantifiers_cannot_be_evaluated() -> None:

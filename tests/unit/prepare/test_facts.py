@@ -1,0 +1,66 @@
+"""What the sign theory knows: ranges, factors with exponents, and atoms decided or made smaller by it."""
+
+from __future__ import annotations
+
+import pytest
+
+from qe.exact.ring import Ring
+from qe.formula.build import atom, convert
+from qe.formula.syntax import FALSE, TRUE, Relation
+from qe.formula.traverse import conjuncts
+from qe.io.text import read
+from qe.simplify.factors import atom_under
+from qe.simplify.facts import NOTHING, factor_list
+
+RING = Ring.of(("x", "y"))
+X, Y = RING.gen(0), RING.gen(1)
+
+
+@pytest.mark.parametrize(
+    ("known", "poly", "signs"),
+    [
+        ("x > 0", X**2 * Y, {-1, 0, 1}),
+        ("x < 0", X**2 * Y**2, {0, 1}),
+        ("x < 0 and y < 0", X * Y, {1}),
+        ("x < 0 and y < 0", X**2 * Y, {-1}),
+        ("x < 0 and y < 0", -(X**2) * Y, {1}),
+        ("x /= 0 and y <= 0", X**2 * Y, {-1, 0}),
+        ("x - y > 0", (X - Y) ** 3, {1}),
+        ("x - y < 0 and y < 0", (X - Y) ** 2 * Y, {-1}),
+        ("x - y /= 0 and y < 0", -((X - Y) ** 2) * Y, {1}),
+        ("x > 1 and y > 1", X + Y - 2, {1}),
+    ],
+)
+def test_signs(known: str, poly: object, signs: set[int]) -> None:
+    facts = NOTHING.extended(conjuncts(convert(read(known), RING)))
+    assert facts.signs(poly) == signs  # type: ignore[arg-type]
+    assert facts.sign(poly) == (next(iter(signs)) if signs in ({1}, {-1}) else None)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(
+    ("known", "poly", "relation", "expected"),
+    [
+        ("x > 0", X * Y, Relation.LT, "y < 0"),
+        ("x < 0", X * Y, Relation.LT, "y > 0"),
+        ("x /= 0", X**2 * Y, Relation.LE, "y <= 0"),
+        ("x >= 0", X * Y, Relation.GT, "x /= 0 and y > 0"),
+        ("x >= 0", X, Relation.LE, "x = 0"),
+        ("y = 0 or x > 0", X * Y, Relation.EQ, "x*y = 0"),
+    ],
+)
+def test_atoms_made_smaller(known: str, poly: object, relation: Relation, expected: str) -> None:
+    facts = NOTHING.extended(conjuncts(convert(read(known), RING)))
+    assert atom_under(poly, relation, facts) == convert(read(expected), RING)  # type: ignore[arg-type]
+
+
+def test_atoms_decided() -> None:
+    facts = NOTHING.extended((atom(X, Relation.GT),))
+    assert atom_under(X * (Y**2 + 1), Relation.GT, facts) == TRUE
+    assert atom_under(X * (Y**2 + 1), Relation.LE, facts) == FALSE
+    assert atom_under(X**2 + Y**2, Relation.LE, NOTHING) == convert(read("y = 0 and x = 0"), RING)
+
+
+def test_factors_of_any_associate() -> None:
+    assert factor_list(-6 * X**2 * Y) == factor_list(X**2 * Y)
+    assert dict(factor_list(X**2 * Y)) == {X: 2, Y: 1}
+    assert factor_list(3 - 3 * X) == ((X - 1, 1),)
