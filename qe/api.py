@@ -9,7 +9,6 @@ from enum import Enum
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from qe.engine import run as pipeline
 from qe.errors import InputError, InternalError, Unable
 from qe.exact.ring import Poly
 from qe.formula.build import conj, convert, exists, forall, iff
@@ -21,7 +20,7 @@ from qe.options import Budget, Method, Options, Stage
 from qe.progress import Event, silent
 from qe.proof.answer import Answer, Guarantee, Status
 from qe.proof.certificate import Certificate, Kind
-from qe.proof.elimination import Assignment
+from qe.proof.elimination import Assignment, Elimination
 
 if TYPE_CHECKING:  # the checker and the optimiser are loaded where they are used
     from qe.certify.verdict import Verdict
@@ -137,10 +136,17 @@ def _limited(formula: Formula, options: Options, timeout: float | None, memory: 
     return _answer(formula, options, timeout, check)
 
 
+def _solved(formula: Formula, options: Options, budget: Budget) -> Elimination:
+    """The answer of the engine, which is loaded at the first call."""
+    from qe.engine.run import solve
+
+    return solve(formula, options, budget)
+
+
 def _answer(formula: Formula, options: Options, timeout: float | None, check: bool) -> Answer:
     budget = Budget(timeout, listener=options.progress)
     try:
-        found = pipeline.solve(formula, options, budget)
+        found = _solved(formula, options, budget)
     except Unable as error:
         return Answer(Status.UNABLE, None, reason=str(error), stats={"cells": budget.used_cells})
     certificate = found.evidence if isinstance(found.evidence, Certificate) else None
@@ -194,7 +200,7 @@ def parametric_witnesses(
     given = read_formula(formula, format)
     if isinstance(given, Exists | ForAll) and not is_quantifier_free(given.body):
         rebuilt = exists if isinstance(given, Exists) else forall
-        inner = pipeline.solve(given.body, Options(), Budget(timeout, listener=progress)).formula
+        inner = _solved(given.body, Options(), Budget(timeout, listener=progress)).formula
         given = rebuilt(given.variables, inner)
     return find(given, budget=Budget(timeout, listener=progress))
 
@@ -254,7 +260,7 @@ def region(
         return Budget(timeout, listener=progress)
 
     def eliminated(part: Formula) -> Formula:
-        return pipeline.solve(part, Options(order=names), limits()).formula
+        return _solved(part, Options(order=names), limits()).formula
 
     if quantified or len(free_variables(given)) > TABLE_VARIABLES:
         from qe.regions.convex_region import ConvexRegion, shadow_of
@@ -267,7 +273,7 @@ def region(
     budget = limits()
     if not quantified:
         return Region.of(given, names, budget=budget)
-    found = pipeline.solve(given, Options(order=names), budget)
+    found = _solved(given, Options(order=names), budget)
     return Region.of(found.formula, names or found.parameter_order, budget=budget)
 
 
