@@ -9,7 +9,6 @@ from dataclasses import dataclass
 from qe.cad.decompose import Decomposition, Tactics, decompose
 from qe.cad.order import OrderRule
 from qe.cad.order_by_projection import choose_order
-from qe.cells.extended_tarski import extended_formula
 from qe.cells.formulas import construct
 from qe.cells.sampled_cells import deciding_point
 from qe.errors import BudgetExceeded, InternalError
@@ -142,6 +141,8 @@ class _Question:
 
         answer, proof = construct(found.table, refined)
         if self.options.root_atoms:
+            from qe.cells.extended_tarski import extended_formula
+
             answer = extended_formula(proof)
         simple = simplify(convert(answer, Ring.of(self.free)))
         return simple, proof

@@ -2,20 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from typing import TYPE_CHECKING
 
 from qe.formula.build import conj, disj
 from qe.formula.normal import nnf
 from qe.formula.syntax import And, Exists, ForAll, Formula, Or
 from qe.options import Budget
-from qe.rules.block import reduce_block
 from qe.rules.block_context import Workshop
-from qe.rules.lift import Assignment, Value
 from qe.rules.step import ALL_STEPS, Step, StepKind
-from qe.rules.tree import Node
 from qe.simplify.simplify import simplify
+
+if TYPE_CHECKING:
+    from qe.rules.lift import Assignment, Value
+    from qe.rules.tree import Node
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,10 +62,16 @@ def prepare(formula: Formula, *, budget: Budget | None = None, enabled: Collecti
         return Prepared(_finish(_inside(current, shop), shop), tuple(steps))
     universal = isinstance(current, ForAll)
     body = _inside(nnf(current.body, negate=universal), shop)
-    tree = reduce_block(current.variables, body, shop)
+    tree = _reduced(current.variables, body, shop)
     result = _finish(nnf(tree.formula, negate=universal), shop)
     outer = formula.variables if isinstance(formula, Exists | ForAll) else current.variables
     return Prepared(result, tuple(steps), tree, universal, outer)
+
+
+def _reduced(variables: Sequence[str], body: Formula, shop: Workshop) -> Node:
+    from qe.rules.block import reduce_block  # all rules, loaded where there is a block
+
+    return reduce_block(variables, body, shop)
 
 
 def _finish(formula: Formula, shop: Workshop) -> Formula:
@@ -81,6 +89,6 @@ def _inside(formula: Formula, shop: Workshop) -> Formula:
         case Exists(variables, body) | ForAll(variables, body):
             universal = isinstance(formula, ForAll)
             fresh = replace(shop, facts=shop.facts.without(variables))
-            tree = reduce_block(variables, nnf(_inside(body, fresh), negate=universal), replace(fresh))
+            tree = _reduced(variables, nnf(_inside(body, fresh), negate=universal), replace(fresh))
             return nnf(tree.formula, negate=universal)
     return formula

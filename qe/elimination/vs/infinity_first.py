@@ -10,9 +10,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from qe.elimination.vs.points import Infinity
-from qe.elimination.vs.sign_knowledge import Signs
-from qe.elimination.vs.substitute import Substitution
 from qe.formula.build import atom, conj, disj, exists, neg
 from qe.formula.normal import nnf
 from qe.formula.syntax import FALSE, Formula, Relation
@@ -39,6 +36,10 @@ def far_first(variable: str, body: Formula, *, budget: Budget) -> FarFirst | Non
     lead = max(high, key=lambda p: p.degree(x)).leading(x)
     if lead.is_constant:
         return None
+    from qe.elimination.vs.points import Infinity
+    from qe.elimination.vs.sign_knowledge import Signs
+    from qe.elimination.vs.substitute import Substitution
+
     far = simplify(disj(Substitution(x, Infinity(side), Signs())(body) for side in (-1, 1)))
     near = conj((body, nnf(neg(far))))
     for relation in (Relation.GT, Relation.LT):

@@ -5,7 +5,6 @@ from __future__ import annotations
 import time
 from collections.abc import Sequence
 
-from qe.elimination.vs import eliminate_block, witness
 from qe.formula.syntax import TRUE, Formula
 from qe.options import Budget
 from qe.proof.elimination import Values
@@ -15,6 +14,9 @@ from qe.simplify.simplify import simplify
 
 def substituted(variables: Sequence[str], body: Formula, budget: Budget, story: Story) -> tuple[Formula, Values | None]:
     """``exists variables. body`` as far as substitution goes (it may keep quantifiers), with values if it is true."""
+    from qe.elimination.vs.block import eliminate_block  # a large part of the engine, loaded where it may serve
+    from qe.elimination.vs.witness import witness
+
     start = time.perf_counter()
     result = eliminate_block(variables, body, budget=budget, simplify=simplify)
     story.note("vs", {"variables": list(variables), **result.stats, "seconds": round(time.perf_counter() - start, 6)})
