@@ -58,7 +58,7 @@ def _is_plain(value: object, annotation: Any, asked: Any) -> bool:
         return False
     text = value if type(value) is str else ""
     if annotation is str:
-        return _is_unicode(text) and type(value) is str
+        return type(value) is str
     if annotation is int:
         return type(value) is int or _NATURAL.fullmatch(text) is not None
     if annotation is float:
@@ -66,8 +66,3 @@ def _is_plain(value: object, annotation: Any, asked: Any) -> bool:
     if issubclass(annotation, Enum):
         return isinstance(value, annotation) or text in [member.value for member in annotation]
     return False
-
-
-def _is_unicode(text: str) -> bool:
-    """Whether no byte of the command line was something else than UTF-8."""
-    return not any("\ud800" <= c <= "\udfff" for c in text)
