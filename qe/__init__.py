@@ -10,22 +10,6 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from qe.api import (
-    Answer,
-    Certificate,
-    Guarantee,
-    Status,
-    check_witness,
-    decide,
-    eliminate,
-    equivalent,
-    find_instance,
-    maximize,
-    minimize,
-    parametric_witnesses,
-    region,
-    verify,
-)
 from qe.errors import (
     BudgetExceeded,
     CertificateRejected,
@@ -37,35 +21,76 @@ from qe.errors import (
     QEError,
     Unable,
 )
-from qe.exact.algebraic import RealAlgebraic
 from qe.options import Method, Stage
 
 if TYPE_CHECKING:
+    from qe.api import (
+        Answer,
+        Certificate,
+        Guarantee,
+        Status,
+        check_witness,
+        decide,
+        eliminate,
+        equivalent,
+        find_instance,
+        maximize,
+        minimize,
+        parametric_witnesses,
+        region,
+        verify,
+    )
     from qe.certify.verdict import Verdict
     from qe.convex.optimum import Optimum
     from qe.elimination.vs.parametric import ParametricWitness
+    from qe.exact.algebraic import RealAlgebraic
     from qe.io.sympy import Exists, ForAll
     from qe.regions.region import Region
 
 __version__ = "0.1.0"
 
 
+_API = (
+    "Answer",
+    "Certificate",
+    "Guarantee",
+    "Status",
+    "check_witness",
+    "decide",
+    "eliminate",
+    "equivalent",
+    "find_instance",
+    "maximize",
+    "minimize",
+    "parametric_witnesses",
+    "region",
+    "verify",
+)
 _LATER = {
+    **dict.fromkeys(_API, "qe.api"),
     "Exists": "qe.io.sympy",
     "ForAll": "qe.io.sympy",
     "Optimum": "qe.convex.optimum",
     "ParametricWitness": "qe.elimination.vs.parametric",
+    "RealAlgebraic": "qe.exact.algebraic",
     "Region": "qe.regions.region",
     "Verdict": "qe.certify.verdict",
 }
-"""Public names whose modules are loaded at first use, to keep ``import qe`` short."""
+"""Public names whose modules are loaded at first use: ``import qe`` alone loads neither FLINT nor the engine."""
 
 
 def __getattr__(name: str) -> Any:
     """A public name from a module that is loaded at its first use (PEP 562)."""
-    if name in _LATER:
-        return getattr(import_module(_LATER[name]), name)
-    raise AttributeError(f"module 'qe' has no attribute {name!r}")
+    if name == "api":
+        return import_module("qe.api")
+    if name not in _LATER:
+        raise AttributeError(f"module 'qe' has no attribute {name!r}")
+    found = globals()[name] = getattr(import_module(_LATER[name]), name)
+    return found
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})
 
 
 __all__ = [

@@ -9,7 +9,6 @@ from enum import Enum
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from qe.engine.run import solve
 from qe.errors import InputError, InternalError, Unable
 from qe.exact.number import Assignment
 from qe.exact.ring import Poly
@@ -27,6 +26,7 @@ from qe.proof.run_log import RunLog
 if TYPE_CHECKING:  # the checker and the optimiser are loaded where they are used
     from qe.certify.verdict import Verdict
     from qe.convex.optimum import Optimum
+    from qe.elimination.protocol import Outcome
     from qe.elimination.vs.parametric import ParametricWitness
     from qe.regions.region import Region
 
@@ -138,10 +138,17 @@ def _limited(formula: Formula, options: Options, timeout: float | None, memory: 
     return _answer(formula, options, timeout, check)
 
 
+def _solved(formula: Formula, options: Options, budget: Budget) -> Outcome:
+    """The answer of the engine, which is loaded at the first call."""
+    from qe.engine.run import solve
+
+    return solve(formula, options, budget)
+
+
 def _answer(formula: Formula, options: Options, timeout: float | None, check: bool) -> Answer:
     budget = Budget(timeout, listener=options.progress)
     try:
-        found = solve(formula, options, budget)
+        found = _solved(formula, options, budget)
     except Unable as error:
         log = RunLog()
         log.work("limits", {"work": budget.used})
@@ -197,7 +204,7 @@ def parametric_witnesses(
     given = read_formula(formula, format)
     if isinstance(given, Exists | ForAll) and not is_quantifier_free(given.body):
         rebuilt = exists if isinstance(given, Exists) else forall
-        inner = solve(given.body, Options(), Budget(timeout, listener=progress)).formula
+        inner = _solved(given.body, Options(), Budget(timeout, listener=progress)).formula
         given = rebuilt(given.variables, inner)
     return find(given, budget=Budget(timeout, listener=progress))
 
@@ -257,7 +264,7 @@ def region(
         return Budget(timeout, listener=progress)
 
     def eliminated(part: Formula) -> Formula:
-        return solve(part, Options(order=names), limits()).formula
+        return _solved(part, Options(order=names), limits()).formula
 
     if quantified or len(free_variables(given)) > TABLE_VARIABLES:
         from qe.regions.convex_region import ConvexRegion, shadow_of
@@ -270,7 +277,7 @@ def region(
     budget = limits()
     if not quantified:
         return Region.of(given, names, budget=budget)
-    found = solve(given, Options(order=names), budget)
+    found = _solved(given, Options(order=names), budget)
     return Region.of(found.formula, names or found.order, budget=budget)
 
 

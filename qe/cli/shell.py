@@ -18,6 +18,7 @@ from typing import Any, TypeVar
 import typer
 from typer.main import get_command
 
+from qe.cli.values import take_plain_values
 from qe.errors import CertificateRejected, InputError, InternalError, Unable
 from qe.progress import Event
 from qe.worker import GRACE, Channel, Known, WorkerDied, WorkerStopped, run
@@ -34,6 +35,7 @@ def enter(app: typer.Typer, argv: Sequence[str] | None, *, name: str) -> int:
     """Run a command line; the exit status. Errors become exactly one line on stderr."""
     sys.excepthook = _one_line_hook(name)
     command: Any = get_command(app)
+    take_plain_values(command)
     try:
         code = command.main(args=None if argv is None else list(argv), prog_name=name, standalone_mode=False)
         sys.stdout.flush()

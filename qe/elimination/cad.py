@@ -10,7 +10,6 @@ from qe.cad.decompose import Decomposition as Table
 from qe.cad.decompose import Tactics, decompose
 from qe.cad.order import OrderRule
 from qe.cad.order_by_projection import choose_order
-from qe.cells.extended_tarski import extended_formula
 from qe.cells.formulas import construct
 from qe.cells.sampled_cells import deciding_point
 from qe.elimination.protocol import Context, Outcome, Problem
@@ -147,6 +146,8 @@ class _Question:
 
         answer, proof = construct(found.table, refined)
         if self.options.root_atoms:
+            from qe.cells.extended_tarski import extended_formula
+
             answer = extended_formula(proof)
         simple = simplify(convert(answer, Ring.of(self.free)))
         return simple, proof

@@ -94,6 +94,8 @@ def root_atom(variable: str, relation: Relation, poly: Poly, k: int) -> Formula:
 
 def convert(formula: Formula, ring: Ring) -> Formula:
     """The same formula with its polynomials in another ring (by variable name)."""
+    if formula.ring is ring:
+        return formula
     match formula:
         case Atom(poly, relation):
             return atom(poly.convert(ring), relation)

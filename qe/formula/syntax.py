@@ -8,17 +8,84 @@ the invariants stated on each class; these constructors do not simplify.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import ClassVar
 
-from qe.exact.ring import Poly
+from qe.exact.ring import Poly, Ring
 from qe.formula.notation import Level, Notation, bracketed, chain, oriented, polynomial
 from qe.formula.relation import Relation as Relation
 from qe.formula.text import TEXT
 
 
 class Formula:
-    """Base class of all nodes; ``str()`` prints the text syntax."""
+    """Base class of all nodes; ``str()`` prints the text syntax.
 
-    __slots__ = ()
+    ``ring``, ``free``, ``is_quantifier_free`` and the hash are worked out when they are first asked for and then kept.
+    They are no part of what a node is equal to, of its ``repr`` or of its pickle.
+    """
+
+    __slots__ = ("_free", "_hash", "_is_quantifier_free", "_is_simple", "_ring")
+    __match_args__: ClassVar[tuple[str, ...]] = ()
+    _free: tuple[str, ...]
+    _hash: int
+    _is_quantifier_free: bool
+    _is_simple: bool
+    _ring: Ring | None
+
+    @property
+    def ring(self) -> Ring | None:
+        """The common ring of the atoms, or None for a formula without atoms."""
+        try:
+            return self._ring
+        except AttributeError:
+            ring = self._find_ring()
+            object.__setattr__(self, "_ring", ring)
+            return ring
+
+    @property
+    def free(self) -> tuple[str, ...]:
+        """The names that occur free, in ring order."""
+        try:
+            return self._free
+        except AttributeError:
+            free = self._find_free()
+            object.__setattr__(self, "_free", free)
+            return free
+
+    @property
+    def is_quantifier_free(self) -> bool:
+        """Whether no quantifier occurs."""
+        try:
+            return self._is_quantifier_free
+        except AttributeError:
+            free = self._find_quantifier_free()
+            object.__setattr__(self, "_is_quantifier_free", free)
+            return free
+
+    @property
+    def is_simple(self) -> bool:
+        """Whether the simplifier has said that it leaves the formula as it is; ``False`` says nothing."""
+        return getattr(self, "_is_simple", False)
+
+    def mark_simple(self) -> None:
+        """Note that the simplifier leaves the formula as it is."""
+        object.__setattr__(self, "_is_simple", True)
+
+    def __hash__(self) -> int:
+        try:
+            return self._hash
+        except AttributeError:
+            value = hash((self.__class__, *[getattr(self, name) for name in self.__match_args__]))
+            object.__setattr__(self, "_hash", value)
+            return value
+
+    def _find_ring(self) -> Ring | None:
+        return None
+
+    def _find_free(self) -> tuple[str, ...]:
+        return ()
+
+    def _find_quantifier_free(self) -> bool:
+        return True
 
     def __str__(self) -> str:
         return self.written(TEXT)
@@ -37,6 +104,8 @@ class Constant(Formula):
 
     value: bool
 
+    __hash__ = Formula.__hash__
+
     def __repr__(self) -> str:
         return "TRUE" if self.value else "FALSE"
 
@@ -53,6 +122,15 @@ class Atom(Formula):
 
     poly: Poly
     relation: Relation
+
+    __hash__ = Formula.__hash__
+
+    def _find_ring(self) -> Ring | None:
+        return self.poly.ring
+
+    def _find_free(self) -> tuple[str, ...]:
+        names = self.poly.ring.names
+        return tuple([names[i] for i in self.poly.variables])
 
     def written(self, notation: Notation, level: Level = Level.OPEN, last: bool = True) -> str:
         parts, relation = oriented(self.poly, self.relation)
@@ -73,6 +151,15 @@ class RootAtom(Formula):
     poly: Poly
     k: int
 
+    __hash__ = Formula.__hash__
+
+    def _find_ring(self) -> Ring | None:
+        return self.poly.ring
+
+    def _find_free(self) -> tuple[str, ...]:
+        names, occurring = self.poly.ring.names, self.poly.variables
+        return tuple([name for i, name in enumerate(names) if i in occurring or name == self.variable])
+
     def written(self, notation: Notation, level: Level = Level.OPEN, last: bool = True) -> str:
         return notation.root(self.variable, self.relation, self.poly, self.k)
 
@@ -82,6 +169,17 @@ class And(Formula):
     """Conjunction. Invariant (builders): at least two arguments, none an And or a Constant."""
 
     args: tuple[Formula, ...]
+
+    __hash__ = Formula.__hash__
+
+    def _find_ring(self) -> Ring | None:
+        return next((arg.ring for arg in self.args if arg.ring is not None), None)
+
+    def _find_free(self) -> tuple[str, ...]:
+        return _together(self.ring, self.args)
+
+    def _find_quantifier_free(self) -> bool:
+        return all(arg.is_quantifier_free for arg in self.args)
 
     def written(self, notation: Notation, level: Level = Level.OPEN, last: bool = True) -> str:
         return chain(self.args, Level.AND, level, last, notation)
@@ -93,6 +191,17 @@ class Or(Formula):
 
     args: tuple[Formula, ...]
 
+    __hash__ = Formula.__hash__
+
+    def _find_ring(self) -> Ring | None:
+        return next((arg.ring for arg in self.args if arg.ring is not None), None)
+
+    def _find_free(self) -> tuple[str, ...]:
+        return _together(self.ring, self.args)
+
+    def _find_quantifier_free(self) -> bool:
+        return all(arg.is_quantifier_free for arg in self.args)
+
     def written(self, notation: Notation, level: Level = Level.OPEN, last: bool = True) -> str:
         return chain(self.args, Level.OR, level, last, notation)
 
@@ -102,6 +211,17 @@ class Not(Formula):
     """Negation."""
 
     arg: Formula
+
+    __hash__ = Formula.__hash__
+
+    def _find_ring(self) -> Ring | None:
+        return self.arg.ring
+
+    def _find_free(self) -> tuple[str, ...]:
+        return self.arg.free
+
+    def _find_quantifier_free(self) -> bool:
+        return self.arg.is_quantifier_free
 
     def written(self, notation: Notation, level: Level = Level.OPEN, last: bool = True) -> str:
         if isinstance(self.arg, RootAtom) or notation.strict:
@@ -116,6 +236,17 @@ class Exists(Formula):
     variables: tuple[str, ...]
     body: Formula
 
+    __hash__ = Formula.__hash__
+
+    def _find_ring(self) -> Ring | None:
+        return self.body.ring
+
+    def _find_free(self) -> tuple[str, ...]:
+        return tuple([name for name in self.body.free if name not in self.variables])
+
+    def _find_quantifier_free(self) -> bool:
+        return False
+
     def written(self, notation: Notation, level: Level = Level.OPEN, last: bool = True) -> str:
         return _quantified(self, notation, last)
 
@@ -127,8 +258,29 @@ class ForAll(Formula):
     variables: tuple[str, ...]
     body: Formula
 
+    __hash__ = Formula.__hash__
+
+    def _find_ring(self) -> Ring | None:
+        return self.body.ring
+
+    def _find_free(self) -> tuple[str, ...]:
+        return tuple([name for name in self.body.free if name not in self.variables])
+
+    def _find_quantifier_free(self) -> bool:
+        return False
+
     def written(self, notation: Notation, level: Level = Level.OPEN, last: bool = True) -> str:
         return _quantified(self, notation, last)
+
+
+def _together(ring: Ring | None, parts: tuple[Formula, ...]) -> tuple[str, ...]:
+    """The free variables of all parts, in the order of their ring."""
+    if ring is None:
+        return ()
+    found: set[str] = set()
+    for part in parts:
+        found.update(part.free)
+    return tuple([name for name in ring.names if name in found])
 
 
 def _quantified(formula: Exists | ForAll, notation: Notation, last: bool) -> str:

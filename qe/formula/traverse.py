@@ -85,32 +85,12 @@ def polynomials(formula: Formula) -> list[Poly]:
 
 def ring_of(formula: Formula) -> Ring | None:
     """The common ring of the atoms, or None for a formula without atoms."""
-    for found in atoms(formula):
-        return found.poly.ring
-    return None
+    return formula.ring
 
 
 def free_variables(formula: Formula) -> tuple[str, ...]:
     """The names that occur free, in ring order."""
-    ring = ring_of(formula)
-    if ring is None:
-        return ()
-    names = _free(formula)
-    return tuple(name for name in ring.names if name in names)
-
-
-def _free(formula: Formula) -> set[str]:
-    match formula:
-        case Atom(poly, _):
-            return {poly.ring.names[i] for i in poly.variables}
-        case RootAtom(variable, _, poly, _):
-            return {poly.ring.names[i] for i in poly.variables} | {variable}
-        case Exists(variables, body) | ForAll(variables, body):
-            return _free(body) - set(variables)
-    found: set[str] = set()
-    for child in children(formula):
-        found |= _free(child)
-    return found
+    return formula.free
 
 
 def connected(
@@ -135,4 +115,4 @@ def connected(
 
 def is_quantifier_free(formula: Formula) -> bool:
     """Whether no quantifier occurs."""
-    return not isinstance(formula, Exists | ForAll) and all(is_quantifier_free(c) for c in children(formula))
+    return formula.is_quantifier_free

@@ -11,7 +11,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator
 from functools import cache
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from qe.exact.ring import Poly
 from qe.formula.normal import Quantifier, prenex
@@ -20,13 +20,11 @@ from qe.formula.syntax import Formula, Relation
 from qe.formula.traverse import free_variables
 from qe.io import surface as s
 from qe.io.grammar import Failing, parse, parser
+from qe.io.lalr import Parser, Token
 from qe.io.names import Renaming
 from qe.io.surface import lower
 from qe.io.text_errors import SyntaxFailure, unknown_character
 from qe.io.text_parser import TERMS, Builder
-
-if TYPE_CHECKING:
-    from lark import Lark, Token
 
 _SESSION = re.compile(
     r"\s*\[[^\]]*\]\s*\((?P<names>[^()]*)\)\s*(?P<free>[0-9]+)\s*(?P<formula>[^.]*)\.(?P<rest>.*)", re.DOTALL
@@ -76,6 +74,7 @@ _TERMS = TERMS.replace(
     "| product TIMES factor -> times", "| product TIMES factor -> times | product power -> juxtaposed"
 )
 _TERMS = _TERMS.replace("| NAME OPEN arguments CLOSE -> call", "").replace("arguments: sum | arguments COMMA sum", "")
+GRAMMAR = _FORMULAS + _TERMS
 
 
 def read(text: str, *, source: str = "<text>") -> Formula:
@@ -112,8 +111,8 @@ def _check_session(session: re.Match[str], node: object, fail: s.Fail) -> None:
 
 
 @cache
-def _parser() -> Lark:
-    return parser(_FORMULAS + _TERMS, _tokens, _Builder())
+def _parser() -> Parser:
+    return parser("qepcad", GRAMMAR, _tokens, _Builder())
 
 
 def _tokens(text: str, token: Callable[..., Token]) -> Iterator[Token]:

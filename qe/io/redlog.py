@@ -10,7 +10,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator
 from functools import cache
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from qe.errors import InputError
 from qe.exact.ring import Poly
@@ -18,13 +18,11 @@ from qe.formula.notation import Notation
 from qe.formula.syntax import Formula, Relation
 from qe.io import surface as s
 from qe.io.grammar import Failing, parse, parser
+from qe.io.lalr import Parser, Token
 from qe.io.names import Renaming
 from qe.io.surface import lower
 from qe.io.text_errors import SyntaxFailure, unknown_character
 from qe.io.text_parser import TERMS, Builder
-
-if TYPE_CHECKING:
-    from lark import Lark, Token
 
 _TOKEN = re.compile(
     r"(?P<SPACE>\s+|%[^\n]*)"
@@ -94,6 +92,7 @@ variables: NAME                 -> names
      | BEGIN names END          -> braced
 names: NAME | names COMMA NAME
 """
+GRAMMAR = _FORMULAS + TERMS
 _CAPITAL = re.compile(r"[A-Z]")
 _PLAIN = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 _RESERVED = re.compile(
@@ -112,8 +111,8 @@ def read(text: str, *, source: str = "<text>") -> Formula:
 
 
 @cache
-def _parser() -> Lark:
-    return parser(_FORMULAS + TERMS, _tokens, _Builder())
+def _parser() -> Parser:
+    return parser("redlog", GRAMMAR, _tokens, _Builder())
 
 
 def _tokens(text: str, token: Callable[..., Token]) -> Iterator[Token]:

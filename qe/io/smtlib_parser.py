@@ -5,13 +5,11 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator
 from functools import cache
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
+from typing import Any, NamedTuple, TypeAlias
 
 from qe.io.grammar import parser
+from qe.io.lalr import END, Parser, Token, UnexpectedToken
 from qe.io.surface import Fail
-
-if TYPE_CHECKING:
-    from lark import Lark, Token
 
 _TOKEN = re.compile(
     r"(?P<SPACE>\s+|;[^\n]*)"
@@ -23,7 +21,7 @@ _TOKEN = re.compile(
     r'|(?P<STRING>"(?:[^"]|"")*")'
     r"|(?P<BITS>\#x[0-9a-fA-F]+|\#b[01]+)"
 )
-_GRAMMAR = """
+GRAMMAR = """
 %declare OPEN CLOSE NUMBER SYMBOL QUOTED KEYWORD STRING BITS
 start: expression*
 ?expression: SYMBOL             -> symbol
@@ -59,21 +57,19 @@ class _Bad(Exception):
 
 def parse(text: str, fail: Fail) -> list[Expression]:
     """The expressions of a script; raises what ``fail`` makes."""
-    from lark.exceptions import UnexpectedToken
-
     try:
-        return _parser().parse(text)  # type: ignore[return-value]
+        return _parser().parse(text)  # type: ignore[no-any-return]
     except UnexpectedToken as error:
-        if error.token.type == "$END":
+        if error.token.type == END:
             raise fail("unbalanced brackets: this '(' is never closed", _last_open(text)) from None
-        raise fail("unbalanced brackets: this ')' has no partner", error.token.start_pos or 0) from None
+        raise fail("unbalanced brackets: this ')' has no partner", error.token.start_pos) from None
     except _Bad as error:
         raise fail(error.message, error.at) from None
 
 
 @cache
-def _parser() -> Lark:
-    return parser(_GRAMMAR, _tokens, _Builder())
+def _parser() -> Parser:
+    return parser("smtlib", GRAMMAR, _tokens, _Builder())
 
 
 def _tokens(text: str, token: Callable[..., Token]) -> Iterator[Token]:

@@ -5,17 +5,15 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator
 from functools import cache
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from qe.formula.syntax import Relation
 from qe.io import surface as s
 from qe.io.grammar import parser
+from qe.io.lalr import Parser, Token
 from qe.io.terms import TermError, decimal
 from qe.io.text_errors import SyntaxFailure, unknown_character
 from qe.spelling import WORD
-
-if TYPE_CHECKING:
-    from lark import Lark, Token
 
 _LIST = rf"(?:{WORD}|\|[^|\n]*\|)"
 _TOKEN = re.compile(
@@ -99,12 +97,13 @@ comparison: sum RELATION sum | comparison RELATION sum
      | OPEN sum CLOSE           -> brackets
 arguments: sum | arguments COMMA sum
 """
+GRAMMAR = _FORMULAS + TERMS
 
 
 @cache
-def text_parser() -> Lark:
+def text_parser() -> Parser:
     """The parser of the text syntax."""
-    return parser(_FORMULAS + TERMS, _tokens, Builder())
+    return parser("text", GRAMMAR, _tokens, Builder())
 
 
 def _tokens(text: str, token: Callable[..., Token]) -> Iterator[Token]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from typing import TYPE_CHECKING
 
 from qe.formula.build import conj, disj, exists, forall, neg
 from qe.formula.normal import nnf
@@ -12,12 +13,13 @@ from qe.formula.syntax import And, Atom, Exists, ForAll, Formula, Or
 from qe.formula.traverse import free_variables
 from qe.options import Budget
 from qe.proof.run_log import RunLog
-from qe.rules.block import reduce_block
 from qe.rules.block_context import BlockContext
-from qe.rules.lift import Assignment, Value
 from qe.rules.step import ALL_STEPS, StepKind
-from qe.rules.tree import Node
 from qe.simplify.simplify import simplify
+
+if TYPE_CHECKING:
+    from qe.rules.lift import Assignment, Value
+    from qe.rules.tree import Node
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,6 +83,8 @@ def _simplified(formula: Formula, context: BlockContext) -> Formula:
 
 def _block(formula: Exists | ForAll, context: BlockContext) -> Node:
     """The tree of an existential block, or of the negation of a universal one, inner blocks prepared first."""
+    from qe.rules.block import reduce_block  # all rules, loaded where there is a block
+
     body = _inside(formula.body, context)
     if isinstance(formula, Exists):
         return reduce_block(formula.variables, body, context)

@@ -42,10 +42,15 @@ def simplify(formula: Formula, assumptions: Formula = TRUE) -> Formula:
 
 def simplify_under(formula: Formula, facts: Facts) -> Formula:
     """As ``simplify``, with the assumptions given as facts."""
+    if formula.is_simple and facts is NOTHING:
+        return formula
     current = nnf(formula)
     for _ in range(_ROUNDS):
         previous, current = current, _node(current, facts)
         if current == previous:
+            current = formula if current == formula else current  # with what is known about the node that was given
+            if facts is NOTHING:
+                current.mark_simple()
             break
     return current
 

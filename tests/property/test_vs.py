@@ -9,7 +9,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from qe import reference
-from qe.elimination.vs import eliminate_block, witness
+from qe.elimination.vs.block import eliminate_block
+from qe.elimination.vs.witness import witness
 from qe.errors import BudgetExceeded
 from qe.exact.ring import Ring
 from qe.exact.sample import Point

@@ -5,7 +5,8 @@ from __future__ import annotations
 import time
 
 from qe.elimination.protocol import Context, Outcome, Problem
-from qe.elimination.vs import eliminate_block, witness
+from qe.elimination.vs.block import eliminate_block
+from qe.elimination.vs.witness import witness
 from qe.exact.number import Values
 from qe.formula.syntax import TRUE
 from qe.options import Options

@@ -11,7 +11,9 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from itertools import islice
 
-from qe.elimination.vs import Answer, eliminate_block, witness
+from qe.elimination.vs.block import eliminate_block
+from qe.elimination.vs.result import Answer
+from qe.elimination.vs.witness import witness
 from qe.errors import DegreeTooHigh, InputError, Unable
 from qe.exact.algebraic import RealAlgebraic
 from qe.exact.sample import Point

@@ -6,10 +6,12 @@ from fractions import Fraction
 
 import pytest
 
-from qe.elimination.vs import BlockResult, eliminate_block, witness
+from qe.elimination.vs.block import eliminate_block
 from qe.elimination.vs.candidates import bounds, in_order
 from qe.elimination.vs.radical_free import convex_family, lone_quadratic, without_radicals
+from qe.elimination.vs.result import BlockResult
 from qe.elimination.vs.substitute import Substitution
+from qe.elimination.vs.witness import witness
 from qe.exact.ring import Ring
 from qe.formula.build import conj, disj
 from qe.formula.evaluate import holds_at

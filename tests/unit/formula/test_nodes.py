@@ -1,0 +1,135 @@
+"""What a node knows about itself: right, found once, and no part of what the node is."""
+
+from __future__ import annotations
+
+import copy
+import pickle
+import time
+from itertools import pairwise
+
+import pytest
+from hypothesis import given
+
+from qe.exact.ring import Ring
+from qe.formula.build import atom, conj, convert, disj, exists, root_atom
+from qe.formula.syntax import FALSE, TRUE, And, Atom, Exists, ForAll, Formula, Relation, RootAtom
+from qe.formula.traverse import atoms, children, free_variables, is_quantifier_free, ring_of
+from qe.io.text import read
+from qe.simplify.simplify import simplify
+from tests.strategies import formulas
+
+FACTS = ("_free", "_hash", "_is_quantifier_free", "_is_simple", "_ring")
+
+
+def occurring_free(formula: Formula) -> set[str]:
+    """The definition, by walking through the whole formula."""
+    if isinstance(formula, Atom | RootAtom):
+        names = {formula.poly.ring.names[i] for i in formula.poly.variables}
+        return names | ({formula.variable} if isinstance(formula, RootAtom) else set())
+    bound = set(formula.variables) if isinstance(formula, Exists | ForAll) else set()
+    return {name for child in children(formula) for name in occurring_free(child)} - bound
+
+
+def quantified(formula: Formula) -> bool:
+    return isinstance(formula, Exists | ForAll) or any(map(quantified, children(formula)))
+
+
+@given(formulas(max_quantifiers=3, root_atoms=True))
+def test_nodes_know_what_occurs_in_them(formula: Formula) -> None:
+    rings = {a.poly.ring for a in atoms(formula)}
+    assert len(rings) <= 1
+    assert ring_of(formula) is (rings.pop() if rings else None)
+    names = () if formula.ring is None else formula.ring.names
+    free = occurring_free(formula)
+    for _ in range(2):  # found, and then remembered
+        assert free_variables(formula) == tuple(name for name in names if name in free)
+        assert is_quantifier_free(formula) is not quantified(formula)
+
+
+@pytest.mark.parametrize(
+    ("text", "free"),
+    [
+        ("x > 0 and (ex y. y > x)", ("x",)),
+        ("(ex y. y > x) or z = 0 or x = 1", ("z", "x")),
+        ("not (all x, z. x*y > z)", ("y",)),
+    ],
+)
+def test_one_quantifier_among_other_parts(text: str, free: tuple[str, ...]) -> None:
+    formula = read(text)
+    assert set(free_variables(formula)) == set(free)
+    assert is_quantifier_free(formula) is not quantified(formula)
+
+
+@given(formulas(max_quantifiers=2, root_atoms=True), formulas(max_quantifiers=2, root_atoms=True))
+def test_equality_and_hash_see_the_formula_only(one: Formula, other: Formula) -> None:
+    stored = pickle.dumps(one)
+    twin = pickle.loads(stored)
+    assert not any(hasattr(twin, fact) for fact in FACTS)
+    for knows in (hash, free_variables, is_quantifier_free, ring_of, simplify):
+        knows(one)
+    assert one == twin == copy.deepcopy(one) == copy.copy(one)
+    assert hash(one) == hash(twin)
+    assert repr(one) == repr(twin)
+    assert pickle.dumps(one) == stored
+    assert (one == other) == (str(one) == str(other)) == (other in {one})
+
+
+@given(formulas(max_quantifiers=1, root_atoms=True))
+def test_converted_only_where_the_ring_changes(formula: Formula) -> None:
+    ring = formula.ring
+    if ring is None:
+        return
+    assert convert(formula, ring) is formula
+    longer = Ring.of((*ring.names, "more"))
+    there = convert(formula, longer)
+    assert {a.poly.ring for a in atoms(there)} == {longer}
+    assert convert(there, ring) == formula
+
+
+@given(formulas(max_quantifiers=1, root_atoms=True))
+def test_a_simplified_formula_is_not_simplified_again(formula: Formula) -> None:
+    found = simplify(formula)
+    assert found.is_simple
+    assert simplify(found) is found
+    fresh = pickle.loads(pickle.dumps(found))  # equal, but nothing is known about it
+    assert simplify(fresh) == found
+
+
+def test_nothing_is_known_under_assumptions() -> None:
+    assumed = read("x > 0")
+    there = simplify(read("x > 0 or x = -3"), assumed)
+    assert there == TRUE
+    kept = simplify(read("x > 1"), assumed)
+    assert kept == read("x > 1")
+    assert not pickle.loads(pickle.dumps(kept)).is_simple
+    assert simplify(kept, read("x > 2")) == TRUE  # what is simple by itself is not simple under assumptions
+
+
+def test_the_variable_of_a_root_atom_occurs_whatever_the_polynomial_is() -> None:
+    ring = Ring.of(("x", "y"))
+    assert free_variables(root_atom("x", Relation.LT, ring.var("y"), 1)) == ("x", "y")
+
+
+def test_constants_have_no_ring_and_no_variables() -> None:
+    for constant in (TRUE, FALSE, exists(("x",), TRUE)):
+        assert (constant.ring, constant.free, constant.is_quantifier_free) == (None, (), True)
+
+
+def test_and_or_of_the_same_parts_differ() -> None:
+    parts = [read("x > 0"), read("x < 1")]
+    assert conj(parts) != disj(parts)
+    assert len({conj(parts), disj(parts)}) == 2
+    assert Exists(("x",), parts[0]) != ForAll(("x",), parts[0])
+
+
+@pytest.mark.parametrize("ask", [free_variables, is_quantifier_free, hash, ring_of, lambda f: convert(f, f.ring)])
+def test_questions_to_large_formulas_are_answered_at_once(ask) -> None:
+    ring = Ring.of(("x", "y", "z"))
+    x, y, z = (ring.var(name) for name in ring.names)
+    found = [atom(x * y * k + z * x - k, Relation.GT) for k in range(1, 3000)]
+    formula = And(tuple(disj(pair) for pair in pairwise(found)))
+    ask(formula)
+    start = time.process_time()
+    for _ in range(1000):
+        ask(formula)
+    assert time.process_time() - start < 0.5  # a walk through the formula takes several milliseconds each time
