@@ -8,11 +8,12 @@ from dataclasses import dataclass, replace
 from pathlib import Path as FilePath
 from typing import TYPE_CHECKING
 
+from bezier import heights
 from bezier.curves.scalar import brief
 from bezier.methods import method_of
 from bezier.motion import motion
 from bezier.obstacles import avoid
-from bezier.outputs import summary, write_data
+from bezier.outputs import REPORT, SUMMARY, summary, write_data
 from bezier.plan import Clock, Outcome, Plan, make_plan
 from bezier.problem import Problem
 from qe.cli.shell import OK, UNABLE
@@ -21,7 +22,7 @@ from qe.worker import Channel
 if TYPE_CHECKING:
     from bezier.pictures.picture import Drawing
 
-REPORT, SUMMARY, CLEARANCE = "report.html", "summary.json", "clearance.png"
+CLEARANCE = "clearance.png"
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,6 +93,8 @@ def in_words(made: Plan, target: FilePath, files: list[str], seconds: float) -> 
         inside = "proved to lie in the workspace" if made.path.is_inside else "which LEAVES the workspace"
         joins = f"{made.path.smoothness.name} at both joins, " if made.path.joins else ""
         lines.append(f"path: {joins}{inside}")
+    if made.heights is not None:
+        lines += heights.words(made.heights)
     lines += motion.words(made)
     lines += avoid.words(made)
     accepted = all(verdict.accepted for verdict in made.checks.values())

@@ -20,9 +20,11 @@ from qe.progress import Event, Listener, silent
 
 if TYPE_CHECKING:
     import qe
+    from bezier.heights import Heights
     from bezier.motion.motion import Quality
     from bezier.obstacles.avoid import Attempt
     from bezier.obstacles.survey import Finding
+    from bezier.radius_rule import RadiusRule
 
 Note = Callable[[str, object], None]
 
@@ -34,6 +36,8 @@ class Outcome(Enum):
     INFEASIBLE = "infeasible"
     BLOCKED = "blocked"
     """There is a path, but an obstacle is in its way."""
+    TOO_FAST = "limits_not_kept"
+    """There is a path, but the motion asked for is not proved to keep the limits asked for."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -44,7 +48,8 @@ class Plan:
     conditions that hold with equality; ``certificate``: all certificates, labelled; ``checks``: what the
     independent checker says of them; ``seconds``: the time of each step; ``remarks``: for the reader;
     ``findings``: each curve and each obstacle; ``attempts``: what was tried to get around the obstacles;
-    ``quality``: lengths, curvatures and the motion in time.
+    ``quality``: lengths, curvatures and the motion in time. ``heights``: the height condition, decided for all curves.
+    ``radius_rule``: what the radius forces where a via point lies on the sphere.
     """
 
     problem: Problem
@@ -61,11 +66,20 @@ class Plan:
     findings: tuple[Finding, ...] = ()
     attempts: tuple[Attempt, ...] = ()
     quality: Quality | None = None
+    heights: Heights | None = None
+    radius_rule: RadiusRule | None = None
 
     @property
     def unit(self) -> str:
         """The unit of the objective."""
         return "mm²"
+
+    @property
+    def not_certified(self) -> tuple[str, ...]:
+        """The entries of the summary that no certificate covers and ``bezier check`` cannot find again."""
+        found = ("seconds", "attempts") if len(self.attempts) > 1 else ("seconds",)
+        has_radius = self.radius_rule is not None and self.radius_rule.larger is not None
+        return (*found, "radius_rule.larger_radius") if has_radius else found
 
     @property
     def certified(self) -> bool:
@@ -118,25 +132,61 @@ def make_plan(problem: Problem, clock: Clock | None = None) -> Plan:
     watch = clock or Clock()
     try:
         plan: Plan = avoiding(problem, watch) if problem.obstacles else method_of(problem.method).make(problem, watch)
+        with watch.step("radius and heights"):
+            plan = _with_findings(plan, watch)
         with watch.step("quality"):
-            return _with_quality(plan)
+            return with_quality(plan)
     except BudgetExceeded as error:
         known = "; ".join(f"{name}: {value}" for name, value in watch.facts.items()) or "nothing yet"
         raise BudgetExceeded(f"{error}; known so far: {known}", limit=error.limit) from None
 
 
-def _with_quality(plan: Plan) -> Plan:
-    """The plan with lengths and curvatures; without them, and a remark, if they were not found and not asked for."""
+def _with_findings(plan: Plan, clock: Clock) -> Plan:
+    """The plan with what the radius forces, the height condition, and a note where the path goes through the origin."""
+    from bezier import radius_rule
+
+    return with_findings(plan, lambda solvable: radius_rule.radius_rule(plan.problem, solvable, clock.remaining))
+
+
+def with_findings(plan: Plan, rule: Callable[[bool], RadiusRule | None]) -> Plan:
+    """The same, with what ``rule`` says of the radius, which is asked whether the problem has a solution."""
+    from bezier import heights, origin
+
+    found, remarks = plan, []
+    try:
+        solvable = plan.outcome is not Outcome.INFEASIBLE
+        forced = rule(solvable)
+        if forced is not None:
+            found = replace(found, radius_rule=forced)
+            remarks += [forced.in_words()] if solvable else []  # else it is part of the reason
+        if plan.path is not None:
+            found = replace(found, heights=heights.heights_of(plan.problem, plan.path))
+            remarks += origin.remarks(plan.path)
+    except Unable as error:
+        if isinstance(error, BudgetExceeded):
+            raise
+        remarks.append(f"what the radius forces and the heights are not all decided: {error}")
+    return replace(found, remarks=(*found.remarks, *remarks))
+
+
+def with_quality(plan: Plan) -> Plan:
+    """The plan with lengths, curvatures and the motion; it is not solved when the motion does not keep its limits.
+
+    Without them, and with a remark, if they were not found and not asked for.
+    """
     from bezier.motion.motion import quality_of
 
     if plan.path is None:
         return plan
     try:
-        return replace(plan, quality=quality_of(plan.path, plan.problem.timing))
+        quality = quality_of(plan.path, plan.problem.timing)
     except Unable as error:
         if isinstance(error, BudgetExceeded) or plan.problem.timing is not None:
             raise
         return replace(plan, remarks=(*plan.remarks, f"lengths and curvatures are left out: {error}"))
+    kept = quality.motion is None or quality.motion.keeps_limits
+    solved = plan.outcome is Outcome.SOLVED
+    return replace(plan, quality=quality, outcome=Outcome.TOO_FAST if solved and not kept else plan.outcome)
 
 
 def answered(answer: Any) -> Any:

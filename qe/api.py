@@ -2,21 +2,24 @@
 
 from __future__ import annotations
 
-import os
 import sys
+import time
 from collections.abc import Callable, Iterable, Mapping
-from enum import Enum
+from dataclasses import replace
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from qe.errors import InputError, InternalError, Unable
+from qe import arguments
+from qe.api_input import AnyFormula, read_block, read_constraints, read_formula, read_polynomial, together
+from qe.errors import BudgetExceeded, InputError, Unable
 from qe.exact.number import Assignment
-from qe.exact.ring import Poly
-from qe.formula.build import conj, convert, exists, forall, iff
+from qe.execution import Budgets, Limits, perform
+from qe.formula.build import convert, exists, forall, iff
 from qe.formula.counting import without_root_atoms
 from qe.formula.features import features
-from qe.formula.syntax import Constant, Exists, ForAll, Formula
-from qe.formula.traverse import free_variables, is_quantifier_free, polynomials, ring_of
+from qe.formula.syntax import Exists, ForAll, Formula
+from qe.formula.traverse import free_variables, is_quantifier_free, ring_of
+from qe.formula.weight import may_block, text_may_block
 from qe.options import Budget, Method, Options, Stage
 from qe.progress import Event, silent
 from qe.proof.answer import Answer, Guarantee, Status
@@ -30,55 +33,29 @@ if TYPE_CHECKING:  # the checker and the optimiser are loaded where they are use
     from qe.elimination.vs.parametric import ParametricWitness
     from qe.regions.region import Region
 
-Choice = TypeVar("Choice", bound=Enum)
-TABLE_VARIABLES = 3
-"""In more variables than this, convex regions are decomposed on request only."""
+Result = TypeVar("Result")
+VERIFY_SECONDS = 60.0
+"""The limit of a verification for which the caller gives none."""
 
 Progress = Callable[[Event], None]
-AnyFormula = Any
-"""A ``Formula``, text, or a SymPy object."""
-
-
-def read_formula(given: AnyFormula, format: str = "text") -> Formula:
-    """The formula given in any of the accepted shapes; ``InputError`` otherwise."""
-    if isinstance(given, Formula):
-        return given
-    if isinstance(given, Answer):
-        if given.formula is None:
-            raise InputError("an answer without a formula was given")
-        return given.formula
-    if isinstance(given, str):
-        from qe.io import formats
-
-        return formats.read(given, format)
-    from qe.io.sympy import from_sympy
-
-    return from_sympy(given)
+Order = Any
+"""``"y, x"``, ``"y x"``, or a list of names or SymPy symbols."""
 
 
 def _options(
     method: str | Method,
-    order: Iterable[str] | None,
+    order: Order,
     root_atoms: bool,
-    without: Iterable[str | Stage],
+    without: Iterable[str | Stage] | str | Stage,
     progress: Progress,
 ) -> Options:
     return Options(
-        method=_member("method", Method, method),
-        order=None if order is None else tuple(order),
-        root_atoms=root_atoms,
-        without=frozenset(_member("without", Stage, stage) for stage in without),
-        progress=progress,
+        method=arguments.member(method, Method, "method"),
+        order=arguments.names(order),
+        root_atoms=arguments.flag(root_atoms, "root_atoms"),
+        without=arguments.members(without, Stage, "without"),
+        progress=arguments.listener(progress),
     )
-
-
-def _member(keyword: str, choices: type[Choice], given: object) -> Choice:
-    """The member that is given, by itself or by its value."""
-    try:
-        return choices(given)
-    except ValueError:
-        names = ", ".join(str(m.value) for m in choices)
-        raise InputError(f"{keyword}: one of {names} expected, {given!r} found") from None
 
 
 def eliminate(
@@ -88,28 +65,40 @@ def eliminate(
     timeout: float | None = None,
     memory: int | None = None,
     method: str | Method = Method.AUTO,
-    order: Iterable[str] | None = None,
+    order: Order = None,
     progress: Progress = silent,
     root_atoms: bool = False,
-    without: Iterable[str | Stage] = (),
+    without: Iterable[str | Stage] | str | Stage = (),
     explain: bool = False,
     check: bool = False,
+    process: bool = True,
 ) -> Answer:
     """Quantifier elimination over the reals: an equivalent quantifier-free formula.
 
     ``timeout`` in seconds and ``memory`` in MB: with either, the work runs in a forked worker process that is killed at
     the limit, since a single polynomial operation can take long (where processes cannot fork, ``timeout`` is only
-    checked between steps). The answer has status UNABLE, with the
+    checked between steps). Without them it moves to such a process when it takes longer than a moment, so that Ctrl-C
+    ends it at once. ``process=False``, or the environment variable ``QE_PROCESS=off``, keeps it in this process.
+    The answer has status UNABLE, with the
     reason, when a limit was reached; it is never partial. With ``check`` the answer comes with a certificate where
     one can be had (if the method makes none, by a decomposition of the whole formula), verified by the separate
-    checker; certificates that are a witness always are. ``explain`` tells on
+    checker; certificates that are a witness always are. A verification that does not end in time costs the
+    certificate, not the answer (``Answer.reason`` says so). ``explain`` tells on
     stderr how the answer was found (``Answer.explanation`` holds the same text); ``without`` leaves stages of the
     engine out (``qe.Stage``), to measure what they gain. Raises ``InputError`` for input that cannot be read.
     """
-    given = read_formula(formula, format)
+    start = time.monotonic()
+    explain, check = arguments.flag(explain, "explain"), arguments.flag(check, "check")
+    limits = _limits(timeout, memory, progress, process).begun(start)
     options = _options(method, order, root_atoms, without, progress).with_(certify=check)
+    try:
+        given = _read(formula, format, limits)
+    except BudgetExceeded as error:
+        return Answer(Status.UNABLE, None, reason=str(error))
+    options = _options(method, order, root_atoms, without, progress).with_(certify=check)
+    given = read_formula(formula, format)
     _check_order(options.order, given)
-    answer = _limited(given, options, timeout, memory, check)
+    answer = _limited(given, options, limits, check)
     if explain:
         print(answer.explanation or answer.reason, file=sys.stderr)
     return answer
@@ -123,19 +112,11 @@ def _check_order(order: tuple[str, ...] | None, formula: Formula) -> None:
         raise InputError(f"order: variables of the formula expected, each once, {', '.join(names)} found")
 
 
-def _limited(formula: Formula, options: Options, timeout: float | None, memory: int | None, check: bool) -> Answer:
-    """The answer, found in a worker process where a limit is to hold."""
-    if (memory is not None or timeout is not None) and hasattr(os, "fork"):
-        from qe.worker import Channel, run
-
-        def work(channel: Channel) -> Answer:
-            return _answer(formula, options.with_(progress=channel.event), timeout, check)
-
-        try:
-            return run(work, timeout=timeout, memory=memory, progress=options.progress)
-        except Unable as error:
-            return Answer(Status.UNABLE, None, reason=str(error))
-    return _answer(formula, options, timeout, check)
+def _read(formula: AnyFormula, format: str, limits: Limits) -> Formula:
+    """The formula, read under the limits where reading may take long. Raises ``BudgetExceeded`` at one."""
+    if not isinstance(formula, str) or not text_may_block(formula):
+        return read_formula(formula, format)
+    return perform(lambda budgets: read_formula(formula, format), limits, at_once=True)
 
 
 def _solved(formula: Formula, options: Options, budget: Budget) -> Outcome:
@@ -145,8 +126,25 @@ def _solved(formula: Formula, options: Options, budget: Budget) -> Outcome:
     return solve(formula, options, budget)
 
 
-def _answer(formula: Formula, options: Options, timeout: float | None, check: bool) -> Answer:
-    budget = Budget(timeout, listener=options.progress)
+def _performed(work: Callable[[Budgets], Result], formula: Formula, limits: Limits) -> Result:
+    """The work on a formula, in a process of its own from the start where a limit must hold."""
+    return perform(work, limits, at_once=limits.timeout is not None or may_block(formula))
+
+
+def _limited(formula: Formula, options: Options, limits: Limits, check: bool) -> Answer:
+    """The answer, found in a worker process where it takes long or a limit is to hold."""
+
+    def work(budgets: Budgets) -> Answer:
+        budget = budgets()
+        return _answer(formula, options.with_(progress=budget.listener), budget, check)
+
+    try:
+        return _performed(work, formula, limits)
+    except Unable as error:
+        return Answer(Status.UNABLE, None, reason=str(error), question=formula)
+
+
+def _answer(formula: Formula, options: Options, budget: Budget, check: bool) -> Answer:
     try:
         found = _solved(formula, options, budget)
     except Unable as error:
@@ -154,13 +152,12 @@ def _answer(formula: Formula, options: Options, timeout: float | None, check: bo
         log.work("limits", {"work": budget.used})
         return Answer(Status.UNABLE, None, reason=str(error), question=formula, log=log)
     certificate = found.certificate
-    guarantee = Guarantee.DERIVED
+    answer = Answer(Status.SOLVED, found.formula, found.witness, certificate, question=formula, log=found.log)
     if certificate is not None and (check or certificate.kind is Kind.WITNESS):
-        verdict = verify(certificate)
-        if not verdict.accepted:
-            raise InternalError(f"the certificate of an answer was rejected at {verdict.step}: {verdict.reason}")
-        guarantee = Guarantee.CHECKED
-    return Answer(Status.SOLVED, found.formula, found.witness, certificate, guarantee, question=formula, log=found.log)
+        from qe.api_verify import with_verdict
+
+        return with_verdict(answer, budget)
+    return answer
 
 
 def decide(formula: AnyFormula, **keywords: Any) -> bool:
@@ -192,21 +189,33 @@ def find_instance(formula: AnyFormula, **keywords: Any) -> Assignment | None:
 
 
 def parametric_witnesses(
-    formula: AnyFormula, *, format: str = "text", timeout: float | None = None, progress: Progress = silent
+    formula: AnyFormula,
+    *,
+    format: str = "text",
+    timeout: float | None = None,
+    memory: int | None = None,
+    progress: Progress = silent,
+    process: bool = True,
 ) -> tuple[ParametricWitness, ...]:
     """Solutions of the outermost block as terms in the free variables, each under its guard (extended answers).
 
     The guards together are equivalent to an existential block; for a universal block the terms are counterexamples.
     Raises ``InputError`` for a formula without an outermost block, ``Unable`` where substitution does not apply.
     """
+    start = time.monotonic()
     from qe.elimination.vs.parametric import parametric_witnesses as find
 
-    given = read_formula(formula, format)
-    if isinstance(given, Exists | ForAll) and not is_quantifier_free(given.body):
-        rebuilt = exists if isinstance(given, Exists) else forall
-        inner = _solved(given.body, Options(), Budget(timeout, listener=progress)).formula
-        given = rebuilt(given.variables, inner)
-    return find(given, budget=Budget(timeout, listener=progress))
+    limits = _limits(timeout, memory, progress, process).begun(start)
+    given = without_root_atoms(read_block(_read(formula, format, limits), format))
+
+    def work(budgets: Budgets) -> tuple[ParametricWitness, ...]:
+        block = given
+        if isinstance(block, Exists | ForAll) and not is_quantifier_free(block.body):
+            # what is left may well be a constant
+            block = replace(block, body=_solved(block.body, Options(), budgets()).formula)
+        return find(block, budget=budgets())
+
+    return _performed(work, given, limits)
 
 
 def check_witness(sentence: AnyFormula, witness: Mapping[str, AnyFormula], **keywords: Any) -> bool:
@@ -219,8 +228,9 @@ def check_witness(sentence: AnyFormula, witness: Mapping[str, AnyFormula], **key
     from qe.elimination.witness import Term, instantiate
     from qe.exact.ring import Ring
 
-    given = read_formula(sentence, keywords.pop("format", "text"))
-    read = {name: _polynomial(term, f"witness: {name}") for name, term in witness.items()}
+    given = without_root_atoms(read_formula(sentence, keywords.pop("format", "text")))
+    offered, known = arguments.by_name(witness, "witness"), features(given).bound
+    read = {name: read_polynomial(term, f"witness: {name}", known=known) for name, term in offered.items()}
     rings = [r for r in (ring_of(given), *(poly.ring for poly, _ in read.values())) if r is not None]
     ring = Ring.of(dict.fromkeys(name for r in rings for name in r.names))
     terms = {name: Term.of(poly.convert(ring), scale) for name, (poly, scale) in read.items()}
@@ -229,23 +239,21 @@ def check_witness(sentence: AnyFormula, witness: Mapping[str, AnyFormula], **key
 
 def equivalent(left: AnyFormula, right: AnyFormula, **keywords: Any) -> bool:
     """Whether two formulas have the same solutions in all their free variables together."""
-    from qe.exact.ring import Ring
-
-    f, g = read_formula(left), read_formula(right)
-    rings = [r for r in (ring_of(f), ring_of(g)) if r is not None]
-    ring = Ring.of(dict.fromkeys(name for r in rings for name in r.names))
-    f, g = convert(f, ring), convert(g, ring)
+    format = keywords.pop("format", "text")
+    f, g = together(read_formula(left, format), read_formula(right, format))
     free = dict.fromkeys((*free_variables(f), *free_variables(g)))
     return decide(forall(free, iff(f, g)), **keywords)
 
 
 def region(
     formula: AnyFormula,
-    order: Iterable[str] | None = None,
+    order: Order = None,
     *,
     format: str = "text",
     timeout: float | None = None,
+    memory: int | None = None,
     progress: Progress = silent,
+    process: bool = True,
 ) -> Region:
     """The solution set of a formula in its free variables (or in ``order``, which may name more).
 
@@ -253,32 +261,18 @@ def region(
     factors of that projection are part of the answer, and the other order may be much harder.
     A cylindrical description with a certificate; quantifiers are eliminated first. For a conjunction of convex
     quadratic conditions in four or more variables, or with existential quantifiers before it, membership, fibres
-    and bounds are found by exact optimisation, and the description only on request; ``timeout`` (seconds)
-    then holds for every question.
+    and bounds are found by exact optimisation, and the description only on request. ``timeout`` (seconds) and
+    ``memory`` (MB) hold here and then for every question that is asked of the region; see ``eliminate`` for them and
+    for ``process``. Raises ``BudgetExceeded`` at a limit.
     """
-    given = without_root_atoms(read_formula(formula, format))
-    names = None if order is None else tuple(order)
-    quantified = not is_quantifier_free(given)
+    start = time.monotonic()
+    from qe.regions.build import described
 
-    def limits() -> Budget:
-        return Budget(timeout, listener=progress)
+    whole, names = _limits(timeout, memory, progress, process), arguments.names(order)
+    limits = whole.begun(start)
+    read = _read(formula, format, limits)
 
-    def eliminated(part: Formula) -> Formula:
-        return _solved(part, Options(order=names), limits()).formula
-
-    if quantified or len(free_variables(given)) > TABLE_VARIABLES:
-        from qe.regions.convex_region import ConvexRegion, shadow_of
-
-        shadow = shadow_of(given, eliminated)
-        if shadow is not None:
-            return ConvexRegion(shadow, names, limits=limits)
-    from qe.regions.region import Region
-
-    budget = limits()
-    if not quantified:
-        return Region.of(given, names, budget=budget)
-    found = _solved(given, Options(order=names), budget)
-    return Region.of(found.formula, names or found.order, budget=budget)
+    return _performed(lambda budgets: described(read, names, budgets(), whole), read, limits)
 
 
 def minimize(
@@ -286,17 +280,18 @@ def minimize(
     constraints: AnyFormula = "true",
     *,
     timeout: float | None = None,
+    memory: int | None = None,
     progress: Progress = silent,
+    process: bool = True,
 ) -> Optimum:
     """The exact minimum of a convex quadratic (or linear) polynomial under convex quadratic or linear constraints.
 
     ``objective``: text, ``Poly``, or a SymPy expression; ``constraints``: a formula, or a list of formulas to be
-    conjoined. Raises ``Unable`` outside that class.
+    conjoined. Raises ``Unable`` outside that class, ``BudgetExceeded`` at a limit; see ``eliminate`` for the limits.
     """
     from qe.convex.optimum import minimize as solve
 
-    poly, scale = _polynomial(objective, "objective")
-    return solve(poly, _constraints(constraints), scale=scale, budget=Budget(timeout, listener=progress))
+    return _best(solve, objective, constraints, _limits(timeout, memory, progress, process))
 
 
 def maximize(
@@ -304,52 +299,41 @@ def maximize(
     constraints: AnyFormula = "true",
     *,
     timeout: float | None = None,
+    memory: int | None = None,
     progress: Progress = silent,
+    process: bool = True,
 ) -> Optimum:
     """The exact maximum; see ``minimize``."""
     from qe.convex.optimum import maximize as solve
 
-    poly, scale = _polynomial(objective, "objective")
-    return solve(poly, _constraints(constraints), scale=scale, budget=Budget(timeout, listener=progress))
+    return _best(solve, objective, constraints, _limits(timeout, memory, progress, process))
 
 
-def _constraints(given: AnyFormula) -> Formula:
-    if isinstance(given, list | tuple):
-        from qe.exact.ring import Ring
-
-        parts = [read_formula(g) for g in given]
-        names = dict.fromkeys(n for p in parts if (r := ring_of(p)) is not None for n in r.names)
-        ring = Ring.of(names)
-        return conj(convert(p, ring) for p in parts)
-    return read_formula(given)
+def _best(solve: Callable[..., Optimum], objective: AnyFormula, constraints: AnyFormula, limits: Limits) -> Optimum:
+    poly, scale = read_polynomial(objective, "objective")
+    conditions = read_constraints(constraints)
+    return _performed(lambda budgets: solve(poly, conditions, scale=scale, budget=budgets()), conditions, limits)
 
 
-def _polynomial(given: AnyFormula, what: str) -> tuple[Poly, Fraction]:
-    """The given term as a polynomial p and a rational s: it is s*p. A slack name makes the sign readable."""
-    if isinstance(given, Poly):
-        return given, Fraction(1)
-    slack = "polynomial_value"
-    if isinstance(given, str):
-        relation = read_formula(f"{slack} = {given}")
-    else:
-        import sympy
-
-        relation = read_formula(sympy.Eq(sympy.Symbol(slack), given, evaluate=False))
-    if isinstance(relation, Constant) or len(polynomials(relation)) != 1:
-        raise InputError(f"{what}: a polynomial expected")
-    (equation,) = polynomials(relation)
-    i = equation.ring.index[slack]
-    rest, coefficient = equation.coefficients(i)
-    if not coefficient.is_constant or len(equation.coefficients(i)) != 2:
-        raise InputError(f"{what}: a polynomial expected")
-    return rest, Fraction(-1, coefficient.constant_value())
+def _limits(timeout: float | None, memory: int | None, progress: Progress, process: bool) -> Limits:
+    """The limits that a caller sets, checked."""
+    return Limits(
+        arguments.seconds(timeout),
+        arguments.mebibytes(memory),
+        arguments.listener(progress),
+        arguments.flag(process, "process"),
+    )
 
 
-def verify(certificate: Certificate) -> Verdict:
-    """Whether separate code accepts the certificate; see ``qe.certify``."""
-    from qe.certify.verify import verify as check
+def verify(certificate: Certificate, *, timeout: float | None = VERIFY_SECONDS) -> Verdict:
+    """Whether separate code accepts the certificate, within ``timeout`` seconds (None: no limit); see ``qe.certify``.
 
-    return check(certificate)
+    Past the limit the verdict is neither accepted nor ``decided``. Raises ``InputError`` for what is no certificate
+    and for a limit that is not positive.
+    """
+    from qe.api_verify import verify as check
+
+    return check(certificate, timeout=arguments.seconds(timeout))
 
 
 __all__ = [

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 import time
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from enum import Enum
 
@@ -19,7 +21,6 @@ class Method(Enum):
     CRITICAL = "critical"
     CONVEX = "convex"
     WITNESS = "witness"
-    CGS = "cgs"
 
 
 class Projection(Enum):
@@ -47,6 +48,21 @@ class Stage(Enum):
     ORDER = "order"
 
 
+@dataclass(slots=True)
+class Handover:
+    """What ``Budget.check`` does once ``time.monotonic()`` has passed ``due``: ``move()``, and never again.
+
+    ``qe.execution`` moves long work to another process by it.
+    """
+
+    due: float
+    move: Callable[[], None]
+
+    def __call__(self) -> None:
+        self.due = math.inf
+        self.move()
+
+
 class Budget:
     """Soft limits, checked between FLINT calls: ``check`` raises ``BudgetExceeded``.
 
@@ -56,7 +72,7 @@ class Budget:
     the budget that it came from.
     """
 
-    __slots__ = ("_cancelled", "_last_note", "deadline", "listener", "parent", "used", "work")
+    __slots__ = ("_cancelled", "_last_note", "deadline", "handover", "listener", "parent", "used", "work")
 
     def __init__(
         self,
@@ -64,9 +80,11 @@ class Budget:
         work: int | None = None,
         listener: Listener = silent,
         parent: Budget | None = None,
+        handover: Handover | None = None,
     ) -> None:
         self.deadline = None if seconds is None else time.monotonic() + seconds
         self.work, self.used, self.listener, self.parent = work, 0, listener, parent
+        self.handover: Handover | None = handover if parent is None else parent.handover
         self._cancelled, self._last_note = False, 0.0
 
     def cancel(self) -> None:
@@ -101,6 +119,8 @@ class Budget:
     def check(self, phase: str = "work", done: int = 0, total: int | None = None) -> None:
         """Report progress (at most ten times a second) and raise ``BudgetExceeded`` past a limit."""
         now = time.monotonic()
+        if self.handover is not None and now > self.handover.due:
+            self.handover()
         if self.deadline is not None and now > self.deadline:
             raise BudgetExceeded(f"time limit reached while doing: {phase}", limit="time")
         budget: Budget | None = self

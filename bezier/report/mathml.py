@@ -14,10 +14,10 @@ from typing import Any
 
 from bezier.curves.scalar import exact_text
 from qe.exact.ring import Poly
+from qe.formula.notation import monomials
 from qe.formula.syntax import Formula
 from qe.formula.traverse import conjuncts
 from qe.io import mathml
-from qe.io.infix import monomials
 
 _HATTED = re.compile(r'<mover accent="true"><mi>(.)</mi><mo>\^</mo></mover>')
 _POINT = re.compile(r"([pqr])([0-9])([xyz])")

@@ -15,15 +15,16 @@ from qe.certify.arithmetic.bernstein import Vector, product, read_points, restri
 from qe.certify.arithmetic.numbers import read_field, read_number
 from qe.certify.arithmetic.residue import Residue, RootField, add, of_rationals, scale
 from qe.errors import CertificateRejected
+from qe.options import Budget
 from qe.proof.entry import Entry, Json
 
 
-def check_containment(payload: dict[str, Json]) -> None:
+def check_containment(payload: dict[str, Json], budget: Budget | None = None) -> None:
     """Accept silently, or raise ``CertificateRejected`` naming the entry that fails."""
     numbers, points_entry, condition, breaks_entry = Entry(payload, "payload").fields(
         "field", "points", "condition", "breaks"
     )
-    field = read_field(numbers)
+    field = read_field(numbers, budget)
     points = read_points(points_entry, field)
     breaks = [b.rational() for b in breaks_entry.items()]
     if len(breaks) < 2 or breaks[0] != 0 or breaks[-1] != 1 or breaks != sorted(set(breaks)):

@@ -29,6 +29,7 @@ from qe.certify.arithmetic.fibre import (
 from qe.certify.arithmetic.products import FactorLists, Signs, sign
 from qe.certify.arithmetic.triangular import Coordinate, Point
 from qe.certify.closure import Closure, nullification_witnesses
+from qe.certify.limits import check_value
 from qe.errors import CertificateRejected
 from qe.exact.ring import Poly
 from qe.options import Projection
@@ -61,6 +62,9 @@ class Sample:
         k, dimensions = self.depth, (*self.dimensions, self.dimensions[-1] + sector)
         if isinstance(number, Coordinate):
             return Sample(self.point.extended(number), self.rationals, self.polys, [*self.signs, signs], dimensions)
+        for level in self.polys[k:]:
+            for f in level:
+                check_value(f, k, number)
         polys = tuple(
             tuple(f.at_rational(k, number) if f.degree(k) else f for f in level) if at >= k else level
             for at, level in enumerate(self.polys)

@@ -14,6 +14,7 @@ from typing import Annotated
 
 import typer
 
+from qe import arguments
 from qe.cli.shell import check_writable, enter, limited, remaining, write_file
 from qe.cli.source import InputFormat, OutputFormat, read_source
 from qe.cli.work import Reply, Request
@@ -138,15 +139,20 @@ def check(
     timeout: Timeout = None,
     memory: Memory = None,
 ) -> int:
-    """Verify a certificate with the independent checker; exit status 4 when it is rejected."""
+    """Verify a certificate with the independent checker, for 60 seconds if no --timeout is given.
+
+    Exit status 4 when it is rejected, 3 when the time does not suffice to tell.
+    """
+    from qe.api import VERIFY_SECONDS
     from qe.cli import work as cli_work
 
     check_limits(timeout, memory)
     source = read_source(certificate, InputFormat.JSON)
     if source.name == "<argument>":
         raise InputError(f"{certificate}: no such file")
-    work = partial(cli_work.check, text=source.text, name=source.name)
-    return deliver(limited(work, timeout=timeout, memory=memory, plain=True), {})
+    seconds = VERIFY_SECONDS if timeout is None else timeout
+    work = partial(cli_work.check, text=source.text, name=source.name, seconds=remaining(seconds))
+    return deliver(limited(work, timeout=seconds, memory=memory, plain=True), {})
 
 
 @app.command(context_settings=_LENIENT)
@@ -182,18 +188,16 @@ def names(order: str | None) -> tuple[str, ...] | None:
     """The variables of ``--order``."""
     if order is None:
         return None
-    parts = tuple(part for part in order.replace(",", " ").split())
-    if not parts or len(set(parts)) < len(parts):
+    parts = arguments.names(order, "--order") or ()
+    if len(set(parts)) < len(parts):
         raise InputError(f"--order: distinct variables separated by commas expected, {order!r} found")
     return parts
 
 
 def check_limits(timeout: float | None, memory: int | None) -> None:
     """Raise ``InputError`` for limits that make no sense."""
-    if timeout is not None and not 0 < timeout < 1e9:
-        raise InputError(f"--timeout: a positive number of seconds expected, {timeout} found")
-    if memory is not None and not 0 < memory < 1 << 40:
-        raise InputError(f"--memory: a positive number of MiB expected, {memory} found")
+    arguments.seconds(timeout, "--timeout")
+    arguments.mebibytes(memory, "--memory")
 
 
 def soft(timeout: float | None) -> float | None:

@@ -11,12 +11,15 @@ from typing import TYPE_CHECKING, Any
 
 from qe.cli.work import Reply, Request, certificate_text, read_formula
 from qe.errors import InputError, Unable
+from qe.spelling import quoted
 from qe.worker import Channel
 
 if TYPE_CHECKING:
     from qe.regions.region import Region
 
 PICTURES = (".png", ".pdf", ".svg")
+LONGEST = 200
+"""Characters of an exact number in texts for people."""
 DIGITS = 10
 """Decimal digits shown next to an exact number; for reading only."""
 
@@ -48,15 +51,15 @@ def _drawn(found: Region, ending: str) -> bytes:
 
 
 def _in_words(found: Region, seconds: float) -> list[str]:
-    names = ", ".join(found.order)
+    names = ", ".join(map(quoted, found.order))
     if found.is_empty:
         return [f"empty: no real {names} satisfy the formula ({seconds:.3f} s)"]
     count = len(found.cells)
     lines = [f"{count} cell{'s' if count > 1 else ''} in {names}, dimension {found.dimension} ({seconds:.3f} s)"]
     for name in found.order:
         low, high = found.bounds(name)
-        lines.append(f"{name} from {shown(low, '-infinity')} to {shown(high, 'infinity')}")
-    lines += [f"cell {k}: {cell}" for k, cell in enumerate(found.cells, 1)]
+        lines.append(f"{quoted(name)} from {shown(low, '-infinity')} to {shown(high, 'infinity')}")
+    lines += [f"cell {k}: {cell.brief()}" for k, cell in enumerate(found.cells, 1)]
     return lines
 
 
@@ -85,7 +88,7 @@ def optimize(channel: Channel, request: Request, objective: str, maximize: bool)
         }
         return Reply(json.dumps(data, indent=2, ensure_ascii=False), files=files)
     lines = [f"value {shown(best.value)}"]
-    lines += [f"{name} = {shown(value)}" for name, value in best.point.items()]
+    lines += [f"{quoted(name)} = {shown(value)}" for name, value in best.point.items()]
     lines.append(f"active: {', '.join(best.constraints[i] for i in best.active) or 'nothing'}")
     if best.attained is False:
         lines.append("not attained: the value is a limit")
@@ -98,6 +101,8 @@ def shown(value: object, unbounded: str = "") -> str:
     if value is None:
         return unbounded
     text = str(value)
+    if len(text) > LONGEST:
+        return f"about {decimal(value)} (the exact text has {len(text)} characters)"
     return text if text.lstrip("-").isdigit() else f"{text} (about {decimal(value)})"
 
 

@@ -7,9 +7,11 @@ few dozen unknowns, and importing a numerical library costs more than solving th
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from qe.errors import Unable
 from qe.exact.quadratic_form import Quadratic
 
 Row = list[float]
@@ -36,15 +38,21 @@ class FloatQuadratic:
 
 
 def to_float(q: Quadratic, scale: float = 1.0) -> FloatQuadratic:
-    """The quadratic polynomial times ``scale``, rounded to floats."""
-    entries = tuple((i, j, float(h) * scale) for i, row in enumerate(q.hessian) for j, h in enumerate(row) if h)
-    return FloatQuadratic(entries, tuple(float(b) * scale for b in q.gradient), float(q.constant) * scale)
+    """The quadratic polynomial times ``scale``, in floats. Raises ``Unable`` for numbers that no float holds."""
+    try:
+        entries = tuple((i, j, float(h) * scale) for i, row in enumerate(q.hessian) for j, h in enumerate(row) if h)
+        return FloatQuadratic(entries, tuple(float(b) * scale for b in q.gradient), float(q.constant) * scale)
+    except OverflowError:
+        raise Unable("a number is too large to be proposed to the numerical method") from None
 
 
 def natural_scale(q: Quadratic) -> float:
     """The reciprocal of the largest coefficient, so that constraints of different units compare."""
     largest = max([abs(b) for b in q.gradient] + [abs(h) for row in q.hessian for h in row] + [0])
-    return 1 / float(largest) if largest else 1.0
+    try:
+        return 1 / float(largest) if largest else 1.0
+    except (OverflowError, ZeroDivisionError):
+        raise Unable("a coefficient is out of the range of the numerical method") from None
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,12 +93,17 @@ def interior_point(objective: Quadratic, constraints: Sequence[Quadratic], start
 
     Infeasible-start primal-dual Newton steps (Boyd–Vandenberghe, section 11.7), first with Mehrotra's choice of the
     centring (Mehrotra 1992), which is fast; if that does not converge, again with fixed centring and a line search on
-    the residuals, which is robust. Multipliers are those of the constraints as given (unscaled).
+    the residuals, which is robust. Multipliers are those of the constraints as given (unscaled). Coefficients too
+    large or too small for floats give a proposal of infinite residual.
     """
-    scales = [natural_scale(g) for g in constraints]
-    unit = natural_scale(objective)
-    f = to_float(objective, unit)
-    g = [to_float(q, s) for q, s in zip(constraints, scales, strict=True)]
+    try:
+        scales = [natural_scale(g) for g in constraints]
+        unit = natural_scale(objective)
+        f = to_float(objective, unit)
+        g = [to_float(q, s) for q, s in zip(constraints, scales, strict=True)]
+    except (OverflowError, ZeroDivisionError):
+        nothing = (0.0,) * len(constraints)
+        return Proposal(tuple(start), nothing, nothing, math.inf)
     x, dual, slack, residual = _iterate(f, g, start, False)
     if residual > 1e-8:
         again = _iterate(f, g, start, True)

@@ -10,6 +10,7 @@ from qe.cad.decompose import Decomposition as Table
 from qe.cad.decompose import Tactics, decompose
 from qe.cad.order import OrderRule
 from qe.cad.order_by_projection import choose_order
+from qe.cells.follows import follows
 from qe.cells.formulas import construct
 from qe.cells.sampled_cells import deciding_point
 from qe.elimination.protocol import Context, Outcome, Problem
@@ -70,7 +71,7 @@ def decomposed(formula: Formula, options: Options, budget: Budget, log: RunLog) 
             values = deciding_point(proof, truth)
     log.step("cells", formula, answer)
     log.work("cad", _figures(order, reason, first, time.perf_counter() - start))
-    certificate = Certificate.cells(proof, convert(answer, Ring.of(order))) if _is_listed(answer, proof) else None
+    certificate = Certificate.cells(proof, convert(answer, Ring.of(order))) if follows(answer, proof) else None
     # back into the ring of the formula it came from: it is joined with parts of that formula
     ring = ring_of(formula)
     return Outcome(answer if ring is None else convert(answer, ring), values, certificate)
@@ -196,13 +197,6 @@ def claims(certificate: Certificate, question: Formula, answer: Formula) -> bool
         and table.matrix == convert(nnf(matrix), ring)
         and table.quantifiers == tuple(bound.get(name, "") for name in table.order)
     )
-
-
-def _is_listed(answer: Formula, table: CellTable) -> bool:
-    """Whether the answer's polynomials are products of the table's factors, as the checker wants them."""
-    factors = {f for level in table.factors for f in level}
-    ring = Ring.of(table.order)
-    return all(f in factors for p in polynomials(answer) for f, _ in p.convert(ring).factors()[1])
 
 
 def _figures(order: Sequence[str], reason: str, found: Table, seconds: float) -> dict[str, object]:

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from qe.elimination.protocol import Problem
 from qe.exact.quadratic_form import Definiteness, definiteness, quadratic
 from qe.formula.syntax import And, Atom, Formula, Relation
-from qe.formula.traverse import free_variables, polynomials
+from qe.formula.traverse import conjuncts, connected, free_variables, polynomials
 from qe.options import Options
 
 Condition = Callable[[Problem, Options], str | None]
@@ -24,6 +24,10 @@ second to three seconds, where neither decomposition nor substitution ends in a 
 
 CONVEX_FROM = 4
 """Existential sentences in so many variables are first tried as convex problems; with fewer, the others are faster."""
+
+
+CONVEX_PARTS = 24
+"""In more variables, conditions that fall apart into some without common variables are not one convex problem."""
 
 
 def always(problem: Problem, options: Options) -> str | None:
@@ -52,8 +56,19 @@ def inner_blocks(problem: Problem, options: Options) -> str | None:
 
 def closed_in_many_variables(problem: Problem, options: Options) -> str | None:
     """A sentence in at least ``CONVEX_FROM`` variables."""
-    many = len(problem.variables) >= CONVEX_FROM and problem.is_flat and not problem.free
-    return f"a sentence in {len(problem.variables)} variables" if many else None
+    count = len(problem.variables)
+    if count < CONVEX_FROM or not problem.is_flat or problem.free:
+        return None
+    if count > CONVEX_PARTS and _falls_apart(problem):
+        return None  # preparation takes the parts apart, and each is decided alone
+    return f"a sentence in {count} variables"
+
+
+def _falls_apart(problem: Problem) -> bool:
+    """Whether some conjuncts share no variable with the others."""
+    block = frozenset(problem.variables)
+    parts = conjuncts(problem.positive)
+    return len(connected(parts, lambda part: block.intersection(free_variables(part)))[1]) > 1
 
 
 def curved_in_the_block(problem: Problem, options: Options) -> str | None:

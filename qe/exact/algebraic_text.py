@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from fractions import Fraction
-from math import gcd
+from math import gcd, isqrt
 
 from flint import fmpz
+
+_FACTORED_BITS, _TRIED = 110, 3000
 
 
 def format_root(coefficients: Sequence[int], index: int) -> str:
@@ -29,11 +31,24 @@ def format_root(coefficients: Sequence[int], index: int) -> str:
     return f"root({index + 1}, {text})"
 
 
+def square_part(n: int) -> int:
+    """An s with s^2 dividing n > 0: the largest one, where n has at most ``_FACTORED_BITS`` bits or is easy to factor.
+
+    Larger numbers are divided by small primes only, since factoring them may take for ever; what remains is taken out
+    where it is a square as a whole.
+    """
+    outside, rest = 1, 1
+    for prime, power in fmpz(n).factor(trial_limit=None if n.bit_length() <= _FACTORED_BITS else _TRIED):
+        outside *= int(prime) ** (int(power) // 2)
+        rest *= int(prime) ** (int(power) % 2)
+    root = isqrt(rest)
+    return outside * root if root * root == rest else outside
+
+
 def _format_quadratic(coefficients: Sequence[int], index: int) -> str:
     c, b, lead = coefficients
-    discriminant, outside = b * b - 4 * lead * c, 1
-    for prime, power in fmpz(discriminant).factor():
-        outside *= int(prime) ** (int(power) // 2)
+    discriminant = b * b - 4 * lead * c
+    outside = square_part(discriminant)
     inside = discriminant // outside**2
     negative = index == 0
     common = Fraction(-b, 2 * lead)

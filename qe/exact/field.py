@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from fractions import Fraction
 from functools import total_ordering
+from typing import Any
 
 from flint import arb, fmpq, fmpq_mat, fmpq_poly, fmpz, fmpz_poly
 
@@ -89,6 +90,9 @@ class NumberField:
 
     def __hash__(self) -> int:
         return hash(self.theta)
+
+    def __reduce__(self) -> tuple[object, tuple[RealAlgebraic]]:
+        return NumberField, (self.theta,)
 
     def __repr__(self) -> str:
         return f"NumberField({self.theta})"
@@ -204,6 +208,8 @@ class FieldElement:
         return NotImplemented if value is None else FieldElement(self.field, value) * self.inverse()
 
     def __pow__(self, exponent: int) -> FieldElement:
+        if not isinstance(exponent, int):
+            return NotImplemented
         base = self if exponent >= 0 else self.inverse()
         result = self.field.rational(1)
         for _ in range(abs(exponent)):
@@ -267,6 +273,10 @@ class FieldElement:
         p = fmpz_poly(fmpq_mat(self._products()).minpoly().numer().coeffs())
         return p if p.leading_coefficient() > 0 else -p
 
+    def _sympy_(self) -> Any:
+        """The same number in SymPy, exactly; see ``RealAlgebraic``."""
+        return self.to_algebraic()._sympy_()
+
     @property
     def minimal_polynomial(self) -> tuple[int, ...]:
         """Integer coefficients from degree 0 up, primitive with positive leading coefficient."""
@@ -285,7 +295,7 @@ class FieldElement:
         return f"FieldElement({self} ≈ {float(self):.6g})"
 
     def __reduce__(self) -> tuple[object, tuple[object, ...]]:
-        return _restore, (self.field.theta, self.coefficients)
+        return _restore, (self.field, self.coefficients)
 
 
 def _quadratic(p: fmpz_poly, element: FieldElement) -> RealAlgebraic:
@@ -293,5 +303,5 @@ def _quadratic(p: fmpz_poly, element: FieldElement) -> RealAlgebraic:
     return irreducible_roots(p)[0 if (element * int(2 * p[2]) + int(p[1])).sign() < 0 else 1]
 
 
-def _restore(theta: RealAlgebraic, coefficients: tuple[Fraction, ...]) -> FieldElement:
-    return NumberField(theta).element(coefficients)
+def _restore(field: NumberField, coefficients: tuple[Fraction, ...]) -> FieldElement:
+    return field.element(coefficients)

@@ -8,12 +8,13 @@ the invariants stated on each class; these constructors do not simplify.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import ClassVar
+from importlib import import_module
+from typing import Any, ClassVar
 
 from qe.exact.ring import Poly, Ring
 from qe.formula.notation import Level, Notation, bracketed, chain, oriented, polynomial
 from qe.formula.relation import Relation as Relation
-from qe.formula.text import TEXT
+from qe.formula.text import text_notation
 
 
 class Formula:
@@ -88,7 +89,7 @@ class Formula:
         return True
 
     def __str__(self) -> str:
-        return self.written(TEXT)
+        return self.written(text_notation(self.free))
 
     def written(self, notation: Notation, level: Level = Level.OPEN, last: bool = True) -> str:
         """The text in a line format, with no more brackets than reading it back needs.
@@ -96,6 +97,11 @@ class Formula:
         ``level``: the construct around it; ``last``: nothing follows, so that a quantifier may stay open.
         """
         raise TypeError(f"not a formula: {self!r}")
+
+    def _sympy_(self) -> Any:
+        """The SymPy Boolean, wherever SymPy meets a formula; ``InputError`` for quantifiers and root atoms."""
+        # found by name: SymPy's door knows the formulas, not the formulas their doors
+        return import_module("qe.io.sympy").to_sympy(self)
 
 
 @dataclass(frozen=True, slots=True, repr=False)

@@ -2,28 +2,41 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable
+
 from qe.exact.ring import Poly
 from qe.formula.notation import Notation, polynomial, positive
 from qe.formula.relation import Relation
-from qe.spelling import quoted_if_needed
+from qe.spelling import CONSTANTS, between_quotes, quoted_if_needed
 
 
-def _quantifier(universal: bool, names: tuple[str, ...]) -> str:
-    return f"{'all' if universal else 'ex'} {', '.join(map(quoted_if_needed, names))}. "
+def text_notation(free: Iterable[str]) -> Notation:
+    """The notation for a formula with these free variables: those named like constants stand between backquotes."""
+    doubtful = CONSTANTS.intersection(free)
+    if not doubtful:
+        return TEXT
+    return _notation(lambda name: between_quotes(name) if name in doubtful else quoted_if_needed(name))
 
 
-def _root(variable: str, relation: Relation, poly: Poly, k: int) -> str:
-    return f"{quoted_if_needed(variable)} {relation.value} root({k}, {polynomial(positive(poly), TEXT)})"
+def _notation(spelled: Callable[[str], str]) -> Notation:
+    def quantifier(universal: bool, names: tuple[str, ...]) -> str:
+        return f"{'all' if universal else 'ex'} {', '.join(map(spelled, names))}. "
+
+    def root(variable: str, relation: Relation, poly: Poly, k: int) -> str:
+        return f"{spelled(variable)} {relation.value} root({k}, {polynomial(positive(poly), notation)})"
+
+    notation = Notation(
+        name=spelled,
+        relation=lambda relation: relation.value,
+        quantifier=quantifier,
+        root=root,
+        conjunction=" and ",
+        disjunction=" or ",
+        negation="not ",
+        true="true",
+        false="false",
+    )
+    return notation
 
 
-TEXT = Notation(
-    name=quoted_if_needed,
-    relation=lambda relation: relation.value,
-    quantifier=_quantifier,
-    root=_root,
-    conjunction=" and ",
-    disjunction=" or ",
-    negation="not ",
-    true="true",
-    false="false",
-)
+TEXT = _notation(quoted_if_needed)

@@ -118,7 +118,7 @@ def _relation(relation: Relation) -> str:
 
 
 def polynomial(parts: list[Monomial], draw: Draw = name) -> str:
-    """A sum of monomials (``qe.io.infix.monomials``)."""
+    """A sum of monomials (``qe.formula.notation.monomials``)."""
     pieces: list[str] = []
     for coefficient, powers in parts:
         if coefficient < 0 or pieces:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from enum import Enum
 from typing import Any
 
-from qe.errors import Unable
+from qe.errors import NoTruthValue, Unable
 from qe.exact.number import Assignment
 from qe.formula.syntax import Constant, Formula
 from qe.proof.certificate import Certificate
@@ -36,7 +36,8 @@ class Answer:
 
     ``truth``: True or False for sentences. ``witness``: exact values for the outermost block of a true existential
     sentence, or a counterexample to a false universal one. ``certificate``: what ``qe.verify`` accepts, when the
-    method produces one. ``question`` and ``log``: what was asked, and how it was answered.
+    method produces one. ``reason``: why there is no answer, or why its certificate was not verified. ``question`` and
+    ``log``: what was asked, and how it was answered.
     """
 
     status: Status
@@ -101,6 +102,14 @@ class Answer:
         if self.formula is None:
             raise Unable(f"there is no formula to convert: {self.reason}")
         return to_sympy(self.formula)
+
+    def _sympy_(self) -> Any:
+        """What SymPy takes an answer for: the Boolean of its formula."""
+        return self.to_sympy()
+
+    def __bool__(self) -> bool:
+        """Raises ``NoTruthValue``: a false sentence has an answer, too."""
+        raise NoTruthValue("an answer has no truth value of its own; ask for answer.truth, or call qe.decide")
 
     def __str__(self) -> str:
         return str(self.formula) if self.formula is not None else f"unable: {self.reason}"

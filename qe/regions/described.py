@@ -6,6 +6,7 @@ from typing import Protocol
 
 from qe.cells.interval import Interval
 from qe.cells.pieces import Piece
+from qe.formula.syntax import Formula
 
 
 class Described(Protocol):
@@ -24,3 +25,6 @@ class Described(Protocol):
 
     def bounds(self, variable: str) -> Interval:
         """The exact infimum and supremum of a variable."""
+
+    def within(self, condition: Formula) -> Described:
+        """The part where a quantifier-free condition holds, in the same order."""

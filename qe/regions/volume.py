@@ -10,56 +10,82 @@ from __future__ import annotations
 
 import heapq
 from collections.abc import Sequence
+from dataclasses import replace
 from fractions import Fraction
 
 from qe.cells.pieces import Piece, RootFunction
-from qe.errors import InputError, Unable
+from qe.errors import BudgetExceeded, Unable
+from qe.exact.algebraic import RealAlgebraic
+from qe.exact.balls import precision
 from qe.exact.enclosure import Jet, Sides, box_sides, constant, ends, root_jet, smooth_side
+from qe.exact.nearby import rational_between
+from qe.exact.translate import translated
+from qe.options import Budget
 from qe.regions.described import Described as Region
 from qe.regions.slices import has_closed_slices, slice_area
 
 MOST_BOXES = 60_000
+FAR = 40
+"""From coefficients of so many bits on, pieces are moved to the origin."""
+
+FIRST_BITS, MOST_BITS = 80, 1 << 16
+"""Working precision beyond what the size of the coefficients takes, and the most that is tried."""
+
 _HALF = Fraction(1, 2)
 Box = tuple[tuple[Fraction, Fraction], ...]
 
 
-def enclose(region: Region, rel_error: float) -> tuple[Fraction, Fraction]:
+def enclose(region: Region, rel_error: Fraction, *, budget: Budget) -> tuple[Fraction, Fraction]:
     """lo <= measure <= hi, rational, with hi - lo <= rel_error * hi (0, 0 for a region without interior).
 
-    Raises ``Unable`` for unbounded pieces and when the error is not reached within ``MOST_BOXES`` boxes.
+    Raises ``Unable`` for unbounded pieces and when the error is not reached within ``MOST_BOXES`` boxes,
+    ``BudgetExceeded`` (with what is known of the measure by then) at a limit.
     """
-    if not 0 < rel_error < 1:
-        raise InputError(f"rel_error: a number between 0 and 1 expected, {rel_error} found")
     pieces = [p for p in region.cells if p.dimension == len(region.order)]
     for piece in pieces:
         for r in piece.ranges:
             if r.lower is None or r.upper is None:
                 raise Unable(f"the region is unbounded in {r.variable}")
-    return _Sum(region, pieces).refine(Fraction(rel_error))
+    return _Sum(region, pieces, budget).refine(rel_error)
 
 
 class _Sum:
     """The boxes of all pieces, worst first."""
 
-    def __init__(self, region: Region, pieces: Sequence[Piece]) -> None:
+    def __init__(self, region: Region, pieces: Sequence[Piece], budget: Budget) -> None:
+        self.budget = budget
         self.region, self.sides = region, len(region.order) - 1
         self.queue: list[tuple[Fraction, int, Piece, Box, Fraction, Fraction]] = []
         self.low = self.high = Fraction(0)
         self.count = 0
-        for piece in pieces:
+        moved = [_recentred(p) for p in pieces] if _height(pieces) > FAR else pieces
+        # a discriminant cancels twice the digits of the coefficients, and its root is compared with another end
+        self.bits = FIRST_BITS + 4 * _height(moved)
+        for piece in moved:
             sides = self.sides - 1 if has_closed_slices(piece) else self.sides
             self._push(piece, ((Fraction(0), Fraction(1)),) * sides)
 
     def refine(self, rel_error: Fraction) -> tuple[Fraction, Fraction]:
         while self.queue and self.high - self.low > rel_error * self.high:
             if self.count > MOST_BOXES:
-                raise Unable(f"volume known only between {float(self.low):.6g} and {float(self.high):.6g}")
+                raise Unable(self._known())
+            try:
+                self.budget.check("volume", self.count)
+            except BudgetExceeded as error:
+                raise BudgetExceeded(f"{error}: {self._known()}", limit=error.limit) from None
             _, _, piece, box, low, high = heapq.heappop(self.queue)
             self.low -= low
             self.high -= high
-            for half in _halves(box):
+            if not box:  # a length: nothing but rounding makes it inexact
+                self.bits *= 2
+                if self.bits > MOST_BITS:
+                    raise Unable(f"length known only between {float(self.low):.6g} and {float(self.high):.6g}")
+            for half in _halves(box) if box else [box]:
                 self._push(piece, half)
         return max(self.low, Fraction(0)), self.high
+
+    def _known(self) -> str:
+        return f"volume known only between {float(self.low):.6g} and {float(self.high):.6g}"
 
     def _push(self, piece: Piece, box: Box) -> None:
         self.count += 1
@@ -69,13 +95,14 @@ class _Sum:
         heapq.heappush(self.queue, (low - high, self.count, piece, box, low, high))
 
     def _contribution(self, piece: Piece, box: Box) -> tuple[Fraction, Fraction]:
-        whole = self._integrand(piece, box)
         size = Fraction(1)
         for a, b in box:
             size *= b - a
-        if whole is None:
-            return Fraction(0), size * self._crude(piece)
-        low, high = ends(whole.mean())
+        with precision(self.bits):
+            whole = self._integrand(piece, box)
+            if whole is None:
+                return Fraction(0), size * self._crude(piece)
+            low, high = ends(whole.mean())
         return max(low, Fraction(0)) * size, max(high, Fraction(0)) * size
 
     def _integrand(self, piece: Piece, box: Box) -> Jet | None:
@@ -108,6 +135,33 @@ class _Sum:
             lo, hi = _outer(extent.lower, False), _outer(extent.upper, True)
             bound *= (hi - lo) * (Fraction(3, 2) if i < self.sides else 1)
         return bound
+
+
+def _height(pieces: Sequence[Piece]) -> int:
+    polys = [end.poly for p in pieces for r in p.ranges for end in (r.lower, r.upper) if end is not None]
+    return max((p.height_bits() for p in polys), default=0)
+
+
+def _recentred(piece: Piece) -> Piece:
+    """The piece moved so that its sample is near the origin: far from it, sizes are lost in the coordinates."""
+    bits = FAR + _height([piece])
+    origin = [_rational(piece.sample[r.variable], bits) for r in piece.ranges]
+
+    def moved(root: RootFunction | None) -> RootFunction | None:
+        if root is None:
+            return None
+        value = None if root.value is None else root.value - origin[root.poly.level]
+        return RootFunction(translated(root.poly, origin), root.k, value)
+
+    return replace(piece, ranges=tuple(replace(r, lower=moved(r.lower), upper=moved(r.upper)) for r in piece.ranges))
+
+
+def _rational(value: object, bits: int) -> Fraction:
+    """The number itself, or a rational one close to it."""
+    if isinstance(value, Fraction):
+        return value
+    assert isinstance(value, RealAlgebraic)
+    return rational_between(*value.interval(bits))
 
 
 def _end(root: RootFunction | None, at: dict[int, Jet], sides: Sides) -> Jet | None:

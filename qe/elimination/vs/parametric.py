@@ -11,15 +11,18 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from itertools import islice
 
+from qe.arguments import by_name, flag, seconds
+from qe.cells.interval import Coordinate, number_of
 from qe.elimination.vs.block import eliminate_block
 from qe.elimination.vs.result import Answer
 from qe.elimination.vs.witness import witness
 from qe.errors import DegreeTooHigh, InputError, Unable
 from qe.exact.algebraic import RealAlgebraic
 from qe.exact.sample import Point
+from qe.execution import Limits, perform
 from qe.formula.evaluate import truth_under
 from qe.formula.normal import nnf
-from qe.formula.syntax import FALSE, Exists, ForAll, Formula
+from qe.formula.syntax import FALSE, Constant, Exists, ForAll, Formula
 from qe.formula.traverse import free_variables, is_quantifier_free, ring_of
 from qe.options import Budget
 from qe.simplify.simplify import simplify
@@ -44,15 +47,28 @@ class ParametricWitness:
     _answer: Answer = field(repr=False)
     _variables: tuple[str, ...] = field(repr=False)
 
-    def at(self, parameters: Mapping[str, int | str | Number]) -> dict[str, Number]:
-        """Exact values at these parameters. Raises ``InputError`` where the guard does not hold."""
-        given = {name: v if isinstance(v, RealAlgebraic) else Fraction(v) for name, v in parameters.items()}
+    def at(
+        self, parameters: Mapping[str, Coordinate], *, timeout: float | None = None, process: bool = True
+    ) -> dict[str, Number]:
+        """Exact values at these parameters; ``timeout`` and ``process`` as in ``qe.eliminate``.
+
+        Raises ``InputError`` where the guard does not hold, ``BudgetExceeded`` at the limit.
+        """
+        given = {
+            n: number_of(v, "parameters", f"an exact number for {n}")
+            for n, v in by_name(parameters, "parameters").items()
+        }
         missing = [name for name in free_variables(self.guard) if name not in given]
         if missing:
             raise InputError(f"parameters: a value for {missing[0]} expected")
+        limits = Limits(seconds(timeout), process=flag(process, "process"))
+        return perform(lambda budgets: self._at(given, budgets()), limits, at_once=timeout is not None)
+
+    def _at(self, given: dict[str, Number], budget: Budget) -> dict[str, Number]:
+        budget.check("guard")
         if not _holds(self.guard, given):
             raise InputError("parameters: the guard does not hold there")
-        found = witness(self._answer, given, budget=Budget())
+        found = witness(self._answer, given, budget=budget)
         return {name: found.get(name, Fraction(0)) for name in self._variables}
 
     def __str__(self) -> str:
@@ -66,6 +82,9 @@ def parametric_witnesses(block: Formula, *, budget: Budget) -> tuple[ParametricW
     The disjunction of the guards is equivalent to the existential block (to the negation of the universal one).
     Raises ``InputError`` for other formulas and ``DegreeTooHigh`` where substitution cannot eliminate it.
     """
+    if isinstance(block, Constant):
+        text = "true" if block.value else "false"
+        raise InputError(f"the formula is {text} as it stands: no quantifier is left to find witnesses for")
     if not isinstance(block, Exists | ForAll) or not is_quantifier_free(block.body):
         raise InputError("a formula that begins with one quantifier, with a quantifier-free body, expected")
     body = simplify(nnf(block.body, negate=isinstance(block, ForAll)))
