@@ -16,9 +16,9 @@ from fractions import Fraction
 from qe.errors import CertificateRejected, InputError
 from qe.evidence.cells import CellTable
 from qe.evidence.cells_json import CellEvidence, cells_from_json, cells_to_json
-from qe.evidence.entry import Entry, Json, formula_to_json
+from qe.evidence.entry import Entry, Json, formula_to_json, poly_to_text
 from qe.exact.algebraic import RealAlgebraic
-from qe.exact.ring import Poly, Ring, format_poly
+from qe.exact.ring import Poly, Ring
 from qe.formula.syntax import Formula
 
 FORMAT, VERSION = "bezier-qe certificate", 1
@@ -110,7 +110,7 @@ class Certificate:
             "order": list(order),
             "variables": [name for name, _ in solved],
             "matrix": formula_to_json(matrix),
-            "solved": [[name, format_poly(equation)] for name, equation in solved],
+            "solved": [[name, poly_to_text(equation)] for name, equation in solved],
             "answer": formula_to_json(answer),
         }
         return Certificate(Kind.SUBSTITUTION, payload)
@@ -168,7 +168,7 @@ def _value_to_json(value: Root | Fraction, name: str) -> Json:
         return str(value)
     ring = Ring.of((name,))
     poly = ring.from_terms({(k,): c for k, c in enumerate(value.coefficients) if c})
-    return {"polynomial": format_poly(poly.normal()[1]), "interval": [str(value.low), str(value.high)]}
+    return {"polynomial": poly_to_text(poly.normal()[1]), "interval": [str(value.low), str(value.high)]}
 
 
 def _from_data(entry: Entry, labelled: bool = False) -> Certificate:

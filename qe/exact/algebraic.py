@@ -173,11 +173,14 @@ class RealAlgebraic:
             return other
         if isinstance(other, int | Fraction):
             return RealAlgebraic.rational(other)
-        return None
+        convert = getattr(other, "to_algebraic", None)  # an element of a number field
+        return convert() if convert is not None else None
 
     def __eq__(self, other: object) -> bool:
         value = self._coerce(other)
-        return value is not None and self.index == value.index and self.poly == value.poly
+        if value is None:
+            return NotImplemented
+        return self.index == value.index and bool(self.poly == value.poly)
 
     def __lt__(self, other: object) -> bool:
         value = self._coerce(other)
@@ -204,7 +207,8 @@ class RealAlgebraic:
         return _combine(self, self._coerce(other), "-")
 
     def __rsub__(self, other: object) -> Any:
-        return -self + other
+        value = self._coerce(other)
+        return NotImplemented if value is None else value - self
 
     def __mul__(self, other: object) -> Any:
         return _combine(self, self._coerce(other), "*")
@@ -224,14 +228,23 @@ class RealAlgebraic:
         return self * value.inverse()
 
     def __rtruediv__(self, other: object) -> Any:
-        return self.inverse() * other
+        value = self._coerce(other)
+        return NotImplemented if value is None else value * self.inverse()
 
     def __pow__(self, exponent: int) -> RealAlgebraic:
+        if not isinstance(exponent, int):
+            return NotImplemented
         base = self if exponent >= 0 else self.inverse()
         result = RealAlgebraic.rational(1)
         for _ in range(abs(exponent)):
             result = result * base
         return result
+
+    def _sympy_(self) -> Any:
+        """The same number in SymPy, exactly; wherever SymPy meets one it asks for this."""
+        from qe.io.sympy import number_to_sympy
+
+        return number_to_sympy(self)
 
     def __reduce__(self) -> tuple[object, tuple[object, ...]]:
         return _restore, (self.minimal_polynomial, self.index)

@@ -1,8 +1,9 @@
 """SymPy Booleans in and out. SymPy is imported when a function of this module is called, never before.
 
 Read: relations, ``And Or Not Implies Equivalent Xor ITE``, polynomials with rational coefficients, ``Abs``, ``Min``,
-``Max`` and ``Piecewise`` (by cases). A SymPy ``Float`` is read as the exact binary number it is: ``Float(0.1)`` is not
-1/10, write ``Rational(1, 10)``. SymPy has no quantifiers, so ``Exists`` and ``ForAll`` here wrap an expression and can
+``Max`` and ``Piecewise`` (by cases). A SymPy ``Float`` is read as the decimal number that it prints: ``0.1*x`` means
+x/10, as in text. Written: formulas, and real algebraic numbers as ``Rational``, square roots or ``CRootOf``. SymPy has
+no quantifiers, so ``Exists`` and ``ForAll`` here wrap an expression and can
 be combined with ``& | ~ >>`` among themselves and with SymPy expressions. A symbol may be assumed real; assumptions
 that say more (positive, integer) would be lost and are refused.
 """
@@ -14,15 +15,16 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-from qe.errors import InputError
-from qe.exact.ring import Ring
+from qe.errors import InputError, NoTruthValue
+from qe.exact.algebraic import RealAlgebraic
+from qe.exact.ring import Poly, Ring
 from qe.formula.build import conj, convert, disj, exists, forall, implies, neg
 from qe.formula.syntax import And, Atom, Constant, Formula, Not, Or, Relation
 from qe.formula.traverse import ring_of
 from qe.io import surface as s
 from qe.io.cases import Cases, choose, combine, compare, plain
 from qe.io.names import check_name, names_in
-from qe.io.terms import TermError
+from qe.io.terms import TermError, decimal
 
 if TYPE_CHECKING:
     import sympy
@@ -71,7 +73,9 @@ class _Operators:
 
     def __bool__(self) -> bool:
         """Python's ``and``, ``or`` and ``not`` ask for it and would drop a part of the formula without a word."""
-        raise TypeError("a formula has no truth value here; connect formulas with & | ~ >>, decide them with qe.decide")
+        raise NoTruthValue(
+            "a formula has no truth value here; connect formulas with & | ~ >>, decide them with qe.decide"
+        )
 
     def __str__(self) -> str:
         return str(self.formula())
@@ -144,6 +148,8 @@ def _variables(variables: object) -> tuple[str, ...]:
 def _symbol(symbol: sympy.Symbol) -> str:
     import sympy
 
+    if isinstance(symbol, sympy.Dummy):
+        raise InputError(f"{symbol} is a Dummy, which no name tells from others; use a Symbol")
     known = sympy.Symbol("x", real=True).assumptions0
     extra = [key for key, value in symbol.assumptions0.items() if known.get(key) is not value]
     extra.sort(key=lambda key: ("_" in key, not symbol.assumptions0[key], key not in _SIGNS, key))
@@ -153,9 +159,10 @@ def _symbol(symbol: sympy.Symbol) -> str:
 
 
 def from_sympy(expression: object) -> Formula:
-    """The formula of a SymPy Boolean, a Python bool, a wrapped or a finished formula.
+    """The formula of a SymPy Boolean, a wrapped or a finished formula.
 
-    Raises ``InputError`` for what is not a Boolean combination of polynomial relations over Q.
+    Raises ``InputError`` for what is not a Boolean combination of polynomial relations over Q, a Python truth value
+    among them: it is what ``x**2 == b`` makes.
     """
     if isinstance(expression, Formula):
         return expression
@@ -163,12 +170,10 @@ def from_sympy(expression: object) -> Formula:
         return expression.formula()
     import sympy
 
-    if isinstance(expression, str):
-        raise InputError("a SymPy Boolean expected, a string found")
-    try:
-        whole = sympy.sympify(expression)
-    except (sympy.SympifyError, TypeError):
-        raise InputError(f"a SymPy Boolean expected, {type(expression).__name__} found") from None
+    if isinstance(expression, bool):
+        hint = "== compares SymPy expressions at once, an equation is written Eq(left, right)"
+        raise InputError(f"a SymPy Boolean expected, Python's {expression} found; {hint}")
+    whole = _basic(expression, "a SymPy Boolean")
     names = sorted(str(symbol) for symbol in getattr(whole, "free_symbols", ()))
     try:
         node = _Reader(sympy).boolean(whole)
@@ -177,6 +182,35 @@ def from_sympy(expression: object) -> Formula:
         raise InputError(f"{_shown(whole)}: {error}") from None
     except RecursionError:
         raise InputError("the expression is nested too deeply") from None
+
+
+def polynomial_from_sympy(expression: object) -> tuple[Poly, Fraction]:
+    """A polynomial p and a rational s: the expression is s*p.
+
+    Raises ``InputError`` for what is no polynomial over Q.
+    """
+    import sympy
+
+    whole = _basic(expression, "a SymPy expression")
+    (guards, term), *others = _Reader(sympy).real(whole)
+    if guards or others:
+        raise InputError(f"a polynomial expected, {_shown(whole)} found")
+    try:
+        value = s.lower_term(term, lambda message, _: InputError(f"{_shown(whole)}: {message}"))
+    except RecursionError:
+        raise InputError("the expression is nested too deeply") from None
+    return value.poly, Fraction(1, value.den)
+
+
+def _basic(given: object, expected: str) -> Any:
+    """The SymPy object that is given, or that something of this package stands for (``_sympy_``)."""
+    import sympy
+
+    if isinstance(given, sympy.Basic):
+        return given
+    if not hasattr(given, "_sympy_") and not isinstance(given, int | Fraction):
+        raise InputError(f"{expected} expected, {type(given).__name__} found")
+    return sympy.sympify(given)
 
 
 def _shown(expression: object) -> str:
@@ -246,10 +280,11 @@ class _Reader:
         raise InputError(f"only polynomials with rational coefficients are allowed, {_shown(e)} found")
 
     def exact_float(self, e: Any) -> Fraction:
+        """The decimal number that SymPy prints: all digits it holds to be known, in base ten."""
         if not e.is_finite:
             raise InputError(f"a finite number expected, {e} found")
-        rational = self.sympy.Rational(e)
-        return Fraction(int(rational.p), int(rational.q))
+        text = str(e)
+        return -decimal(text[1:]) if text.startswith("-") else decimal(text)
 
     def power(self, e: Any) -> Cases:
         if not e.exp.is_Integer or e.exp < 0:
@@ -292,6 +327,22 @@ def to_sympy(formula: Formula, *, symbols: Mapping[str, Any] | None = None) -> A
     table = {name: sympy.Symbol(name) for name in names_in(formula)}
     table.update(symbols or {})
     return _boolean(formula, table, sympy)
+
+
+def number_to_sympy(number: RealAlgebraic) -> Any:
+    """The SymPy number that equals ``number``: a ``Rational``, ``(p + q*sqrt(d))/r``, or a ``CRootOf``."""
+    import sympy
+
+    if number.is_rational:
+        value = number.as_fraction()
+        return sympy.Rational(value.numerator, value.denominator)
+    coefficients = [sympy.Integer(c) for c in reversed(number.minimal_polynomial)]
+    if number.degree == 2:
+        a, b, c = coefficients
+        root = sympy.sqrt(b**2 - 4 * a * c) / (2 * a)
+        return -b / (2 * a) + (root if number.index else -root)
+    # SymPy, too, numbers the real roots of an irreducible polynomial from the smallest, before the complex ones
+    return sympy.CRootOf(sympy.Poly(coefficients, sympy.Symbol("x")), number.index, radicals=False)
 
 
 def _boolean(formula: Formula, symbols: Mapping[str, Any], sp: Any) -> Any:

@@ -19,6 +19,7 @@ ROWS = {
     "qe.exact": 1,
     "qe.formula": 2,
     "qe.io": 2,
+    "qe.io.sympy": 2,
     "qe.evidence": 3,
     "qe.reference": 3,
     "qe.certify": 4,
@@ -40,10 +41,12 @@ ROWS = {
     "experiments": 9,
     "paper_repro": 9,
 }
-# Parts of one row that know each other: printing a formula needs a writer, and writers need the syntax; a region can
-# draw itself; the budget speaks in events and errors; row 7 is the line of arrows itself.
+# Parts that know each other: a number tells SymPy what it is by the door for SymPy; printing a formula needs a writer,
+# and writers need the syntax; a region can draw itself; the budget speaks in events and errors; row 7 is the line of
+# arrows itself.
 TOGETHER = (
-    {"qe.formula", "qe.io"},
+    {"qe.exact", "qe.io.sympy"},
+    {"qe.formula", "qe.io", "qe.io.sympy"},
     {"qe.solution", "qe.report"},
     *({k for k, row in ROWS.items() if row == same} for same in (0, 7)),
 )
