@@ -137,6 +137,8 @@ class Certificate:
         ``CertificateRejected``, naming the entry, if something in it is malformed. A wrong digest is kept for the
         checker, which reports it when it finds nothing worse.
         """
+        if not isinstance(text, str):
+            raise InputError(f"certificate: text in JSON expected, {type(text).__name__} found")
         try:
             whole = json.loads(text, parse_float=_no_floats, parse_constant=_no_floats, object_pairs_hook=_no_repeats)
         except (ValueError, RecursionError) as error:

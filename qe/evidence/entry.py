@@ -11,9 +11,9 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from qe.errors import CertificateRejected
-from qe.exact.names import QUOTED, between_quotes, unquoted
 from qe.exact.ring import Poly, Ring, format_poly
 from qe.formula.syntax import FALSE, TRUE, And, Atom, Constant, Exists, ForAll, Formula, Not, Or, Relation, RootAtom
+from qe.spelling import QUOTED, between_quotes, unquoted
 
 Json = None | bool | int | str | list["Json"] | dict[str, "Json"]
 

@@ -16,7 +16,7 @@ from typing import Any
 from flint import fmpq, fmpq_mpoly, fmpq_mpoly_ctx, fmpz, fmpz_mpoly, fmpz_mpoly_ctx, fmpz_poly
 
 from qe.errors import InternalError
-from qe.exact.names import quoted
+from qe.spelling import quoted
 
 _PRIMES = (3, -7, 11, -13, 17, -19, 23, -29, 31, -37, 41, -43, 47, -53, 59, -61)
 _ZERO = fmpz(0)

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import re
 
-from qe.exact.names import visible
 from qe.formula.syntax import And, Exists, ForAll, Formula, Or, Relation, RootAtom
 from qe.io.infix import Notation, formula_text, polynomial, positive
+from qe.spelling import visible
 
 WIDTH = 90
 """Characters of source after which a formula is broken at its outermost operator."""

@@ -5,10 +5,10 @@ from __future__ import annotations
 import re
 from html import escape
 
-from qe.exact.names import visible
 from qe.formula.syntax import And, Atom, Constant, Exists, ForAll, Formula, Not, Or, Relation, RootAtom
 from qe.io.infix import Monomial, digits, oriented, positive
 from qe.io.latex import GREEK
+from qe.spelling import visible
 
 WIDTH = 12
 """Leaves (monomials) after which the outermost operator is written in lines."""

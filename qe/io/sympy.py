@@ -170,10 +170,12 @@ def from_sympy(expression: object) -> Formula:
         return expression.formula()
     import sympy
 
+    if isinstance(expression, str):
+        raise InputError("a SymPy Boolean expected, text found")
     if isinstance(expression, bool):
         hint = "== compares SymPy expressions at once, an equation is written Eq(left, right)"
         raise InputError(f"a SymPy Boolean expected, Python's {expression} found; {hint}")
-    whole = _basic(expression, "a SymPy Boolean")
+    whole = _basic(expression, "a formula (text, Formula, or a SymPy Boolean)")
     names = sorted(str(symbol) for symbol in getattr(whole, "free_symbols", ()))
     try:
         node = _Reader(sympy).boolean(whole)

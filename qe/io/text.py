@@ -13,8 +13,6 @@ from collections.abc import Callable, Container
 from fractions import Fraction
 from typing import cast
 
-from qe.exact.names import CONSTANTS as CONSTANTS
-from qe.exact.names import between_quotes, quoted_if_needed
 from qe.exact.ring import Poly
 from qe.formula.syntax import Formula, RootAtom
 from qe.formula.traverse import free_variables
@@ -22,6 +20,8 @@ from qe.io.grammar import Failing, parse
 from qe.io.infix import Notation, formula_text, polynomial, positive
 from qe.io.surface import Meet, Term, lower, lower_term
 from qe.io.text_parser import text_parser
+from qe.spelling import CONSTANTS as CONSTANTS
+from qe.spelling import between_quotes, quoted_if_needed
 
 
 def read(text: str, *, source: str = "<text>", known: Container[str] = ()) -> Formula:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Collection
 
-from qe.exact.names import QUOTED
+from qe.spelling import QUOTED
 
 _QUOTED = re.compile(QUOTED)
 

@@ -8,13 +8,13 @@ from functools import cache
 from typing import TYPE_CHECKING, Any
 
 from qe.errors import InputError
-from qe.exact.names import QUOTED, WORD, unquoted
 from qe.formula.syntax import Relation
 from qe.io import surface as s
 from qe.io.grammar import parser
 from qe.io.names import check_name
 from qe.io.terms import TermError, decimal
 from qe.io.text_errors import SyntaxFailure, unknown_character
+from qe.spelling import QUOTED, WORD, unquoted
 
 if TYPE_CHECKING:
     from lark import Lark, Token

@@ -11,10 +11,10 @@ from dataclasses import dataclass
 
 from qe.evidence.cells import CellTable
 from qe.exact.algebraic import RealAlgebraic
-from qe.exact.names import quoted
 from qe.exact.ring import Poly, format_poly
 from qe.exact.sample import Point
 from qe.solution.walk import Place, child, root_place
+from qe.spelling import quoted
 
 
 @dataclass(frozen=True, slots=True)

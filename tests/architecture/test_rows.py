@@ -15,6 +15,8 @@ ROWS = {
     "qe.errors": 0,
     "qe.truth": 0,
     "qe.progress": 0,
+    "qe.spelling": 0,
+    "qe.arguments": 0,
     "qe.options": 0,
     "qe.exact": 1,
     "qe.formula": 2,

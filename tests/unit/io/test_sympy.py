@@ -61,7 +61,7 @@ def test_reading(given: object, printed: str) -> None:
         (lambda: sp.pi > x, "pi"),
         (lambda: sp.And(sp.Symbol("p"), x > 0), "p found"),
         (lambda: x, "Boolean combination"),
-        (lambda: "x > 0", "str found"),
+        (lambda: "x > 0", "text found"),
         (lambda: True, "Eq"),
         (lambda: x**2 == y, "Eq"),
         (lambda: Exists(x, x**2 == y), "Eq"),
