@@ -77,7 +77,7 @@ def seconds(value: object, what: str = "timeout") -> float | None:
     if value is None:
         return None
     if isinstance(value, bool) or not isinstance(value, Real):
-        raise wrong(what, "a number of seconds, or None,", value)
+        raise wrong(what, "a positive number of seconds", value)
     if not 0 < value < LONGEST_TIME:  # not a number, too, is refused by this
         raise wrong(what, "a positive number of seconds", value)
     return float(value)
@@ -88,8 +88,26 @@ def mebibytes(value: object, what: str = "memory") -> int | None:
     if value is None:
         return None
     if isinstance(value, bool) or not isinstance(value, Integral) or not 0 < value < MOST_MEMORY:
-        raise wrong(what, "a positive whole number of MiB, or None,", value)
+        raise wrong(what, "a positive whole number of MiB", value)
     return int(value)
+
+
+def whole(value: object, what: str) -> int:
+    """A natural number."""
+    if isinstance(value, bool) or not isinstance(value, Integral) or value < 0:
+        raise wrong(what, "a natural number", value)
+    return int(value)
+
+
+def integers(value: object, what: str) -> list[int]:
+    """Integers in order."""
+    if not isinstance(value, Iterable) or isinstance(value, str | bytes | bytearray | Mapping | set | frozenset):
+        raise wrong(what, "integers in order", value)
+    found = list(value)
+    for item in found:
+        if isinstance(item, bool) or not isinstance(item, Integral):
+            raise wrong(what, "integers", item)
+    return [int(item) for item in found]
 
 
 def ratio(value: object, what: str) -> Fraction:

@@ -13,6 +13,7 @@ from dataclasses import dataclass, field
 from enum import Enum
 from fractions import Fraction
 
+from qe.arguments import whole as whole_number
 from qe.errors import CertificateRejected, InputError
 from qe.evidence.cells import CellTable
 from qe.evidence.cells_json import CellEvidence, cells_from_json, cells_to_json
@@ -126,6 +127,8 @@ class Certificate:
 
     def to_json(self, *, indent: int | None = None) -> str:
         """The certificate as text, with version and digest; equal certificates give equal text."""
+        if indent is not None:
+            whole_number(indent, "indent")
         whole: dict[str, Json] = {"format": FORMAT, "version": VERSION, **self.to_data()}
         whole["digest"] = digest(whole)
         separators = (",", ":") if indent is None else None

@@ -14,6 +14,7 @@ from typing import Any
 
 from flint import arb, fmpq, fmpz, fmpz_mpoly_ctx, fmpz_poly
 
+from qe import arguments
 from qe.errors import InputError
 from qe.exact.balls import FIRST_PRECISION, ball_sign, hull, lower_end, precision, upper_end
 from qe.exact.isolate import Interval, isolate, sign_at
@@ -37,17 +38,23 @@ class RealAlgebraic:
     @staticmethod
     def rational(value: Rational | fmpq) -> RealAlgebraic:
         """A rational number."""
-        q = value if isinstance(value, fmpq) else fmpq(Fraction(value).numerator, Fraction(value).denominator)
+        if not isinstance(value, fmpq):
+            exact = value if isinstance(value, int | Fraction) else arguments.rational(value, "value")
+            value = fmpq(exact.numerator, exact.denominator)
+        q = value
         return RealAlgebraic(fmpz_poly([-q.p, q.q]), 0, (q, q))
 
     @staticmethod
     def from_root(coefficients: Iterable[int], lo: Rational, hi: Rational) -> RealAlgebraic:
-        """The only root of the polynomial (coefficients from degree 0 up) in the closed interval [lo, hi].
+        """The only root of the polynomial (integer coefficients from degree 0 up) in the closed interval [lo, hi].
 
         Raises ``InputError`` unless there is exactly one (distinct) root there.
         """
-        p = fmpz_poly([int(c) for c in coefficients])
-        low, high = RealAlgebraic.rational(lo), RealAlgebraic.rational(hi)
+        p = fmpz_poly(arguments.integers(coefficients, "coefficients"))
+        if not p:
+            raise InputError("coefficients: a polynomial other than 0 expected")
+        low = RealAlgebraic.rational(arguments.rational(lo, "lo"))
+        high = RealAlgebraic.rational(arguments.rational(hi, "hi"))
         inside = [r for r in real_roots(p) if low <= r <= high]
         if len(inside) != 1:
             raise InputError(f"{len(inside)} roots of the polynomial in [{lo}, {hi}], one expected")
@@ -79,7 +86,7 @@ class RealAlgebraic:
 
     def interval(self, bits: int = 0) -> tuple[Fraction, Fraction]:
         """Rational numbers lo <= self <= hi, with hi - lo small when ``bits`` are asked for."""
-        if bits:
+        if arguments.whole(bits, "bits"):
             x = self.ball(bits)
             with precision(bits + 16):
                 lo, hi = lower_end(x), upper_end(x)

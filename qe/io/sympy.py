@@ -15,6 +15,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
+from qe import arguments
 from qe.errors import InputError, NoTruthValue
 from qe.exact.algebraic import RealAlgebraic
 from qe.exact.ring import Poly, Ring
@@ -138,11 +139,15 @@ def _together(*parts: object) -> tuple[Formula, ...]:
 def _variables(variables: object) -> tuple[str, ...]:
     import sympy
 
-    items = variables if isinstance(variables, Iterable) and not isinstance(variables, str) else (variables,)
-    names = tuple(_symbol(v) if isinstance(v, sympy.Symbol) else check_name(v) for v in items)
+    if isinstance(variables, set | frozenset):  # the order within a block means nothing
+        variables = sorted(variables, key=str)
+    for symbol in variables if isinstance(variables, Iterable) and not isinstance(variables, str) else (variables,):
+        if isinstance(symbol, sympy.Symbol):
+            _symbol(symbol)
+    names = arguments.names(variables, "variables")
     if not names:
         raise InputError("a quantifier needs at least one variable")
-    return names
+    return tuple(check_name(name) for name in names)
 
 
 def _symbol(symbol: sympy.Symbol) -> str:

@@ -46,7 +46,10 @@ class ParametricWitness:
 
     def at(self, parameters: Mapping[str, Coordinate]) -> dict[str, Number]:
         """Exact values at these parameters. Raises ``InputError`` where the guard does not hold."""
-        given = {n: number_of(v, "parameters", f"an exact number for {n}") for n, v in by_name(parameters, "parameters").items()}
+        given = {
+            n: number_of(v, "parameters", f"an exact number for {n}")
+            for n, v in by_name(parameters, "parameters").items()
+        }
         missing = [name for name in free_variables(self.guard) if name not in given]
         if missing:
             raise InputError(f"parameters: a value for {missing[0]} expected")
