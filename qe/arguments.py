@@ -92,10 +92,10 @@ def mebibytes(value: object, what: str = "memory") -> int | None:
     return int(value)
 
 
-def whole(value: object, what: str) -> int:
-    """A natural number."""
-    if isinstance(value, bool) or not isinstance(value, Integral) or value < 0:
-        raise wrong(what, "a natural number", value)
+def whole(value: object, what: str, most: float = math.inf) -> int:
+    """A natural number, up to ``most``."""
+    if isinstance(value, bool) or not isinstance(value, Integral) or not 0 <= value <= most:
+        raise wrong(what, "a natural number" if most == math.inf else f"a natural number up to {most}", value)
     return int(value)
 
 

@@ -128,7 +128,7 @@ class Certificate:
     def to_json(self, *, indent: int | None = None) -> str:
         """The certificate as text, with version and digest; equal certificates give equal text."""
         if indent is not None:
-            whole_number(indent, "indent")
+            whole_number(indent, "indent", 80)
         whole: dict[str, Json] = {"format": FORMAT, "version": VERSION, **self.to_data()}
         whole["digest"] = digest(whole)
         separators = (",", ":") if indent is None else None

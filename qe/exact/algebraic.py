@@ -15,6 +15,7 @@ from typing import Any
 from flint import arb, fmpq, fmpz, fmpz_mpoly_ctx, fmpz_poly
 
 from qe import arguments
+from qe.arguments import shown
 from qe.errors import InputError
 from qe.exact.balls import FIRST_PRECISION, ball_sign, hull, lower_end, precision, upper_end
 from qe.exact.isolate import Interval, isolate, sign_at
@@ -57,7 +58,7 @@ class RealAlgebraic:
         high = RealAlgebraic.rational(arguments.rational(hi, "hi"))
         inside = [r for r in real_roots(p) if low <= r <= high]
         if len(inside) != 1:
-            raise InputError(f"{len(inside)} roots of the polynomial in [{lo}, {hi}], one expected")
+            raise InputError(f"{len(inside)} roots of the polynomial in [{shown(lo)}, {shown(hi)}], one expected")
         return inside[0]
 
     # --- access ----------------------------------------------------------------------------
