@@ -173,6 +173,8 @@ def from_sympy(expression: object) -> Formula:
         return expression
     if isinstance(expression, _Operators):
         return expression.formula()
+    if isinstance(held := getattr(expression, "formula", None), Formula):  # an answer, or a region
+        return held
     import sympy
 
     if isinstance(expression, str):
