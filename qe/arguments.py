@@ -12,11 +12,13 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from enum import Enum
 from fractions import Fraction
 from numbers import Integral, Rational, Real
-from pathlib import Path
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from qe.errors import InputError
 from qe.spelling import QUOTED, unquoted
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 Choice = TypeVar("Choice", bound=Enum)
 T = TypeVar("T")
@@ -72,30 +74,36 @@ def listener(value: object, what: str = "progress") -> Callable[..., Any]:
     return value
 
 
-def seconds(value: object, what: str = "timeout") -> float | None:
+def _number(given: object, kind: type) -> Any:
+    """The value if it is a number of this kind (``numbers.Real``, ``numbers.Integral``) and no truth value."""
+    return given if isinstance(given, kind) and not isinstance(given, bool) else None
+
+
+def seconds(given: object, what: str = "timeout") -> float | None:
     """A limit on time: a positive number of seconds, or None for no limit."""
-    if value is None:
+    if given is None:
         return None
-    if isinstance(value, bool) or not isinstance(value, Real):
-        raise wrong(what, "a positive number of seconds", value)
-    if not 0 < value < LONGEST_TIME:  # not a number, too, is refused by this
-        raise wrong(what, "a positive number of seconds", value)
+    value = _number(given, Real)
+    if value is None or not 0 < value < LONGEST_TIME:  # not a number, too, is refused by this
+        raise wrong(what, "a positive number of seconds", given)
     return float(value)
 
 
-def mebibytes(value: object, what: str = "memory") -> int | None:
+def mebibytes(given: object, what: str = "memory") -> int | None:
     """A limit on memory: a positive number of MiB, or None for no limit."""
-    if value is None:
+    if given is None:
         return None
-    if isinstance(value, bool) or not isinstance(value, Integral) or not 0 < value < MOST_MEMORY:
-        raise wrong(what, "a positive whole number of MiB", value)
+    value = _number(given, Integral)
+    if value is None or not 0 < value < MOST_MEMORY:
+        raise wrong(what, "a positive whole number of MiB", given)
     return int(value)
 
 
-def whole(value: object, what: str, most: float = math.inf) -> int:
+def whole(given: object, what: str, most: float = math.inf) -> int:
     """A natural number, up to ``most``."""
-    if isinstance(value, bool) or not isinstance(value, Integral) or not 0 <= value <= most:
-        raise wrong(what, "a natural number" if most == math.inf else f"a natural number up to {most}", value)
+    value = _number(given, Integral)
+    if value is None or not 0 <= value <= most:
+        raise wrong(what, "a natural number" if most == math.inf else f"a natural number up to {most}", given)
     return int(value)
 
 
@@ -110,15 +118,18 @@ def integers(value: object, what: str) -> list[int]:
     return [int(item) for item in found]
 
 
-def ratio(value: object, what: str) -> Fraction:
+def ratio(given: object, what: str) -> Fraction:
     """A number between 0 and 1."""
-    if isinstance(value, bool) or not isinstance(value, Real) or not 0 < value < 1:
-        raise wrong(what, "a number between 0 and 1", value)
+    value = _number(given, Real)
+    if value is None or not 0 < value < 1:
+        raise wrong(what, "a number between 0 and 1", given)
     return Fraction(value) if isinstance(value, Rational | float) else Fraction(float(value))
 
 
 def path(value: object, what: str = "path") -> Path:
     """The name of a file."""
+    from pathlib import Path
+
     return Path(instance(value, str | Path, what, "the name of a file"))  # type: ignore[arg-type]
 
 
