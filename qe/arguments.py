@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from decimal import Decimal
 from enum import Enum
 from fractions import Fraction
 from numbers import Integral, Rational, Real
@@ -210,13 +211,15 @@ def by_place(value: object, what: str) -> list[Any]:
 
 # --- numbers ------------------------------------------------------------------------------------------------
 def rational(value: object, what: str, expected: str = "an exact number") -> Fraction:
-    """A rational number: int, ``Fraction``, text such as ``-3/4`` or ``1.5e-3``, or a finite float."""
+    """A rational number: int, ``Fraction``, text such as ``-3/4`` or ``1.5e-3``; a finite float, also one of SymPy."""
     if isinstance(value, float):
         if not math.isfinite(value):
             raise wrong(what, expected, value)
         return Fraction(float.__repr__(value))
     if isinstance(value, str):
         return _rational(value, what, expected)
+    if isinstance(value, Decimal) or getattr(value, "is_Float", False) is True:
+        return _rational(str(value), what, expected)
     if isinstance(value, Rational) and not isinstance(value, bool):
         return Fraction(int(value.numerator), int(value.denominator))
     raise wrong(what, expected, value)

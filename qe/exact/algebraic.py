@@ -250,7 +250,7 @@ class RealAlgebraic:
 
     def _sympy_(self) -> Any:
         """The same number in SymPy, exactly; wherever SymPy meets one it asks for this."""
-        from qe.io.sympy import number_to_sympy
+        from qe.io.sympy_numbers import number_to_sympy
 
         return number_to_sympy(self)
 

@@ -17,7 +17,6 @@ from typing import TYPE_CHECKING, Any
 
 from qe import arguments
 from qe.errors import InputError, NoTruthValue
-from qe.exact.algebraic import RealAlgebraic
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import conj, convert, disj, exists, forall, implies, neg
 from qe.formula.syntax import And, Atom, Constant, Formula, Not, Or, Relation
@@ -25,7 +24,8 @@ from qe.formula.traverse import ring_of
 from qe.io import surface as s
 from qe.io.cases import Cases, choose, combine, compare, plain
 from qe.io.names import check_name, names_in
-from qe.io.terms import TermError, decimal
+from qe.io.sympy_numbers import decimal_of
+from qe.io.terms import TermError
 
 if TYPE_CHECKING:
     import sympy
@@ -292,11 +292,9 @@ class _Reader:
         raise InputError(f"only polynomials with rational coefficients are allowed, {_shown(e)} found")
 
     def exact_float(self, e: Any) -> Fraction:
-        """The decimal number that SymPy prints: all digits it holds to be known, in base ten."""
         if not e.is_finite:
             raise InputError(f"a finite number expected, {e} found")
-        text = str(e)
-        return -decimal(text[1:]) if text.startswith("-") else decimal(text)
+        return decimal_of(e)
 
     def power(self, e: Any) -> Cases:
         if not e.exp.is_Integer or e.exp < 0:
@@ -339,22 +337,6 @@ def to_sympy(formula: Formula, *, symbols: Mapping[str, Any] | None = None) -> A
     table = {name: sympy.Symbol(name) for name in names_in(formula)}
     table.update(symbols or {})
     return _boolean(formula, table, sympy)
-
-
-def number_to_sympy(number: RealAlgebraic) -> Any:
-    """The SymPy number that equals ``number``: a ``Rational``, ``(p + q*sqrt(d))/r``, or a ``CRootOf``."""
-    import sympy
-
-    if number.is_rational:
-        value = number.as_fraction()
-        return sympy.Rational(value.numerator, value.denominator)
-    coefficients = [sympy.Integer(c) for c in reversed(number.minimal_polynomial)]
-    if number.degree == 2:
-        a, b, c = coefficients
-        root = sympy.sqrt(b**2 - 4 * a * c) / (2 * a)
-        return -b / (2 * a) + (root if number.index else -root)
-    # SymPy, too, numbers the real roots of an irreducible polynomial from the smallest, before the complex ones
-    return sympy.CRootOf(sympy.Poly(coefficients, sympy.Symbol("x")), number.index, radicals=False)
 
 
 def _boolean(formula: Formula, symbols: Mapping[str, Any], sp: Any) -> Any:

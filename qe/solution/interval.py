@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
+from numbers import Rational
 
 from qe.arguments import rational
 from qe.evidence.certificate import Certificate
@@ -14,7 +15,10 @@ from qe.exact.nearby import rational_between
 
 Number = Fraction | RealAlgebraic
 Coordinate = int | Fraction | str | float | RealAlgebraic | FieldElement
-"""What a number may be given as; text such as ``-3/4`` or ``1.5e-3``, a float as the decimal number that it prints."""
+"""What a number may be given as: text such as ``-3/4`` or ``1.5e-3``, a float as the decimal number that it prints.
+
+``Decimal`` and SymPy's real algebraic numbers are taken, too.
+"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,4 +55,12 @@ def number_of(value: Coordinate, what: str, expected: str = "an exact number") -
     """The exact number that is given as the argument ``what``; ``InputError`` otherwise."""
     if isinstance(value, FieldElement):
         return value.as_fraction() if value.is_rational else value.to_algebraic()
-    return value if isinstance(value, RealAlgebraic) else rational(value, what, expected)
+    if isinstance(value, RealAlgebraic):
+        return value
+    if getattr(value, "is_number", None) is True:  # so it is an expression of SymPy
+        from qe.io.sympy_numbers import number_from_sympy
+
+        found = None if isinstance(value, Rational) else number_from_sympy(value)
+        if found is not None:
+            return found
+    return rational(value, what, expected)

@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 from qe.exact.algebraic import RealAlgebraic, real_roots
 from qe.exact.field import NumberField
+from qe.solution.interval import number_of
 
 SMALL = st.integers(-9, 9)
 COEFFICIENTS = st.one_of(SMALL, st.integers(-(10**25), 10**25))
@@ -32,6 +33,7 @@ def test_value_polynomial_and_order(number: RealAlgebraic) -> None:
     value = Fraction(str(there.evalf(40, maxn=400)))
     assert low - width <= value <= high + width
     assert not there.atoms(sp.Float) and there.is_number
+    assert number_of(there, "number") == number
     if number.degree <= 2:
         (found,) = [sp.Poly(sp.minimal_polynomial(there, sp.Symbol("t")))]
         assert [abs(int(c)) for c in reversed(found.all_coeffs())] == [abs(c) for c in number.minimal_polynomial]
@@ -44,6 +46,7 @@ def test_arithmetic_with_sympy_is_arithmetic_here(left: RealAlgebraic, right: Re
     for mixed, here in ((left + there, left + right), (there - left, right - left), (left * there, left * right)):
         assert isinstance(mixed, sp.Expr) and not mixed.atoms(sp.Float)
         error = abs((mixed - sp.sympify(here)).evalf(30, maxn=400))
+        assert number_of(sp.sympify(mixed), "number") == here
         assert error <= sp.Rational(1, 10**15) * (1 + abs(sp.sympify(here).evalf(30, maxn=400)))
 
 

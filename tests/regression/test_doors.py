@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+from decimal import Decimal
 
 import pytest
 import sympy as sp
@@ -114,6 +115,17 @@ def test_numbers_go_to_sympy_exactly() -> None:
     field = NumberField(root2)
     assert sp.sympify(field.generator() + 1) == 1 + sp.sqrt(2)
     assert root2 == field.generator() and root2 + field.generator() == 2 * root2
+
+
+def test_numbers_of_sympy_are_coordinates() -> None:
+    disc = qe.region("x^2 <= 2")
+    inside, outside = sp.sqrt(2), sp.sqrt(2) + sp.Rational(1, 10**40)
+    assert disc.contains({x: inside}) and not disc.contains({x: outside})
+    assert disc.contains({x: root2 + sp.sqrt(3) - sp.sqrt(3)}) and disc.contains({x: sp.CRootOf(x**3 - 2, 0)})
+    assert disc.contains({x: Decimal("1.4")}) and not disc.contains({x: sp.Float("1.5")})
+    for wrong in (sp.pi, sp.oo, sp.I, x, sp.sqrt(2) * 1.0, Decimal("1e999999999"), sp.nan):
+        with pytest.raises(qe.InputError, match="exact number"):
+            disc.contains({x: wrong})
 
 
 def test_formulas_and_answers_go_to_sympy() -> None:
