@@ -10,7 +10,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from qe import arguments, pipeline
-from qe.api_input import AnyFormula, read_constraints, read_formula, read_polynomial, together
+from qe.api_input import AnyFormula, read_block, read_constraints, read_formula, read_polynomial, together
 from qe.errors import InputError, InternalError, Unable
 from qe.evidence.answer import Answer, Guarantee, Status
 from qe.evidence.certificate import Certificate, Kind
@@ -167,7 +167,7 @@ def parametric_witnesses(
     from qe.solution.parametric import parametric_witnesses as find
 
     limits = Budget(arguments.seconds(timeout), listener=arguments.listener(progress))
-    given = without_root_atoms(read_formula(formula, format))
+    given = without_root_atoms(read_block(formula, format))
     if isinstance(given, Exists | ForAll) and not is_quantifier_free(given.body):
         given = replace(given, body=pipeline.solve(given.body, Options(), limits).formula)  # it may well be a constant
     return find(given, budget=limits)

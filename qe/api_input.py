@@ -11,7 +11,7 @@ from qe.errors import InputError
 from qe.evidence.answer import Answer
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import conj, convert
-from qe.formula.syntax import Formula
+from qe.formula.syntax import Constant, Exists, ForAll, Formula
 from qe.formula.traverse import ring_of
 
 AnyFormula = Any
@@ -34,6 +34,31 @@ def read_formula(given: AnyFormula, format: str = "text") -> Formula:
     from qe.io.sympy import from_sympy
 
     return from_sympy(given)
+
+
+def read_block(given: AnyFormula, format: str = "text") -> Formula:
+    """The formula, its outermost quantifier kept where reading would drop it because its body is true or false.
+
+    Text and ``qe.Exists``/``qe.ForAll`` still tell which it is; other formulas come without it.
+    """
+    from qe.io import formats
+
+    formula = read_formula(given, format)
+    if not isinstance(formula, Constant):
+        return formula
+    block = None
+    if isinstance(given, str) and formats.checked(format) is formats.Format.TEXT:
+        from qe.io.text import outermost
+
+        block = outermost(given)
+    elif not isinstance(given, str | Formula | Answer):
+        from qe.io import sympy
+
+        block = sympy.outermost(given)
+    if block is None:
+        return formula
+    universal, names = block
+    return (ForAll if universal else Exists)(names, formula)
 
 
 def together(*parts: Formula) -> tuple[Formula, ...]:
@@ -72,4 +97,4 @@ def read_polynomial(given: AnyFormula, what: str, *, known: Container[str] = ())
         raise InputError(f"{what}: a polynomial expected: {error}") from None
 
 
-__all__ = ["AnyFormula", "read_constraints", "read_formula", "read_polynomial", "together"]
+__all__ = ["AnyFormula", "read_block", "read_constraints", "read_formula", "read_polynomial", "together"]

@@ -128,6 +128,11 @@ class ForAll(_Quantified):
         return forall(self.names, self.body)
 
 
+def outermost(given: object) -> tuple[bool, tuple[str, ...]] | None:
+    """Whether a wrapped formula begins with a universal quantifier, and its names; None where it begins with none."""
+    return (isinstance(given, ForAll), given.names) if isinstance(given, _Quantified) else None
+
+
 def _together(*parts: object) -> tuple[Formula, ...]:
     """Formulas of the parts, over one ring."""
     formulas = tuple(from_sympy(part) for part in parts)

@@ -18,7 +18,7 @@ from qe.formula.syntax import Formula, RootAtom
 from qe.formula.traverse import free_variables
 from qe.io.grammar import Failing, parse
 from qe.io.infix import Notation, formula_text, polynomial, positive
-from qe.io.surface import Meet, Term, lower, lower_term
+from qe.io.surface import Meet, Quantification, Term, lower, lower_term
 from qe.io.text_parser import text_parser
 from qe.spelling import CONSTANTS as CONSTANTS
 from qe.spelling import between_quotes, quoted_if_needed
@@ -41,6 +41,12 @@ def read_polynomial(text: str, *, source: str = "<text>", known: Container[str] 
     term = parse(text_parser("sum"), text, fail)
     value = lower_term(cast(Term, term), fail, meet=_no_constants(fail, known))
     return value.poly, Fraction(1, value.den)
+
+
+def outermost(text: str) -> tuple[bool, tuple[str, ...]] | None:
+    """Whether the outermost quantifier of a text that can be read is universal, and its names; None without one."""
+    node = parse(text_parser(), text, Failing(text, "<text>"))
+    return (node.universal, tuple(node.names)) if isinstance(node, Quantification) else None
 
 
 def _no_constants(fail: Failing, known: Container[str]) -> Meet:

@@ -177,6 +177,22 @@ def test_parametric_witnesses_of_a_body_that_is_a_constant() -> None:
     assert str(refuting.guard) == "true"
 
 
+@pytest.mark.parametrize(
+    ("block", "found"),
+    [
+        ("ex x. x = x", [{"x": 0}]),
+        ("ex x, y. x^2 >= x^2 - 1", [{"x": 0, "y": 0}]),
+        ("ex x. x < x", []),
+        ("all x. x = x", []),
+        ("all x. x < x", [{"x": 0}]),
+        (qe.Exists(x, sp.Eq(x, x)), [{"x": 0}]),
+        (qe.ForAll([x, y], sp.false), [{"x": 0, "y": 0}]),
+    ],
+)
+def test_parametric_witnesses_of_a_block_that_reading_folds(block: object, found: list[dict[str, int]]) -> None:
+    assert [w.at({}) for w in qe.parametric_witnesses(block)] == found
+
+
 def test_a_witness_in_a_root_atom() -> None:
     assert qe.check_witness("ex y. y > root(1, y^2-2)", {"y": "3"}) is True
     assert qe.check_witness("ex y. y > root(1, y^2-2)", {"y": "-3"}) is False
