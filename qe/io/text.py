@@ -15,7 +15,7 @@ from typing import cast
 
 from qe.exact.ring import Poly
 from qe.formula.syntax import Formula, RootAtom
-from qe.formula.traverse import free_variables
+from qe.formula.traverse import free_variables, ring_of
 from qe.io.grammar import Failing, parse
 from qe.io.infix import Notation, formula_text, polynomial, positive
 from qe.io.surface import Meet, Quantification, Term, lower, lower_term
@@ -60,7 +60,9 @@ def _no_constants(fail: Failing, known: Container[str]) -> Meet:
 
 def write(formula: Formula) -> str:
     """One line of text that ``read`` turns back into the same formula."""
-    free = CONSTANTS.intersection(free_variables(formula))
+    ring = ring_of(formula)
+    doubtful = CONSTANTS.intersection(ring.names if ring is not None else ())
+    free = doubtful.intersection(free_variables(formula)) if doubtful else doubtful
 
     def spelled(name: str) -> str:
         return between_quotes(name) if name in free else quoted_if_needed(name)
