@@ -18,7 +18,7 @@ from qe.formula.build import conj, implies, neg
 from qe.formula.evaluate import holds_at
 from qe.formula.syntax import Constant, Formula
 from qe.formula.traverse import free_variables, is_quantifier_free
-from qe.io.text import read
+from qe.io.text import CONSTANTS, read
 
 POINTS = 400
 
@@ -35,7 +35,7 @@ def compare(answer: str, expected: str, assume: str | None = None, *, seconds: f
     """Whether the answer is equivalent to the expected one, under the assumption if there is one."""
     # One text, so that both formulas come out over one polynomial ring.
     pieces = [f"({text})" for text in (answer, expected, assume or "true")]
-    left, right, given = (read(piece) for piece in pieces)
+    left, right, given = (read(piece, known=CONSTANTS) for piece in pieces)
     left, right = _in_one_ring(left, right, given)
     if isinstance(left, Constant) and isinstance(right, Constant):
         return Verdict.EQUIVALENT if left == right else Verdict.DIFFERENT

@@ -5,21 +5,21 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Callable, Iterable, Mapping
-from enum import Enum
+from dataclasses import replace
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any
 
-from qe import pipeline
+from qe import arguments, pipeline
+from qe.api_input import AnyFormula, read_block, read_constraints, read_formula, read_polynomial, together
 from qe.errors import InputError, InternalError, Unable
 from qe.evidence.answer import Answer, Guarantee, Status
 from qe.evidence.certificate import Certificate, Kind
 from qe.evidence.elimination import Assignment
-from qe.exact.ring import Poly
-from qe.formula.build import conj, convert, exists, forall, iff
+from qe.formula.build import convert, exists, forall, iff
 from qe.formula.counting import without_root_atoms
 from qe.formula.features import features
-from qe.formula.syntax import Constant, Exists, ForAll, Formula
-from qe.formula.traverse import free_variables, is_quantifier_free, polynomials, ring_of
+from qe.formula.syntax import Exists, ForAll, Formula
+from qe.formula.traverse import free_variables, is_quantifier_free, ring_of
 from qe.options import Budget, Method, Options, Stage
 from qe.progress import Event, silent
 
@@ -29,55 +29,28 @@ if TYPE_CHECKING:  # the checker and the optimiser are loaded where they are use
     from qe.solution.parametric import ParametricWitness
     from qe.solution.region import Region
 
-Choice = TypeVar("Choice", bound=Enum)
 TABLE_VARIABLES = 3
 """In more variables than this, convex regions are not decomposed unless that is asked for."""
 
 Progress = Callable[[Event], None]
-AnyFormula = Any
-"""A ``Formula``, text, or a SymPy object."""
-
-
-def read_formula(given: AnyFormula, format: str = "text") -> Formula:
-    """The formula given in any of the accepted shapes; ``InputError`` otherwise."""
-    if isinstance(given, Formula):
-        return given
-    if isinstance(given, Answer):
-        if given.formula is None:
-            raise InputError("an answer without a formula was given")
-        return given.formula
-    if isinstance(given, str):
-        from qe.io import formats
-
-        return formats.read(given, format)
-    from qe.io.sympy import from_sympy
-
-    return from_sympy(given)
+Order = Any
+"""``"y, x"``, ``"y x"``, or a list of names or SymPy symbols."""
 
 
 def _options(
     method: str | Method,
-    order: Iterable[str] | None,
+    order: Order,
     root_atoms: bool,
-    without: Iterable[str | Stage],
+    without: Iterable[str | Stage] | str | Stage,
     progress: Progress,
 ) -> Options:
     return Options(
-        method=_member("method", Method, method),
-        order=None if order is None else tuple(order),
-        root_atoms=root_atoms,
-        without=frozenset(_member("without", Stage, stage) for stage in without),
-        progress=progress,
+        method=arguments.member(method, Method, "method"),
+        order=arguments.names(order),
+        root_atoms=arguments.flag(root_atoms, "root_atoms"),
+        without=arguments.members(without, Stage, "without"),
+        progress=arguments.listener(progress),
     )
-
-
-def _member(keyword: str, choices: type[Choice], given: object) -> Choice:
-    """The member that is given, by itself or by its value."""
-    try:
-        return choices(given)
-    except ValueError:
-        names = ", ".join(str(m.value) for m in choices)
-        raise InputError(f"{keyword}: one of {names} expected, {given!r} found") from None
 
 
 def eliminate(
@@ -87,10 +60,10 @@ def eliminate(
     timeout: float | None = None,
     memory: int | None = None,
     method: str | Method = Method.AUTO,
-    order: Iterable[str] | None = None,
+    order: Order = None,
     progress: Progress = silent,
     root_atoms: bool = False,
-    without: Iterable[str | Stage] = (),
+    without: Iterable[str | Stage] | str | Stage = (),
     explain: bool = False,
     check: bool = False,
 ) -> Answer:
@@ -105,8 +78,10 @@ def eliminate(
     stderr how the answer was found (``Answer.explanation`` holds the same text); ``without`` leaves stages of the
     engine out (``qe.Stage``), to measure what they gain. Raises ``InputError`` for input that cannot be read.
     """
-    given = read_formula(formula, format)
+    timeout, memory = arguments.seconds(timeout), arguments.mebibytes(memory)
+    explain, check = arguments.flag(explain, "explain"), arguments.flag(check, "check")
     options = _options(method, order, root_atoms, without, progress).with_(certify=check)
+    given = read_formula(formula, format)
     _check_order(options.order, given)
     answer = _limited(given, options, timeout, memory, check)
     if explain:
@@ -191,12 +166,11 @@ def parametric_witnesses(
     """
     from qe.solution.parametric import parametric_witnesses as find
 
-    given = read_formula(formula, format)
+    limits = Budget(arguments.seconds(timeout), listener=arguments.listener(progress))
+    given = without_root_atoms(read_block(formula, format))
     if isinstance(given, Exists | ForAll) and not is_quantifier_free(given.body):
-        rebuilt = exists if isinstance(given, Exists) else forall
-        inner = pipeline.solve(given.body, Options(), Budget(timeout, listener=progress)).formula
-        given = rebuilt(given.variables, inner)
-    return find(given, budget=Budget(timeout, listener=progress))
+        given = replace(given, body=pipeline.solve(given.body, Options(), limits).formula)  # it may well be a constant
+    return find(given, budget=limits)
 
 
 def check_witness(sentence: AnyFormula, witness: Mapping[str, AnyFormula], **keywords: Any) -> bool:
@@ -209,8 +183,9 @@ def check_witness(sentence: AnyFormula, witness: Mapping[str, AnyFormula], **key
     from qe.exact.ring import Ring
     from qe.solution.polynomial_witness import Term, instantiate
 
-    given = read_formula(sentence, keywords.pop("format", "text"))
-    read = {name: _polynomial(term, f"witness: {name}") for name, term in witness.items()}
+    given = without_root_atoms(read_formula(sentence, keywords.pop("format", "text")))
+    offered, known = arguments.by_name(witness, "witness"), features(given).bound
+    read = {name: read_polynomial(term, f"witness: {name}", known=known) for name, term in offered.items()}
     rings = [r for r in (ring_of(given), *(poly.ring for poly, _ in read.values())) if r is not None]
     ring = Ring.of(dict.fromkeys(name for r in rings for name in r.names))
     terms = {name: Term.of(poly.convert(ring), scale) for name, (poly, scale) in read.items()}
@@ -219,19 +194,15 @@ def check_witness(sentence: AnyFormula, witness: Mapping[str, AnyFormula], **key
 
 def equivalent(left: AnyFormula, right: AnyFormula, **keywords: Any) -> bool:
     """Whether two formulas have the same solutions in all their free variables together."""
-    from qe.exact.ring import Ring
-
-    f, g = read_formula(left), read_formula(right)
-    rings = [r for r in (ring_of(f), ring_of(g)) if r is not None]
-    ring = Ring.of(dict.fromkeys(name for r in rings for name in r.names))
-    f, g = convert(f, ring), convert(g, ring)
+    format = keywords.pop("format", "text")
+    f, g = together(read_formula(left, format), read_formula(right, format))
     free = dict.fromkeys((*free_variables(f), *free_variables(g)))
     return decide(forall(free, iff(f, g)), **keywords)
 
 
 def region(
     formula: AnyFormula,
-    order: Iterable[str] | None = None,
+    order: Order = None,
     *,
     format: str = "text",
     timeout: float | None = None,
@@ -246,8 +217,8 @@ def region(
     and bounds are found by exact optimisation, and the description only when it is asked for; ``timeout`` (seconds)
     then holds for every question.
     """
+    names, timeout, progress = arguments.names(order), arguments.seconds(timeout), arguments.listener(progress)
     given = without_root_atoms(read_formula(formula, format))
-    names = None if order is None else tuple(order)
     quantified = not is_quantifier_free(given)
 
     def limits() -> Budget:
@@ -285,8 +256,9 @@ def minimize(
     """
     from qe.solution.optimum import minimize as solve
 
-    poly, scale = _polynomial(objective, "objective")
-    return solve(poly, _constraints(constraints), scale=scale, budget=Budget(timeout, listener=progress))
+    limits = Budget(arguments.seconds(timeout), listener=arguments.listener(progress))
+    poly, scale = read_polynomial(objective, "objective")
+    return solve(poly, read_constraints(constraints), scale=scale, budget=limits)
 
 
 def maximize(
@@ -299,40 +271,9 @@ def maximize(
     """The exact maximum; see ``minimize``."""
     from qe.solution.optimum import maximize as solve
 
-    poly, scale = _polynomial(objective, "objective")
-    return solve(poly, _constraints(constraints), scale=scale, budget=Budget(timeout, listener=progress))
-
-
-def _constraints(given: AnyFormula) -> Formula:
-    if isinstance(given, list | tuple):
-        from qe.exact.ring import Ring
-
-        parts = [read_formula(g) for g in given]
-        names = dict.fromkeys(n for p in parts if (r := ring_of(p)) is not None for n in r.names)
-        ring = Ring.of(names)
-        return conj(convert(p, ring) for p in parts)
-    return read_formula(given)
-
-
-def _polynomial(given: AnyFormula, what: str) -> tuple[Poly, Fraction]:
-    """The given term as a polynomial p and a rational s: it is s*p. A slack name makes the sign readable."""
-    if isinstance(given, Poly):
-        return given, Fraction(1)
-    slack = "polynomial_value"
-    if isinstance(given, str):
-        relation = read_formula(f"{slack} = {given}")
-    else:
-        import sympy
-
-        relation = read_formula(sympy.Eq(sympy.Symbol(slack), given, evaluate=False))
-    if isinstance(relation, Constant) or len(polynomials(relation)) != 1:
-        raise InputError(f"{what}: a polynomial expected")
-    (equation,) = polynomials(relation)
-    i = equation.ring.index[slack]
-    rest, coefficient = equation.coefficients(i)
-    if not coefficient.is_constant or len(equation.coefficients(i)) != 2:
-        raise InputError(f"{what}: a polynomial expected")
-    return rest, Fraction(-1, coefficient.constant_value())
+    limits = Budget(arguments.seconds(timeout), listener=arguments.listener(progress))
+    poly, scale = read_polynomial(objective, "objective")
+    return solve(poly, read_constraints(constraints), scale=scale, budget=limits)
 
 
 def verify(certificate: Certificate) -> Verdict:

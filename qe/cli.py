@@ -14,6 +14,7 @@ from typing import Annotated
 
 import typer
 
+from qe import arguments
 from qe.cli_shell import check_writable, enter, limited, remaining, write_file
 from qe.cli_source import InputFormat, OutputFormat, read_source
 from qe.cli_work import Reply, Request
@@ -182,18 +183,16 @@ def names(order: str | None) -> tuple[str, ...] | None:
     """The variables of ``--order``."""
     if order is None:
         return None
-    parts = tuple(part for part in order.replace(",", " ").split())
-    if not parts or len(set(parts)) < len(parts):
+    parts = arguments.names(order, "--order") or ()
+    if len(set(parts)) < len(parts):
         raise InputError(f"--order: distinct variables separated by commas expected, {order!r} found")
     return parts
 
 
 def check_limits(timeout: float | None, memory: int | None) -> None:
     """Raise ``InputError`` for limits that make no sense."""
-    if timeout is not None and not 0 < timeout < 1e9:
-        raise InputError(f"--timeout: a positive number of seconds expected, {timeout} found")
-    if memory is not None and not 0 < memory < 1 << 40:
-        raise InputError(f"--memory: a positive number of MiB expected, {memory} found")
+    arguments.seconds(timeout, "--timeout")
+    arguments.mebibytes(memory, "--memory")
 
 
 def soft(timeout: float | None) -> float | None:

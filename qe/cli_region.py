@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from qe.cli_work import Reply, Request, certificate_text, read_formula
 from qe.errors import InputError, Unable
+from qe.spelling import quoted
 from qe.worker import Channel
 
 if TYPE_CHECKING:
@@ -48,14 +49,14 @@ def _drawn(found: Region, ending: str) -> bytes:
 
 
 def _in_words(found: Region, seconds: float) -> list[str]:
-    names = ", ".join(found.order)
+    names = ", ".join(map(quoted, found.order))
     if found.is_empty:
         return [f"empty: no real {names} satisfy the formula ({seconds:.3f} s)"]
     count = len(found.cells)
     lines = [f"{count} cell{'s' if count > 1 else ''} in {names}, dimension {found.dimension} ({seconds:.3f} s)"]
     for name in found.order:
         low, high = found.bounds(name)
-        lines.append(f"{name} from {shown(low, '-infinity')} to {shown(high, 'infinity')}")
+        lines.append(f"{quoted(name)} from {shown(low, '-infinity')} to {shown(high, 'infinity')}")
     lines += [f"cell {k}: {cell}" for k, cell in enumerate(found.cells, 1)]
     return lines
 
@@ -85,7 +86,7 @@ def optimize(channel: Channel, request: Request, objective: str, maximize: bool)
         }
         return Reply(json.dumps(data, indent=2, ensure_ascii=False), files=files)
     lines = [f"value {shown(best.value)}"]
-    lines += [f"{name} = {shown(value)}" for name, value in best.point.items()]
+    lines += [f"{quoted(name)} = {shown(value)}" for name, value in best.point.items()]
     lines.append(f"active: {', '.join(best.constraints[i] for i in best.active) or 'nothing'}")
     if best.attained is False:
         lines.append("not attained: the value is a limit")

@@ -5,15 +5,15 @@ Exit status: 0 answered, 2 bad input, 3 unable within the limits, 4 certificate 
 
 from __future__ import annotations
 
+import io
 import os
 import sys
 import tempfile
 import time
 from collections.abc import Callable, Sequence
-from contextlib import suppress
 from pathlib import Path
 from types import TracebackType
-from typing import Any, TypeVar
+from typing import Any, TextIO, TypeVar
 
 import typer
 from typer.main import get_command
@@ -33,6 +33,7 @@ DISPLAY_AFTER = 0.4
 def enter(app: typer.Typer, argv: Sequence[str] | None, *, name: str) -> int:
     """Run a command line; the exit status. Errors become exactly one line on stderr."""
     sys.excepthook = _one_line_hook(name)
+    _open_streams()
     command: Any = get_command(app)
     try:
         code = command.main(args=None if argv is None else list(argv), prog_name=name, standalone_mode=False)
@@ -53,16 +54,54 @@ def enter(app: typer.Typer, argv: Sequence[str] | None, *, name: str) -> int:
         return fail(name, f"internal error, please report: {error}", BUG)
     except (KeyboardInterrupt, typer.Abort):
         return fail(name, "interrupted", INTERRUPTED)
-    except BrokenPipeError:  # the reader of our output left early, as head does
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    except OSError as error:
+        if error.filename is not None:
+            raise
+        return _unheard(name, error)
+    except SystemExit as stop:  # what the command line library makes of a broken pipe
+        if not isinstance(stop.__context__, OSError):
+            raise
+        return _unheard(name, stop.__context__)
+
+
+def _open_streams() -> None:
+    """Make the standard streams usable even where the caller closed them.
+
+    What is not open reads as empty and takes no output, and no file or pipe opened later can get its number. Letters
+    that the terminal's encoding lacks are written by their numbers.
+    """
+    for number in range(3):
+        try:
+            os.fstat(number)
+        except OSError:
+            os.open(os.devnull, os.O_RDONLY)  # the lowest free number: this one
+    sys.stdin = sys.stdin or open(0)  # noqa: SIM115
+    sys.stdout = sys.stdout or open(1, "w")  # noqa: SIM115
+    sys.stderr = sys.stderr or open(2, "w")  # noqa: SIM115
+    if isinstance(sys.stdout, io.TextIOWrapper):
+        sys.stdout.reconfigure(errors="backslashreplace")
+
+
+def _unheard(name: str, error: OSError) -> int:
+    """Output cannot be written. A reader that left early, as head does, has what it wanted; else the answer is lost."""
+    _silence(sys.stdout)
+    if isinstance(error, BrokenPipeError):
         return OK
+    return fail(name, f"unable: the output cannot be written: {error.strerror or error}", UNABLE)
 
 
 def fail(name: str, message: str, code: int) -> int:
     """Print one line on stderr; the exit status ``code``."""
-    with suppress(BrokenPipeError):
+    try:
         print(f"{name}: {' '.join(message.split())}", file=sys.stderr, flush=True)
+    except OSError:
+        _silence(sys.stderr)
     return code
+
+
+def _silence(stream: TextIO) -> None:
+    """Let what a stream still holds go nowhere, so that the interpreter does not complain about it at its end."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
 
 
 def _one_line_hook(name: str) -> Callable[[type[BaseException], BaseException, TracebackType | None], None]:

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 from qe.cli_source import InputFormat, OutputFormat, Source
 from qe.errors import InputError, Unable
+from qe.spelling import quoted
 from qe.worker import Channel
 
 if TYPE_CHECKING:
@@ -161,7 +162,7 @@ def _story(answer: Answer, seconds: float) -> tuple[str, ...]:
     lines = []
     if answer.witness:
         kind = "counterexample" if answer.truth is False else "witness"
-        lines.append(f"{kind}: " + ", ".join(f"{name} = {value}" for name, value in answer.witness.items()))
+        lines.append(f"{kind}: " + ", ".join(f"{quoted(name)} = {value}" for name, value in answer.witness.items()))
     lines.append(f"{answer.guarantee.value} in {seconds:.3f} s")
     return (*lines, *answer.explanation.splitlines())
 

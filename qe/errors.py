@@ -25,6 +25,10 @@ class ParseError(InputError):
         super().__init__(f"{source}:{line}:{column}: {message}{tail}")
 
 
+class NoTruthValue(InputError, TypeError):
+    """Python asked whether something is true that is not a statement, or not one decided yet."""
+
+
 class Unable(QEError):
     """No answer could be given; never raised to hide a wrong one. Carries what is known so far."""
 

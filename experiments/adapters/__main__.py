@@ -20,7 +20,7 @@ from experiments.adapters.ours import ours
 from experiments.solvers import OURS
 from qe.errors import Unable
 from qe.formula.syntax import Formula
-from qe.io.text import read
+from qe.io.text import CONSTANTS, read
 
 WARM_UP = "ex x. x^2 = 2 and x > 1"
 
@@ -39,7 +39,7 @@ def main(name: str) -> None:
     task = json.load(sys.stdin)
     solve = ours(name) if name.startswith(OURS) else PEERS[name]
     limits = Limits(task["limit"], task["memory"])
-    formula = read(task["formula"])
+    formula = read(task["formula"], known=CONSTANTS)
     start, begun = time.perf_counter(), processor_time()
     try:
         solve(read(WARM_UP), limits)

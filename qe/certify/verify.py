@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from qe.arguments import shown
 from qe.certify.cells import check_cells
 from qe.certify.clearance import check_clearance
 from qe.certify.containment import check_containment
@@ -11,7 +12,7 @@ from qe.certify.verdict import Verdict
 from qe.certify.witness import check_witness
 from qe.errors import CertificateRejected, InputError
 from qe.evidence.cells_json import CellEvidence
-from qe.evidence.certificate import Certificate, Kind
+from qe.evidence.certificate import Certificate, Kind, Labelled
 
 _CHECKERS = {
     Kind.OPTIMUM: check_optimum,
@@ -25,8 +26,12 @@ _CHECKERS = {
 def verify(certificate: Certificate) -> Verdict:
     """Whether the certificate proves what it says, checked from scratch by code that produces no answers.
 
-    Every entry is checked for its meaning; the digest of a certificate read from text comes last.
+    Every entry is checked for its meaning; the digest of a certificate read from text comes last. Raises
+    ``InputError`` for anything but a ``Certificate``.
     """
+    if not isinstance(certificate, Certificate):
+        hint = "a certificate in JSON is read by Certificate.from_json" if isinstance(certificate, str) else ""
+        raise InputError(f"certificate: a Certificate expected, {shown(certificate)} found" + (hint and f"; {hint}"))
     try:
         _check(certificate)
         if certificate.digests is not None and certificate.digests[0] != certificate.digests[1]:
@@ -49,12 +54,16 @@ def verify_json(text: str) -> Verdict:
 
 def _check(certificate: Certificate) -> None:
     payload = certificate.payload
+    if not isinstance(certificate.kind, Kind):
+        raise CertificateRejected("kind", "unknown kind of certificate")
     if isinstance(payload, CellEvidence) and certificate.kind is Kind.CELLS:
         check_cells(payload)
     elif isinstance(payload, dict) and certificate.kind in _CHECKERS:
         _CHECKERS[certificate.kind](payload)
     elif isinstance(payload, tuple) and certificate.kind is Kind.BUNDLE:
         for position, member in enumerate(payload):
+            if not isinstance(member, Labelled) or not isinstance(member.certificate, Certificate):
+                raise CertificateRejected(f"certificates[{position}]", "a certificate with a label expected")
             try:
                 _check(member.certificate)
             except CertificateRejected as error:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from enum import Enum
 from typing import Any
 
-from qe.errors import Unable
+from qe.errors import NoTruthValue, Unable
 from qe.evidence.certificate import Certificate
 from qe.evidence.elimination import Assignment
 from qe.evidence.story import told
@@ -86,6 +86,14 @@ class Answer:
         if self.formula is None:
             raise Unable(f"there is no formula to convert: {self.reason}")
         return to_sympy(self.formula)
+
+    def _sympy_(self) -> Any:
+        """What SymPy takes an answer for: the Boolean of its formula."""
+        return self.to_sympy()
+
+    def __bool__(self) -> bool:
+        """Raises ``NoTruthValue``: a false sentence has an answer, too."""
+        raise NoTruthValue("an answer has no truth value of its own; ask for answer.truth, or call qe.decide")
 
     def __str__(self) -> str:
         return str(self.formula) if self.formula is not None else f"unable: {self.reason}"

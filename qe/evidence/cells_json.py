@@ -11,8 +11,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from qe.evidence.cells import Cell, CellTable, Stack
-from qe.evidence.entry import Entry, Json, formula_from_json, formula_to_json
-from qe.exact.ring import Ring, format_poly
+from qe.evidence.entry import Entry, Json, formula_from_json, formula_to_json, poly_to_text
+from qe.exact.ring import Ring
 from qe.formula.syntax import Formula
 from qe.options import Projection
 
@@ -34,7 +34,7 @@ def cells_to_json(evidence: CellEvidence) -> Json:
         "matrix": formula_to_json(table.matrix),
         "answer": None if evidence.answer is None else formula_to_json(evidence.answer),
         "projection": table.projection.value,
-        "factors": [[format_poly(f) for f in level] for level in table.factors],
+        "factors": [[poly_to_text(f) for f in level] for level in table.factors],
         "constraints": [list(level) for level in table.constraints],
         "root": _cell_to_json(table.root),
     }

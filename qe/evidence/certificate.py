@@ -13,12 +13,13 @@ from dataclasses import dataclass, field
 from enum import Enum
 from fractions import Fraction
 
+from qe.arguments import whole as whole_number
 from qe.errors import CertificateRejected, InputError
 from qe.evidence.cells import CellTable
 from qe.evidence.cells_json import CellEvidence, cells_from_json, cells_to_json
-from qe.evidence.entry import Entry, Json, formula_to_json
+from qe.evidence.entry import Entry, Json, formula_to_json, poly_to_text
 from qe.exact.algebraic import RealAlgebraic
-from qe.exact.ring import Poly, Ring, format_poly
+from qe.exact.ring import Poly, Ring
 from qe.formula.syntax import Formula
 
 FORMAT, VERSION = "bezier-qe certificate", 1
@@ -110,7 +111,7 @@ class Certificate:
             "order": list(order),
             "variables": [name for name, _ in solved],
             "matrix": formula_to_json(matrix),
-            "solved": [[name, format_poly(equation)] for name, equation in solved],
+            "solved": [[name, poly_to_text(equation)] for name, equation in solved],
             "answer": formula_to_json(answer),
         }
         return Certificate(Kind.SUBSTITUTION, payload)
@@ -126,6 +127,8 @@ class Certificate:
 
     def to_json(self, *, indent: int | None = None) -> str:
         """The certificate as text, with version and digest; equal certificates give equal text."""
+        if indent is not None:
+            whole_number(indent, "indent", 80)
         whole: dict[str, Json] = {"format": FORMAT, "version": VERSION, **self.to_data()}
         whole["digest"] = digest(whole)
         separators = (",", ":") if indent is None else None
@@ -137,6 +140,8 @@ class Certificate:
         ``CertificateRejected``, naming the entry, if something in it is malformed. A wrong digest is kept for the
         checker, which reports it when it finds nothing worse.
         """
+        if not isinstance(text, str):
+            raise InputError(f"certificate: text in JSON expected, {type(text).__name__} found")
         try:
             whole = json.loads(text, parse_float=_no_floats, parse_constant=_no_floats, object_pairs_hook=_no_repeats)
         except (ValueError, RecursionError) as error:
@@ -168,7 +173,7 @@ def _value_to_json(value: Root | Fraction, name: str) -> Json:
         return str(value)
     ring = Ring.of((name,))
     poly = ring.from_terms({(k,): c for k, c in enumerate(value.coefficients) if c})
-    return {"polynomial": format_poly(poly.normal()[1]), "interval": [str(value.low), str(value.high)]}
+    return {"polynomial": poly_to_text(poly.normal()[1]), "interval": [str(value.low), str(value.high)]}
 
 
 def _from_data(entry: Entry, labelled: bool = False) -> Certificate:

@@ -13,13 +13,18 @@ from fractions import Fraction
 from qe.errors import CertificateRejected
 from qe.exact.ring import Poly, Ring, format_poly
 from qe.formula.syntax import FALSE, TRUE, And, Atom, Constant, Exists, ForAll, Formula, Not, Or, Relation, RootAtom
+from qe.spelling import QUOTED, between_quotes, unquoted
 
 Json = None | bool | int | str | list["Json"] | dict[str, "Json"]
 
 MAX_EXPONENT = 10_000
 MAX_NESTING = 200
 _RATIONAL = re.compile(r"-?(0|[1-9][0-9]*)(/[1-9][0-9]*)?", re.ASCII)
-_TERM = re.compile(r"([1-9][0-9]*)?\*?((?:[^\W\d]\w*'*)(?:\^[1-9][0-9]*)?(?:\*[^\W\d]\w*'*(?:\^[1-9][0-9]*)?)*)?")
+_PLAIN = re.compile(r"[^\W\d]\w*'*")
+_NAME = rf"(?:{_PLAIN.pattern}|{QUOTED})"
+_POWER = re.compile(rf"({_NAME})(?:\^([1-9][0-9]*))?")
+_TERM = re.compile(rf"(-?)([1-9][0-9]*)?\*?({_POWER.pattern}(?:\*{_POWER.pattern})*)?")
+_SIGN = re.compile(r" ([+-]) ")
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,35 +87,50 @@ class Entry:
         return self.value
 
     def polynomial(self, ring: Ring) -> Poly:
-        """A polynomial in the text form of ``format_poly``, in exactly that form."""
+        """A polynomial in the text form of ``poly_to_text``, in exactly that form."""
         text = self.text()
         try:
             poly = parse_poly(text, ring)
         except (ValueError, KeyError):
             raise self.fail(f"expected a polynomial in {', '.join(ring.names)}") from None
-        if format_poly(poly) != text:
+        if poly_to_text(poly) != text:
             raise self.fail("the polynomial is not in normal form")
         return poly
 
 
+def poly_to_text(poly: Poly) -> str:
+    """The polynomial as certificates hold it: names that are no plain words stand between backquotes."""
+    return format_poly(poly, _spelled)
+
+
+def _spelled(name: str) -> str:
+    return name if _PLAIN.fullmatch(name) else between_quotes(name)
+
+
 def parse_poly(text: str, ring: Ring) -> Poly:
-    """The polynomial that ``format_poly`` prints as ``text``; ``ValueError`` or ``KeyError`` if there is none."""
+    """The polynomial that ``poly_to_text`` prints as ``text``; ``ValueError`` or ``KeyError`` if there is none.
+
+    Some texts that are never printed are read as well; the caller compares.
+    """
     terms: dict[tuple[int, ...], int] = {}
-    pieces = text.replace(" - ", " + -").split(" + ")
-    for piece in pieces if text != "0" else []:
-        body = piece.removeprefix("-")
-        matched = _TERM.fullmatch(body)
-        if not body or matched is None:
-            raise ValueError(piece)
-        number, monomial = matched.groups()
+    at, sign = 0, 1
+    while text != "0":
+        matched = _TERM.match(text, at)
+        if matched is None or matched.end() == at or (at and matched[1]):
+            raise ValueError(text[at : at + 40])
         exponents = [0] * ring.size
-        for power in (monomial or "").split("*") if monomial else ():
-            name, _, exponent = power.partition("^")
+        for name, exponent in _POWER.findall(matched[3] or ""):
             if len(exponent) > 5 or int(exponent or 1) > MAX_EXPONENT:
-                raise ValueError(piece)
-            exponents[ring.index[name]] += int(exponent or 1)
-        value = int(number or 1)
-        terms[tuple(exponents)] = -value if piece.startswith("-") else value
+                raise ValueError(exponent[:40])
+            exponents[ring.index[unquoted(name) if name.startswith("`") else name]] += int(exponent or 1)
+        terms[tuple(exponents)] = (-sign if matched[1] else sign) * int(matched[2] or 1)
+        at = matched.end()
+        if at == len(text):
+            break
+        joint = _SIGN.match(text, at)
+        if joint is None:
+            raise ValueError(text[at : at + 40])
+        at, sign = joint.end(), 1 if joint[1] == "+" else -1
     return ring.from_terms(terms)
 
 
@@ -120,9 +140,9 @@ def formula_to_json(formula: Formula) -> Json:
         case Constant(value):
             return value
         case Atom(poly, relation):
-            return ["atom", format_poly(poly), relation.value]
+            return ["atom", poly_to_text(poly), relation.value]
         case RootAtom(variable, relation, poly, k):
-            return ["root", variable, relation.value, format_poly(poly), k]
+            return ["root", variable, relation.value, poly_to_text(poly), k]
         case And(args):
             return ["and", *(formula_to_json(a) for a in args)]
         case Or(args):

@@ -14,6 +14,8 @@ from typing import Any
 
 from flint import arb, fmpq, fmpz, fmpz_mpoly_ctx, fmpz_poly
 
+from qe import arguments
+from qe.arguments import shown
 from qe.errors import InputError
 from qe.exact.balls import FIRST_PRECISION, ball_sign, hull, lower_end, precision, upper_end
 from qe.exact.isolate import Interval, isolate, sign_at
@@ -37,20 +39,26 @@ class RealAlgebraic:
     @staticmethod
     def rational(value: Rational | fmpq) -> RealAlgebraic:
         """A rational number."""
-        q = value if isinstance(value, fmpq) else fmpq(Fraction(value).numerator, Fraction(value).denominator)
+        if not isinstance(value, fmpq):
+            exact = value if isinstance(value, int | Fraction) else arguments.rational(value, "value")
+            value = fmpq(exact.numerator, exact.denominator)
+        q = value
         return RealAlgebraic(fmpz_poly([-q.p, q.q]), 0, (q, q))
 
     @staticmethod
     def from_root(coefficients: Iterable[int], lo: Rational, hi: Rational) -> RealAlgebraic:
-        """The only root of the polynomial (coefficients from degree 0 up) in the closed interval [lo, hi].
+        """The only root of the polynomial (integer coefficients from degree 0 up) in the closed interval [lo, hi].
 
         Raises ``InputError`` unless there is exactly one (distinct) root there.
         """
-        p = fmpz_poly([int(c) for c in coefficients])
-        low, high = RealAlgebraic.rational(lo), RealAlgebraic.rational(hi)
+        p = fmpz_poly(arguments.integers(coefficients, "coefficients"))
+        if not p:
+            raise InputError("coefficients: a polynomial other than 0 expected")
+        low = RealAlgebraic.rational(arguments.rational(lo, "lo"))
+        high = RealAlgebraic.rational(arguments.rational(hi, "hi"))
         inside = [r for r in real_roots(p) if low <= r <= high]
         if len(inside) != 1:
-            raise InputError(f"{len(inside)} roots of the polynomial in [{lo}, {hi}], one expected")
+            raise InputError(f"{len(inside)} roots of the polynomial in [{shown(lo)}, {shown(hi)}], one expected")
         return inside[0]
 
     # --- access ----------------------------------------------------------------------------
@@ -79,7 +87,7 @@ class RealAlgebraic:
 
     def interval(self, bits: int = 0) -> tuple[Fraction, Fraction]:
         """Rational numbers lo <= self <= hi, with hi - lo small when ``bits`` are asked for."""
-        if bits:
+        if arguments.whole(bits, "bits"):
             x = self.ball(bits)
             with precision(bits + 16):
                 lo, hi = lower_end(x), upper_end(x)
@@ -173,11 +181,14 @@ class RealAlgebraic:
             return other
         if isinstance(other, int | Fraction):
             return RealAlgebraic.rational(other)
-        return None
+        convert = getattr(other, "to_algebraic", None)  # an element of a number field
+        return convert() if convert is not None else None
 
     def __eq__(self, other: object) -> bool:
         value = self._coerce(other)
-        return value is not None and self.index == value.index and self.poly == value.poly
+        if value is None:
+            return NotImplemented
+        return self.index == value.index and bool(self.poly == value.poly)
 
     def __lt__(self, other: object) -> bool:
         value = self._coerce(other)
@@ -204,7 +215,8 @@ class RealAlgebraic:
         return _combine(self, self._coerce(other), "-")
 
     def __rsub__(self, other: object) -> Any:
-        return -self + other
+        value = self._coerce(other)
+        return NotImplemented if value is None else value - self
 
     def __mul__(self, other: object) -> Any:
         return _combine(self, self._coerce(other), "*")
@@ -224,14 +236,23 @@ class RealAlgebraic:
         return self * value.inverse()
 
     def __rtruediv__(self, other: object) -> Any:
-        return self.inverse() * other
+        value = self._coerce(other)
+        return NotImplemented if value is None else value * self.inverse()
 
     def __pow__(self, exponent: int) -> RealAlgebraic:
+        if not isinstance(exponent, int):
+            return NotImplemented
         base = self if exponent >= 0 else self.inverse()
         result = RealAlgebraic.rational(1)
         for _ in range(abs(exponent)):
             result = result * base
         return result
+
+    def _sympy_(self) -> Any:
+        """The same number in SymPy, exactly; wherever SymPy meets one it asks for this."""
+        from qe.io.sympy_numbers import number_to_sympy
+
+        return number_to_sympy(self)
 
     def __reduce__(self) -> tuple[object, tuple[object, ...]]:
         return _restore, (self.minimal_polynomial, self.index)

@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from fractions import Fraction
 from functools import total_ordering
+from typing import Any
 
 from flint import arb, fmpq, fmpq_mat, fmpq_poly, fmpz, fmpz_poly
 
@@ -204,6 +205,8 @@ class FieldElement:
         return NotImplemented if value is None else FieldElement(self.field, value) * self.inverse()
 
     def __pow__(self, exponent: int) -> FieldElement:
+        if not isinstance(exponent, int):
+            return NotImplemented
         base = self if exponent >= 0 else self.inverse()
         result = self.field.rational(1)
         for _ in range(abs(exponent)):
@@ -266,6 +269,10 @@ class FieldElement:
         """Minimal polynomial of multiplication by the element on the power basis."""
         p = fmpz_poly(fmpq_mat(self._products()).minpoly().numer().coeffs())
         return p if p.leading_coefficient() > 0 else -p
+
+    def _sympy_(self) -> Any:
+        """The same number in SymPy, exactly; see ``RealAlgebraic``."""
+        return self.to_algebraic()._sympy_()
 
     @property
     def minimal_polynomial(self) -> tuple[int, ...]:

@@ -8,7 +8,7 @@ makes triangular sets of main-variable-monic polynomials Groebner bases for free
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from fractions import Fraction
 from functools import cache, cached_property
 from typing import Any
@@ -16,6 +16,7 @@ from typing import Any
 from flint import fmpq, fmpq_mpoly, fmpq_mpoly_ctx, fmpz, fmpz_mpoly, fmpz_mpoly_ctx, fmpz_poly
 
 from qe.errors import InternalError
+from qe.spelling import quoted
 
 _PRIMES = (3, -7, 11, -13, 17, -19, 23, -29, 31, -37, 41, -43, 47, -53, 59, -61)
 _ZERO = fmpz(0)
@@ -354,14 +355,15 @@ def from_univariate(ring: Ring, i: int, p: fmpz_poly) -> Poly:
     return ring.from_terms(terms)
 
 
-def format_poly(p: Poly) -> str:
-    """Text such as ``x^2 - 2*x*y + 1``, which the text reader reads back."""
+def format_poly(p: Poly, spelled: Callable[[str], str] = quoted) -> str:
+    """Text such as ``x^2 - 2*x*y + 1``, which the text reader reads back; ``spelled`` writes a name."""
     if not p:
         return "0"
+    names = [spelled(name) for name in p.ring.names]
     pieces: list[str] = []
     ordered = sorted(p.terms(), key=lambda term: (sum(term[0]), term[0]), reverse=True)
     for exponents, coefficient in ordered:
-        powers = [name if k == 1 else f"{name}^{k}" for name, k in zip(p.ring.names, exponents, strict=True) if k]
+        powers = [name if k == 1 else f"{name}^{k}" for name, k in zip(names, exponents, strict=True) if k]
         magnitude = abs(coefficient)
         body = "*".join(([str(fmpz(magnitude))] if magnitude != 1 or not powers else []) + powers)
         if not pieces:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import Enum
+from typing import Any
 
 from qe.exact.ring import Poly
 
@@ -83,6 +84,12 @@ class Formula:
         from qe.io.text import write
 
         return write(self)
+
+    def _sympy_(self) -> Any:
+        """The SymPy Boolean, wherever SymPy meets a formula; ``InputError`` for quantifiers and root atoms."""
+        from qe.io.sympy import to_sympy
+
+        return to_sympy(self)
 
 
 @dataclass(frozen=True, slots=True, repr=False)

@@ -6,6 +6,7 @@ from enum import Enum
 from importlib import import_module
 from typing import Any
 
+from qe.arguments import shown
 from qe.errors import InputError
 from qe.formula.syntax import Formula
 
@@ -33,7 +34,9 @@ WRITABLE = tuple(f.value for f in Format)
 
 def read(text: str, format: str | Format = Format.TEXT, *, source: str = "<text>") -> Formula:
     """The formula that ``text`` means. Raises ``InputError`` (with line and column where the text is wrong)."""
-    chosen = _format(format)
+    chosen = checked(format)
+    if not isinstance(text, str):
+        raise InputError(f"text expected, {type(text).__name__} found")
     if not chosen.readable:
         raise InputError(f"the format {chosen.value} can only be written; readable: {', '.join(READABLE)}")
     formula: Formula = _module(chosen).read(text, source=source)
@@ -42,15 +45,19 @@ def read(text: str, format: str | Format = Format.TEXT, *, source: str = "<text>
 
 def write(formula: Formula, format: str | Format = Format.TEXT) -> str:
     """The text of ``formula``. Raises ``InputError`` where the format cannot express it (root atoms)."""
-    text: str = _module(_format(format)).write(formula)
+    chosen = checked(format)
+    if not isinstance(formula, Formula):
+        raise InputError(f"a formula expected, {type(formula).__name__} found")
+    text: str = _module(chosen).write(formula)
     return text
 
 
-def _format(name: str | Format) -> Format:
+def checked(name: str | Format) -> Format:
+    """The format of this name. Raises ``InputError``, naming those there are."""
     try:
         return Format(name)
     except ValueError:
-        raise InputError(f"unknown format {name!r}; known: {', '.join(WRITABLE)}") from None
+        raise InputError(f"unknown format {shown(name)}; known: {', '.join(WRITABLE)}") from None
 
 
 def _module(chosen: Format) -> Any:

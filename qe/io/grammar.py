@@ -17,7 +17,7 @@ Tokens = Callable[[str, "Callable[..., Token]"], "Iterator[Token]"]
 """The tokens of a text, made by the given constructor. One compiled pattern is faster than one per terminal."""
 
 
-def parser(grammar: str, tokens: Tokens, builder: object) -> Lark:
+def parser(grammar: str, tokens: Tokens, builder: object, *, start: str = "start") -> Lark:
     """The parser of a grammar whose actions are the methods of ``builder``."""
     from lark import Lark, Token
     from lark.lexer import Lexer
@@ -29,7 +29,7 @@ def parser(grammar: str, tokens: Tokens, builder: object) -> Lark:
         def lex(self, text: str) -> Iterator[Token]:  # type: ignore[override]
             return tokens(text, Token)
 
-    return Lark(grammar, parser="lalr", lexer=FormatLexer, transformer=builder, maybe_placeholders=False)
+    return Lark(grammar, parser="lalr", start=start, lexer=FormatLexer, transformer=builder, maybe_placeholders=False)
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,6 +6,7 @@ import re
 
 from qe.formula.syntax import And, Exists, ForAll, Formula, Or, Relation, RootAtom
 from qe.io.infix import Notation, formula_text, polynomial, positive
+from qe.spelling import visible
 
 WIDTH = 90
 """Characters of source after which a formula is broken at its outermost operator."""
@@ -17,7 +18,8 @@ GREEK = frozenset(
     )
 )
 _NAME = re.compile(r"([^\W\d_]+)_?(\d*)('*)")
-_ESCAPES = {"_": r"\_", "#": r"\#", "$": r"\$", "%": r"\%", "&": r"\&", "{": r"\{", "}": r"\}", "~": r"\sim "}
+_MORE = {"^": r"\char94 ", "\\": r"\backslash ", "|": r"\vert ", " ": r"\ "}
+_ESCAPES = {"_": r"\_", "#": r"\#", "$": r"\$", "%": r"\%", "&": r"\&", "{": r"\{", "}": r"\}", "~": r"\sim ", **_MORE}
 _RELATIONS = {Relation.NE: r"\neq", Relation.LE: r"\leq", Relation.GE: r"\geq"}
 
 
@@ -49,7 +51,7 @@ def name(variable: str) -> str:
     """A variable: ``x1`` as x with an index, Greek letters by name, long words upright."""
     found = _NAME.fullmatch(variable)
     if found is None:
-        return r"\mathrm{" + "".join(_ESCAPES.get(c, c) for c in variable) + "}"
+        return r"\mathrm{" + "".join(_ESCAPES.get(c, c) for c in visible(variable)) + "}"
     letters, number, primes = found.groups()
     if letters.lower() in GREEK and letters[1:].islower():
         base = "\\" + letters

@@ -9,13 +9,19 @@ from qe.errors import InputError
 from qe.formula.syntax import Exists, ForAll, Formula, RootAtom
 from qe.formula.traverse import atoms, children, ring_of
 
-_FORBIDDEN = re.compile(r"[|\\\n\r]")
+_FORBIDDEN = re.compile(r"[|\\\ud800-\udfff]")
 
 
 def check_name(name: object) -> str:
-    """The name, if every format can carry it: not empty, one line, no bar and no backslash; else ``InputError``."""
-    if not isinstance(name, str) or not name or _FORBIDDEN.search(name):
-        raise InputError(f"{name!r} cannot be the name of a variable (a bar, a backslash or a line break, or empty)")
+    """The name, if every format can carry it: not empty, no bar, no backslash, no half of a surrogate pair.
+
+    Raises ``InputError`` for anything else.
+    """
+    if not isinstance(name, str):
+        raise InputError(f"the name of a variable expected, {type(name).__name__} found")
+    if not name or _FORBIDDEN.search(name):
+        reason = "it holds a bar, a backslash or half a character" if name else "it is empty"
+        raise InputError(f"{name!r} cannot be the name of a variable: {reason}")
     return name
 
 

@@ -17,7 +17,7 @@ from qe.formula.syntax import Formula, Relation, RootAtom
 from qe.io import surface as s
 from qe.io.grammar import Failing, parse, parser
 from qe.io.infix import Notation, formula_text
-from qe.io.names import Renaming
+from qe.io.names import Renaming, check_name
 from qe.io.surface import lower
 from qe.io.text_errors import SyntaxFailure, unknown_character
 from qe.io.text_parser import TERMS, Builder
@@ -127,12 +127,20 @@ def _tokens(text: str, token: Callable[..., Token]) -> Iterator[Token]:
             if value.lower() in ("e", "i", "pi"):
                 raise SyntaxFailure(f"{value} is a constant in REDUCE, not a variable", at)
             value = _RELATIONS.get(value.lower(), value) if kind == "RELATION" else value
-            yield token(kind, value.replace("!", "") if kind == "NAME" else value.lower(), at)
+            yield token(kind, _unescaped(value, at) if kind == "NAME" else value.lower(), at)
         elif kind == "OPERATOR":
             yield token(_OPERATORS[value], _RELATIONS.get(value, value), at)
         elif kind != "SPACE":
             yield token(kind, value, at)
         at = found.end()
+
+
+def _unescaped(word: str, at: int) -> str:
+    """The name without the marks that let a character stand for itself."""
+    try:
+        return check_name(re.sub(r"!(.)", r"\1", word))
+    except InputError as error:
+        raise SyntaxFailure(str(error), at) from None
 
 
 class _Builder(Builder):

@@ -31,6 +31,9 @@ _RESERVED = re.compile(
     r"STRING|abs|mod|div|rem|is|is_int|to_int|to_real|pi|e|exp|sin|cos|tan|sec|csc|cot|a?sin|a?cos|a?tan|arc.*|sqrt|"
     r"sinh|cosh|tanh|asinh|acosh|atanh|if|implies|iff|int|real|bool|select|store|const|[.@].*|_|!|[-+*/^=<>]|[<>]=|=>"
 )
+_UNWRITABLE = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\x7f|\\]")
+"""What a quoted symbol cannot hold (SMT-LIB 2.6, section 3.1): control characters, bars, backslashes."""
+
 _OPERATORS = {Relation.EQ: "=", Relation.LT: "<", Relation.LE: "<=", Relation.GT: ">", Relation.GE: ">="}
 
 
@@ -57,14 +60,18 @@ def _depth(formula: Formula) -> int:
 def write(formula: Formula) -> str:
     """A script that asserts ``formula``.
 
-    Names that SMT-LIB keeps for itself get ``v_`` in front; others are quoted where needed. Raises ``InputError``
-    for a root atom, which SMT-LIB cannot express.
+    Names that SMT-LIB keeps for itself or cannot write get ``v_`` in front; others are quoted where needed. Raises
+    ``InputError`` for a root atom, which SMT-LIB cannot express.
     """
-    names = Renaming(formula, keeps=lambda name: not _RESERVED.fullmatch(name), spell="v_{}".format)
+    names = Renaming(formula, keeps=_allowed, spell=lambda name: f"v_{_UNWRITABLE.sub('_', name)}")
     lines = [f"(set-logic {'QF_NRA' if is_quantifier_free(formula) else 'NRA'})"]
     lines += [f"(declare-const {_symbol(names[name])} Real)" for name in free_variables(formula)]
     lines.append(f"(assert {_term(formula, names)})")
     return "\n".join(lines) + "\n"
+
+
+def _allowed(name: str) -> bool:
+    return not _RESERVED.fullmatch(name) and not _UNWRITABLE.search(name)
 
 
 def _symbol(name: str) -> str:

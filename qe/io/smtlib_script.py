@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping
 from itertools import combinations, pairwise
 from typing import NamedTuple, Never, TypeAlias, cast
 
+from qe.errors import InputError
 from qe.formula.syntax import Relation
 from qe.io import surface as s
 from qe.io.cases import Cases, choose, combine, compare, plain
@@ -144,7 +145,10 @@ class Script:
     def symbol(self, word: Expression) -> str:
         if not isinstance(word, Word) or word.kind != "SYMBOL":
             self.error("a symbol expected", word.at)
-        return check_name(word.text.replace("\n", " "))
+        try:
+            return check_name(word.text)
+        except InputError as error:
+            self.error(str(error), word.at)
 
     def sort(self, word: Expression) -> str:
         name = word.text if isinstance(word, Word) else "…"
@@ -196,7 +200,7 @@ class Script:
             self.error(f"unexpected {word.text[:40]}", word.at)
         if word.text in ("true", "false") and word.text not in scope:
             return s.Truth(word.text == "true")
-        found = scope.get(word.text.replace("\n", " "))
+        found = scope.get(word.text)
         if found is None:
             self.error(f"unknown symbol {word.text}", word.at)
         if isinstance(found, Macro):

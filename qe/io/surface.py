@@ -25,6 +25,8 @@ MAX_DEPTH = 120
 """Nesting of brackets, operators and quantifiers that readers accept; all later code may recurse on it."""
 
 Fail: TypeAlias = Callable[[str, int], InputError]
+Meet: TypeAlias = Callable[[str, int], None]
+"""Called with every free occurrence of a name and its offset; may raise."""
 
 
 class Number(NamedTuple):
@@ -144,19 +146,33 @@ Node: TypeAlias = Comparison | Truth | Every | Some | Negation | Implication | E
 Part: TypeAlias = Term | Node
 
 
-def lower(node: Node, fail: Fail, *, names: Iterable[str] | None = None, shared: Sequence[Part] = ()) -> Formula:
+def lower(
+    node: Node,
+    fail: Fail,
+    *,
+    names: Iterable[str] | None = None,
+    shared: Sequence[Part] = (),
+    meet: Meet = lambda name, at: None,
+) -> Formula:
     """The formula that ``node`` means; ``fail(message, at)`` makes the error for a position.
 
     With ``names`` (all names, for the ring) the tree may be a graph whose parts are shared; ``shared`` lists parts
     in an order in which each comes after those it uses, so that chains of definitions of any length are fine.
     """
-    found = _Names(fail)
+    found = _Names(fail, meet)
     if not shared:
         found.node(node, frozenset(), 0)
     lowering = _Lowering(found.ring() if names is None else Ring.of(names), fail)
     for part in shared:
         lowering.remember(part)
     return lowering.node(node)
+
+
+def lower_term(term: Term, fail: Fail, *, meet: Meet = lambda name, at: None) -> Value:
+    """The polynomial over Q that ``term`` means, in the ring of its names."""
+    found = _Names(fail, meet)
+    found.term(term, frozenset(), 0)
+    return _Lowering(found.ring(), fail).term(term)
 
 
 def _chain(term: Term, known: Container[int] = ()) -> tuple[Term, list[Product | Quotient]]:
@@ -174,8 +190,8 @@ def _chain(term: Term, known: Container[int] = ()) -> tuple[Term, list[Product |
 class _Names:
     """Collects the names of a tree, free before bound, and refuses trees that are nested too deeply."""
 
-    def __init__(self, fail: Fail) -> None:
-        self.fail = fail
+    def __init__(self, fail: Fail, meet: Meet) -> None:
+        self.fail, self.meet = fail, meet
         self.free: dict[str, None] = {}
         self.bound: dict[str, None] = {}
 
@@ -205,8 +221,9 @@ class _Names:
         if depth > MAX_DEPTH:
             raise self.fail(f"nested more than {MAX_DEPTH} levels deep", -1)
         match term:
-            case Name(name, _):
+            case Name(name, at):
                 if name not in scope:
+                    self.meet(name, at)
                     self.free[name] = None
             case Sum(parts):
                 for part in parts:
@@ -221,10 +238,10 @@ class _Names:
                 self.term(exponent, scope, depth + 1)
             case Minus(part):
                 self.term(part, scope, depth + 1)
-            case Root(_, poly, variable, at):
+            case Root(_, poly, variable, _):
                 self.term(poly, scope, depth + 1)
-                if variable is not None:
-                    self.term(Name(variable, at), scope, depth + 1)
+                if variable is not None and variable not in scope:  # met in the polynomial, or refused later
+                    self.free[variable] = None
 
 
 class _Lowering:

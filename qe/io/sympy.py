@@ -1,8 +1,9 @@
 """SymPy Booleans in and out. SymPy is imported when a function of this module is called, never before.
 
 Read: relations, ``And Or Not Implies Equivalent Xor ITE``, polynomials with rational coefficients, ``Abs``, ``Min``,
-``Max`` and ``Piecewise`` (by cases). A SymPy ``Float`` is read as the exact binary number it is: ``Float(0.1)`` is not
-1/10, write ``Rational(1, 10)``. SymPy has no quantifiers, so ``Exists`` and ``ForAll`` here wrap an expression and can
+``Max`` and ``Piecewise`` (by cases). A SymPy ``Float`` is read as the decimal number that it prints: ``0.1*x`` means
+x/10, as in text. Written: formulas, and real algebraic numbers as ``Rational``, square roots or ``CRootOf``. SymPy has
+no quantifiers, so ``Exists`` and ``ForAll`` here wrap an expression and can
 be combined with ``& | ~ >>`` among themselves and with SymPy expressions. A symbol may be assumed real; assumptions
 that say more (positive, integer) would be lost and are refused.
 """
@@ -14,14 +15,16 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-from qe.errors import InputError
-from qe.exact.ring import Ring
+from qe import arguments
+from qe.errors import InputError, NoTruthValue
+from qe.exact.ring import Poly, Ring
 from qe.formula.build import conj, convert, disj, exists, forall, implies, neg
 from qe.formula.syntax import And, Atom, Constant, Formula, Not, Or, Relation
 from qe.formula.traverse import ring_of
 from qe.io import surface as s
 from qe.io.cases import Cases, choose, combine, compare, plain
 from qe.io.names import check_name, names_in
+from qe.io.sympy_numbers import decimal_of
 from qe.io.terms import TermError
 
 if TYPE_CHECKING:
@@ -71,7 +74,9 @@ class _Operators:
 
     def __bool__(self) -> bool:
         """Python's ``and``, ``or`` and ``not`` ask for it and would drop a part of the formula without a word."""
-        raise TypeError("a formula has no truth value here; connect formulas with & | ~ >>, decide them with qe.decide")
+        raise NoTruthValue(
+            "a formula has no truth value here; connect formulas with & | ~ >>, decide them with qe.decide"
+        )
 
     def __str__(self) -> str:
         return str(self.formula())
@@ -123,6 +128,11 @@ class ForAll(_Quantified):
         return forall(self.names, self.body)
 
 
+def outermost(given: object) -> tuple[bool, tuple[str, ...]] | None:
+    """Whether a wrapped formula begins with a universal quantifier, and its names; None where it begins with none."""
+    return (isinstance(given, ForAll), given.names) if isinstance(given, _Quantified) else None
+
+
 def _together(*parts: object) -> tuple[Formula, ...]:
     """Formulas of the parts, over one ring."""
     formulas = tuple(from_sympy(part) for part in parts)
@@ -134,16 +144,22 @@ def _together(*parts: object) -> tuple[Formula, ...]:
 def _variables(variables: object) -> tuple[str, ...]:
     import sympy
 
-    items = variables if isinstance(variables, Iterable) and not isinstance(variables, str) else (variables,)
-    names = tuple(_symbol(v) if isinstance(v, sympy.Symbol) else check_name(v) for v in items)
+    if isinstance(variables, set | frozenset):  # the order within a block means nothing
+        variables = sorted(variables, key=str)
+    for symbol in variables if isinstance(variables, Iterable) and not isinstance(variables, str) else (variables,):
+        if isinstance(symbol, sympy.Symbol):
+            _symbol(symbol)
+    names = arguments.names(variables, "variables")
     if not names:
         raise InputError("a quantifier needs at least one variable")
-    return names
+    return tuple(check_name(name) for name in names)
 
 
 def _symbol(symbol: sympy.Symbol) -> str:
     import sympy
 
+    if isinstance(symbol, sympy.Dummy):
+        raise InputError(f"{symbol} is a Dummy, which no name tells from others; use a Symbol")
     known = sympy.Symbol("x", real=True).assumptions0
     extra = [key for key, value in symbol.assumptions0.items() if known.get(key) is not value]
     extra.sort(key=lambda key: ("_" in key, not symbol.assumptions0[key], key not in _SIGNS, key))
@@ -153,22 +169,25 @@ def _symbol(symbol: sympy.Symbol) -> str:
 
 
 def from_sympy(expression: object) -> Formula:
-    """The formula of a SymPy Boolean, a Python bool, a wrapped or a finished formula.
+    """The formula of a SymPy Boolean, a wrapped or a finished formula.
 
-    Raises ``InputError`` for what is not a Boolean combination of polynomial relations over Q.
+    Raises ``InputError`` for what is not a Boolean combination of polynomial relations over Q, a Python truth value
+    among them: it is what ``x**2 == b`` makes.
     """
     if isinstance(expression, Formula):
         return expression
     if isinstance(expression, _Operators):
         return expression.formula()
+    if isinstance(held := getattr(expression, "formula", None), Formula):  # an answer, or a region
+        return held
     import sympy
 
     if isinstance(expression, str):
-        raise InputError("a SymPy Boolean expected, a string found")
-    try:
-        whole = sympy.sympify(expression)
-    except (sympy.SympifyError, TypeError):
-        raise InputError(f"a SymPy Boolean expected, {type(expression).__name__} found") from None
+        raise InputError("a SymPy Boolean expected, text found")
+    if isinstance(expression, bool):
+        hint = "== compares SymPy expressions at once, an equation is written Eq(left, right)"
+        raise InputError(f"a SymPy Boolean expected, Python's {expression} found; {hint}")
+    whole = _basic(expression, "a formula (text, Formula, or a SymPy Boolean)")
     names = sorted(str(symbol) for symbol in getattr(whole, "free_symbols", ()))
     try:
         node = _Reader(sympy).boolean(whole)
@@ -179,8 +198,40 @@ def from_sympy(expression: object) -> Formula:
         raise InputError("the expression is nested too deeply") from None
 
 
+def polynomial_from_sympy(expression: object) -> tuple[Poly, Fraction]:
+    """A polynomial p and a rational s: the expression is s*p.
+
+    Raises ``InputError`` for what is no polynomial over Q.
+    """
+    import sympy
+
+    whole = _basic(expression, "a SymPy expression")
+    (guards, term), *others = _Reader(sympy).real(whole)
+    if guards or others:
+        raise InputError(f"a polynomial expected, {_shown(whole)} found")
+    try:
+        value = s.lower_term(term, lambda message, _: InputError(f"{_shown(whole)}: {message}"))
+    except RecursionError:
+        raise InputError("the expression is nested too deeply") from None
+    return value.poly, Fraction(1, value.den)
+
+
+def _basic(given: object, expected: str) -> Any:
+    """The SymPy object that is given, or that something of this package stands for (``_sympy_``)."""
+    import sympy
+
+    if isinstance(given, sympy.Basic):
+        return given
+    if not hasattr(given, "_sympy_") and not isinstance(given, int | Fraction):
+        raise InputError(f"{expected} expected, {type(given).__name__} found")
+    return sympy.sympify(given)
+
+
 def _shown(expression: object) -> str:
-    text = str(expression)
+    try:
+        text = str(expression)
+    except ValueError:  # SymPy prints numbers by str, which Python bounds
+        return "an expression with a long number"
     return text if len(text) <= 60 else f"{text[:57]}…"
 
 
@@ -248,8 +299,7 @@ class _Reader:
     def exact_float(self, e: Any) -> Fraction:
         if not e.is_finite:
             raise InputError(f"a finite number expected, {e} found")
-        rational = self.sympy.Rational(e)
-        return Fraction(int(rational.p), int(rational.q))
+        return decimal_of(e)
 
     def power(self, e: Any) -> Cases:
         if not e.exp.is_Integer or e.exp < 0:

@@ -2,11 +2,21 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Collection
 
+from qe.spelling import QUOTED
+
+_QUOTED = re.compile(QUOTED)
+
+_BARS = (
+    "bars are not read: 'or' is written or, an absolute value by its cases, "
+    "and a name with other characters between backquotes, as in `a b`"
+)
 _CHARACTERS = {
+    "`": "a name between backquotes needs both of them, on one line, and is not empty",
     "&": "'and' is written and",
-    "|": "'or' is written or; a name between bars needs both bars",
+    "|": _BARS,
     "!": "'not' is written not",
     "[": "only round brackets are used",
     "]": "only round brackets are used",
@@ -109,15 +119,15 @@ def _expected(kinds: Collection[str]) -> str:
 
 
 def _unmatched_opening(text: str) -> int | None:
-    """The offset of the innermost '(' that has no ')' in ``text``; bars and comments are skipped."""
+    """The offset of the innermost '(' that has no ')' in ``text``; quoted names and comments are skipped."""
     open_at: list[int] = []
     at = 0
     while at < len(text):
         character = text[at]
         if character == "#":
             at = text.find("\n", at) % (len(text) + 1)
-        elif character == "|" and (end := text.find("|", at + 1)) > 0:
-            at = end
+        elif character == "`" and (name := _QUOTED.match(text, at)):
+            at = name.end() - 1
         elif character == "(":
             open_at.append(at)
         elif character == ")" and open_at:

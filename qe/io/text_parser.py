@@ -7,23 +7,25 @@ from collections.abc import Callable, Iterator
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
+from qe.errors import InputError
 from qe.formula.syntax import Relation
 from qe.io import surface as s
 from qe.io.grammar import parser
+from qe.io.names import check_name
 from qe.io.terms import TermError, decimal
 from qe.io.text_errors import SyntaxFailure, unknown_character
+from qe.spelling import QUOTED, WORD, unquoted
 
 if TYPE_CHECKING:
     from lark import Lark, Token
 
-WORD = r"[^\W\d⁰¹²³⁴-⁹][^\W⁰¹²³⁴-⁹]*'*"
-_LIST = rf"(?:{WORD}|\|[^|\n]*\|)"
+_LIST = rf"(?:{WORD}|{QUOTED})"
 _TOKEN = re.compile(
     rf"(?P<SPACE>\s+|\#[^\n]*)"
     rf"|(?P<QUANTIFIER>[EA](?=\s+{_LIST}\s*(?:,\s*{_LIST}\s*)*\.))\b"
     rf"|(?P<NAME>{WORD})"
     r"|(?P<NUMBER>[0-9]+(?:\.[0-9]+)?(?:[eE][+-]?[0-9]+)?)"
-    r"|(?P<QUOTED>\|[^|\n]*\|)"
+    rf"|(?P<QUOTED>{QUOTED})"
     r"|(?P<OPERATOR><==>|<->|==>|->|<=|>=|/=|!=|/\\|\\/|[-+*/^()=<>~,.∃∀∧∨¬→↔⇒⇔≤≥≠−·])"
 )
 KEYWORDS = {
@@ -102,9 +104,9 @@ arguments: sum | arguments COMMA sum
 
 
 @cache
-def text_parser() -> Lark:
-    """The parser of the text syntax."""
-    return parser(_FORMULAS + TERMS, _tokens, Builder())
+def text_parser(start: str = "start") -> Lark:
+    """The parser of the text syntax; of its terms with ``start`` "sum"."""
+    return parser(_FORMULAS + TERMS, _tokens, Builder(), start=start)
 
 
 def _tokens(text: str, token: Callable[..., Token]) -> Iterator[Token]:
@@ -119,12 +121,20 @@ def _tokens(text: str, token: Callable[..., Token]) -> Iterator[Token]:
         elif kind == "OPERATOR":
             yield token(_OPERATORS[value], value, at)
         elif kind == "QUOTED":
-            if len(value) == 2:
-                raise SyntaxFailure("a name is missing between the bars; 'or' is written or", at)
-            yield token("NAME", value[1:-1], at)
+            yield token("NAME", _name(value, at), at)
         elif kind != "SPACE":
             yield token(kind, value, at)
         at = found.end()
+
+
+def _name(text: str, at: int) -> str:
+    """The name between backquotes."""
+    try:
+        return check_name(unquoted(text))
+    except ValueError as error:
+        raise SyntaxFailure(f"the name {text} cannot be read: {error}", at) from None
+    except InputError as error:
+        raise SyntaxFailure(str(error), at) from None
 
 
 class Builder:

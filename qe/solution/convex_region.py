@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 
+from qe.arguments import name
 from qe.eliminate.cad.decompose import decompose
 from qe.errors import BudgetExceeded, InputError, Unable
 from qe.evidence.cells import CellTable
@@ -129,6 +130,7 @@ class ConvexRegion(Region):
 
     def bounds(self, variable: str) -> Interval:
         """The exact infimum and supremum of a variable, whether they are attained, and the certificates of both."""
+        variable = name(variable, "variable")
         if variable not in self.order:
             raise InputError(f"variable: one of {', '.join(self.order)} expected, {variable} found")
         if variable not in self._bounds:

@@ -5,14 +5,20 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
+from numbers import Rational
 
-from qe.errors import InputError
+from qe.arguments import rational
 from qe.evidence.certificate import Certificate
 from qe.exact.algebraic import RealAlgebraic
+from qe.exact.field import FieldElement
 from qe.exact.nearby import rational_between
 
 Number = Fraction | RealAlgebraic
-Coordinate = int | Fraction | str | RealAlgebraic
+Coordinate = int | Fraction | str | float | RealAlgebraic | FieldElement
+"""What a number may be given as: text such as ``-3/4`` or ``1.5e-3``, a float as the decimal number that it prints.
+
+``Decimal`` and SymPy's real algebraic numbers are taken, too.
+"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,7 +38,8 @@ class Interval:
         yield self.lower
         yield self.upper
 
-    def __contains__(self, value: Number) -> bool:
+    def __contains__(self, given: Coordinate) -> bool:
+        value = number_of(given, "number")
         above = self.lower is None or self.lower < value or (self.lower_closed and self.lower == value)
         below = self.upper is None or value < self.upper or (self.upper_closed and self.upper == value)
         return above and below
@@ -44,11 +51,16 @@ class Interval:
         return rational_between(self.lower, self.upper)
 
 
-def number_of(value: Coordinate, name: str) -> Number:
-    """The exact number that is given for a variable; ``InputError`` otherwise."""
+def number_of(value: Coordinate, what: str, expected: str = "an exact number") -> Number:
+    """The exact number that is given as the argument ``what``; ``InputError`` otherwise."""
+    if isinstance(value, FieldElement):
+        return value.as_fraction() if value.is_rational else value.to_algebraic()
     if isinstance(value, RealAlgebraic):
         return value
-    try:
-        return Fraction(value)
-    except (ValueError, ZeroDivisionError, TypeError):
-        raise InputError(f"point: an exact number for {name} expected, {value!r} found") from None
+    if getattr(value, "is_number", None) is True:  # so it is an expression of SymPy
+        from qe.io.sympy_numbers import number_from_sympy
+
+        found = None if isinstance(value, Rational) else number_from_sympy(value)
+        if found is not None:
+            return found
+    return rational(value, what, expected)

@@ -11,16 +11,18 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from itertools import islice
 
+from qe.arguments import by_name
 from qe.eliminate.vs import Answer, eliminate_block, witness
 from qe.errors import InputError, Unable
 from qe.exact.algebraic import RealAlgebraic
 from qe.exact.sample import Point
 from qe.formula.evaluate import truth_under
 from qe.formula.normal import nnf
-from qe.formula.syntax import FALSE, Exists, ForAll, Formula
+from qe.formula.syntax import FALSE, Constant, Exists, ForAll, Formula
 from qe.formula.traverse import free_variables, is_quantifier_free, ring_of
 from qe.options import Budget
 from qe.prepare.simplify import simplify
+from qe.solution.interval import Coordinate, number_of
 
 Number = Fraction | RealAlgebraic
 
@@ -42,9 +44,12 @@ class ParametricWitness:
     _answer: Answer = field(repr=False)
     _variables: tuple[str, ...] = field(repr=False)
 
-    def at(self, parameters: Mapping[str, int | str | Number]) -> dict[str, Number]:
+    def at(self, parameters: Mapping[str, Coordinate]) -> dict[str, Number]:
         """Exact values at these parameters. Raises ``InputError`` where the guard does not hold."""
-        given = {name: v if isinstance(v, RealAlgebraic) else Fraction(v) for name, v in parameters.items()}
+        given = {
+            n: number_of(v, "parameters", f"an exact number for {n}")
+            for n, v in by_name(parameters, "parameters").items()
+        }
         missing = [name for name in free_variables(self.guard) if name not in given]
         if missing:
             raise InputError(f"parameters: a value for {missing[0]} expected")
@@ -64,6 +69,9 @@ def parametric_witnesses(block: Formula, *, budget: Budget) -> tuple[ParametricW
     The disjunction of the guards is equivalent to the existential block (to the negation of the universal one).
     Raises ``InputError`` for other formulas and ``Unable`` where substitution cannot eliminate the block.
     """
+    if isinstance(block, Constant):
+        text = "true" if block.value else "false"
+        raise InputError(f"the formula is {text} as it stands: no quantifier is left to find witnesses for")
     if not isinstance(block, Exists | ForAll) or not is_quantifier_free(block.body):
         raise InputError("a formula that begins with one quantifier, with a quantifier-free body, expected")
     body = simplify(nnf(block.body, negate=isinstance(block, ForAll)))

@@ -14,6 +14,7 @@ from qe.exact.algebraic import RealAlgebraic
 from qe.exact.ring import Poly, format_poly
 from qe.exact.sample import Point
 from qe.solution.walk import Place, child, root_place
+from qe.spelling import quoted
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,7 +47,7 @@ class RootFunction:
             front = format_poly((-c[1]).exact_divide(unit)) + " " if c[1] else ""
             shown = f"{sign} " if front else "-" if sign == "-" else ""
             return _quotient(f"{front}{shown}sqrt({format_poly(inside)})", str(half))
-        return f"root({self.k}, {format_poly(self.poly)}, {self.poly.ring.names[i]})"
+        return f"root({self.k}, {format_poly(self.poly)}, {quoted(self.poly.ring.names[i])})"
 
 
 def _quotient(top: str, bottom: str) -> str:
@@ -78,10 +79,11 @@ class Range:
 
     def __str__(self) -> str:
         if self.is_point:
-            return f"{self.variable} = {self.lower}"
+            return f"{quoted(self.variable)} = {self.lower}"
         left = "" if self.lower is None else f"{self.lower} {'<=' if self.lower_closed else '<'} "
         right = "" if self.upper is None else f" {'<=' if self.upper_closed else '<'} {self.upper}"
-        return f"{left}{self.variable}{right}" if left or right else f"{self.variable} any"
+        name = quoted(self.variable)
+        return f"{left}{name}{right}" if left or right else f"{name} any"
 
 
 @dataclass(frozen=True, slots=True)

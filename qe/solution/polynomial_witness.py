@@ -80,6 +80,9 @@ def instantiate(sentence: Formula, terms: Mapping[str, Term]) -> Formula:
     outside, and those of the same block that are not replaced. Raises ``InputError`` for other terms and names.
     """
     prepared = nnf(rename_apart(sentence))
+    ring = ring_of(prepared)
+    if ring is not None:  # names of their own for variables that are quantified twice are part of it
+        terms = {name: Term(term.numerator.convert(ring), term.denominator) for name, term in terms.items()}
     unused = dict(terms)
     result = _instantiated(prepared, terms, frozenset(free_variables(prepared)), unused)
     if unused:

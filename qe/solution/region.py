@@ -6,6 +6,8 @@ from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from pathlib import Path
 
+from qe.arguments import by_name, by_place, name, ratio
+from qe.arguments import path as name_of_file
 from qe.eliminate.cad.decompose import decompose
 from qe.errors import InputError
 from qe.evidence.cells import Cell, CellTable
@@ -77,15 +79,18 @@ class Region:
         return max((p.dimension + size - p.depth for p in leaves(self.table, is_true)), default=-1)
 
     def contains(self, point: Mapping[str, Coordinate]) -> bool:
-        """Exact membership. Coordinates: int, Fraction, decimal or fraction text, RealAlgebraic."""
-        return self._holds(self._values(point, len(self.order)))
+        """Exact membership. Coordinates: int, Fraction, decimal or fraction text, exact irrational numbers.
+
+        A float is the decimal number that it prints. Raises ``InputError`` for other things and missing names.
+        """
+        return self._holds(self._values(by_name(point, "point"), len(self.order)))
 
     def _values(self, point: Mapping[str, Coordinate], count: int) -> list[Number]:
         """The numbers given for the first ``count`` variables."""
-        for name in self.order[:count]:
-            if name not in point:
-                raise InputError(f"point: a value for {name} expected")
-        return [number_of(point[name], name) for name in self.order[:count]]
+        for variable in self.order[:count]:
+            if variable not in point:
+                raise InputError(f"point: a value for {variable} expected")
+        return [number_of(point[v], "point", f"an exact number for {v}") for v in self.order[:count]]
 
     def _holds(self, values: list[Number]) -> bool:
         place = Point.of(Ring.of(self.order), values)
@@ -100,8 +105,12 @@ class Region:
         at most one for a convex set, none when no point begins like that. A walk that takes each value from the
         interval it is offered ends in a point of the region.
         """
-        named = prefix if isinstance(prefix, Mapping) else dict(zip(self.order, prefix, strict=False))
-        if len(named) < len(prefix) or len(named) >= len(self.order) or set(named) != set(self.order[: len(named)]):
+        if isinstance(prefix, Mapping):
+            named, size = by_name(prefix, "prefix"), len(prefix)
+        else:
+            values = by_place(prefix, "prefix")
+            named, size = dict(zip(self.order, values, strict=False)), len(values)
+        if len(named) < size or len(named) >= len(self.order) or set(named) != set(self.order[: len(named)]):
             expected = ", ".join(self.order[:-1])
             raise InputError(f"prefix: values for the first variables of {expected} expected")
         return self._fibre(self._values(named, len(named)))
@@ -115,6 +124,7 @@ class Region:
 
     def bounds(self, variable: str) -> Interval:
         """The exact infimum and supremum of a variable over the region, and whether they are attained."""
+        variable = name(variable, "variable")
         if variable not in self.order:
             raise InputError(f"variable: one of {', '.join(self.order)} expected, {variable} found")
         if self.is_empty:
@@ -141,7 +151,7 @@ class Region:
         """
         from qe.solution.volume import enclose
 
-        return enclose(self, rel_error)
+        return enclose(self, ratio(rel_error, "rel_error"))
 
     def to_formula(self) -> Formula:
         """The defining quantifier-free formula."""
@@ -168,10 +178,17 @@ class Region:
         return Region(payload.table.matrix, payload.table, payload.table.order)
 
     def plot(self, path: str | Path) -> None:
-        """Write a picture (PNG, SVG or PDF by the ending) of a region in one to three variables."""
+        """Write a picture (PNG, SVG or PDF by the ending) of a region in one to three variables.
+
+        Raises ``InputError`` in more variables, and for a file that cannot be written.
+        """
         from qe.report.picture import draw
 
-        draw(self, Path(path))
+        target = name_of_file(path)
+        try:
+            draw(self, target)
+        except OSError as error:
+            raise InputError(f"{target}: cannot be written: {error.strerror}") from None
 
     def __repr__(self) -> str:
         return f"Region({', '.join(self.order)}: {self.formula})"

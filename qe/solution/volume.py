@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from qe.errors import InputError, Unable
+from qe.errors import Unable
 from qe.exact.enclosure import Jet, Sides, box_sides, constant, ends, root_jet, smooth_side
 from qe.solution.pieces import Piece, RootFunction
 from qe.solution.slices import has_closed_slices, slice_area
@@ -26,19 +26,17 @@ _HALF = Fraction(1, 2)
 Box = tuple[tuple[Fraction, Fraction], ...]
 
 
-def enclose(region: Region, rel_error: float) -> tuple[Fraction, Fraction]:
+def enclose(region: Region, rel_error: Fraction) -> tuple[Fraction, Fraction]:
     """lo <= measure <= hi, rational, with hi - lo <= rel_error * hi (0, 0 for a region without interior).
 
     Raises ``Unable`` for unbounded pieces and when the error is not reached within ``MOST_BOXES`` boxes.
     """
-    if not 0 < rel_error < 1:
-        raise InputError(f"rel_error: a number between 0 and 1 expected, {rel_error} found")
     pieces = [p for p in region.cells if p.dimension == len(region.order)]
     for piece in pieces:
         for r in piece.ranges:
             if r.lower is None or r.upper is None:
                 raise Unable(f"the region is unbounded in {r.variable}")
-    return _Sum(region, pieces).refine(Fraction(rel_error))
+    return _Sum(region, pieces).refine(rel_error)
 
 
 class _Sum:

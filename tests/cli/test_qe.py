@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 QE = str(Path(sys.executable).parent / "qe")
-HARD = "ex a, b, c. all x, y. a*x^4*y + b*x*y^3 + c*x^2*y^2 + d*x + e*y + f > a^2*x^3 + b^2*y^5"
+HARD = "ex a, b, c. all x, y. a*x^4*y + b*x*y^3 + c*x^2*y^2 + d*x + g*y + f > a^2*x^3 + b^2*y^5"
 BALLS = "x^2 + y^2 <= 4 and (x - 1)^2 + y^2 <= 4"
 
 

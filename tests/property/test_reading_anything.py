@@ -16,7 +16,7 @@ WORDS = (
     *("=", "/=", ">=", ".", ",", "0", "2", "1/2", "0.5", "1e3", "root", "|a b|", "#", "\n", "~", "/\\", "\\/", "==>"),
     *("[", "]", "(E x)", "_root_1", "{", "}", "impl", "<>", "**", ":=", ";", "%", "|", '"', "!", ":named", "let"),
     *("assert", "(assert", "declare-const", "Real", "exists", "(check-sat)", "(declare-const x Real)", "((", "))"),
-    *("²", "ite"),
+    *("²", "ite", "`a b`", "`", "`e`", "`a\\`", "\\u{a}", "pi", "e"),
 )
 token_texts = st.lists(st.sampled_from(WORDS), max_size=14).map(" ".join)
 
@@ -36,6 +36,9 @@ def check(text: str, name: str) -> None:
 @example("\x00")
 @example("٣ > x")
 @example("x > |" + "a" * 100)
+@example("x > `" + "a" * 100)
+@example("`\\u{110000}` > 0")
+@example("`\\u{d800}` > 0")
 @example("[" * 5000)
 @example("(" * 5000)
 @example("not " * 5000 + "x > 0")

@@ -9,7 +9,7 @@ import pytest
 import qe
 from qe.io import formats
 
-HARD = "ex a, b, c. all x, y. a*x^4*y + b*x*y^3 + c*x^2*y^2 + d*x + e*y + f > a^2*x^3 + b^2*y^5"
+HARD = "ex a, b, c. all x, y. a*x^4*y + b*x*y^3 + c*x^2*y^2 + d*x + g*y + f > a^2*x^3 + b^2*y^5"
 
 
 def test_a_time_limit_holds_inside_one_long_operation() -> None:

@@ -162,7 +162,7 @@ def test_known_is_filled_for_a_run_that_ends_well():
     assert known.seconds > 0
 
 
-HARD = "ex a, b, c. all x, y. a*x^4*y + b*x*y^3 + c*x^2*y^2 + d*x + e*y + f > a^2*x^3 + b^2*y^5"
+HARD = "ex a, b, c. all x, y. a*x^4*y + b*x*y^3 + c*x^2*y^2 + d*x + g*y + f > a^2*x^3 + b^2*y^5"
 
 
 def test_the_public_function_answers_unable_at_a_hard_limit():

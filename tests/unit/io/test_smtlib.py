@@ -60,7 +60,7 @@ def test_a_whole_script() -> None:
         (exit)
         (push 1)
     """
-    assert str(smtlib.read(script)) == "2*|my name|^2 - 8*|my name| + 7 < 0 and |my name| > 0"
+    assert str(smtlib.read(script)) == "2*`my name`^2 - 8*`my name` + 7 < 0 and `my name` > 0"
 
 
 def test_a_definition_does_not_capture() -> None:

@@ -1,0 +1,100 @@
+"""What the public functions are given, as formulas and polynomials: text, ``Formula``, ``Poly``, SymPy, answers."""
+
+from __future__ import annotations
+
+from collections.abc import Container
+from fractions import Fraction
+from typing import Any
+
+from qe import arguments
+from qe.errors import InputError
+from qe.evidence.answer import Answer
+from qe.exact.ring import Poly, Ring
+from qe.formula.build import conj, convert
+from qe.formula.syntax import Constant, Exists, ForAll, Formula
+from qe.formula.traverse import ring_of
+
+AnyFormula = Any
+"""A ``Formula``, text, or a SymPy object."""
+
+
+def read_formula(given: AnyFormula, format: str = "text") -> Formula:
+    """The formula given in any of the accepted shapes; ``InputError`` otherwise."""
+    from qe.io import formats
+
+    chosen = formats.checked(format)
+    if isinstance(given, Formula):
+        return given
+    if isinstance(given, Answer):
+        if given.formula is None:
+            raise InputError("an answer without a formula was given")
+        return given.formula
+    if isinstance(given, str):
+        return formats.read(given, chosen)
+    from qe.io.sympy import from_sympy
+
+    return from_sympy(given)
+
+
+def read_block(given: AnyFormula, format: str = "text") -> Formula:
+    """The formula, its outermost quantifier kept where reading would drop it because its body is true or false.
+
+    Text and ``qe.Exists``/``qe.ForAll`` still tell which it is; other formulas come without it.
+    """
+    from qe.io import formats
+
+    formula = read_formula(given, format)
+    if not isinstance(formula, Constant):
+        return formula
+    block = None
+    if isinstance(given, str) and formats.checked(format) is formats.Format.TEXT:
+        from qe.io.text import outermost
+
+        block = outermost(given)
+    elif not isinstance(given, str | Formula | Answer):
+        from qe.io import sympy
+
+        block = sympy.outermost(given)
+    if block is None:
+        return formula
+    universal, names = block
+    return (ForAll if universal else Exists)(names, formula)
+
+
+def together(*parts: Formula) -> tuple[Formula, ...]:
+    """The formulas over one ring."""
+    names = dict.fromkeys(name for p in parts if (ring := ring_of(p)) is not None for name in ring.names)
+    ring = Ring.of(names)
+    return tuple(convert(p, ring) for p in parts)
+
+
+def read_constraints(given: AnyFormula) -> Formula:
+    """One formula, or the conjunction of a list of formulas."""
+    if isinstance(given, list | tuple):
+        return conj(together(*(read_formula(g) for g in given)))
+    return read_formula(given)
+
+
+def read_polynomial(given: AnyFormula, what: str, *, known: Container[str] = ()) -> tuple[Poly, Fraction]:
+    """The given term as a polynomial p and a rational s: it is s*p.
+
+    ``known``: names that are variables whatever else they may mean (``pi``). Raises ``InputError`` for text and objects
+    that are no polynomial over Q.
+    """
+    if isinstance(given, Poly):
+        return given, Fraction(1)
+    if isinstance(given, bool):
+        raise arguments.wrong(what, "a polynomial", given)
+    try:
+        if isinstance(given, str):
+            from qe.io.text import read_polynomial as read
+
+            return read(given, known=known)
+        from qe.io.sympy import polynomial_from_sympy
+
+        return polynomial_from_sympy(given)
+    except InputError as error:
+        raise InputError(f"{what}: a polynomial expected: {error}") from None
+
+
+__all__ = ["AnyFormula", "read_block", "read_constraints", "read_formula", "read_polynomial", "together"]

@@ -1,0 +1,237 @@
+"""The one place where arguments of public functions are checked: each function returns the value or says what is wrong.
+
+Every complaint is an ``InputError`` of one line, ``argument: what was expected, what was found``. Names may be given as
+SymPy symbols; a float, where a number is asked for, is the decimal number that it prints.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from decimal import Decimal
+from enum import Enum
+from fractions import Fraction
+from numbers import Integral, Rational, Real
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from qe.errors import InputError
+from qe.spelling import QUOTED, unquoted
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+Choice = TypeVar("Choice", bound=Enum)
+T = TypeVar("T")
+
+LONGEST_TIME = 1e9
+"""Seconds; a longer limit is a mistake, and no clock of the system takes it."""
+
+MOST_MEMORY = 1 << 40
+LONGEST_NUMBER = 4000
+"""Characters of a number, and the largest exponent of ten in one."""
+
+_NAMES = re.compile(rf"\s*(?:({QUOTED})|([^\s,`]+))(?:\s*,\s*(?=\S)|\s+|$)")
+_DECIMAL = re.compile(r"\s*[-+]?[0-9]*\.?[0-9]*(?:[eE]([-+]?[0-9]{1,5}))?\s*")
+_FRACTION = re.compile(r"\s*[-+]?[0-9]+\s*/\s*[0-9]+\s*")
+
+
+def wrong(what: str, expected: str, found: object) -> InputError:
+    """The error for an argument."""
+    return InputError(f"{what}: {expected} expected, {shown(found)} found")
+
+
+def shown(value: object) -> str:
+    """A value in a message: short values as they are, all others by their type."""
+    if isinstance(value, int) and not isinstance(value, bool) and value.bit_length() > 200:
+        return "a large integer"
+    if value is None or isinstance(value, bool | int | float | Fraction | str):
+        text = str(value) if isinstance(value, Fraction) else repr(value)
+        return text if len(text) <= 60 else f"{text[:57]}…"
+    return type(value).__name__
+
+
+def instance(value: object, kind: type[T], what: str, expected: str) -> T:
+    """A value of this type."""
+    if not isinstance(value, kind):
+        raise wrong(what, expected, value)
+    return value
+
+
+def text(value: object, what: str) -> str:
+    """A string."""
+    return instance(value, str, what, "text")
+
+
+def flag(value: object, what: str) -> bool:
+    """``True`` or ``False`` themselves: what merely counts as one of them is often a slip."""
+    return instance(value, bool, what, "True or False")
+
+
+def listener(value: object, what: str = "progress") -> Callable[..., Any]:
+    """Something that can be called."""
+    if not callable(value):
+        raise wrong(what, "a function of one event", value)
+    return value
+
+
+def _number(given: object, kind: type) -> Any:
+    """The value if it is a number of this kind (``numbers.Real``, ``numbers.Integral``) and no truth value."""
+    return given if isinstance(given, kind) and not isinstance(given, bool) else None
+
+
+def seconds(given: object, what: str = "timeout") -> float | None:
+    """A limit on time: a positive number of seconds, or None for no limit."""
+    if given is None:
+        return None
+    value = _number(given, Real)
+    if value is None or not 0 < value < LONGEST_TIME:  # not a number, too, is refused by this
+        raise wrong(what, "a positive number of seconds", given)
+    return float(value)
+
+
+def mebibytes(given: object, what: str = "memory") -> int | None:
+    """A limit on memory: a positive number of MiB, or None for no limit."""
+    if given is None:
+        return None
+    value = _number(given, Integral)
+    if value is None or not 0 < value < MOST_MEMORY:
+        raise wrong(what, "a positive whole number of MiB", given)
+    return int(value)
+
+
+def whole(given: object, what: str, most: float = math.inf) -> int:
+    """A natural number, up to ``most``."""
+    value = _number(given, Integral)
+    if value is None or not 0 <= value <= most:
+        raise wrong(what, "a natural number" if most == math.inf else f"a natural number up to {most}", given)
+    return int(value)
+
+
+def integers(value: object, what: str) -> list[int]:
+    """Integers in order."""
+    if not isinstance(value, Iterable) or isinstance(value, str | bytes | bytearray | Mapping | set | frozenset):
+        raise wrong(what, "integers in order", value)
+    found = list(value)
+    for item in found:
+        if isinstance(item, bool) or not isinstance(item, Integral):
+            raise wrong(what, "integers", item)
+    return [int(item) for item in found]
+
+
+def ratio(given: object, what: str) -> Fraction:
+    """A number between 0 and 1."""
+    value = _number(given, Real)
+    if value is None or not 0 < value < 1:
+        raise wrong(what, "a number between 0 and 1", given)
+    return Fraction(value) if isinstance(value, Rational | float) else Fraction(float(value))
+
+
+def path(value: object, what: str = "path") -> Path:
+    """The name of a file."""
+    from pathlib import Path
+
+    return Path(instance(value, str | Path, what, "the name of a file"))  # type: ignore[arg-type]
+
+
+# --- choices and names --------------------------------------------------------------------------------------
+def member(value: object, choices: type[Choice], what: str) -> Choice:
+    """The member of an enumeration that is given, by itself or by its value."""
+    try:
+        return choices(value)
+    except ValueError:
+        raise wrong(what, f"one of {', '.join(str(m.value) for m in choices)}", value) from None
+
+
+def members(value: object, choices: type[Choice], what: str) -> frozenset[Choice]:
+    """Some members, in a list or set; one alone may be given as it is."""
+    if isinstance(value, str | choices):
+        value = (value,)
+    if not isinstance(value, Iterable):
+        raise wrong(what, f"some of {', '.join(str(m.value) for m in choices)}", value)
+    return frozenset(member(item, choices, what) for item in value)
+
+
+def name(value: object, what: str) -> str:
+    """The name of a variable: a string that is not empty, or a SymPy symbol."""
+    if getattr(value, "is_Symbol", False) is True:
+        value = getattr(value, "name", None)
+    if not isinstance(value, str) or not value:
+        raise wrong(what, "the name of a variable", value)
+    return value
+
+
+def names(value: object, what: str = "order") -> tuple[str, ...] | None:
+    """Names in order: ``"y,x"``, ``"y x"``, a list of names or SymPy symbols; or None."""
+    if value is None:
+        return None
+    if isinstance(value, str):
+        return _split(value, what)
+    if getattr(value, "is_Symbol", False) is True:
+        return (name(value, what),)
+    if not isinstance(value, Iterable) or isinstance(value, bytes | bytearray | Mapping | set | frozenset):
+        raise wrong(what, "names of variables in order, as in 'y, x' or ('y', 'x'),", value)
+    return tuple(name(item, what) for item in value)
+
+
+def _split(given: str, what: str) -> tuple[str, ...]:
+    """The names in a text, between commas or spaces; names in backquotes may hold both."""
+    found: list[str] = []
+    at = 0
+    while at < len(given):
+        matched = _NAMES.match(given, at)
+        if matched is None:
+            break
+        try:
+            found.append(unquoted(matched[1]) if matched[1] else matched[2])
+        except ValueError as error:
+            raise InputError(f"{what}: the name {matched[1]} cannot be read: {error}") from None
+        at = matched.end()
+    if at < len(given) or not found:
+        raise wrong(what, "names of variables with commas or spaces between them", given)
+    return tuple(found)
+
+
+def by_name(value: object, what: str) -> dict[str, Any]:
+    """A mapping from names, or SymPy symbols, each once."""
+    if not isinstance(value, Mapping):
+        raise wrong(what, "a mapping from names to values", value)
+    found = {name(key, what): item for key, item in value.items()}
+    if len(found) < len(value):
+        raise InputError(f"{what}: each name once expected, a name and a symbol of the same name found")
+    return found
+
+
+def by_place(value: object, what: str) -> list[Any]:
+    """A sequence of values; text, which is one too, is not meant."""
+    if not isinstance(value, Sequence) or isinstance(value, str | bytes | bytearray):
+        raise wrong(what, "values in order, or a mapping from names to values,", value)
+    return list(value)
+
+
+# --- numbers ------------------------------------------------------------------------------------------------
+def rational(value: object, what: str, expected: str = "an exact number") -> Fraction:
+    """A rational number: int, ``Fraction``, text such as ``-3/4`` or ``1.5e-3``; a finite float, also one of SymPy."""
+    if isinstance(value, float):
+        if not math.isfinite(value):
+            raise wrong(what, expected, value)
+        return Fraction(float.__repr__(value))
+    if isinstance(value, str):
+        return _rational(value, what, expected)
+    if isinstance(value, Decimal) or getattr(value, "is_Float", False) is True:
+        return _rational(str(value), what, expected)
+    if isinstance(value, Rational) and not isinstance(value, bool):
+        return Fraction(int(value.numerator), int(value.denominator))
+    raise wrong(what, expected, value)
+
+
+def _rational(given: str, what: str, expected: str) -> Fraction:
+    """The number of a text, which must not be longer than it looks: ``1e999999999`` would fill the memory."""
+    decimal = _DECIMAL.fullmatch(given)
+    large = decimal is not None and abs(int(decimal[1] or 0)) > LONGEST_NUMBER
+    if len(given) > LONGEST_NUMBER or large or not (decimal or _FRACTION.fullmatch(given)):
+        raise wrong(what, expected, given)
+    try:
+        return Fraction(given.replace(" ", ""))
+    except (ValueError, ZeroDivisionError):
+        raise wrong(what, expected, given) from None

@@ -1,0 +1,58 @@
+"""How the name of a variable is written in text: as it stands where it is a plain word, else between backquotes.
+
+A name is any string without ``|`` and backslash, which SMT-LIB keeps out of its own quoted symbols. Between backquotes
+a backquote is written ``\\```, and a character that cannot be seen (a line break, a control character) by its number,
+``\\u{a}``.
+"""
+
+from __future__ import annotations
+
+import re
+
+WORD = r"[^\W\d⁰¹²³⁴-⁹][^\W⁰¹²³⁴-⁹]*'*"
+"""A plain word: letters, digits and ``_``, not a digit first, perhaps with primes."""
+
+QUOTED = r"`(?:[^`\\\n]|\\.)+`"
+"""A name between backquotes."""
+
+KEYWORDS = frozenset(("ex", "exists", "Ex", "all", "forall", "All", "and", "or", "not", "true", "false"))
+"""Words that mean something else in the text syntax."""
+
+CONSTANTS = frozenset(("pi", "π", "e", "i"))
+"""Words that mathematics reads as numbers: the text syntax takes them as free variables only between backquotes."""
+
+_PLAIN = re.compile(WORD)
+_ESCAPE = re.compile(r"\\(?:u\{([0-9a-fA-F]{1,6})\}|([`\\]))")
+
+
+def quoted(name: str) -> str:
+    """The name as text reads it, wherever it stands."""
+    return between_quotes(name) if name in CONSTANTS else quoted_if_needed(name)
+
+
+def quoted_if_needed(name: str) -> str:
+    """The name as text reads it where it is a bound variable: ``pi`` and its kind stay as they are."""
+    return name if _PLAIN.fullmatch(name) and name not in KEYWORDS else between_quotes(name)
+
+
+def between_quotes(name: str) -> str:
+    """The name between backquotes, one line whatever it holds."""
+    escaped = name.replace("\\", r"\\").replace("`", r"\`")
+    return f"`{visible(escaped)}`"
+
+
+def visible(name: str) -> str:
+    """The name with a number in place of every character that cannot be seen."""
+    if name.isprintable():
+        return name
+    return "".join(c if c.isprintable() else f"\\u{{{ord(c):x}}}" for c in name)
+
+
+def unquoted(text: str) -> str:
+    """The name that stands between these backquotes; ``ValueError`` for an escape that means nothing."""
+    body = text[1:-1]
+    if "\\" not in body:
+        return body
+    if "\\" in _ESCAPE.sub("", body):
+        raise ValueError("after \\ only a backquote or u{…} is known")
+    return _ESCAPE.sub(lambda found: found[2] or chr(int(found[1], 16)), body)

@@ -1,0 +1,188 @@
+"""Variables may be called anything: every format, certificate and answer carries the name, or a new one injectively."""
+
+from __future__ import annotations
+
+import re
+import string
+from xml.etree import ElementTree
+
+import pytest
+from hypothesis import assume, example, given, settings
+from hypothesis import strategies as st
+
+import qe
+from qe.errors import CertificateRejected, InputError
+from qe.evidence.entry import Entry, parse_poly, poly_to_text
+from qe.exact.ring import Poly, Ring, format_poly
+from qe.formula.build import atom, conj, disj, exists, forall
+from qe.formula.evaluate import holds_at
+from qe.formula.syntax import Formula, Relation
+from qe.formula.traverse import free_variables
+from qe.io import formats, smtlib, text
+from qe.io import json as json_format
+from qe.io.sympy import from_sympy, to_sympy
+from qe.spelling import CONSTANTS, KEYWORDS, quoted, unquoted
+from tests.strategies import RELATIONS, formulas, points, polynomials
+from tests.universe import same
+
+SYMBOL = string.ascii_letters + string.digits + "~!@$%^&*_-+=<>.?/"
+RESERVED = (*KEYWORDS, *CONSTANTS, "E", "A", "root", "let", "Real", "assert", "_", "!", "t_0", "epsilon", "infinity")
+LIKE_TERMS = (
+    "a + b",
+    "x*y",
+    "2",
+    "-x",
+    "x^2",
+    " ",
+    "a, b",
+    "x - y",
+    "`",
+    "a`b",
+    "x = 0",
+    "(",
+    "#",
+    "'",
+    "a\nb",
+    "\x00",
+)
+THEORY = frozenset(("+", "-", "*", "/", "^", "=", "<", ">", "<=", ">=", "=>", "!", *KEYWORDS, "let"))
+"""Symbols that a script cannot declare, quoted or not: they mean the same with bars."""
+
+names = st.one_of(
+    st.text(st.characters(exclude_categories=("Cs",), exclude_characters="|\\"), min_size=1, max_size=5),
+    st.text(SYMBOL, min_size=1, max_size=6),
+    st.sampled_from((*RESERVED, *LIKE_TERMS, "x", "x'", "ä", "x²", "x₁", "İ", "e\u0301", "é")),
+)
+triples = st.lists(names, min_size=3, max_size=3, unique=True).map(tuple)
+
+
+@st.composite
+def named_formulas(draw: st.DrawFn, *, quantifiers: int = 0, root_atoms: bool = False) -> Formula:
+    """Formulas in which every one of three names occurs, free or bound."""
+    chosen = draw(triples)
+    drawn = formulas(names=chosen, max_quantifiers=quantifiers, root_atoms=root_atoms)
+    x, y, z = map(Ring.of(chosen).var, chosen)
+    parts = [atom(x * y - 2 * z + 1, draw(RELATIONS)), draw(drawn)]
+    both = conj(parts) if draw(st.booleans()) else disj(parts)
+    bound = draw(st.lists(st.sampled_from(chosen), max_size=quantifiers, unique=True))
+    return draw(st.sampled_from((exists, forall)))(bound, both)
+
+
+@st.composite
+def named_polynomials(draw: st.DrawFn) -> Poly:
+    return draw(polynomials(Ring.of(draw(triples)), max_coefficient=10**30))
+
+
+@given(names)
+def test_a_name_is_read_as_it_was_written(name: str) -> None:
+    written = quoted(name)
+    assert written.isprintable()
+    assert (unquoted(written) if written.startswith("`") else written) == name
+    assert free_variables(text.read(f"{written} > 0")) == (name,)
+
+
+@given(named_formulas(quantifiers=3, root_atoms=True))
+def test_text_and_json(formula: Formula) -> None:
+    written = text.write(formula)
+    assert written.isprintable()
+    assert same(text.read(written), formula), written
+    assert json_format.read(json_format.write(formula)) == formula
+
+
+@given(named_polynomials())
+@example(Ring.of(("a + b", "b", "a")).gen(0) * 3 - Ring.of(("a + b", "b", "a")).gen(1))
+def test_polynomials_of_certificates(poly: Poly) -> None:
+    assert parse_poly(poly_to_text(poly), poly.ring) == poly
+    term, scale = text.read_polynomial(format_poly(poly))
+    assert scale == 1
+    assert term.convert(poly.ring) == poly
+
+
+@given(st.text(st.sampled_from("ab`\\ +-*^123_'u{}"), max_size=12))
+def test_other_text_is_no_polynomial_of_a_certificate(given_text: str) -> None:
+    """There are no two texts for one polynomial: what is read is what would be written."""
+    ring = Ring.of(("a", "b", "a b", "`", "a`b"))
+    try:
+        poly = Entry(given_text, "polynomial").polynomial(ring)
+    except CertificateRejected:
+        return
+    assert poly_to_text(poly) == given_text
+
+
+@settings(max_examples=15)
+@given(triples)
+@example(("x!0", "d.g", "$in"))
+@example(("a b", "x^*", "pi"))
+def test_a_witness_is_checked_whatever_its_variables_are_called(chosen: tuple[str, str, str]) -> None:
+    ring = Ring.of(chosen)
+    x, y, z = ring.gen(0), ring.gen(1), ring.gen(2)
+    body = conj((atom(x * x + y - 3, Relation.EQ), atom(x * y - 1, Relation.EQ), atom(z - x, Relation.GT)))
+    answer = qe.eliminate(exists(chosen, body))
+    assert answer.truth is True and answer.witness is not None and set(answer.witness) == set(chosen)
+    assert answer.guarantee is qe.Guarantee.CHECKED and answer.certificate is not None
+    assert qe.verify(qe.Certificate.from_json(answer.certificate.to_json())).accepted
+    checked = qe.eliminate(exists([chosen[0]], body), check=True)
+    assert checked.certificate is not None
+    assert qe.verify(qe.Certificate.from_json(checked.certificate.to_json())).accepted
+    assert qe.equivalent(str(checked.formula), checked.formula)
+
+
+@given(named_formulas(), st.data())
+def test_smtlib(formula: Formula, data: st.DataObject) -> None:
+    """Reserved names change, the meaning does not."""
+    written = smtlib.write(formula)
+    assert not re.search(r"[\x00-\x08\x0b\x0c\x0e-\x1f\x7f\\]", written), "section 3.1 allows none of these"
+    again = smtlib.read(written)
+    assert len(free_variables(again)) == len(free_variables(formula))
+    point = data.draw(points(free_variables(formula)))
+    renamed = {new: point[old] for old, new in zip(free_variables(formula), free_variables(again), strict=True)}
+    assert holds_at(again, renamed) == holds_at(formula, point)
+
+
+@given(st.lists(names.filter(lambda name: name not in THEORY), min_size=1, max_size=3, unique=True))
+def test_quoted_symbols_of_smtlib_are_the_names(chosen: list[str]) -> None:
+    lines = [f"(declare-const |{name}| Real)(assert (> |{name}| 0))" for name in chosen]
+    assert set(free_variables(smtlib.read("\n".join(lines)))) == set(chosen)
+
+
+@pytest.mark.parametrize("format_name", ["redlog", "qepcad"])
+@given(formula=named_formulas())
+def test_renaming_formats_keep_variables_apart(format_name: str, formula: Formula) -> None:
+    again = formats.read(formats.write(formula, format_name), format_name)
+    assert len(free_variables(again)) == len(free_variables(formula))
+
+
+@given(named_formulas(quantifiers=1))
+def test_print_formats_are_well_formed(formula: Formula) -> None:
+    ElementTree.fromstring(formats.write(formula, "mathml"))
+    assert formats.write(formula, "latex").isprintable() or r"\begin{array}" in formats.write(formula, "latex")
+
+
+@settings(max_examples=30)
+@given(named_formulas(), st.data())
+def test_sympy_keeps_names(formula: Formula, data: st.DataObject) -> None:
+    again = from_sympy(to_sympy(formula))
+    assert set(free_variables(again)) <= set(free_variables(formula))
+    point = data.draw(points(free_variables(formula)))
+    assert holds_at(again, point) == holds_at(formula, point)
+
+
+@given(triples)
+def test_an_order_in_text_may_name_anything(chosen: tuple[str, str, str]) -> None:
+    from qe.arguments import names as order
+
+    assert order(", ".join(map(quoted, chosen))) == chosen
+    assert order(" ".join(map(quoted, chosen))) == chosen
+    assert order(list(chosen)) == chosen
+
+
+@given(st.text(min_size=1, max_size=4), st.sampled_from("|\\\ud800"))
+def test_names_that_some_format_cannot_hold_are_refused_by_every_reader(name: str, bad: str) -> None:
+    import sympy
+
+    assume(name.isprintable())
+    with pytest.raises(InputError, match="name"):
+        from_sympy(sympy.Symbol(name + bad) > 0)
+    with pytest.raises(InputError, match="name"):
+        data = json_format.encode(text.read("x > 0"))
+        json_format.decode({**data, "ring": [name + bad]})

@@ -1,0 +1,210 @@
+"""What people put in and get out: every mistake here was once made by the toolkit and found from outside."""
+
+from __future__ import annotations
+
+import json
+import math
+from decimal import Decimal
+
+import pytest
+import sympy as sp
+from sympy.abc import b, x, y
+
+import qe
+from qe.evidence.certificate import Kind
+from qe.evidence.entry import parse_poly, poly_to_text
+from qe.exact.field import NumberField
+from qe.exact.ring import Ring
+from qe.formula.traverse import free_variables
+from qe.io import formats, text
+
+root2 = qe.RealAlgebraic.from_root([-2, 0, 1], 1, 2)
+
+
+# --- text ---------------------------------------------------------------------------------------------------
+@pytest.mark.parametrize("given", ["all x. |x| >= 0", "ex x. |x| < 0", "|x - 1| < 2", "x > 0 | y > 0", "||x| - 1| > 0"])
+def test_bars_are_not_read_as_a_name(given: str) -> None:
+    with pytest.raises(qe.ParseError, match="absolute value") as caught:
+        qe.eliminate(given)
+    assert caught.value.column == given.index("|") + 1 and "backquotes" in str(caught.value)
+
+
+@pytest.mark.parametrize("given", ["x > pi", "ex x. x^2 = e", "i^2 = -1", "x < 2*π", "(all e. e > 0) or e = 1"])
+def test_constants_of_mathematics_are_not_taken_for_variables(given: str) -> None:
+    with pytest.raises(qe.ParseError, match="no number here"):
+        qe.eliminate(given)
+
+
+def test_constants_may_be_names_where_that_is_meant() -> None:
+    assert free_variables(formats.read("`pi` > `e` and `e` = `i`")) == ("pi", "e", "i")
+    assert qe.decide("all e. e > 0 -> ex d. d > 0 and d < e")
+    answer = qe.eliminate(formats.read("(declare-const e Real)(assert (> (* e e) 2))", "smtlib"))
+    assert qe.equivalent(str(answer), answer.formula)
+    assert free_variables(text.read("x > pi", known=("pi",))) == ("x", "pi")
+
+
+def test_a_comma_in_an_order_is_no_variable() -> None:
+    disc = "x^2 + y^2 <= 1"
+    assert qe.region(disc, order="y,x").order == qe.region(disc, order="y x").order == ("y", "x")
+    assert qe.region(disc, order=(y, x)).order == ("y", "x")
+    for wrong in ("y,,x", {"x", "y"}, {"x": 1, "y": 2}, 5, ["x", 5], b"xy"):
+        with pytest.raises(qe.InputError, match="order"):
+            qe.region(disc, order=wrong)
+
+
+def test_an_objective_may_use_any_name() -> None:
+    """A name that the reader used for itself was lost from the objective."""
+    best = qe.minimize("polynomial_value^2 - 2*polynomial_value", "polynomial_value <= 5")
+    assert best.value == -1 and best.point == {"polynomial_value": 1}
+    with pytest.raises(qe.InputError, match=":1:5"):
+        qe.minimize("x + ) 1")
+
+
+# --- truth --------------------------------------------------------------------------------------------------
+def test_an_answer_has_no_truth_value() -> None:
+    answer = qe.eliminate("ex x. x^2 < 0")
+    assert answer.truth is False
+    for ask in (bool, lambda a: a and 1, lambda a: not a, lambda a: 1 if a else 0):
+        with pytest.raises(TypeError, match=r"qe\.decide"):
+            ask(answer)
+    assert issubclass(qe.NoTruthValue, qe.InputError)
+
+
+@pytest.mark.parametrize(
+    "make", [lambda: qe.Exists(x, x**2 == b), lambda: qe.ForAll(x, x != x), lambda: qe.decide(True)]
+)
+def test_the_comparison_of_expressions_is_no_formula(make) -> None:
+    with pytest.raises(qe.InputError, match="Eq"):
+        make()
+
+
+# --- names --------------------------------------------------------------------------------------------------
+@pytest.mark.parametrize("name", ["x!0", "d.g", "$in", "a b", "x^*", "a + b", "1", "`", "ä\u0301", "a\nb"])
+def test_a_witness_for_a_variable_with_an_odd_name(name: str) -> None:
+    script = f"(declare-const |{name}| Real)(assert (= (* |{name}| |{name}|) 2))(assert (> |{name}| 0))"
+    found = qe.find_instance(script, format="smtlib")
+    assert found is not None and found[name] == root2
+    assert qe.decide(qe.Exists(sp.Symbol(name), sp.Eq(sp.Symbol(name) ** 2, 2)))
+
+
+def test_certificates_of_plain_names_are_as_they_were() -> None:
+    """Written before names could be quoted: words of the syntax and letters of any script stood as they are."""
+    ring = Ring.of(("and", "e", "x²", "y'", "_1"))
+    for written in ("and^2 - 3*e", "x²^2*y' + 7", "-and*e*_1 + x² - 1", "0", "-5"):
+        assert poly_to_text(parse_poly(written, ring)) == written
+    old = {"order": ["pi"], "matrix": ["atom", "pi^2 - 2", "="], "values": ["1"]}
+    assert qe.verify(qe.Certificate(Kind.WITNESS, old)).step == "payload.matrix"
+
+
+def test_line_breaks_keep_symbols_apart() -> None:
+    """``|a b|`` and ``|a`` newline ``b|`` were one variable: the inner quantifier hid the outer one."""
+    script = "(assert (exists ((|a b| Real)) (forall ((|a\nb| Real)) (= |a b| |a\nb|))))"
+    assert qe.decide(script, format="smtlib") is False
+
+
+# --- SymPy --------------------------------------------------------------------------------------------------
+def test_numbers_go_to_sympy_exactly() -> None:
+    assert sp.sympify(root2) == sp.sqrt(2)
+    assert root2 + sp.sqrt(2) == sp.sqrt(2) + root2 == 2 * sp.sqrt(2)
+    assert sp.sqrt(2) - root2 == root2 - sp.sqrt(2) == 0
+    assert root2 * sp.sqrt(2) == 2 and root2 / sp.sqrt(2) == 1 and sp.sqrt(2) / root2 == 1
+    assert root2 == sp.sqrt(2) and sp.sqrt(2) == root2 and bool(root2 < sp.sqrt(3))
+    cubic = qe.RealAlgebraic.from_root([1, -10, 0, 1], 0, 1)
+    assert sp.sympify(cubic) == sp.CRootOf(x**3 - 10 * x + 1, 1)
+    assert isinstance(root2 + x, sp.Expr) and (root2 + x).subs(x, 0) == sp.sqrt(2)
+    field = NumberField(root2)
+    assert sp.sympify(field.generator() + 1) == 1 + sp.sqrt(2)
+    assert root2 == field.generator() and root2 + field.generator() == 2 * root2
+
+
+def test_numbers_of_sympy_are_coordinates() -> None:
+    disc = qe.region("x^2 <= 2")
+    inside, outside = sp.sqrt(2), sp.sqrt(2) + sp.Rational(1, 10**40)
+    assert disc.contains({x: inside}) and not disc.contains({x: outside})
+    assert disc.contains({x: root2 + sp.sqrt(3) - sp.sqrt(3)}) and disc.contains({x: sp.CRootOf(x**3 - 2, 0)})
+    assert disc.contains({x: Decimal("1.4")}) and not disc.contains({x: sp.Float("1.5")})
+    for wrong in (sp.pi, sp.oo, sp.I, x, sp.sqrt(2) * 1.0, Decimal("1e999999999"), sp.nan):
+        with pytest.raises(qe.InputError, match="exact number"):
+            disc.contains({x: wrong})
+
+
+def test_formulas_and_answers_go_to_sympy() -> None:
+    answer = qe.eliminate("ex x. x^2 + b*x + c = 0")
+    c = sp.Symbol("c")
+    assert sp.sympify(answer) == sp.sympify(answer.formula)
+    assert sp.And(answer, x > 0).free_symbols == {b, c, x}
+    assert sp.sympify(answer).subs({b: 3, c: 2}) is sp.true
+    assert qe.equivalent(sp.sympify(answer), answer)
+    solvable = qe.Exists(x, sp.Eq(x**2 + b * x + c, 0))
+    assert qe.decide(qe.ForAll([b, c], (~solvable | answer) & (solvable | ~sp.sympify(answer))))
+
+
+def test_a_float_of_sympy_is_the_decimal_that_it_prints() -> None:
+    assert qe.decide(qe.Exists(x, sp.Eq(10 * x, 1) & sp.Eq(x, 0.1)))
+    assert qe.minimize(0.1 * x, x >= 3).value == sp.Rational(3, 10)
+
+
+# --- wrong values -------------------------------------------------------------------------------------------
+@pytest.mark.parametrize(
+    "call",
+    [
+        lambda: qe.verify("abc"),
+        lambda: qe.eliminate("x > 0", timeout="10"),
+        lambda: qe.eliminate("x > 0", timeout=math.nan),
+        lambda: qe.decide("true", timeout=-1),
+        lambda: qe.decide("true", memory=math.inf),
+        lambda: qe.region("x > 0", timeout=math.inf),
+        lambda: qe.region("x > 0").contains({"x": math.inf}),
+        lambda: qe.region("x > 0").contains(5),
+        lambda: qe.eliminate("x^2 + y^2 < 1", order=(x, 5)),
+        lambda: qe.Certificate.from_json(5),
+        lambda: qe.parametric_witnesses("true"),
+        lambda: qe.RealAlgebraic.from_root([-2.5, 1], 0, 5),
+    ],
+)
+def test_wrong_values_get_a_line_and_no_raw_error(call) -> None:
+    with pytest.raises(qe.InputError) as caught:
+        call()
+    assert "\n" not in str(caught.value)
+
+
+def test_parametric_witnesses_of_a_body_that_is_a_constant() -> None:
+    (anything,) = qe.parametric_witnesses("ex x. ex y. y^2 = x^2 and x^2 >= 0")
+    assert set(anything.at({})) == {"x", "y"}
+    assert qe.parametric_witnesses("all x. (ex y. y > x)") == ()
+    assert qe.parametric_witnesses("ex x. (all y. y > x)") == ()
+    (refuting,) = qe.parametric_witnesses("all x. (all y. y > x)")
+    assert str(refuting.guard) == "true"
+
+
+@pytest.mark.parametrize(
+    ("block", "found"),
+    [
+        ("ex x. x = x", [{"x": 0}]),
+        ("ex x, y. x^2 >= x^2 - 1", [{"x": 0, "y": 0}]),
+        ("ex x. x < x", []),
+        ("all x. x = x", []),
+        ("all x. x < x", [{"x": 0}]),
+        (qe.Exists(x, sp.Eq(x, x)), [{"x": 0}]),
+        (qe.ForAll([x, y], sp.false), [{"x": 0, "y": 0}]),
+    ],
+)
+def test_parametric_witnesses_of_a_block_that_reading_folds(block: object, found: list[dict[str, int]]) -> None:
+    assert [w.at({}) for w in qe.parametric_witnesses(block)] == found
+
+
+def test_a_witness_in_a_root_atom() -> None:
+    assert qe.check_witness("ex y. y > root(1, y^2-2)", {"y": "3"}) is True
+    assert qe.check_witness("ex y. y > root(1, y^2-2)", {"y": "-3"}) is False
+    assert qe.check_witness("all x. ex y. y > root(1, y^3 - x)", {"y": "x^2 + x + 1"}) is True
+
+
+def test_a_witness_where_a_name_is_quantified_twice() -> None:
+    assert qe.check_witness("all x. (ex y. y > x) and (ex y. y < x)", {"y": "x + 1"}) is True
+
+
+def test_a_certificate_made_by_hand_is_rejected_not_a_crash() -> None:
+    for wrong in (qe.Certificate("cells", {}), qe.Certificate("x", 5), qe.Certificate(None, (1, 2))):  # type: ignore
+        assert not qe.verify(wrong).accepted
+    with pytest.raises(qe.CertificateRejected):
+        qe.Certificate.from_json(json.dumps({"format": "bezier-qe certificate", "version": 1}))

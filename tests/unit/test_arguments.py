@@ -1,0 +1,241 @@
+"""Every public function with wrong values for every argument: one clear line, an ``InputError``, nothing else."""
+
+from __future__ import annotations
+
+import inspect
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from fractions import Fraction
+
+import pytest
+
+import qe
+from qe.io import formats
+
+WRONG: dict[str, object] = {
+    "int": 5,
+    "huge": 10**5000,
+    "negative": -1,
+    "zero": 0,
+    "float": 0.5,
+    "nan": math.nan,
+    "inf": math.inf,
+    "bool": True,
+    "none": None,
+    "complex": 1j,
+    "text": "no such thing",
+    "digits": "10",
+    "empty": "",
+    "bytes": b"x > 0",
+    "list": [],
+    "dict": {},
+    "set": {1},
+    "nested": [[1]],
+    "object": object(),
+    "function": len,
+    "class": int,
+    "error": ValueError("x"),
+}
+NUMBERS = {"int", "huge", "negative", "zero"}
+REGION = qe.region("x^2 + y^2 <= 1")
+CONVEX = qe.region("ex w. x^2 + y^2 + z^2 + u^2 + w^2 <= 1")
+SOLVED = qe.eliminate("ex x. x^2 = 2")
+WITNESS = qe.parametric_witnesses("ex x. x > a and x < b")[0]
+SQUARE_ROOT = qe.RealAlgebraic.from_root([-2, 0, 1], 1, 2)
+
+
+@dataclass(frozen=True)
+class Door:
+    """A public function, arguments with which it works, and by argument which of the values above are no mistake."""
+
+    call: Callable[..., object]
+    given: Mapping[str, object]
+    fine: Mapping[str, set[str]] = field(default_factory=dict)
+    around: Mapping[str, Callable[[object], object]] = field(default_factory=dict)
+
+
+EVERYWHERE = {
+    "timeout": {"int", "float", "none"},
+    "memory": {"none"},
+    **{name: {"bool"} for name in ("root_atoms", "explain", "check", "process")},
+    "order": {"none", "list"},
+    "without": {"list", "dict"},
+}
+"""What is no mistake for an argument of this name, unless a door says otherwise."""
+
+EVERY = dict.fromkeys(name for name in inspect.signature(qe.eliminate).parameters if name != "formula")
+BETWEEN = {"lo": {"negative", "zero", "float"}, "hi": {"int", "digits", "huge"}}
+POINT = {"x": 0, "y": 0}
+
+DOORS = {
+    "eliminate": Door(qe.eliminate, {"formula": "ex x. x^2 = a"}),
+    "decide": Door(qe.decide, {"formula": "ex x. x^2 = 2", **EVERY}),
+    "find_instance": Door(qe.find_instance, {"formula": "x^2 = 2", **EVERY}),
+    "equivalent": Door(qe.equivalent, {"left": "x > 0", "right": "x > 0", **EVERY}),
+    "check_witness": Door(
+        qe.check_witness, {"sentence": "ex x. x > 0", "witness": {"x": "1"}, **EVERY}, {"witness": {"dict"}}
+    ),
+    "check_witness term": Door(
+        qe.check_witness,
+        {"sentence": "ex x. x > 0", "witness": "1"},
+        {"witness": {*NUMBERS, "digits"}},
+        {"witness": lambda value: {"x": value}},
+    ),
+    "parametric_witnesses": Door(qe.parametric_witnesses, {"formula": "ex x. x > a"}),
+    "region": Door(qe.region, {"formula": "x > 0"}, {"order": {"none"}}),
+    "region order": Door(
+        qe.region, {"formula": "x > 0", "order": "y"}, {"order": {"text", "digits"}}, {"order": lambda v: ["x", v]}
+    ),
+    "minimize": Door(
+        qe.minimize, {"objective": "x"}, {"objective": {*NUMBERS, "digits"}, "constraints": {"list"}}
+    ),
+    "maximize": Door(
+        qe.maximize, {"objective": "-x"}, {"objective": {*NUMBERS, "digits"}, "constraints": {"list"}}
+    ),
+    "minimize list": Door(
+        qe.minimize, {"objective": "x", "constraints": "x > 0"}, {}, {"constraints": lambda value: ["x > 1", value]}
+    ),
+    "verify": Door(qe.verify, {"certificate": SOLVED.certificate}),
+    "Exists": Door(qe.Exists, {"variables": "x", "body": REGION.formula}, {"variables": {"text", "digits"}}),
+    "ForAll": Door(qe.ForAll, {"variables": ["x"], "body": REGION.formula}, {"variables": {"text", "digits"}}),
+    "Certificate.from_json": Door(qe.Certificate.from_json, {"text": SOLVED.certificate.to_json()}),
+    "Certificate.to_json": Door(SOLVED.certificate.to_json, {"indent": 1}, {"indent": {"int", "zero", "none"}}),
+    "Region.from_json": Door(qe.Region.from_json, {"text": REGION.to_json()}),
+    "Region.contains": Door(REGION.contains, {"point": POINT}),
+    "Region.contains value": Door(
+        REGION.contains, {"point": 0}, {"point": {*NUMBERS, "float", "digits"}}, {"point": lambda v: {"x": v, "y": 0}}
+    ),
+    "Region.fibre": Door(REGION.fibre, {"prefix": [0]}, {"prefix": {"list", "dict"}}),
+    "Region.fibre value": Door(
+        REGION.fibre, {"prefix": 0}, {"prefix": {*NUMBERS, "float", "digits"}}, {"prefix": lambda v: [v]}
+    ),
+    "Region.bounds": Door(REGION.bounds, {"variable": "x"}),
+    "Region.volume": Door(REGION.volume, {"rel_error": 0.5}, {"rel_error": {"float"}}),
+    "Region.plot": Door(REGION.plot, {"path": "no/such/folder/picture.png"}),
+    "ConvexRegion.contains": Door(CONVEX.contains, {"point": dict.fromkeys("xyzu", 0)}),
+    "ConvexRegion.fibre": Door(CONVEX.fibre, {"prefix": [0]}, {"prefix": {"list", "dict"}}),
+    "ConvexRegion.bounds": Door(CONVEX.bounds, {"variable": "x"}),
+    "ParametricWitness.at": Door(WITNESS.at, {"parameters": {"a": 0, "b": 1}}),
+    "ParametricWitness.at value": Door(
+        WITNESS.at,
+        {"parameters": 1},
+        {"parameters": {"int", "negative", "zero", "float", "digits"}},
+        {"parameters": lambda v: {"a": v, "b": 11}},
+    ),
+    "RealAlgebraic.from_root": Door(
+        qe.RealAlgebraic.from_root, {"coefficients": [-2, 0, 1], "lo": 1, "hi": 2}, BETWEEN
+    ),
+    "RealAlgebraic.from_root coefficient": Door(
+        qe.RealAlgebraic.from_root, {"coefficients": -1, "lo": 0, "hi": 1}, {"coefficients": {"negative", "zero"}},
+        {"coefficients": lambda value: [value, 1]},
+    ),
+    "RealAlgebraic.rational": Door(
+        qe.RealAlgebraic.rational, {"value": 1}, {"value": {*NUMBERS, "float", "digits", "bool"}}
+    ),
+    "RealAlgebraic.interval": Door(SQUARE_ROOT.interval, {"bits": 8}, {"bits": {"int", "zero"}}),
+    "formats.read": Door(formats.read, {"text": "x > 0"}),
+    "formats.write": Door(formats.write, {"formula": REGION.formula}),
+}  # fmt: skip
+SKIPPED = {
+    "bits": {"huge"},
+    "memory": {"int"},
+    "progress": {"function", "class"},
+    "source": set(WRONG),
+    "coefficients": {"huge"},
+    "objective": {"huge"},
+}
+"""No matter of types: little memory, much precision, coefficients past the floats, functions that take no event."""
+
+
+def arguments(door: Door) -> list[str]:
+    """The names of the arguments: those of the signature, and of ``eliminate`` where it takes them on."""
+    named = [p.name for p in inspect.signature(door.call).parameters.values() if p.kind is not p.VAR_KEYWORD]
+    passed_on = [name for name in door.given if name not in named]
+    return list(door.around) or [*named, *passed_on]
+
+
+CASES = [
+    pytest.param(door, argument, id=f"{title}-{argument}")
+    for title, door in DOORS.items()
+    for argument in arguments(door)
+]
+
+
+@pytest.mark.parametrize(("door", "argument"), CASES)
+def test_a_wrong_value_is_named_in_one_line(door: Door, argument: str) -> None:
+    wrap = door.around.get(argument, lambda value: value)
+    given = {name: value for name, value in door.given.items() if value is not None and name != argument}
+    for kind, value in WRONG.items():
+        if kind in SKIPPED.get(argument, ()):
+            continue
+        if kind in door.fine.get(argument, EVERYWHERE.get(argument, ())):
+            door.call(**given, **{argument: wrap(value)})
+            continue
+        try:
+            door.call(**given, **{argument: wrap(value)})
+        except qe.InputError as error:
+            assert "\n" not in str(error) and 10 < len(str(error)) < 400, error
+        else:
+            pytest.fail(f"{kind} was taken")
+
+
+@pytest.mark.parametrize("title", DOORS)
+def test_the_arguments_of_the_table_work(title: str) -> None:
+    """The refusals above are about the one value that is wrong."""
+    door = DOORS[title]
+    given = {name: door.around.get(name, lambda value: value)(v) for name, v in door.given.items() if v is not None}
+    if title == "Region.plot":
+        with pytest.raises(qe.InputError, match="cannot be written"):
+            door.call(**given)
+        return
+    door.call(**given)
+
+
+def test_the_table_knows_every_public_function() -> None:
+    functions = {name for name in qe.__all__ if inspect.isfunction(getattr(qe, name))}
+    assert functions <= set(DOORS)
+    for name in functions:
+        passes_on = any(p.kind is p.VAR_KEYWORD for p in inspect.signature(getattr(qe, name)).parameters.values())
+        assert not passes_on or set(EVERY) <= set(DOORS[name].given)
+
+
+def test_the_table_knows_every_method_that_takes_something() -> None:
+    known = {title.split()[0] for title in DOORS}
+    for kind in (qe.Region, qe.Certificate, qe.ParametricWitness, qe.Optimum, qe.Answer, qe.Verdict):
+        for name, member in inspect.getmembers(kind, inspect.isfunction):
+            taken = [p for p in inspect.signature(member).parameters if p != "self"]
+            made_by_the_engine = name in ("of", "cells", "bundle", "witness", "substitution")
+            if taken and not name.startswith("_") and not made_by_the_engine:
+                assert f"{kind.__name__}.{name}" in known
+
+
+@pytest.mark.parametrize("order", ["y,x", "y x", " y , x ", ["y", "x"], ("y", "x"), iter(("y", "x")), "`y`, x"])
+def test_an_order_may_be_written_in_many_ways(order: object) -> None:
+    assert qe.region("x^2 + y^2 <= 1", order).order == ("y", "x")
+
+
+def test_names_may_be_sympy_symbols() -> None:
+    import sympy
+
+    x, y = sympy.symbols("x y")
+    disc = qe.region("x^2 + y^2 <= 1", (y, x))
+    assert disc.order == ("y", "x")
+    assert disc.contains({x: 0, y: Fraction(1, 2)}) and disc.bounds(x) == disc.bounds("x")
+    assert qe.region("x > 0", x).order == ("x",)
+    assert qe.eliminate(qe.Exists(x, sympy.Eq(x**2, y)), order=[y, x]).formula is not None
+    assert qe.check_witness("all x. ex y. y > x", {y: x + 1}) is True
+    with pytest.raises(qe.InputError, match="once"):
+        disc.contains({x: 0, "x": 0, y: 0})
+
+
+def test_a_number_in_text_is_not_larger_than_it_looks() -> None:
+    """``Fraction('1e999999999')`` fills the memory."""
+    for text in ("1e999999999", "1e-999999999", "9" * 100_000):
+        with pytest.raises(qe.InputError, match="exact number"):
+            REGION.contains({"x": text, "y": 0})
+
+
+def test_a_float_is_the_number_that_it_prints() -> None:
+    assert qe.region("x = 1/10").contains({"x": 0.1})
+    assert 0.1 in REGION.fibre([0.6])[0] and 0.8 in REGION.fibre([0.6])[0]
