@@ -13,6 +13,7 @@ from fractions import Fraction
 from qe.errors import Unable
 from qe.evidence.certificate import Certificate, Kind
 from qe.evidence.multipliers import (
+    FaceLink,
     FormRelation,
     Number,
     OptimumEvidence,
@@ -124,6 +125,9 @@ def _uniform(evidence: OptimumEvidence) -> OptimumEvidence:
         point=tuple(map(convert, evidence.point)),
         multipliers=tuple(map(convert, evidence.multipliers)),
         derived=tuple(map(convert, evidence.derived)),
+        inner_field=None if evidence.inner_field is None else field,
+        inner_point=tuple(map(convert, evidence.inner_point)),
+        links=tuple(FaceLink(tuple(map(convert, k.weights)), tuple(map(convert, k.derived))) for k in evidence.links),
     )
 
 
