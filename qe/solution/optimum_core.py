@@ -26,6 +26,7 @@ from qe.exact.quadratic_form import Number, Quadratic, solve_linear
 from qe.exact.system import MAX_DEGREE, Flat, HighDegree, Point
 from qe.options import Budget
 from qe.solution.optimum_kkt import Kkt, kkt_point, sign
+from qe.solution.optimum_linear import LinearConflict, LinearFall, is_linear_problem, linear_optimum
 from qe.solution.optimum_proposal import interior_point
 from qe.solution.violation import height, rounded_contradiction, violation_forms
 
@@ -96,11 +97,31 @@ def _on_flat(task: Task, state: _State, budget: Budget) -> OptimumEvidence | _St
             return _close(task, state, NumberField.rationals(), flat.origin, {i: _ONE}, infeasible=True)
         del forms[i]
     keys = list(forms)
-    found = kkt_point(objective, [forms[i] for i in keys], budget=budget)
+    found = _least(objective, list(forms.values()), budget, MAX_DEGREE, refuse=True)
     if found is not None:
         weights = {keys[k]: m for k, m in found.multipliers.items()}
         return _close(task, state, found.field, flat.lift(found.point), weights, unique=found.unique)
+    if is_linear_problem(objective, list(forms.values())):
+        return _linear(task, state, objective, forms, budget)
     return _without_multipliers(task, state, {i: forms[i] for i in keys}, budget)
+
+
+def _linear(
+    task: Task, state: _State, objective: Quadratic, forms: dict[int, Quadratic], budget: Budget
+) -> OptimumEvidence:
+    """The exact answer to a linear problem for which floats proposed nothing that could be proved."""
+    flat, keys, rationals = state.flat, list(forms), NumberField.rationals()
+    found = linear_optimum(objective, list(forms.values()), budget=budget)
+    if isinstance(found, LinearFall):
+        direction = Flat((_ZERO,) * len(task.names), flat.basis).lift(found.direction)
+        point = flat.lift(found.point)
+        return task.start(
+            status=OptimumStatus.UNBOUNDED, field=rationals, faces=state.faces, point=point, direction=direction
+        )
+    conflict = isinstance(found, LinearConflict)
+    point = flat.origin if isinstance(found, LinearConflict) else flat.lift(found.point)
+    weights: dict[int, Number] = {keys[k]: w for k, w in found.weights.items()}
+    return _close(task, state, rationals, point, weights, infeasible=conflict)
 
 
 def _without_multipliers(
@@ -111,9 +132,7 @@ def _without_multipliers(
     extended, scales = violation_forms(list(forms.values()), size)
     found = _least(height(size), extended, budget, _SIMPLE_DEGREE)
     if found is None:
-        proposal = interior_point(height(size), extended, [0.0] * (size + 1))
-        clear = proposal.residual < 1e-3 and proposal.point[-1] > 0
-        contradiction = rounded_contradiction(proposal, list(forms.values()), scales) if clear else None
+        contradiction = _contradiction(list(forms.values()), extended, scales)
         if contradiction is not None:
             point, rounded = contradiction
             rational: dict[int, Number] = {i: w for i, w in zip(forms, rounded, strict=True) if w}
@@ -131,10 +150,30 @@ def _without_multipliers(
     return _recede(task, state, found.field, point, budget)
 
 
-def _least(objective: Quadratic, extended: Sequence[Quadratic], budget: Budget, max_degree: int) -> Kkt | None:
+def _contradiction(
+    forms: Sequence[Quadratic], extended: Sequence[Quadratic], scales: Sequence[Fraction]
+) -> tuple[tuple[Fraction, ...], tuple[Fraction, ...]] | None:
+    size = forms[0].size
     try:
-        return kkt_point(objective, extended, budget=budget, max_degree=max_degree)
+        proposal = interior_point(height(size), extended, [0.0] * (size + 1))
+    except OverflowError:  # numbers beyond the range of floats
+        return None
+    clear = proposal.residual < 1e-3 and proposal.point[-1] > 0
+    return rounded_contradiction(proposal, forms, scales) if clear else None
+
+
+def _least(
+    objective: Quadratic, forms: Sequence[Quadratic], budget: Budget, max_degree: int, *, refuse: bool = False
+) -> Kkt | None:
+    """The proved minimum. None also for numbers beyond the range of floats, and for those of a field of too high
+    degree unless they are to be refused: then ``HighDegree`` is raised."""
+    try:
+        return kkt_point(objective, forms, budget=budget, max_degree=max_degree)
+    except OverflowError:
+        return None
     except HighDegree:
+        if refuse:
+            raise
         return None
 
 

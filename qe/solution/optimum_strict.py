@@ -46,23 +46,27 @@ def settle_strict(task: Task, evidence: OptimumEvidence, *, budget: Budget) -> O
 
     Attained iff some optimal point of the closed problem satisfies the strict constraints; ``point`` is then such a
     point. Otherwise, by convexity, the optimum of the closed problem is the infimum of the strict one as soon as that
-    has any point, and the strict problem is empty if it has none.
+    has any point, and the strict problem is empty if it has none. The same holds for an objective without bound, which
+    falls along its direction from any point.
     """
-    if evidence.status is not OptimumStatus.OPTIMAL:
+    if evidence.status is OptimumStatus.INFEASIBLE:
         return evidence
+    optimal = evidence.status is OptimumStatus.OPTIMAL
     strict = [i for i, r in enumerate(task.relations) if r is FormRelation.LT]
     if all(sign(task.forms[i].value(evidence.point)) < 0 for i in strict):
-        return replace(evidence, attained=True)
+        return replace(evidence, attained=True) if optimal else evidence
     flat = _equations(task, evidence)
     x = evidence.point
     links: tuple[FaceLink, ...] = ()
-    if not any(evidence.multipliers[i] for i in strict):
+    if optimal and not any(evidence.multipliers[i] for i in strict):
         best = _strictly_inside(task, x, [*flat, *optimal_tangents(evidence)], budget)
         if not isinstance(best, _Excluded):
             return replace(evidence, attained=True, point=best, unique=False)
         links = best.links
     inside = _strictly_inside(task, x, flat, budget)
     if not isinstance(inside, _Excluded):
+        if not optimal:
+            return replace(evidence, point=inside)
         return replace(evidence, attained=False, inner_field=evidence.field, inner_point=inside, links=links)
     *before, last = inside.links
     return task.start(
