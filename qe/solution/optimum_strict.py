@@ -32,6 +32,7 @@ from qe.solution.optimum_core import Task
 from qe.solution.optimum_kkt import sign
 
 _ZERO = Fraction(0)
+_FINEST = 2**16
 
 
 @dataclass(frozen=True, slots=True)
@@ -143,12 +144,13 @@ def _link(task: Task, slopes: dict[int, list[Number]], weights: dict[int, Number
 def _moved(task: Task, x: Point, step: Sequence[Number], budget: Budget) -> Point:
     """x + step/2^k for a k for which all constraints hold; the step descends into all that are active."""
     k = 0
-    while True:
+    while k <= _FINEST:
         budget.check("optimum: strict conditions")
         point = tuple(a + d * Fraction(1, 2**k) for a, d in zip(x, step, strict=True))
         if all(_holds(form, relation, point) for form, relation in zip(task.forms, task.relations, strict=True)):
             return point
         k = max(1, 2 * k)
+    raise InternalError("a step into the interior of all active constraints never gets there")
 
 
 def _holds(form: Quadratic, relation: FormRelation, point: Point) -> bool:
