@@ -9,7 +9,7 @@ start and recognised in one number field. The result is a candidate: the caller 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
 from math import gcd, lcm
@@ -201,7 +201,7 @@ def critical_point(
     if reduced is None:
         return None
     flat, rest = reduced
-    f = _primitive(objective.restrict(flat.origin, flat.basis))
+    f = _primitive(replace(objective.restrict(flat.origin, flat.basis), constant=Fraction(0)))
     rest = [_primitive(q) for q in rest]
     if not rest:
         solution = solve_linear(f.hessian, [-b for b in f.gradient], f.size)

@@ -8,11 +8,11 @@ problem is solved there) and an unbounded one.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
-from qe.errors import InternalError, Unable
+from qe.errors import BudgetExceeded, InternalError, Unable
 from qe.evidence.multipliers import (
     Face,
     FormRelation,
@@ -25,13 +25,14 @@ from qe.exact.field import NumberField
 from qe.exact.quadratic_form import Number, Quadratic, solve_linear
 from qe.exact.system import MAX_DEGREE, Flat, HighDegree, Point
 from qe.options import Budget
+from qe.solution.optimum_frame import centred_frame, plain_frame
 from qe.solution.optimum_kkt import Kkt, kkt_point, sign
 from qe.solution.optimum_linear import LinearConflict, LinearFall, is_linear_problem, linear_optimum
 from qe.solution.optimum_proposal import interior_point
 from qe.solution.violation import height, rounded_contradiction, violation_forms
 
+Frame = Callable[[Flat, Sequence[Quadratic]], Flat]
 _ZERO, _ONE = Fraction(0), Fraction(1)
-_NEAR_ONE = 8  # binary exponent up to which lengths are left as they are
 _SIMPLE_DEGREE = 4  # of the least violation: beyond, rounded multipliers are tried before an exact answer
 
 
@@ -61,11 +62,12 @@ class Task:
 
 @dataclass(frozen=True, slots=True)
 class _State:
-    """What is known: ``faces`` so far, the equations they derive, and the flat of all equations."""
+    """What is known: ``faces`` so far, the equations they derive, and the flat of all equations, framed by ``frame``."""
 
     faces: tuple[Face, ...]
     derived: tuple[LinearEquation, ...]
     flat: Flat
+    frame: Frame
 
 
 def solve(task: Task, *, budget: Budget) -> OptimumEvidence:
@@ -75,7 +77,21 @@ def solve(task: Task, *, budget: Budget) -> OptimumEvidence:
     flat = Flat.whole(len(task.names)).cut(equations)
     if flat is None:
         return _contradictory_equations(task)
-    state = _State((), (), flat.in_units_of(_unit(task.forms)))
+    try:
+        return _solved(task, flat, plain_frame, budget)
+    except (BudgetExceeded, HighDegree):
+        raise
+    except Unable as reason:
+        try:
+            return _solved(task, flat, centred_frame, budget)
+        except BudgetExceeded:
+            raise
+        except Unable:
+            raise reason from None
+
+
+def _solved(task: Task, flat: Flat, frame: Frame, budget: Budget) -> OptimumEvidence:
+    state = _State((), (), frame(flat, task.forms), frame)
     for _ in range(len(task.names) + 2):
         step = _on_flat(task, state, budget)
         if isinstance(step, OptimumEvidence):
@@ -205,28 +221,7 @@ def _face(task: Task, state: _State, found: Kkt, point: Point, weights: dict[int
     flat = Flat.whole(size).cut(rows + [Quadratic(nothing, e.row, -e.rhs) for e in known])
     if flat is None or len(flat.basis) >= len(state.flat.basis):
         raise Unable("facial reduction found no smaller flat")
-    return _State((*state.faces, face), known, flat.in_units_of(_unit(task.forms)))
-
-
-def _unit(forms: Sequence[Quadratic]) -> Fraction:
-    """A length of the size of these constraints: 1, or a power of two if they are much larger or smaller than that.
-
-    Proposals come from floats with absolute tolerances, which fit coordinates near 1. Of a ball |x - c| <= r this
-    compares c and r with 1; half-spaces have no size of their own.
-    """
-    sizes = []
-    for form in forms:
-        bend = max((abs(h) for row in form.hessian for h in row), default=_ZERO)
-        slope = max(map(abs, form.gradient), default=_ZERO)
-        if bend and (slope or form.constant):
-            sizes.append(max(_binary(slope / bend), _binary(abs(form.constant) / bend) // 2))
-    exponent = min(sizes, key=abs, default=0)
-    return _ONE if abs(exponent) <= _NEAR_ONE else Fraction(2) ** exponent
-
-
-def _binary(value: Fraction) -> int:
-    """About log2 of a positive number; very little for 0."""
-    return value.numerator.bit_length() - value.denominator.bit_length() if value else -(10**9)
+    return _State((*state.faces, face), known, state.frame(flat, task.forms), state.frame)
 
 
 def _fractions(values: Sequence[Number]) -> tuple[Fraction, ...]:
