@@ -62,7 +62,7 @@ class Task:
 
 @dataclass(frozen=True, slots=True)
 class _State:
-    """What is known: ``faces`` so far, the equations they derive, and the flat of all equations, framed by ``frame``."""
+    """What is known: ``faces`` so far, the equations they derive, and the flat of all equations, as framed."""
 
     faces: tuple[Face, ...]
     derived: tuple[LinearEquation, ...]
