@@ -25,7 +25,7 @@ from qe.exact.field import NumberField
 from qe.exact.quadratic_form import Number, Quadratic, solve_linear
 from qe.exact.system import MAX_DEGREE, Flat, HighDegree, Point
 from qe.options import Budget
-from qe.solution.optimum_frame import centred_frame, plain_frame
+from qe.solution.optimum_frame import centred_frame, lies_far, plain_frame
 from qe.solution.optimum_kkt import Kkt, kkt_point, sign
 from qe.solution.optimum_linear import LinearConflict, LinearFall, is_linear_problem, linear_optimum
 from qe.solution.optimum_proposal import interior_point
@@ -77,13 +77,16 @@ def solve(task: Task, *, budget: Budget) -> OptimumEvidence:
     flat = Flat.whole(len(task.names)).cut(equations)
     if flat is None:
         return _contradictory_equations(task)
+    first, second = plain_frame, centred_frame
+    if lies_far(flat, task.forms):
+        first, second = second, first
     try:
-        return _solved(task, flat, plain_frame, budget)
+        return _solved(task, flat, first, budget)
     except (BudgetExceeded, HighDegree):
         raise
     except Unable as reason:
         try:
-            return _solved(task, flat, centred_frame, budget)
+            return _solved(task, flat, second, budget)
         except BudgetExceeded:
             raise
         except Unable:

@@ -10,6 +10,7 @@ from qe.exact.system import Flat
 
 _ZERO, _ONE = Fraction(0), Fraction(1)
 _NEAR_ONE = 8  # binary exponent up to which lengths are left as they are
+_STRANGE = 25  # beyond, half of the digits of a float are lost
 _NONE = -(10**9)  # the exponent of zero
 
 
@@ -21,12 +22,23 @@ def plain_frame(flat: Flat, forms: Sequence[Quadratic]) -> Flat:
 def centred_frame(flat: Flat, forms: Sequence[Quadratic]) -> Flat:
     """The same flat with its origin amid the constraints and one unit for each direction: for problems that lie far off
     or have very different sizes along the coordinates."""
+    centre, exponents = _centre_and_exponents(flat, forms)
+    basis = (tuple(Fraction(2) ** e * d for d in row) for e, row in zip(exponents, flat.basis, strict=True))
+    return Flat(tuple(Fraction(c) for c in flat.lift(centre)), tuple(basis))
+
+
+def lies_far(flat: Flat, forms: Sequence[Quadratic]) -> bool:
+    """Whether floats could not see the constraints at all in the plain frame."""
+    centre, exponents = _centre_and_exponents(flat, forms)
+    off = (_binary(abs(c)) - e for c, e in zip(centre, exponents, strict=True))
+    return any(abs(e) > _STRANGE for e in exponents) or any(o > _STRANGE for o in off)
+
+
+def _centre_and_exponents(flat: Flat, forms: Sequence[Quadratic]) -> tuple[tuple[Fraction, ...], list[int]]:
+    size = len(flat.basis)
     along = [form.restrict(flat.origin, flat.basis) for form in forms]
-    centre = _centre([q for q in along if not q.is_linear], [q for q in along if q.is_linear], len(flat.basis))
-    moved = Flat(tuple(Fraction(c) for c in flat.lift(centre)), flat.basis)
-    exponents = _exponents([form.restrict(moved.origin, moved.basis) for form in forms], len(flat.basis))
-    basis = (tuple(Fraction(2) ** e * d for d in row) for e, row in zip(exponents, moved.basis, strict=True))
-    return Flat(moved.origin, tuple(basis))
+    centre = _centre([q for q in along if not q.is_linear], [q for q in along if q.is_linear], size)
+    return centre, _exponents([q.restrict(centre, Flat.whole(size).basis) for q in along], size)
 
 
 def _exponents(forms: Sequence[Quadratic], size: int) -> list[int]:

@@ -18,6 +18,7 @@ from qe.exact.system import HighDegree
 from qe.formula.build import atom, conj, convert, exists
 from qe.formula.evaluate import truth_under
 from qe.formula.syntax import Formula, Relation
+from qe.formula.traverse import map_atoms
 from qe.options import Budget
 from qe.solution.alternative import Balance, alternative
 from qe.solution.optimum import Optimum, OptimumStatus, minimize
@@ -117,6 +118,48 @@ def test_attainment_agrees_with_decomposition_deep(problem: tuple[Poly, Formula]
 @given(problems(huge=True, bent=False))
 def test_linear_problems_with_huge_numbers_are_all_decided(problem: tuple[Poly, Formula]) -> None:
     agrees(*problem, method="vs")
+
+
+def moved(poly: Poly, factors: list[int], offsets: list[int]) -> Poly:
+    """poly at the points factor_i * x_i - offset_i."""
+    ring = poly.ring
+    total = ring.constant(0)
+    for exponents, coefficient in poly.terms():
+        term = ring.constant(coefficient)
+        for i, e in enumerate(exponents):
+            for _ in range(e):
+                term = term * (factors[i] * ring.gen(i) - offsets[i])
+        total = total + term
+    return total
+
+
+FAR = st.lists(st.sampled_from((0, 1, 10**6, 10**20)), min_size=4, max_size=4)
+FINE = st.lists(st.sampled_from((1, 1, 10**10, 10**25)), min_size=4, max_size=4)
+
+
+def test_a_copy_far_off_or_finer_has_the_same_optimum() -> None:
+    decided: list[bool] = []
+
+    @settings(max_examples=60)
+    @given(problems(), FINE, FAR)
+    def law(problem: tuple[Poly, Formula], factors: list[int], offsets: list[int]) -> None:
+        objective, body = problem
+        try:
+            first = minimize(objective, body)
+        except Unable:
+            return
+        copy = map_atoms(body, lambda a: atom(moved(a.poly, factors, offsets), a.relation))
+        try:
+            second = minimize(moved(objective, factors, offsets), copy)
+        except Unable:
+            decided.append(False)
+            return
+        decided.append(True)
+        assert (second.status, second.attained) == (first.status, first.attained)
+        assert second.value == first.value and qe.verify(second.certificate).accepted
+
+    law()
+    assert sum(decided) >= 0.9 * len(decided) > 40
 
 
 @settings(max_examples=60)
