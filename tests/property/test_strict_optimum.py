@@ -99,13 +99,13 @@ def tried(problem: tuple[Poly, Formula], method: str) -> bool:
 def test_attainment_agrees_with_decomposition() -> None:
     decided: list[bool] = []
 
-    @settings(max_examples=100)
+    @settings(max_examples=60)
     @given(problems())
     def law(problem: tuple[Poly, Formula]) -> None:
         decided.append(tried(problem, "cad"))
 
     law()
-    assert sum(decided) >= 90
+    assert sum(decided) >= 54
 
 
 @pytest.mark.deep
@@ -114,7 +114,7 @@ def test_attainment_agrees_with_decomposition_deep(problem: tuple[Poly, Formula]
     tried(problem, "cad")
 
 
-@settings(max_examples=120)
+@settings(max_examples=80)
 @given(problems(huge=True, bent=False))
 def test_linear_problems_with_huge_numbers_are_all_decided(problem: tuple[Poly, Formula]) -> None:
     agrees(*problem, method="vs")
@@ -137,20 +137,18 @@ FAR = st.lists(st.sampled_from((0, 1, 10**6, 10**20)), min_size=4, max_size=4)
 FINE = st.lists(st.sampled_from((1, 1, 10**10, 10**25)), min_size=4, max_size=4)
 
 
+@pytest.mark.deep
 def test_a_copy_far_off_or_finer_has_the_same_optimum() -> None:
     decided: list[bool] = []
 
-    @settings(max_examples=60)
+    @settings(max_examples=80)
     @given(problems(), FINE, FAR)
     def law(problem: tuple[Poly, Formula], factors: list[int], offsets: list[int]) -> None:
         objective, body = problem
-        try:
-            first = minimize(objective, body)
-        except Unable:
-            return
         copy = map_atoms(body, lambda a: atom(moved(a.poly, factors, offsets), a.relation))
         try:
-            second = minimize(moved(objective, factors, offsets), copy)
+            first = minimize(objective, body, budget=Budget(5))
+            second = minimize(moved(objective, factors, offsets), copy, budget=Budget(5))
         except Unable:
             decided.append(False)
             return
@@ -159,7 +157,7 @@ def test_a_copy_far_off_or_finer_has_the_same_optimum() -> None:
         assert second.value == first.value and qe.verify(second.certificate).accepted
 
     law()
-    assert sum(decided) >= 0.9 * len(decided) > 40
+    assert sum(decided) >= 0.8 * len(decided) > 60
 
 
 @settings(max_examples=60)

@@ -79,6 +79,22 @@ def test_linear_problems_with_huge_numbers_do_not_end_in_unable() -> None:
         qe.minimize("x", f"10^400*x^2 + {10**399}*x*y + 10^400*y^2 <= 3 and 10^500*x >= y")
 
 
+@pytest.mark.parametrize(
+    ("objective", "constraints", "value", "attained"),
+    [
+        ("10^20*x", "(10^20*x - 1)^2 + y^2 <= 2 and y > x", "1 - sqrt(2)", True),
+        ("x - 10^20", "(x - 10^20)^2 <= 2 and y > x", "-sqrt(2)", True),
+        ("10^20*(x - 1000)", "(x - 1000)^2 <= 2/10^40 and y > x", "-sqrt(2)", True),
+        ("10^20*(y - 1000)", "(x - 1000)^2 <= 2/10^40 and y > x", "-sqrt(2)", False),
+    ],
+)
+def test_sets_that_are_small_or_far_from_the_origin_do_not_end_in_unable(
+    objective: str, constraints: str, value: str, attained: bool
+) -> None:
+    found = qe.minimize(objective, constraints)
+    assert (str(found.value), found.attained) == (value, attained) and qe.verify(found.certificate).accepted
+
+
 def _claim(objective: str, constraints: str, **changes: Any) -> Any:
     whole = json.loads(qe.minimize(objective, constraints).certificate.to_json())
     return verify_json(replaced(whole, ("payload",), {**whole["payload"], **changes}))
