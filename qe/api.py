@@ -21,6 +21,7 @@ from qe.formula.features import features
 from qe.formula.syntax import Exists, ForAll, Formula
 from qe.formula.traverse import free_variables, is_quantifier_free, ring_of
 from qe.options import Budget, Method, Options, Stage
+from qe.pipeline_region import RegionWork
 from qe.progress import Event, silent
 
 if TYPE_CHECKING:  # the checker and the optimiser are loaded where they are used
@@ -220,22 +221,16 @@ def region(
     names, timeout, progress = arguments.names(order), arguments.seconds(timeout), arguments.listener(progress)
     given = without_root_atoms(read_formula(formula, format))
     quantified = not is_quantifier_free(given)
-
-    def limits() -> Budget:
-        return Budget(timeout, listener=progress)
-
-    def eliminated(part: Formula) -> Formula:
-        return pipeline.solve(part, Options(order=names), limits()).formula
-
+    work = RegionWork(names, timeout, progress)
     if quantified or len(free_variables(given)) > TABLE_VARIABLES:
         from qe.solution.convex_region import ConvexRegion, shadow_of
 
-        shadow = shadow_of(given, eliminated)
+        shadow = shadow_of(given, work.eliminated)
         if shadow is not None:
-            return ConvexRegion(shadow, names, limits=limits)
+            return ConvexRegion(shadow, names, limits=work.limits)
     from qe.solution.region import Region
 
-    budget = limits()
+    budget = work.limits()
     if not quantified:
         return Region.of(given, names, budget=budget)
     found = pipeline.solve(given, Options(order=names), budget)

@@ -50,6 +50,20 @@ class Face:
 
 
 @dataclass(frozen=True, slots=True)
+class FaceLink:
+    """One step of facial reduction at a point y of the closed problem, over the field of that point.
+
+    ``weights``: one number per constraint, >= 0 on inequalities and zero where those are not active at y; ``derived``:
+    one per equation known so far. Their sum L is stationary at y and zero there, so all points that count have
+    p_i = 0 wherever weights_i > 0: none exists if that constraint is strict, and otherwise H_i (x - y) = 0 and
+    grad p_i(y).(x - y) = 0 (``tangents``), which the next link may use.
+    """
+
+    weights: tuple[Number, ...]
+    derived: tuple[Number, ...]
+
+
+@dataclass(frozen=True, slots=True)
 class LinearEquation:
     """row . x = rhs over Q."""
 
@@ -76,15 +90,37 @@ def _dot(u: Sequence[Fraction], v: Sequence[Fraction]) -> Fraction:
     return sum((a * b for a, b in zip(u, v, strict=True)), Fraction(0))
 
 
+def tangents(
+    weights: Sequence[Number], forms: Sequence[Quadratic], relations: Sequence[FormRelation], point: Point
+) -> list[Point]:
+    """Rows a of the equations a.(x - point) = 0 that positive weights give, n + 1 per inequality, in their fixed order:
+    those of its Hessian, then its gradient at the point."""
+    rows: list[Point] = []
+    for weight, form, relation in zip(weights, forms, relations, strict=True):
+        if relation is not FormRelation.EQ and weight > 0:
+            rows += [*form.hessian, tuple(form.slope(point))]
+    return rows
+
+
+def optimal_tangents(evidence: OptimumEvidence) -> list[Point]:
+    """The same for the points where the optimum is taken: those of the objective, then those of the multipliers."""
+    objective, point = evidence.objective, evidence.point
+    own = [*objective.hessian, tuple(objective.slope(point))]
+    return [*own, *tangents(evidence.multipliers, evidence.forms, evidence.relations, point)]
+
+
 @dataclass(frozen=True, slots=True)
 class OptimumEvidence:
     """The data behind one answer. ``multipliers`` has one number per constraint, ``derived`` one per derived equation.
 
     OPTIMAL: ``point`` is feasible (strict constraints perhaps only with equality) and stationary for
     f + sum multipliers_i p_i + sum derived_k e_k. INFEASIBLE: stationary for that sum without f, whose value there is
-    > 0, or >= 0 with a strict constraint of positive multiplier. UNBOUNDED: ``point`` is feasible and f decreases
-    forever along ``direction``. ``attained`` is False when strict constraints exclude the point; then
-    ``inner_point`` (over ``inner_field``) satisfies all constraints.
+    > 0, or >= 0 with a strict constraint of positive multiplier; e_k are the equations derived by the faces, then the
+    tangents of the ``links``. UNBOUNDED: ``point`` is feasible and f decreases forever along ``direction``.
+    ``attained`` (OPTIMAL only): True when ``point`` satisfies the strict constraints too. False when no point with the
+    optimal value does: a strict constraint has a positive multiplier, or a positive weight in the last of the
+    ``links``, which begin with the ``optimal_tangents``; then ``inner_point`` (over ``inner_field``) satisfies all
+    constraints, so that the value is the infimum.
     """
 
     names: tuple[str, ...]
@@ -102,6 +138,7 @@ class OptimumEvidence:
     unique: bool | None = None
     inner_field: NumberField | None = None
     inner_point: Point = ()
+    links: tuple[FaceLink, ...] = ()
 
 
 # --- plain data ------------------------------------------------------------------------------------------------
@@ -163,6 +200,11 @@ def to_payload(evidence: OptimumEvidence) -> dict[str, object]:
         ],
         "point": [_number(c) for c in point],
     }
+    if evidence.links:
+        payload["links"] = [
+            {"weights": [_number(w) for w in link.weights], "derived": [_number(w) for w in link.derived]}
+            for link in evidence.links
+        ]
     if evidence.status is OptimumStatus.UNBOUNDED:
         payload["direction"] = [str(d) for d in evidence.direction]
         return payload

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import partial
 
 from qe.arguments import name
 from qe.eliminate.cad.decompose import decompose
@@ -49,7 +50,7 @@ def shadow_of(formula: Formula, eliminate: Callable[[Formula], Formula]) -> Shad
         read_problem(Ring.of(()).constant(0), body)
     except NotConvex:
         return None
-    return Shadow(body, hidden, lambda: eliminate(formula))
+    return Shadow(body, hidden, partial(eliminate, formula))
 
 
 class ConvexRegion(Region):
@@ -87,7 +88,12 @@ class ConvexRegion(Region):
 
     @property
     def is_empty(self) -> bool:
-        return self._somewhere(self._shadow.conditions) is None
+        try:
+            return self._somewhere(self._shadow.conditions) is None
+        except Unable as error:
+            if not self._has_small_table(error):
+                raise
+            return super().is_empty
 
     def sample_points(self) -> list[dict[str, Number]]:
         """Exact points: in up to two variables a rational one in every true cell of full dimension (in every true cell
@@ -99,18 +105,25 @@ class ConvexRegion(Region):
         return [] if point is None else [{name: point.get(name, Fraction(0)) for name in self.order}]
 
     def _holds(self, values: list[Number]) -> bool:
-        if self._formula is not None or not self._shadow.hidden:
+        if not self._shadow.hidden:
+            return super()._holds(values)
+        small = len(self.order) <= TABLE_VARIABLES
+        if small and self._formula is not None:  # in more variables the answer could depend on what was read before
             return super()._holds(values)
         given = dict(zip(self.order, values, strict=True))
         irrational = [name for name, value in given.items() if _rational(value) is None]
-        if not irrational:
-            return self._somewhere(self._under(given)) is not None
-        if len(irrational) == 1:
-            value = given.pop(irrational[0])
-            allowed = self._range(irrational[0], self._under(given))
-            return allowed is not None and value in allowed
-        if len(self.order) > TABLE_VARIABLES:
-            raise Unable("membership: at most one irrational coordinate expected; others need the elimination first")
+        try:
+            if not irrational:
+                return self._somewhere(self._under(given)) is not None
+            if len(irrational) == 1:
+                value = given.pop(irrational[0])
+                allowed = self._range(irrational[0], self._under(given))
+                return allowed is not None and value in allowed
+        except Unable as error:
+            if not self._has_small_table(error):
+                raise
+        if not small:
+            raise Unable("membership: at most one irrational coordinate expected; qe.region(region.formula) takes more")
         return super()._holds(values)
 
     def _under(self, given: Mapping[str, Number]) -> Formula:

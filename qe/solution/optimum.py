@@ -13,6 +13,7 @@ from fractions import Fraction
 from qe.errors import Unable
 from qe.evidence.certificate import Certificate, Kind
 from qe.evidence.multipliers import (
+    FaceLink,
     FormRelation,
     Number,
     OptimumEvidence,
@@ -37,13 +38,15 @@ __all__ = ["NotConvex", "Optimum", "OptimumStatus", "maximize", "minimize"]
 class Optimum:
     """The answer to an optimisation problem.
 
-    OPTIMAL: ``value`` is the exact minimum (infimum when not ``attained``) or maximum, ``point`` a point of the closed
-    problem where it is taken. All numbers are ``Fraction``, or elements of the one real number ``field``.
+    OPTIMAL: ``value`` is the exact minimum or maximum where ``attained``, and ``point`` satisfies all constraints and
+    has it; otherwise no point has it (proved too), ``value`` is the infimum or supremum, and ``point`` one of the
+    closed problem, with strict constraints read as weak ones. All numbers are ``Fraction``, or elements of the one real
+    number ``field``.
     ``active``: indices of the constraints that hold with equality; ``multipliers``: one number per constraint, >= 0 for
     inequalities, such that grad f + sum multipliers_i grad p_i = 0 with constraint i read as p_i <= 0 (after facial
     reduction also equations implied by the constraints take part; see ``evidence``). ``unique`` is None when not
-    decided. INFEASIBLE: ``point`` has the least violation, ``multipliers`` combine the constraints to a contradiction.
-    UNBOUNDED: from ``point`` the objective improves forever along ``direction``.
+    decided. INFEASIBLE: ``multipliers`` combine the constraints to a contradiction, seen from ``point``. UNBOUNDED:
+    from ``point`` the objective improves forever along ``direction``. ``attained`` is None for both.
     """
 
     status: OptimumStatus
@@ -124,6 +127,9 @@ def _uniform(evidence: OptimumEvidence) -> OptimumEvidence:
         point=tuple(map(convert, evidence.point)),
         multipliers=tuple(map(convert, evidence.multipliers)),
         derived=tuple(map(convert, evidence.derived)),
+        inner_field=None if evidence.inner_field is None else field,
+        inner_point=tuple(map(convert, evidence.inner_point)),
+        links=tuple(FaceLink(tuple(map(convert, k.weights)), tuple(map(convert, k.derived))) for k in evidence.links),
     )
 
 

@@ -8,11 +8,11 @@ problem is solved there) and an unbounded one.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
-from qe.errors import InternalError, Unable
+from qe.errors import BudgetExceeded, InternalError, Unable
 from qe.evidence.multipliers import (
     Face,
     FormRelation,
@@ -25,12 +25,14 @@ from qe.exact.field import NumberField
 from qe.exact.quadratic_form import Number, Quadratic, solve_linear
 from qe.exact.system import MAX_DEGREE, Flat, HighDegree, Point
 from qe.options import Budget
+from qe.solution.optimum_frame import centred_frame, lies_far, plain_frame
 from qe.solution.optimum_kkt import Kkt, kkt_point, sign
+from qe.solution.optimum_linear import LinearConflict, LinearFall, is_linear_problem, linear_optimum
 from qe.solution.optimum_proposal import interior_point
 from qe.solution.violation import height, rounded_contradiction, violation_forms
 
+Frame = Callable[[Flat, Sequence[Quadratic]], Flat]
 _ZERO, _ONE = Fraction(0), Fraction(1)
-_NEAR_ONE = 8  # binary exponent up to which lengths are left as they are
 _SIMPLE_DEGREE = 4  # of the least violation: beyond, rounded multipliers are tried before an exact answer
 
 
@@ -60,11 +62,12 @@ class Task:
 
 @dataclass(frozen=True, slots=True)
 class _State:
-    """What is known: ``faces`` so far, the equations they derive, and the flat of all equations."""
+    """What is known: ``faces`` so far, the equations they derive, and the flat of all equations, as framed."""
 
     faces: tuple[Face, ...]
     derived: tuple[LinearEquation, ...]
     flat: Flat
+    frame: Frame
 
 
 def solve(task: Task, *, budget: Budget) -> OptimumEvidence:
@@ -74,7 +77,24 @@ def solve(task: Task, *, budget: Budget) -> OptimumEvidence:
     flat = Flat.whole(len(task.names)).cut(equations)
     if flat is None:
         return _contradictory_equations(task)
-    state = _State((), (), flat.in_units_of(_unit(task.forms)))
+    first, second = plain_frame, centred_frame
+    if lies_far(flat, task.forms):
+        first, second = second, first
+    try:
+        return _solved(task, flat, first, budget)
+    except (BudgetExceeded, HighDegree):
+        raise
+    except Unable as reason:
+        try:
+            return _solved(task, flat, second, budget)
+        except BudgetExceeded:
+            raise
+        except Unable:
+            raise reason from None
+
+
+def _solved(task: Task, flat: Flat, frame: Frame, budget: Budget) -> OptimumEvidence:
+    state = _State((), (), frame(flat, task.forms), frame)
     for _ in range(len(task.names) + 2):
         step = _on_flat(task, state, budget)
         if isinstance(step, OptimumEvidence):
@@ -96,11 +116,31 @@ def _on_flat(task: Task, state: _State, budget: Budget) -> OptimumEvidence | _St
             return _close(task, state, NumberField.rationals(), flat.origin, {i: _ONE}, infeasible=True)
         del forms[i]
     keys = list(forms)
-    found = kkt_point(objective, [forms[i] for i in keys], budget=budget)
+    found = _least(objective, list(forms.values()), budget, MAX_DEGREE, refuse=True)
     if found is not None:
         weights = {keys[k]: m for k, m in found.multipliers.items()}
         return _close(task, state, found.field, flat.lift(found.point), weights, unique=found.unique)
+    if is_linear_problem(objective, list(forms.values())):
+        return _linear(task, state, objective, forms, budget)
     return _without_multipliers(task, state, {i: forms[i] for i in keys}, budget)
+
+
+def _linear(
+    task: Task, state: _State, objective: Quadratic, forms: dict[int, Quadratic], budget: Budget
+) -> OptimumEvidence:
+    """The exact answer to a linear problem for which floats proposed nothing that could be proved."""
+    flat, keys, rationals = state.flat, list(forms), NumberField.rationals()
+    found = linear_optimum(objective, list(forms.values()), budget=budget)
+    if isinstance(found, LinearFall):
+        direction = Flat((_ZERO,) * len(task.names), flat.basis).lift(found.direction)
+        point = flat.lift(found.point)
+        return task.start(
+            status=OptimumStatus.UNBOUNDED, field=rationals, faces=state.faces, point=point, direction=direction
+        )
+    conflict = isinstance(found, LinearConflict)
+    point = flat.origin if isinstance(found, LinearConflict) else flat.lift(found.point)
+    weights: dict[int, Number] = {keys[k]: w for k, w in found.weights.items()}
+    return _close(task, state, rationals, point, weights, infeasible=conflict)
 
 
 def _without_multipliers(
@@ -111,9 +151,7 @@ def _without_multipliers(
     extended, scales = violation_forms(list(forms.values()), size)
     found = _least(height(size), extended, budget, _SIMPLE_DEGREE)
     if found is None:
-        proposal = interior_point(height(size), extended, [0.0] * (size + 1))
-        clear = proposal.residual < 1e-3 and proposal.point[-1] > 0
-        contradiction = rounded_contradiction(proposal, list(forms.values()), scales) if clear else None
+        contradiction = _contradiction(list(forms.values()), extended, scales)
         if contradiction is not None:
             point, rounded = contradiction
             rational: dict[int, Number] = {i: w for i, w in zip(forms, rounded, strict=True) if w}
@@ -131,10 +169,30 @@ def _without_multipliers(
     return _recede(task, state, found.field, point, budget)
 
 
-def _least(objective: Quadratic, extended: Sequence[Quadratic], budget: Budget, max_degree: int) -> Kkt | None:
+def _contradiction(
+    forms: Sequence[Quadratic], extended: Sequence[Quadratic], scales: Sequence[Fraction]
+) -> tuple[tuple[Fraction, ...], tuple[Fraction, ...]] | None:
+    size = forms[0].size
     try:
-        return kkt_point(objective, extended, budget=budget, max_degree=max_degree)
+        proposal = interior_point(height(size), extended, [0.0] * (size + 1))
+    except OverflowError:  # numbers beyond the range of floats
+        return None
+    clear = proposal.residual < 1e-3 and proposal.point[-1] > 0
+    return rounded_contradiction(proposal, forms, scales) if clear else None
+
+
+def _least(
+    objective: Quadratic, forms: Sequence[Quadratic], budget: Budget, max_degree: int, *, refuse: bool = False
+) -> Kkt | None:
+    """The proved minimum. None also for numbers beyond the range of floats, and for those of a field of too high
+    degree unless they are to be refused: then ``HighDegree`` is raised."""
+    try:
+        return kkt_point(objective, forms, budget=budget, max_degree=max_degree)
+    except OverflowError:
+        return None
     except HighDegree:
+        if refuse:
+            raise
         return None
 
 
@@ -166,28 +224,7 @@ def _face(task: Task, state: _State, found: Kkt, point: Point, weights: dict[int
     flat = Flat.whole(size).cut(rows + [Quadratic(nothing, e.row, -e.rhs) for e in known])
     if flat is None or len(flat.basis) >= len(state.flat.basis):
         raise Unable("facial reduction found no smaller flat")
-    return _State((*state.faces, face), known, flat.in_units_of(_unit(task.forms)))
-
-
-def _unit(forms: Sequence[Quadratic]) -> Fraction:
-    """A length of the size of these constraints: 1, or a power of two if they are much larger or smaller than that.
-
-    Proposals come from floats with absolute tolerances, which fit coordinates near 1. Of a ball |x - c| <= r this
-    compares c and r with 1; half-spaces have no size of their own.
-    """
-    sizes = []
-    for form in forms:
-        bend = max((abs(h) for row in form.hessian for h in row), default=_ZERO)
-        slope = max(map(abs, form.gradient), default=_ZERO)
-        if bend and (slope or form.constant):
-            sizes.append(max(_binary(slope / bend), _binary(abs(form.constant) / bend) // 2))
-    exponent = min(sizes, key=abs, default=0)
-    return _ONE if abs(exponent) <= _NEAR_ONE else Fraction(2) ** exponent
-
-
-def _binary(value: Fraction) -> int:
-    """About log2 of a positive number; very little for 0."""
-    return value.numerator.bit_length() - value.denominator.bit_length() if value else -(10**9)
+    return _State((*state.faces, face), known, state.frame(flat, task.forms), state.frame)
 
 
 def _fractions(values: Sequence[Number]) -> tuple[Fraction, ...]:

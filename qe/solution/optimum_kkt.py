@@ -54,10 +54,15 @@ def kkt_point(
     def feasible(point: Sequence[float]) -> bool:
         return all(g.value_and_slope(point)[0] < _ALMOST * (1 + max(map(abs, point))) for g in scaled)
 
+    def check() -> None:
+        budget.check("optimum: exact system")
+
     for support in _supports(objective, forms, proposal):
         for equations in _pinned(objective, forms, proposal, support):
-            budget.check("optimum: exact system")
-            candidate = critical_point(objective, equations, proposal.point, accept=feasible, max_degree=max_degree)
+            check()
+            candidate = critical_point(
+                objective, equations, proposal.point, accept=feasible, max_degree=max_degree, check=check
+            )
             if candidate is not None:
                 proved = _prove(objective, forms, support, *candidate)
                 if proved is not None:

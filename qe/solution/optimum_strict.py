@@ -1,82 +1,162 @@
-"""Strict constraints: whether an infimum over the closed problem is attained, approached, or of an empty problem."""
+"""Strict constraints: whether an infimum over the closed problem is attained, approached, or of an empty problem.
+
+All of it is decided at one point x of the closed problem, over the number field of that point. The points that count
+satisfy the constraints and linear equations that x satisfies too; on the flat of these equations, Gordan's alternative
+for the gradients of the constraints that are active at x either gives a direction into the interior of all of them, so
+that all strict constraints hold a little along it, or weights w >= 0 for which sum w_i p_i is stationary at x. By
+convexity that sum is then nowhere negative on the flat, so p_i = 0 wherever w_i > 0 at all points that count: no such
+point exists if that constraint is strict, and otherwise the flat becomes smaller (Borwein–Wolkowicz 1981).
+"""
 
 from __future__ import annotations
 
-from dataclasses import replace
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from fractions import Fraction
 
-from qe.errors import Unable
-from qe.evidence.multipliers import Face, FormRelation, OptimumEvidence, OptimumStatus
-from qe.exact.quadratic_form import Number, Quadratic
+from qe.errors import InternalError
+from qe.evidence.multipliers import (
+    FaceLink,
+    FormRelation,
+    OptimumEvidence,
+    OptimumStatus,
+    derived_equations,
+    optimal_tangents,
+    tangents,
+)
+from qe.exact.quadratic_form import Number, Quadratic, Vector, solve_linear
+from qe.exact.system import Point
 from qe.options import Budget
-from qe.solution.optimum_core import Task, solve
+from qe.solution.alternative import Balance, alternative
+from qe.solution.optimum_core import Task
 from qe.solution.optimum_kkt import sign
-from qe.solution.violation import violation_form
 
 _ZERO = Fraction(0)
+_FINEST = 2**16
+
+
+@dataclass(frozen=True, slots=True)
+class _Excluded:
+    """The last link puts a positive weight on a strict constraint: no point that counts satisfies it."""
+
+    links: tuple[FaceLink, ...]
 
 
 def settle_strict(task: Task, evidence: OptimumEvidence, *, budget: Budget) -> OptimumEvidence:
     """The evidence for the problem with its strict constraints, given that for the closed one.
 
-    If the optimal point satisfies them it is attained. Otherwise, by convexity, the optimum of the closed problem is
-    the infimum of the strict one as soon as that has any point, and the strict problem is empty otherwise.
+    Attained iff some optimal point of the closed problem satisfies the strict constraints; ``point`` is then such a
+    point. Otherwise, by convexity, the optimum of the closed problem is the infimum of the strict one as soon as that
+    has any point, and the strict problem is empty if it has none. The same holds for an objective without bound, which
+    falls along its direction from any point.
     """
-    if evidence.status is not OptimumStatus.OPTIMAL:
+    if evidence.status is OptimumStatus.INFEASIBLE:
         return evidence
+    optimal = evidence.status is OptimumStatus.OPTIMAL
     strict = [i for i, r in enumerate(task.relations) if r is FormRelation.LT]
     if all(sign(task.forms[i].value(evidence.point)) < 0 for i in strict):
-        return replace(evidence, attained=True)
-    extended, scales = _least_violation(task, strict)
-    found = solve(extended, budget=budget)
-    if found.status is not OptimumStatus.OPTIMAL:
-        raise Unable("the strict constraints could not be decided")
-    if sign(found.point[-1]) < 0:
-        return replace(evidence, attained=False, inner_field=found.field, inner_point=found.point[:-1])
-    return _empty(task, found, scales)
-
-
-def _least_violation(task: Task, strict: list[int]) -> tuple[Task, dict[int, Fraction]]:
-    """Minimise t subject to scale_i * p_i <= t for the strict constraints, -1 <= t, and all others as they are."""
-    size = len(task.names)
-    forms: list[Quadratic] = []
-    scales: dict[int, Fraction] = {}
-    for i, form in enumerate(task.forms):
-        if i in strict:
-            extended, scales[i] = violation_form(form)
-        else:
-            hessian = (*((*row, _ZERO) for row in form.hessian), (_ZERO,) * (size + 1))
-            extended = Quadratic(hessian, (*form.gradient, _ZERO), form.constant)
-        forms.append(extended)
-    nothing = ((_ZERO,) * (size + 1),) * (size + 1)
-    forms.append(Quadratic(nothing, (_ZERO,) * size + (Fraction(-1),), Fraction(-1)))
-    relations = tuple(FormRelation.EQ if r is FormRelation.EQ else FormRelation.LE for r in task.relations)
-    height = Quadratic(nothing, (_ZERO,) * size + (Fraction(1),), _ZERO)
-    names = (*task.names, "violation")
-    return Task(names, height, tuple(forms), (*relations, FormRelation.LE)), scales
-
-
-def _empty(task: Task, found: OptimumEvidence, scales: dict[int, Fraction]) -> OptimumEvidence:
-    """Infeasibility: the multipliers of the least violation t >= 0, without the coordinate t."""
-    size = len(task.names)
-    kept: list[int] = []  # places of derived equations that are not about t alone
-    place = 0
-    faces = []
-    for face in found.faces:
-        weights = [w * scales.get(i, 1) for i, w in enumerate(face.weights[:-1])]
-        chosen = tuple(face.derived[k] for k in kept)
-        faces.append(Face(tuple(weights), chosen, face.point[:size]))
-        for i, w in enumerate(face.weights):
-            if w > 0 and found.relations[i] is not FormRelation.EQ:
-                block = range(place, place + size + 2)
-                kept += [k for k in block if k != place + size]
-                place += size + 2
-    multipliers: list[Number] = [m * scales.get(i, 1) for i, m in enumerate(found.multipliers[:-1])]
+        return replace(evidence, attained=True) if optimal else evidence
+    flat = _equations(task, evidence)
+    x = evidence.point
+    links: tuple[FaceLink, ...] = ()
+    if optimal and not any(evidence.multipliers[i] for i in strict):
+        best = _strictly_inside(task, x, [*flat, *optimal_tangents(evidence)], budget)
+        if not isinstance(best, _Excluded):
+            return replace(evidence, attained=True, point=best, unique=False)
+        links = best.links
+    inside = _strictly_inside(task, x, flat, budget)
+    if not isinstance(inside, _Excluded):
+        if not optimal:
+            return replace(evidence, point=inside)
+        return replace(evidence, attained=False, inner_field=evidence.field, inner_point=inside, links=links)
+    *before, last = inside.links
     return task.start(
         status=OptimumStatus.INFEASIBLE,
-        field=found.field,
-        faces=tuple(faces),
-        point=found.point[:size],
-        multipliers=tuple(multipliers),
-        derived=tuple(found.derived[k] for k in kept),
+        field=evidence.field,
+        faces=evidence.faces,
+        point=x,
+        multipliers=last.weights,
+        derived=last.derived,
+        links=tuple(before),
     )
+
+
+def _equations(task: Task, evidence: OptimumEvidence) -> list[Vector]:
+    """The rows of the equations that hold on the closed problem: those of the task, then the derived ones."""
+    rows: list[Vector] = [f.gradient for f, r in zip(task.forms, task.relations, strict=True) if r is FormRelation.EQ]
+    for face in evidence.faces:
+        rows += [e.row for e in derived_equations(face, task.forms, task.relations)]
+    return rows
+
+
+def _strictly_inside(task: Task, x: Point, equations: Sequence[Vector], budget: Budget) -> Point | _Excluded:
+    """A point of the flat x + {d: row.d = 0 for all ``equations``} that satisfies every constraint, or why none does.
+
+    x satisfies all constraints but for strict ones that may hold with equality. Each round ends the search or makes
+    the flat smaller.
+    """
+    rows = list(equations)
+    active = [i for i, r in enumerate(task.relations) if r is not FormRelation.EQ and not sign(task.forms[i].value(x))]
+    slopes = {i: task.forms[i].slope(x) for i in active}
+    links: list[FaceLink] = []
+    for _ in range(len(task.names) + 1):
+        solution = solve_linear(rows, [_ZERO] * len(rows), len(task.names))
+        assert solution is not None
+        along = {i: [_dot(slopes[i], d) for d in solution.kernel] for i in active}
+        along = {i: row for i, row in along.items() if not _vanishes(task, i, row, solution.kernel)}
+        keys = sorted(along, key=lambda i: task.relations[i] is not FormRelation.LT)
+        found = alternative([along[i] for i in keys], len(solution.kernel), budget=budget)
+        if not isinstance(found, Balance):
+            return _moved(
+                task, x, [_dot(found.direction, column) for column in zip(*solution.kernel, strict=True)], budget
+            )
+        link = _link(task, slopes, {keys[k]: w for k, w in found.weights.items()}, rows)
+        links.append(link)
+        if any(r is FormRelation.LT and w for r, w in zip(task.relations, link.weights, strict=True)):
+            return _Excluded(tuple(links))
+        rows += tangents(link.weights, task.forms, task.relations, x)
+    raise InternalError("the flat of the points that count did not shrink")
+
+
+def _vanishes(task: Task, i: int, slope: Sequence[Number], directions: Sequence[Vector]) -> bool:
+    """Whether a weak constraint that is active at a point is zero on the whole flat there: it excludes nothing."""
+    if task.relations[i] is FormRelation.LT or any(slope):
+        return False
+    return not any(_dot(row, d) for d in directions for row in task.forms[i].hessian)
+
+
+def _link(task: Task, slopes: dict[int, list[Number]], weights: dict[int, Number], rows: Sequence[Vector]) -> FaceLink:
+    """The weights together with multipliers of the equations, which make the weighted sum stationary."""
+    size = len(task.names)
+    target: list[Number] = [_ZERO] * size
+    for i, w in weights.items():
+        target = [t - w * s for t, s in zip(target, slopes[i], strict=True)]
+    solution = solve_linear([[row[j] for row in rows] for j in range(size)], target, len(rows))
+    if solution is None:
+        raise InternalError("stationarity on a flat does not extend to the whole space")
+    linear = [i for i, r in enumerate(task.relations) if r is FormRelation.EQ]
+    whole: list[Number] = [weights.get(i, _ZERO) for i in range(len(task.forms))]
+    for i, m in zip(linear, solution.particular, strict=False):
+        whole[i] = m
+    return FaceLink(tuple(whole), tuple(solution.particular[len(linear) :]))
+
+
+def _moved(task: Task, x: Point, step: Sequence[Number], budget: Budget) -> Point:
+    """x + step/2^k for a k for which all constraints hold; the step descends into all that are active."""
+    k = 0
+    while k <= _FINEST:
+        budget.check("optimum: strict conditions")
+        point = tuple(a + d * Fraction(1, 2**k) for a, d in zip(x, step, strict=True))
+        if all(_holds(form, relation, point) for form, relation in zip(task.forms, task.relations, strict=True)):
+            return point
+        k = max(1, 2 * k)
+    raise InternalError("a step into the interior of all active constraints never gets there")
+
+
+def _holds(form: Quadratic, relation: FormRelation, point: Point) -> bool:
+    found = sign(form.value(point))
+    return found < 0 or (found == 0 and relation is not FormRelation.LT)
+
+
+def _dot(u: Vector, v: Vector) -> Number:
+    return sum((a * b for a, b in zip(u, v, strict=True) if a and b), _ZERO)

@@ -20,8 +20,9 @@ from qe.solution.optimum import Optimum, minimize
 from tests.certificates.mutation import leaves, replaced, without
 from tests.optimum_problems import at_most_zero, cubic, quadratic
 
-RING = Ring.of(("x", "y", "z"))
-X, Y, Z = (RING.gen(i) for i in range(3))
+RING = Ring.of(("x", "y", "z", "v"))
+X, Y, Z, V = (RING.gen(i) for i in range(4))
+DISC = atom(X * X + Y * Y - 3, Relation.LE)
 
 
 def _of(parts) -> Optimum:
@@ -40,6 +41,15 @@ CASES = {
     "face": lambda: _tangent(Y + Z, Relation.LE),
     "empty strict": lambda: _tangent(Y, Relation.LT),
     "not attained": lambda: minimize(X + Y, atom(X * X + 2 * Y * Y - 3, Relation.LT)),
+    "not attained by a link": lambda: minimize(
+        X, conj((atom(X - Y * Y, Relation.GE), atom(X - Z * Z, Relation.GE), atom(Y - Z, Relation.GT)))
+    ),
+    "not attained by a link, irrational": lambda: minimize(
+        X + Y, conj((DISC, atom(Z * Z + (X + Y) ** 2 - 6, Relation.LE), atom(Z, Relation.GT)))
+    ),
+    "empty by a link, irrational": lambda: minimize(
+        X + Y, conj((DISC, atom((Z - X) ** 2 - V, Relation.LE), atom(V, Relation.LE), atom(Z - X, Relation.LT)))
+    ),
     "unbounded": lambda: minimize(X, conj((atom(Y - 1, Relation.LE), atom(Z - X, Relation.LE)))),
     "equations": lambda: minimize(
         X * X + Y * Y, conj((atom(X + Y - 1, Relation.EQ), atom(X - 2 * Y, Relation.LE), atom(Z - 1, Relation.EQ)))
@@ -110,6 +120,8 @@ def _still_true(path: tuple[Any, ...], payload: Any) -> bool:
         return True
     if path[0] == "inner" or (payload["status"] == "unbounded" and path[0] in ("point", "direction")):
         return True
+    if payload["status"] == "infeasible" and path[0] == "point":
+        return True  # the contradiction seen from another point
     if path[0] == "faces" and path[2] == "point":
         return True  # a coordinate that the weighted sum of the face does not contain
     if path == ("unique",):

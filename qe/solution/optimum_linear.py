@@ -1,0 +1,67 @@
+"""Linear problems, solved exactly: no proposal in floats, so numbers of any size and as close as they like."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+
+from qe.exact.quadratic_form import Quadratic
+from qe.options import Budget
+from qe.solution.simplex import Endless, Nowhere, least_cost
+
+_ZERO = Fraction(0)
+Numbers = tuple[Fraction, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class LinearBest:
+    """A feasible ``point`` and multipliers ``weights`` >= 0, complementary and stationary; zero ones are left out."""
+
+    point: Numbers
+    weights: dict[int, Fraction]
+
+
+@dataclass(frozen=True, slots=True)
+class LinearConflict:
+    """sum weights_i forms_i is a positive constant, ``weights`` >= 0."""
+
+    weights: dict[int, Fraction]
+
+
+@dataclass(frozen=True, slots=True)
+class LinearFall:
+    """From ``point`` the objective falls forever along ``direction``, and no form grows."""
+
+    point: Numbers
+    direction: Numbers
+
+
+def is_linear_problem(objective: Quadratic, forms: Sequence[Quadratic]) -> bool:
+    """Whether nothing is curved."""
+    return objective.is_linear and all(form.is_linear for form in forms)
+
+
+def linear_optimum(
+    objective: Quadratic, forms: Sequence[Quadratic], *, budget: Budget
+) -> LinearBest | LinearConflict | LinearFall:
+    """Minimise a linear polynomial subject to linear polynomials <= 0.
+
+    The dual problem is in standard form: the greatest sum w_i forms_i(0) for weights w >= 0 with
+    sum w_i grad forms_i = -grad objective; the multipliers of its equations are the point.
+    """
+
+    def check() -> None:
+        budget.check("optimum: simplex")
+
+    columns = [form.gradient for form in forms]
+    cost = [-form.constant for form in forms]
+    found = least_cost(columns, [-b for b in objective.gradient], cost, check=check)
+    if isinstance(found, Endless):
+        return LinearConflict(found.weights)
+    if not isinstance(found, Nowhere):
+        return LinearBest(found.dual, found.weights)
+    anywhere = least_cost(columns, [_ZERO] * objective.size, cost, check=check)
+    if isinstance(anywhere, Endless):
+        return LinearConflict(anywhere.weights)
+    return LinearFall(anywhere.dual, found.dual)
