@@ -12,9 +12,9 @@ from fractions import Fraction
 from flint import arb, arb_poly, fmpq
 
 from qe.exact.algebraic import RealAlgebraic
+from qe.exact.ball_roots import certified_roots
 from qe.exact.balls import hull, lower_end, precision, upper_end
 from qe.exact.ring import Poly
-from qe.exact.sample import certified_roots
 
 BITS = 80
 
