@@ -18,12 +18,13 @@ from qe.exact.ring import Ring
 from qe.formula.build import convert
 from qe.formula.normal import Quantifier, nnf, prenex
 from qe.formula.syntax import FALSE, TRUE, Constant, Formula, Or
-from qe.formula.traverse import atoms, children, free_variables, polynomials, ring_of
+from qe.formula.traverse import atoms, children, free_variables, ring_of
 from qe.options import Budget, Options, Projection, Stage
 from qe.plan.order import OrderRule
 from qe.prepare.simplify import simplify
 from qe.solution.construct import construct
 from qe.solution.extended import extended_formula
+from qe.solution.follows import follows
 from qe.solution.walk import deciding_point
 
 Values = dict[str, Fraction | RealAlgebraic]
@@ -68,7 +69,7 @@ def decomposed(formula: Formula, options: Options, budget: Budget, story: Story)
         if truth is (quantifiers[0] == "E"):
             values = deciding_point(proof, truth)
     story.note("cad", _figures(order, reason, first, time.perf_counter() - start))
-    certificate = Certificate.cells(proof, convert(answer, Ring.of(order))) if _is_listed(answer, proof) else None
+    certificate = Certificate.cells(proof, convert(answer, Ring.of(order))) if follows(answer, proof) else None
     # back into the ring of the formula it came from: it is joined with parts of that formula
     ring = ring_of(formula)
     return Decomposed(answer if ring is None else convert(answer, ring), values, certificate)
@@ -114,7 +115,7 @@ class _Question:
         if self.options.root_atoms:
             answer = extended_formula(proof)
         simple = simplify(convert(answer, Ring.of(self.free)))
-        return (simple if not self.options.certify or _is_listed(simple, proof) else answer), proof
+        return (simple if not self.options.certify or follows(simple, proof) else answer), proof
 
     def shortest(self, first: Decomposition, budget: Budget) -> tuple[Formula, CellTable]:
         """The answer; a small one is compared with that of the whole space of the free variables, for which formula
@@ -147,13 +148,6 @@ def length(formula: Formula) -> tuple[int, int]:
     """Atoms, and terms of their polynomials."""
     polys = [a.poly for a in atoms(formula)]
     return len(polys), sum(p.term_count() for p in polys)
-
-
-def _is_listed(answer: Formula, table: CellTable) -> bool:
-    """Whether the answer's polynomials are products of the table's factors, as the checker wants them."""
-    factors = {f for level in table.factors for f in level}
-    ring = Ring.of(table.order)
-    return all(f in factors for p in polynomials(answer) for f, _ in p.convert(ring).factors()[1])
 
 
 def _figures(order: Sequence[str], reason: str, found: Decomposition, seconds: float) -> dict[str, object]:

@@ -23,6 +23,7 @@ from qe.certify.numbers import read_field, read_number
 from qe.certify.residue import ZERO, Residue, RootField, add, of_rationals, scale
 from qe.errors import CertificateRejected
 from qe.evidence.entry import Entry, Json
+from qe.options import Budget
 
 _KEYS = {
     "optimal": ("multipliers", "derived", "values", "value", "attained", "unique"),
@@ -45,7 +46,7 @@ class _Linear:
     rhs: Fraction
 
 
-def check_optimum(payload: dict[str, Json]) -> None:
+def check_optimum(payload: dict[str, Json], budget: Budget) -> None:
     """Accept silently, or raise ``CertificateRejected`` naming the entry that fails."""
     entry = Entry(payload, "payload")
     status = entry.value.get("status") if isinstance(entry.value, dict) else None
@@ -54,7 +55,7 @@ def check_optimum(payload: dict[str, Json]) -> None:
     names = ("problem", "status", "field", "faces", "point", *_KEYS[status])
     parts = dict(zip((*names, "inner"), entry.fields(*names, optional=("inner",)), strict=True))
     problem = _read_problem(parts["problem"])
-    field = read_field(parts["field"])
+    field = read_field(parts["field"], budget)
     derived = _check_faces(parts["faces"], problem)
     point = _read_numbers(parts["point"], field, problem.size)
     if status == "unbounded":
@@ -286,7 +287,7 @@ def _check_optimal(
     if attained:
         _no_inner(parts["inner"])
     else:
-        _check_inner(problem, parts["inner"])
+        _check_inner(problem, parts["inner"], field.budget)
     _check_unique(problem, field, point, multipliers, derived, parts["unique"])
 
 
@@ -315,11 +316,11 @@ def _check_unique(
         raise entry.fail("uniqueness does not follow")
 
 
-def _check_inner(problem: _Problem, entry: Entry) -> None:
+def _check_inner(problem: _Problem, entry: Entry, budget: Budget) -> None:
     if entry.value is None:
         raise entry.fail("missing: a point that satisfies the strict constraints")
     first, second = entry.fields("field", "point")
-    field = read_field(first)
+    field = read_field(first, budget)
     point = _read_numbers(second, field, problem.size)
     _check_feasible(problem, field, point, second, strictly=True)
 
