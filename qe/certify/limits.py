@@ -24,6 +24,16 @@ FIELD_BITS = 1_000_000_000
 """The bit length of the multiplication table of a number field."""
 
 
+VARIABLES = 2_000
+"""The number of variables of a quadratic form."""
+
+
+def check_variables(count: int) -> None:
+    """``Unable`` where matrices of this size are out of reach."""
+    if count > VARIABLES:
+        raise Unable(f"a matrix of {count} rows is needed")
+
+
 def check_resultant(f: Poly, g: Poly, k: int) -> None:
     """``Unable`` where the resultant with respect to variable k is out of reach."""
     if f.degree(k) + g.degree(k) > DEGREES:
