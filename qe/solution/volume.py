@@ -14,6 +14,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from qe.errors import InputError, Unable
+from qe.exact.balls import precision
 from qe.exact.enclosure import Jet, Sides, box_sides, constant, ends, root_jet, smooth_side
 from qe.solution.pieces import Piece, RootFunction
 from qe.solution.slices import has_closed_slices, slice_area
@@ -22,6 +23,9 @@ if TYPE_CHECKING:
     from qe.solution.region import Region
 
 MOST_BOXES = 60_000
+FIRST_BITS, MOST_BITS = 80, 1 << 16
+"""Working precision beyond what the size of the coefficients takes, and the most that is tried."""
+
 _HALF = Fraction(1, 2)
 Box = tuple[tuple[Fraction, Fraction], ...]
 
@@ -49,6 +53,9 @@ class _Sum:
         self.queue: list[tuple[Fraction, int, Piece, Box, Fraction, Fraction]] = []
         self.low = self.high = Fraction(0)
         self.count = 0
+        polys = [end.poly for p in pieces for r in p.ranges for end in (r.lower, r.upper) if end is not None]
+        # a discriminant cancels twice the digits of the coefficients, and its root is compared with another end
+        self.bits = FIRST_BITS + 4 * max((p.height_bits() for p in polys), default=0)
         for piece in pieces:
             sides = self.sides - 1 if has_closed_slices(piece) else self.sides
             self._push(piece, ((Fraction(0), Fraction(1)),) * sides)
@@ -60,7 +67,11 @@ class _Sum:
             _, _, piece, box, low, high = heapq.heappop(self.queue)
             self.low -= low
             self.high -= high
-            for half in _halves(box):
+            if not box:  # a length: nothing but rounding makes it inexact
+                self.bits *= 2
+                if self.bits > MOST_BITS:
+                    raise Unable(f"length known only between {float(self.low):.6g} and {float(self.high):.6g}")
+            for half in _halves(box) if box else [box]:
                 self._push(piece, half)
         return max(self.low, Fraction(0)), self.high
 
@@ -72,13 +83,14 @@ class _Sum:
         heapq.heappush(self.queue, (low - high, self.count, piece, box, low, high))
 
     def _contribution(self, piece: Piece, box: Box) -> tuple[Fraction, Fraction]:
-        whole = self._integrand(piece, box)
         size = Fraction(1)
         for a, b in box:
             size *= b - a
-        if whole is None:
-            return Fraction(0), size * self._crude(piece)
-        low, high = ends(whole.mean())
+        with precision(self.bits):
+            whole = self._integrand(piece, box)
+            if whole is None:
+                return Fraction(0), size * self._crude(piece)
+            low, high = ends(whole.mean())
         return max(low, Fraction(0)) * size, max(high, Fraction(0)) * size
 
     def _integrand(self, piece: Piece, box: Box) -> Jet | None:
