@@ -23,7 +23,7 @@ from qe.options import Budget
 Constraint = tuple[list[Residue], bool]
 
 
-def check_clearance(payload: dict[str, Json], budget: Budget) -> None:
+def check_clearance(payload: dict[str, Json], budget: Budget | None = None) -> None:
     """Accept silently, or raise ``CertificateRejected`` naming the entry that fails."""
     numbers, points_entry, pieces, contact = Entry(payload, "payload").fields(
         "field", "points", "pieces", optional=("contact",)

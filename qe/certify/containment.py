@@ -19,7 +19,7 @@ from qe.evidence.entry import Entry, Json
 from qe.options import Budget
 
 
-def check_containment(payload: dict[str, Json], budget: Budget) -> None:
+def check_containment(payload: dict[str, Json], budget: Budget | None = None) -> None:
     """Accept silently, or raise ``CertificateRejected`` naming the entry that fails."""
     numbers, points_entry, condition, breaks_entry = Entry(payload, "payload").fields(
         "field", "points", "condition", "breaks"

@@ -10,7 +10,7 @@ from qe.evidence.entry import Entry
 from qe.options import Budget
 
 
-def read_field(entry: Entry, budget: Budget) -> RootField:
+def read_field(entry: Entry, budget: Budget | None = None) -> RootField:
     """``{"minimal_polynomial": [integers], "interval": [low, high]}``: a primitive polynomial with positive leading
     coefficient, and an interval that is proved to isolate theta."""
     polynomial, interval = entry.fields("minimal_polynomial", "interval")

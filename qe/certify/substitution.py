@@ -19,7 +19,7 @@ from qe.formula.traverse import free_variables, map_atoms
 from qe.options import Budget
 
 
-def check_substitution(payload: dict[str, Json], budget: Budget) -> None:
+def check_substitution(payload: dict[str, Json], budget: Budget | None = None) -> None:
     """Accept silently, or raise ``CertificateRejected`` naming the entry that fails."""
     names, block, matrix, solved, answer = Entry(payload, "payload").fields(
         "order", "variables", "matrix", "solved", "answer"
@@ -33,7 +33,8 @@ def check_substitution(payload: dict[str, Json], budget: Budget) -> None:
     if [step[0].text() for step in steps if len(step) == 2] != list(variables) or len(steps) != len(variables):
         raise solved.fail("expected one [variable, equation] for each variable of the block, in its order")
     for variable, equation in steps:
-        budget.check("verify")
+        if budget is not None:
+            budget.check("verify")
         body = _without(body, ring.index[variable.text()], equation.polynomial(ring), equation)
     claimed = formula_from_json(answer, ring)
     if set(variables) & set(free_variables(claimed)):

@@ -18,7 +18,7 @@ from qe.formula.syntax import And, Atom, Constant, Formula, Not, Or
 from qe.options import Budget
 
 
-def check_witness(payload: dict[str, Json], budget: Budget) -> None:
+def check_witness(payload: dict[str, Json], budget: Budget | None = None) -> None:
     """Accept silently, or raise ``CertificateRejected`` naming the entry that fails."""
     order, matrix, numbers = Entry(payload, "payload").fields("order", "matrix", "values")
     names = tuple(e.text() for e in order.items())
@@ -40,7 +40,7 @@ def check_witness(payload: dict[str, Json], budget: Budget) -> None:
         raise matrix.fail("the values do not satisfy the formula")
 
 
-def _number(entry: Entry, ring: Ring, i: int, budget: Budget) -> Fraction | Coordinate:
+def _number(entry: Entry, ring: Ring, i: int, budget: Budget | None) -> Fraction | Coordinate:
     if isinstance(entry.value, str):
         return entry.rational()
     polynomial, interval = entry.fields("polynomial", "interval")
