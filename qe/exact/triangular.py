@@ -79,7 +79,7 @@ class Point:
         self, parent: Point | None = None, last: Coordinate | None = None, budget: Budget | None = None
     ) -> None:
         self.parent = parent
-        self.budget = budget or (Budget() if parent is None else parent.budget)
+        self.budget: Budget = budget or (Budget() if parent is None else parent.budget)
         self.coordinates: tuple[Coordinate, ...] = ()
         if parent is not None and last is not None:
             if parent.indices and parent.indices[-1] >= last.index:

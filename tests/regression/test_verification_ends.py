@@ -57,7 +57,7 @@ def _power(exponent: int) -> str:
 def _many_variables(count: int) -> str:
     field = {"minimal_polynomial": ["0", "1"], "interval": ["0", "0"]}
     problem = {"variables": [f"x{i}" for i in range(count)], "minimise": [], "constraints": []}
-    empty = dict.fromkeys(("faces", "point", "multipliers", "derived", "values"), [])
+    empty = {key: [] for key in ("faces", "point", "multipliers", "derived", "values")}
     rest = {"field": field, **empty, "value": ["0"], "attained": True, "unique": False}
     return _text("optimum", {"problem": problem, "status": "optimal", **rest})
 
