@@ -12,6 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import qe
+from qe.errors import InternalError
 from qe.exact.algebraic import RealAlgebraic
 from qe.exact.balls import precision
 from qe.exact.fibre_stack import isolate_over
@@ -111,6 +112,24 @@ def test_a_factor_of_a_norm_was_looked_for_at_the_precision_of_a_float() -> None
     found = isolate_over(Point.of(ring, [root]), factors)
     values = [Point.of(ring, [root]).extend(s.value).number(1) for s in found.sections]
     assert len(values) == 5 and values == sorted(values)
+
+
+def test_numbers_that_no_float_holds_were_a_crash_of_the_convex_methods() -> None:
+    """They are proposed to a numerical method, which now declines; exact methods go on."""
+    far = "x + y + z + u >= 10^400 and x^2 + y^2 + z^2 + u^2 <= 10^900"
+    assert qe.decide(f"ex x, y, z, u. {far}") is True
+    with pytest.raises(qe.Unable, match="numerical"):
+        qe.minimize("x", "x >= 10^400")
+    with pytest.raises(qe.Unable, match="numerical"):
+        qe.minimize("x/10^400", "x >= 1 and x^2 <= 4")
+
+
+def test_no_number_was_looked_for_between_ends_in_the_wrong_order_for_ever() -> None:
+    root = RealAlgebraic.from_root((-2, 0, 1), 1, 2)
+    for low, high in ((root, root), (Fraction(2), root), (Fraction(1), Fraction(1)), (root, Fraction(1))):
+        with pytest.raises(InternalError):
+            rational_between(low, high)
+    assert Fraction(7, 5) < rational_between(Fraction(141421356, 10**8), root) < root
 
 
 @settings(max_examples=40)
