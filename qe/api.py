@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from qe import arguments, pipeline
 from qe.api_input import AnyFormula, read_block, read_constraints, read_formula, read_polynomial, together
-from qe.errors import InputError, InternalError, Unable
+from qe.errors import InputError, Unable
 from qe.evidence.answer import Answer, Guarantee, Status
 from qe.evidence.certificate import Certificate, Kind
 from qe.evidence.elimination import Assignment
@@ -29,6 +29,9 @@ if TYPE_CHECKING:  # the checker and the optimiser are loaded where they are use
     from qe.solution.optimum import Optimum
     from qe.solution.parametric import ParametricWitness
     from qe.solution.region import Region
+
+VERIFY_SECONDS = 60.0
+"""The limit of a verification for which the caller gives none."""
 
 TABLE_VARIABLES = 3
 """In more variables than this, convex regions are not decomposed unless that is asked for."""
@@ -75,7 +78,8 @@ def eliminate(
     checked between steps). The answer has status UNABLE, with the
     reason, when a limit was reached; it is never partial. With ``check`` the answer comes with a certificate where
     one can be had (if the method makes none, by a decomposition of the whole formula), verified by the separate
-    checker; certificates that are a witness always are. ``explain`` tells on
+    checker; certificates that are a witness always are. A verification that does not end in time costs the
+    certificate, not the answer (``Answer.reason`` says so). ``explain`` tells on
     stderr how the answer was found (``Answer.explanation`` holds the same text); ``without`` leaves stages of the
     engine out (``qe.Stage``), to measure what they gain. Raises ``InputError`` for input that cannot be read.
     """
@@ -120,13 +124,12 @@ def _answer(formula: Formula, options: Options, timeout: float | None, check: bo
     except Unable as error:
         return Answer(Status.UNABLE, None, reason=str(error), stats={"cells": budget.used_cells})
     certificate = found.evidence if isinstance(found.evidence, Certificate) else None
-    guarantee = Guarantee.DERIVED
+    answer = Answer(Status.SOLVED, found.formula, found.witness, certificate, stats=found.stats)
     if certificate is not None and (check or certificate.kind is Kind.WITNESS):
-        verdict = verify(certificate)
-        if not verdict.accepted:
-            raise InternalError(f"the certificate of an answer was rejected at {verdict.step}: {verdict.reason}")
-        guarantee = Guarantee.CHECKED
-    return Answer(Status.SOLVED, found.formula, found.witness, certificate, guarantee, stats=found.stats)
+        from qe.api_verify import with_verdict
+
+        return with_verdict(answer, budget)
+    return answer
 
 
 def decide(formula: AnyFormula, **keywords: Any) -> bool:
@@ -271,11 +274,15 @@ def maximize(
     return solve(poly, read_constraints(constraints), scale=scale, budget=limits)
 
 
-def verify(certificate: Certificate) -> Verdict:
-    """Whether separate code accepts the certificate; see ``qe.certify``."""
-    from qe.certify.verify import verify as check
+def verify(certificate: Certificate, *, timeout: float | None = VERIFY_SECONDS) -> Verdict:
+    """Whether separate code accepts the certificate, within ``timeout`` seconds (None: no limit); see ``qe.certify``.
 
-    return check(certificate)
+    Past the limit the verdict is neither accepted nor ``decided``. Raises ``InputError`` for what is no certificate
+    and for a limit that is not positive.
+    """
+    from qe.api_verify import verify as check
+
+    return check(certificate, timeout=arguments.seconds(timeout))
 
 
 __all__ = [

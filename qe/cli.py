@@ -139,15 +139,20 @@ def check(
     timeout: Timeout = None,
     memory: Memory = None,
 ) -> int:
-    """Verify a certificate with the independent checker; exit status 4 when it is rejected."""
+    """Verify a certificate with the independent checker, for 60 seconds if no --timeout is given.
+
+    Exit status 4 when it is rejected, 3 when the time does not suffice to tell.
+    """
     from qe import cli_work
+    from qe.api import VERIFY_SECONDS
 
     check_limits(timeout, memory)
     source = read_source(certificate, InputFormat.JSON)
     if source.name == "<argument>":
         raise InputError(f"{certificate}: no such file")
-    work = partial(cli_work.check, text=source.text, name=source.name)
-    return deliver(limited(work, timeout=timeout, memory=memory, plain=True), {})
+    seconds = VERIFY_SECONDS if timeout is None else timeout
+    work = partial(cli_work.check, text=source.text, name=source.name, seconds=remaining(seconds))
+    return deliver(limited(work, timeout=seconds, memory=memory, plain=True), {})
 
 
 @app.command(context_settings=_LENIENT)

@@ -133,13 +133,17 @@ def convert(channel: Channel, source: Source, output: OutputFormat) -> Reply:
     return Reply(formats.write(read_formula(channel, source), output.value).rstrip("\n"))
 
 
-def check(channel: Channel, text: str, name: str) -> Reply:
-    """``qe check``: exit status 4 when the certificate is rejected."""
+def check(channel: Channel, text: str, name: str, seconds: float) -> Reply:
+    """``qe check``: exit status 4 when the certificate is rejected, 3 when that is not decided."""
     from qe import api
+    from qe.certify.verify import verify
     from qe.errors import CertificateRejected
+    from qe.options import Budget
 
     start = time.perf_counter()
-    verdict = api.verify(api.Certificate.from_json(text))
+    verdict = verify(api.Certificate.from_json(text), Budget(seconds, listener=channel.event))
+    if not verdict.decided:
+        raise Unable(f"not decided: {verdict.reason}")
     if not verdict.accepted:
         raise CertificateRejected(verdict.step, verdict.reason)
     return Reply(f"accepted ({time.perf_counter() - start:.3f} s)")

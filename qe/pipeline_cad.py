@@ -25,6 +25,7 @@ from qe.plan.order import OrderRule
 from qe.prepare.simplify import simplify
 from qe.solution.construct import construct
 from qe.solution.extended import extended_formula
+from qe.solution.follows import follows
 from qe.solution.walk import deciding_point
 
 Values = dict[str, Fraction | RealAlgebraic]
@@ -69,7 +70,7 @@ def decomposed(formula: Formula, options: Options, budget: Budget, story: Story)
         if truth is (quantifiers[0] == "E"):
             values = deciding_point(proof, truth)
     story.note("cad", _figures(order, reason, first, time.perf_counter() - start))
-    certificate = Certificate.cells(proof, convert(answer, Ring.of(order))) if _is_listed(answer, proof) else None
+    certificate = Certificate.cells(proof, convert(answer, Ring.of(order))) if follows(answer, proof) else None
     # back into the ring of the formula it came from: it is joined with parts of that formula
     ring = ring_of(formula)
     return Decomposed(answer if ring is None else convert(answer, ring), values, certificate)
@@ -188,13 +189,6 @@ def claims(certificate: Certificate, answer: Formula) -> bool:
     if not isinstance(evidence, CellEvidence) or evidence.answer is None:
         return True
     return evidence.answer == convert(answer, Ring.of(evidence.table.order))
-
-
-def _is_listed(answer: Formula, table: CellTable) -> bool:
-    """Whether the answer's polynomials are products of the table's factors, as the checker wants them."""
-    factors = {f for level in table.factors for f in level}
-    ring = Ring.of(table.order)
-    return all(f in factors for p in polynomials(answer) for f, _ in p.convert(ring).factors()[1])
 
 
 def _figures(order: Sequence[str], reason: str, found: Decomposition, seconds: float) -> dict[str, object]:

@@ -1,4 +1,7 @@
-"""Hypothesis strategies for polynomials and formulas, biased to small and degenerate ones."""
+"""Hypothesis strategies for polynomials and formulas, biased to small and degenerate ones.
+
+A part of the coefficients is huge, and some polynomials have roots closer than any fixed precision tells apart.
+"""
 
 from __future__ import annotations
 
@@ -16,9 +19,37 @@ NAMES = ("x", "y", "z", "w")
 RELATIONS = st.sampled_from(tuple(Relation))
 
 
-def rationals(bound: int = 4, denominator: int = 3) -> st.SearchStrategy[Fraction]:
-    """Small rational numbers."""
-    return st.builds(Fraction, st.integers(-bound * denominator, bound * denominator), st.integers(1, denominator))
+HUGE = (10**20, 10**20 + 1, 10**25 - 1, 10**30 + 1, 10**40, 10**40 + 3)
+
+
+@st.composite
+def integers(draw: st.DrawFn, bound: int = 5, *, rarity: int = 16) -> int:
+    """Integers up to ``bound`` in absolute value; one in ``rarity`` is huge."""
+    if draw(st.integers(1, rarity)) == rarity:
+        return draw(st.sampled_from((1, -1))) * draw(st.sampled_from(HUGE))
+    return draw(st.integers(-bound, bound))
+
+
+@st.composite
+def rationals(draw: st.DrawFn, bound: int = 4, denominator: int = 3) -> Fraction:
+    """Small rational numbers; one in sixteen is huge, or differs from a small one by almost nothing."""
+    number = Fraction(draw(st.integers(-bound * denominator, bound * denominator)), draw(st.integers(1, denominator)))
+    kind = draw(st.integers(1, 32))
+    if kind >= 31:
+        huge = draw(st.sampled_from(HUGE))
+        return number + (huge if kind == 31 else Fraction(1, huge))
+    return number
+
+
+@st.composite
+def close_roots(draw: st.DrawFn, ring: Ring) -> Poly:
+    """A polynomial in one variable of the ring with two roots p/q and (p+1)/q, or c - sqrt(d)/q and c + sqrt(d)/q."""
+    x, q = ring.gen(draw(st.integers(0, ring.size - 1))), draw(st.sampled_from(HUGE))
+    p = draw(st.integers(-2, 2)) * q + draw(st.integers(-2, 2))
+    if draw(st.booleans()):
+        return (q * x - p) * (q * x - p - 1)
+    c = draw(st.sampled_from((-1, 0, 1, HUGE[0], -HUGE[-1])))
+    return q**2 * (x - c) ** 2 - draw(st.sampled_from((2, 3, 4)))
 
 
 @st.composite
@@ -26,11 +57,13 @@ def polynomials(
     draw: st.DrawFn, ring: Ring, *, max_degree: int = 2, max_terms: int = 4, max_coefficient: int = 5
 ) -> Poly:
     """Elements of ``ring`` of total degree at most ``max_degree``; constants and zero included."""
+    if max_degree >= 2 and ring.size and draw(st.integers(1, 24)) == 24:
+        return draw(close_roots(ring))
     terms: dict[tuple[int, ...], int] = {}
     for _ in range(draw(st.integers(1, max_terms))):
         chosen = draw(st.lists(st.integers(0, ring.size - 1), max_size=max_degree)) if ring.size else []
         exponents = tuple(chosen.count(i) for i in range(ring.size))
-        terms[exponents] = draw(st.integers(-max_coefficient, max_coefficient))
+        terms[exponents] = draw(integers(max_coefficient))
     return ring.from_terms(terms)
 
 

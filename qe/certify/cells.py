@@ -25,26 +25,30 @@ from qe.errors import CertificateRejected
 from qe.evidence.cells import Cell, CellTable
 from qe.evidence.cells_json import CellEvidence
 from qe.exact.ring import Ring
-from qe.exact.triangular import ORIGIN
+from qe.exact.triangular import Point
 from qe.formula.syntax import And, Atom, Constant, Formula, Or, Relation
+from qe.options import Budget
 from qe.truth import Truth, conjunction, disjunction
 
 Path = tuple["Path", str] | str
 
 
-def check_cells(evidence: CellEvidence) -> None:
-    """``CertificateRejected`` naming the first entry that fails; returns if the table proves what it says."""
+def check_cells(evidence: CellEvidence, budget: Budget) -> None:
+    """``CertificateRejected`` naming the first entry that fails; returns if the table proves what it says.
+
+    Raises ``Unable`` where that is not decided within the budget and the limits of size.
+    """
     table = evidence.table
     ring = Ring.of(table.order)
     free = _check_header(table)
     check_lists(ring, table.factors)
     lists = FactorLists(ring, table.factors)
-    closure = check_closure(lists, table.projection, table.constraints)
+    closure = check_closure(lists, table.projection, table.constraints, budget)
     matrix = strengthened(table.matrix, lists, closure, "payload.matrix")
     answer = None if evidence.answer is None else compiled(evidence.answer, lists, "payload.answer")
     checker = StackChecker(lists, closure, table.projection)
-    walk = _Walk(table, free, checker, matrix, answer)
-    sample = Sample(ORIGIN, {}, lists.lists, [], (0,))
+    walk = _Walk(table, free, checker, matrix, answer, budget)
+    sample = Sample(Point(budget=budget), {}, lists.lists, [], (0,))
     if table.root.signs:
         raise CertificateRejected("payload.root.signs", "the whole space has no signs")
     walk.cell(table.root, sample, Situation([], [], [], [], []), "payload.root")
@@ -74,10 +78,12 @@ class _Walk:
     checker: StackChecker
     matrix: Test
     answer: Test | None
+    budget: Budget
 
     def cell(self, cell: Cell, sample: Sample | None, situation: Situation, path: Path) -> None:
         """Check everything said about a cell; ``sample`` is None for a leaf."""
         depth = len(situation.signs)
+        self.budget.check("verify")
         if cell.stack is None or sample is None:
             value = self.matrix(situation)
             if cell.truth is not None and value is not cell.truth:

@@ -18,16 +18,17 @@ from qe.certify.numbers import read_field
 from qe.certify.residue import Residue, RootField, add, scale
 from qe.errors import CertificateRejected
 from qe.evidence.entry import Entry, Json
+from qe.options import Budget
 
 Constraint = tuple[list[Residue], bool]
 
 
-def check_clearance(payload: dict[str, Json]) -> None:
+def check_clearance(payload: dict[str, Json], budget: Budget | None = None) -> None:
     """Accept silently, or raise ``CertificateRejected`` naming the entry that fails."""
     numbers, points_entry, pieces, contact = Entry(payload, "payload").fields(
         "field", "points", "pieces", optional=("contact",)
     )
-    field = read_field(numbers)
+    field = read_field(numbers, budget)
     curve = _Curve(read_points(points_entry, field), field)
     found = list(pieces.items())
     if not found:
@@ -89,8 +90,9 @@ def _along(entry: Entry, curve: _Curve) -> Constraint:
         if len(exponents) != curve.dimension or exponents in read:
             raise parts[0].fail(f"expected {curve.dimension} exponents, each combination once")
         read[exponents] = parts[1].rational()
-    degree = max((sum(e) for e in read), default=0) * curve.degree
-    if degree > MAX_DEGREE:
+    power = max((sum(e) for e in read), default=0)
+    degree = power * curve.degree
+    if max(degree, power) > MAX_DEGREE:
         raise terms.fail(f"expected a degree of at most {MAX_DEGREE} along the curve")
     total = constant(Fraction(0), degree)
     for exponents, coefficient in read.items():

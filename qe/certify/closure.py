@@ -22,11 +22,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from itertools import pairwise
 
+from qe.certify.limits import check_resultant
 from qe.certify.products import FactorLists, Product
 from qe.errors import CertificateRejected
 from qe.exact.ring import Poly, format_poly
 from qe.exact.sturm import coefficients_at, sylvester_determinant, value_at_integers
-from qe.options import Projection
+from qe.options import Budget, Projection
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,7 +45,9 @@ class Closure:
     constraints: tuple[frozenset[int], ...]
 
 
-def check_closure(lists: FactorLists, projection: Projection, listed: tuple[tuple[int, ...], ...] = ()) -> Closure:
+def check_closure(
+    lists: FactorLists, projection: Projection, listed: tuple[tuple[int, ...], ...], budget: Budget
+) -> Closure:
     """The products, or ``CertificateRejected`` naming the factor whose projection is not covered.
 
     ``listed``: the constraints as the certificate has them.
@@ -54,6 +57,7 @@ def check_closure(lists: FactorLists, projection: Projection, listed: tuple[tupl
     constraints = _check_constraints(lists, projection, listed)
     leading, discriminants, resultants = [], [], []
     for k, level in enumerate(lists.lists):
+        budget.check("verify")
         core = constraints[k] or frozenset(range(len(level)))
         own = core if k == len(lists.lists) - 1 else range(len(level))
         leading.append({i: _covered(lists, level[i].leading(k), k, i, "leading coefficient") for i in own})
@@ -66,6 +70,7 @@ def check_closure(lists: FactorLists, projection: Projection, listed: tuple[tupl
                 if i in own:
                     found[i] = _covered(lists, _discriminant(lists, f, k, i), k, i, "discriminant")
                 for j in range(i):
+                    budget.check("verify")
                     if i in core or j in core:
                         what = f"resultant with payload.factors[{k}][{j}]"
                         pairs[j, i] = _covered(lists, checked_resultant(lists, level[j], f, k, i), k, i, what)
@@ -110,6 +115,7 @@ def _discriminant(lists: FactorLists, f: Poly, k: int, i: int) -> Poly:
     n = f.degree(k)
     if n == 1:
         return lists.ring.constant(1)
+    check_resultant(f, f, k)
     discriminant = f.discriminant(k)
     lead = value_at_integers(f.leading(k), lists.point)
     sign = -1 if n * (n - 1) // 2 % 2 else 1
@@ -122,6 +128,7 @@ def _discriminant(lists: FactorLists, f: Poly, k: int, i: int) -> Poly:
 
 def checked_resultant(lists: FactorLists, f: Poly, g: Poly, k: int, i: int) -> Poly:
     """The resultant with respect to variable k, compared with its second computation."""
+    check_resultant(f, g, k)
     resultant = f.resultant(g, k)
     other = sylvester_determinant(coefficients_at(f, k, lists.point), coefficients_at(g, k, lists.point))
     if value_at_integers(resultant, lists.point) != other:

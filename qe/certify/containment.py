@@ -16,14 +16,15 @@ from qe.certify.numbers import read_field, read_number
 from qe.certify.residue import Residue, RootField, add, of_rationals, scale
 from qe.errors import CertificateRejected
 from qe.evidence.entry import Entry, Json
+from qe.options import Budget
 
 
-def check_containment(payload: dict[str, Json]) -> None:
+def check_containment(payload: dict[str, Json], budget: Budget | None = None) -> None:
     """Accept silently, or raise ``CertificateRejected`` naming the entry that fails."""
     numbers, points_entry, condition, breaks_entry = Entry(payload, "payload").fields(
         "field", "points", "condition", "breaks"
     )
-    field = read_field(numbers)
+    field = read_field(numbers, budget)
     points = read_points(points_entry, field)
     breaks = [b.rational() for b in breaks_entry.items()]
     if len(breaks) < 2 or breaks[0] != 0 or breaks[-1] != 1 or breaks != sorted(set(breaks)):

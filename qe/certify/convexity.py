@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
+from qe.certify.limits import check_variables
 from qe.evidence.entry import Entry
 
 Row = tuple[Fraction, ...]
@@ -22,6 +23,7 @@ class Form:
 
 def read_form(entry: Entry, size: int) -> Form:
     """A polynomial of degree at most 2 as a list of [coefficient, exponents]; no term twice, none zero."""
+    check_variables(size)
     hessian = [[Fraction(0)] * size for _ in range(size)]
     gradient, constant = [Fraction(0)] * size, Fraction(0)
     seen: set[tuple[int, ...]] = set()

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from math import gcd
 
+from qe.certify.limits import check_field
 from qe.certify.residue import Residue, RootField, of_rationals
 from qe.evidence.entry import Entry
+from qe.options import Budget
 
 
-def read_field(entry: Entry) -> RootField:
+def read_field(entry: Entry, budget: Budget | None = None) -> RootField:
     """``{"minimal_polynomial": [integers], "interval": [low, high]}``: a primitive polynomial with positive leading
     coefficient, and an interval that is proved to isolate theta."""
     polynomial, interval = entry.fields("minimal_polynomial", "interval")
@@ -20,7 +22,8 @@ def read_field(entry: Entry) -> RootField:
     ends = [e.rational() for e in interval.items()]
     if len(ends) != 2:
         raise interval.fail("expected two ends")
-    return RootField([c.numerator for c in coefficients], ends[0], ends[1], entry.path)
+    check_field([c.numerator for c in coefficients])
+    return RootField([c.numerator for c in coefficients], ends[0], ends[1], entry.path, budget)
 
 
 def read_number(entry: Entry, field: RootField) -> Residue:

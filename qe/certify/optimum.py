@@ -41,6 +41,7 @@ from qe.certify.numbers import read_field, read_number
 from qe.certify.residue import Residue, RootField, add, scale
 from qe.errors import CertificateRejected
 from qe.evidence.entry import Entry, Json
+from qe.options import Budget
 
 _KEYS = {
     "optimal": ("multipliers", "derived", "values", "value", "attained", "unique"),
@@ -50,7 +51,7 @@ _KEYS = {
 _Q = RootField([0, 1], Fraction(0), Fraction(0), "rationals")
 
 
-def check_optimum(payload: dict[str, Json]) -> None:
+def check_optimum(payload: dict[str, Json], budget: Budget | None = None) -> None:
     """Accept silently, or raise ``CertificateRejected`` naming the entry that fails."""
     entry = Entry(payload, "payload")
     status = entry.value.get("status") if isinstance(entry.value, dict) else None
@@ -60,7 +61,7 @@ def check_optimum(payload: dict[str, Json]) -> None:
     optional = ("inner", "links")
     parts = dict(zip((*names, *optional), entry.fields(*names, optional=optional), strict=True))
     problem = read_problem(parts["problem"])
-    field = read_field(parts["field"])
+    field = read_field(parts["field"], budget)
     derived = _check_faces(parts["faces"], problem)
     point = read_numbers(parts["point"], field, problem.size)
     if status != "optimal":
@@ -153,7 +154,7 @@ class _Place:
             _absent(parts["inner"])
             _absent(parts["links"])
         else:
-            _check_inner(problem, parts["inner"])
+            _check_inner(problem, parts["inner"], self.field.budget)
             self._check_not_attained(total, parts)
         self._check_unique(total, parts["unique"])
 
@@ -238,11 +239,11 @@ def _check_feasible(problem: Problem, field: RootField, point: list[Residue], en
             raise CertificateRejected(entry.path, f"the point violates constraint {i + 1}")
 
 
-def _check_inner(problem: Problem, entry: Entry) -> None:
+def _check_inner(problem: Problem, entry: Entry, budget: Budget) -> None:
     if entry.value is None:
         raise entry.fail("missing: a point that satisfies the strict constraints")
     first, second = entry.fields("field", "point")
-    field = read_field(first)
+    field = read_field(first, budget)
     point = read_numbers(second, field, problem.size)
     _check_feasible(problem, field, point, second, strictly=True)
 

@@ -12,6 +12,7 @@ from fractions import Fraction
 from math import gcd, lcm
 
 from qe.errors import CertificateRejected
+from qe.options import Budget
 
 MAX_BITS = 60_000
 
@@ -72,10 +73,10 @@ class RootField:
     that lo = hi is a root; otherwise it raises ``CertificateRejected`` at ``path``.
     """
 
-    def __init__(self, p: Sequence[int], lo: Fraction, hi: Fraction, path: str) -> None:
+    def __init__(self, p: Sequence[int], lo: Fraction, hi: Fraction, path: str, budget: Budget | None = None) -> None:
         if len(p) < 2 or p[-1] == 0:
             raise CertificateRejected(f"{path}.minimal_polynomial", "expected positive degree")
-        self.p, self.degree, self.path = tuple(p), len(p) - 1, path
+        self.p, self.degree, self.path, self.budget = tuple(p), len(p) - 1, path, budget or Budget()
         self.unit = lcm(lo.denominator, hi.denominator)
         self.a, self.b = int(lo * self.unit), int(hi * self.unit)
         if self.a > self.b:
@@ -116,6 +117,7 @@ class RootField:
 
     def multiply(self, a: Residue, b: Residue) -> Residue:
         """a * b modulo p."""
+        self.budget.check("verify")
         u, v, d = a.coefficients, b.coefficients, self.degree
         if not u or not v:
             return ZERO
@@ -160,6 +162,7 @@ class RootField:
         if len(a.coefficients) == 1:
             return 1 if a.coefficients[0] > 0 else -1
         while True:
+            self.budget.check("verify")
             found = self._interval_sign(a.coefficients)
             if found is not None:
                 return found

@@ -16,6 +16,7 @@ from fractions import Fraction
 from itertools import pairwise
 
 from qe.certify.closure import Closure, nullification_witnesses
+from qe.certify.limits import check_value
 from qe.certify.products import FactorLists, Signs, sign
 from qe.errors import CertificateRejected
 from qe.evidence.cells import Stack
@@ -51,6 +52,9 @@ class Sample:
         k, dimensions = self.depth, (*self.dimensions, self.dimensions[-1] + sector)
         if isinstance(number, Coordinate):
             return Sample(self.point.extended(number), self.rationals, self.polys, [*self.signs, signs], dimensions)
+        for level in self.polys[k:]:
+            for f in level:
+                check_value(f, k, number)
         polys = tuple(
             tuple(f.at_rational(k, number) if f.degree(k) else f for f in level) if at >= k else level
             for at, level in enumerate(self.polys)

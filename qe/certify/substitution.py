@@ -10,14 +10,16 @@ compares the result with the answer as a set of conjuncts.
 
 from __future__ import annotations
 
+from qe.certify.limits import check_power
 from qe.evidence.entry import Entry, Json, formula_from_json
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj
 from qe.formula.syntax import And, Atom, Formula, Relation, RootAtom
 from qe.formula.traverse import free_variables, map_atoms
+from qe.options import Budget
 
 
-def check_substitution(payload: dict[str, Json]) -> None:
+def check_substitution(payload: dict[str, Json], budget: Budget | None = None) -> None:
     """Accept silently, or raise ``CertificateRejected`` naming the entry that fails."""
     names, block, matrix, solved, answer = Entry(payload, "payload").fields(
         "order", "variables", "matrix", "solved", "answer"
@@ -31,6 +33,8 @@ def check_substitution(payload: dict[str, Json]) -> None:
     if [step[0].text() for step in steps if len(step) == 2] != list(variables) or len(steps) != len(variables):
         raise solved.fail("expected one [variable, equation] for each variable of the block, in its order")
     for variable, equation in steps:
+        if budget is not None:
+            budget.check("verify")
         body = _without(body, ring.index[variable.text()], equation.polynomial(ring), equation)
     claimed = formula_from_json(answer, ring)
     if set(variables) & set(free_variables(claimed)):
@@ -71,6 +75,7 @@ def _replaced(poly: Poly, i: int, equation: Poly) -> Poly:
     c = lead.constant_value()
     top, bottom = (-p, c) if c > 0 else (p, -c)
     parts = poly.coefficients(i)
+    check_power(top, len(parts) - 1)
     result = poly.ring.constant(0)
     for power, part in enumerate(parts):
         result = result + part * top**power * bottom ** (len(parts) - 1 - power)

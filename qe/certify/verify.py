@@ -10,9 +10,10 @@ from qe.certify.optimum import check_optimum
 from qe.certify.substitution import check_substitution
 from qe.certify.verdict import Verdict
 from qe.certify.witness import check_witness
-from qe.errors import CertificateRejected, InputError
+from qe.errors import CertificateRejected, InputError, Unable
 from qe.evidence.cells_json import CellEvidence
 from qe.evidence.certificate import Certificate, Kind, Labelled
+from qe.options import Budget
 
 _CHECKERS = {
     Kind.OPTIMUM: check_optimum,
@@ -23,25 +24,32 @@ _CHECKERS = {
 }
 
 
-def verify(certificate: Certificate) -> Verdict:
+def verify(certificate: Certificate, budget: Budget | None = None) -> Verdict:
     """Whether the certificate proves what it says, checked from scratch by code that produces no answers.
 
-    Every entry is checked for its meaning; the digest of a certificate read from text comes last. Raises
+    Every entry is checked for its meaning; the digest of a certificate read from text comes last. The budget is looked
+    at between steps; when it is used up, or a step is out of reach (``limits``), the verdict is not decided. Raises
     ``InputError`` for anything but a ``Certificate``.
     """
     if not isinstance(certificate, Certificate):
         hint = "a certificate in JSON is read by Certificate.from_json" if isinstance(certificate, str) else ""
         raise InputError(f"certificate: a Certificate expected, {shown(certificate)} found" + (hint and f"; {hint}"))
     try:
-        _check(certificate)
+        _check(certificate, budget or Budget())
         if certificate.digests is not None and certificate.digests[0] != certificate.digests[1]:
             raise CertificateRejected("digest", "the content is not the one that was signed with this digest")
     except CertificateRejected as error:
         return Verdict(False, error.step, error.reason)
+    except Unable as error:
+        return Verdict(False, "", str(error), decided=False)
+    except RecursionError:
+        return Verdict(False, "", "the certificate is nested too deeply", decided=False)
+    except (MemoryError, OverflowError):
+        return Verdict(False, "", "a number or a table in it is too large", decided=False)
     return Verdict(True)
 
 
-def verify_json(text: str) -> Verdict:
+def verify_json(text: str, budget: Budget | None = None) -> Verdict:
     """``verify`` for a certificate as text; unreadable text is rejected too."""
     try:
         certificate = Certificate.from_json(text)
@@ -49,23 +57,23 @@ def verify_json(text: str) -> Verdict:
         return Verdict(False, error.step, error.reason)
     except InputError as error:
         return Verdict(False, "certificate", str(error))
-    return verify(certificate)
+    return verify(certificate, budget)
 
 
-def _check(certificate: Certificate) -> None:
+def _check(certificate: Certificate, budget: Budget) -> None:
     payload = certificate.payload
     if not isinstance(certificate.kind, Kind):
         raise CertificateRejected("kind", "unknown kind of certificate")
     if isinstance(payload, CellEvidence) and certificate.kind is Kind.CELLS:
-        check_cells(payload)
+        check_cells(payload, budget)
     elif isinstance(payload, dict) and certificate.kind in _CHECKERS:
-        _CHECKERS[certificate.kind](payload)
+        _CHECKERS[certificate.kind](payload, budget)
     elif isinstance(payload, tuple) and certificate.kind is Kind.BUNDLE:
         for position, member in enumerate(payload):
             if not isinstance(member, Labelled) or not isinstance(member.certificate, Certificate):
                 raise CertificateRejected(f"certificates[{position}]", "a certificate with a label expected")
             try:
-                _check(member.certificate)
+                _check(member.certificate, budget)
             except CertificateRejected as error:
                 step = f"certificates[{position}].{error.step}"
                 raise CertificateRejected(step, f"{member.label}: {error.reason}") from None

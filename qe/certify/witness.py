@@ -9,14 +9,16 @@ from __future__ import annotations
 
 from fractions import Fraction
 
+from qe.certify.limits import check_value
 from qe.evidence.entry import Entry, Json, formula_from_json
 from qe.exact.fibre import RationalFibre, fibre, values
 from qe.exact.ring import Poly, Ring
-from qe.exact.triangular import ORIGIN, Coordinate, Point
+from qe.exact.triangular import Coordinate, Point
 from qe.formula.syntax import And, Atom, Constant, Formula, Not, Or
+from qe.options import Budget
 
 
-def check_witness(payload: dict[str, Json]) -> None:
+def check_witness(payload: dict[str, Json], budget: Budget | None = None) -> None:
     """Accept silently, or raise ``CertificateRejected`` naming the entry that fails."""
     order, matrix, numbers = Entry(payload, "payload").fields("order", "matrix", "values")
     names = tuple(e.text() for e in order.items())
@@ -27,9 +29,9 @@ def check_witness(payload: dict[str, Json]) -> None:
     listed = list(numbers.items())
     if len(listed) != len(names):
         raise numbers.fail(f"expected {len(names)} values")
-    point, rationals = ORIGIN, {}
+    point, rationals = Point(budget=budget), {}
     for i, entry in enumerate(listed):
-        number = _number(entry, ring, i)
+        number = _number(entry, ring, i, budget)
         if isinstance(number, Coordinate):
             point = point.extended(number)
         else:
@@ -38,7 +40,7 @@ def check_witness(payload: dict[str, Json]) -> None:
         raise matrix.fail("the values do not satisfy the formula")
 
 
-def _number(entry: Entry, ring: Ring, i: int) -> Fraction | Coordinate:
+def _number(entry: Entry, ring: Ring, i: int, budget: Budget | None) -> Fraction | Coordinate:
     if isinstance(entry.value, str):
         return entry.rational()
     polynomial, interval = entry.fields("polynomial", "interval")
@@ -48,7 +50,9 @@ def _number(entry: Entry, ring: Ring, i: int) -> Fraction | Coordinate:
         raise polynomial.fail(f"expected a polynomial in {ring.names[i]}")
     if len(ends) != 2 or ends[0] >= ends[1]:
         raise interval.fail("expected two ascending ends")
-    f = fibre(ORIGIN, poly, i)
+    for end in ends:
+        check_value(poly, i, end)
+    f = fibre(Point(budget=budget), poly, i)
     assert isinstance(f, RationalFibre)
     if 0 in f.signs(values((ends[0], ends[1]))) or f.count_between(ends[0], ends[1]) != 1:
         raise interval.fail("expected exactly one root between two ends that are no roots")
@@ -76,5 +80,6 @@ def _holds(formula: Formula, point: Point, rationals: dict[int, Fraction], entry
 def _sign(poly: Poly, point: Point, rationals: dict[int, Fraction]) -> int:
     for i, value in rationals.items():
         if poly.degree(i):
+            check_value(poly, i, value)
             poly = poly.at_rational(i, value)
     return point.sign(poly)

@@ -34,7 +34,8 @@ class Answer:
 
     ``truth``: True or False for sentences. ``witness``: exact values for the outermost block of a true existential
     sentence, or a counterexample to a false universal one. ``certificate``: what ``qe.verify`` accepts, when the
-    method produces one. ``stats``: what was done, seconds per phase, cells.
+    method produces one. ``reason``: why there is no answer, or why its certificate was not verified. ``stats``: what
+    was done, seconds per phase, cells.
     """
 
     status: Status

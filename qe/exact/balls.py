@@ -34,13 +34,13 @@ def ball_sign(x: arb) -> int | None:
 
 
 def lower_end(x: arb) -> fmpq:
-    """An exact rational lower bound of the ball."""
-    return x.lower().fmpq()
+    """The lower end of a finite ball, exactly: rounded to a working precision, disjoint balls could share an end."""
+    return x.mid().fmpq() - x.rad().fmpq()
 
 
 def upper_end(x: arb) -> fmpq:
-    """An exact rational upper bound of the ball."""
-    return x.upper().fmpq()
+    """The upper end of a finite ball, exactly."""
+    return x.mid().fmpq() + x.rad().fmpq()
 
 
 def hull(lo: fmpq, hi: fmpq) -> arb:

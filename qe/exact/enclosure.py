@@ -1,5 +1,7 @@
 """Rigorous enclosures of root functions over boxes, with first derivatives (ball arithmetic, forward mode).
 
+All functions compute at FLINT's working precision, which the caller sets (``qe.exact.balls.precision``).
+
 With f(centre) and a gradient that varies by at most r_i (in radius) over a box of half-widths h_i, the mean
 of f over the box differs from f(centre) by at most Σ r_i h_i / 2: second order in the size of the box.
 """
@@ -9,14 +11,12 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 
-from flint import arb, arb_poly, fmpq
+from flint import arb, arb_poly, ctx, fmpq
 
 from qe.exact.algebraic import RealAlgebraic
-from qe.exact.balls import hull, lower_end, precision, upper_end
+from qe.exact.ball_roots import certified_roots
+from qe.exact.balls import hull, lower_end, upper_end
 from qe.exact.ring import Poly
-from qe.exact.sample import certified_roots
-
-BITS = 80
 
 Sides = tuple[arb, ...]
 
@@ -134,8 +134,7 @@ def box_sides(box: Sequence[tuple[Fraction, Fraction]]) -> tuple[arb, ...]:
 
 def constant(value: Fraction | RealAlgebraic, sides: tuple[arb, ...]) -> Jet:
     """A number as a jet."""
-    with precision(BITS):
-        ball = value.ball(BITS) if isinstance(value, RealAlgebraic) else arb(fmpq(value.numerator, value.denominator))
+    ball = value.ball(ctx.prec) if isinstance(value, RealAlgebraic) else arb(fmpq(value.numerator, value.denominator))
     return Jet(ball, (arb(0),) * len(sides), ball, sides)
 
 
@@ -191,7 +190,7 @@ def _isolated_root(c: list[Jet], k: int, sides: tuple[arb, ...]) -> Jet | None:
     If N(Y) = y0 - f(box, y0)/f'(box, Y) lies inside Y, every f(x, .) with x in the box has exactly one root in Y; being
     the k-th at the centre it is the k-th throughout, because roots do not cross inside a cell.
     """
-    at_centre = certified_roots([a.centre for a in c], BITS // 2)
+    at_centre = certified_roots([a.centre for a in c], ctx.prec // 2)
     if at_centre is None or len(at_centre) < k:
         return None
     y0 = at_centre[k - 1].mid()
@@ -200,7 +199,7 @@ def _isolated_root(c: list[Jet], k: int, sides: tuple[arb, ...]) -> Jet | None:
     residual = f(y0)
     guess = at_centre[k - 1]
     for _ in range(8):
-        wide = guess + arb(0, 1) * (guess.rad() + arb(2) ** -60)
+        wide = guess + arb(0, 1) * (guess.rad() + arb(2) ** (20 - ctx.prec))
         steepness = slope(wide)
         if steepness.contains(0):
             return None

@@ -7,6 +7,7 @@ theorem, greatest common divisors and squarefree parts. Every answer is exact.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from fractions import Fraction
 from typing import Any
 
@@ -36,7 +37,7 @@ from qe.exact.triangular import (
     trim,
 )
 
-ENCLOSURE_BITS = (64, 256)
+ENCLOSURE_BITS = (64, 256, 1024)
 LONG_BITS = (64, 256, 1024, 4096, 16384)  # a quotient loses many bits by cancellation
 Values = list[tuple[Fraction, Any, Any]]
 
@@ -52,12 +53,18 @@ def values(numbers: tuple[Fraction, ...]) -> Values:
 
 
 class RationalFibre:
-    """A polynomial in one variable with integer coefficients. ``degree`` is -1 for zero."""
+    """A polynomial in one variable with integer coefficients. ``degree`` is -1 for zero.
 
-    __slots__ = ("degree", "index", "p", "ring")
+    ``check`` is called between the steps of long computations, to end them.
+    """
 
-    def __init__(self, ring: Any, index: int, p: fmpz_poly) -> None:
-        self.ring, self.index, self.p, self.degree = ring, index, p, int(p.degree())
+    __slots__ = ("check", "degree", "index", "p", "ring")
+
+    def __init__(self, ring: Any, index: int, p: fmpz_poly, check: Callable[[], None]) -> None:
+        self.ring, self.index, self.p, self.check, self.degree = ring, index, p, check, int(p.degree())
+
+    def _with(self, p: fmpz_poly) -> RationalFibre:
+        return RationalFibre(self.ring, self.index, p, self.check)
 
     def signs(self, at: Values) -> list[int]:
         """The exact signs at rational numbers."""
@@ -65,15 +72,15 @@ class RationalFibre:
         return [sign_of(p(x)) for _, x, _ in at]
 
     def derivative(self) -> RationalFibre:
-        return RationalFibre(self.ring, self.index, self.p.derivative())
+        return self._with(self.p.derivative())
 
     def gcd(self, other: Fibre) -> RationalFibre:
         assert isinstance(other, RationalFibre)
-        return RationalFibre(self.ring, self.index, self.p.gcd(other.p))
+        return self._with(self.p.gcd(other.p))
 
     def squarefree(self) -> RationalFibre:
         """The product of the distinct irreducible factors."""
-        return RationalFibre(self.ring, self.index, self.p / self.p.gcd(self.p.derivative()))
+        return self._with(self.p / self.p.gcd(self.p.derivative()))
 
     def count(self) -> int:
         """The number of distinct real roots."""
@@ -81,7 +88,7 @@ class RationalFibre:
 
     def count_between(self, low: Fraction, high: Fraction) -> int:
         """The number of distinct real roots in (low, high); neither end is a root."""
-        return count_roots_between(self.p, low, high)
+        return count_roots_between(self.p, low, high, self.check)
 
     def coordinate(self, low: Fraction, high: Fraction) -> Fraction | Coordinate | None:
         """The root between low and high, if exactly one irreducible factor changes sign there and only once."""
@@ -255,12 +262,12 @@ def fibre(point: Point, poly: Poly, index: int, *, leading_nonzero: bool = False
     ``leading_nonzero`` says that the leading coefficient is already proved nonzero at the point.
     """
     if not point.indices or all(i == index for i in poly.variables):
-        return RationalFibre(poly.ring, index, poly.to_univariate(index))
+        return RationalFibre(poly.ring, index, poly.to_univariate(index), point.check)
     if leading_nonzero:
         return AlgebraicFibre(point, index, poly)
     poly = trim(point, poly, index)
     if all(i == index for i in poly.variables):
-        return RationalFibre(poly.ring, index, poly.to_univariate(index))
+        return RationalFibre(poly.ring, index, poly.to_univariate(index), point.check)
     return AlgebraicFibre(point, index, poly)
 
 
@@ -280,6 +287,7 @@ def lazard_evaluation(f: Poly, point: Point, rationals: dict[int, Fraction], ind
     """
     for i in range(index):
         while True:
+            point.check()
             restricted = f.at_rational(i, rationals[i]) if i in rationals else f
             if not _identically_zero(restricted, point, i):
                 f = restricted

@@ -242,12 +242,9 @@ def _as_fibre_root(point: Point, value: fmpq | RealAlgebraic | FibreRoot) -> Fib
 def _sector_samples(sections: list[Section]) -> list[fmpq]:
     if not sections:
         return [fmpq(0)]
-    with precision(max(s.bits for s in sections) + 64):  # ends are rounded outward to the working precision
-        balls = [s.ball() for s in sections]
-        ends = [(lower_end(x), upper_end(x)) for x in balls]
-    for k, section in enumerate(sections):
-        if isinstance(section.value, fmpq):
-            ends[k] = (section.value, section.value)
+    ends = [
+        (s.value, s.value) if isinstance(s.value, fmpq) else (lower_end(x := s.ball()), upper_end(x)) for s in sections
+    ]
     first, last = ends[0][0], ends[-1][1]
     samples = [fmpq(0) if first > 0 else fmpq(first.ceil() - 1)]
     samples += [simplest_between(a[1], b[0]) for a, b in itertools.pairwise(ends)]
@@ -287,12 +284,12 @@ def root_between(point: Point, f: Poly, lo: Fraction, hi: Fraction) -> fmpq | Re
 
 
 def _inside(s: Section, low: fmpq, high: fmpq) -> bool:
-    """Whether the section lies in (low, high), neither end being the root."""
-    while True:
-        with precision(s.bits + 16):
-            x = s.ball()
-            if x > arb(low) and x < arb(high):
-                return True
-            if x < arb(low) or x > arb(high) or isinstance(s.value, fmpq):
-                return False
-        s.bits *= 2
+    """Whether the section lies in (low, high)."""
+    return _compared(s.value, low) > 0 > _compared(s.value, high)
+
+
+def _compared(value: fmpq | RealAlgebraic | FibreRoot, q: fmpq) -> int:
+    """The sign of the value minus q, exactly."""
+    if isinstance(value, fmpq):
+        return int(value > q) - int(value < q)
+    return value.compare_rational(q)

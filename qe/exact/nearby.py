@@ -8,7 +8,7 @@ from math import lcm
 
 from flint import arb, fmpq
 
-from qe.errors import Unable
+from qe.errors import InternalError, Unable
 from qe.exact.algebraic import RealAlgebraic
 from qe.exact.balls import lower_end, precision, upper_end
 from qe.exact.isolate import simplest_between
@@ -28,7 +28,12 @@ def rational_values(point: Point) -> tuple[Fraction, ...]:
 
 
 def rational_between(lower: Fraction | RealAlgebraic | None, upper: Fraction | RealAlgebraic | None) -> Fraction:
-    """A simple rational number between two different numbers, None standing for infinity."""
+    """A simple rational number between two numbers, the first of which is smaller; None stands for infinity.
+
+    Raises ``InternalError`` unless it is.
+    """
+    if lower is not None and upper is not None and not lower < upper:
+        raise InternalError(f"no rational number lies between {lower} and {upper}")
     bits = _FIRST_BITS
     while True:
         low, high = _end(lower, bits, 1), _end(upper, bits, 0)

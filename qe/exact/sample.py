@@ -8,14 +8,14 @@ tower of fields (built lazily) prove the zero. No primitive elements.
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Iterable
 from fractions import Fraction
 
-from flint import acb_poly, arb, arb_poly, fmpq, fmpq_mpoly
+from flint import arb, arb_poly, fmpq, fmpq_mpoly
 
 from qe.exact.algebraic import RealAlgebraic, select_root
-from qe.exact.balls import EXACT_FROM, FIRST_PRECISION, ball_sign, precision
+from qe.exact.ball_roots import certified_roots, quadratic_roots
+from qe.exact.balls import EXACT_FROM, FIRST_PRECISION, ball_sign, lower_end, precision, upper_end
 from qe.exact.remainder import common_coefficients, squarefree_coefficients
 from qe.exact.ring import Poly, Ring, from_univariate
 from qe.exact.tower import Tower
@@ -228,6 +228,10 @@ class Fibre:
                 return sign
             bits *= 2
 
+    def vanishes_at(self, q: fmpq) -> bool:
+        """Whether a rational number is a root, exactly."""
+        return self.point.vanishes(self.polynomial().at_rational(self.var, Fraction(int(q.p), int(q.q))))
+
     def polynomial(self) -> Poly:
         """The polynomial itself."""
         total, x = self.point.ring.constant(0), self.point.ring.gen(self.var)
@@ -267,7 +271,7 @@ class Fibre:
         if len(c) <= 2:
             return [] if len(c) == 1 else [-c[0] / c[1]]
         if len(c) == 3:
-            return _quadratic(c)
+            return quadratic_roots(c)
         return certified_roots(c, bits)
 
     def _make_exact(self) -> None:
@@ -308,6 +312,21 @@ class FibreRoot:
                 return x
             working *= 2
 
+    def compare_rational(self, q: fmpq) -> int:
+        """The sign of self - q, exactly."""
+        bits, different = FIRST_PRECISION, False
+        while True:
+            x = self.ball(bits)
+            if q < lower_end(x):
+                return 1
+            if q > upper_end(x):
+                return -1
+            if bits >= EXACT_FROM and not different:
+                if self.fibre.vanishes_at(q):
+                    return 0  # the balls of the real roots are disjoint, so q is the root whose ball it lies in
+                different = True
+            bits *= 2
+
     def size_with(self, g: Poly) -> int:
         """A bound on the degrees met in a remainder sequence with g."""
         var, coefficients = self.fibre.var, self.fibre.coefficients
@@ -334,46 +353,6 @@ class FibreRoot:
             factor = tower.irreducible_factor(element, fibre.var, self.ball, fibre.point.ball)
             self._number = select_root(tower.norm(factor, fibre.var), self.ball)
         return self._number
-
-
-def _quadratic(c: list[arb]) -> list[arb] | None:
-    discriminant = c[1] * c[1] - 4 * c[2] * c[0]
-    sign = ball_sign(discriminant)
-    if not sign:
-        return None
-    if sign < 0:
-        return []
-    root = discriminant.sqrt()
-    if c[1] > 0:
-        low = -(c[1] + root)
-        pair = [low / (2 * c[2]), 2 * c[0] / low]
-    else:
-        high = root - c[1]
-        if high.contains(0):
-            return None
-        pair = [2 * c[0] / high, high / (2 * c[2])]
-    if c[2] < 0:
-        pair.reverse()
-    return pair if pair[0] < pair[1] else None
-
-
-def certified_roots(c: list[arb], bits: int) -> list[arb] | None:
-    """Real roots from isolating complex balls: a ball that meets its conjugate and no other holds a real root."""
-    try:
-        # Half the bits: cancellation in the coefficients costs some, and a tolerance out of reach at every
-        # precision would never end. ``FibreRoot.ball`` asks again with more bits where it needs them.
-        found = acb_poly(arb_poly(c)).roots(tol=arb(2) ** -(bits // 2))
-    except ValueError:
-        return None
-    real: list[arb] = []
-    for i, z in enumerate(found):
-        if z.imag.contains(0):
-            mirror = z.conjugate()
-            if any(mirror.overlaps(other) for j, other in enumerate(found) if j != i):
-                return None
-            real.append(z.real)
-    real.sort(key=arb.mid)
-    return real if all(a < b for a, b in itertools.pairwise(real)) else None
 
 
 def common_fibre(f: Fibre, g: Fibre) -> Fibre | None:

@@ -7,7 +7,7 @@ enclosure of all complex roots.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from fractions import Fraction
 from functools import lru_cache
 from itertools import pairwise
@@ -15,8 +15,10 @@ from typing import Any
 
 from flint import acb_poly, arb, fmpq, fmpz, fmpz_mat, fmpz_poly
 
+from qe.exact.balls import FIRST_PRECISION, precision
 from qe.exact.ring import Poly
 
+FACTOR_DEGREE = 64  # polynomials of higher degree are not factored to find smaller ones with the same root
 STURM_BITS = 4_000  # above this degree * bit length, complex enclosures are tried before a Sturm sequence
 
 
@@ -36,10 +38,15 @@ def variations(signs: Sequence[int]) -> int:
     return sum(a != b for a, b in pairwise(present))
 
 
-def sturm_sequence(p: fmpz_poly) -> list[fmpz_poly]:
-    """The signed remainder sequence of p and p', each element up to a positive factor."""
+def unlimited() -> None:
+    """The check of functions whose work has no limit."""
+
+
+def sturm_sequence(p: fmpz_poly, check: Callable[[], None] = unlimited) -> list[fmpz_poly]:
+    """The signed remainder sequence of p and p', each element up to a positive factor; ``check`` at every step."""
     sequence = [p, p.derivative()]
     while sequence[-1]:
+        check()
         a, b = sequence[-2], sequence[-1]
         lead, power = b.leading_coefficient(), a.degree() - b.degree() + 1
         power += power & 1  # an even power keeps the sign
@@ -69,11 +76,18 @@ def count_real_roots(p: fmpz_poly) -> int:
     return _count(tuple(int(c) for c in p.coeffs()))
 
 
-def count_roots_between(p: fmpz_poly, low: Fraction, high: Fraction) -> int:
-    """The number of distinct real roots in (low, high), by Sturm's theorem; neither end is a root."""
-    sequence = sturm_sequence(p)
-    ends = [[sign_of(q(exact(x))) for q in sequence] for x in (low, high)]
-    return variations(ends[0]) - variations(ends[1])
+def count_roots_between(p: fmpz_poly, low: Fraction, high: Fraction, check: Callable[[], None] = unlimited) -> int:
+    """The number of distinct real roots in (low, high); neither end is a root.
+
+    At most one where the derivative is seen to have no zero; else by Sturm's theorem.
+    """
+    ends = exact(low), exact(high)
+    with precision(FIRST_PRECISION):
+        if not p.derivative()(ball(*ends)).contains(0):
+            return int(sign_of(p(ends[0])) != sign_of(p(ends[1])))
+    sequence = sturm_sequence(p, check)
+    signs = [[sign_of(q(x)) for q in sequence] for x in ends]
+    return variations(signs[0]) - variations(signs[1])
 
 
 def _count_by_enclosure(p: fmpz_poly) -> int | None:
@@ -137,9 +151,14 @@ def coefficients_at(p: Poly, i: int, point: Sequence[int]) -> list[int]:
 
 
 def irreducible_factor_at(p: fmpz_poly, low: fmpq, high: fmpq) -> fmpz_poly | None:
-    """The irreducible factor of p that changes sign between low and high, or None unless there is exactly one."""
+    """The irreducible factor of p that changes sign between low and high, or None unless there is exactly one.
+
+    For large degrees, where factoring takes long, the product of all distinct factors.
+    """
     if p.degree() == 1:
         found = [p]
+    elif p.degree() > FACTOR_DEGREE:
+        found = [p / p.gcd(p.derivative())]
     else:
         found = [f for f, _ in p.factor()[1]]
     found = [f for f in found if sign_of(f(low)) * sign_of(f(high)) < 0]

@@ -15,7 +15,7 @@ from flint import arb, fmpq_mpoly, fmpz, fmpz_poly
 
 from qe.errors import InternalError
 from qe.exact.algebraic import irreducible_factors
-from qe.exact.balls import FIRST_PRECISION
+from qe.exact.balls import FIRST_PRECISION, precision
 from qe.exact.ring import Poly, Ring
 
 Element: TypeAlias = "fmpq_mpoly"
@@ -153,10 +153,11 @@ class Tower:
         """The only one of coprime polynomials that vanishes at ball + Σ weight_i * coordinate_i."""
         bits = FIRST_PRECISION
         while len(factors) > 1:
-            x = ball(bits)
-            for weight, i in zip(weights, self.variables, strict=True):
-                x += weight * own(i, bits)
-            factors = [q for q in factors if q(x).contains(0)]
+            x, others = ball(bits), [own(i, bits) for i in self.variables]
+            with precision(bits + 16):
+                for weight, value in zip(weights, others, strict=True):
+                    x += weight * value
+                factors = [q for q in factors if q(x).contains(0)]
             bits *= 2
         return factors[0]
 

@@ -12,15 +12,17 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import Any
 
-from flint import arb, arb_poly, ctx, fmpq, fmpz_poly
+from flint import arb, arb_poly, fmpq, fmpz_poly
 
-from qe.errors import InternalError
+from qe.errors import InternalError, Unable
+from qe.exact.balls import lower_end, precision, upper_end
 from qe.exact.ring import Poly
 from qe.exact.sturm import ball, exact, sign_of
+from qe.options import Budget
 
 FIRST_BITS = 64
-EXACT_BITS = 128  # from here a ball that still contains zero is worth an exact zero test
-LAST_BITS = 1 << 18
+EXACT_BITS = 128  # this far above the size of the coefficients, a ball that contains zero is worth an exact zero test
+LAST_BITS = 1 << 20
 
 
 class Coordinate:
@@ -40,20 +42,44 @@ class Coordinate:
         self._bits = 0
 
     def enclosure(self, before: Point, bits: int) -> Any:
-        """A ball around the coordinate, computed at ``bits`` (which must be FLINT's working precision)."""
+        """A ball around the coordinate whose relative error, or error, is about 2^-bits."""
         if self._bits < bits:
             self._ball = _enclose(self, before, bits)
             self._bits = bits
         return self._ball
 
+    def cut(self, before: Point, place: fmpq, q: Any) -> None:
+        """Replace the interval by the part of it on one side of ``place``, or around it where it is the root.
+
+        ``q``: balls around the polynomial, for the working precision.
+        """
+        if not self.low < place < self.high:
+            return
+        value = q(arb(place))
+        s = 1 if value > 0 else -1 if value < 0 else before.sign(at(self.poly, self.index, place))
+        if s == 0:
+            reach = min(place - self.low, self.high - place) / 2
+            self.low, self.high = place - reach, place + reach  # vanishes() needs a change of sign
+        elif s == self.rising:
+            self.high = place
+        else:
+            self.low = place
+
 
 class Point:
-    """A triangular point; immutable. ``extended`` adds a coordinate with a higher index."""
+    """A triangular point; immutable. ``extended`` adds a coordinate with a higher index.
 
-    __slots__ = ("coordinates", "indices", "parent")
+    ``budget`` limits the work with it; every method and every function of points raises ``BudgetExceeded`` when it is
+    used up, and ``Unable`` for signs that take more than ``LAST_BITS`` of precision.
+    """
 
-    def __init__(self, parent: Point | None = None, last: Coordinate | None = None) -> None:
+    __slots__ = ("budget", "coordinates", "indices", "parent")
+
+    def __init__(
+        self, parent: Point | None = None, last: Coordinate | None = None, budget: Budget | None = None
+    ) -> None:
         self.parent = parent
+        self.budget: Budget = budget or (Budget() if parent is None else parent.budget)
         self.coordinates: tuple[Coordinate, ...] = ()
         if parent is not None and last is not None:
             if parent.indices and parent.indices[-1] >= last.index:
@@ -87,21 +113,27 @@ class Point:
             return sign_of(p.constant_value())
         if any(i not in self.indices for i in p.variables):
             raise InternalError("a variable without a value at the point")
-        bits, saved = FIRST_BITS, ctx.prec
-        try:
-            while bits <= LAST_BITS:
-                ctx.prec = bits
+        bits, exact_from = FIRST_BITS, EXACT_BITS
+        while bits <= LAST_BITS:
+            self.check()
+            with precision(bits):
                 value = evaluate(nested(p, self.indices), self.balls(bits))
-                if value > 0:
-                    return 1
-                if value < 0:
-                    return -1
-                if bits == EXACT_BITS and self.vanishes(p):
+            if value > 0:
+                return 1
+            if value < 0:
+                return -1
+            if bits == EXACT_BITS:
+                exact_from += p.height_bits()
+            if bits >= exact_from:
+                if self.vanishes(p):
                     return 0
-                bits *= 2
-        finally:
-            ctx.prec = saved
-        raise InternalError("a nonzero value could not be told from zero")
+                exact_from = 2 * LAST_BITS  # proved nonzero: only the sign is open
+            bits *= 2
+        raise Unable(f"the sign of a number needs more than {LAST_BITS} bits")
+
+    def check(self) -> None:
+        """Raise ``BudgetExceeded`` when the time is up."""
+        self.budget.check("verify")
 
     def vanishes(self, p: Poly) -> bool:
         """Whether p is zero at the point, decided by exact algebra alone."""
@@ -169,38 +201,45 @@ def fibre_balls(point: Point, p: Poly, i: int, bits: int) -> Any:
 
 
 def _enclose(c: Coordinate, before: Point, bits: int) -> Any:
-    """Interval Newton, with bisection by exact signs until the derivative is away from zero."""
-    q = fibre_balls(before, c.poly, c.index, bits)
+    """Interval Newton; bisection by exact signs while the derivative may vanish in the interval. Where rounding stops
+    both, more precision. Every round halves the interval at least, so that this ends.
+    """
+    working, x = bits, c._ball
+    while working <= LAST_BITS:
+        with precision(working):
+            q = fibre_balls(before, c.poly, c.index, working)
+            x = _narrowed(c, before, q, x, bits - 8)
+            if _is_accurate(x, bits - 8):
+                return x
+            low, high = lower_end(x), upper_end(x)
+            for place in (low, high, (low + high) / 2):
+                c.cut(before, place, q)
+        x, working = None, 2 * working
+    raise Unable(f"the enclosure of a number needs more than {LAST_BITS} bits")
+
+
+def _narrowed(c: Coordinate, before: Point, q: Any, x: Any, goal: int) -> Any:
+    """The ball x around the coordinate (None: its interval) made as small as the balls of the coefficients allow."""
     derivative = q.derivative()
-    x = ball(c.low, c.high)
-    target = arb(2) ** (8 - bits)
-    while True:
-        slope = derivative(x)
-        if not slope.contains(0):
-            middle = x.mid()
-            improved = x.intersection(middle - q(middle) / slope)
-            if improved.rad() * 2 < x.rad():
-                x = improved
-                continue
+    x = ball(c.low, c.high) if x is None else x
+    while not _is_accurate(x, goal):
+        before.check()
+        middle, slope = x.mid(), derivative(x)
+        if slope.contains(0):
+            if derivative(middle).contains(0):
+                return x
+            c.cut(before, (c.low + c.high) / 2, q)
+            x = ball(c.low, c.high)
+            continue
+        improved = x.intersection(middle - q(middle) / slope)
+        if not improved.rad() * 2 < x.rad():
             return improved
-        if x.rad() < target:
-            return x
-        _bisect(c, before, q)
-        x = ball(c.low, c.high)
+        x = improved
+    return x
 
 
-def _bisect(c: Coordinate, before: Point, q: Any) -> None:
-    """Halve the interval; a root met exactly at the middle makes both ends equal to it."""
-    middle = (c.low + c.high) / 2
-    value = q(arb(middle))
-    s = 1 if value > 0 else -1 if value < 0 else before.sign(at(c.poly, c.index, middle))
-    if s == 0:
-        quarter = (c.high - c.low) / 4  # stay an interval around the root: vanishes() needs a change of sign
-        c.low, c.high = middle - quarter, middle + quarter
-    elif s == c.rising:
-        c.high = middle
-    else:
-        c.low = middle
+def _is_accurate(x: Any, goal: int) -> bool:
+    return bool(x.rel_accuracy_bits() >= goal or x.rad() < arb(2) ** -goal)
 
 
 def reduce(point: Point, p: Poly) -> tuple[Poly, int]:
@@ -219,6 +258,7 @@ def pseudo_remainder(point: Point, a: Poly, b: Poly, i: int) -> tuple[Poly, int]
     lead, n, power = b.leading(i), b.degree(i), 0
     unit = b.ring.gen(i)
     while a and a.degree(i) >= n:
+        point.check()
         a, power = a * lead - a.leading(i) * b * unit ** (a.degree(i) - n), power + 1
     return a, 1 if power % 2 == 0 else point.sign(lead)
 
@@ -234,6 +274,7 @@ def trim(point: Point, p: Poly, i: int) -> Poly:
 def gcd(point: Point, a: Poly, b: Poly, i: int) -> Poly:
     """A greatest common divisor in variable i over the field of the point; a and b trimmed, a nonzero."""
     while b:
+        point.check()
         a, b = b, trim(point, reduce(point, pseudo_remainder(point, a, b, i)[0])[0], i) if b.degree(i) else b * 0
     return a
 
@@ -243,6 +284,7 @@ def quotient(point: Point, a: Poly, b: Poly, i: int) -> Poly:
     lead, n = b.leading(i), b.degree(i)
     unit, result = b.ring.gen(i), b * 0
     while a and a.degree(i) >= n:
+        point.check()
         term = a.leading(i) * unit ** (a.degree(i) - n)
         a, result = a * lead - term * b, result * lead + term
     return trim(point, reduce(point, result)[0], i)

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from qe.errors import Unable
 from qe.exact.quadratic_form import Quadratic
 
 Row = list[float]
@@ -36,15 +37,21 @@ class FloatQuadratic:
 
 
 def to_float(q: Quadratic, scale: float = 1.0) -> FloatQuadratic:
-    """The quadratic polynomial times ``scale``, rounded to floats."""
-    entries = tuple((i, j, float(h) * scale) for i, row in enumerate(q.hessian) for j, h in enumerate(row) if h)
-    return FloatQuadratic(entries, tuple(float(b) * scale for b in q.gradient), float(q.constant) * scale)
+    """The quadratic polynomial times ``scale``, in floats. Raises ``Unable`` for numbers that no float holds."""
+    try:
+        entries = tuple((i, j, float(h) * scale) for i, row in enumerate(q.hessian) for j, h in enumerate(row) if h)
+        return FloatQuadratic(entries, tuple(float(b) * scale for b in q.gradient), float(q.constant) * scale)
+    except OverflowError:
+        raise Unable("a number is too large to be proposed to the numerical method") from None
 
 
 def natural_scale(q: Quadratic) -> float:
     """The reciprocal of the largest coefficient, so that constraints of different units compare."""
     largest = max([abs(b) for b in q.gradient] + [abs(h) for row in q.hessian for h in row] + [0])
-    return 1 / float(largest) if largest else 1.0
+    try:
+        return 1 / float(largest) if largest else 1.0
+    except (OverflowError, ZeroDivisionError):
+        raise Unable("a coefficient is out of the range of the numerical method") from None
 
 
 @dataclass(frozen=True, slots=True)

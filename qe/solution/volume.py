@@ -10,11 +10,16 @@ from __future__ import annotations
 
 import heapq
 from collections.abc import Sequence
+from dataclasses import replace
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from qe.errors import Unable
+from qe.exact.algebraic import RealAlgebraic
+from qe.exact.balls import precision
 from qe.exact.enclosure import Jet, Sides, box_sides, constant, ends, root_jet, smooth_side
+from qe.exact.nearby import rational_between
+from qe.exact.translate import translated
 from qe.solution.pieces import Piece, RootFunction
 from qe.solution.slices import has_closed_slices, slice_area
 
@@ -22,6 +27,12 @@ if TYPE_CHECKING:
     from qe.solution.region import Region
 
 MOST_BOXES = 60_000
+FAR = 40
+"""From coefficients of so many bits on, pieces are moved to the origin."""
+
+FIRST_BITS, MOST_BITS = 80, 1 << 16
+"""Working precision beyond what the size of the coefficients takes, and the most that is tried."""
+
 _HALF = Fraction(1, 2)
 Box = tuple[tuple[Fraction, Fraction], ...]
 
@@ -47,7 +58,10 @@ class _Sum:
         self.queue: list[tuple[Fraction, int, Piece, Box, Fraction, Fraction]] = []
         self.low = self.high = Fraction(0)
         self.count = 0
-        for piece in pieces:
+        moved = [_recentred(p) for p in pieces] if _height(pieces) > FAR else pieces
+        # a discriminant cancels twice the digits of the coefficients, and its root is compared with another end
+        self.bits = FIRST_BITS + 4 * _height(moved)
+        for piece in moved:
             sides = self.sides - 1 if has_closed_slices(piece) else self.sides
             self._push(piece, ((Fraction(0), Fraction(1)),) * sides)
 
@@ -58,7 +72,11 @@ class _Sum:
             _, _, piece, box, low, high = heapq.heappop(self.queue)
             self.low -= low
             self.high -= high
-            for half in _halves(box):
+            if not box:  # a length: nothing but rounding makes it inexact
+                self.bits *= 2
+                if self.bits > MOST_BITS:
+                    raise Unable(f"length known only between {float(self.low):.6g} and {float(self.high):.6g}")
+            for half in _halves(box) if box else [box]:
                 self._push(piece, half)
         return max(self.low, Fraction(0)), self.high
 
@@ -70,13 +88,14 @@ class _Sum:
         heapq.heappush(self.queue, (low - high, self.count, piece, box, low, high))
 
     def _contribution(self, piece: Piece, box: Box) -> tuple[Fraction, Fraction]:
-        whole = self._integrand(piece, box)
         size = Fraction(1)
         for a, b in box:
             size *= b - a
-        if whole is None:
-            return Fraction(0), size * self._crude(piece)
-        low, high = ends(whole.mean())
+        with precision(self.bits):
+            whole = self._integrand(piece, box)
+            if whole is None:
+                return Fraction(0), size * self._crude(piece)
+            low, high = ends(whole.mean())
         return max(low, Fraction(0)) * size, max(high, Fraction(0)) * size
 
     def _integrand(self, piece: Piece, box: Box) -> Jet | None:
@@ -109,6 +128,33 @@ class _Sum:
             lo, hi = _outer(extent.lower, False), _outer(extent.upper, True)
             bound *= (hi - lo) * (Fraction(3, 2) if i < self.sides else 1)
         return bound
+
+
+def _height(pieces: Sequence[Piece]) -> int:
+    polys = [end.poly for p in pieces for r in p.ranges for end in (r.lower, r.upper) if end is not None]
+    return max((p.height_bits() for p in polys), default=0)
+
+
+def _recentred(piece: Piece) -> Piece:
+    """The piece moved so that its sample is near the origin: far from it, sizes are lost in the coordinates."""
+    bits = FAR + _height([piece])
+    origin = [_rational(piece.sample[r.variable], bits) for r in piece.ranges]
+
+    def moved(root: RootFunction | None) -> RootFunction | None:
+        if root is None:
+            return None
+        value = None if root.value is None else root.value - origin[root.poly.level]
+        return RootFunction(translated(root.poly, origin), root.k, value)
+
+    return replace(piece, ranges=tuple(replace(r, lower=moved(r.lower), upper=moved(r.upper)) for r in piece.ranges))
+
+
+def _rational(value: object, bits: int) -> Fraction:
+    """The number itself, or a rational one close to it."""
+    if isinstance(value, Fraction):
+        return value
+    assert isinstance(value, RealAlgebraic)
+    return rational_between(*value.interval(bits))
 
 
 def _end(root: RootFunction | None, at: dict[int, Jet], sides: Sides) -> Jet | None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import random
 from collections.abc import Callable
+from dataclasses import dataclass
 from fractions import Fraction
 
 from experiments import z3_oracle
@@ -30,18 +31,29 @@ def oracle(sentence: Formula, *, seconds: float = 1.0) -> bool | None:
         return None
 
 
-def disagreement(
+@dataclass(frozen=True, slots=True)
+class Comparison:
+    """At how many points the oracles decided both formulas, and a point where they differ (None: none was found)."""
+
+    decided: int
+    difference: dict[str, Fraction] | None
+
+
+def compare(
     before: Formula, after: Formula, rng: random.Random, *, points: int = 4, seconds: float = 1.0
-) -> dict[str, Fraction] | None:
-    """A point where the two formulas differ, by the oracles; None if none was found. New free names are refused."""
+) -> Comparison:
+    """The two formulas at random points. New free names are refused."""
     assert set(free_variables(after)) <= set(free_variables(before)), "the answer has new free variables"
+    decided = 0
     for _ in range(points if free_variables(before) else 1):
         point = random_point(rng, before)
         left = oracle(at_point(before, point), seconds=seconds)
         right = oracle(at_point(after, point), seconds=seconds)
-        if left is not None and right is not None and left != right:
-            return point
-    return None
+        if left is not None and right is not None:
+            decided += 1
+            if left != right:
+                return Comparison(decided, point)
+    return Comparison(decided, None)
 
 
 def smaller(formula: Formula) -> list[Formula]:

@@ -1,7 +1,8 @@
 """Random first-order formulas from a seed, biased to the corners where eliminations go wrong.
 
-A ``Shape`` bounds the size. Coefficients are small so that roots coincide, leading coefficients vanish and
-polynomials share factors often; a part of the polynomials are products, squares or shifts of one another.
+A ``Shape`` bounds the size. Coefficients are mostly small so that roots coincide, leading coefficients vanish and
+polynomials share factors often; a part of the polynomials are products, squares or shifts of one another. A few
+coefficients are huge, and a few polynomials have roots closer than any fixed precision tells apart.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ from qe.formula.syntax import Atom, Exists, ForAll, Formula, Relation
 from qe.formula.traverse import free_variables, map_atoms
 
 NAMES = ("a", "b", "x", "y", "z")
+HUGE = (10**20, -(10**30) - 1, 10**40 + 3)
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,13 +37,18 @@ LARGE = (Shape(1, 2, 3, 3), Shape(0, 3, 2, 3), Shape(2, 1, 3, 3), Shape(1, 2, 2,
 
 
 def random_poly(rng: random.Random, ring: Ring, names: tuple[str, ...], degree: int) -> Poly:
-    """A polynomial in some of ``names``; one in six is a product or a square."""
+    """A polynomial in some of ``names``; one in six is a product or a square, one in forty has two close roots."""
+    if degree >= 2 and rng.random() < 0.025:
+        x, q = ring.var(rng.choice(names)), rng.choice(HUGE)
+        p = rng.randint(-2, 2) * q + rng.randint(-2, 2)
+        return (q * x - p) * (q * x - p - 1)
     if degree >= 2 and rng.random() < 0.17:
         left = random_poly(rng, ring, names, degree // 2)
         return left * (left if rng.random() < 0.4 else random_poly(rng, ring, names, degree // 2))
     total = ring.constant(rng.choice((0, 0, 1, -1, 2, -3)))
     for _ in range(rng.randint(1, 3)):
-        term = ring.constant(rng.choice((1, 1, -1, -1, 2, -2, 3)))
+        huge = rng.random() < 0.03
+        term = ring.constant(rng.choice(HUGE) if huge else rng.choice((1, 1, -1, -1, 2, -2, 3)))
         for _ in range(rng.randint(1, degree)):
             term = term * ring.var(rng.choice(names))
         total = total + term
@@ -90,7 +97,21 @@ def _nested(rng: random.Random, ring: Ring, scope: tuple[str, ...], bound: tuple
 
 def random_point(rng: random.Random, formula: Formula) -> dict[str, Fraction]:
     """Small values for the free variables; integers and zero are likely, where special cases sit."""
-    pick = (0, 0, 1, -1, 2, -2, 3, Fraction(1, 2), Fraction(-1, 3), Fraction(7, 4), -5)
+    pick = (
+        0,
+        0,
+        1,
+        -1,
+        2,
+        -2,
+        3,
+        Fraction(1, 2),
+        Fraction(-1, 3),
+        Fraction(7, 4),
+        -5,
+        HUGE[0],
+        1 + Fraction(1, HUGE[1]),
+    )
     return {name: Fraction(rng.choice(pick)) for name in free_variables(formula)}
 
 

@@ -13,7 +13,7 @@ import qe
 from qe.errors import BudgetExceeded
 from qe.formula.syntax import Formula
 from qe.options import Budget
-from tests.differential.check import disagreement, reduced
+from tests.differential.check import Comparison, compare, reduced
 from tests.differential.generate import LARGE, NESTED, SMALL, random_formula
 from tests.differential.methods import PARTS, Part
 
@@ -31,36 +31,45 @@ def automatic(formula: Formula, budget: Budget) -> Formula:
 METHODS: dict[str, Part] = {"auto": automatic, **PARTS}
 
 
-def check(method: str, seed: str, *, oracle_seconds: float) -> None:
-    """Fail with a reduced formula if the method changes the meaning of the random formula of this seed."""
+def check(method: str, seed: str, *, oracle_seconds: float) -> bool:
+    """Fail with a reduced formula if the method changes the meaning of the random formula of this seed.
+
+    Whether the method gave an answer, and the oracles could tell something about it.
+    """
     rng = random.Random(seed)
     formula = random_formula(rng, rng.choice((*SMALL, *NESTED, *LARGE)))
 
-    def fails(candidate: Formula) -> bool:
+    def compared(candidate: Formula) -> Comparison:
         try:
             answer = METHODS[method](candidate, Budget(SECONDS))
         except BudgetExceeded:
-            return False
-        return disagreement(candidate, answer, random.Random(seed), points=3, seconds=oracle_seconds) is not None
+            return Comparison(0, None)
+        return compare(candidate, answer, random.Random(seed), points=3, seconds=oracle_seconds)
 
-    assert not fails(formula), f"{method} changed the meaning of: {reduced(formula, fails)}"
+    def fails(candidate: Formula) -> bool:
+        return compared(candidate).difference is not None
+
+    found = compared(formula)
+    assert found.difference is None, f"{method} changed the meaning of: {reduced(formula, fails)}"
+    return found.decided > 0
 
 
-@pytest.mark.parametrize("seed", range(120))
-def test_whole_engine(seed: int) -> None:
-    check("auto", f"auto {seed}", oracle_seconds=0.3)
+@pytest.mark.parametrize("block", range(20))
+def test_whole_engine(block: int) -> None:
+    decided = [check("auto", f"auto {seed}", oracle_seconds=0.3) for seed in range(6 * block, 6 * block + 6)]
+    assert sum(decided) >= 2
 
 
 @pytest.mark.parametrize("method", sorted(PARTS))
 @pytest.mark.parametrize("block", range(6))
 def test_parts(method: str, block: int) -> None:
-    for seed in range(6 * block, 6 * block + 6):
-        check(method, f"parts {seed}", oracle_seconds=0.3)
+    decided = [check(method, f"parts {seed}", oracle_seconds=0.3) for seed in range(6 * block, 6 * block + 6)]
+    assert sum(decided) >= 2
 
 
 @pytest.mark.deep
 @pytest.mark.parametrize("block", range(100))
 def test_two_thousand(block: int) -> None:
-    for seed in range(20 * block, 20 * block + 20):
-        for method in METHODS:
-            check(method, f"deep {seed}", oracle_seconds=1.0)
+    for method in METHODS:
+        seeds = range(20 * block, 20 * block + 20)
+        assert sum(check(method, f"deep {seed}", oracle_seconds=1.0) for seed in seeds) >= 5, method

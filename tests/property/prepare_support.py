@@ -11,6 +11,7 @@ from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj, disj, neg
 from qe.formula.syntax import And, Atom, Constant, Formula, Not, Or, Relation
 from qe.formula.traverse import atoms
+from tests.strategies import integers
 
 RING = Ring.of(("a", "b", "x", "y"))
 VALUES = (-3, -2, Fraction(-3, 2), -1, Fraction(-1, 2), 0, Fraction(1, 3), Fraction(1, 2), 1, Fraction(3, 2), 2, 3)
@@ -55,7 +56,7 @@ def polynomials(draw: st.DrawFn, ring: Ring = RING, degree: int = 2, terms: int 
         vector = [0] * ring.size
         for v in variables:
             vector[v] += 1
-        found[tuple(vector)] = draw(st.integers(-2, 2))
+        found[tuple(vector)] = draw(integers(2, rarity=24))
     return ring.from_terms(found)
 
 

@@ -9,7 +9,7 @@ from itertools import islice
 
 import pytest
 from flint import fmpz_poly
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from qe.certify.verify import verify
@@ -25,19 +25,20 @@ from qe.exact.triangular import ORIGIN, Coordinate
 from qe.formula.build import conj, disj
 from qe.formula.syntax import Atom, Formula
 from qe.options import Budget, Projection
-from tests.strategies import atoms
+from tests.enough import enough
+from tests.strategies import atoms, integers, rationals
 
-INTEGERS = st.lists(st.integers(-6, 6), min_size=1, max_size=7)
+INTEGERS = st.lists(integers(6, rarity=24), min_size=1, max_size=7)
 NAMES = ("x", "y", "z")
 
 
-def _table(matrix: Formula, quantifiers: tuple[str, ...], projection: Projection, seconds: float) -> CellTable:
+def _table(matrix: Formula, quantifiers: tuple[str, ...], projection: Projection, seconds: float) -> CellTable | None:
+    """None at the time limit."""
     try:
         names = NAMES[: len(quantifiers)]
         return decompose(matrix, names, quantifiers, budget=Budget(seconds), projection=projection).table
     except BudgetExceeded:
-        assume(False)
-        raise
+        return None
 
 
 def _flipped(cell: Cell) -> Cell | None:
@@ -69,8 +70,10 @@ def _narrower(cell: Cell, *, merge: bool) -> Iterator[Cell]:
             yield replace(cell, stack=replace(stack, cells=cells))
 
 
-def _check(matrix: Formula, quantifiers: tuple[str, ...], projection: Projection, seconds: float = 1.0) -> None:
+def _check(matrix: Formula, quantifiers: tuple[str, ...], projection: Projection, seconds: float = 1.0) -> bool:
     table = _table(matrix, quantifiers, projection, seconds)
+    if table is None:
+        return False
     certificate = Certificate.cells(table)
     assert str(verify(certificate)) == "accepted"
     assert Certificate.from_json(certificate.to_json()) == certificate
@@ -80,6 +83,7 @@ def _check(matrix: Formula, quantifiers: tuple[str, ...], projection: Projection
     for merge in (False, True):
         for narrower in islice(_narrower(table.root, merge=merge), 12):
             assert not verify(Certificate.cells(replace(table, root=narrower))).accepted
+    return True
 
 
 BOTH = (Projection.BROWN_MCCALLUM, Projection.LAZARD)
@@ -94,26 +98,23 @@ def _matrices(names: tuple[str, ...], degree: int, width: int) -> st.SearchStrat
 PLANE, SPACE = _matrices(NAMES[:2], 3, 3), _matrices(NAMES, 2, 2)
 
 
-@settings(max_examples=200)
-@given(PLANE, st.sampled_from([("", ""), ("", "E"), ("E", "A"), ("A", "E")]), st.sampled_from(BOTH))
-def test_random_tables_in_the_plane(matrix: Formula, quantifiers: tuple[str, ...], projection: Projection) -> None:
-    _check(matrix, quantifiers, projection)
+@enough(50, 200, PLANE, st.sampled_from([("", ""), ("", "E"), ("E", "A"), ("A", "E")]), st.sampled_from(BOTH))
+def test_random_tables_in_the_plane(matrix: Formula, quantifiers: tuple[str, ...], projection: Projection) -> bool:
+    return _check(matrix, quantifiers, projection)
 
 
-@settings(max_examples=120)
-@given(SPACE, st.sampled_from([("", "", ""), ("", "E", "A"), ("E", "E", "E")]), st.sampled_from(BOTH))
-def test_random_tables_in_space(matrix: Formula, quantifiers: tuple[str, ...], projection: Projection) -> None:
-    _check(matrix, quantifiers, projection)
+@enough(30, 120, SPACE, st.sampled_from([("", "", ""), ("", "E", "A"), ("E", "E", "E")]), st.sampled_from(BOTH))
+def test_random_tables_in_space(matrix: Formula, quantifiers: tuple[str, ...], projection: Projection) -> bool:
+    return _check(matrix, quantifiers, projection)
 
 
 @pytest.mark.deep
-@settings(max_examples=1500)
-@given(SPACE, st.sampled_from([("", "", ""), ("", "E", "A"), ("E", "E", "E")]), st.sampled_from(BOTH))
-def test_many_random_tables(matrix: Formula, quantifiers: tuple[str, ...], projection: Projection) -> None:
-    _check(matrix, quantifiers, projection, 5.0)
+@enough(400, 1500, SPACE, st.sampled_from([("", "", ""), ("", "E", "A"), ("E", "E", "E")]), st.sampled_from(BOTH))
+def test_many_random_tables(matrix: Formula, quantifiers: tuple[str, ...], projection: Projection) -> bool:
+    return _check(matrix, quantifiers, projection, 5.0)
 
 
-@given(INTEGERS, INTEGERS, st.fractions(-4, 4, max_denominator=5), st.fractions(-4, 4, max_denominator=5))
+@given(INTEGERS, INTEGERS, rationals(4, 5), rationals(4, 5))
 def test_sturm_counts_what_isolation_finds(f: list[int], g: list[int], low: Fraction, high: Fraction) -> None:
     p = fmpz_poly(f) * fmpz_poly(g) ** 2
     assume(p)
@@ -137,7 +138,7 @@ def test_the_sylvester_determinant_is_the_resultant(f: list[int], g: list[int]) 
     assert sylvester_determinant(f, g) == int(fmpz_poly(f).resultant(fmpz_poly(g)))
 
 
-@given(st.lists(st.lists(st.integers(-3, 3), min_size=1, max_size=3), min_size=2, max_size=4))
+@given(st.lists(st.lists(integers(3, rarity=24), min_size=1, max_size=3), min_size=2, max_size=4))
 def test_fibres_over_sqrt2_have_the_roots_of_their_norm(rows: list[list[int]]) -> None:
     """f(sqrt 2, y) * f(-sqrt 2, y) has integer coefficients; its real roots are those of the two fibres."""
     ring = Ring.of(("x", "y"))

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import qe
@@ -16,6 +15,7 @@ from qe.formula.syntax import Formula, Relation
 from qe.options import Budget, Options
 from qe.pipeline_cad import decomposed
 from qe.pipeline_critical import by_critical_values
+from tests.enough import enough
 
 RELATIONS = (Relation.LE, Relation.LT, Relation.EQ, Relation.GE, Relation.GT, Relation.NE)
 
@@ -58,37 +58,34 @@ def blocks(draw: st.DrawFn, free: int, bound: int, extra: int = 2) -> tuple[tupl
     return names, conj(atoms)
 
 
-def agrees(variables: tuple[str, ...], body: Formula) -> None:
+def agrees(variables: tuple[str, ...], body: Formula) -> bool:
     try:
         answer = eliminated(variables, body)
     except qe.Unable:
-        return  # the method may refuse: critical points over all parameters, or a body without bounded fibres
+        return False  # the method may refuse: critical points over all parameters, or a body without bounded fibres
     other = decomposed(exists(variables, body), Options(), Budget(60), Story()).formula
     assert qe.equivalent(answer, other), f"{answer}  |  {other}"
+    return True
 
 
-@settings(max_examples=40, deadline=None)
-@given(blocks(1, 1))
-def test_one_parameter(block: tuple[tuple[str, ...], Formula]) -> None:
-    agrees(*block)
+@enough(8, 40, blocks(1, 1))
+def test_one_parameter(block: tuple[tuple[str, ...], Formula]) -> bool:
+    return agrees(*block)
 
 
-@settings(max_examples=25, deadline=None)
-@given(blocks(2, 1))
-def test_two_parameters(block: tuple[tuple[str, ...], Formula]) -> None:
-    agrees(*block)
+@enough(5, 25, blocks(2, 1))
+def test_two_parameters(block: tuple[tuple[str, ...], Formula]) -> bool:
+    return agrees(*block)
 
 
-@settings(max_examples=20, deadline=None)
-@given(blocks(1, 2, extra=1))
-def test_two_quantified_variables(block: tuple[tuple[str, ...], Formula]) -> None:
-    agrees(*block)
+@enough(4, 20, blocks(1, 2, extra=1))
+def test_two_quantified_variables(block: tuple[tuple[str, ...], Formula]) -> bool:
+    return agrees(*block)
 
 
-@settings(max_examples=8, deadline=None)
-@given(blocks(3, 1, extra=1))
-def test_three_parameters(block: tuple[tuple[str, ...], Formula]) -> None:
-    agrees(*block)
+@enough(2, 8, blocks(3, 1, extra=1))
+def test_three_parameters(block: tuple[tuple[str, ...], Formula]) -> bool:
+    return agrees(*block)
 
 
 def test_unbounded_convex_set_in_three_parameters() -> None:

@@ -15,9 +15,11 @@ from qe.exact.isolate import simplest_between
 from qe.exact.ring import Ring
 from qe.exact.sample import Point
 from qe.exact.sturm import count_real_roots
+from tests.strategies import integers
+from tests.strategies import rationals as any_rationals
 
-coefficients = st.lists(st.integers(-9, 9), min_size=2, max_size=5)
-rationals = st.fractions(min_value=-6, max_value=6, max_denominator=7)
+coefficients = st.lists(integers(9), min_size=2, max_size=5)
+rationals = any_rationals(6, 7)
 
 
 @st.composite
@@ -52,7 +54,7 @@ def test_order(a: RealAlgebraic, b: RealAlgebraic, q: Fraction) -> None:
 
 
 @settings(max_examples=150)
-@given(st.lists(st.integers(-30, 30), min_size=2, max_size=9))
+@given(st.lists(integers(30), min_size=2, max_size=9))
 def test_as_many_roots_as_sturm_counts(c: list[int]) -> None:
     p = fmpz_poly(c)
     assume(p.degree() >= 1)
@@ -74,7 +76,7 @@ def test_simplest_rational_between(a: Fraction, b: Fraction) -> None:
 
 
 polys = st.dictionaries(
-    st.tuples(st.integers(0, 2), st.integers(0, 2), st.integers(0, 2)), st.integers(-5, 5), min_size=1, max_size=5
+    st.tuples(st.integers(0, 2), st.integers(0, 2), st.integers(0, 2)), integers(5), min_size=1, max_size=5
 )
 
 

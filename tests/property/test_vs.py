@@ -19,6 +19,7 @@ from qe.formula.syntax import FALSE, TRUE, And, Exists, Formula, Or, Relation
 from qe.formula.traverse import polynomials
 from qe.options import Budget
 from qe.prepare.simplify import simplify
+from tests.enough import enough
 from tests.strategies import RELATIONS, atoms, rationals
 from tests.strategies import polynomials as polynomials_of
 from tests.unit.vs.line import satisfiable, specialise
@@ -166,38 +167,38 @@ def test_two_variables(matrix: Formula, points: list[Fraction]) -> None:
                 check_witness(matrix, values, witness(answer, values, budget=budget()))
 
 
-@given(matrices(Ring.of(("x", "y", "z")), 2, 2))
-@settings(max_examples=100)
-def test_sentences_against_z3(matrix: Formula) -> None:
+@enough(25, 100, matrices(Ring.of(("x", "y", "z")), 2, 2))
+def test_sentences_against_z3(matrix: Formula) -> bool:
     z3 = pytest.importorskip("z3")
     from qe.io.smtlib import write
 
     result = eliminate_block(("x", "y", "z"), matrix, budget=budget(), simplify=simplify)
     if result.remaining:
-        return
+        return False
     solver = z3.Solver()
     solver.set("timeout", 3000)
     solver.from_string(write(matrix))
     verdict = solver.check()
     if verdict == z3.unknown:
-        return
+        return False
     assert (str(result.formula) == "true") == (verdict == z3.sat)
     if verdict == z3.sat:
         check_witness(matrix, {}, witness(next(result.answers), budget=budget()))
+    return True
 
 
-@given(matrices(Ring.of(("x", "y")), 1, 2))
-@settings(max_examples=40)
-def test_sentences_against_the_reference(matrix: Formula) -> None:
+@enough(10, 40, matrices(Ring.of(("x", "y")), 1, 2))
+def test_sentences_against_the_reference(matrix: Formula) -> bool:
     """exists x, y: the same truth as the textbook procedure, which shares no code with the engine."""
     result = eliminate_block(("x", "y"), matrix, budget=budget(), simplify=simplify)
     if result.remaining:
-        return
+        return False
     try:
         expected = reference.decide(exists(("x", "y"), matrix), budget=Budget(0.5))
     except BudgetExceeded:
-        return
+        return False
     assert result.formula == (TRUE if expected else FALSE)
+    return True
 
 
 @given(matrices(RING, 2, 4), st.lists(PARAMETERS, min_size=3, max_size=3))

@@ -1,0 +1,113 @@
+"""Verification under a limit: of a certificate that a caller has, and of the one that an answer comes with."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Iterator
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from qe.api import VERIFY_SECONDS
+from qe.certify.verify import verify as checked
+from qe.errors import InternalError, Unable
+from qe.evidence.answer import Answer, Guarantee
+from qe.evidence.cells_json import CellEvidence
+from qe.evidence.certificate import Certificate, Labelled
+from qe.options import Budget
+
+if TYPE_CHECKING:
+    from qe.certify.verdict import Verdict
+    from qe.evidence.entry import Json
+
+SHARE = 0.8
+"""The part of the time left after an answer that its verification may take: the answer has to get home too."""
+
+GRACE = 0.05
+SMALL_DEGREE, SMALL_POLYNOMIALS, SMALL_TEXT = 8, 40, 20_000
+"""A certificate of this size needs no process of its own: no single step of its verification takes long."""
+
+
+def verify(certificate: Certificate, *, timeout: float | None = VERIFY_SECONDS) -> Verdict:
+    """Whether separate code accepts the certificate within ``timeout`` seconds (None: no limit); see ``qe.certify``.
+
+    Large certificates, and all that were read from text, are checked in a process of their own, which is killed at the
+    limit (where processes cannot fork, the limit is only looked at between steps). Past it, and where the certificate
+    asks for numbers out of reach, the verdict is neither accepted nor ``decided``. Raises ``InputError`` for what is no
+    certificate and for a limit that is not positive.
+    """
+    if not isinstance(certificate, Certificate):
+        return checked(certificate)  # which says what was expected
+    return _limited(certificate, timeout)
+
+
+def with_verdict(answer: Answer, budget: Budget) -> Answer:
+    """The answer with the guarantee that its certificate gives.
+
+    A certificate that is not verified in the time that the budget leaves is dropped, and the reason noted: the answer
+    follows from the algorithms all the same. Raises ``InternalError`` where a certificate is refused.
+    """
+    certificate, left = answer.certificate, budget.remaining()
+    assert certificate is not None
+    verdict = _limited(certificate, VERIFY_SECONDS if left is None else min(VERIFY_SECONDS, max(0.0, SHARE * left)))
+    if verdict.accepted:
+        return replace(answer, guarantee=Guarantee.CHECKED)
+    if verdict.decided:
+        raise InternalError(f"the certificate of an answer was rejected at {verdict.step}: {verdict.reason}")
+    reason = f"the certificate was not verified: {verdict.reason}"
+    stats = {**answer.stats, "switches": [*answer.stats.get("switches", ()), reason]}
+    return replace(answer, certificate=None, guarantee=Guarantee.DERIVED, reason=reason, stats=stats)
+
+
+def _limited(certificate: Certificate, timeout: float | None) -> Verdict:
+    if timeout is None or not hasattr(os, "fork") or (certificate.digests is None and _is_small(certificate)):
+        return checked(certificate, Budget(timeout))
+    from qe.certify.verdict import Verdict
+    from qe.worker import run
+
+    try:
+        return run(lambda channel: checked(certificate, Budget(timeout)), timeout=timeout, grace=GRACE)
+    except Unable as error:
+        return Verdict(False, "", str(error), decided=False)
+
+
+def _is_small(certificate: Certificate) -> bool:
+    if not isinstance(certificate, Certificate):  # made by hand: the checker says so
+        return True
+    payload = certificate.payload
+    if isinstance(payload, tuple):
+        return all(isinstance(m, Labelled) and _is_small(m.certificate) for m in payload)
+    if isinstance(payload, CellEvidence):
+        return _has_small_factors(payload)
+    return _is_short(payload)
+
+
+def _has_small_factors(evidence: CellEvidence) -> bool:
+    factors = [f for level in evidence.table.factors for f in level]
+    return len(factors) <= SMALL_POLYNOMIALS and all(f.total_degree <= SMALL_DEGREE for f in factors)
+
+
+def _is_short(payload: Json) -> bool:
+    """Whether the text in the data is short and has no large exponents or long lists."""
+    size = 0
+    for text in _texts(payload):
+        size += len(text) + 1
+        if size > SMALL_TEXT or any(_exponent(rest) > SMALL_DEGREE for rest in text.split("^")[1:]):
+            return False
+    return True
+
+
+def _exponent(text: str) -> int:
+    digits = text[: len(text) - len(text.lstrip("0123456789"))]
+    return int(digits[:9] or 0)
+
+
+def _texts(data: Json) -> Iterator[str]:
+    pending: list[Json] = [data]
+    while pending:
+        node = pending.pop()
+        if isinstance(node, str):
+            yield node
+        elif isinstance(node, dict | list):
+            below: Iterable[Json] = node.values() if isinstance(node, dict) else node
+            pending += below
+            yield " "

@@ -1,0 +1,163 @@
+"""Large numbers, and numbers closer to each other than 80 bits tell: crashes, and verifications without an end."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from itertools import pairwise
+from math import isqrt
+
+import pytest
+from flint import fmpq
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import qe
+from qe.errors import InternalError
+from qe.exact.algebraic import RealAlgebraic
+from qe.exact.balls import precision
+from qe.exact.fibre_stack import isolate_over
+from qe.exact.nearby import rational_between
+from qe.exact.ring import Poly, Ring
+from qe.exact.sample import Point
+from qe.exact.sturm import count_roots_between
+from qe.formula.build import atom
+from qe.formula.syntax import Relation
+from tests.strategies import HUGE, close_roots
+
+LINE, PLANE = Ring.of(("x",)), Ring.of(("x", "y"))
+REGIONS = {
+    "(x-1000)^2 = 2/10^40 and y > x": 1,
+    "(x-10^20)^2 = 2 and y > x": 1,
+    "(x-10^20)^2 + (y-10^20)^2 <= 1": 2,
+    "x = 10^25": 0,
+    "x = 1/10^40 or x = 2/10^40": 0,
+    "(x-1)*(x-1-1/10^30) <= 0": 1,
+    "x = 3 and (y-1)*(10^12*(y-1)-1) = 0": 0,
+    "x^3 = 10^41 or x^3 = 10^41 + 1": 0,
+    "x^2 = 2 and (y-x)*(10^40*(y-x)-1) <= 0": 1,
+}
+
+
+@pytest.mark.parametrize("text", REGIONS)
+def test_regions_at_large_or_close_numbers_crashed_and_their_verification_did_not_end(text: str) -> None:
+    region = qe.region(text)
+    assert region.dimension == REGIONS[text]
+    assert str(qe.verify(region.certificate, timeout=20)) == "accepted"
+    samples = region.sample_points()
+    assert samples and all(region.contains(p) for p in samples)
+    for name in region.order:
+        interval = region.bounds(name)
+        for point in samples:
+            assert point[name] in interval
+    assert str(region) and all(str(piece) for piece in region.cells)
+    assert region.fibre()
+    assert qe.Region.from_json(region.to_json()).dimension == region.dimension
+
+
+def test_bounds_and_membership_tell_neighbours_apart() -> None:
+    region = qe.region("(x-1)*(x-1-1/10^30) <= 0")
+    one, small = Fraction(1), Fraction(1, 10**30)
+    assert tuple(region.bounds("x")) == (one, one + small)
+    assert region.contains({"x": one + small / 2}) and not region.contains({"x": one + 2 * small})
+    assert not region.contains({"x": one - small / 10**30})
+    low, high = qe.region("(x-10^20)^2 = 2").bounds("x")
+    assert high - low == 2 * RealAlgebraic.from_root((-2, 0, 1), 1, 2)
+
+
+@pytest.mark.parametrize(
+    ("text", "measure", "error"),
+    [
+        ("(x-1)*(x-1-1/10^30) <= 0", Fraction(1, 10**30), Fraction(1, 10**6)),
+        ("x >= 10^25 and x <= 10^25 + 1", Fraction(1), Fraction(1, 10**6)),
+        ("(x-10^20)^2 + (y-10^20)^2 <= 1", Fraction(314159265, 10**8), Fraction(1, 50)),
+        ("(x-1)^2 + (y-1)^2 <= 1/10^60", Fraction(314159265, 10**68), Fraction(1, 50)),
+    ],
+)
+def test_volumes_far_from_the_origin_were_lost_in_rounding(text: str, measure: Fraction, error: Fraction) -> None:
+    low, high = qe.region(text).volume(float(error))
+    assert low <= measure * (1 + Fraction(1, 10**8)) and measure * (1 - Fraction(1, 10**8)) <= high
+    assert high - low <= error * high
+
+
+def test_newton_stalled_in_the_checker_and_the_answer_was_lost() -> None:
+    """A coordinate of 10^20 was enclosed with an absolute error; the sign at it was never decided."""
+    text = (
+        "ex y, x. 7*x + 2*a*y + (3/2)*a > 0 and -3*a*x - 3*a*y - 3 + 4*a /= 0"
+        " and 7*a*x + 999999999996*a*y - a + 100000000000000000001 > 0"
+    )
+    answer = qe.eliminate(text, check=True, timeout=60)
+    assert answer.truth is True and answer.guarantee is qe.Guarantee.CHECKED
+
+
+def test_sector_samples_between_roots_that_were_found_to_more_bits_than_asked() -> None:
+    """The ends of their balls were rounded to fewer bits than the balls have: no rational number between them."""
+    x, y = PLANE.gen(0), PLANE.gen(1)
+    convergent = Fraction(1, 1)
+    while abs(convergent**2 - 2) > Fraction(1, 10**39):  # x - p/q is tiny at sqrt(2): enclosing 1/(x - p/q) loses bits
+        convergent = 1 + 1 / (1 + convergent)
+    tiny = convergent.denominator * x - convergent.numerator
+    point = Point.of(PLANE, [RealAlgebraic.from_root((-2, 0, 1), 1, 2)])
+    for bits in range(40, 400, 7):
+        first, second = tiny * y - 1, 2**bits * tiny * y - 2**bits - 1
+        found = isolate_over(point, (first, second))
+        assert sorted(s.members[0] for s in found.sections) == [0, 1]
+        assert all(a < b for a, b in pairwise(found.sectors))
+
+
+def test_a_factor_of_a_norm_was_looked_for_at_the_precision_of_a_float() -> None:
+    """Two factors were never told apart, so the precision of the balls grew for ever."""
+    ring, x, y = PLANE, PLANE.gen(0), PLANE.gen(1)
+    root = RealAlgebraic.from_root((-(10**40) - 3, 0, 0, 1), 0, 10**14)
+    factors = ((y - x) * (10**30 * (y - x) - 1) * (y**2 - x), y**3 - 10**40 * x + 1)
+    found = isolate_over(Point.of(ring, [root]), factors)
+    values = [Point.of(ring, [root]).extend(s.value).number(1) for s in found.sections]
+    assert len(values) == 5 and values == sorted(values)
+
+
+def test_numbers_that_no_float_holds_were_a_crash_of_the_convex_methods() -> None:
+    """They are proposed to a numerical method, which now declines; exact methods go on."""
+    far = "x + y + z + u >= 10^400 and x^2 + y^2 + z^2 + u^2 <= 10^900"
+    assert qe.decide(f"ex x, y, z, u. {far}") is True
+    with pytest.raises(qe.Unable, match="numerical"):
+        qe.minimize("x", "x >= 10^400")
+    with pytest.raises(qe.Unable, match="numerical"):
+        qe.minimize("x/10^400", "x >= 1 and x^2 <= 4")
+
+
+def test_no_number_was_looked_for_between_ends_in_the_wrong_order_for_ever() -> None:
+    root = RealAlgebraic.from_root((-2, 0, 1), 1, 2)
+    for low, high in ((root, root), (Fraction(2), root), (Fraction(1), Fraction(1)), (root, Fraction(1))):
+        with pytest.raises(InternalError):
+            rational_between(low, high)
+    assert Fraction(7, 5) < rational_between(Fraction(141421356, 10**8), root) < root
+
+
+@settings(max_examples=40)
+@given(close_roots(LINE), close_roots(LINE))
+def test_stacks_of_close_roots_have_samples_between_them_and_pass_the_checker(f: Poly, g: Poly) -> None:
+    found = isolate_over(Point(LINE), (f, g))
+    numbers = [Point(LINE).extend(s.value).number(0) for s in found.sections]
+    samples = [Fraction(int(q.p), int(q.q)) for q in found.sectors]
+    for low, number, high in zip(samples, numbers, samples[1:], strict=False):
+        assert low < number < high
+    for a, b in pairwise(numbers):
+        assert a < rational_between(a, b) < b
+    p, q = (h.to_univariate(0) for h in (f, g))
+    ends = samples[0], samples[-1]
+    assert count_roots_between(p, *ends) + count_roots_between(q, *ends) >= len(numbers)
+    product = f * g if f != g else f
+    region = qe.Region.of(atom(product, Relation.EQ))
+    assert [p["x"] for p in region.sample_points()] == numbers
+    assert qe.verify(region.certificate).accepted
+
+
+@given(st.sampled_from(HUGE), st.integers(2, 9), st.integers(-3, 3), st.sampled_from((1, *HUGE)))
+def test_numbers_are_compared_with_rationals_exactly_at_every_working_precision(
+    big: int, d: int, near: int, scale: int
+) -> None:
+    square = d * scale
+    root = RealAlgebraic.from_root((big * big - square, -2 * big, 1), big, big + square)  # big + sqrt(square)
+    offset = isqrt(square) + near
+    with precision(20):
+        order = root.compare_rational(fmpq(big + offset))
+    assert order == (1 if offset < 0 else (square > offset**2) - (square < offset**2))

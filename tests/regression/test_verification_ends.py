@@ -1,0 +1,182 @@
+"""Every verification ends, with a verdict that says whether it was decided; the answer never depends on that."""
+
+from __future__ import annotations
+
+import json
+import time
+from typing import Any
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import qe
+from qe import api
+from qe.certify.verdict import Verdict
+from qe.certify.verify import verify, verify_json
+from qe.cli import main
+from qe.evidence.certificate import Certificate, digest
+from qe.options import Budget
+from tests.certificates.producing import cell_table
+
+ROOT = {"polynomial": "x^10000 - 2", "interval": ["1", "2"]}
+LONG = "7" * 4000
+LONG_END = f"{LONG}3/{LONG}"
+
+
+def _text(kind: str, payload: Any) -> str:
+    whole: dict[str, Any] = {"format": "bezier-qe certificate", "version": 1, "kind": kind, "payload": payload}
+    whole["digest"] = digest(whole)
+    return json.dumps(whole)
+
+
+def _witness(polynomial: str, values: list[Any], names: str = "x") -> str:
+    payload = {"order": names.split(), "matrix": ["atom", polynomial, "="], "values": values}
+    return _text("witness", payload)
+
+
+def _cells(lower: str, upper: str) -> str:
+    whole = json.loads(cell_table("x^2 + y^2 <= 4 and (x - 1)^2 + y^2 <= 4", "x y").to_json())
+    payload = {**whole["payload"], "factors": [[lower], [upper]], "matrix": ["atom", upper, "="], "answer": None}
+    return _text("cells", payload)
+
+
+def _field(coefficients: list[str]) -> str:
+    condition = {"normal": ["1", "1"], "offset": "3"}
+    field = {"minimal_polynomial": coefficients, "interval": ["1", "2"]}
+    points = [[["1"], ["1"]]]
+    return _text("containment", {"field": field, "points": points, "condition": condition, "breaks": ["0", "1"]})
+
+
+def _power(exponent: int) -> str:
+    piece = {"constraints": [{"terms": [[[exponent, 0], "1"]], "strict": False}], "spans": [["0", "1", 0]]}
+    field = {"minimal_polynomial": ["0", "1"], "interval": ["0", "0"]}
+    return _text("clearance", {"field": field, "points": [[["1"], ["1"]]], "pieces": [piece]})
+
+
+def _many_variables(count: int) -> str:
+    field = {"minimal_polynomial": ["0", "1"], "interval": ["0", "0"]}
+    problem = {"variables": [f"x{i}" for i in range(count)], "minimise": [], "constraints": []}
+    empty = {key: [] for key in ("faces", "point", "multipliers", "derived", "values")}
+    rest = {"field": field, **empty, "value": ["0"], "attained": True, "unique": False}
+    return _text("optimum", {"problem": problem, "status": "optimal", **rest})
+
+
+def _substitution(degree: int) -> str:
+    sum_of_three = "-z - y + x - 1"
+    matrix = ["and", ["atom", sum_of_three, "="], ["atom", f"x^{degree} - y", "="]]
+    answer = ["atom", "-z + y", "="]
+    payload = {"order": ["z", "y", "x"], "variables": ["x"], "matrix": matrix, "solved": [["x", sum_of_three]]}
+    return _text("substitution", {**payload, "answer": answer})
+
+
+HOSTILE = {
+    "a large exponent": (_witness("x^10000 - 2", [ROOT]), "accepted"),
+    "a huge exponent": (_witness("x^1000000000 - 2", [{**ROOT, "polynomial": "x^1000000000 - 2"}]), "rejected"),
+    "a long number": (_witness(f"{LONG}*x - 1", [f"1/{LONG}"]), "accepted"),
+    "a power of a long number": (_witness("x^10000 - 2", [f"1/{LONG}"]), "not decided"),
+    "a root between long numbers": (_witness("x^10000 - 2", [{**ROOT, "interval": ["1", LONG_END]}]), "not decided"),
+    "a resultant of large degree": (_cells("x", "y^10000 - x"), "not decided"),
+    "a resultant of many steps": (_cells("x", "x^400*y^400 - x^3*y + 1"), "not decided"),
+    "a number field of large degree": (_field(["-2", *["0"] * 3000, "1"]), "not decided"),
+    "a number field of long numbers": (_field([f"-{LONG}", *["1"] * 99, f"{LONG}8"]), "not decided"),
+    "a large power of a curve that is a point": (_power(10**9), "rejected"),
+    "many variables": (_many_variables(30_000), "not decided"),
+    "a power of a sum": (_substitution(9999), "not decided"),
+}
+
+
+@pytest.mark.parametrize("name", HOSTILE)
+def test_a_certificate_that_asks_for_too_much_has_a_clear_verdict_soon(name: str) -> None:
+    text, expected = HOSTILE[name]
+    start = time.monotonic()
+    try:
+        verdict = qe.verify(Certificate.from_json(text), timeout=2)
+    except qe.CertificateRejected as error:
+        verdict = Verdict(False, error.step, error.reason)
+    assert time.monotonic() - start < 8  # 2 s and a little are asked; the tests' machine may be busy
+    assert str(verdict).startswith(expected)
+    assert verdict.accepted is (expected == "accepted")
+    assert verdict.decided is (expected != "not decided")
+    assert verdict.reason or verdict.accepted
+
+
+def test_nesting_has_a_limit() -> None:
+    deep: Any = ["atom", "x", "="]
+    for _ in range(400):
+        deep = ["not", deep]
+    assert not verify_json(_text("witness", {"order": ["x"], "matrix": deep, "values": ["0"]})).accepted
+
+
+def test_a_budget_that_is_used_up_gives_no_decision() -> None:
+    certificate = qe.region("x^2 + y^2 < 4 and x*y > 1").certificate
+    assert verify(certificate).accepted
+    late = verify(certificate, Budget(-1.0))
+    assert not late.accepted and not late.decided and not late and "time" in str(late)
+
+
+@settings(max_examples=25)
+@given(st.integers(0, 200))
+def test_whatever_the_limit_a_right_certificate_is_accepted_or_not_decided(after: int) -> None:
+    """Never rejected: a limit that cuts the work anywhere must not look like a fault of the certificate."""
+    left = [after]
+
+    class Counted(Budget):
+        __slots__ = ()
+
+        def check(self, phase: str = "work", done: int = 0, total: int | None = None) -> None:
+            left[0] -= 1
+            if left[0] < 0:
+                self.cancel()
+            super().check(phase, done, total)
+
+    verdict = verify(cell_table("x^3 - y^2 = 2 and y < x", "x y"), Counted())
+    assert verdict.accepted if verdict.decided else left[0] < 0
+
+
+@pytest.mark.parametrize("limit", ["10", 0, -1, float("nan"), float("inf")])
+def test_limits_of_a_verification_are_checked(limit: Any) -> None:
+    with pytest.raises(qe.InputError, match="timeout"):
+        qe.verify(cell_table("x^2 <= 2", "x"), timeout=limit)
+
+
+def test_a_verification_that_does_not_end_costs_the_certificate_not_the_answer(monkeypatch: pytest.MonkeyPatch) -> None:
+    text = "ex y. x^2 + y^2 = 1 and y > x"
+    checked = qe.eliminate(text, check=True)
+    monkeypatch.setattr("qe.api_verify.VERIFY_SECONDS", 1e-9)
+    answer = qe.eliminate(text, check=True)
+    assert checked.guarantee is qe.Guarantee.CHECKED and not checked.reason
+    assert answer.status is qe.Status.SOLVED and answer.formula == checked.formula
+    assert answer.guarantee is qe.Guarantee.DERIVED and answer.certificate is None
+    assert "not verified" in answer.reason and "not verified" in answer.explanation
+
+
+def test_the_command_tells_rejected_and_undecided_apart(tmp_path: Any, capsys: Any) -> None:
+    path = tmp_path / "certificate.json"
+    for text, status, said in (
+        (HOSTILE["a large exponent"][0], 0, "accepted"),
+        (HOSTILE["a power of a long number"][0], 3, "not decided"),
+        (HOSTILE["a resultant of many steps"][0], 3, "limit"),
+        (HOSTILE["a huge exponent"][0], 4, "rejected"),
+    ):
+        path.write_text(text)
+        assert main(["check", str(path), "--timeout", "4"]) == status
+        out = capsys.readouterr()
+        assert said in out.out + out.err
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "ex z. (y*z + x /= 0 or x + y /= 0)",
+        "all z. (y*z + x = 0 and x + y = 0)",
+        "ex z. (x*z + y /= 0 or x - y /= 0 or x*y > 0)",
+        "all z. (x^2 - y = 0 and z*y = x)",
+    ],
+)
+@pytest.mark.parametrize("method", ["auto", "cad"])
+def test_simplified_answers_needed_signs_that_the_table_does_not_know(text: str, method: str) -> None:
+    """The certificate was rejected at payload.answer: the simplified answer had a factor beside a constraint."""
+    answer = qe.eliminate(text, check=True, method=method)
+    assert answer.guarantee is qe.Guarantee.CHECKED
+    assert qe.equivalent(answer.formula, api.read_formula(text))
