@@ -100,7 +100,7 @@ def _size(lattices: Sequence[Array]) -> Array:
     if not lattices:
         return np.ones(3)
     points = np.concatenate([lattice.reshape(-1, 3) for lattice in lattices])
-    return np.maximum(np.ptp(points, axis=0), 1e-9)
+    return np.asarray(np.maximum(np.ptp(points, axis=0), 1e-9))
 
 
 def _lattice(piece: Piece, spans: Sequence[Span], counts: tuple[int, int, int]) -> Array:
