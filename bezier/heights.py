@@ -14,22 +14,21 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from itertools import pairwise
 from typing import Any
 
 from bezier.curves import bernstein as bs
 from bezier.curves.along import Along
 from bezier.curves.curve import Bezier
 from bezier.curves.enclosure import Enclosure
+from bezier.curves.events import Event, events_of
 from bezier.curves.halving import exact
-from bezier.curves.nonnegative import Interval, refine
-from bezier.curves.scalar import decimal_text, exactly, is_zero, sign
-from bezier.obstacles.clearance import MAX_DENOMINATOR, CriticalValues, Search, critical_values
-from bezier.obstacles.obstacle import Constraint, Piece
+from bezier.curves.nonnegative import Interval
+from bezier.curves.scalar import decimal_text, exactly, sign
+from bezier.obstacles.obstacle import Constraint
 from bezier.path import Path
 from bezier.problem import Problem
 
-WIDTH = Fraction(1, 2**60)
-"""To what width the ends of a stretch are refined."""
 AXES = {"x": 0, "y": 1, "z": 2}
 
 
@@ -116,26 +115,27 @@ def heights_of(problem: Problem, path: Path) -> Heights:
 
 def _below(name: str, along: Along, strip: Strip, axis: str) -> list[Below]:
     outline = strip.outline(axis)
-    forms = [along.form(c) for c in outline]
-    if Search(Piece(outline)).run(forms) is None:
-        return []
-    wholes = [exact(form) for form in forms]
-    breaks = critical_values(wholes)
-    at = [all(c.holds(breaks.sign(f, t)) for c, f in zip(outline, wholes, strict=True)) for t in breaks.intervals]
+    forms = [exact(along.form(c)) for c in outline]
+    events = events_of(forms)
+    at = [_violated(outline, event.signs) for event in events]
     between = [
-        all(c.holds(sign(bs.value(f, (t[1] + u[0]) / 2))) for c, f in zip(outline, wholes, strict=True))
-        for t, u in zip(breaks.intervals, breaks.intervals[1:], strict=False)
+        _violated(outline, [sign(bs.value(f, (one.t[1] + two.t[0]) / 2)) for f in forms])
+        for one, two in pairwise(events)
     ]
     return [
         Below(
             name,
             axis,
-            _end(breaks, wholes, strip, axis, first, at[first]),
-            _end(breaks, wholes, strip, axis, last, at[last]),
-            _sample(along.curve, axis, breaks.intervals, first, last),
+            _end(events[first], strip, axis, at[first]),
+            _end(events[last], strip, axis, at[last]),
+            _sample(along.curve, axis, events[first].t, events[last].t),
         )
         for first, last in _runs(at, between)
     ]
+
+
+def _violated(outline: Sequence[Constraint], signs: Sequence[int]) -> bool:
+    return all(c.holds(s) for c, s in zip(outline, signs, strict=True))
 
 
 def _runs(at: Sequence[bool], between: Sequence[bool]) -> list[tuple[int, int]]:
@@ -155,27 +155,17 @@ def _runs(at: Sequence[bool], between: Sequence[bool]) -> list[tuple[int, int]]:
     return runs
 
 
-def _end(
-    breaks: CriticalValues, forms: Sequence[bs.Coefficients], strip: Strip, axis: str, i: int, included: bool
-) -> End:
-    t = breaks.intervals[i]
+def _end(event: Event, strip: Strip, axis: str, included: bool) -> End:
     named = (f"x = {strip.low}", f"x = {strip.high}", f"{axis} = {strip.heights[axis]}")
-    zero = [name for name, form in zip(named, forms, strict=True) if breaks.sign(form, t) == 0]
-    if t[0] < t[1]:
-        t = refine(breaks.form, t, WIDTH)
-        guess = ((t[0] + t[1]) / 2).limit_denominator(MAX_DENOMINATOR)
-        if t[0] <= guess <= t[1] and is_zero(bs.value(breaks.form, guess)):
-            t = (guess, guess)
-    return End(t, " and ".join(zero) or "end of the curve", included)
+    zero = [name for name, here in zip(named, event.signs, strict=True) if here == 0]
+    return End(event.t, " and ".join(zero) or "end of the curve", included)
 
 
-def _sample(
-    curve: Bezier, axis: str, intervals: Sequence[Interval], first: int, last: int
-) -> tuple[Fraction, Any] | None:
+def _sample(curve: Bezier, axis: str, first: Interval, last: Interval) -> tuple[Fraction, Any] | None:
     """The coordinate in the middle of a stretch, or at its only parameter."""
-    if first == last and intervals[first][0] < intervals[first][1]:
+    if first == last and first[0] < first[1]:
         return None
-    t = intervals[first][0] if first == last else (intervals[first][1] + intervals[last][0]) / 2
+    t = first[0] if first == last else (first[1] + last[0]) / 2
     return t, bs.value(curve.coordinate(AXES[axis]), t)
 
 

@@ -139,7 +139,7 @@ def _with_findings(plan: Plan, clock: Clock) -> Plan:
     found, remarks = plan, []
     try:
         solvable = plan.outcome is not Outcome.INFEASIBLE
-        forced = radius_rule.radius_rule(plan.problem, solvable, clock.remaining())
+        forced = radius_rule.radius_rule(plan.problem, solvable, clock.remaining)
         if forced is not None:
             found = replace(found, radius_rule=forced)
             remarks += [forced.in_words()] if solvable else []  # else it is part of the reason

@@ -9,7 +9,7 @@ R0, with F = Q2 in (7) and F = Q1 in (8), which therefore has no solution when b
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import pairwise
@@ -23,6 +23,14 @@ from bezier.curves.scalar import Vector, dot, exactly, same
 from bezier.curves.workspace import Workspace
 from bezier.problem import PlanMethod, Problem
 from qe.errors import BudgetExceeded, InternalError, Unable
+
+Limit = Callable[[], float | None]
+
+
+def unlimited() -> float | None:
+    """No limit on time."""
+    return None
+
 
 NEXT = {PlanMethod.QUADRATIC: ("Q1", "Q1"), PlanMethod.CUBIC: ("Q1", "Q2")}
 """The free control points next to Q0 and to R0."""
@@ -90,7 +98,7 @@ def sentence(problem: Problem, via: str, free: str) -> str:
     return f"all {', '.join(names)}. {' and '.join(norms)} -> {equal}"
 
 
-def radius_rule(problem: Problem, solvable: bool, remaining: float | None = None) -> RadiusRule | None:
+def radius_rule(problem: Problem, solvable: bool, remaining: Limit = unlimited) -> RadiusRule | None:
     """What the radius forces, None when no via point lies on the sphere.
 
     Raises ``Unable`` when the engine does not decide the sentences.
@@ -100,7 +108,7 @@ def radius_rule(problem: Problem, solvable: bool, remaining: float | None = None
         return None
     sentences = tuple(sentence(problem, via, free) for via, free in forced.items())
     for text in sentences:
-        truth = qe.eliminate(text, timeout=remaining).truth
+        truth = qe.eliminate(text, timeout=remaining()).truth
         if truth is False:
             raise InternalError("the engine refutes that a via point on the sphere forces its neighbour")
         if truth is None:
@@ -108,7 +116,7 @@ def radius_rule(problem: Problem, solvable: bool, remaining: float | None = None
     return RadiusRule(problem.method, forced, sentences, solvable, larger_radius(problem, remaining))
 
 
-def larger_radius(problem: Problem, remaining: float | None = None) -> Fraction | None:
+def larger_radius(problem: Problem, remaining: Limit = unlimited) -> Fraction | None:
     """A simple rational radius with which the best path does not stop at a via point, proved by its optimum."""
     square = problem.workspace.radius_squared
     if problem.method is PlanMethod.QUADRATIC:
@@ -137,11 +145,11 @@ def _short_decimal(low: Fraction, high: Fraction) -> Fraction:
         power /= 10
 
 
-def helps(problem: Problem, radius: Fraction, remaining: float | None = None) -> bool:
+def helps(problem: Problem, radius: Fraction, remaining: Limit = unlimited) -> bool:
     """Whether the optimum with this radius exists, has an accepted certificate and differs from both via points."""
     changed = replace(problem, workspace=Workspace(problem.workspace.kind, radius * radius), radius_is_auto=False)
     system = _system(changed)
-    optimum = qe.minimize(system.objective(), system.conditions_text(), timeout=remaining)
+    optimum = qe.minimize(system.objective(), system.conditions_text(), timeout=remaining())
     if not optimum.is_optimal or not qe.verify(optimum.certificate).accepted:
         return False
     values = iter([optimum.point[name] for name in system.shape.variables])
