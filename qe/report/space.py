@@ -76,6 +76,7 @@ def _shape(region: Region) -> tuple[Solid, Frame]:
 
 def draw_space(region: Region, axes: Any) -> None:
     """Draw a region in three variables on matplotlib's three-dimensional axes."""
+    from matplotlib.ticker import MaxNLocator
     from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
     shape, frame = _shape(region)
@@ -97,8 +98,9 @@ def draw_space(region: Region, axes: Any) -> None:
         axes.add_collection3d(
             Poly3DCollection(drawn.polygons, facecolors=colours, edgecolors=colours, linewidths=drawn.widths)
         )
-    for axis, start, end, name in zip("xyz", low, high, region.order, strict=True):
+    for axis, start, end, side, name in zip("xyz", low, high, box, region.order, strict=True):
         getattr(axes, f"set_{axis}lim")(start, end)
+        getattr(axes, f"{axis}axis").set_major_locator(MaxNLocator(5 if side > 0.5 else 3))
         getattr(axes, f"set_{axis}label")(name)
     axes.set_box_aspect(box)
     axes.set_proj_type("ortho")
