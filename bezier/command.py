@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path as FilePath
 from typing import TYPE_CHECKING
 
+from bezier import heights
 from bezier.curves.scalar import brief
 from bezier.methods import method_of
 from bezier.motion import motion
@@ -92,6 +93,8 @@ def in_words(made: Plan, target: FilePath, files: list[str], seconds: float) -> 
         inside = "proved to lie in the workspace" if made.path.is_inside else "which LEAVES the workspace"
         joins = f"{made.path.smoothness.name} at both joins, " if made.path.joins else ""
         lines.append(f"path: {joins}{inside}")
+    if made.heights is not None:
+        lines += heights.words(made.heights)
     lines += motion.words(made)
     lines += avoid.words(made)
     accepted = all(verdict.accepted for verdict in made.checks.values())

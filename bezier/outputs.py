@@ -12,6 +12,7 @@ from fractions import Fraction
 from pathlib import Path as FilePath
 from typing import Any
 
+from bezier import heights
 from bezier.curves.scalar import decimal_text, described, rational, scale
 from bezier.methods import method_of
 from bezier.motion import motion
@@ -88,6 +89,7 @@ def summary(plan: Plan, files: list[str], seconds: float) -> dict[str, Any]:
         **method.entries(plan),
         **motion.entries(plan),
         **avoid.entries(plan),
+        **_decided(plan),
         "problem": to_json(problem),
         "notes": [*problem.notes, *plan.remarks],
         "files": files,
@@ -95,6 +97,16 @@ def summary(plan: Plan, files: list[str], seconds: float) -> dict[str, Any]:
     }
     if plan.outcome is Outcome.INFEASIBLE:
         found["reason"] = method.reason(plan)
+    return found
+
+
+def _decided(plan: Plan) -> dict[str, Any]:
+    """What was decided about the radius and the heights; ``bezier.heights`` and ``bezier.radius_rule`` compute it."""
+    found: dict[str, Any] = {}
+    if plan.radius_rule is not None:
+        found["radius_rule"] = plan.radius_rule.to_json()
+    if plan.heights is not None:
+        found["heights"] = heights.to_json(plan.heights)
     return found
 
 

@@ -20,9 +20,11 @@ from qe.progress import Event, Listener, silent
 
 if TYPE_CHECKING:
     import qe
+    from bezier.heights import Heights
     from bezier.motion.motion import Quality
     from bezier.obstacles.avoid import Attempt
     from bezier.obstacles.survey import Finding
+    from bezier.radius_rule import RadiusRule
 
 Note = Callable[[str, object], None]
 
@@ -44,7 +46,8 @@ class Plan:
     conditions that hold with equality; ``certificate``: all certificates, labelled; ``checks``: what the
     independent checker says of them; ``seconds``: the time of each step; ``remarks``: for the reader;
     ``findings``: each curve and each obstacle; ``attempts``: what was tried to get around the obstacles;
-    ``quality``: lengths, curvatures and the motion in time.
+    ``quality``: lengths, curvatures and the motion in time. ``heights``: the height condition, decided for all curves.
+    ``radius_rule``: what the radius forces where a via point lies on the sphere.
     """
 
     problem: Problem
@@ -61,6 +64,8 @@ class Plan:
     findings: tuple[Finding, ...] = ()
     attempts: tuple[Attempt, ...] = ()
     quality: Quality | None = None
+    heights: Heights | None = None
+    radius_rule: RadiusRule | None = None
 
     @property
     def unit(self) -> str:
@@ -118,11 +123,34 @@ def make_plan(problem: Problem, clock: Clock | None = None) -> Plan:
     watch = clock or Clock()
     try:
         plan: Plan = avoiding(problem, watch) if problem.obstacles else method_of(problem.method).make(problem, watch)
+        with watch.step("radius and heights"):
+            plan = _with_findings(plan, watch)
         with watch.step("quality"):
             return _with_quality(plan)
     except BudgetExceeded as error:
         known = "; ".join(f"{name}: {value}" for name, value in watch.facts.items()) or "nothing yet"
         raise BudgetExceeded(f"{error}; known so far: {known}", limit=error.limit) from None
+
+
+def _with_findings(plan: Plan, clock: Clock) -> Plan:
+    """The plan with what the radius forces, the height condition, and a note where the path goes through the origin."""
+    from bezier import heights, origin, radius_rule
+
+    found, remarks = plan, []
+    try:
+        solvable = plan.outcome is not Outcome.INFEASIBLE
+        forced = radius_rule.radius_rule(plan.problem, solvable, clock.remaining)
+        if forced is not None:
+            found = replace(found, radius_rule=forced)
+            remarks += [forced.in_words()] if solvable else []  # else it is part of the reason
+        if plan.path is not None:
+            found = replace(found, heights=heights.heights_of(plan.problem, plan.path))
+            remarks += origin.remarks(plan.path)
+    except Unable as error:
+        if isinstance(error, BudgetExceeded):
+            raise
+        remarks.append(f"what the radius forces and the heights are not all decided: {error}")
+    return replace(found, remarks=(*found.remarks, *remarks))
 
 
 def _with_quality(plan: Plan) -> Plan:

@@ -14,12 +14,13 @@ import typer
 
 from experiments.adapters.answer import Limits
 from experiments.display import progress
-from experiments.problem import ROOT
+from experiments.problem import Problem
 from experiments.results import BadLine, Log, Status, read_log
 from experiments.solvers import OURS, solver
 from experiments.suites import suite
 from experiments.sweep.grid import Method
 from qe.cli_shell import BUG, OK, enter
+from qe.errors import InputError
 
 app = typer.Typer(
     add_completion=False,
@@ -31,7 +32,9 @@ app = typer.Typer(
 baselines = typer.Typer(help="Freeze a baseline of the engine, and compare two.", no_args_is_help=True)
 app.add_typer(baselines, name="baseline")
 
-RESULTS = ROOT / "out" / "corpus.jsonl"
+OUT = Path("out")
+"""Everything goes below this folder of the current one, unless an option says otherwise."""
+RESULTS = OUT / "corpus.jsonl"
 Results = Annotated[list[Path] | None, typer.Option("--results", help="Result files [default: out/corpus.jsonl].")]
 
 
@@ -51,14 +54,12 @@ def run(
     """Run suites through solvers. A second call goes on where an interrupted one stopped."""
     from experiments.session import Session
 
-    chosen = [suite(name) for name in suites]
     work = [
-        (
-            [p for p in s.problems() if only in p.id or only in p.set],
-            [solver(name) for name in (solvers or s.solvers)],
-        )
-        for s in chosen
+        (_problems(name, only), [solver(each) for each in (solvers or chosen.solvers)])
+        for name, chosen in [(name, suite(name)) for name in suites]
     ]
+    if not any(problems for problems, _ in work):
+        raise InputError(f"--only: no problem of {', '.join(suites)} has {only!r} in its name or set")
     session = Session(results, Limits(limit, memory), workers=jobs, again=again)
     _warn(session.log.bad)
     session.run(work, repeat=repeat, seed=seed)
@@ -71,7 +72,7 @@ def run(
 @app.command()
 def table(
     results: Results = None,
-    out: Annotated[Path, typer.Option(help="The Markdown page.")] = ROOT / "docs" / "benchmarks.md",
+    out: Annotated[Path, typer.Option(help="The Markdown page.")] = OUT / "benchmarks.md",
 ) -> None:
     """Write the tables from result files."""
     _write_table(_read(results), out, figures_beside=out.parent / "images" / "benchmarks")
@@ -80,7 +81,7 @@ def table(
 @app.command()
 def figures(
     results: Results = None,
-    out: Annotated[Path, typer.Option(help="The folder for SVG files.")] = ROOT / "docs" / "images" / "benchmarks",
+    out: Annotated[Path, typer.Option(help="The folder for SVG files.")] = OUT / "images" / "benchmarks",
 ) -> None:
     """Draw the figures from result files."""
     _write_figures(_read(results), out)
@@ -89,20 +90,24 @@ def figures(
 @app.command()
 def html(
     results: Results = None,
-    out: Annotated[Path, typer.Option(help="The page.")] = ROOT / "out" / "benchmarks.html",
+    out: Annotated[Path, typer.Option(help="The page.")] = OUT / "benchmarks.html",
 ) -> None:
     """Write one self-contained page with tables and figures."""
     _write_html(_read(results), out)
 
 
 @app.command()
-def report(results: Results = None) -> None:
-    """Everything: docs/benchmarks.md with its figures, and out/benchmarks.html."""
+def report(
+    results: Results = None,
+    out: Annotated[Path, typer.Option(help="The folder for benchmarks.md, images and benchmarks.html.")] = OUT,
+    docs: Annotated[Path | None, typer.Option(help="Another folder for benchmarks.md and its images.")] = None,
+) -> None:
+    """Everything: benchmarks.md with its figures, and benchmarks.html, in the folder out."""
     log = _read(results)
-    docs = ROOT / "docs"
-    _write_figures(log, docs / "images" / "benchmarks")
-    _write_table(log, docs / "benchmarks.md", figures_beside=docs / "images" / "benchmarks")
-    _write_html(log, ROOT / "out" / "benchmarks.html")
+    folder = docs or out
+    _write_figures(log, folder / "images" / "benchmarks")
+    _write_table(log, folder / "benchmarks.md", figures_beside=folder / "images" / "benchmarks")
+    _write_html(log, out / "benchmarks.html")
 
 
 @baselines.command()
@@ -156,7 +161,7 @@ def sweep(
     scheduler: Annotated[str | None, typer.Option(help="Address of a Dask scheduler; default: workers here.")] = None,
     workers: Annotated[int, typer.Option(help="Worker processes here.", min=1)] = 2,
     timeout: Annotated[float, typer.Option(help="Seconds for each problem.")] = 30.0,
-    out: Annotated[Path, typer.Option(help="Folder for results and pictures.")] = ROOT / "out" / "sweep",
+    out: Annotated[Path, typer.Option(help="Folder for results and pictures.")] = OUT / "sweep",
 ) -> None:
     """Solve a grid of planning problems with many workers and draw the atlas. A second call goes on after a stop."""
     from experiments.sweep.atlas import atlas
@@ -178,6 +183,14 @@ def sweep(
         _write(out / f"{picture.name}.svg", picture.svg())
     failed = [row for key, row in store.outcomes.items() if key in wanted and not row.solved]
     print(f"{len(wanted) - len(failed)} of {len(wanted)} problems solved")
+
+
+def _problems(name: str, only: str) -> list[Problem]:
+    """The chosen problems of a suite. Raises ``InputError`` when the whole suite is empty."""
+    found = suite(name).problems()
+    if not found:
+        raise InputError(f"--suite {name}: problems expected, none found")
+    return [p for p in found if only in p.id or only in p.set]
 
 
 def _write_table(log: Log, out: Path, figures_beside: Path) -> None:
@@ -209,8 +222,15 @@ def _write(path: Path, text: str) -> None:
 
 
 def _read(results: list[Path] | None) -> Log:
-    log = read_log(results or [RESULTS])
+    """The results. Raises ``InputError`` when there is none, so that nothing empty is written over anything."""
+    paths = results or [RESULTS]
+    for path in paths:
+        if not path.is_file():
+            raise InputError(f"--results: a file of results expected, {path} does not exist (see experiments run)")
+    log = read_log(paths)
     _warn(log.bad)
+    if not log.results:
+        raise InputError(f"--results: no result of a run in {', '.join(map(str, paths))}")
     return log
 
 

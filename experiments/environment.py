@@ -49,8 +49,8 @@ def processor() -> str:
 
 
 def commit() -> str:
-    """The commit of the working tree, with a plus sign when files differ from it; "unknown" without git."""
-    if shutil.which("git") is None:
+    """The commit of the working tree, with a plus sign when files differ from it; "unknown" where there is none."""
+    if shutil.which("git") is None or not (ROOT / ".git").exists():  # an installed package has no commit
         return "unknown"
 
     def git(*arguments: str) -> str:

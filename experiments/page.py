@@ -1,4 +1,4 @@
-"""The HTML page: everything of docs/benchmarks.md with the pictures inside, one self-contained file."""
+"""The HTML page: everything of benchmarks.md with the pictures inside, one self-contained file."""
 
 from __future__ import annotations
 

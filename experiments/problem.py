@@ -1,4 +1,4 @@
-"""One problem of a suite, and where the project's folders are."""
+"""One problem of a suite, and the folder that the packages lie in. Nothing is ever written there."""
 
 from __future__ import annotations
 

@@ -14,10 +14,13 @@ from qe import Certificate
 
 
 class Verdict(Enum):
-    """What became of a claim. FAILED is never stated: it is what a claim gets when its check does not bear it out."""
+    """What became of a claim. SOLVED: the paper says that it did not get there, and the evidence does. FAILED is never
+    stated: it is what a claim gets when its check does not bear it out.
+    """
 
     REPRODUCED = "reproduced"
     CORRECTED = "reproduced with a correction"
+    SOLVED = "solved here"
     DIFFERS = "differs"
     NOT_TESTABLE = "not testable"
     FAILED = "the check failed"

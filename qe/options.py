@@ -17,7 +17,6 @@ class Method(Enum):
     VS = "vs"
     CAD = "cad"
     CRITICAL = "critical"
-    CGS = "cgs"
 
 
 class Projection(Enum):

@@ -42,7 +42,8 @@ def sections(plan: CubicPlan) -> dict[str, Any]:
 def reason(plan: CubicPlan) -> str:
     """Why there are no control points, in one sentence."""
     used = ", ".join(label for label, _ in named_multipliers(plan.system, plan.optimum))
-    return f"no control points exist: the conditions on {used} contradict each other (the certificate shows it)"
+    shown = f"no control points exist: the conditions on {used} contradict each other (the certificate shows it)"
+    return shown if plan.radius_rule is None else f"{shown}; {plan.radius_rule.in_words()}"
 
 
 def speed_text(slow: Slowest) -> str:
@@ -68,6 +69,8 @@ def _trivial(plan: CubicPlan) -> Row:
     found = plan.trivial
     if found.violated:
         allowed = f"Here further conditions forbid it: {', '.join(map(parts.on_point, found.violated))}."
+    elif plan.radius_rule is not None:
+        allowed = f"Here it satisfies every condition, and in part it is forced: {plan.radius_rule.in_words()}."
     else:
         allowed = "Here it satisfies every condition, so control points exist; the objective is what avoids it."
     return {

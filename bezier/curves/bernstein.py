@@ -150,7 +150,10 @@ def gcd(a: Sequence[Any], b: Sequence[Any]) -> Coefficients:
 
 
 def _monic(p: Coefficients) -> Coefficients:
-    return tuple(c / p[-1] for c in p)
+    if not p:
+        return p
+    scale = 1 / p[-1]  # once: inverses are what is slow in a number field
+    return tuple(c * scale for c in p)
 
 
 def power_derivative(p: Sequence[Any]) -> Coefficients:

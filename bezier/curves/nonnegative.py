@@ -147,8 +147,13 @@ def isolate(b: Sequence[Any]) -> list[Interval]:
     """
     if _keeps_sign(tuple(b), QUICK_DEPTH):  # this spares the square-free part, which is slow in large number fields
         return []
+    return isolate_simple(_square_free(b))
+
+
+def isolate_simple(b: bs.Coefficients) -> list[Interval]:
+    """``isolate`` for a polynomial whose roots in (0, 1) are simple and which does not vanish at 0."""
     found: list[Interval] = []
-    todo = [(_square_free(b), Fraction(0), Fraction(1))]
+    todo = [(b, Fraction(0), Fraction(1))]
     while todo:
         part, low, high = todo.pop()
         changes = bs.sign_changes(part)

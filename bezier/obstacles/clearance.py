@@ -195,11 +195,21 @@ def critical_values(forms: Sequence[bs.Coefficients]) -> CriticalValues:
         power = bs.to_power(form)
         if power:
             product = bs.power_multiply(product, bs.divide(power, bs.gcd(product, power))[0])
+    product = _without_ends(product)
     common = bs.gcd(product, bs.power_derivative(product)) if len(product) > 1 else (Fraction(1),)
     square_free = bs.from_power(bs.divide(product, common)[0])
     inner = [i for i in _apart(square_free, isolate(square_free)) if i[1] > 0 and i[0] < 1]
     zero, one = Fraction(0), Fraction(1)
     return CriticalValues(square_free, ((zero, zero), *inner, (one, one)))
+
+
+def _without_ends(power: bs.Coefficients) -> bs.Coefficients:
+    """Without the roots 0 and 1: next to them an isolating interval would never leave the end that it touches."""
+    while len(power) > 1 and is_zero(power[0]):
+        power = power[1:]
+    while len(power) > 1 and is_zero(sum(power, Fraction(0))):
+        power = bs.divide(power, (Fraction(1), Fraction(-1)))[0]
+    return power
 
 
 def _apart(b: bs.Coefficients, intervals: Sequence[Interval]) -> Iterator[Interval]:

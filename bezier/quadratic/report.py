@@ -39,7 +39,11 @@ def sections(plan: QuadraticPlan) -> dict[str, Any]:
 
 
 def reason(plan: QuadraticPlan) -> str:
-    """Why there is no control point, in one sentence with the numbers."""
+    """Why there is no control point, in one sentence with the numbers, and what the radius has to do with it."""
+    return "; ".join([_balls_reason(plan), *([plan.radius_rule.in_words()] if plan.radius_rule else [])])
+
+
+def _balls_reason(plan: QuadraticPlan) -> str:
     balls = plan.balls
     radius = plan.problem.workspace.radius_text
     if balls.meet:

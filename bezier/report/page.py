@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from jinja2 import Environment, PackageLoader, StrictUndefined, Template
 from markupsafe import Markup
 
+from bezier import heights
 from bezier.methods import method_of
 from bezier.obstacles import report as obstacle_report
 from bezier.plan import Plan
@@ -53,6 +54,8 @@ def _common(plan: Plan, drawing: Drawing | None) -> dict[str, Any]:
         "charts": Markup(drawing.charts if drawing else ""),
         "clearance_chart": Markup(drawing.clearance if drawing else ""),
         **obstacle_report.sections(plan),
+        "heights": heights.words(plan.heights) if plan.heights else [],
+        "heights_tone": parts.tone(plan.heights is None or plan.heights.hold),
         "figures": figures(drawing.picture if drawing else None),
         "plotly_script": _script(drawing),
         "version": package_version(),

@@ -85,6 +85,11 @@ def cards(plan: Plan) -> list[Row]:
     if plan.objective is not None:
         found.append(card("objective", f"{decimal_text(plan.objective, 8)} {plan.unit}"))
         found.append(card("active conditions", ", ".join(plan.active) or "none"))
+    if plan.radius_rule is not None and plan.path is not None:
+        found.append(card("the radius forces", f"a stop at {' and '.join(plan.radius_rule.forced)}", tone(False)))
+    if plan.heights is not None and plan.heights.strip is not None:
+        kept = plan.heights.hold
+        found.append(card("heights a ≤ x ≤ b", "kept on all curves" if kept else "not kept on all curves", tone(kept)))
     found.append(card("certified", "yes" if plan.certified else "not everything", tone(plan.certified)))
     found.append(card("computed in", f"{sum(plan.seconds.values()):.2f} s"))
     return found

@@ -10,7 +10,7 @@ from experiments.problem import ROOT, Problem
 from experiments.suites import paper, scaling
 from qe.errors import InputError
 
-CORPUS = ROOT / "tests" / "corpus"
+CORPUS = ROOT / "experiments" / "corpus"
 MIDDLE_SIZES = ("degree-8", "via-6", "balls-2d-6", "balls-3d-6", "bits-64", "tower-3")
 LITERATURE = ROOT.parent / "shared" / "corpora"
 

@@ -29,7 +29,7 @@ TILTED: tuple[Points, Points] = (
     place="Section 4.2, after (7)",
     title="The conditions on $Q_1$",
     says="After solving (7), conditions on $Q_1$ and $Q_2$ are obtained (they are not, in the paper).",
-    verdict=Verdict.DIFFERS,
+    verdict=Verdict.SOLVED,
     finding="They are obtained. For both points together they are six balls. For $Q_1$ alone, with $Q_2$ eliminated, "
     "the answer has degree up to 6 and several branches; its region has an exact cylindrical description.",
 )

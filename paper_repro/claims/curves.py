@@ -7,6 +7,8 @@ from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from typing import Any
 
+import sympy
+
 import qe
 from bezier.curves.curve import Bezier
 from paper_repro.ask import decided, eliminated
@@ -34,6 +36,28 @@ def end_points() -> Iterator[Evidence]:
         points = names("p", n)
         at = f"{curve(points, '0')} = p0 and {curve(points, '1')} = p{n}"
         yield decided(f"$P(0) = P_0$ and $P(1) = P_{n}$ for $n = {n}$", f"all {', '.join(points)}. {at}")
+
+
+@claim(
+    key="misprint-degree",
+    place="Section 3, Definition 1 (misprint)",
+    title="The $N$-degree curve",
+    says="With control points $P_0, \\dots, P_n$ the curve is called an $N$-degree Bézier curve.",
+    verdict=Verdict.CORRECTED,
+    finding="A misprint: $n$ is meant. A curve with $n + 1$ control points has degree at most $n$, and exactly $n$ "
+    "unless its last difference vanishes, as for equally spaced points.",
+)
+def degree() -> Iterator[Evidence]:
+    """The coefficient of $t^n$ is found by differentiating $n$ times, for $n = 1, \\dots, 6$; the next derivative
+    vanishes."""
+    t = sympy.Symbol("t")
+    for n in range(1, 7):
+        points = sympy.symbols(f"p0:{n + 1}")
+        drawn = sum(sympy.binomial(n, i) * t**i * (1 - t) ** (n - i) * p for i, p in enumerate(points))
+        top = sympy.expand(sympy.diff(drawn, t, n))
+        difference = sum((-1) ** (n - i) * sympy.binomial(n, i) * p for i, p in enumerate(points))
+        holds = sympy.expand(top - sympy.factorial(n) * difference) == 0 and sympy.diff(top, t) == 0
+        yield Fact(f"$n = {n}$: the coefficient of $t^{n}$ is the last difference, and there is no higher power", holds)
 
 
 @claim(
@@ -105,6 +129,33 @@ def de_casteljau() -> Iterator[Evidence]:
 
 
 @claim(
+    key="misprint-locus",
+    place="Section 3, construction (misprint)",
+    title="The locus of is $Q_0^{(n)}$",
+    says="After $n$ steps, “the locus of is $Q_0^{(n)}$” for $0 \\le t \\le 1$ constructs the curve.",
+    verdict=Verdict.CORRECTED,
+    finding="A misprint: the locus of $Q_0^{(n)}$ is the curve.",
+    rests_on=("de-casteljau",),
+)
+def locus() -> Iterator[Evidence]:
+    """Follows from the entry on the construction, where the last point is found to be $P(t)$ for all $t$."""
+    yield from ()
+
+
+@claim(
+    key="misprint-unisurf",
+    place="Section 3, first sentence; reference [15] (misprint)",
+    title="The UNIURF CAD system",
+    says="Bézier's book of 1986 is cited as “The Mathematical Basis of the UNIURF CAD System”.",
+    verdict=Verdict.NOT_TESTABLE,
+    finding="A misprint in the list of references: the system and the book are called UNISURF.",
+)
+def unisurf() -> Iterator[Evidence]:
+    """Nothing to compute."""
+    yield from ()
+
+
+@claim(
     key="convex-hull",
     place="Section 3, last paragraph",
     title="The convex hull property",
@@ -163,4 +214,4 @@ def polyhedron_test() -> Iterator[Evidence]:
     yield Picture("A curve in the unit disc with a control point outside.", loose_hull(Bezier.of(points), 1.0))
 
 
-CLAIMS = (end_points, inner_points, de_casteljau, convex_hull, polyhedron_test)
+CLAIMS = (end_points, degree, inner_points, de_casteljau, locus, unisurf, convex_hull, polyhedron_test)

@@ -2,11 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from fractions import Fraction
+from typing import Any
 
+import qe
+from bezier.curves.curve import Bezier
+from bezier.curves.workspace import Workspace, WorkspaceKind
+from bezier.heights import Below, heights_of
+from bezier.path import assemble
+from bezier.problem import PlanMethod, Problem
 from paper_repro.ask import decided, optimised
-from paper_repro.claim import Evidence, Fact, Verdict, claim
+from paper_repro.claim import Evidence, Fact, Table, Verdict, claim
 from paper_repro.written import EIGHT, SEVEN, Points, curve, names
 
 GIVEN: Points = {"q0": (-1, 3, 3), "r0": (1, 3, 3)}
@@ -81,4 +88,64 @@ def method_2_height() -> Iterator[Evidence]:
     )
 
 
-CLAIMS = (equal_heights, method_2_height)
+OUTER: Points = {
+    "q0": (-1, Fraction(7, 10), Fraction(7, 10)),
+    "r0": (1, Fraction(7, 10), Fraction(7, 10)),
+}
+START = (Fraction(-21, 20), 0, Fraction(1, 10))
+
+
+@claim(
+    key="method-2-outer",
+    place="Section 4.2, after (5) (not in the paper)",
+    title="The outer curves keep away from the obstacle",
+    says="$P(t)$ leads from the start to the interval of $x$ that holds the obstacle, $Q(t)$ avoids it, $R(t)$ leads "
+    "on to the end. Heights are asked of $Q(t)$ only.",
+    verdict=Verdict.DIFFERS,
+    finding="$P(t)$ and $R(t)$ may come back into the interval below the heights. For $Q_0 = (-1, 7/10, 7/10)$, "
+    "$R_0 = (1, 7/10, 7/10)$, start $(-21/20, 0, 1/10)$ and $r = 3/2$ the best choice under (7) in the hemisphere "
+    "does: $P(t)$ has $x > -1$ for $t$ from 0.102 to 0.287, at heights down to 0.086. The condition has to hold for "
+    "all three curves; `bezier plan` decides it in every plan.",
+)
+def method_2_outer() -> Iterator[Evidence]:
+    """The optimum of (7) with $z \\ge 0$ is computed exactly; its coordinates lie in one number field. The engine,
+    given the polynomial of the field's generator $w$, looks for a $t$ at which $P(t)$ is inside the interval and low.
+    The stretches below the heights are then isolated."""
+    found = qe.minimize(SEVEN.objective("xyz", OUTER), SEVEN.substituted("xyz", OUTER, "9/4", above=True))
+    yield Fact("the optimum is found, certificate accepted", found.is_optimal and qe.verify(found.certificate).accepted)
+    q1, q2 = ([found.point[f"{p}{axis}"] for axis in "xyz"] for p in SEVEN.chosen)
+    p1 = [4 * q - 4 * a + b for q, a, b in zip(OUTER["q0"], q1, q2)]
+    p2 = [2 * q - a for q, a in zip(OUTER["q0"], q1)]
+    low, high = q1[0].field.theta.interval(20)
+    powers = enumerate(q1[0].field.minimal_polynomial)
+    field = " + ".join(f"({c})*w^{k}" for k, c in powers) + f" = 0 and {low} < w and w < {high}"
+    x, z = (curve([START[k], _in_w(p1[k]), _in_w(p2[k]), OUTER["q0"][k]]) for k in (0, 2))
+    inside = f"0 < t and t < 1 and {x} > -1 and {x} < 1"
+    yield decided("$P(t)$ is below the height 7/10 somewhere inside", f"ex w, t. {field} and {inside} and {z} < 7/10")
+    yield decided("and below 9/100", f"ex w, t. {field} and {inside} and {z} < 9/100")
+    problem = Problem(
+        PlanMethod.CUBIC,
+        Workspace(WorkspaceKind.HEMISPHERE, Fraction(9, 4)),
+        START,
+        (tuple(OUTER["q0"]), tuple(OUTER["r0"])),
+        (-START[0], *START[1:]),
+        False,
+    )
+    drawn = Bezier.of((START, p1, p2, OUTER["q0"]))
+    below = heights_of(problem, assemble({"P": drawn}, {}, problem.workspace)).below
+    ends = [(item.axis, *(f"{float(side.t[0]):.6f}" for side in (item.begin, item.end))) for item in below]
+    yield Table(("height in", "below from t", "to t"), ends)
+    yield Fact("both heights are violated on one stretch of $P(t)$, between its two passages of $x = -1$", _same(below))
+
+
+def _in_w(value: Any) -> str:
+    """An element of a number field as a polynomial in its generator."""
+    return " + ".join(f"({c})*w^{k}" for k, c in enumerate(value.coefficients))
+
+
+def _same(below: Sequence[Below]) -> bool:
+    crossed = all(side.at == "x = -1" for item in below for side in (item.begin, item.end))
+    return crossed and [item.axis for item in below] == ["y", "z"]
+
+
+CLAIMS = (equal_heights, method_2_height, method_2_outer)

@@ -59,6 +59,37 @@ def dips() -> Iterator[Evidence]:
     )
 
 
+HIGH, FLAT = Fraction(11305, 3492), Fraction(1517, 3510)
+BULGY = (0, HIGH, 0, 1, 0, HIGH, 0)
+LEVEL = (0, Fraction(7, 4), FLAT, Fraction(3, 2), FLAT, Fraction(7, 4), 0)
+"""Tuples that satisfy (4): the least sum, 1, and a greater one, 3/2."""
+
+
+@claim(
+    key="eq-4-bulge",
+    place="Section 4.1, after (4)",
+    title="The smallest sum minimises the bulge",
+    says="The tuple with the smallest sum is selected in order to minimise the bulge of the curve in the positive "
+    "direction of $y$.",
+    verdict=Verdict.DIFFERS,
+    finding="The sum runs over the control points between $a$ and $b$ only, and the bulge may be elsewhere. An optimal "
+    "tuple (sum 1) rises to 1.36, another tuple with the greater sum 3/2 nowhere above 1.001. Method 1 here breaks "
+    "ties by the smallest largest coordinate, which is a choice too; to minimise the bulge itself, ask for "
+    "$P_y(t) \\le m$ for all $t$.",
+)
+def bulge() -> Iterator[Evidence]:
+    """The instance is that of the entry on (4), with $h_y = 1$ and least sum $y_3 = 1$. Two tuples are put into (4),
+    and the largest heights of their curves are decided over all $t$."""
+    for name, values in (("sum 1", BULGY), ("sum 3/2", LEVEL)):
+        yield decided(f"{name}: the tuple satisfies (4)", four([f"({v})" for v in values], "1"))
+    yield Table(("", *Y), [(name, *map(str, row)) for name, row in (("sum 1", BULGY), ("sum 3/2", LEVEL))])
+    yield decided("with the least sum the curve rises above 27/20", f"ex t. 0 < t and t < 1 and {curve(BULGY)} > 27/20")
+    yield decided(
+        "with the greater sum it stays below 1001/1000",
+        f"all t. 0 <= t and t <= 1 -> {curve(LEVEL)} < 1001/1000",
+    )
+
+
 @claim(
     key="method-1-leaves",
     place="Section 4.1, last paragraph",
@@ -124,4 +155,4 @@ def closed() -> Iterator[Evidence]:
     yield Fact("it keeps the heights for all $t$ in $[t_a, t_b]$", not single.dips(task, found.curve))
 
 
-CLAIMS = (dips, leaves, closed)
+CLAIMS = (dips, bulge, leaves, closed)

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from qe.errors import Unable
 from qe.exact.quadratic_form import Definiteness, definiteness, quadratic
 from qe.formula.syntax import And, Atom, Formula, Relation
 from qe.formula.traverse import free_variables, polynomials
@@ -37,15 +36,10 @@ def allows(options: Options, method: Method) -> bool:
 
 
 def planned(variables: Sequence[str], body: Formula, options: Options) -> Choice:
-    """The order of methods for ``exists variables. body``: the one asked for, or that of ``choose``.
-
-    Raises ``Unable`` for a method that eliminates no block.
-    """
+    """The order of methods for ``exists variables. body``: the one asked for, or that of ``choose``."""
     asked = options.method
     if asked is Method.AUTO:
         return choose(variables, body) if allows(options, Method.VS) else Choice((Method.CAD,), "asked for")
-    if asked is Method.CGS:
-        raise Unable(f"the method {asked.value} is not available for this formula")
     return Choice((asked,), "asked for")
 
 

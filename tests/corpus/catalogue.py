@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import tomllib
 from dataclasses import dataclass
-from pathlib import Path
 
-FOLDER = Path(__file__).resolve().parent
+from experiments.suites.corpus import CORPUS
+
 KEYS = {"id", "citation", "formula", "expected", "tags", "why"}
 
 
 @dataclass(frozen=True, slots=True)
 class Problem:
-    """One record; the keys are explained in README.md."""
+    """One record; the keys are explained in experiments/corpus/README.md."""
 
     id: str
     citation: str
@@ -26,7 +26,7 @@ class Problem:
 def records() -> list[tuple[str, dict[str, object]]]:
     """(file name, raw record) of every problem."""
     found = []
-    for path in sorted(FOLDER.glob("*.toml")):
+    for path in sorted(CORPUS.glob("*.toml")):
         found += [(path.name, record) for record in tomllib.loads(path.read_text())["problem"]]
     return found
 

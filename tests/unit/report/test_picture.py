@@ -8,7 +8,7 @@ import pytest
 
 import qe
 from qe.errors import InputError
-from qe.report.picture import _ends
+from qe.report.ends import ends
 
 
 @pytest.mark.parametrize(
@@ -48,7 +48,7 @@ def test_ends_are_followed() -> None:
     """On the circle x^2 + y^2 = 4 the ends over x are -sqrt(4 - x^2) and sqrt(4 - x^2)."""
     (piece,) = qe.region("x^2 + y^2 <= 4", order=("x", "y")).cells
     for x in (-1.5, 0.0, 1.0):
-        low, high = _ends(piece, 1, {0: x}, (-9.0, 9.0))
+        low, high = ends(piece, 1, {0: x}, (-9.0, 9.0))
         assert high == pytest.approx((4 - x * x) ** 0.5)
         assert low == pytest.approx(-high)
 
@@ -59,5 +59,5 @@ def test_double_roots_count_once_over_a_single_value() -> None:
     assert len(pieces) == 2
     for piece in pieces:
         y = float(piece.sample["y"])
-        low, _ = _ends(piece, 1, {0: y}, (-9.0, 9.0))
+        low, _ = ends(piece, 1, {0: y}, (-9.0, 9.0))
         assert low == pytest.approx(2 / 3**0.5)

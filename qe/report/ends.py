@@ -1,0 +1,53 @@
+"""Ends of the ranges of a cylindrical piece as floating-point numbers, for pictures."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy
+
+from qe.solution.pieces import Piece, RootFunction
+
+Span = tuple[float, float]
+
+
+def ends(piece: Piece, i: int, values: Mapping[int, float], span: Span) -> Span:
+    """Both ends of a piece's range number ``i`` over the earlier values; ``span`` replaces missing ones."""
+    r = piece.ranges[i]
+    thin = any(earlier.is_point for earlier in piece.ranges[:i])
+    return _at(r.lower, values, span[0], thin), _at(r.upper, values, span[1], thin)
+
+
+def _at(root: RootFunction | None, values: Mapping[int, float], fallback: float, thin: bool = False) -> float:
+    """An approximate value of a root function; ``thin``: over a single value, where coinciding roots count once."""
+    if root is None:
+        return fallback
+    if root.value is not None:
+        return float(root.value)
+    level = root.poly.level
+    coefficients = [_value(c.terms(), values) for c in root.poly.coefficients(level)]
+    if len(coefficients) == 2:
+        return -coefficients[0] / coefficients[1] if coefficients[1] else fallback
+    if len(coefficients) == 3:
+        c, b, a = coefficients
+        if not a:
+            return -c / b if b else fallback
+        wide = max(b * b - 4 * a * c, 0.0) ** 0.5
+        pair = sorted(((-b - wide) / (2 * a), (-b + wide) / (2 * a)))
+        return float(pair[root.k - 1])
+    found = numpy.roots(coefficients[::-1])
+    real: list[float] = sorted(float(z.real) for z in found if abs(z.imag) < 1e-6 * max(1.0, abs(z)))
+    if thin:
+        real = [b for a, b in zip([-numpy.inf, *real], real, strict=False) if b - a > 1e-5 * max(1.0, abs(b))]
+    return real[min(root.k, len(real)) - 1] if real else fallback
+
+
+def _value(terms: list[tuple[tuple[int, ...], int]], values: Mapping[int, float]) -> float:
+    total = 0.0
+    for exponents, c in terms:
+        product = float(c)
+        for i, e in enumerate(exponents):
+            if e:
+                product *= values[i] ** e
+        total += product
+    return total
