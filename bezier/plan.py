@@ -34,6 +34,8 @@ class Outcome(Enum):
     INFEASIBLE = "infeasible"
     BLOCKED = "blocked"
     """There is a path, but an obstacle is in its way."""
+    TOO_FAST = "limits_not_kept"
+    """There is a path, but the motion asked for is not proved to keep the limits asked for."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -66,6 +68,11 @@ class Plan:
     def unit(self) -> str:
         """The unit of the objective."""
         return "mm²"
+
+    @property
+    def not_certified(self) -> tuple[str, ...]:
+        """The entries of the summary that no certificate covers and ``bezier check`` cannot find again."""
+        return ("seconds", "attempts") if len(self.attempts) > 1 else ("seconds",)
 
     @property
     def certified(self) -> bool:
@@ -119,24 +126,30 @@ def make_plan(problem: Problem, clock: Clock | None = None) -> Plan:
     try:
         plan: Plan = avoiding(problem, watch) if problem.obstacles else method_of(problem.method).make(problem, watch)
         with watch.step("quality"):
-            return _with_quality(plan)
+            return with_quality(plan)
     except BudgetExceeded as error:
         known = "; ".join(f"{name}: {value}" for name, value in watch.facts.items()) or "nothing yet"
         raise BudgetExceeded(f"{error}; known so far: {known}", limit=error.limit) from None
 
 
-def _with_quality(plan: Plan) -> Plan:
-    """The plan with lengths and curvatures; without them, and a remark, if they were not found and not asked for."""
+def with_quality(plan: Plan) -> Plan:
+    """The plan with lengths, curvatures and the motion; it is not solved when the motion does not keep its limits.
+
+    Without them, and with a remark, if they were not found and not asked for.
+    """
     from bezier.motion.motion import quality_of
 
     if plan.path is None:
         return plan
     try:
-        return replace(plan, quality=quality_of(plan.path, plan.problem.timing))
+        quality = quality_of(plan.path, plan.problem.timing)
     except Unable as error:
         if isinstance(error, BudgetExceeded) or plan.problem.timing is not None:
             raise
         return replace(plan, remarks=(*plan.remarks, f"lengths and curvatures are left out: {error}"))
+    kept = quality.motion is None or quality.motion.keeps_limits
+    solved = plan.outcome is Outcome.SOLVED
+    return replace(plan, quality=quality, outcome=Outcome.TOO_FAST if solved and not kept else plan.outcome)
 
 
 def answered(answer: Any) -> Any:

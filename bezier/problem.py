@@ -276,7 +276,8 @@ def to_json(problem: Problem) -> dict[str, Any]:
 def from_json(stored: Mapping[str, Any], source: str) -> Problem:
     """The problem that ``to_json`` wrote. Raises ``InputError`` like ``read_problem``."""
     values = {key: value for key, value in stored.items() if key != "radius_squared"}
-    return problem_of(Table({**values, "radius": f"sqrt({stored.get('radius_squared')})"}, source))
+    squared = Table(stored, source).positive("radius_squared")
+    return problem_of(Table({**values, "radius": f"sqrt({squared})"}, source))
 
 
 def _texts(point: Vector) -> list[str]:
