@@ -37,6 +37,7 @@ ROUNDING = Fraction(1, 10**6)
 
 def recheck(channel: Channel, folder: FilePath) -> list[str]:
     """Lines saying what was checked. Raises ``CertificateRejected`` naming the first entry that is wrong."""
+    _check_presence(folder)
     certificate = _certificate(folder)
     stated = _stated(folder)
     channel.event(Event("certificates", 0, None))
@@ -74,14 +75,27 @@ def _data(value: Any) -> Any:
 # --- reading -------------------------------------------------------------------------------------------------------
 
 
+def _check_presence(folder: FilePath) -> None:
+    """Whether this is a folder of ``bezier plan`` with the files that all plans have.
+
+    Raises ``InputError`` for a folder without any of them.
+    """
+    needed = (CERTIFICATE, SUMMARY, PROBLEM)
+    missing = [name for name in needed if not (folder / name).exists()]
+    if len(missing) == len(needed):
+        raise InputError(f"{folder}: expected a folder of bezier plan, with {CERTIFICATE} and {SUMMARY}")
+    if missing:
+        raise CertificateRejected(missing[0], "missing")
+
+
 def _certificate(folder: FilePath) -> Certificate:
+    text = stored.text(folder / CERTIFICATE)
     try:
-        return Certificate.from_json(stored.text(folder / CERTIFICATE))
+        return Certificate.from_json(text)
     except CertificateRejected as error:
         raise CertificateRejected(f"{CERTIFICATE}: {error.step}", error.reason) from None
     except InputError as error:
-        text = str(error)
-        raise InputError(text if CERTIFICATE in text else f"{folder / CERTIFICATE}: {text}") from None
+        raise CertificateRejected(CERTIFICATE, str(error)) from None
 
 
 def _stated(folder: FilePath) -> Stated:

@@ -1,7 +1,7 @@
 """Reading back what ``bezier plan`` wrote: files, exact numbers, members of certificates, and whom they speak about.
 
 Everything raises ``CertificateRejected`` naming the entry that is wrong, or ``InputError`` for files that cannot be
-read as what they should be.
+opened.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ def text(path: FilePath) -> str:
     except OSError as error:
         raise InputError(f"{path}: expected a readable file, found: {error.strerror or error}") from None
     except UnicodeDecodeError:
-        raise InputError(f"{path}: expected UTF-8 text") from None
+        raise CertificateRejected(path.name, "expected UTF-8 text") from None
 
 
 def table(path: FilePath) -> dict[str, Any]:
@@ -53,9 +53,9 @@ def table(path: FilePath) -> dict[str, Any]:
     try:
         found = parsed(text(path))
     except (ValueError, RecursionError) as error:
-        raise InputError(f"{path}: expected JSON, found: {error}") from None
+        raise CertificateRejected(path.name, f"expected JSON, found: {error}") from None
     if not isinstance(found, dict):
-        raise InputError(f"{path}: expected a JSON object")
+        raise CertificateRejected(path.name, "expected a JSON object")
     return found
 
 

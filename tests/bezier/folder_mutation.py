@@ -8,8 +8,9 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -67,11 +68,11 @@ def rejection(folder: Path) -> str | None:
 
 @dataclass(frozen=True)
 class Alteration:
-    """``place``: of the entry in ``file``; ``text``: of the whole altered file; ``names``: one that a refusal says."""
+    """``place``: of the entry in ``file``; ``write``: the whole altered file; ``names``: one that a refusal says."""
 
     file: str
     place: str
-    text: str
+    write: Callable[[], str]
     names: tuple[str, ...]
 
     def is_named_in(self, message: str) -> bool:
@@ -116,32 +117,41 @@ def _elements(node: Any, path: tuple[str | int, ...] = ()) -> Iterator[tuple[str
 
 
 def _changed(name: str, whole: Any, path: tuple[str | int, ...], value: Any, *, drop: bool) -> Alteration:
-    """The altered file; ``whole`` is as before afterwards."""
+    place = "".join(f"[{key}]" if isinstance(key, int) else f".{key}" for key in path).removeprefix(".")
+    names = ("certificate.json",) if name == "certificate.json" else tuple(str(k) for k in path if isinstance(k, str))
+    return Alteration(
+        name, ("without " if drop else "") + place, lambda: _written(whole, path, value, drop=drop), names
+    )
+
+
+def _written(whole: Any, path: tuple[str | int, ...], value: Any, *, drop: bool) -> str:
+    """The text with one entry altered or dropped; ``whole`` is as before afterwards."""
     node = whole
     for key in path[:-1]:
         node = node[key]
-    last = path[-1]
     kept = dict(node) if isinstance(node, dict) else list(node)
     if drop:
-        del node[last]
+        del node[path[-1]]
     else:
-        node[last] = value
+        node[path[-1]] = value
     text = json.dumps(whole, ensure_ascii=False)
     node.clear()
     node.update(kept) if isinstance(node, dict) else node.extend(kept)
-    place = "".join(f"[{key}]" if isinstance(key, int) else f".{key}" for key in path).removeprefix(".")
-    names = ("certificate.json",) if name == "certificate.json" else tuple(str(k) for k in path if isinstance(k, str))
-    return Alteration(name, ("without " if drop else "") + place, text, names)
+    return text
 
 
 def _of_rows(name: str, text: str) -> Iterator[Alteration]:
     lines = text.split("\n")
     for i, line in enumerate(lines[:-1]):
-        yield Alteration(name, f"without line {i + 1}", "\n".join(lines[:i] + lines[i + 1 :]), ("line",))
+        yield Alteration(name, f"without line {i + 1}", partial(_joined, lines, i, []), ("line",))
         cells = line.split(",")
         for k, cell in enumerate(cells):
             changed = ",".join([*cells[:k], other(cell), *cells[k + 1 :]])
-            yield Alteration(name, f"line {i + 1}, {k}", "\n".join([*lines[:i], changed, *lines[i + 1 :]]), ("line",))
+            yield Alteration(name, f"line {i + 1}, {k}", partial(_joined, lines, i, [changed]), ("line",))
+
+
+def _joined(lines: list[str], i: int, instead: list[str]) -> str:
+    return "\n".join([*lines[:i], *instead, *lines[i + 1 :]])
 
 
 # --- asking --------------------------------------------------------------------------------------------------------
@@ -197,7 +207,7 @@ def refused(folder: Path, alteration: Alteration) -> str | None:
     """The refusal of the folder with this alteration, None when it is accepted; the folder is as before afterwards."""
     file = folder / alteration.file
     before = file.read_bytes()
-    file.write_text(alteration.text, encoding="utf-8")
+    file.write_text(alteration.write(), encoding="utf-8")
     try:
         return rejection(folder)
     finally:

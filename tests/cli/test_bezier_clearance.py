@@ -51,7 +51,7 @@ def test_a_planned_folder_and_other_obstacles(root: Path, tmp_path: Path) -> Non
     found = json.loads((out / "path.json").read_text())
     found["problem"]["obstacle"][0]["high"] = [1, 3, 3]
     (out / "path.json").write_text(json.dumps(found))
-    refused(run("check", out), 4, "different problems")
+    refused(run("check", out), 4, "path.json: problem.obstacle[0].high[2]")
 
 
 def test_bad_input_is_one_line(root: Path, tmp_path: Path) -> None:
