@@ -205,6 +205,21 @@ def test_a_time_limit_leaves_nothing_half_written(root: Path, tmp_path: Path) ->
     assert list(tmp_path.iterdir()) == []
 
 
+def test_a_check_holds_its_time_limit(main_example: Path) -> None:
+    refused(run("check", main_example, "--timeout", "0.01"), 3, "time limit of 0.01 s reached")
+    refused(run("check", main_example, "--timeout", "0"), 2, "--timeout")
+    assert run("check", main_example, "--timeout", "100").returncode == 0
+
+
+def test_a_second_plan_leaves_nothing_of_the_first(root: Path, tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    for name, code in (("three_balls", 0), ("single_dip", 3)):
+        process = run("plan", root / "examples" / f"{name}.toml", "--out", out, "--no-plots")
+        assert process.returncode == code, process.stderr
+    assert {p.name for p in out.iterdir()} == {"certificate.json", "problem.json", "report.html", "summary.json"}
+    assert run("check", out).returncode == 0
+
+
 def test_help_names_the_commands() -> None:
     text = run("--help").stdout
     assert all(command in text for command in ("plan", "check", "compare"))
