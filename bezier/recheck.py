@@ -20,7 +20,7 @@ from bezier import stored
 from bezier.agreement import same_data, same_rows
 from bezier.methods import method_of
 from bezier.obstacles import avoid, survey
-from bezier.outputs import DATA, LISTED_IN, PICTURES, PROBLEM, REPORT, SUMMARY, data_texts, facts
+from bezier.outputs import COMPARISON, DATA, LISTED_IN, PICTURES, PROBLEM, REPORT, SUMMARY, data_texts, facts
 from bezier.plan import Outcome, Plan, with_quality
 from bezier.problem import Problem, to_json
 from bezier.stored import Stated
@@ -83,6 +83,10 @@ def _check_presence(folder: FilePath) -> None:
     needed = (CERTIFICATE, SUMMARY, PROBLEM)
     missing = [name for name in needed if not (folder / name).exists()]
     if len(missing) == len(needed):
+        if (folder / COMPARISON).exists():
+            raise InputError(
+                f"{folder}: expected a folder of bezier plan, found a comparison, which has no certificates"
+            )
         raise InputError(f"{folder}: expected a folder of bezier plan, with {CERTIFICATE} and {SUMMARY}")
     if missing:
         raise CertificateRejected(missing[0], "missing")

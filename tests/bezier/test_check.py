@@ -9,9 +9,12 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 import qe
 from bezier.single import closed, program, simplex
+from qe.errors import InputError, Unable
 from qe.evidence.certificate import digest
 from tests.bezier.folder_mutation import EXAMPLES, Memory, alterations, not_certified, planned, refused, rejection
 
@@ -279,3 +282,77 @@ def test_a_summary_that_states_more_or_less_is_refused(copied, monkeypatch):
         (folder / "summary.json").write_text(json.dumps(altered))
         message = rejection(folder)
         assert message is not None and "summary.json" in message and place in message
+
+
+# --- any problem ---------------------------------------------------------------------------------------------------
+
+
+def plan_texts() -> Any:
+    """Strategy: problems of all methods, some without solution, with obstacles in the way, or with too short a time."""
+    small, half = st.integers(-3, 3), st.integers(-4, 4)
+    point = st.tuples(small, small, st.integers(0, 3)).map(list)
+    free = st.builds(
+        lambda method, kind, points, radius: (
+            f'method = "{method}"\nworkspace = "{kind}"\nstart = {points[0]}\nvia = [{points[1]}, {points[2]}]\n'
+            f'goal = {points[3]}\nradius = "{radius}"\n'
+        ),
+        st.sampled_from(["quadratic", "cubic"]),
+        st.sampled_from(["ball", "hemisphere"]),
+        st.lists(point, min_size=4, max_size=4, unique_by=tuple),
+        st.sampled_from(["auto", "6", "sqrt(40)"]),
+    )
+    one = st.builds(
+        'method = "single"\nstart = [-5, {}, 0]\ngoal = [5, {}, 1]\nradius = {}\n[single]\ndegree = {}\na = -1\nb = 2\n'
+        "height_y = {}\n".format,
+        st.integers(-1, 1),
+        st.integers(-1, 3),
+        st.sampled_from([6, 30]),
+        st.integers(4, 6),
+        st.integers(1, 4),
+    )
+    timing = st.sampled_from(["", '[timing]\nlaw = "cubic"\nduration = 3\nmax_speed = 2\n'])
+    ball = st.builds(
+        '[[obstacle]]\nkind = "ball"\ncentre = [{}, {}, 1]\nradius = "{}/4"\n'.format, half, half, st.integers(1, 4)
+    )
+    room = st.builds(
+        '[[half_space]]\nnormal = [0, 0, {}]\noffset = "{}/2"\npoints = ["Q1"]\n'.format, st.sampled_from([1, -1]), half
+    )
+    more = st.tuples(timing, st.one_of(st.just(""), ball))
+    return st.builds(
+        lambda text, extra, rooms: text + "".join([*extra, *(rooms if "via" in text else [])]),
+        st.one_of(free, one),
+        more,
+        st.lists(room, max_size=2),
+    )
+
+
+def check_any(text: str, folder: Path) -> bool:
+    """Whether a plan was made, whose folder is then accepted."""
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir()
+    (folder / "p.toml").write_text(text)
+    try:
+        planned(folder / "p.toml", folder / "out")
+    except (InputError, Unable):
+        return False
+    assert rejection(folder / "out") is None
+    return True
+
+
+@settings(max_examples=6)
+@given(st.data())
+def test_any_plan_is_found_again(tmp_path_factory, data):
+    check_any(data.draw(plan_texts()), tmp_path_factory.getbasetemp() / "any")
+
+
+@pytest.mark.deep
+def test_many_plans_are_found_again(tmp_path):
+    made = []
+
+    @settings(max_examples=150)
+    @given(plan_texts())
+    def one(text: str) -> None:
+        made.append(check_any(text, tmp_path / "any"))
+
+    one()
+    assert sum(made) >= len(made) // 4
