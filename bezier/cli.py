@@ -59,11 +59,16 @@ def plan(
 
 
 @app.command()
-def check(folder: Annotated[Path, typer.Argument(metavar="DIR", show_default=False)]) -> int:
-    """Verify the certificates in a folder written by plan, and prove its path again."""
+def check(
+    folder: Annotated[Path, typer.Argument(metavar="DIR", show_default=False)],
+    timeout: Timeout = None,
+    memory: Memory = None,
+) -> int:
+    """Verify the certificates in a folder written by plan, prove its path again, and compare every entry."""
     from bezier.recheck import recheck
 
-    for line in limited(partial(recheck, folder=folder), timeout=None, memory=None, plain=True):
+    check_limits(timeout, memory)
+    for line in limited(partial(recheck, folder=folder), timeout=timeout, memory=memory, plain=False):
         print(line)
     return OK
 

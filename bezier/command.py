@@ -13,7 +13,7 @@ from bezier.curves.scalar import brief
 from bezier.methods import method_of
 from bezier.motion import motion
 from bezier.obstacles import avoid
-from bezier.outputs import summary, write_data
+from bezier.outputs import REPORT, SUMMARY, summary, write_data
 from bezier.plan import Clock, Outcome, Plan, make_plan
 from bezier.problem import Problem
 from qe.cli_shell import OK, UNABLE
@@ -22,7 +22,7 @@ from qe.worker import Channel
 if TYPE_CHECKING:
     from bezier.pictures.picture import Drawing
 
-REPORT, SUMMARY, CLEARANCE = "report.html", "summary.json", "clearance.png"
+CLEARANCE = "clearance.png"
 
 
 @dataclass(frozen=True, slots=True)

@@ -112,11 +112,19 @@ class System:
     def formula(self) -> str:
         """The problem's formula: joins and conditions, the dependent points quantified."""
         atoms = [atom_text(item.condition, coordinates(item.point)) for item in self.conditions]
-        return self.shape.closed([*self.shape.equations(self._text), *atoms])
+        return self.shape.closed([*self.equations(), *atoms])
 
     def conditions_text(self) -> str:
         """The conditions with the dependent points put in terms of the free ones."""
         return " and ".join(atom_text(item.condition, self._in_free(item.point)) for item in self.conditions)
+
+    def equations(self) -> list[str]:
+        """The joins, one equation for each coordinate of each dependent point, in the order of ``Shape.quantified``."""
+        return self.shape.equations(self._text)
+
+    def coordinate_text(self, point: str, i: int) -> str:
+        """Coordinate ``i`` of an inner control point in the free coordinates."""
+        return self._in_free(point)[i]
 
     def objective(self) -> str:
         """The paper's objective as text in the free coordinates."""

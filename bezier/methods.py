@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path as FilePath
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
-from bezier.curves.curve import Smoothness
-from bezier.curves.scalar import Vector
 from bezier.plan import Clock, Plan
 from bezier.problem import PlanMethod, Problem
+from bezier.stored import Stated
 from qe.evidence.certificate import Certificate
 
 if TYPE_CHECKING:
@@ -21,14 +20,14 @@ Section = dict[str, Any]
 
 
 @dataclass(frozen=True, slots=True)
-class Claim:
-    """What certificates show about a problem: the control points (None: there are none), how smooth the joins must be,
-    the names of the curves, and a line for people about each thing that was checked."""
+class Restored(Generic[P]):
+    """A plan found again from a folder, before obstacles and quality, and a line about each thing that was checked.
 
+    ``plan``: its certificate is the one that the folder has to have; what only planning needs is left out.
+    """
+
+    plan: P
     lines: tuple[str, ...]
-    points: Mapping[str, Vector] | None
-    smoothness: Smoothness
-    curves: tuple[str, ...] = ("P", "Q", "R")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -38,8 +37,9 @@ class Method(Generic[P]):
     ``make``: the plan. ``reason``: why there is no path, in one sentence. ``words``: its lines in the summary for
     people. ``entries``: its further entries in the summary as JSON. ``files``: its further data files, by name.
     ``draw``: writes the pictures into a folder. ``hats``: whether the paper writes its points with hats. ``template``
-    and ``sections``: its page, and the values that the page shows beyond those of every method. ``claim``: what the
-    certificates in a folder show, or ``CertificateRejected``.
+    and ``sections``: its page, and the values that the page shows beyond those of every method. ``restore``: the plan
+    that the certificates in a folder prove, without any search; ``CertificateRejected`` where they are not about the
+    problem.
     """
 
     make: Callable[[Problem, Clock], P]
@@ -51,7 +51,7 @@ class Method(Generic[P]):
     hats: bool
     template: str
     sections: Callable[[P], Section]
-    claim: Callable[[Problem, Certificate], Claim]
+    restore: Callable[[Problem, Certificate, Stated], Restored[P]]
 
 
 def method_of(choice: PlanMethod) -> Method[Any]:

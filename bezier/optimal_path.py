@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
@@ -14,8 +15,16 @@ from bezier.curves.scalar import Vector
 from bezier.path import Path, Proof, assemble, prove
 from bezier.plan import Clock, answered
 from bezier.problem import Problem
-from qe.errors import InternalError
-from qe.formula.syntax import FALSE
+from bezier.stored import check_optimum_of, member, numbers, optimal_points
+from qe.errors import CertificateRejected, InternalError
+from qe.evidence.certificate import Kind
+from qe.exact.ring import Ring
+from qe.formula.build import convert
+from qe.formula.syntax import FALSE, Atom, Exists, Formula
+from qe.io.formats import read
+
+ELIMINATION, OPTIMUM = "elimination", "optimum"
+"""The labels of the certificates that every method with a system of control points has."""
 
 
 def quantifier_free(text: str, clock: Clock) -> Any:
@@ -33,19 +42,48 @@ def least(system: System, answer: Any, clock: Clock) -> Any:
     return qe.minimize(system.objective(), conditions, timeout=clock.remaining())
 
 
-def chosen_path(problem: Problem, system: System, optimum: Any) -> tuple[Path | None, tuple[str, ...]]:
-    """The path through the optimum with the labels of the active conditions; (None, ()) when there is no optimum.
+@dataclass(frozen=True, slots=True)
+class Certified:
+    """What the certificate of an optimum shows about a system: its point and the multipliers of its constraints.
 
-    Checks exactly that the engine's point satisfies every condition.
+    ``points``: all control points, None when the conditions contradict each other.
     """
-    if not optimum.is_optimal:
-        return None, ()
-    values = iter([optimum.point[name] for name in system.shape.variables])
-    points = system.points([(next(values), next(values), next(values)) for _ in system.shape.free])
-    violated = system.violated(points)
-    if violated:
-        raise InternalError(f"the optimum violates the condition {violated[0]}")
-    return path_through(problem, system, points), system.active(points)
+
+    certificate: qe.Certificate
+    points: Mapping[str, Vector] | None
+    multipliers: Vector
+
+    @staticmethod
+    def of(system: System, certificate: qe.Certificate) -> Certified:
+        """Read the certificate. Raises ``CertificateRejected`` when its point violates a condition of the system."""
+        payload: Any = certificate.payload
+        multipliers = numbers(payload["multipliers"], payload["field"], "optimum.multipliers")
+        return Certified(certificate, optimal_points(system, payload), multipliers)
+
+
+def found_optimum(system: System, certificate: qe.Certificate) -> Certified:
+    """The optimum that planning goes on with: read from its certificate, so that checking it meets the same numbers."""
+    try:
+        return Certified.of(system, certificate)
+    except CertificateRejected as error:
+        raise InternalError(f"the certificate of the optimum says something else: {error}") from None
+
+
+def restored_optimum(system: System, certificate: qe.Certificate) -> Certified:
+    """The optimum in the certificates of a folder. Raises ``CertificateRejected`` when it is not this system's."""
+    payload = member(certificate, OPTIMUM, Kind.OPTIMUM)
+    check_optimum_of(system, payload, OPTIMUM)
+    return Certified.of(system, qe.Certificate(Kind.OPTIMUM, payload))
+
+
+def chosen_path(problem: Problem, system: System, found: Certified) -> tuple[Path | None, tuple[str, ...], Any]:
+    """The path through the optimum, the labels of the active conditions, and the value of the objective.
+
+    (None, (), None) when there is no optimum.
+    """
+    if found.points is None:
+        return None, (), None
+    return path_through(problem, system, found.points), system.active(found.points), system.objective_at(found.points)
 
 
 def path_through(problem: Problem, system: System, points: Mapping[str, Vector]) -> Path:
@@ -69,9 +107,25 @@ def _whole_curves(problem: Problem, system: System, path: Path) -> tuple[Proof, 
     return tuple(proof for proof in found if isinstance(proof.outcome, Inside))
 
 
-def eliminated(answer: Any) -> list[tuple[str, qe.Certificate]]:
-    """The certificate that the answer is equivalent to the formula as printed, where there is one."""
-    return [] if answer.certificate is None else [("elimination", answer.certificate)]
+def body_of(text: str, order: tuple[str, ...]) -> Formula:
+    """The formula behind an outermost existential block (or the whole formula), over the ring of these variables."""
+    formula = read(text)
+    return convert(formula.body if isinstance(formula, Exists) else formula, Ring.of(order))
+
+
+def elimination(system: System) -> tuple[str, qe.Certificate]:
+    """That the joins, which are linear equations, eliminate the dependent points: the printed formula is equivalent to
+    the conditions with those points put in."""
+    shape = system.shape
+    order = (*shape.variables, *shape.quantified)
+    equations = [body_of(text, order) for text in system.equations()]
+    solved = [
+        (name, equation.poly)
+        for name, equation in zip(shape.quantified, equations, strict=True)
+        if isinstance(equation, Atom)
+    ]
+    answer = body_of(system.conditions_text(), order)
+    return ELIMINATION, qe.Certificate.substitution(body_of(system.formula(), order), order, solved, answer)
 
 
 def verified(
@@ -83,3 +137,8 @@ def verified(
     if of_path:
         checks["path"] = qe.verify(qe.Certificate.bundle(of_path))
     return qe.Certificate.bundle([*members, *of_path]), checks
+
+
+def bundled(members: list[tuple[str, qe.Certificate]], path: Path | None) -> qe.Certificate:
+    """All certificates in one, those of the path included."""
+    return qe.Certificate.bundle([*members, *(path_certificates(path) if path else [])])

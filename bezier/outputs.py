@@ -1,4 +1,8 @@
-"""Files: all of them or none. They are written into a folder beside the target and moved there at the end."""
+"""Files: all of them or none. They are written into a folder beside the target and moved there at the end.
+
+What an earlier run left in the target under the same names is replaced, and what it listed as its own and this run
+does not write again is removed; other files stay.
+"""
 
 from __future__ import annotations
 
@@ -13,17 +17,28 @@ from pathlib import Path as FilePath
 from typing import Any
 
 from bezier import heights
+from bezier.curves.evidence import field_json
 from bezier.curves.scalar import decimal_text, described, rational, scale
 from bezier.methods import method_of
 from bezier.motion import motion
 from bezier.obstacles import avoid
 from bezier.path import Path
 from bezier.plan import Outcome, Plan
-from bezier.problem import to_json
+from bezier.problem import Problem, to_json
 from qe.errors import InputError
 
 SAMPLES = 51
 """Rows per curve in ``path.csv``."""
+FIELD_BITS = 64
+REPORT, SUMMARY, COMPARISON = "report.html", "summary.json", "compare.json"
+PROBLEM = "problem.json"
+DATA = ("certificate.json", PROBLEM, "path.json", "path.csv", "region.json", "motion.json", "motion.csv")
+PICTURES = ("region.png", "path.png", "motion.png", "profile.png", "clearance.png")
+LISTED_IN = {
+    SUMMARY: (*DATA, REPORT, SUMMARY, *PICTURES),
+    COMPARISON: ("compare.html", COMPARISON, "regions.png", "paths.png"),
+}
+"""All names that planning and comparing write, by the file in which a run lists those that it wrote."""
 
 
 @contextlib.contextmanager
@@ -65,14 +80,43 @@ def _move(fresh: FilePath, target: FilePath) -> None:
             target.parent.mkdir(parents=True, exist_ok=True)
             os.replace(fresh, target)
             return
+        stale = _stale(fresh, target)
         for file in sorted(fresh.iterdir()):
             os.replace(file, target / file.name)
+        for name in stale:
+            (target / name).unlink(missing_ok=True)
     except OSError as error:
         raise InputError(f"--out {target}: expected a writable folder, found: {error.strerror}") from None
 
 
+def _stale(fresh: FilePath, target: FilePath) -> list[str]:
+    """The files in ``target`` that an earlier run of the same command wrote, says so, and this one does not replace."""
+    found = []
+    for listing, names in LISTED_IN.items():
+        if (fresh / listing).is_file():
+            listed = _listed(target / listing)
+            found += [name for name in names if name in listed and not (fresh / name).exists()]
+    return found
+
+
+def _listed(listing: FilePath) -> set[str]:
+    """The names of the files that an earlier run says it wrote; none when it cannot be read."""
+    try:
+        files = json.loads(listing.read_bytes())["files"]
+        return {FilePath(file).name for file in files}
+    except (OSError, ValueError, KeyError, TypeError, RecursionError):
+        return set()
+
+
 def summary(plan: Plan, files: list[str], seconds: float) -> dict[str, Any]:
-    """The object that ``bezier plan --json`` prints."""
+    """The object that ``bezier plan --json`` prints: ``facts``, the files, and the time of each step."""
+    times = {**{name: round(s, 6) for name, s in plan.seconds.items()}, "total": round(seconds, 6)}
+    return {**facts(plan), "files": files, "seconds": times}
+
+
+def facts(plan: Plan) -> dict[str, Any]:
+    """What the summary says of a plan: all that ``bezier check`` finds again, but for what is named under
+    ``not_certified``."""
     problem, method = plan.problem, method_of(plan.problem.method)
     found: dict[str, Any] = {
         "status": plan.outcome.value,
@@ -92,12 +136,16 @@ def summary(plan: Plan, files: list[str], seconds: float) -> dict[str, Any]:
         **_decided(plan),
         "problem": to_json(problem),
         "notes": [*problem.notes, *plan.remarks],
-        "files": files,
-        "seconds": {**{name: round(s, 6) for name, s in plan.seconds.items()}, "total": round(seconds, 6)},
+        "not_certified": list(plan.not_certified),
     }
     if plan.outcome is Outcome.INFEASIBLE:
         found["reason"] = method.reason(plan)
     return found
+
+
+def problem_json(problem: Problem) -> str:
+    """``problem.json``: the problem in exact numbers; every other file has to be about it."""
+    return json.dumps(to_json(problem), indent=1, ensure_ascii=False) + "\n"
 
 
 def _decided(plan: Plan) -> dict[str, Any]:
@@ -150,11 +198,7 @@ def _field(path: Path) -> dict[str, Any] | None:
     for point in path.points.values():
         for value in point:
             if rational(value) is None and hasattr(value, "field"):
-                low, high = value.field.theta.interval(64)
-                return {
-                    "minimal_polynomial": [str(c) for c in value.field.minimal_polynomial],
-                    "interval": [str(low), str(high)],
-                }
+                return field_json(value.field.theta, FIELD_BITS)
     return None
 
 
@@ -180,13 +224,19 @@ def path_csv(path: Path) -> str:
     return "".join(rows)
 
 
-def write_data(plan: Plan, folder: FilePath) -> list[str]:
-    """The files that carry exact data; returns their names."""
-    texts = {"certificate.json": plan.certificate.to_json(), **method_of(plan.problem.method).files(plan)}
+def data_texts(plan: Plan) -> dict[str, str]:
+    """The files that carry exact data, by name."""
+    texts = {"certificate.json": plan.certificate.to_json(), PROBLEM: problem_json(plan.problem)}
+    texts |= method_of(plan.problem.method).files(plan)
     if plan.path is not None:
         texts["path.json"] = json.dumps(path_json(plan, plan.path), indent=1, ensure_ascii=False) + "\n"
         texts["path.csv"] = path_csv(plan.path)
-    texts |= motion.files(plan)
+    return {**texts, **motion.files(plan)}
+
+
+def write_data(plan: Plan, folder: FilePath) -> list[str]:
+    """Write the files that carry exact data; returns their names."""
+    texts = data_texts(plan)
     for name, text in texts.items():
         (folder / name).write_text(text, encoding="utf-8")
     return list(texts)

@@ -36,6 +36,8 @@ class Outcome(Enum):
     INFEASIBLE = "infeasible"
     BLOCKED = "blocked"
     """There is a path, but an obstacle is in its way."""
+    TOO_FAST = "limits_not_kept"
+    """There is a path, but the motion asked for is not proved to keep the limits asked for."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -71,6 +73,13 @@ class Plan:
     def unit(self) -> str:
         """The unit of the objective."""
         return "mm²"
+
+    @property
+    def not_certified(self) -> tuple[str, ...]:
+        """The entries of the summary that no certificate covers and ``bezier check`` cannot find again."""
+        found = ("seconds", "attempts") if len(self.attempts) > 1 else ("seconds",)
+        has_radius = self.radius_rule is not None and self.radius_rule.larger is not None
+        return (*found, "radius_rule.larger_radius") if has_radius else found
 
     @property
     def certified(self) -> bool:
@@ -126,7 +135,7 @@ def make_plan(problem: Problem, clock: Clock | None = None) -> Plan:
         with watch.step("radius and heights"):
             plan = _with_findings(plan, watch)
         with watch.step("quality"):
-            return _with_quality(plan)
+            return with_quality(plan)
     except BudgetExceeded as error:
         known = "; ".join(f"{name}: {value}" for name, value in watch.facts.items()) or "nothing yet"
         raise BudgetExceeded(f"{error}; known so far: {known}", limit=error.limit) from None
@@ -134,12 +143,19 @@ def make_plan(problem: Problem, clock: Clock | None = None) -> Plan:
 
 def _with_findings(plan: Plan, clock: Clock) -> Plan:
     """The plan with what the radius forces, the height condition, and a note where the path goes through the origin."""
-    from bezier import heights, origin, radius_rule
+    from bezier import radius_rule
+
+    return with_findings(plan, lambda solvable: radius_rule.radius_rule(plan.problem, solvable, clock.remaining))
+
+
+def with_findings(plan: Plan, rule: Callable[[bool], RadiusRule | None]) -> Plan:
+    """The same, with what ``rule`` says of the radius, which is asked whether the problem has a solution."""
+    from bezier import heights, origin
 
     found, remarks = plan, []
     try:
         solvable = plan.outcome is not Outcome.INFEASIBLE
-        forced = radius_rule.radius_rule(plan.problem, solvable, clock.remaining)
+        forced = rule(solvable)
         if forced is not None:
             found = replace(found, radius_rule=forced)
             remarks += [forced.in_words()] if solvable else []  # else it is part of the reason
@@ -153,18 +169,24 @@ def _with_findings(plan: Plan, clock: Clock) -> Plan:
     return replace(found, remarks=(*found.remarks, *remarks))
 
 
-def _with_quality(plan: Plan) -> Plan:
-    """The plan with lengths and curvatures; without them, and a remark, if they were not found and not asked for."""
+def with_quality(plan: Plan) -> Plan:
+    """The plan with lengths, curvatures and the motion; it is not solved when the motion does not keep its limits.
+
+    Without them, and with a remark, if they were not found and not asked for.
+    """
     from bezier.motion.motion import quality_of
 
     if plan.path is None:
         return plan
     try:
-        return replace(plan, quality=quality_of(plan.path, plan.problem.timing))
+        quality = quality_of(plan.path, plan.problem.timing)
     except Unable as error:
         if isinstance(error, BudgetExceeded) or plan.problem.timing is not None:
             raise
         return replace(plan, remarks=(*plan.remarks, f"lengths and curvatures are left out: {error}"))
+    kept = quality.motion is None or quality.motion.keeps_limits
+    solved = plan.outcome is Outcome.SOLVED
+    return replace(plan, quality=quality, outcome=Outcome.TOO_FAST if solved and not kept else plan.outcome)
 
 
 def answered(answer: Any) -> Any:

@@ -22,6 +22,8 @@ from bezier.single.reader import SingleCurve, Via, read_single, stated_via
 from qe.errors import InputError
 
 MAX_BYTES = 1_000_000
+LARGEST = Fraction(10) ** 50
+"""Of coordinates and the radius, so that decimals of lengths, their squares and cubes fit into floating point."""
 
 
 class PlanMethod(Enum):
@@ -104,6 +106,9 @@ def problem_of(table: Table) -> Problem:
     auto = raw_radius == "auto"
     points = {"start": start, "via[0]": via[0], "via[1]": via[1], "goal": goal}
     _check_distinct(table, points)
+    for name, point in points.items():
+        if any(abs(Fraction(c)) > LARGEST for c in point):  # type: ignore[arg-type]
+            raise table.error(name, "coordinates of at most 10^50", "a larger one")
     squared = max(dot(p, p) for p in points.values()) if auto else _radius(table, raw_radius)
     workspace = Workspace(kind, squared)
     _check_inside(table, points, workspace)
@@ -166,6 +171,8 @@ def _radius(table: Table, raw: object) -> Fraction:
         raise table.error("radius", expected, str(error)) from None
     if squared == 0:
         raise table.error("radius", expected, "zero")
+    if squared > LARGEST**2:
+        raise table.error("radius", "a radius of at most 10^50", "a larger one")
     return squared
 
 
@@ -276,7 +283,8 @@ def to_json(problem: Problem) -> dict[str, Any]:
 def from_json(stored: Mapping[str, Any], source: str) -> Problem:
     """The problem that ``to_json`` wrote. Raises ``InputError`` like ``read_problem``."""
     values = {key: value for key, value in stored.items() if key != "radius_squared"}
-    return problem_of(Table({**values, "radius": f"sqrt({stored.get('radius_squared')})"}, source))
+    squared = Table(stored, source).positive("radius_squared")
+    return problem_of(Table({**values, "radius": f"sqrt({squared})"}, source))
 
 
 def _texts(point: Vector) -> list[str]:

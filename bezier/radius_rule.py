@@ -116,6 +116,16 @@ def radius_rule(problem: Problem, solvable: bool, remaining: Limit = unlimited) 
     return RadiusRule(problem.method, forced, sentences, solvable, larger_radius(problem, remaining))
 
 
+def stated_rule(problem: Problem, solvable: bool, larger: Fraction | None) -> RadiusRule | None:
+    """The rule with a larger radius that a summary states; the theorem says the rest."""
+    forced = on_sphere(problem)
+    if not forced:
+        return None
+    return RadiusRule(
+        problem.method, forced, tuple(sentence(problem, via, free) for via, free in forced.items()), solvable, larger
+    )
+
+
 def larger_radius(problem: Problem, remaining: Limit = unlimited) -> Fraction | None:
     """A simple rational radius with which the best path does not stop at a via point, proved by its optimum."""
     square = problem.workspace.radius_squared

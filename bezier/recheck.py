@@ -1,165 +1,209 @@
 """``bezier check``: verify a folder that ``bezier plan`` wrote, from the exact numbers in its files.
 
-Beyond ``qe check`` on the certificates, this links the files: the certificates speak about this problem, the
-points in ``path.json`` are the certified ones, and the path is proved again from its control points.
+Beyond ``qe check`` on the certificates, this links the files. The plan is found again from the problem and the
+certificates, without any search: the certificates have to be about this problem, the path is proved again from its
+control points, and lengths, speeds, distances and the motion are computed again. Then every data file is compared,
+entry by entry, with what planning would write about that plan. What no certificate covers (``not_certified`` in the
+summary) is only read.
 """
 
 from __future__ import annotations
 
 import json
 from collections.abc import Mapping
+from dataclasses import replace
+from fractions import Fraction
 from pathlib import Path as FilePath
 from typing import Any
 
 from bezier import stored
-from bezier.curves.curve import Bezier
-from bezier.curves.scalar import Vector, same
-from bezier.methods import Claim, method_of
-from bezier.motion.motion import motion_csv, motion_json, motion_of
-from bezier.obstacles import survey
-from bezier.optimal_path import durations
-from bezier.outputs import path_csv
-from bezier.path import Path, assemble
-from bezier.plan import Outcome
-from bezier.problem import PlanMethod, Problem, from_json
+from bezier.agreement import same_data, same_rows
+from bezier.methods import method_of
+from bezier.obstacles import avoid, survey
+from bezier.outputs import COMPARISON, DATA, LISTED_IN, PICTURES, PROBLEM, REPORT, SUMMARY, data_texts, facts
+from bezier.plan import Outcome, Plan, with_findings, with_quality
+from bezier.problem import Problem, to_json
+from bezier.radius_rule import stated_rule
+from bezier.stored import Stated
 from qe.certify.verify import verify
 from qe.errors import CertificateRejected, InputError
-from qe.evidence.certificate import Certificate, Kind
+from qe.evidence.certificate import Certificate
+from qe.progress import Event
 from qe.worker import Channel
 
-TOLERANCE = 1e-9
-"""Relative difference allowed between a decimal for people and the exact number beside it."""
+CERTIFICATE, PATH = "certificate.json", "path.json"
+ROUNDING = Fraction(1, 10**6)
+"""Times are rounded to microseconds."""
 
 
 def recheck(channel: Channel, folder: FilePath) -> list[str]:
     """Lines saying what was checked. Raises ``CertificateRejected`` naming the first entry that is wrong."""
-    certificate = Certificate.from_json(stored.text(folder / "certificate.json"))
+    _check_presence(folder)
+    certificate = _certificate(folder)
+    stated = _stated(folder)
+    channel.event(Event("certificates", 0, None))
     verdict = verify(certificate)
     if not verdict.accepted:
-        raise CertificateRejected(f"certificate.json: {verdict.step}", verdict.reason)
-    summary = stored.table(folder / "summary.json")
-    stated = stored.entry(summary, "problem", dict)
-    problem = _problem(stated)
-    claim = method_of(problem.method).claim(problem, certificate)
-    if problem.method is PlanMethod.QUADRATIC:
-        _check_region(certificate, folder)
-    lines = ["certificate.json: accepted", *claim.lines]
-    if claim.points is None:
-        return [*lines, "no control point exists: the conditions contradict each other"]
-    found = stored.table(folder / "path.json")
-    if found.get("problem") != stated:
-        raise CertificateRejected("problem", "path.json and summary.json state different problems")
-    points = _points(found)
-    _check_points(points, claim.points)
-    path = assemble(_curves(found, points), points, problem.workspace, durations=durations(problem))
-    _check_path(path, found, claim)
-    _check_text(folder / "path.csv", path_csv(path))
-    _check_summary(summary, found)
-    lines += _check_clearance(path, problem, summary.get("status") == Outcome.BLOCKED.value)
-    lines += _check_motion(path, problem, folder)
-    joins = f"{path.smoothness.name} at every join, " if path.joins else ""
-    return [*lines, f"path.json: {joins}every curve proved to lie in the workspace"]
+        raise CertificateRejected(f"{CERTIFICATE}: {verdict.step}", verdict.reason)
+    problem = _problem(folder, stated)
+    channel.event(Event("plan", 0, None))
+    plan, lines = restored(problem, certificate, stated)
+    plan = replace(plan, checks={"all": verdict, **plan.checks})
+    channel.event(Event("files", 0, None))
+    _check_files(plan, folder)
+    _check_summary(plan, stated.summary, folder)
+    return [f"{CERTIFICATE}: accepted", *lines, *_told(plan)]
 
 
-def stored_path(found: Mapping[str, Any]) -> tuple[Problem, dict[str, Bezier]]:
-    """The problem and the curves in the table of a ``path.json``."""
-    return _problem(stored.entry(found, "problem", dict)), _curves(found, _points(found))
-
-
-def _problem(table: Mapping[str, Any]) -> Problem:
+def restored(problem: Problem, certificate: Certificate, stated: Stated) -> tuple[Plan, tuple[str, ...]]:
+    """The plan that the certificates and the stated path prove, and what was checked for that."""
     try:
-        return from_json(table, "problem")
+        found = method_of(problem.method).restore(problem, certificate, stated)
+    except CertificateRejected as error:
+        step = error.step if ".json" in error.step else f"{CERTIFICATE}: {error.step}"
+        raise CertificateRejected(step, error.reason) from None
+    plan: Plan = found.plan
+    if problem.obstacles:
+        plan = avoid.with_stated_attempts(avoid.examined(plan), stated.summary.get("attempts"))
+    larger = stated_radius(stated.summary)
+    plan = with_findings(plan, lambda solvable: stated_rule(problem, solvable, larger))
+    return with_quality(plan), found.lines
+
+
+def stated_radius(summary: Mapping[str, Any]) -> Fraction | None:
+    """The larger radius that a summary states, if it does; it is not certified."""
+    rule = summary.get("radius_rule")
+    text = rule.get("larger_radius") if isinstance(rule, dict) else None
+    return None if text is None else stored.rational(text, f"{SUMMARY}: radius_rule.larger_radius")
+
+
+def _data(value: Any) -> Any:
+    """What ``stored.parsed`` reads when this is written as JSON."""
+    return stored.parsed(json.dumps(value))
+
+
+# --- reading -------------------------------------------------------------------------------------------------------
+
+
+def _check_presence(folder: FilePath) -> None:
+    """Whether this is a folder of ``bezier plan`` with the files that all plans have.
+
+    Raises ``InputError`` for a folder without any of them.
+    """
+    needed = (CERTIFICATE, SUMMARY, PROBLEM)
+    missing = [name for name in needed if not (folder / name).exists()]
+    if len(missing) == len(needed):
+        if (folder / COMPARISON).exists():
+            raise InputError(
+                f"{folder}: expected a folder of bezier plan, found a comparison, which has no certificates"
+            )
+        raise InputError(f"{folder}: expected a folder of bezier plan, with {CERTIFICATE} and {SUMMARY}")
+    if missing:
+        raise CertificateRejected(missing[0], "missing")
+
+
+def _certificate(folder: FilePath) -> Certificate:
+    text = stored.text(folder / CERTIFICATE)
+    try:
+        return Certificate.from_json(text)
+    except CertificateRejected as error:
+        raise CertificateRejected(f"{CERTIFICATE}: {error.step}", error.reason) from None
     except InputError as error:
-        raise CertificateRejected("problem", str(error)) from None
+        raise CertificateRejected(CERTIFICATE, str(error)) from None
 
 
-def _points(found: Mapping[str, Any]) -> dict[str, Vector]:
-    """The control points, each coordinate with its decimal compared to the exact number."""
-    points = {}
-    for name, listed in stored.entry(found, "points", dict).items():
-        coordinates = []
-        for i, entry in enumerate(listed):
-            place = f"points.{name}[{i}]"
-            if "in_field" in entry:
-                value = stored.numbers([entry["in_field"]], stored.entry(found, "field", dict), place)[0]
-                if str(value) != entry.get("exact"):
-                    raise CertificateRejected(place, "exact text and coefficients differ")
-            else:
-                value = stored.rational(entry.get("exact"), place)
-            difference = float(value) - float(stored.rational(entry.get("decimal"), place))
-            if abs(difference) > TOLERANCE * max(1.0, abs(float(value))):
-                raise CertificateRejected(place, "decimal and exact number differ")
-            coordinates.append(value)
-        points[name] = tuple(coordinates)
-    return points
+def _stated(folder: FilePath) -> Stated:
+    path = folder / PATH
+    return Stated(stored.table(folder / SUMMARY), stored.table(path) if path.exists() else None)
 
 
-def _curves(found: Mapping[str, Any], points: Mapping[str, Vector]) -> dict[str, Bezier]:
-    try:
-        listed = stored.entry(found, "curves", dict).items()
-        return {name: Bezier.of([points[p] for p in row]) for name, row in listed}
-    except (KeyError, TypeError) as error:
-        raise CertificateRejected("curves", f"unknown control point {error}") from None
+def _problem(folder: FilePath, stated: Stated) -> Problem:
+    """The problem of ``problem.json``, which the summary repeats."""
+    table = stored.table(folder / PROBLEM)
+    problem = stored.stated_problem(table, PROBLEM)
+    same_data(PROBLEM, table, _data(to_json(problem)))
+    same_data(f"{SUMMARY} and {PROBLEM}", stated.summary.get("problem"), table, "problem")
+    return problem
 
 
-def _check_points(points: Mapping[str, Vector], certified: Mapping[str, Vector]) -> None:
-    for name, point in certified.items():
-        if name not in points or not same(points[name], point):
-            raise CertificateRejected(f"points.{name}", "not the point of the certificate")
+# --- comparing -----------------------------------------------------------------------------------------------------
 
 
-def _check_path(path: Path, found: Mapping[str, Any], claim: Claim) -> None:
-    if tuple(path.curves) != claim.curves:
-        raise CertificateRejected("curves", f"expected the curves {', '.join(claim.curves)}")
-    for proof in path.violations:
-        raise CertificateRejected(f"curves.{proof.curve}", f"leaves the {proof.condition.name}")
-    claimed = [entry.get("smoothness") for entry in stored.entry(found, "joins", list)]
-    if claimed != [item.join.smoothness.name for item in path.joins] or path.smoothness < claim.smoothness:
-        raise CertificateRejected("joins", "not as smooth as stated")
+def _check_files(plan: Plan, folder: FilePath) -> None:
+    """Every data file says what follows from the plan, and there is no data file of another plan."""
+    expected = data_texts(plan)
+    for name in DATA:
+        file = folder / name
+        if name not in expected:
+            if file.exists():
+                raise CertificateRejected(name, "this plan has no such file: it is left from another one")
+            continue
+        if not file.exists():
+            raise CertificateRejected(name, "missing")
+        if name.endswith(".json"):
+            same_data(name, stored.table(file), stored.parsed(expected[name]))
+        else:
+            same_rows(name, stored.text(file), expected[name])
 
 
-def _check_summary(summary: Mapping[str, Any], found: Mapping[str, Any]) -> None:
-    """The control points of the summary are those of ``path.json``."""
-    points = {
-        name: [{key: entry.get(key) for key in ("exact", "decimal")} for entry in listed]
-        for name, listed in found["points"].items()
-    }
-    if summary.get("points") != points:
-        raise CertificateRejected("summary.json: points", "not the points of path.json")
+def _check_summary(plan: Plan, summary: Mapping[str, Any], folder: FilePath) -> None:
+    """Every entry of the summary follows from the plan; the times cannot, but add up."""
+    expected = _data(facts(plan))
+    rest = {key: value for key, value in summary.items() if key not in ("files", "seconds")}
+    same_data(SUMMARY, rest, expected)
+    _check_listing(stored.entry(summary, "files", list, f"{SUMMARY}: "), [*data_texts(plan), REPORT, SUMMARY], folder)
+    _check_times(stored.entry(summary, "seconds", dict, f"{SUMMARY}: "))
 
 
-def _check_text(file: FilePath, expected: str) -> None:
-    """A file of numbers for machines says what follows from the exact path."""
-    if stored.text(file) != expected:
-        raise CertificateRejected(file.name, "not the numbers of this path")
+def _check_listing(files: list[Any], data: list[str], folder: FilePath) -> None:
+    """The files that planning lists: the data, the page, and perhaps pictures, all of them there, in one folder."""
+    for i, file in enumerate(files):
+        if not isinstance(file, str) or FilePath(file).parent != FilePath(files[0]).parent:
+            raise CertificateRejected(f"{SUMMARY}: files[{i}]", "expected a file in the same folder as the others")
+    names = [FilePath(file).name for file in files]
+    drawn = [name for name in names if name.endswith(".png")]
+    same_data(SUMMARY, names, sorted({*data, *drawn}), "files")
+    for name in names:
+        if not (folder / name).is_file():
+            raise CertificateRejected(f"{SUMMARY}: files", f"{name} is missing")
+    for name in LISTED_IN[SUMMARY]:
+        if name in PICTURES and name not in names and (folder / name).exists():
+            raise CertificateRejected(f"{SUMMARY}: files", f"{name} is there, but not of this plan")
 
 
-def _check_region(certificate: Certificate, folder: FilePath) -> None:
-    """``region.json`` is the region that was verified."""
-    region = Certificate.from_json(stored.text(folder / "region.json"))
-    if region.payload != stored.member(certificate, "region", Kind.CELLS):
-        raise CertificateRejected("region.json", "not the region of certificate.json")
+def _check_times(seconds: Mapping[str, Any]) -> None:
+    """Times that are not negative, the total not below the sum of the others."""
+    times = {name: _seconds(value, f"{SUMMARY}: seconds.{name}") for name, value in seconds.items()}
+    total = times.pop("total", Fraction(-1))
+    if sum(times.values()) > total + ROUNDING * len(times):
+        raise CertificateRejected(f"{SUMMARY}: seconds.total", "missing, or less than the sum of the steps")
 
 
-def _check_clearance(path: Path, problem: Problem, blocked: bool) -> list[str]:
-    """The whole path is clear of every obstacle, proved again; or it meets one, as the summary says."""
-    if not problem.obstacles:
-        return []
-    met = survey.contacts(survey.survey(path.curves, problem.obstacles, distances=False))
-    if blocked and met:
-        return [f"path.json: {survey.in_words(finding)}" for finding in met]
-    for finding in met:
-        raise CertificateRejected(f"curves.{finding.name}", survey.in_words(finding))
-    return [f"path.json: every curve proved clear of every obstacle ({len(problem.obstacles)})"]
+def _seconds(value: Any, place: str) -> Fraction:
+    text = str(value) if type(value) is int and abs(value) < 10**12 else value
+    found = stored.rational(text, place)
+    if not isinstance(value, int | str) or "/" in str(value) or found < 0:
+        raise CertificateRejected(place, "expected a number of seconds")
+    return found
 
 
-def _check_motion(path: Path, problem: Problem, folder: FilePath) -> list[str]:
-    """``motion.json`` says of the motion what follows from the path and the problem."""
-    if problem.timing is None:
-        return []
-    motion = motion_of(path, problem.timing)
-    if stored.table(folder / "motion.json") != json.loads(motion_json(motion), parse_float=str):
-        raise CertificateRejected("motion.json", "not the motion along this path")
-    _check_text(folder / "motion.csv", motion_csv(path, motion))
-    kept = [key.replace("_", " ") for key, value in motion.kept.items() if value]
-    return [f"motion.json: {' and '.join(kept) or 'no limit'} proved to be kept at all times"]
+# --- for people ----------------------------------------------------------------------------------------------------
+
+
+def _told(plan: Plan) -> list[str]:
+    """What the checks of the path showed."""
+    if plan.path is None:
+        return ["no control point exists: the conditions contradict each other"]
+    lines = []
+    if plan.outcome is Outcome.BLOCKED:
+        lines += [f"{PATH}: {survey.in_words(finding)}" for finding in survey.contacts(plan.findings)]
+    elif plan.problem.obstacles:
+        lines.append(f"{PATH}: every curve proved clear of every obstacle ({len(plan.problem.obstacles)})")
+    motion = plan.quality.motion if plan.quality is not None else None
+    if motion is not None:
+        kept = [key.replace("_", " ") for key, value in motion.kept.items() if value]
+        lines.append(f"motion.json: {' and '.join(kept) or 'no limit'} proved to be kept at all times")
+    if motion is not None and motion.reason:
+        lines.append(f"motion.json: {motion.reason}")
+    joins = f"{plan.path.smoothness.name} at every join, " if plan.path.joins else ""
+    return [*lines, f"{PATH}: {joins}every curve proved to lie in the workspace", f"{SUMMARY}: every entry but times"]

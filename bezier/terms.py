@@ -45,6 +45,11 @@ def condition_terms(system: System, item: OnPoint) -> Terms:
     raise InternalError(f"no polynomial for the condition {condition.name}")
 
 
+def coordinate_terms(system: System, point: str, i: int) -> Terms:
+    """Coordinate i of a control point as a polynomial in the free coordinates."""
+    return _total([_affine(_coordinate(system, point, i))])
+
+
 def _coordinate(system: System, point: str, i: int) -> Linear:
     """Coordinate i of a control point as a linear function of the free coordinates."""
     constant, weights = Fraction(0), list(_zeros(system))
@@ -106,10 +111,14 @@ def multiple_of(a: Terms, b: Terms) -> Fraction | None:
 
 def fixed_values(constraints: Sequence[Mapping[str, Any]]) -> dict[int, Fraction]:
     """The variables that an equation c x + d = 0 among the constraints fixes, with their values."""
+    return fixed_by((terms_of(constraint["terms"]), constraint["relation"]) for constraint in constraints)
+
+
+def fixed_by(constraints: Iterable[tuple[Terms, str]]) -> dict[int, Fraction]:
+    """``fixed_values`` for polynomials with their relations to zero."""
     found = {}
-    for constraint in constraints:
-        terms = terms_of(constraint["terms"])
-        if constraint["relation"] == "=" and all(sum(exponents) <= 1 for exponents in terms):
+    for terms, relation in constraints:
+        if relation == "=" and all(sum(exponents) <= 1 for exponents in terms):
             used = [exponents for exponents in terms if any(exponents)]
             if len(used) == 1:
                 constant = terms.get((0,) * len(used[0]), Fraction(0))

@@ -9,12 +9,13 @@ from pathlib import Path as FilePath
 from bezier.command import Reply
 from bezier.compare.comparison import Comparison, compare
 from bezier.compare.output import table, to_json
+from bezier.outputs import COMPARISON
 from bezier.plan import Clock
 from bezier.problem import Problem
 from qe.cli_shell import OK
 from qe.worker import Channel
 
-PAGE, DATA = "compare.html", "compare.json"
+PAGE, DATA = "compare.html", COMPARISON
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

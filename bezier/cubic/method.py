@@ -5,15 +5,13 @@ from __future__ import annotations
 from pathlib import Path as FilePath
 from typing import TYPE_CHECKING, Any
 
-from bezier.cubic import formula as cubic
 from bezier.cubic import plan as cubic_plan
 from bezier.cubic import report as cubic_report
 from bezier.cubic.plan import CubicPlan
-from bezier.curves.curve import Smoothness
 from bezier.curves.scalar import brief, described
-from bezier.methods import Claim, Method
+from bezier.methods import Method, Restored
 from bezier.problem import Problem
-from bezier.stored import certified_answer, certified_points
+from bezier.stored import Stated
 from bezier.terms import named_multipliers
 from qe.evidence.certificate import Certificate
 
@@ -67,15 +65,16 @@ def draw(plan: CubicPlan, folder: FilePath) -> Drawing:
     return Drawing(picture, plot.views_svg(picture), (*written, "motion.png"), plot_motion.svg(plan.path))
 
 
-def claim(problem: Problem, certificate: Certificate) -> Claim:
-    """What the certificates of a folder show about this problem."""
-    system = cubic.system(problem)
-    certified_answer(system, certificate)
-    points = certified_points(system, certificate)
-    lines = ["the answer belongs to formula (7) of this problem", "the optimum belongs to formula (7) of this problem"]
-    if problem.join_speed and points is not None:
+def restore(problem: Problem, certificate: Certificate, stated: Stated) -> Restored[CubicPlan]:
+    """The plan that the certificates of a folder prove; nothing else in the folder is needed for it."""
+    plan = cubic_plan.restore(problem, certificate)
+    lines = [
+        "the elimination belongs to formula (7) of this problem",
+        "the optimum belongs to formula (7) of this problem",
+    ]
+    if problem.join_speed and plan.path is not None:
         lines.append(f"the conditions for a speed of at least {problem.join_speed} at both joins hold")
-    return Claim(tuple(lines), points, Smoothness.C2)
+    return Restored(plan, tuple(lines))
 
 
 CUBIC: Method[CubicPlan] = Method(
@@ -88,5 +87,5 @@ CUBIC: Method[CubicPlan] = Method(
     hats=False,
     template="cubic.html.j2",
     sections=cubic_report.sections,
-    claim=claim,
+    restore=restore,
 )

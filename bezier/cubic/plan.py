@@ -9,10 +9,22 @@ from typing import Any
 from bezier.control import System
 from bezier.cubic import formula as cubic
 from bezier.curves.speed import Slowest, slowest_of
-from bezier.optimal_path import chosen_path, eliminated, least, path_through, quantifier_free, verified
+from bezier.optimal_path import (
+    OPTIMUM,
+    bundled,
+    chosen_path,
+    elimination,
+    found_optimum,
+    least,
+    path_through,
+    quantifier_free,
+    restored_optimum,
+    verified,
+)
 from bezier.path import Path
 from bezier.plan import Clock, Outcome, Plan
 from bezier.problem import Problem
+from qe.evidence.certificate import Certificate
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,18 +60,18 @@ def make(problem: Problem, clock: Clock) -> CubicPlan:
         optimum = least(system, answer, clock)
     clock.learn("optimum", optimum.status.value)
     with clock.step("curves and proofs"):
-        path, active = chosen_path(problem, system, optimum)
+        path, active, objective = chosen_path(problem, system, found_optimum(system, optimum.certificate))
     with clock.step("speed"):
         slowest = slowest_of(path) if path else {}
         trivial = _trivial(problem, system)
     with clock.step("verification"):
-        certificate, checks = verified([*eliminated(answer), ("optimum", optimum.certificate)], path)
+        certificate, checks = verified([elimination(system), (OPTIMUM, optimum.certificate)], path)
     return CubicPlan(
         problem=problem,
         outcome=Outcome.SOLVED if path else Outcome.INFEASIBLE,
         formula=text,
         answer=answer,
-        objective=optimum.value,
+        objective=objective,
         path=path,
         active=active,
         certificate=certificate,
@@ -70,6 +82,30 @@ def make(problem: Problem, clock: Clock) -> CubicPlan:
         optimum=optimum,
         slowest=slowest,
         trivial=trivial,
+    )
+
+
+def restore(problem: Problem, certificate: Certificate) -> CubicPlan:
+    """The plan that the certificates of a folder prove. Raises ``CertificateRejected``."""
+    system = cubic.system(problem)
+    optimum = restored_optimum(system, certificate)
+    path, active, objective = chosen_path(problem, system, optimum)
+    return CubicPlan(
+        problem=problem,
+        outcome=Outcome.SOLVED if path else Outcome.INFEASIBLE,
+        formula=system.formula(),
+        answer=None,
+        objective=objective,
+        path=path,
+        active=active,
+        certificate=bundled([elimination(system), (OPTIMUM, optimum.certificate)], path),
+        checks={},
+        seconds={},
+        remarks=_remarks(problem),
+        system=system,
+        optimum=optimum,
+        slowest=slowest_of(path) if path else {},
+        trivial=_trivial(problem, system),
     )
 
 

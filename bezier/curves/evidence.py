@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from fractions import Fraction
 from itertools import pairwise
+from math import floor
 from typing import Any
 
 from bezier.curves import bernstein as bs
@@ -89,8 +90,38 @@ def _field(values: Iterable[Any]) -> dict[str, Any]:
     theta = next((v.field.theta for v in values if rational(v) is None), None)
     if theta is None:
         return {"minimal_polynomial": ["0", "1"], "interval": ["0", "0"]}
-    low, high = theta.interval(96)
+    return field_json(theta, 96)
+
+
+def field_json(theta: Any, bits: int) -> dict[str, Any]:
+    """An irrational theta by its minimal polynomial and an isolating interval of at least ``bits`` good bits.
+
+    The interval depends on theta alone, not on what was computed with it before: its ends are neighbouring multiples
+    of a power of 1/2. So whoever reads theta from a file and writes it again writes the same text.
+    """
+    # narrow enough for a checker to see at once that there is one root, and a simple one
+    height = max(abs(c) for c in theta.minimal_polynomial).bit_length()
+    low, high = dyadic_interval(theta, max(bits, 64 + height))
     return {"minimal_polynomial": [str(c) for c in theta.minimal_polynomial], "interval": [str(low), str(high)]}
+
+
+def dyadic_interval(theta: Any, bits: int) -> tuple[Fraction, Fraction]:
+    """The neighbouring multiples of 2^(e - bits) around an irrational theta with 2^e < |theta| < 2^(e + 1)."""
+    working = bits + 32
+    while True:
+        ends = [Fraction(end) for end in theta.interval(working)]
+        if ends[0] * ends[1] > 0 and _size(ends[0]) == _size(ends[1]):
+            unit = Fraction(2) ** (_size(ends[0]) - bits)
+            first, last = (floor(end / unit) for end in ends)
+            if first == last:
+                return first * unit, (first + 1) * unit
+        working *= 2
+
+
+def _size(value: Fraction) -> int:
+    """The e with 2^e <= |value| < 2^(e + 1)."""
+    found = value.numerator.bit_length() - value.denominator.bit_length()
+    return found if abs(value) >= Fraction(2) ** found else found - 1
 
 
 def _coefficients(value: Any) -> list[str]:

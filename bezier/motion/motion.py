@@ -91,6 +91,35 @@ class Motion:
         values = {"max_speed": self.extremes.speed, "max_acceleration": self.extremes.acceleration}
         return {key: _at_most(values[key], limit) for key, limit in self.timing.limits.items()}
 
+    @property
+    def keeps_limits(self) -> bool:
+        """Whether every limit is proved to be kept at all times."""
+        return all(kept is True for kept in self.kept.values())
+
+    @property
+    def enough(self) -> Fraction:
+        """A duration with which the same motion is proved to keep all limits."""
+        t, found = self.duration, self.extremes
+        return least_duration(Extremes(_times(found.speed, t), _times(found.acceleration, t * t)), self.timing.limits)
+
+    @property
+    def reason(self) -> str:
+        """Which limits are not kept, in words; empty when all are."""
+        told = {False: "is EXCEEDED", None: "is closer than the enclosure can tell"}
+        units = {"max_speed": "mm/s", "max_acceleration": "mm/s^2"}
+        broken = [(key, kept) for key, kept in self.kept.items() if kept is not True]
+        parts = [f"{key} = {self.timing.limits[key]} {units[key]} {told[kept]}" for key, kept in broken]
+        return f"in {self.duration} s the motion does not keep its limits: {', '.join(parts)}" if parts else ""
+
+    @property
+    def suggestion(self) -> str:
+        """A line of the problem file with which all limits are kept."""
+        return f'duration = "{self.enough}"'
+
+
+def _times(value: Enclosure, factor: Fraction) -> Enclosure:
+    return Enclosure(value.low * factor, None if value.high is None else value.high * factor)
+
 
 def _at_most(value: Enclosure, limit: Fraction) -> bool | None:
     if value.high is not None and value.high <= limit:
@@ -202,6 +231,8 @@ def words(plan: Plan) -> list[str]:
     lines = [f"length {_short(quality.length)} mm{most}"]
     if quality.motion is not None:
         lines.append(_motion_words(quality.motion))
+        if not quality.motion.keeps_limits:
+            lines.append(f"{quality.motion.reason}; kept at all times with {quality.motion.suggestion}")
     return lines
 
 
@@ -237,4 +268,7 @@ def entries(plan: Plan) -> dict[str, Any]:
     }
     if quality.motion is not None:
         told["motion"] = json.loads(motion_json(quality.motion))
-    return {"quality": told}
+    found: dict[str, Any] = {"quality": told}
+    if quality.motion is not None and not quality.motion.keeps_limits:
+        found |= {"reason": quality.motion.reason, "suggestion": quality.motion.suggestion}
+    return found

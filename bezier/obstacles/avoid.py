@@ -26,11 +26,15 @@ from bezier.obstacles.clearance import Argument, Clear
 from bezier.obstacles.survey import Finding
 from bezier.plan import Clock, Outcome, Plan
 from bezier.problem import INNER, PlanMethod, Problem, problem_of, to_json
-from qe.errors import BudgetExceeded, InputError, Unable
+from qe.errors import BudgetExceeded, CertificateRejected, InputError, Unable
 
 RAISES = (Fraction(1, 4), Fraction(1, 2), Fraction(1))
 METHODS = (PlanMethod.QUADRATIC, PlanMethod.CUBIC, PlanMethod.SINGLE)
 """Those after the one asked for are tried in this order."""
+
+
+AS_GIVEN = "as given"
+"""The first attempt."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,7 +48,7 @@ class Attempt:
 
 def avoiding(problem: Problem, clock: Clock) -> Plan:
     """The first alternative whose whole path is clear of the obstacles; else the first path, ``Outcome.BLOCKED``."""
-    first = _attempted("as given", problem, clock)
+    first = _attempted(AS_GIVEN, problem, clock)
     if first.outcome is Outcome.SOLVED:
         return first
     attempts = first.attempts
@@ -158,6 +162,36 @@ def changed(problem: Problem, method: PlanMethod, lift: Fraction) -> Problem | N
 
 def _raised(point: Vector, lift: Fraction) -> Vector:
     return add(point, (Fraction(0), Fraction(0), lift))
+
+
+def with_stated_attempts(plan: Plan, stated: Any) -> Plan:
+    """The examined plan with the attempts that a summary states.
+
+    The plan's own attempt is found again; the others, about problems that are not in the folder, are only read. Raises
+    ``CertificateRejected`` where they cannot have led to this plan.
+    """
+    if not isinstance(stated, list) or not stated:
+        raise CertificateRejected("summary.json: attempts", "expected a list of attempts")
+    told = [_attempt(item, f"summary.json: attempts[{i}]") for i, item in enumerate(stated)]
+    outcomes = [item.outcome for item in told]
+    own = outcomes.index(plan.outcome) if plan.outcome in outcomes else 0
+    solved = plan.outcome is Outcome.SOLVED
+    best = next((o for o in (Outcome.SOLVED, Outcome.BLOCKED, Outcome.INFEASIBLE) if o in outcomes), None)
+    if best is not plan.outcome or (solved and own != len(told) - 1) or outcomes[0] is None:
+        raise CertificateRejected("summary.json: attempts", f"these do not end with {plan.outcome.value}")
+    what = told[own].what if own else AS_GIVEN
+    told[own] = Attempt(what, plan.outcome, _detail(plan))
+    return replace(plan, attempts=tuple(told))
+
+
+def _attempt(stated: Any, place: str) -> Attempt:
+    """An attempt as ``entries`` writes it."""
+    if not isinstance(stated, dict) or not all(isinstance(text, str) for text in stated.values()):
+        raise CertificateRejected(place, "expected an object of texts")
+    known = {"unable": None, **{o.value: o for o in (Outcome.SOLVED, Outcome.BLOCKED, Outcome.INFEASIBLE)}}
+    if stated.keys() != {"what", "outcome", "detail"} or stated["outcome"] not in known:
+        raise CertificateRejected(place, f"expected what, outcome ({', '.join(known)}) and detail")
+    return Attempt(stated["what"], known[stated["outcome"]], stated["detail"])
 
 
 # --- for people ---------------------------------------------------------------------------------------

@@ -19,7 +19,6 @@ from bezier.obstacles.reader import read_obstacles
 from bezier.obstacles.survey import Finding
 from bezier.plan import Clock, Plan
 from bezier.problem import problem_of, read_text
-from bezier.recheck import stored_path
 from qe.errors import InputError, Unable
 from qe.worker import Channel
 
@@ -68,7 +67,7 @@ def _write(path: FilePath, text: str) -> None:
 
 def _read(source: FilePath, clock: Clock) -> tuple[Curves, Sequence[Obstacle]]:
     if source.is_dir():
-        problem, curves = stored_path(stored.table(source / "path.json"))
+        problem, curves = stored.stored_path(stored.table(source / "path.json"))
         return curves, problem.obstacles
     table = Table.parse(read_text(source), str(source))
     if "curve" in table.values:

@@ -5,21 +5,17 @@ from __future__ import annotations
 from pathlib import Path as FilePath
 from typing import TYPE_CHECKING, Any
 
-import qe
 from bezier.curves.containment import Leaves
-from bezier.curves.curve import Smoothness
 from bezier.curves.scalar import exact_text
-from bezier.methods import Claim, Method
+from bezier.methods import Method, Restored
 from bezier.problem import Problem
 from bezier.quadratic import formula as quadratic
 from bezier.quadratic import plan as quadratic_plan
 from bezier.quadratic import report as quadratic_report
+from bezier.quadratic import restore as quadratic_restore
 from bezier.quadratic.plan import QuadraticPlan
-from bezier.stored import certified_answer, certified_points, member
-from qe.errors import CertificateRejected
-from qe.evidence.cells_json import CellEvidence
-from qe.evidence.certificate import Certificate, Kind
-from qe.formula.syntax import Formula
+from bezier.stored import Stated
+from qe.evidence.certificate import Certificate
 
 if TYPE_CHECKING:
     from bezier.pictures.picture import Drawing
@@ -77,22 +73,11 @@ def draw(plan: QuadraticPlan, folder: FilePath) -> Drawing:
     return Drawing(picture, plot.views_svg(picture), ("region.png", "path.png"))
 
 
-def claim(problem: Problem, certificate: Certificate) -> Claim:
-    """What the certificates of a folder show about this problem."""
-    system = quadratic.system(problem)
-    _check_region(certified_answer(system, certificate), member(certificate, "region", Kind.CELLS))
-    points = certified_points(system, certificate)
-    lines = ["the region belongs to formula (8) of this problem", "the optimum belongs to this problem"]
-    return Claim(tuple(lines), points, Smoothness.C1)
-
-
-def _check_region(answer: Formula, payload: object) -> None:
-    """The region's certificate is about this answer."""
-    if not isinstance(payload, CellEvidence):
-        raise CertificateRejected("region", "expected a cell table")
-    matrix = payload.table.matrix
-    if str(answer) != str(matrix) and not qe.equivalent(answer, matrix):
-        raise CertificateRejected("region", "the cell table is about another formula")
+def restore(problem: Problem, certificate: Certificate, stated: Stated) -> Restored[QuadraticPlan]:
+    """The plan that the certificates of a folder prove; nothing else in the folder is needed for it."""
+    plan = quadratic_restore.restore(problem, certificate)
+    lines = ("the region belongs to formula (8) of this problem", "the optimum belongs to this problem")
+    return Restored(plan, lines)
 
 
 QUADRATIC: Method[QuadraticPlan] = Method(
@@ -105,5 +90,5 @@ QUADRATIC: Method[QuadraticPlan] = Method(
     hats=True,
     template="quadratic.html.j2",
     sections=quadratic_report.sections,
-    claim=claim,
+    restore=restore,
 )

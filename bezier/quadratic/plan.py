@@ -2,21 +2,40 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
 import qe
 from bezier.control import System
-from bezier.curves.scalar import Vector, sign
+from bezier.curves.scalar import Vector, rational, sign
 from bezier.curves.workspace import Workspace, WorkspaceKind
-from bezier.optimal_path import chosen_path, eliminated, least, quantifier_free, verified
+from bezier.optimal_path import (
+    OPTIMUM,
+    body_of,
+    chosen_path,
+    elimination,
+    found_optimum,
+    least,
+    quantifier_free,
+    verified,
+)
 from bezier.path import Path, Proof, prove
 from bezier.plan import Clock, Outcome, Plan, answered
 from bezier.problem import Problem
 from bezier.quadratic import formula as quadratic
 from qe.errors import InternalError
+
+REGION, BELOW = "region", "below the table"
+"""Labels of certificates."""
+EXAMPLE_ORDER = (*quadratic.SHAPE.free, *quadratic.SHAPE.follows)
+"""The control points in the order of the variables of the question about the table."""
+
+
+def above_label(point: str) -> str:
+    """The label of the certificate that the printed formula keeps a control point above the table."""
+    return f"{point} above the table"
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,13 +44,14 @@ class Gap:
 
     ``example``: control points that the formula allows, one of them below the table, or None when there are none.
     ``region``: the region with z >= 0 added for all control points, where there is a gap. ``chosen``: what was
-    found out about z >= 0 along the curves of the chosen path. ``certificate``: of the example.
+    found out about z >= 0 along the curves of the chosen path. ``certificates``: of the example, or that the formula
+    keeps each control point above the table.
     """
 
     example: Mapping[str, Vector] | None
     region: Any | None
     chosen: tuple[Proof, ...]
-    certificate: qe.Certificate | None = None
+    certificates: tuple[tuple[str, qe.Certificate], ...] = ()
 
     @property
     def can_leave(self) -> bool:
@@ -63,20 +83,18 @@ def make(problem: Problem, clock: Clock) -> QuadraticPlan:
     if region.is_empty == optimum.is_optimal:
         raise InternalError("the region and the optimum disagree about the existence of a control point")
     with clock.step("curves and proofs"):
-        path, active = chosen_path(problem, system, optimum)
+        path, active, objective = chosen_path(problem, system, found_optimum(system, optimum.certificate))
     with clock.step("hemisphere question"):
         gap = _gap(problem, region, path, clock)
     with clock.step("verification"):
-        members = [*eliminated(answer), ("region", region.certificate), ("optimum", optimum.certificate)]
-        if gap.certificate is not None:
-            members.append(("below the table", gap.certificate))
-        certificate, checks = verified(members, path)
+        members = [elimination(system), (REGION, region.certificate), (OPTIMUM, optimum.certificate)]
+        certificate, checks = verified([*members, *gap.certificates], path)
     return QuadraticPlan(
         problem=problem,
         outcome=Outcome.SOLVED if path else Outcome.INFEASIBLE,
         formula=text,
         answer=answer,
-        objective=optimum.value,
+        objective=objective,
         path=path,
         active=active,
         certificate=certificate,
@@ -99,7 +117,7 @@ def _gap(problem: Problem, region: Any, path: Path | None, clock: Clock) -> Gap:
     floor = Workspace(WorkspaceKind.HEMISPHERE, problem.workspace.radius_squared).floor
     chosen = prove(path.curves, (floor,)) if path else ()
     if asked.truth is False:
-        return Gap(None, None, chosen)
+        return Gap(None, None, chosen, tuple(above_certificates(problem, clock)))
     if asked.truth is not True or asked.witness is None:
         raise InternalError("the hemisphere question got neither a witness nor a refutation")
     printed = quadratic.printed(problem)
@@ -107,8 +125,35 @@ def _gap(problem: Problem, region: Any, path: Path | None, clock: Clock) -> Gap:
     example = {name: points[name] for name in quadratic.SHAPE.inner}
     if printed.violated(points) or all(sign(point[2]) >= 0 for point in example.values()):
         raise InternalError("the engine's example does not show what it should")
+    shown = ((BELOW, example_certificate(problem, example, asked.certificate)),)
     if problem.workspace.kind is WorkspaceKind.HEMISPHERE:
-        return Gap(example, region, chosen, asked.certificate)
+        return Gap(example, region, chosen, shown)
     answer = answered(qe.eliminate(quadratic.corrected(problem).formula(), timeout=clock.remaining()))
     smaller = qe.region(answer.formula, order=quadratic.FREE, timeout=clock.remaining())
-    return Gap(example, smaller, chosen, asked.certificate)
+    return Gap(example, smaller, chosen, shown)
+
+
+def above_certificates(problem: Problem, clock: Clock) -> Iterator[tuple[str, qe.Certificate]]:
+    """For each inner control point the least height that the printed formula allows it, which is not negative."""
+    printed = quadratic.printed(problem)
+    for point in quadratic.SHAPE.inner:
+        least_height = qe.minimize(
+            printed.coordinate_text(point, 2), printed.conditions_text(), timeout=clock.remaining()
+        )
+        if least_height.is_optimal and sign(least_height.value) < 0:
+            raise InternalError(f"{point} can lie below the table although that was refuted")
+        yield above_label(point), least_height.certificate
+
+
+def example_certificate(
+    problem: Problem, example: Mapping[str, Vector], found: qe.Certificate | None
+) -> qe.Certificate:
+    """The witness that the printed formula allows the example. ``found``: the engine's own, for irrational examples."""
+    values = [rational(c) for name in EXAMPLE_ORDER for c in example[name]]
+    known = [v for v in values if v is not None]
+    if len(known) == len(values):
+        order = quadratic.FREE + quadratic.QUANTIFIED
+        return qe.Certificate.witness(body_of(quadratic.leaving_formula(problem), order), order, known)
+    if found is None:
+        raise InternalError("an irrational example without a certificate")
+    return found

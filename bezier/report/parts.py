@@ -31,6 +31,7 @@ RESULTS = {
     Outcome.SOLVED: "path found",
     Outcome.INFEASIBLE: "no control point exists",
     Outcome.BLOCKED: "an obstacle is in the way",
+    Outcome.TOO_FAST: "a limit of the motion is not kept",
 }
 SMOOTHNESS = {
     Smoothness.C2: "C² (value, first, second derivative)",

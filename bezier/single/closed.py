@@ -207,14 +207,15 @@ class _Search:
 
     def certificate(self, outcome: Outcome) -> Certificate:
         """The outcome for the program without the slack: its column is zero there, and its multipliers go with it."""
-        whole = self.program()
-        kept = len(whole.rows) - 1
-        plain = LinearProgram(
-            whole.names[:-1],
-            whole.lower[:-1],
-            tuple(Row(row.coefficients[:-1], row.bound, row.equation) for row in whole.rows[:kept]),
-        )
-        return certificate(plain, self.model.costs[:-1], _without_slack(outcome, kept))
+        plain, costs = plain_program(self.model, self.cuts)
+        return certificate(plain, costs, _without_slack(outcome, len(plain.rows)))
+
+
+def plain_program(model: Model, cuts: Sequence[Cut]) -> tuple[LinearProgram, Values]:
+    """The program of (4) and the cuts without the slack, and its objective."""
+    whole = model.program(cuts)
+    rows = tuple(Row(row.coefficients[:-1], row.bound, row.equation) for row in whole.rows[:-1])
+    return LinearProgram(whole.names[:-1], whole.lower[:-1], rows), model.costs[:-1]
 
 
 def _enough(outcome: LinearOptimum) -> Fraction:

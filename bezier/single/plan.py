@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 
 import qe
@@ -20,7 +20,7 @@ from bezier.single import formula as single_formula
 from bezier.single.closed import NoCurve, ProvedCurve, close
 from bezier.single.formula import Piecewise, Symbol
 from bezier.single.program import Chosen, Dip, Task, Values, choose, curve, dips, lowest
-from bezier.single.simplex import LinearOptimum, certificate
+from bezier.single.simplex import Contradiction, LinearOptimum, certificate
 from qe.errors import InternalError
 
 NAME = "P"
@@ -36,7 +36,7 @@ class Printed:
     """The curve that (4) as printed gives: ``dips`` below a height in (t_a, t_b), ``leaving`` the workspace.
 
     ``lowest``: of the curves that (4) allows just as well, with the same least sums, the one that is lowest halfway
-    between t_a and t_b; ``allowed``: where that one dips.
+    between t_a and t_b, ``lower`` its coordinates by axis; ``allowed``: where that one dips.
     """
 
     values: Mapping[str, Values]
@@ -44,6 +44,7 @@ class Printed:
     dips: tuple[Dip, ...]
     leaving: tuple[Proof, ...]
     lowest: Bezier
+    lower: Mapping[str, Values]
     allowed: tuple[Dip, ...]
 
     @property
@@ -84,6 +85,12 @@ class SinglePlan(Plan):
         """How much the sum may exceed the least possible one."""
         return self.closed.value - self.closed.bound if isinstance(self.closed, ProvedCurve) else Fraction(0)
 
+    @property
+    def not_certified(self) -> tuple[str, ...]:
+        """Also how ties were broken, the least sum for every height, and how Method 1* came to its cuts."""
+        found = (*super(SinglePlan, self).not_certified, "tie_break", "piecewise")
+        return (*found, "closed.rounds", "closed.attainable") if isinstance(self.closed, ProvedCurve) else found
+
 
 def make(problem: Problem, clock: Clock) -> SinglePlan:
     """Plan with Method 1, and with Method 1* where the curve of (4) dips or leaves."""
@@ -111,7 +118,7 @@ def make(problem: Problem, clock: Clock) -> SinglePlan:
         path = None if found is None else path_of(problem, given, found)
         above = {} if path is None else heights_proved(given, path.curves[NAME])
     with clock.step("verification"):
-        certificates = _certificates(given, chosen, closed, path, above)
+        certificates = labelled(given, chosen, printed, closed, path, above)
         whole, checks = verified(certificates, path)
     return SinglePlan(
         problem=problem,
@@ -157,16 +164,26 @@ def _attainable(problem: Problem, given: Task, clock: Clock) -> str:
 
 
 def _printed(problem: Problem, given: Task, chosen: tuple[Chosen, ...]) -> Printed | None:
+    """The curve that (4) gives, and the lowest one of those that it allows as well; None without solutions."""
+    if any(isinstance(item.outcome, Contradiction) for item in chosen):
+        return None
+    halfway = sum(given.times, Fraction(0)) / 2
+    lower = {axis.name: row for axis in given.raised if (row := lowest(given, axis, halfway)) is not None}
+    return printed_of(problem, given, chosen, lower)
+
+
+def printed_of(
+    problem: Problem, given: Task, chosen: tuple[Chosen, ...], lower: Mapping[str, Values]
+) -> Printed | None:
+    """What is found out about the curve of (4) and about another one, ``lower``, with the same least sums."""
     values = {item.axis.name: item.values for item in chosen if item.values is not None}
     if len(values) < len(chosen):
         return None
     drawn = curve(given, values)
     proofs = prove({NAME: drawn}, problem.workspace.conditions)
     leaving = tuple(proof for proof in proofs if isinstance(proof.outcome, Leaves))
-    halfway = sum(given.times, Fraction(0)) / 2
-    lower = {axis.name: row for axis in given.raised if (row := lowest(given, axis, halfway)) is not None}
     other = curve(given, lower)
-    return Printed(values, drawn, dips(given, drawn), leaving, other, dips(given, other))
+    return Printed(values, drawn, dips(given, drawn), leaving, other, lower, dips(given, other))
 
 
 def path_of(problem: Problem, given: Task, values: Mapping[str, Values]) -> Path:
@@ -218,19 +235,26 @@ def above_label(name: str) -> str:
     return f"{NAME} for t_a <= t <= t_b in {name} >= h"
 
 
-def _certificates(
+def lowest_label(name: str) -> str:
+    """The label of the certificate that another curve has the same least sum of (4) on an axis."""
+    return f"{of_axis(name)}, another curve"
+
+
+def labelled(
     given: Task,
     chosen: tuple[Chosen, ...],
+    printed: Printed | None,
     closed: ProvedCurve | NoCurve | None,
     path: Path | None,
     above: Mapping[str, Inside],
 ) -> list[tuple[str, qe.Certificate]]:
-    """(4) solved or contradicted, the bound or the contradiction of Method 1*, and the heights of the path."""
-    contradicted = [item for item in chosen if not isinstance(item.outcome, LinearOptimum)]
-    found = [
-        (of_axis(item.axis.name), certificate(item.program, item.objective, item.outcome))
-        for item in contradicted or chosen
-    ]
+    """(4) solved or contradicted on each axis, the other curve that it allows, the bound or the contradiction of
+    Method 1*, and the heights of the path."""
+    found = [(of_axis(item.axis.name), certificate(item.program, item.objective, item.outcome)) for item in chosen]
+    for item in chosen if printed is not None else ():
+        if printed is not None and isinstance(item.outcome, LinearOptimum):
+            other = replace(item.outcome, point=printed.lower[item.axis.name][1:-1])
+            found.append((lowest_label(item.axis.name), certificate(item.program, item.objective, other)))
     if closed is not None:
         found.append((CLOSED, closed.certificate))
     if path is not None:

@@ -15,7 +15,7 @@ from bezier.outputs import summary
 from bezier.plan import Clock, Outcome, make_plan
 from bezier.problem import PlanMethod, read_problem
 from bezier.report.page import render
-from qe.errors import BudgetExceeded
+from qe.errors import BudgetExceeded, CertificateRejected
 
 START = """
 method = "quadratic"
@@ -92,6 +92,32 @@ def test_a_blocked_path_is_raised_and_every_attempt_is_listed():
     assert "enters balloon, first at t = 0.06698" in plan.attempts[0].detail
     assert "touches balloon, first at t = 1/2" in plan.attempts[1].detail
     assert plan.problem.via[0][2] == Fraction(7, 2)
+    stated_attempts_are_read_with_care(plan)
+
+
+def stated_attempts_are_read_with_care(plan):
+    """The last attempt, which is the plan, is found again; the others are read, and have to lead to this plan."""
+    told = avoid.entries(plan)["attempts"]
+    assert "attempts" in plan.not_certified
+    assert avoid.with_stated_attempts(plan, told).attempts == plan.attempts
+    lied = [*told[:-1], {**told[-1], "detail": "far from everything"}]
+    assert avoid.with_stated_attempts(plan, lied).attempts == plan.attempts
+    for wrong in (
+        None,
+        [],
+        told[:-1],
+        [*told, told[0]],
+        [told[-1], *told],
+        [*told[:-1], {**told[-1], "outcome": "blocked"}],
+        [*told[:-1], {**told[-1], "outcome": "limits_not_kept"}],
+        [{**told[0], "outcome": "unable"}, *told[1:]],
+        [{**told[0], "more": "x"}, *told[1:]],
+        [{"what": "as given"}, *told[1:]],
+        [{**told[0], "detail": 3}, *told[1:]],
+        ["as given", *told[1:]],
+    ):
+        with pytest.raises(CertificateRejected, match=r"summary\.json: attempts"):
+            avoid.with_stated_attempts(plan, wrong)
 
 
 def test_where_nothing_helps_the_path_is_blocked_and_all_methods_were_tried(tmp_path):

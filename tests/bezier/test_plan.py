@@ -1,5 +1,6 @@
 """Planning in process: the engine's answers against the three-ball condition and against exact evaluation."""
 
+import json
 from dataclasses import replace
 from fractions import Fraction
 
@@ -10,11 +11,15 @@ from hypothesis import strategies as st
 import qe
 from bezier.curves.scalar import dot, sign
 from bezier.curves.workspace import Workspace, WorkspaceKind
+from bezier.outputs import facts
 from bezier.plan import Clock, Outcome, make_plan
 from bezier.problem import PlanMethod, Problem, load_problem
 from bezier.quadratic import formula as quadratic
+from bezier.recheck import restored
+from bezier.stored import Stated
 from bezier.terms import named_multipliers
 from qe.errors import BudgetExceeded, CertificateRejected
+from qe.evidence.certificate import Certificate
 from qe.formula.evaluate import holds_at
 from tests.bezier.numbers import points
 
@@ -61,15 +66,22 @@ def test_plans_exist_exactly_when_the_balls_meet(q0, r0, more):
 def test_a_half_space_for_a_quadratic_plan(root):
     from bezier.curves.workspace import HalfSpace
     from bezier.problem import PointCondition
-    from bezier.quadratic.method import claim
+    from bezier.quadratic.restore import restore
 
     problem = load_problem(root / "examples" / "three_balls.toml")
     up = HalfSpace((Fraction(0), Fraction(0), Fraction(1)), Fraction(-13, 4), "half_space[0]")
     plan = make_plan(replace(problem, half_spaces=(PointCondition(up, ("Q1",)),)))
     assert plan.certified and plan.active == ("Q1.half_space[0]",) and plan.path.points["Q1"][2] == Fraction(13, 4)
-    assert claim(plan.problem, plan.certificate).points == plan.path.points
+    assert restore(plan.problem, plan.certificate).path.points == plan.path.points
     with pytest.raises(CertificateRejected):
-        claim(problem, plan.certificate)
+        restore(problem, plan.certificate)
+
+
+def found_again(plan):
+    """What ``bezier check`` would say of the plan, from its certificates as text."""
+    stored = Certificate.from_json(plan.certificate.to_json())
+    stated = Stated(json.loads(json.dumps(facts(plan))), None)
+    return facts(replace(restored(plan.problem, stored, stated)[0], checks=plan.checks))
 
 
 @pytest.mark.deep
@@ -84,6 +96,7 @@ def test_many_plans(q0, r0, more, kind, tight):
     problem = problem_of(q0, r0, least if tight else least + more, kind)
     plan = make_plan(problem)
     assert plan.certified
+    assert found_again(plan) == facts(plan)
     if kind is WorkspaceKind.BALL:
         assert (plan.outcome is Outcome.SOLVED) == quadratic.three_balls(problem).meet
 

@@ -8,15 +8,17 @@ import pytest
 
 import qe
 from bezier.curves.scalar import dot
-from bezier.outputs import write_data
+from bezier.outputs import facts, path_json, write_data
 from bezier.plan import Outcome, make_plan
 from bezier.problem import from_json, load_problem, read_problem, to_json
 from bezier.single.closed import NoCurve, close
 from bezier.single.cuts import Model
-from bezier.single.method import SINGLE, certified_curve
+from bezier.single.method import SINGLE
 from bezier.single.plan import CLOSED, task_of
 from bezier.single.program import choose, curve
+from bezier.single.restore import certified_curve
 from bezier.single.simplex import certificate, solve
+from bezier.stored import Stated
 from qe.errors import CertificateRejected, InputError
 from qe.evidence.certificate import Certificate
 
@@ -30,15 +32,22 @@ def plans(root):
     return {name: make_plan(load_problem(root / "examples" / f"{name}.toml")) for name in EXAMPLES}
 
 
+def stated_by(plan):
+    """What the files of a plan state."""
+    path = None if plan.path is None else path_json(plan, plan.path)
+    return Stated(json.loads(json.dumps(facts(plan))), path)
+
+
 @pytest.mark.parametrize("name", EXAMPLES)
 def test_everything_is_certified_and_found_again(plans, name):
     plan = plans[name]
     assert plan.certified and all(verdict.accepted for verdict in plan.checks.values())
     stored = Certificate.from_json(plan.certificate.to_json())
-    claim = SINGLE.claim(plan.problem, stored)
-    assert (claim.points is None) == (plan.outcome is Outcome.INFEASIBLE)
+    again = SINGLE.restore(plan.problem, stored, stated_by(plan)).plan
+    assert again.outcome is plan.outcome and again.certificate == plan.certificate
+    assert again.printed == plan.printed and again.chosen == plan.chosen and again.above == plan.above
     if plan.path is not None:
-        assert claim.points == plan.path.points and claim.curves == ("P",)
+        assert again.path.points == plan.path.points and again.objective == plan.objective
         assert set(plan.above) == {axis.name for axis in plan.task.raised}
 
 
@@ -157,23 +166,20 @@ def members(plan):
     return [(member.label, member.certificate) for member in plan.certificate.payload]
 
 
-@pytest.mark.parametrize("label", ["problem (4) for y", CLOSED, "P in ball"])
+@pytest.mark.parametrize("label", ["problem (4) for y", "problem (4) for z, another curve", CLOSED])
 def test_a_missing_certificate_is_noticed(plans, label):
     plan = plans["single_leaves"]
     left = [(name, certificate) for name, certificate in members(plan) if name != label]
     assert len(left) == len(members(plan)) - 1
-    if label == CLOSED:  # then the curve is claimed to be one of (4) only, which it is
-        assert SINGLE.claim(plan.problem, Certificate.bundle(left)).points == plan.path.points
-        return
-    with pytest.raises(CertificateRejected):
-        SINGLE.claim(plan.problem, Certificate.bundle(left))
+    with pytest.raises(CertificateRejected, match="no certificate of kind optimum"):
+        SINGLE.restore(plan.problem, Certificate.bundle(left), stated_by(plan))
 
 
 @pytest.mark.parametrize("name", ["single", "single_leaves"])
 def test_certificates_of_another_problem_are_rejected(plans, name):
     other = plans["single_leaves" if name == "single" else "single"]
     with pytest.raises(CertificateRejected):
-        SINGLE.claim(plans[name].problem, other.certificate)
+        SINGLE.restore(plans[name].problem, other.certificate, stated_by(plans[name]))
 
 
 @pytest.mark.parametrize("label", ["problem (4) for y", CLOSED])
@@ -188,23 +194,23 @@ def test_a_linear_program_of_another_problem_is_rejected(plans, label):
     }
     swapped = [(name, other[label] if name == label else member) for name, member in members(plan)]
     with pytest.raises(CertificateRejected, match="not the one of this problem"):
-        SINGLE.claim(plan.problem, Certificate.bundle(swapped))
+        SINGLE.restore(plan.problem, Certificate.bundle(swapped), stated_by(plan))
 
 
 def with_points(plan, points):
-    """The certificate that the curve stays in the ball, with other control points."""
-    (old,) = (member for label, member in members(plan) if label == "P in ball")
-    changed = {**old.payload, "points": [[[str(c)] for c in point] for point in points]}
-    return Certificate.bundle([("P in ball", Certificate(old.kind, changed))])
+    """What the files state, with other control points."""
+    stated = stated_by(plan)
+    written = {f"P{i}": [{"exact": str(c)} for c in point] for i, point in enumerate(points)}
+    return Stated(stated.summary, {**stated.path, "points": written})
 
 
-@pytest.mark.parametrize(("point", "axis", "value"), [(1, 0, -1), (2, 1, 1), (3, 1, 3), (0, 2, 1), (6, 1, 1)])
+@pytest.mark.parametrize(("point", "axis", "value"), [(1, 0, -1), (2, 1, 1), (3, 1, 30), (0, 2, 1), (6, 1, 1)])
 def test_an_altered_curve_is_rejected(plans, point, axis, value):
     plan = plans["single_leaves"]
     points = [list(p) for p in plan.path.curves["P"].points]
     points[point][axis] = F(value)
     with pytest.raises(CertificateRejected):
-        certified_curve(plan.task, with_points(plan, points))
+        certified_curve(plan.problem, plan.task, with_points(plan, points))
 
 
 def test_curves_that_meet_the_equations_of_4_alone_are_rejected(plans):
@@ -218,11 +224,35 @@ def test_curves_that_meet_the_equations_of_4_alone_are_rejected(plans):
         (plan.printed.lowest, "below the height at t = 1/2"),
     ):
         with pytest.raises(CertificateRejected, match=message):
-            certified_curve(task, with_points(plan, drawn.points))
+            certified_curve(plan.problem, task, with_points(plan, drawn.points))
+
+
+@pytest.mark.parametrize(
+    "cut",
+    [
+        {"kind": "height", "axis": "y", "t": "1/10", "plane": []},  # before t_a nothing is asked of the height
+        {"kind": "height", "axis": "x", "t": "1/2", "plane": []},
+        {"kind": "ball", "axis": "", "t": "2", "plane": ["1", "1", "1"]},
+        {"kind": "ball", "axis": "", "t": "1/2", "plane": ["1", "1"]},
+        {"kind": "start", "axis": "", "t": "1/2", "plane": []},
+        {"kind": "tangent", "axis": "", "t": "1/2", "plane": []},
+        {"kind": "wish", "axis": "", "t": "1/2", "plane": []},
+        {"kind": "height", "axis": "y", "t": "1/2"},
+        {"kind": ["height"], "axis": {}, "t": "1/2", "plane": []},
+        "height",
+    ],
+)
+def test_a_cut_that_does_not_follow_is_rejected(plans, cut):
+    plan = plans["single_leaves"]
+    stated = stated_by(plan)
+    with pytest.raises(CertificateRejected, match=r"summary.json: cuts\[0\]"):
+        altered = Stated({**stated.summary, "cuts": [cut]}, stated.path)
+        SINGLE.restore(plan.problem, plan.certificate, altered)
 
 
 def test_the_files(plans, tmp_path):
-    assert set(write_data(plans["single_leaves"], tmp_path)) == {"certificate.json", "path.json", "path.csv"}
+    names = {"certificate.json", "problem.json", "path.json", "path.csv"}
+    assert set(write_data(plans["single_leaves"], tmp_path)) == names
     stored = json.loads((tmp_path / "path.json").read_text())
     assert stored["curves"] == {"P": [f"P{i}" for i in range(7)]} and stored["joins"] == []
     rows = (tmp_path / "path.csv").read_text().splitlines()

@@ -51,7 +51,7 @@ def test_a_planned_folder_and_other_obstacles(root: Path, tmp_path: Path) -> Non
     found = json.loads((out / "path.json").read_text())
     found["problem"]["obstacle"][0]["high"] = [1, 3, 3]
     (out / "path.json").write_text(json.dumps(found))
-    refused(run("check", out), 4, "different problems")
+    refused(run("check", out), 4, "path.json: problem.obstacle[0].high[2]")
 
 
 def test_bad_input_is_one_line(root: Path, tmp_path: Path) -> None:
@@ -72,3 +72,29 @@ def test_a_motion_with_limits_is_planned_and_checked_again(root: Path, tmp_path:
     stored["largest_speed"]["high"] = "1"
     (out / "motion.json").write_text(json.dumps(stored))
     refused(run("check", out), 4, "motion.json")
+
+
+def test_a_motion_that_does_not_keep_its_limits_is_not_solved(root: Path, tmp_path: Path) -> None:
+    example = (root / "examples" / "obstacle_motion.toml").read_text().partition("[[obstacle]]")[0]
+    problem, out = tmp_path / "fast.toml", tmp_path / "out"
+    problem.write_text(example.replace("max_speed", "duration = 2\nmax_speed"))
+    process = run("plan", problem, "--out", out, "--no-plots")
+    assert process.returncode == 3 and "max_acceleration = 3/2 mm/s^2 is EXCEEDED" in process.stdout
+    told = json.loads((out / "summary.json").read_text())
+    assert told["status"] == "limits_not_kept" and "max_speed = 2 mm/s is EXCEEDED" in told["reason"]
+    checked = run("check", out)
+    assert checked.returncode == 0 and "does not keep its limits" in checked.stdout
+    problem.write_text(example.replace("max_speed", f"{told['suggestion']}\nmax_speed"))
+    again = run("plan", problem, "--out", out, "--no-plots")
+    assert again.returncode == 0 and "max speed kept at all times, max acceleration kept at all times" in again.stdout
+
+
+def test_a_point_with_two_coordinates_is_refused(root: Path, tmp_path: Path) -> None:
+    out, others = tmp_path / "out", tmp_path / "others.toml"
+    assert run("plan", root / "examples" / "three_balls.toml", "--out", out, "--no-plots").returncode == 0
+    others.write_text(CURVES.split("\n\n")[1])
+    found = json.loads((out / "path.json").read_text())
+    found["points"]["P1"] = found["points"]["P1"][:2]
+    (out / "path.json").write_text(json.dumps(found))
+    refused(run("check", out), 4, "path.json: points.P1")
+    refused(run("clearance", out, "--obstacles", others), 4, "path.json: points.P1: expected a point of 3 coordinates")

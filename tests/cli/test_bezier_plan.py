@@ -156,12 +156,12 @@ ALTERED = {
 @pytest.mark.parametrize("what", ALTERED)
 def test_altered_files_are_rejected(main_example: Path, tmp_path: Path, what: str) -> None:
     name, old, new = ALTERED[what]
-    for path in [*main_example.glob("*.json"), main_example / "path.csv"]:
-        (tmp_path / path.name).write_text(path.read_text())
+    for path in main_example.iterdir():
+        (tmp_path / path.name).write_bytes(path.read_bytes())
     text = (tmp_path / name).read_text()
     assert old in text
     (tmp_path / name).write_text(text.replace(old, new, 1))
-    refused(run("check", tmp_path), 4)
+    refused(run("check", tmp_path), 4, name)
 
 
 BAD = {
@@ -203,6 +203,21 @@ def test_a_time_limit_leaves_nothing_half_written(root: Path, tmp_path: Path) ->
     example = root / "examples" / "three_balls.toml"
     refused(run("plan", example, "--out", tmp_path / "out", "--timeout", "0.001"), 3, "limit")
     assert list(tmp_path.iterdir()) == []
+
+
+def test_a_check_holds_its_time_limit(main_example: Path) -> None:
+    refused(run("check", main_example, "--timeout", "0.01"), 3, "time limit of 0.01 s reached")
+    refused(run("check", main_example, "--timeout", "0"), 2, "--timeout")
+    assert run("check", main_example, "--timeout", "100").returncode == 0
+
+
+def test_a_second_plan_leaves_nothing_of_the_first(root: Path, tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    for name, code in (("three_balls", 0), ("single_dip", 3)):
+        process = run("plan", root / "examples" / f"{name}.toml", "--out", out, "--no-plots")
+        assert process.returncode == code, process.stderr
+    assert {p.name for p in out.iterdir()} == {"certificate.json", "problem.json", "report.html", "summary.json"}
+    assert run("check", out).returncode == 0
 
 
 def test_help_names_the_commands() -> None:

@@ -1,0 +1,65 @@
+"""Whether what a file states is what follows from the exact path: the first entry that differs, by its place."""
+
+from __future__ import annotations
+
+from itertools import zip_longest
+from typing import Any, Never
+
+from bezier.input.numbers import shorten
+from qe.errors import CertificateRejected
+
+SHOWN = 60
+
+
+def same_data(file: str, stated: Any, expected: Any, place: str = "") -> None:
+    """Both are JSON data with decimals as text. Raises ``CertificateRejected`` naming the first difference."""
+    if isinstance(expected, dict) and isinstance(stated, dict):
+        for key in expected:
+            inner = f"{place}.{key}" if place else key
+            if key not in stated:
+                _reject(file, inner, "missing")
+            same_data(file, stated[key], expected[key], inner)
+        for key in stated:
+            if key not in expected:
+                _reject(file, f"{place}.{key}" if place else key, "not expected here")
+    elif isinstance(expected, list) and isinstance(stated, list):
+        for i, (one, other) in enumerate(zip(stated, expected, strict=False)):
+            same_data(file, one, other, f"{place}[{i}]")
+        if len(stated) != len(expected):
+            _reject(file, place, f"expected {len(expected)} entries, found {len(stated)}")
+    elif type(stated) is not type(expected) or stated != expected:
+        _reject(file, place, f"expected {_told(expected)}, found {_told(stated)}")
+
+
+def same_rows(file: str, stated: str, expected: str) -> None:
+    """Both are tables of comma-separated values. Raises ``CertificateRejected`` naming line and column."""
+    names = next(line for line in expected.splitlines() if not line.startswith("#")).split(",")
+    for number, (one, other) in enumerate(zip_longest(stated.split("\n"), expected.split("\n")), start=1):
+        if one == other:
+            continue
+        if one is None or other is None:
+            _reject(file, f"line {number}", "a line too few" if one is None else "a line too many")
+        cells = zip_longest(names, one.split(","), other.split(","))
+        for name, mine, right in cells if not other.startswith("#") else ():
+            if mine != right:
+                _reject(file, f"line {number}, {name}", f"expected {_told(right)}, found {_told(mine)}")
+        _reject(file, f"line {number}", f"expected {_told(other)}, found {_told(one)}")
+
+
+def _reject(file: str, place: str, reason: str) -> Never:
+    raise CertificateRejected(f"{file}: {place}" if place else file, reason)
+
+
+def _told(value: Any) -> str:
+    match value:
+        case None:
+            return "nothing"
+        case bool():
+            return str(value).lower()
+        case dict():
+            return "an object"
+        case list():
+            return f"a list of {len(value)}"
+        case int() if value.bit_length() > 4 * SHOWN:
+            return "a huge number"
+    return repr(shorten(value, SHOWN)) if isinstance(value, str) else str(value)
