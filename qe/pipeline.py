@@ -301,7 +301,7 @@ class _Run:
     def _probe(self, variables: Sequence[str], body: Formula) -> tuple[Formula, Values | None] | None:
         """A short try of substitution where decomposition is planned: a small complete answer is taken."""
         left = self.budget.remaining()
-        part = Budget(PROBE_SECONDS if left is None else min(PROBE_SECONDS, PROBE_SHARE * left))
+        part = self.budget.apart(PROBE_SECONDS if left is None else min(PROBE_SECONDS, PROBE_SHARE * left))
         try:
             result = substituted(variables, body, part, self.story)
         except Unable as error:
@@ -341,7 +341,8 @@ class _Run:
         if has_root_atoms(formula) or not is_small(formula) or not allows(self.options, Method.CAD):
             return formula
         left = self.budget.remaining()
-        part = Budget(SHORTEN_SECONDS if left is None else min(SHORTEN_SECONDS, SHORTEN_SHARE * left), SHORTEN_CELLS)
+        seconds = SHORTEN_SECONDS if left is None else min(SHORTEN_SECONDS, SHORTEN_SHARE * left)
+        part = self.budget.apart(seconds, SHORTEN_CELLS)
         try:
             shorter, _ = self._decomposed(formula, part)
         except Unable:

@@ -90,6 +90,9 @@ class NumberField:
     def __hash__(self) -> int:
         return hash(self.theta)
 
+    def __reduce__(self) -> tuple[object, tuple[RealAlgebraic]]:
+        return NumberField, (self.theta,)
+
     def __repr__(self) -> str:
         return f"NumberField({self.theta})"
 
@@ -285,7 +288,7 @@ class FieldElement:
         return f"FieldElement({self} ≈ {float(self):.6g})"
 
     def __reduce__(self) -> tuple[object, tuple[object, ...]]:
-        return _restore, (self.field.theta, self.coefficients)
+        return _restore, (self.field, self.coefficients)
 
 
 def _quadratic(p: fmpz_poly, element: FieldElement) -> RealAlgebraic:
@@ -293,5 +296,5 @@ def _quadratic(p: fmpz_poly, element: FieldElement) -> RealAlgebraic:
     return irreducible_roots(p)[0 if (element * int(2 * p[2]) + int(p[1])).sign() < 0 else 1]
 
 
-def _restore(theta: RealAlgebraic, coefficients: tuple[Fraction, ...]) -> FieldElement:
-    return NumberField(theta).element(coefficients)
+def _restore(field: NumberField, coefficients: tuple[Fraction, ...]) -> FieldElement:
+    return field.element(coefficients)

@@ -206,6 +206,10 @@ class Poly:
     def term_count(self) -> int:
         return len(self.p)
 
+    def height_bits(self) -> int:
+        """The number of bits of the largest coefficient."""
+        return max((int(abs(c)).bit_length() for c in self.p.coeffs()), default=0)
+
     def terms(self) -> list[tuple[tuple[int, ...], int]]:
         """(exponent vector in ring order, coefficient), highest first in the lexicographic order."""
         if self.ring.size == 0:

@@ -13,8 +13,9 @@ from collections.abc import Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from qe.errors import InputError, Unable
+from qe.errors import BudgetExceeded, InputError, Unable
 from qe.exact.enclosure import Jet, Sides, box_sides, constant, ends, root_jet, smooth_side
+from qe.options import Budget
 from qe.solution.pieces import Piece, RootFunction
 from qe.solution.slices import has_closed_slices, slice_area
 
@@ -26,10 +27,11 @@ _HALF = Fraction(1, 2)
 Box = tuple[tuple[Fraction, Fraction], ...]
 
 
-def enclose(region: Region, rel_error: float) -> tuple[Fraction, Fraction]:
+def enclose(region: Region, rel_error: float, *, budget: Budget) -> tuple[Fraction, Fraction]:
     """lo <= measure <= hi, rational, with hi - lo <= rel_error * hi (0, 0 for a region without interior).
 
-    Raises ``Unable`` for unbounded pieces and when the error is not reached within ``MOST_BOXES`` boxes.
+    Raises ``Unable`` for unbounded pieces and when the error is not reached within ``MOST_BOXES`` boxes,
+    ``BudgetExceeded`` (with what is known of the measure by then) at a limit.
     """
     if not 0 < rel_error < 1:
         raise InputError(f"rel_error: a number between 0 and 1 expected, {rel_error} found")
@@ -38,13 +40,14 @@ def enclose(region: Region, rel_error: float) -> tuple[Fraction, Fraction]:
         for r in piece.ranges:
             if r.lower is None or r.upper is None:
                 raise Unable(f"the region is unbounded in {r.variable}")
-    return _Sum(region, pieces).refine(Fraction(rel_error))
+    return _Sum(region, pieces, budget).refine(Fraction(rel_error))
 
 
 class _Sum:
     """The boxes of all pieces, worst first."""
 
-    def __init__(self, region: Region, pieces: Sequence[Piece]) -> None:
+    def __init__(self, region: Region, pieces: Sequence[Piece], budget: Budget) -> None:
+        self.budget = budget
         self.region, self.sides = region, len(region.order) - 1
         self.queue: list[tuple[Fraction, int, Piece, Box, Fraction, Fraction]] = []
         self.low = self.high = Fraction(0)
@@ -56,13 +59,20 @@ class _Sum:
     def refine(self, rel_error: Fraction) -> tuple[Fraction, Fraction]:
         while self.queue and self.high - self.low > rel_error * self.high:
             if self.count > MOST_BOXES:
-                raise Unable(f"volume known only between {float(self.low):.6g} and {float(self.high):.6g}")
+                raise Unable(self._known())
+            try:
+                self.budget.check("volume", self.count)
+            except BudgetExceeded as error:
+                raise BudgetExceeded(f"{error}: {self._known()}", limit=error.limit) from None
             _, _, piece, box, low, high = heapq.heappop(self.queue)
             self.low -= low
             self.high -= high
             for half in _halves(box):
                 self._push(piece, half)
         return max(self.low, Fraction(0)), self.high
+
+    def _known(self) -> str:
+        return f"volume known only between {float(self.low):.6g} and {float(self.high):.6g}"
 
     def _push(self, piece: Piece, box: Box) -> None:
         self.count += 1
