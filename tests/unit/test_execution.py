@@ -1,4 +1,4 @@
-"""Work moves to another process once it takes long: results, errors, limits, Ctrl-C, and the switches that forbid it."""
+"""Work moves to another process once it takes long: results, errors, limits, Ctrl-C, and the switches against it."""
 
 from __future__ import annotations
 
