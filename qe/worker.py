@@ -368,10 +368,10 @@ def _follow(inbox: _Inbox, known: Known, progress: Listener, deadline: float | N
 def _ended(status: int | None, known: Known, timeout: float | None, memory: int | None) -> Unable:
     """The error for a worker that ended without an outcome; ``status`` is None when the deadline passed."""
     if status is None:
-        return WorkerStopped(f"time limit of {timeout:g} s reached", limit="time", known=known)
+        return WorkerStopped(f"time limit of {timeout:.4g} s reached", limit="time", known=known)
     number = os.WTERMSIG(status) if os.WIFSIGNALED(status) else 0
     if number == signal.SIGXCPU:
-        return WorkerStopped(f"time limit of {timeout or 0:g} s reached", limit="time", known=known)
+        return WorkerStopped(f"time limit of {timeout or 0:.4g} s reached", limit="time", known=known)
     if memory is not None and number in (signal.SIGABRT, signal.SIGSEGV, signal.SIGBUS, signal.SIGKILL):
         return WorkerStopped(f"memory limit of {memory} MiB reached", limit="memory", known=known)
     how = f"signal {number} ({signal.strsignal(number)})" if number else f"status {os.WEXITSTATUS(status)}"

@@ -6,15 +6,19 @@ the earlier variables. Adjacent cells of a stack merge when everything above the
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
 from qe.evidence.cells import CellTable
 from qe.exact.algebraic import RealAlgebraic, real_roots
+from qe.exact.algebraic_text import brief_algebraic
 from qe.exact.ring import Poly, format_poly
 from qe.exact.sample import Point
 from qe.options import Budget
 from qe.solution.walk import Number, Place, child, coordinates, root_place
+
+LONGEST = 200
+"""Characters of one bound in texts for people."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,6 +31,16 @@ class RootFunction:
     poly: Poly
     k: int
     value: RealAlgebraic | None = None
+
+    def brief(self) -> str:
+        """As ``str``, but where that is longer than ``LONGEST`` characters, what the root is, with its place."""
+        if self.value is not None:
+            return brief_algebraic(self.value, LONGEST)
+        text = str(self) if self.poly.term_count() * 2 < LONGEST else ""
+        if text and len(text) <= LONGEST:
+            return text
+        variable, degree = self.poly.ring.names[self.poly.level], self.poly.degree(self.poly.level)
+        return f"root({self.k}, a polynomial of degree {degree} in {variable} with {self.poly.term_count()} terms)"
 
     def __str__(self) -> str:
         if self.value is not None:
@@ -78,10 +92,18 @@ class Range:
         return self.lower is not None and self.lower == self.upper
 
     def __str__(self) -> str:
+        return self._text(str)
+
+    def brief(self) -> str:
+        """As ``str``, with long bounds described only."""
+        return self._text(RootFunction.brief)
+
+    def _text(self, shown: Callable[[RootFunction], str]) -> str:
+        lower = "" if self.lower is None else shown(self.lower)
         if self.is_point:
-            return f"{self.variable} = {self.lower}"
-        left = "" if self.lower is None else f"{self.lower} {'<=' if self.lower_closed else '<'} "
-        right = "" if self.upper is None else f" {'<=' if self.upper_closed else '<'} {self.upper}"
+            return f"{self.variable} = {lower}"
+        left = "" if self.lower is None else f"{lower} {'<=' if self.lower_closed else '<'} "
+        right = "" if self.upper is None else f" {'<=' if self.upper_closed else '<'} {shown(self.upper)}"
         return f"{left}{self.variable}{right}" if left or right else f"{self.variable} any"
 
 
@@ -103,7 +125,15 @@ class Piece:
         return coordinates(self.table, place)
 
     def __str__(self) -> str:
-        return " and ".join(str(r) for r in self.ranges if r.lower is not None or r.upper is not None) or "everything"
+        return " and ".join(str(r) for r in self._bounded) or "everything"
+
+    def brief(self) -> str:
+        """As ``str``, for people: bounds whose exact text is longer than ``LONGEST`` characters are described only."""
+        return " and ".join(r.brief() for r in self._bounded) or "everything"
+
+    @property
+    def _bounded(self) -> list[Range]:
+        return [r for r in self.ranges if r.lower is not None or r.upper is not None]
 
 
 Candidates = frozenset[RootFunction]
