@@ -10,7 +10,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from qe import pipeline
-from qe.errors import InputError, InternalError, Unable
+from qe.errors import BudgetExceeded, InputError, InternalError, Unable
 from qe.evidence.answer import Answer, Guarantee, Status
 from qe.evidence.certificate import Certificate, Kind
 from qe.evidence.elimination import Assignment
@@ -108,7 +108,10 @@ def eliminate(
     engine out (``qe.Stage``), to measure what they gain. Raises ``InputError`` for input that cannot be read.
     """
     limits = Limits(timeout, memory, progress, process)
-    given, limits = _read(formula, format, limits)
+    try:
+        given, limits = _read(formula, format, limits)
+    except BudgetExceeded as error:
+        return Answer(Status.UNABLE, None, reason=str(error))
     options = _options(method, order, root_atoms, without, progress).with_(certify=check)
     _check_order(options.order, given)
     answer = _limited(given, options, limits, check)

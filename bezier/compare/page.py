@@ -13,6 +13,8 @@ from bezier.plan import Outcome
 from bezier.report import parts
 from bezier.report.page import package_version, template
 
+DRAWINGS = ("regions", "paths")
+
 
 def render(found: Comparison, drawings: Mapping[str, str]) -> str:
     """The page; ``drawings``: SVG text by name, none of them needed."""
@@ -37,6 +39,6 @@ def render(found: Comparison, drawings: Mapping[str, str]) -> str:
         planar={name: [piece.brief() for piece in region.cells] for name, region in regions.items()},
         formulas={name: r.formula for name, r in found.planar.named.items()},
         sentence=found.existence.sentence,
-        drawings={name: Markup(text) for name, text in drawings.items()},
+        drawings={name: Markup(drawings.get(name, "")) for name in DRAWINGS},
         version=package_version(),
     )
