@@ -18,6 +18,7 @@ import resource
 import select
 import signal
 import struct
+import sys
 import time
 import traceback
 import warnings
@@ -239,11 +240,19 @@ def _quiet_fork() -> int:
     """``os.fork``, without the warning of Python 3.12 and later for processes with several threads, such as Jupyter's.
 
     It warns of locks that another thread may hold. The worker takes none: it computes, writes to its pipe, and ends
-    without exit handlers; the interpreter and the C library make their own locks usable after a fork.
+    without exit handlers; the interpreter and the C library make their own locks usable after a fork. FLINT's threads
+    would be waited for in vain in the worker, so they are ended before and begun again in the parent.
     """
+    flint = sys.modules.get("flint")
+    threads = 1 if flint is None else flint.ctx.threads
+    if flint is not None and threads > 1:
+        flint.ctx.threads = 1
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", DeprecationWarning)
-        return os.fork()
+        pid = os.fork()
+    if flint is not None and pid and threads > 1:
+        flint.ctx.threads = threads
+    return pid
 
 
 @dataclass(slots=True)
