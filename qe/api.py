@@ -107,9 +107,9 @@ def eliminate(
     stderr how the answer was found (``Answer.explanation`` holds the same text); ``without`` leaves stages of the
     engine out (``qe.Stage``), to measure what they gain. Raises ``InputError`` for input that cannot be read.
     """
-    limits = Limits(timeout, memory, progress, process)
+    limits = Limits(timeout, memory, progress, process, time.monotonic())
     try:
-        given, limits = _read(formula, format, limits)
+        given = _read(formula, format, limits)
     except BudgetExceeded as error:
         return Answer(Status.UNABLE, None, reason=str(error))
     options = _options(method, order, root_atoms, without, progress).with_(certify=check)
@@ -128,16 +128,11 @@ def _check_order(order: tuple[str, ...] | None, formula: Formula) -> None:
         raise InputError(f"order: variables of the formula expected, each once, {', '.join(names)} found")
 
 
-def _read(formula: AnyFormula, format: str, limits: Limits) -> tuple[Formula, Limits]:
-    """The formula, read under the limits where reading may take long, and what is left of them.
-
-    Raises ``BudgetExceeded`` when reading reached a limit.
-    """
-    start = time.monotonic()
+def _read(formula: AnyFormula, format: str, limits: Limits) -> Formula:
+    """The formula, read under the limits where reading may take long. Raises ``BudgetExceeded`` at one."""
     if not isinstance(formula, str) or not text_may_block(formula):
-        return read_formula(formula, format), limits
-    found = perform(lambda budgets: read_formula(formula, format), limits, at_once=True)
-    return found, limits.after(time.monotonic() - start)
+        return read_formula(formula, format)
+    return perform(lambda budgets: read_formula(formula, format), limits, at_once=True)
 
 
 def _performed(work: Callable[[Budgets], Result], formula: Formula, limits: Limits) -> Result:
@@ -215,9 +210,11 @@ def parametric_witnesses(
     The guards together are equivalent to an existential block; for a universal block the terms are counterexamples.
     Raises ``InputError`` for a formula without an outermost block, ``Unable`` where substitution does not apply.
     """
+    start = time.monotonic()
     from qe.solution.parametric import parametric_witnesses as find
 
-    given, limits = _read(formula, format, Limits(timeout, memory, progress, process))
+    limits = Limits(timeout, memory, progress, process, start)
+    given = _read(formula, format, limits)
 
     def work(budgets: Budgets) -> tuple[ParametricWitness, ...]:
         block = given
@@ -279,10 +276,12 @@ def region(
     ``memory`` (MB) hold here and then for every question that is asked of the region; see ``eliminate`` for them and
     for ``process``. Raises ``BudgetExceeded`` at a limit.
     """
+    start = time.monotonic()
     from qe.pipeline_region import described
 
     whole = Limits(timeout, memory, progress, process)
-    read, limits = _read(formula, format, whole)
+    limits = whole.begun(start)
+    read = _read(formula, format, limits)
     names = None if order is None else tuple(order)
 
     return _performed(lambda budgets: described(read, names, budgets(), whole), read, limits)

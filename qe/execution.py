@@ -41,17 +41,18 @@ class Limits:
     """``timeout``: seconds for one call; ``memory``: MiB; ``progress``: is told every event, in the caller's process.
 
     ``process``: whether other processes may be used; without them ``timeout`` is only checked between steps, and
-    ``memory`` not at all.
+    ``memory`` not at all. ``start``: when the time began to run (None: it begins with the work).
     """
 
     timeout: float | None = None
     memory: int | None = None
     progress: Listener = silent
     process: bool = True
+    start: float | None = None
 
-    def after(self, seconds: float) -> Limits:
-        """What is left of them when so much of the time has gone."""
-        return self if self.timeout is None else replace(self, timeout=max(0.0, self.timeout - seconds))
+    def begun(self, start: float) -> Limits:
+        """The same limits for a call that began at ``start`` (of ``time.monotonic``)."""
+        return replace(self, start=start)
 
     def __reduce__(self) -> tuple[object, tuple[object, ...]]:
         """A listener stays behind: it belongs to this process."""
@@ -65,18 +66,18 @@ def perform(work: Work[T], limits: Limits, *, at_once: bool = False) -> T:
     pickled. Raises what the work raises, ``BudgetExceeded`` at a limit, and, where it moved, ``InternalError`` for
     errors that are none of this package, ``WorkerDied`` when a signal ended the process.
     """
-    start = time.monotonic()
+    start = time.monotonic() if limits.start is None else limits.start
     if not limits.process or not _may_fork(limits, start):
         return work(lambda: _budget(limits, start, limits.progress))
     if at_once or limits.memory is not None:
         from qe.worker import run
 
-        left = None if limits.timeout is None else start + limits.timeout - time.monotonic()
         return run(
             lambda channel: work(lambda: _budget(limits, start, channel.event)),
-            timeout=left,
+            timeout=limits.timeout,
             memory=limits.memory,
             progress=limits.progress,
+            start=start,
         )
     return _Journey[T](limits, start).made(work)
 

@@ -198,18 +198,19 @@ def run(
     progress: Listener = silent,
     known: Known | None = None,
     grace: float = GRACE,
+    start: float | None = None,
 ) -> T:
     """``work(channel)``, computed in a forked worker under hard limits.
 
-    ``timeout``: wall-clock seconds; the worker is killed ``grace`` seconds after it. ``memory``: MiB of
-    address space of the worker, the interpreter included. ``progress`` is called here, in the parent, with every
-    event the worker sends; ``known`` is filled as the work goes on. The result must be picklable. No process is
-    left behind, whatever happens.
+    ``timeout``: wall-clock seconds, from ``start`` (of ``time.monotonic``) or now; the worker is killed ``grace``
+    seconds after it. ``memory``: MiB of address space of the worker, the interpreter included. ``progress`` is called
+    here, in the parent, with every event the worker sends; ``known`` is filled as the work goes on. The result must be
+    picklable. No process is left behind, whatever happens.
 
     Raises ``WorkerStopped`` at a limit, ``WorkerDied`` when a signal ended the worker otherwise, and every
     ``QEError`` that the work itself raised; any other exception there arrives as ``InternalError``.
     """
-    side = forked(time.monotonic(), timeout, memory, grace)
+    side = forked(time.monotonic() if start is None else start, timeout, memory, grace)
     if isinstance(side, Channel):
         side.deliver(lambda: work(side))
     return side.outcome(progress, known)  # type: ignore[return-value]
