@@ -2,26 +2,27 @@
 
 from __future__ import annotations
 
-import os
 import sys
+import time
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from qe import arguments, pipeline
 from qe.api_input import AnyFormula, read_block, read_constraints, read_formula, read_polynomial, together
-from qe.errors import InputError, Unable
+from qe.errors import BudgetExceeded, InputError, Unable
 from qe.evidence.answer import Answer, Guarantee, Status
 from qe.evidence.certificate import Certificate, Kind
 from qe.evidence.elimination import Assignment
+from qe.execution import Budgets, Limits, perform
 from qe.formula.build import convert, exists, forall, iff
 from qe.formula.counting import without_root_atoms
 from qe.formula.features import features
 from qe.formula.syntax import Exists, ForAll, Formula
 from qe.formula.traverse import free_variables, is_quantifier_free, ring_of
+from qe.formula.weight import may_block, text_may_block
 from qe.options import Budget, Method, Options, Stage
-from qe.pipeline_region import RegionWork
 from qe.progress import Event, silent
 
 if TYPE_CHECKING:  # the checker and the optimiser are loaded where they are used
@@ -30,11 +31,9 @@ if TYPE_CHECKING:  # the checker and the optimiser are loaded where they are use
     from qe.solution.parametric import ParametricWitness
     from qe.solution.region import Region
 
+Result = TypeVar("Result")
 VERIFY_SECONDS = 60.0
 """The limit of a verification for which the caller gives none."""
-
-TABLE_VARIABLES = 3
-"""In more variables than this, convex regions are not decomposed unless that is asked for."""
 
 Progress = Callable[[Event], None]
 Order = Any
@@ -70,12 +69,15 @@ def eliminate(
     without: Iterable[str | Stage] | str | Stage = (),
     explain: bool = False,
     check: bool = False,
+    process: bool = True,
 ) -> Answer:
     """Quantifier elimination over the reals: an equivalent quantifier-free formula.
 
     ``timeout`` in seconds and ``memory`` in MB: with either, the work runs in a forked worker process that is killed at
     the limit, since a single polynomial operation can take long (where processes cannot fork, ``timeout`` is only
-    checked between steps). The answer has status UNABLE, with the
+    checked between steps). Without them it moves to such a process when it takes longer than a moment, so that Ctrl-C
+    ends it at once. ``process=False``, or the environment variable ``QE_PROCESS=off``, keeps it in this process.
+    The answer has status UNABLE, with the
     reason, when a limit was reached; it is never partial. With ``check`` the answer comes with a certificate where
     one can be had (if the method makes none, by a decomposition of the whole formula), verified by the separate
     checker; certificates that are a witness always are. A verification that does not end in time costs the
@@ -83,12 +85,18 @@ def eliminate(
     stderr how the answer was found (``Answer.explanation`` holds the same text); ``without`` leaves stages of the
     engine out (``qe.Stage``), to measure what they gain. Raises ``InputError`` for input that cannot be read.
     """
-    timeout, memory = arguments.seconds(timeout), arguments.mebibytes(memory)
+    start = time.monotonic()
     explain, check = arguments.flag(explain, "explain"), arguments.flag(check, "check")
+    limits = _limits(timeout, memory, progress, process).begun(start)
+    options = _options(method, order, root_atoms, without, progress).with_(certify=check)
+    try:
+        given = _read(formula, format, limits)
+    except BudgetExceeded as error:
+        return Answer(Status.UNABLE, None, reason=str(error))
     options = _options(method, order, root_atoms, without, progress).with_(certify=check)
     given = read_formula(formula, format)
     _check_order(options.order, given)
-    answer = _limited(given, options, timeout, memory, check)
+    answer = _limited(given, options, limits, check)
     if explain:
         print(answer.explanation or answer.reason, file=sys.stderr)
     return answer
@@ -102,23 +110,32 @@ def _check_order(order: tuple[str, ...] | None, formula: Formula) -> None:
         raise InputError(f"order: variables of the formula expected, each once, {', '.join(names)} found")
 
 
-def _limited(formula: Formula, options: Options, timeout: float | None, memory: int | None, check: bool) -> Answer:
-    """The answer, found in a worker process where a limit is to hold."""
-    if (memory is not None or timeout is not None) and hasattr(os, "fork"):
-        from qe.worker import Channel, run
-
-        def work(channel: Channel) -> Answer:
-            return _answer(formula, options.with_(progress=channel.event), timeout, check)
-
-        try:
-            return run(work, timeout=timeout, memory=memory, progress=options.progress)
-        except Unable as error:
-            return Answer(Status.UNABLE, None, reason=str(error))
-    return _answer(formula, options, timeout, check)
+def _read(formula: AnyFormula, format: str, limits: Limits) -> Formula:
+    """The formula, read under the limits where reading may take long. Raises ``BudgetExceeded`` at one."""
+    if not isinstance(formula, str) or not text_may_block(formula):
+        return read_formula(formula, format)
+    return perform(lambda budgets: read_formula(formula, format), limits, at_once=True)
 
 
-def _answer(formula: Formula, options: Options, timeout: float | None, check: bool) -> Answer:
-    budget = Budget(timeout, listener=options.progress)
+def _performed(work: Callable[[Budgets], Result], formula: Formula, limits: Limits) -> Result:
+    """The work on a formula, in a process of its own from the start where a limit must hold."""
+    return perform(work, limits, at_once=limits.timeout is not None or may_block(formula))
+
+
+def _limited(formula: Formula, options: Options, limits: Limits, check: bool) -> Answer:
+    """The answer, found in a worker process where it takes long or a limit is to hold."""
+
+    def work(budgets: Budgets) -> Answer:
+        budget = budgets()
+        return _answer(formula, options.with_(progress=budget.listener), budget, check)
+
+    try:
+        return _performed(work, formula, limits)
+    except Unable as error:
+        return Answer(Status.UNABLE, None, reason=str(error))
+
+
+def _answer(formula: Formula, options: Options, budget: Budget, check: bool) -> Answer:
     try:
         found = pipeline.solve(formula, options, budget)
     except Unable as error:
@@ -161,20 +178,33 @@ def find_instance(formula: AnyFormula, **keywords: Any) -> Assignment | None:
 
 
 def parametric_witnesses(
-    formula: AnyFormula, *, format: str = "text", timeout: float | None = None, progress: Progress = silent
+    formula: AnyFormula,
+    *,
+    format: str = "text",
+    timeout: float | None = None,
+    memory: int | None = None,
+    progress: Progress = silent,
+    process: bool = True,
 ) -> tuple[ParametricWitness, ...]:
     """Solutions of the outermost block as terms in the free variables, each under its guard (extended answers).
 
     The guards together are equivalent to an existential block; for a universal block the terms are counterexamples.
     Raises ``InputError`` for a formula without an outermost block, ``Unable`` where substitution does not apply.
     """
+    start = time.monotonic()
     from qe.solution.parametric import parametric_witnesses as find
 
-    limits = Budget(arguments.seconds(timeout), listener=arguments.listener(progress))
-    given = without_root_atoms(read_block(formula, format))
-    if isinstance(given, Exists | ForAll) and not is_quantifier_free(given.body):
-        given = replace(given, body=pipeline.solve(given.body, Options(), limits).formula)  # it may well be a constant
-    return find(given, budget=limits)
+    limits = _limits(timeout, memory, progress, process).begun(start)
+    given = without_root_atoms(read_block(_read(formula, format, limits), format))
+
+    def work(budgets: Budgets) -> tuple[ParametricWitness, ...]:
+        block = given
+        if isinstance(block, Exists | ForAll) and not is_quantifier_free(block.body):
+            # what is left may well be a constant
+            block = replace(block, body=pipeline.solve(block.body, Options(), budgets()).formula)
+        return find(block, budget=budgets())
+
+    return _performed(work, given, limits)
 
 
 def check_witness(sentence: AnyFormula, witness: Mapping[str, AnyFormula], **keywords: Any) -> bool:
@@ -210,7 +240,9 @@ def region(
     *,
     format: str = "text",
     timeout: float | None = None,
+    memory: int | None = None,
     progress: Progress = silent,
+    process: bool = True,
 ) -> Region:
     """The solution set of a formula in its free variables (or in ``order``, which may name more).
 
@@ -218,26 +250,18 @@ def region(
     factors of that projection are part of the answer, and the other order may be much harder.
     A cylindrical description with a certificate; quantifiers are eliminated first. For a conjunction of convex
     quadratic conditions in four or more variables, or with existential quantifiers before it, membership, fibres
-    and bounds are found by exact optimisation, and the description only when it is asked for; ``timeout`` (seconds)
-    then holds for every question.
+    and bounds are found by exact optimisation, and the description only when it is asked for. ``timeout`` (seconds) and
+    ``memory`` (MB) hold here and then for every question that is asked of the region; see ``eliminate`` for them and
+    for ``process``. Raises ``BudgetExceeded`` at a limit.
     """
-    names, timeout, progress = arguments.names(order), arguments.seconds(timeout), arguments.listener(progress)
-    given = without_root_atoms(read_formula(formula, format))
-    quantified = not is_quantifier_free(given)
-    work = RegionWork(names, timeout, progress)
-    if quantified or len(free_variables(given)) > TABLE_VARIABLES:
-        from qe.solution.convex_region import ConvexRegion, shadow_of
+    start = time.monotonic()
+    from qe.pipeline_region import described
 
-        shadow = shadow_of(given, work.eliminated)
-        if shadow is not None:
-            return ConvexRegion(shadow, names, limits=work.limits)
-    from qe.solution.region import Region
+    whole, names = _limits(timeout, memory, progress, process), arguments.names(order)
+    limits = whole.begun(start)
+    read = _read(formula, format, limits)
 
-    budget = work.limits()
-    if not quantified:
-        return Region.of(given, names, budget=budget)
-    found = pipeline.solve(given, Options(order=names), budget)
-    return Region.of(found.formula, names or found.parameter_order, budget=budget)
+    return _performed(lambda budgets: described(read, names, budgets(), whole), read, limits)
 
 
 def minimize(
@@ -245,18 +269,18 @@ def minimize(
     constraints: AnyFormula = "true",
     *,
     timeout: float | None = None,
+    memory: int | None = None,
     progress: Progress = silent,
+    process: bool = True,
 ) -> Optimum:
     """The exact minimum of a convex quadratic (or linear) polynomial under convex quadratic or linear constraints.
 
     ``objective``: text, ``Poly``, or a SymPy expression; ``constraints``: a formula, or a list of formulas to be
-    conjoined. Raises ``Unable`` outside that class.
+    conjoined. Raises ``Unable`` outside that class, ``BudgetExceeded`` at a limit; see ``eliminate`` for the limits.
     """
     from qe.solution.optimum import minimize as solve
 
-    limits = Budget(arguments.seconds(timeout), listener=arguments.listener(progress))
-    poly, scale = read_polynomial(objective, "objective")
-    return solve(poly, read_constraints(constraints), scale=scale, budget=limits)
+    return _best(solve, objective, constraints, _limits(timeout, memory, progress, process))
 
 
 def maximize(
@@ -264,14 +288,30 @@ def maximize(
     constraints: AnyFormula = "true",
     *,
     timeout: float | None = None,
+    memory: int | None = None,
     progress: Progress = silent,
+    process: bool = True,
 ) -> Optimum:
     """The exact maximum; see ``minimize``."""
     from qe.solution.optimum import maximize as solve
 
-    limits = Budget(arguments.seconds(timeout), listener=arguments.listener(progress))
+    return _best(solve, objective, constraints, _limits(timeout, memory, progress, process))
+
+
+def _best(solve: Callable[..., Optimum], objective: AnyFormula, constraints: AnyFormula, limits: Limits) -> Optimum:
     poly, scale = read_polynomial(objective, "objective")
-    return solve(poly, read_constraints(constraints), scale=scale, budget=limits)
+    conditions = read_constraints(constraints)
+    return _performed(lambda budgets: solve(poly, conditions, scale=scale, budget=budgets()), conditions, limits)
+
+
+def _limits(timeout: float | None, memory: int | None, progress: Progress, process: bool) -> Limits:
+    """The limits that a caller sets, checked."""
+    return Limits(
+        arguments.seconds(timeout),
+        arguments.mebibytes(memory),
+        arguments.listener(progress),
+        arguments.flag(process, "process"),
+    )
 
 
 def verify(certificate: Certificate, *, timeout: float | None = VERIFY_SECONDS) -> Verdict:

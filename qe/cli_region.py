@@ -18,6 +18,8 @@ if TYPE_CHECKING:
     from qe.solution.region import Region
 
 PICTURES = (".png", ".pdf", ".svg")
+LONGEST = 200
+"""Characters of an exact number in texts for people."""
 DIGITS = 10
 """Decimal digits shown beside an exact number; for reading only."""
 
@@ -57,7 +59,7 @@ def _in_words(found: Region, seconds: float) -> list[str]:
     for name in found.order:
         low, high = found.bounds(name)
         lines.append(f"{quoted(name)} from {shown(low, '-infinity')} to {shown(high, 'infinity')}")
-    lines += [f"cell {k}: {cell}" for k, cell in enumerate(found.cells, 1)]
+    lines += [f"cell {k}: {cell.brief()}" for k, cell in enumerate(found.cells, 1)]
     return lines
 
 
@@ -99,6 +101,8 @@ def shown(value: object, unbounded: str = "") -> str:
     if value is None:
         return unbounded
     text = str(value)
+    if len(text) > LONGEST:
+        return f"about {decimal(value)} (the exact text has {len(text)} characters)"
     return text if text.lstrip("-").isdigit() else f"{text} (about {decimal(value)})"
 
 

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 import time
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from enum import Enum
 
@@ -44,6 +46,21 @@ class Stage(Enum):
     ORDER = "order"
 
 
+@dataclass(slots=True)
+class Handover:
+    """What ``Budget.check`` does once ``time.monotonic()`` has passed ``due``: ``move()``, and never again.
+
+    ``qe.execution`` moves long work to another process by it.
+    """
+
+    due: float
+    move: Callable[[], None]
+
+    def __call__(self) -> None:
+        self.due = math.inf
+        self.move()
+
+
 class Budget:
     """Soft limits, checked between FLINT calls: ``check`` raises ``BudgetExceeded``.
 
@@ -51,11 +68,18 @@ class Budget:
     A budget can be narrowed for a part of the work by ``share``; the tighter deadline wins.
     """
 
-    __slots__ = ("_cancelled", "_last_note", "cells", "deadline", "listener", "used_cells")
+    __slots__ = ("_cancelled", "_last_note", "cells", "deadline", "handover", "listener", "used_cells")
 
-    def __init__(self, seconds: float | None = None, cells: int | None = None, listener: Listener = silent) -> None:
+    def __init__(
+        self,
+        seconds: float | None = None,
+        cells: int | None = None,
+        listener: Listener = silent,
+        handover: Handover | None = None,
+    ) -> None:
         self.deadline = None if seconds is None else time.monotonic() + seconds
         self.cells, self.used_cells, self.listener = cells, 0, listener
+        self.handover = handover
         self._cancelled, self._last_note = False, 0.0
 
     def cancel(self) -> None:
@@ -69,20 +93,28 @@ class Budget:
     def share(self, fraction: float) -> Budget:
         """A budget for a part of the work: at most ``fraction`` of the time that remains."""
         left = self.remaining()
-        part = Budget(None if left is None else max(0.0, left * fraction), self.cells, self.listener)
+        part = Budget(None if left is None else max(0.0, left * fraction), self.cells, self.listener, self.handover)
         part.used_cells = self.used_cells
         return part
 
     def brief(self, seconds: float, fraction: float, cells: int | None = None) -> Budget:
-        """A silent budget for something that is not needed: a short time, and little of what remains."""
+        """A budget for something that is not needed: a short time, and little of what remains."""
         left = self.remaining()
-        return Budget(seconds if left is None else min(seconds, fraction * left), cells)
+        return self.apart(seconds if left is None else min(seconds, fraction * left), cells)
+
+    def apart(self, seconds: float | None = None, cells: int | None = None) -> Budget:
+        """A budget for a part of the work with its own time (at most what remains) and its own count of cells."""
+        left = self.remaining()
+        limits = [max(0.0, s) for s in (left, seconds) if s is not None]
+        return Budget(min(limits) if limits else None, cells, self.listener, self.handover)
 
     def check(self, phase: str = "work", done: int = 0, total: int | None = None) -> None:
         """Report progress (at most ten times a second) and raise ``BudgetExceeded`` past a limit."""
         if self._cancelled:
             raise BudgetExceeded("cancelled", limit="cancel")
         now = time.monotonic()
+        if self.handover is not None and now > self.handover.due:
+            self.handover()
         if self.deadline is not None and now > self.deadline:
             raise BudgetExceeded(f"time limit reached while doing: {phase}", limit="time")
         if self.cells is not None and self.used_cells > self.cells:

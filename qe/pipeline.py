@@ -30,7 +30,9 @@ from qe.pipeline_cad import Values, certificate_for, claims, decomposed, is_smal
 from qe.pipeline_vs import substituted
 from qe.plan.choice import allows, planned
 from qe.prepare import Prepared, prepare
+from qe.prepare.linear import conjuncts
 from qe.prepare.nonzero import only_nonzero
+from qe.prepare.rules import components
 from qe.prepare.simplify import simplify
 from qe.prepare.step import ALL_STEPS, EQUATION_STEPS
 from qe.solution.constant import constant_value
@@ -49,6 +51,9 @@ CERTIFY_SHARE = 0.4
 
 CONVEX_FROM = 4
 """Existential sentences in so many variables are first tried as convex problems; with fewer, the others are faster."""
+
+CONVEX_PARTS = 24
+"""In more variables, conditions that fall apart into some without common variables are not one convex problem."""
 
 SHORTEN_CELLS, SHORTEN_SHARE, SHORTEN_SECONDS = 2000, 0.25, 0.7
 SETTLE_CELLS = 500
@@ -144,8 +149,11 @@ class _Run:
 
     def _by_convexity(self, formula: Exists) -> tuple[Formula, Values | None] | None:
         """A sentence in many variables about a convex set, if it is one."""
-        if len(formula.variables) < CONVEX_FROM or self.options.method is not Method.AUTO:
+        count = len(formula.variables)
+        if count < CONVEX_FROM or self.options.method is not Method.AUTO:
             return None
+        if count > CONVEX_PARTS and len(components(conjuncts(formula.body), formula.variables)) > 1:
+            return None  # preparation takes the parts apart, and each is decided alone
         from qe.solution.convex_sentence import decide_convex
 
         found = self._tried("convexity", lambda part: decide_convex(formula, budget=part))

@@ -157,7 +157,7 @@ class _Question:
         plain = not self.options.root_atoms and Stage.PARTIAL not in self.options.without
         if not plain or first.cells > WHOLE_FROM or not is_small(answer):
             return answer, proof
-        part = Budget(budget.remaining(), WHOLE_CELLS, budget.listener)
+        part = budget.apart(cells=WHOLE_CELLS)
         try:
             other, table = self.answer(self.table(part, whole_free=True), part, whole_free=True)
         except BudgetExceeded:

@@ -11,20 +11,24 @@ from __future__ import annotations
 import contextlib
 import ctypes
 import faulthandler
+import math
 import os
 import pickle
 import resource
 import select
 import signal
 import struct
+import sys
 import time
 import traceback
+import warnings
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from types import TracebackType
 from typing import Generic, NoReturn, TypeVar
 
 from qe.errors import BudgetExceeded, InternalError, QEError, Unable
+from qe.execution import MARK, surrounding_deadline
 from qe.progress import Event, Listener, silent
 
 T = TypeVar("T")
@@ -83,6 +87,16 @@ class Channel:
     def __init__(self, descriptor: int) -> None:
         self._descriptor = descriptor
 
+    def __enter__(self) -> None:
+        return None
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        """Whatever is wrong, the worker does not go back into the code of the caller."""
+        if error is not None:
+            self.fail(error)
+
     def event(self, event: Event) -> None:
         """A progress listener."""
         self._send(("event", event))
@@ -90,6 +104,17 @@ class Channel:
     def fact(self, name: str, value: object) -> None:
         """A partial result worth keeping should the worker be killed; ``value`` is picklable."""
         self._send(("fact", (name, value)))
+
+    def deliver(self, work: Callable[[], object]) -> NoReturn:
+        """Compute, send the result or the error home, and end the process."""
+        delivery = _Delivery[object](self)
+        with delivery:
+            delivery.done(work())
+        raise AssertionError("the process has ended")
+
+    def fail(self, error: BaseException) -> NoReturn:
+        """Send the error home, and end the process."""
+        _Delivery[object](self).__exit__(type(error), error, error.__traceback__)
 
     def _send(self, message: tuple[str, object]) -> None:
         data = memoryview(b"".join(_framed(pickle.dumps(message))))
@@ -173,53 +198,109 @@ def run(
     progress: Listener = silent,
     known: Known | None = None,
     grace: float = GRACE,
+    start: float | None = None,
 ) -> T:
     """``work(channel)``, computed in a forked worker under hard limits.
 
-    ``timeout``: wall-clock seconds; the worker is killed ``grace`` seconds after it. ``memory``: MiB of
-    address space of the worker, the interpreter included. ``progress`` is called here, in the parent, with every
-    event the worker sends; ``known`` is filled as the work goes on. The result must be picklable. No process is
-    left behind, whatever happens.
+    ``timeout``: wall-clock seconds, from ``start`` (of ``time.monotonic``) or now; the worker is killed ``grace``
+    seconds after it. ``memory``: MiB of address space of the worker, the interpreter included. ``progress`` is called
+    here, in the parent, with every event the worker sends; ``known`` is filled as the work goes on. The result must be
+    picklable. No process is left behind, whatever happens.
 
     Raises ``WorkerStopped`` at a limit, ``WorkerDied`` when a signal ended the worker otherwise, and every
     ``QEError`` that the work itself raised; any other exception there arrives as ``InternalError``.
     """
-    start = time.monotonic()
+    side = forked(time.monotonic() if start is None else start, timeout, memory, grace)
+    if isinstance(side, Channel):
+        side.deliver(lambda: work(side))
+    return side.outcome(progress, known)  # type: ignore[return-value]
+
+
+def forked(start: float, timeout: float | None, memory: int | None, grace: float = GRACE) -> Channel | Worker:
+    """Fork: the worker, confined to the limits, gets its ``Channel`` and the parent its ``Worker``.
+
+    The time counts from ``start`` (of ``time.monotonic``). The worker must end in ``Channel.deliver`` or ``fail``, and
+    the parent must call ``outcome``. Until then it is deaf to Ctrl-C, so that no worker is left behind.
+    """
+    outer = surrounding_deadline()
     reading, writing = os.pipe()
-    pid = os.fork()
-    if pid == 0:
+    mask = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    pid = _quiet_fork()
+    if pid:
+        os.close(writing)
+        return Worker(pid, reading, mask, start, timeout, memory, grace)
+    channel = Channel(writing)
+    with channel:
         os.close(reading)
-        channel = Channel(writing)
-        with _Delivery[T](channel) as delivery:
-            _confine(timeout, memory, grace)
-            delivery.done(work(channel))
-    os.close(writing)
-    inbox = _Inbox(reading)
-    known = Known() if known is None else known
-    status: int | None = None
-    try:
-        outcome = _follow(inbox, known, progress, None if timeout is None else start + timeout + grace)
-        if outcome is None and inbox.closed:
-            _, status = os.waitpid(pid, 0)
-    finally:
-        known.seconds = time.monotonic() - start
-        os.close(reading)
-        if status is None:
-            os.kill(pid, signal.SIGKILL)
-            os.waitpid(pid, 0)
-    if outcome is None:
-        raise _ended(status, known, timeout, memory)
-    kind, value = outcome
-    if kind == "result":
-        return value  # type: ignore[return-value]
-    error = _rebuilt(value)  # type: ignore[arg-type]
-    if type(error) is BudgetExceeded:  # a soft limit: the same story, told with what is known
-        raise WorkerStopped(str(error), limit=error.limit, known=known)
-    raise error
+        _confine(start, timeout, memory, grace, math.inf if outer is None else outer)
+        signal.pthread_sigmask(signal.SIG_SETMASK, mask)
+    return channel
 
 
-def _confine(timeout: float | None, memory: int | None, grace: float) -> None:
+def _quiet_fork() -> int:
+    """``os.fork``, without the warning of Python 3.12 and later for processes with several threads, such as Jupyter's.
+
+    It warns of locks that another thread may hold. The worker takes none: it computes, writes to its pipe, and ends
+    without exit handlers; the interpreter and the C library make their own locks usable after a fork. FLINT's threads
+    would be waited for in vain in the worker, so they are ended before and begun again in the parent.
+    """
+    flint = sys.modules.get("flint")
+    threads = 1 if flint is None else flint.ctx.threads
+    if flint is not None and threads > 1:
+        flint.ctx.threads = 1
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", DeprecationWarning)
+        pid = os.fork()
+    if flint is not None and pid and threads > 1:
+        flint.ctx.threads = threads
+    return pid
+
+
+@dataclass(slots=True)
+class Worker:
+    """The parent's end: a process to be waited for, by ``outcome``, exactly once."""
+
+    pid: int
+    reading: int
+    mask: set[int | signal.Signals]
+    start: float
+    timeout: float | None
+    memory: int | None
+    grace: float
+
+    def outcome(self, progress: Listener = silent, known: Known | None = None) -> object:
+        """The result, as ``run`` gives it, with its errors."""
+        known = Known() if known is None else known
+        status: int | None = None
+        try:
+            signal.pthread_sigmask(signal.SIG_SETMASK, self.mask)
+            deadline = None if self.timeout is None else self.start + self.timeout + self.grace
+            inbox = _Inbox(self.reading)
+            outcome = _follow(inbox, known, progress, deadline)
+            if outcome is None and inbox.closed:
+                _, status = os.waitpid(self.pid, 0)
+        finally:
+            known.seconds = time.monotonic() - self.start
+            os.close(self.reading)
+            if status is None:
+                os.kill(self.pid, signal.SIGKILL)
+                os.waitpid(self.pid, 0)
+        if outcome is None:
+            raise _ended(status, known, self.timeout, self.memory)
+        kind, value = outcome
+        if kind == "result":
+            return value
+        error = _rebuilt(value)  # type: ignore[arg-type]
+        if type(error) is BudgetExceeded:  # a soft limit: the same story, told with what is known
+            raise WorkerStopped(str(error), limit=error.limit, known=known)
+        raise error
+
+
+def _confine(start: float, timeout: float | None, memory: int | None, grace: float, outer: float) -> None:
     """In the worker: set the limits, die with the parent, keep the abort messages of C libraries to itself."""
+    deadline = math.inf if timeout is None else start + timeout
+    os.environ[MARK] = f"{os.getpid()}:{min(deadline, outer)}"
+    left = max(0.0, deadline - time.monotonic())
     quiet = os.open(os.devnull, os.O_WRONLY)
     os.dup2(quiet, 2)
     os.close(quiet)
@@ -230,7 +311,7 @@ def _confine(timeout: float | None, memory: int | None, grace: float) -> None:
         _lower(resource.RLIMIT_AS, memory << 20)
     if timeout is not None:  # should the parent be gone, processor time ends the worker
         used = resource.getrusage(resource.RUSAGE_SELF)
-        _lower(resource.RLIMIT_CPU, int(used.ru_utime + used.ru_stime + timeout + grace) + 2)
+        _lower(resource.RLIMIT_CPU, int(used.ru_utime + used.ru_stime + left + grace) + 2)
     with contextlib.suppress(OSError, AttributeError):
         ctypes.CDLL(None).prctl(1, signal.SIGKILL)  # PR_SET_PDEATHSIG, where the system is Linux
 
@@ -297,10 +378,10 @@ def _follow(inbox: _Inbox, known: Known, progress: Listener, deadline: float | N
 def _ended(status: int | None, known: Known, timeout: float | None, memory: int | None) -> Unable:
     """The error for a worker that ended without an outcome; ``status`` is None when the deadline passed."""
     if status is None:
-        return WorkerStopped(f"time limit of {timeout:g} s reached", limit="time", known=known)
+        return WorkerStopped(f"time limit of {timeout:.4g} s reached", limit="time", known=known)
     number = os.WTERMSIG(status) if os.WIFSIGNALED(status) else 0
     if number == signal.SIGXCPU:
-        return WorkerStopped(f"time limit of {timeout or 0:g} s reached", limit="time", known=known)
+        return WorkerStopped(f"time limit of {timeout or 0:.4g} s reached", limit="time", known=known)
     if memory is not None and number in (signal.SIGABRT, signal.SIGSEGV, signal.SIGBUS, signal.SIGKILL):
         return WorkerStopped(f"memory limit of {memory} MiB reached", limit="memory", known=known)
     how = f"signal {number} ({signal.strsignal(number)})" if number else f"status {os.WEXITSTATUS(status)}"

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from functools import reduce
+from functools import partial, reduce
+from typing import TypeVar, cast
 
 import qe
 from bezier.compare import whole_curve
-from bezier.compare.planar import Plane, plane_coordinates, region_of
+from bezier.compare.planar import Plane, plane_coordinates
 from bezier.cubic import formula as cubic
-from bezier.cubic.existence import Existence, existence
+from bezier.cubic.existence import Existence, existence, sentence
 from bezier.curves.area import convex_area
 from bezier.curves.enclosure import Enclosure
 from bezier.curves.quality import curvature_enclosure, length_enclosure
@@ -22,13 +23,20 @@ from bezier.problem import PlanMethod, Problem
 from bezier.quadratic import formula as quadratic
 from bezier.quadratic.plan import QuadraticPlan
 from qe.errors import InputError, Unable
+from qe.worker import Channel, Known, run
+
+Found = TypeVar("Found")
 
 METHODS = (PlanMethod.QUADRATIC, PlanMethod.CUBIC)
 PAPER = {PlanMethod.QUADRATIC: "about 15.4 s", PlanMethod.CUBIC: "has not yet been successful"}
 """What the paper reports of quantifier elimination for formula (8), section 4.2.1, and (7), section 4.2."""
 
 REGION_SECONDS = 30.0
-"""No region is worked on longer than this; the comparison then says so."""
+"""No part is worked on longer than this; the comparison then says so."""
+OUTPUT_SHARE = 0.15
+"""The share of the time left after the plans that is kept for the pictures and the files."""
+SHARES = (3, 3, 2)
+"""One part in so many of the time left is for each planar region; the steps after them are short."""
 AREA_REL, VOLUME_REL = Fraction(1, 1000), 0.05
 """Relative width of areas and volumes."""
 
@@ -90,7 +98,10 @@ class Planar:
 
 @dataclass(frozen=True, slots=True)
 class Comparison:
-    """``sides`` by method; ``volume``: of the region of formula (8) in space; ``seconds``: of the common steps."""
+    """``sides`` by method; ``volume``: of the region of formula (8) in space; ``seconds``: of the common steps.
+
+    ``unfinished``: why a common step has no result, by its name.
+    """
 
     problem: Problem
     sides: Mapping[PlanMethod, Side]
@@ -98,10 +109,14 @@ class Comparison:
     volume: Enclosure | None
     existence: Existence
     seconds: Mapping[str, float]
+    unfinished: Mapping[str, str]
 
 
 def compare(problem: Problem, clock: Clock | None = None) -> Comparison:
-    """Plan with both methods and measure what they leave free. Raises ``InputError`` for other methods."""
+    """Plan with both methods and measure what they leave free. Raises ``InputError`` for other methods.
+
+    Each common part has its share of the clock's limit; one that does not finish in it is left out, with the reason.
+    """
     if problem.method not in METHODS:
         raise InputError(f'method: expected "quadratic" or "cubic" to compare them, found "{problem.method.value}"')
     watch = clock or Clock()
@@ -110,12 +125,34 @@ def compare(problem: Problem, clock: Clock | None = None) -> Comparison:
         with watch.step(method.value):
             sides[method] = _side(problem, method, watch)
         watch.learn(method.value, sides[method].plan.outcome.value)
-    planar = _planar(problem, watch)
-    with watch.step("volume of the region of (8)"):
-        volume = _volume(sides[PlanMethod.QUADRATIC].plan)
-    with watch.step("existence theorem of (7)"):
-        theorem = existence(timeout=_limit(watch))
-    return Comparison(problem, sides, planar, volume, theorem, dict(watch.seconds))
+    parts = _Parts(watch)
+    planar = _planar(problem, parts)
+    plan = sides[PlanMethod.QUADRATIC].plan
+    volume = parts.take("volume of the region of (8)", 2, lambda seconds: _volume(plan, seconds))
+    theorem = parts.take("existence theorem of (7)", 1, lambda seconds: existence(timeout=seconds))
+    if theorem is None:
+        theorem = Existence(sentence(), None, "")
+    return Comparison(problem, sides, planar, volume, theorem, dict(watch.seconds), parts.unfinished)
+
+
+@dataclass(slots=True)
+class _Parts:
+    """The common parts, one after the other; each may take a share of the time that is left."""
+
+    clock: Clock
+    unfinished: dict[str, str] = field(default_factory=dict)
+
+    def take(self, name: str, share: int, work: Callable[[float], Found]) -> Found | None:
+        """The result of a part, which gets one part in ``share`` of the time; None, with the reason noted."""
+        try:
+            with self.clock.step(name):
+                left = self.clock.remaining(name)
+                seconds = REGION_SECONDS if left is None else left * (1 - OUTPUT_SHARE) / share
+                return work(min(REGION_SECONDS, seconds))
+        except Unable as error:
+            self.unfinished[name] = str(error)
+            self.clock.learn(name, f"not finished: {error}")
+            return None
 
 
 def for_method(problem: Problem, method: PlanMethod) -> Problem:
@@ -140,25 +177,19 @@ def _side(problem: Problem, method: PlanMethod, clock: Clock) -> Side:
     return Side(replace(plan, seconds=dict(own.seconds)), lengths, curvatures)
 
 
-def _limit(clock: Clock) -> float:
-    left = clock.remaining()
-    return REGION_SECONDS if left is None else min(REGION_SECONDS, left)
-
-
-def _planar(problem: Problem, clock: Clock) -> Planar:
+def _planar(problem: Problem, parts: _Parts) -> Planar:
     plane = Plane.through(problem)
-    formulas = planar_formulas(problem, plane)
     regions = {}
-    for name, formula in formulas.items():
-        with clock.step(f"planar region of {name}"):
-            regions[name] = _region(formula, plane, _limit(clock))
-    contained: bool | None = None
-    with clock.step("(8) lies in (8*)"):
-        try:
-            contained = whole_curve.polygon_implies_curve(for_method(problem, METHODS[0]), plane, timeout=_limit(clock))
-        except Unable as error:
-            clock.learn("(8) lies in (8*)", f"not decided: {error}")
+    for share, (name, formula) in zip(SHARES, planar_formulas(problem, plane).items(), strict=True):
+        step = f"planar region of {name}"
+        found = parts.take(step, share, partial(_region, formula, plane, parts.clock))
+        regions[name] = found or PlanarRegion(formula, reason=parts.unfinished[step])
+    contained = parts.take("(8) lies in (8*)", 3, lambda seconds: _contained(problem, plane, seconds))
     return Planar(plane, regions["(8)"], regions["(8*)"], regions["(7)"], contained)
+
+
+def _contained(problem: Problem, plane: Plane, seconds: float) -> bool:
+    return whole_curve.polygon_implies_curve(for_method(problem, METHODS[0]), plane, timeout=seconds)
 
 
 def planar_formulas(problem: Problem, plane: Plane) -> dict[str, str]:
@@ -173,21 +204,31 @@ def planar_formulas(problem: Problem, plane: Plane) -> dict[str, str]:
     }
 
 
-def _region(formula: str, plane: Plane, seconds: float) -> PlanarRegion:
-    """The region, which is convex: its conditions are convex in Q1 and Q2, for every t."""
+def _region(formula: str, plane: Plane, clock: Clock, seconds: float) -> PlanarRegion:
+    """The region, which is convex: its conditions are convex in Q1 and Q2, for every t; its area if time allows."""
+    known = Known()
     try:
-        region = region_of(formula, timeout=seconds)
-        area, unit = convex_area(region, AREA_REL), plane.unit_area
+        region, area = run(partial(_measured, formula), timeout=seconds, known=known, progress=clock.listener)
     except Unable as error:
-        return PlanarRegion(formula, reason=str(error))
+        found = known.facts.get("region")
+        if found is None:
+            raise
+        return PlanarRegion(formula, cast("qe.Region", found), reason=f"area not found: {error}")
+    unit = plane.unit_area
     assert area.high is not None and unit.high is not None
     return PlanarRegion(formula, region, Enclosure(area.low * unit.low, area.high * unit.high))
 
 
-def _volume(plan: Plan) -> Enclosure | None:
-    """Of the region of Q1 in space; None when it is not reached."""
+def _measured(formula: str, channel: Channel) -> tuple[qe.Region, Enclosure]:
+    """The region with all that is shown of it, which is told as soon as it is known, and its area."""
+    region = qe.Region.from_json(qe.region(formula, progress=channel.event).to_json())
+    if region.cells and not region.is_empty:
+        region.bounds(region.order[0])
+    channel.fact("region", region)
+    return region, convex_area(region, AREA_REL)
+
+
+def _volume(plan: Plan, seconds: float) -> Enclosure:
+    """Of the region of Q1 in space."""
     assert isinstance(plan, QuadraticPlan)
-    try:
-        return Enclosure(*plan.region.volume(VOLUME_REL))
-    except Unable:
-        return None
+    return Enclosure(*plan.region.volume(VOLUME_REL, timeout=seconds))

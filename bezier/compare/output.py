@@ -71,7 +71,8 @@ def notes(found: Comparison) -> list[str]:
     if found.existence.truth:
         lines.append(f"existence theorem of (7), found by the engine: it always has the solution {_told(found)}")
         lines.append("with that choice the path stops and turns round at both joins; the objective rules it out")
-    lines += [f"planar region of {name}: {r.reason}" for name, r in planar.named.items() if r.reason]
+    lines += [f"planar region of {name}: {r.reason}" for name, r in planar.named.items() if r.region and r.reason]
+    lines += [f"{name}: not finished, {reason}" for name, reason in found.unfinished.items()]
     return lines
 
 
@@ -177,6 +178,7 @@ def to_json(found: Comparison, files: list[str]) -> dict[str, Any]:
             "truth": found.existence.truth,
             "witness": found.existence.witness,
         },
+        "unfinished": dict(found.unfinished),
         "files": files,
         "seconds": {name: round(s, 6) for name, s in found.seconds.items()},
     }
@@ -199,7 +201,7 @@ def _region_json(found: PlanarRegion) -> dict[str, Any]:
     region = found.region
     return {
         "formula": found.formula,
-        "cells": None if region is None else [str(piece) for piece in region.cells],
+        "cells": None if region is None else [piece.brief() for piece in region.cells],
         "area": None if found.area is None else found.area.to_json(),
         "reason": found.reason or None,
     }

@@ -13,6 +13,8 @@ from bezier.plan import Outcome
 from bezier.report import parts
 from bezier.report.page import package_version, template
 
+DRAWINGS = ("regions", "paths")
+
 
 def render(found: Comparison, drawings: Mapping[str, str]) -> str:
     """The page; ``drawings``: SVG text by name, none of them needed."""
@@ -22,6 +24,7 @@ def render(found: Comparison, drawings: Mapping[str, str]) -> str:
         good = side.plan.outcome is Outcome.SOLVED
         cards.append(parts.card(f"{method.value}", "path found" if good else "no path", parts.tone(good)))
         cards.append(parts.card("eliminated in", duration(side.plan.seconds["elimination"])))
+    regions = {name: r.region for name, r in found.planar.named.items() if r.region}
     return template("compare.html.j2").render(
         file=FilePath(found.problem.source).name,
         title="Quadratic and cubic curves side by side",
@@ -33,9 +36,9 @@ def render(found: Comparison, drawings: Mapping[str, str]) -> str:
         steps=step_rows(found),
         common={name: duration(s) for name, s in found.seconds.items()},
         notes=notes(found),
-        planar={name: [str(piece) for piece in r.region.cells] for name, r in found.planar.named.items() if r.region},
+        planar={name: [piece.brief() for piece in region.cells] for name, region in regions.items()},
         formulas={name: r.formula for name, r in found.planar.named.items()},
         sentence=found.existence.sentence,
-        drawings={name: Markup(text) for name, text in drawings.items()},
+        drawings={name: Markup(drawings.get(name, "")) for name in DRAWINGS},
         version=package_version(),
     )

@@ -24,6 +24,7 @@ from bezier.curves.workspace import Condition
 from bezier.problem import Problem
 from bezier.quadratic import formula as quadratic
 from qe.errors import InputError
+from qe.options import Budget
 
 POINT = "Q1"
 
@@ -108,13 +109,17 @@ def region(problem: Problem, plane: Plane, *, timeout: float | None = None) -> q
 
 
 def polygon_implies_curve(problem: Problem, plane: Plane, *, timeout: float | None = None) -> bool:
-    """Whether (8) implies (8*) for Q1 in the plane, decided by the engine, one curve at a time."""
+    """Whether (8) implies (8*) for Q1 in the plane, decided by the engine, one curve at a time.
+
+    ``timeout``: seconds for all of them together. Raises ``BudgetExceeded`` at the limit.
+    """
+    budget = Budget(timeout)
     names = ", ".join(plane_coordinates(POINT))
     conditions = problem.workspace.conditions
     return all(
         qe.decide(
             f"all t, {names}. 0 <= t and t <= 1 and {family.polygon_inside([c])} -> {_all([c], [family.at()])}",
-            timeout=timeout,
+            timeout=budget.remaining(),
             order=("t", *plane_coordinates(POINT)),
         )
         for family in families(problem, plane).values()

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from decimal import MAX_EMAX, MIN_EMIN, ROUND_CEILING, ROUND_FLOOR, Context, Decimal
 from fractions import Fraction
-from math import gcd
+from math import gcd, isqrt
 
 from flint import fmpz
 
 from qe.exact.algebraic import RealAlgebraic
+
+_FACTORED_BITS, _TRIED = 110, 3000
+_DIGITS = 10
 
 
 def format_algebraic(a: RealAlgebraic) -> str:
@@ -27,11 +31,40 @@ def format_algebraic(a: RealAlgebraic) -> str:
     return f"root({a.index + 1}, {text})"
 
 
+def brief_algebraic(a: RealAlgebraic, longest: int) -> str:
+    """The exact text where it has at most so many characters, otherwise the degree and an interval with the number."""
+    if int(a.poly.height_bits()) * (a.degree + 1) < 10 * longest:  # about three bits make a digit
+        text = format_algebraic(a)
+        if len(text) <= longest:
+            return text
+    low, high = a.interval(40)
+    kind = "a fraction" if a.is_rational else f"a root of a polynomial of degree {a.degree}"
+    return f"({kind} in [{_rounded(low, ROUND_FLOOR)}, {_rounded(high, ROUND_CEILING)}])"
+
+
+def _rounded(value: Fraction, rounding: str) -> str:
+    context = Context(prec=_DIGITS, rounding=rounding, Emax=MAX_EMAX, Emin=MIN_EMIN)
+    return str(context.divide(Decimal(value.numerator), Decimal(value.denominator)).normalize(context))
+
+
+def square_part(n: int) -> int:
+    """An s with s^2 dividing n > 0: the largest one, where n has at most ``_FACTORED_BITS`` bits or is easy to factor.
+
+    Larger numbers are divided by small primes only, since factoring them may take for ever; what remains is taken out
+    where it is a square as a whole.
+    """
+    outside, rest = 1, 1
+    for prime, power in fmpz(n).factor(trial_limit=None if n.bit_length() <= _FACTORED_BITS else _TRIED):
+        outside *= int(prime) ** (int(power) // 2)
+        rest *= int(prime) ** (int(power) % 2)
+    root = isqrt(rest)
+    return outside * root if root * root == rest else outside
+
+
 def _format_quadratic(a: RealAlgebraic) -> str:
     c, b, lead = (int(k) for k in a.minimal_polynomial)
-    discriminant, outside = b * b - 4 * lead * c, 1
-    for prime, power in fmpz(discriminant).factor():
-        outside *= int(prime) ** (int(power) // 2)
+    discriminant = b * b - 4 * lead * c
+    outside = square_part(discriminant)
     inside = discriminant // outside**2
     negative = a.index == 0
     common = Fraction(-b, 2 * lead)

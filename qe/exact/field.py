@@ -91,11 +91,11 @@ class NumberField:
     def __hash__(self) -> int:
         return hash(self.theta)
 
+    def __reduce__(self) -> tuple[object, tuple[RealAlgebraic]]:
+        return NumberField, (self.theta,)
+
     def __repr__(self) -> str:
         return f"NumberField({self.theta})"
-
-    def __reduce__(self) -> tuple[object, tuple[object, ...]]:
-        return NumberField, (self.theta,)
 
 
 @total_ordering

@@ -5,10 +5,10 @@ from __future__ import annotations
 from fractions import Fraction
 from math import gcd, isqrt
 
-from flint import fmpq, fmpz, fmpz_poly
+from flint import fmpq, fmpz_poly
 
 from qe.exact.algebraic import RealAlgebraic, irreducible_roots
-from qe.exact.algebraic_text import format_algebraic
+from qe.exact.algebraic_text import format_algebraic, square_part
 
 
 def format_number(a: RealAlgebraic) -> str:
@@ -75,9 +75,8 @@ def _rational_root(value: Fraction) -> Fraction | None:
 
 def _root_text(value: Fraction) -> str:
     """sqrt of a positive rational, with square factors taken out."""
-    inside, outside = value.numerator * value.denominator, 1
-    for prime, power in fmpz(inside).factor():
-        outside *= int(prime) ** (int(power) // 2)
+    inside = value.numerator * value.denominator
+    outside = square_part(inside)
     inside //= outside**2
     common = gcd(outside, value.denominator)
     outside, below = outside // common, value.denominator // common

@@ -11,12 +11,20 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 from fractions import Fraction
 from functools import cache, cached_property
+from math import prod
 from typing import Any
 
 from flint import fmpq, fmpq_mpoly, fmpq_mpoly_ctx, fmpz, fmpz_mpoly, fmpz_mpoly_ctx, fmpz_poly
 
 from qe.errors import InternalError
+from qe.exact.factoring import guarded_factor
 from qe.spelling import quoted
+
+SparseTerm = tuple[tuple[tuple[int, int], ...], int]
+"""((variable, exponent > 0), ...), ascending, and the coefficient."""
+
+WIDE = 24
+"""In rings with more variables, polynomials keep track of the few that they contain (``qe.exact.wide``)."""
 
 _PRIMES = (3, -7, 11, -13, 17, -19, 23, -29, 31, -37, 41, -43, 47, -53, 59, -61)
 _ZERO = fmpz(0)
@@ -50,7 +58,7 @@ class Ring:
 
     def gen(self, i: int) -> Poly:
         """The polynomial that is variable ``i``."""
-        return Poly(self, self._gens[self.size - 1 - i])
+        return self._poly(self._gens[self.size - 1 - i], (i,))
 
     def var(self, name: str) -> Poly:
         """The polynomial that is the variable called ``name``."""
@@ -58,7 +66,14 @@ class Ring:
 
     def constant(self, value: int) -> Poly:
         """The constant polynomial ``value``."""
-        return Poly(self, self.ctx.constant(value))
+        return self._poly(self.ctx.constant(value))
+
+    def _poly(self, p: fmpz_mpoly, support: tuple[int, ...] = ()) -> Poly:
+        if self.size <= WIDE:
+            return Poly(self, p)
+        from qe.exact.wide import WidePoly
+
+        return WidePoly.of(self, p, frozenset(support))
 
     def from_terms(self, terms: Mapping[tuple[int, ...], int]) -> Poly:
         """The polynomial with coefficient ``terms[e]`` at the exponent vector ``e`` (in ring order)."""
@@ -66,7 +81,18 @@ class Ring:
             raise InternalError("negative exponent")
         if self.size == 0:
             return self.constant(sum(terms.values()))
+        if self.size > WIDE:
+            return self.from_sparse([(tuple((i, k) for i, k in enumerate(e) if k), int(c)) for e, c in terms.items()])
         return Poly(self, self.ctx.from_dict({tuple(reversed(e)): int(c) for e, c in terms.items()}))
+
+    def from_sparse(self, terms: Iterable[SparseTerm]) -> Poly:
+        """The polynomial with these terms; see ``Poly.sparse_terms``."""
+        if self.size <= WIDE:
+            return self.from_terms({tuple(dict(powers).get(i, 0) for i in range(self.size)): c for powers, c in terms})
+        total = self.constant(0)
+        for powers, c in terms:
+            total += prod((self.gen(i) ** k for i, k in powers), start=self.constant(c))
+        return total
 
     def remember(self, key: object, value: object) -> None:
         """Store in the ring's cache, which is emptied when it has grown past a bound."""
@@ -87,28 +113,6 @@ def _intern(names: tuple[str, ...]) -> Ring:
     return Ring(names)
 
 
-def guarded_factor(p: fmpz_mpoly) -> tuple[fmpz, list[tuple[fmpz_mpoly, int]]]:
-    """``p.factor()``, redone over Q where python-flint 0.9 overflows while sorting the factors."""
-    try:
-        unit, factors = p.factor()
-        return unit, [(f, int(e)) for f, e in factors]
-    except OverflowError:
-        context = p.context()
-        rational = fmpq_mpoly_ctx.get(context.names(), "lex")
-        unit, factors = fmpq_mpoly(p, rational).factor()
-        result: list[tuple[fmpz_mpoly, int]] = []
-        constant = fmpq(unit)
-        for factor, exponent in factors:
-            scale = fmpz(1)
-            for c in factor.coeffs():
-                scale = scale * c.q // scale.gcd(c.q)
-            integral = context.from_dict({m: int((c * scale).p) for m, c in factor.terms()})
-            content = integral.content()
-            constant = constant * (fmpq(content) / scale) ** int(exponent)
-            result.append((integral / content, int(exponent)))
-        return constant.p, result
-
-
 class Poly:
     """An element of a ring: immutable and hashable. The raw FLINT object never leaves ``qe.exact``."""
 
@@ -120,7 +124,9 @@ class Poly:
 
     # --- value semantics -------------------------------------------------------------------
     def __hash__(self) -> int:
-        if self._hash is None:
+        if self._hash is None and self.ring.size > WIDE:
+            self._hash = hash((self.variables, *(self.degree(i) for i in self.variables), *map(int, self.p.coeffs())))
+        elif self._hash is None:
             self._hash = hash((self.ring.size, int(self.p(*self.ring._hash_point))))
         return self._hash
 
@@ -161,14 +167,18 @@ class Poly:
     __rmul__ = __mul__
 
     def __neg__(self) -> Poly:
-        return Poly(self.ring, -self.p)
+        return self._like(-self.p)
 
     def __pow__(self, exponent: int) -> Poly:
-        return Poly(self.ring, self.p**exponent)
+        return self._like(self.p**exponent)
 
     def exact_divide(self, other: Poly | int) -> Poly:
         """The quotient of a division known to leave no remainder."""
-        return Poly(self.ring, self.p / self._lift(other))
+        return self._like(self.p / self._lift(other))
+
+    def _like(self, p: fmpz_mpoly) -> Poly:
+        """A polynomial of the ring in which no other variables occur than here."""
+        return Poly(self.ring, p)
 
     # --- structure -------------------------------------------------------------------------
     @cached_property
@@ -208,14 +218,18 @@ class Poly:
         return len(self.p)
 
     def height_bits(self) -> int:
-        """The bit length of the largest coefficient."""
-        return max((int(c).bit_length() for c in self.p.coeffs()), default=0)
+        """The number of bits of the largest coefficient."""
+        return max((int(abs(c)).bit_length() for c in self.p.coeffs()), default=0)
 
     def terms(self) -> list[tuple[tuple[int, ...], int]]:
         """(exponent vector in ring order, coefficient), highest first in the lexicographic order."""
         if self.ring.size == 0:
             return [((), self.constant_value())] if self.p else []
         return [(tuple(int(k) for k in reversed(e)), int(c)) for e, c in self.p.terms()]
+
+    def sparse_terms(self) -> list[SparseTerm]:
+        """The terms without the variables that do not occur in them."""
+        return [(tuple((i, e[i]) for i in self.variables if e[i]), c) for e, c in self.terms()]
 
     def coefficients(self, i: int) -> tuple[Poly, ...]:
         """The coefficients with respect to variable ``i``, from degree 0 up; () for zero."""
@@ -226,7 +240,7 @@ class Poly:
             slot, gen, rest, out = self.ring.slot(i), self.ring._gens[self.ring.slot(i)], self.p, []
             while rest:
                 lowest = rest.subs({slot: _ZERO})
-                out.append(Poly(self.ring, lowest))
+                out.append(self._like(lowest))
                 rest = (rest - lowest) / gen
             stored = memory[key] = tuple(out)
         return stored
@@ -236,7 +250,7 @@ class Poly:
         return self.coefficients(i)[-1]
 
     def derivative(self, i: int) -> Poly:
-        return Poly(self.ring, self.p.derivative(self.ring.slot(i)))
+        return self._like(self.p.derivative(self.ring.slot(i)))
 
     # --- algebra ---------------------------------------------------------------------------
     def gcd(self, other: Poly) -> Poly:
@@ -265,7 +279,7 @@ class Poly:
         unit = int(content)
         if primitive.leading_coefficient() < 0:
             unit, primitive = -unit, -primitive
-        return unit, (self if unit == 1 else Poly(self.ring, primitive))
+        return unit, (self if unit == 1 else self._like(primitive))
 
     def normal(self) -> tuple[int, Poly]:
         """(u, q) with self = u*q, q primitive with positive leading coefficient; (0, 0) for zero."""
@@ -326,13 +340,17 @@ class Poly:
         missing = [self.ring.names[i] for i in self.variables if self.ring.names[i] not in ring.index]
         if missing:
             raise InternalError(f"{missing} not in {ring}")
-        target = [(i, ring.index[self.ring.names[i]]) for i in self.variables]
+        names, index = self.ring.names, ring.index
+        if max(ring.size, self.ring.size) > WIDE:
+            moved = ((sorted((index[names[i]], k) for i, k in powers), c) for powers, c in self.sparse_terms())
+            return ring.from_sparse((tuple(powers), c) for powers, c in moved)
+        target = [(i, index[names[i]]) for i in self.variables]
         terms = {}
         for exponents, coefficient in self.terms():
-            moved = [0] * ring.size
+            own = [0] * ring.size
             for source, destination in target:
-                moved[destination] = exponents[source]
-            terms[tuple(moved)] = coefficient
+                own[destination] = exponents[source]
+            terms[tuple(own)] = coefficient
         return ring.from_terms(terms)
 
     def to_univariate(self, i: int) -> fmpz_poly:
@@ -365,9 +383,10 @@ def format_poly(p: Poly, spelled: Callable[[str], str] = quoted) -> str:
         return "0"
     names = [spelled(name) for name in p.ring.names]
     pieces: list[str] = []
-    ordered = sorted(p.terms(), key=lambda term: (sum(term[0]), term[0]), reverse=True)
+    ordered = sorted(p.sparse_terms(), key=_by_degree, reverse=True)
     for exponents, coefficient in ordered:
-        powers = [name if k == 1 else f"{name}^{k}" for name, k in zip(names, exponents, strict=True) if k]
+        used = ((names[i], k) for i, k in exponents)
+        powers = [name if k == 1 else f"{name}^{k}" for name, k in used]
         magnitude = abs(coefficient)
         body = "*".join(([str(fmpz(magnitude))] if magnitude != 1 or not powers else []) + powers)
         if not pieces:
@@ -375,3 +394,8 @@ def format_poly(p: Poly, spelled: Callable[[str], str] = quoted) -> str:
         else:
             pieces.append(f"{'-' if coefficient < 0 else '+'} {body}")
     return " ".join(pieces)
+
+
+def _by_degree(term: SparseTerm) -> tuple[int, list[tuple[int, int]]]:
+    """Total degree, then the exponents of the variables in order: an early variable makes a term high."""
+    return sum(k for _, k in term[0]), [(-i, k) for i, k in term[0]]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from qe.exact.descartes import most_real_roots
 from qe.exact.ring import Poly, Ring
 from qe.formula.syntax import FALSE, TRUE, And, Atom, Constant, Exists, ForAll, Formula, Not, Or, Relation, RootAtom
 
@@ -88,7 +89,9 @@ def forall(variables: Iterable[str], body: Formula) -> Formula:
 
 
 def root_atom(variable: str, relation: Relation, poly: Poly, k: int) -> Formula:
-    """``variable relation root_k(poly)``, with the polynomial normalised."""
+    """``variable relation root_k(poly)``, with the polynomial normalised; FALSE where it cannot have |k| real roots."""
+    if abs(k) > most_real_roots(poly, poly.ring.index[variable]):
+        return FALSE
     return RootAtom(variable, relation, poly.normal()[1], k)
 
 

@@ -77,12 +77,11 @@ class Facts:
         if all(r is EVERYTHING for r in gens.values()):
             return EVERYTHING
         total: Range | None = None
-        for exponents, coefficient in key.terms():
+        for powers, coefficient in key.sparse_terms():
             term: Range | None = None
-            for i in key.variables:
-                if exponents[i]:
-                    part = power(gens[i], exponents[i])
-                    term = part if term is None else multiply(term, part)
+            for i, k in powers:
+                part = power(gens[i], k)
+                term = part if term is None else multiply(term, part)
             if term is None:
                 piece = Range(Fraction(coefficient), Fraction(coefficient), False, False)
             else:

@@ -30,7 +30,7 @@ def independent_parts(variables: tuple[str, ...], body: Formula, shop: Workshop,
         shop.note(StepKind.MINISCOPE, "disjunction", len(body.args))
         return either([recur(variables, part, shop) for part in body.args])
     parts = conjuncts(body)
-    groups = _components(parts, variables)
+    groups = components(parts, variables)
     if len(groups) < 2:
         return None
     outside = [part for names, members in groups if not names for part in members]
@@ -47,7 +47,7 @@ def independent_parts(variables: tuple[str, ...], body: Formula, shop: Workshop,
     return All(tuple(children))
 
 
-def _components(parts: Sequence[Formula], variables: Sequence[str]) -> list[tuple[set[str], list[Formula]]]:
+def components(parts: Sequence[Formula], variables: Sequence[str]) -> list[tuple[set[str], list[Formula]]]:
     """Groups of conjuncts connected by shared variables of the block; all without one are the first group."""
     groups: list[tuple[set[str], list[Formula]]] = []
     free: list[Formula] = []

@@ -43,7 +43,7 @@ def framed(region: Region) -> tuple[Region, Frame]:
         ends = (lower, upper)
         if None not in ends:
             continue
-        known = [float(p.sample[name]) for p in region.cells]  # type: ignore[arg-type]
+        known = [float(p.sample[name]) for p in region.cells]
         known += [float(end) for end in ends if end is not None]
         beyond = max(BEYOND, ceil((max(known) - min(known)) / 4))
         cut = (

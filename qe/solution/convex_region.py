@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import partial
 
 from qe.arguments import name
 from qe.eliminate.cad.decompose import decompose
@@ -14,6 +13,7 @@ from qe.evidence.cells import CellTable
 from qe.exact.algebraic import RealAlgebraic
 from qe.exact.field import FieldElement
 from qe.exact.ring import Ring
+from qe.execution import Limits
 from qe.formula.build import convert, exists
 from qe.formula.evaluate import substituted
 from qe.formula.normal import nnf
@@ -23,26 +23,29 @@ from qe.options import Budget
 from qe.solution.interval import Interval, Number
 from qe.solution.optimum import OptimumStatus, maximize, minimize
 from qe.solution.optimum_problem import NotConvex, read_problem
-from qe.solution.region import Region, checked_order, is_true
-from qe.solution.walk import coordinates, leaves
+from qe.solution.region import NONE, Region, checked_order, is_true
+from qe.solution.walk import leaves
 
 TABLE_VARIABLES = 2
 """Up to this many variables the decomposition is used for questions that optimisation does not answer."""
+
+Eliminate = Callable[[Formula, Budget], Formula]
 
 
 @dataclass(frozen=True, slots=True)
 class Shadow:
     """``exists hidden. conditions``: a conjunction of convex quadratic conditions, over a ring of all variables.
 
-    ``formula()`` eliminates the hidden variables.
+    ``whole``: the formula itself; ``eliminate(whole, budget)`` removes its hidden variables.
     """
 
     conditions: Formula
     hidden: tuple[str, ...]
-    formula: Callable[[], Formula]
+    whole: Formula
+    eliminate: Eliminate
 
 
-def shadow_of(formula: Formula, eliminate: Callable[[Formula], Formula]) -> Shadow | None:
+def shadow_of(formula: Formula, eliminate: Eliminate) -> Shadow | None:
     """The formula as a shadow of a convex set, None where it is not seen to be one (decided exactly)."""
     body, hidden = (formula.body, formula.variables) if isinstance(formula, Exists) else (formula, ())
     body = nnf(body)
@@ -50,7 +53,7 @@ def shadow_of(formula: Formula, eliminate: Callable[[Formula], Formula]) -> Shad
         read_problem(Ring.of(()).constant(0), body)
     except NotConvex:
         return None
-    return Shadow(body, hidden, partial(eliminate, formula))
+    return Shadow(body, hidden, formula, eliminate)
 
 
 class ConvexRegion(Region):
@@ -58,36 +61,44 @@ class ConvexRegion(Region):
 
     ``contains``, ``fibre``, ``bounds`` and ``is_empty`` are answered by exact convex optimisation, in any number of
     variables, and bounds carry certificates. ``formula`` (where variables are hidden) and ``table``, which all the
-    other questions rest on, are only computed when they are asked for. ``limits()`` makes the budget of one question.
+    other questions rest on, are only computed when they are asked for.
     """
 
-    __slots__ = ("_limits", "_shadow")
+    __slots__ = ("_shadow",)
 
-    def __init__(self, shadow: Shadow, order: tuple[str, ...] | None, *, limits: Callable[[], Budget]) -> None:
+    def __init__(self, shadow: Shadow, order: tuple[str, ...] | None, *, limits: Limits = NONE) -> None:
         free = free_variables(exists(shadow.hidden, shadow.conditions))
-        super().__init__(None, None, checked_order(free, order))
+        super().__init__(None, None, checked_order(free, order), limits)
         ring = Ring.of((*self.order, *shadow.hidden))
-        self._shadow = Shadow(convert(shadow.conditions, ring), shadow.hidden, shadow.formula)
-        self._limits = limits
+        self._shadow = replace(shadow, conditions=convert(shadow.conditions, ring))
 
     @property
     def formula(self) -> Formula:
         """The defining quantifier-free formula; computed when first asked for."""
         if self._formula is None:
-            found = self._shadow.formula() if self._shadow.hidden else self._shadow.conditions
-            self._formula = nnf(convert(found, Ring.of(self.order)))
+            self._formula = self._asked(self._eliminated, at_once=True)
         return self._formula
+
+    def _eliminated(self) -> Formula:
+        shadow = self._shadow
+        found = shadow.eliminate(shadow.whole, self._current()) if shadow.hidden else shadow.conditions
+        return nnf(convert(found, Ring.of(self.order)))
 
     @property
     def table(self) -> CellTable:
         """The decomposition of the space of ``order``; computed when first asked for."""
         if self._table is None:
-            done = decompose(self.formula, self.order, ("",) * len(self.order), budget=self._limits())
-            self._table = done.table
+            self._table = self._asked(self._decomposed, at_once=True)
         return self._table
+
+    def _decomposed(self) -> CellTable:
+        return decompose(self.formula, self.order, ("",) * len(self.order), budget=self._current()).table
 
     @property
     def is_empty(self) -> bool:
+        return self._asked(self._nowhere)
+
+    def _nowhere(self) -> bool:
         try:
             return self._somewhere(self._shadow.conditions) is None
         except Unable as error:
@@ -95,12 +106,15 @@ class ConvexRegion(Region):
                 raise
             return super().is_empty
 
-    def sample_points(self) -> list[dict[str, Number]]:
+    def sample_points(self, *, timeout: float | None = None) -> list[dict[str, Number]]:
         """Exact points: in up to two variables a rational one in every true cell of full dimension (in every true cell
         if there is none of full dimension), otherwise one point in all."""
+        return self._asked(self._samples, timeout, at_once=True)
+
+    def _samples(self) -> list[dict[str, Number]]:
         if len(self.order) <= TABLE_VARIABLES:
             inner = [p for p in leaves(self.table, is_true) if p.dimension == p.depth]
-            return [coordinates(self.table, p) for p in inner] if inner else super().sample_points()
+            return self._points_of(inner) if inner else super()._samples()
         point = self._somewhere(self._shadow.conditions)
         return [] if point is None else [{name: point.get(name, Fraction(0)) for name in self.order}]
 
@@ -135,28 +149,29 @@ class ConvexRegion(Region):
         if conditions in (TRUE, FALSE):
             return {} if conditions == TRUE else None
         nothing = Ring.of((*self.order, *self._shadow.hidden)).constant(0)
-        found = minimize(nothing, conditions, budget=self._limits())
+        found = minimize(nothing, conditions, budget=self._current())
         if found.status is OptimumStatus.INFEASIBLE:
             return None
         strictly = found.evidence.inner_point if found.attained is False else tuple(found.point.values())
         return {name: _number(value) for name, value in zip(found.point, strictly, strict=True)}
 
-    def bounds(self, variable: str) -> Interval:
+    def bounds(self, variable: str, *, timeout: float | None = None) -> Interval:
         """The exact infimum and supremum of a variable, whether they are attained, and the certificates of both."""
         variable = name(variable, "variable")
         if variable not in self.order:
             raise InputError(f"variable: one of {', '.join(self.order)} expected, {variable} found")
-        if variable not in self._bounds:
-            try:
-                found = self._range(variable, self._shadow.conditions)
-            except Unable as error:
-                if not self._has_small_table(error):
-                    raise
-                return super().bounds(variable)
-            if found is None:
-                raise InputError("an empty region has no bounds")
-            self._bounds[variable] = found
-        return self._bounds[variable]
+        return super().bounds(variable, timeout=timeout)
+
+    def _bounded(self, variable: str) -> Interval:
+        try:
+            found = self._range(variable, self._shadow.conditions)
+        except Unable as error:
+            if not self._has_small_table(error):
+                raise
+            return super()._bounded(variable)
+        if found is None:
+            raise InputError("an empty region has no bounds")
+        return found
 
     def _fibre(self, values: list[Number]) -> list[Interval]:
         if any(_rational(value) is None for value in values):
@@ -181,10 +196,10 @@ class ConvexRegion(Region):
         if conditions == FALSE:
             return None
         objective = Ring.of((*self.order, *self._shadow.hidden)).var(variable)
-        low = minimize(objective, conditions, budget=self._limits())
+        low = minimize(objective, conditions, budget=self._current())
         if low.status is OptimumStatus.INFEASIBLE:
             return None
-        high = maximize(objective, conditions, budget=self._limits())
+        high = maximize(objective, conditions, budget=self._current())
         return Interval(
             None if low.value is None else _number(low.value),
             None if high.value is None else _number(high.value),

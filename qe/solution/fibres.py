@@ -10,24 +10,27 @@ from qe.exact.algebraic import RealAlgebraic
 from qe.exact.fibre_stack import Isolation, isolate_over
 from qe.exact.ring import Poly, Ring
 from qe.exact.sample import Point
-from qe.options import Projection
+from qe.options import Budget, Projection
 from qe.solution.interval import Interval, Number
 
 
-def fibre_of(table: CellTable, values: Sequence[Number]) -> list[Interval]:
+def fibre_of(table: CellTable, values: Sequence[Number], *, budget: Budget) -> list[Interval]:
     """The values of variable number len(values) for which the table's set has a point that begins with ``values``.
 
     The factors are delineable over every cell, so the stack over the given point has the shape of the table's stack
     over the sample of its cell, and only its roots are computed anew. Disjoint intervals, ascending.
+    Raises ``BudgetExceeded``.
     """
     cell, point = table.root, Point(Ring.of(table.order))
     for value in values:
+        budget.check("fibre", point.depth)
         if cell.stack is not None:
             position = _position(_stack_over(table, cell, point), point, value)
             cell = cell.stack.cells[position]
         point = point.extend(value if isinstance(value, RealAlgebraic) else RealAlgebraic.rational(value))
     if cell.stack is None:
         return [Interval(None, None, False, False)] if cell.truth else []
+    budget.check("fibre", point.depth)
     isolation = _stack_over(table, cell, point)
     return [_interval(isolation, point, run) for run in _runs(cell.stack.cells)]
 

@@ -11,11 +11,12 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from itertools import islice
 
-from qe.arguments import by_name
+from qe.arguments import by_name, flag, seconds
 from qe.eliminate.vs import Answer, eliminate_block, witness
 from qe.errors import InputError, Unable
 from qe.exact.algebraic import RealAlgebraic
 from qe.exact.sample import Point
+from qe.execution import Limits, perform
 from qe.formula.evaluate import truth_under
 from qe.formula.normal import nnf
 from qe.formula.syntax import FALSE, Constant, Exists, ForAll, Formula
@@ -44,8 +45,13 @@ class ParametricWitness:
     _answer: Answer = field(repr=False)
     _variables: tuple[str, ...] = field(repr=False)
 
-    def at(self, parameters: Mapping[str, Coordinate]) -> dict[str, Number]:
-        """Exact values at these parameters. Raises ``InputError`` where the guard does not hold."""
+    def at(
+        self, parameters: Mapping[str, Coordinate], *, timeout: float | None = None, process: bool = True
+    ) -> dict[str, Number]:
+        """Exact values at these parameters; ``timeout`` and ``process`` as in ``qe.eliminate``.
+
+        Raises ``InputError`` where the guard does not hold, ``BudgetExceeded`` at the limit.
+        """
         given = {
             n: number_of(v, "parameters", f"an exact number for {n}")
             for n, v in by_name(parameters, "parameters").items()
@@ -53,9 +59,14 @@ class ParametricWitness:
         missing = [name for name in free_variables(self.guard) if name not in given]
         if missing:
             raise InputError(f"parameters: a value for {missing[0]} expected")
+        limits = Limits(seconds(timeout), process=flag(process, "process"))
+        return perform(lambda budgets: self._at(given, budgets()), limits, at_once=timeout is not None)
+
+    def _at(self, given: dict[str, Number], budget: Budget) -> dict[str, Number]:
+        budget.check("guard")
         if not _holds(self.guard, given):
             raise InputError("parameters: the guard does not hold there")
-        found = witness(self._answer, given, budget=Budget())
+        found = witness(self._answer, given, budget=budget)
         return {name: found.get(name, Fraction(0)) for name in self._variables}
 
     def __str__(self) -> str:

@@ -6,15 +6,20 @@ the earlier variables. Adjacent cells of a stack merge when everything above the
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 
 from qe.evidence.cells import CellTable
-from qe.exact.algebraic import RealAlgebraic
+from qe.exact.algebraic import RealAlgebraic, real_roots
+from qe.exact.algebraic_text import brief_algebraic
 from qe.exact.ring import Poly, format_poly
 from qe.exact.sample import Point
-from qe.solution.walk import Place, child, root_place
+from qe.options import Budget
+from qe.solution.walk import Number, Place, child, coordinates, root_place
 from qe.spelling import quoted
+
+LONGEST = 200
+"""Characters of one bound in texts for people."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,6 +32,16 @@ class RootFunction:
     poly: Poly
     k: int
     value: RealAlgebraic | None = None
+
+    def brief(self) -> str:
+        """As ``str``, but where that is longer than ``LONGEST`` characters, what the root is, with its place."""
+        if self.value is not None:
+            return brief_algebraic(self.value, LONGEST)
+        text = str(self) if self.poly.term_count() * 2 < LONGEST else ""
+        if text and len(text) <= LONGEST:
+            return text
+        variable, degree = self.poly.ring.names[self.poly.level], self.poly.degree(self.poly.level)
+        return f"root({self.k}, a polynomial of degree {degree} in {variable} with {self.poly.term_count()} terms)"
 
     def __str__(self) -> str:
         if self.value is not None:
@@ -78,24 +93,49 @@ class Range:
         return self.lower is not None and self.lower == self.upper
 
     def __str__(self) -> str:
+        return self._text(str)
+
+    def brief(self) -> str:
+        """As ``str``, with long bounds described only."""
+        return self._text(RootFunction.brief)
+
+    def _text(self, shown: Callable[[RootFunction], str]) -> str:
+        lower = "" if self.lower is None else shown(self.lower)
         if self.is_point:
-            return f"{quoted(self.variable)} = {self.lower}"
-        left = "" if self.lower is None else f"{self.lower} {'<=' if self.lower_closed else '<'} "
-        right = "" if self.upper is None else f" {'<=' if self.upper_closed else '<'} {self.upper}"
+            return f"{quoted(self.variable)} = {lower}"
+        left = "" if self.lower is None else f"{lower} {'<=' if self.lower_closed else '<'} "
+        right = "" if self.upper is None else f" {'<=' if self.upper_closed else '<'} {shown(self.upper)}"
         name = quoted(self.variable)
         return f"{left}{name}{right}" if left or right else f"{name} any"
 
 
 @dataclass(frozen=True, slots=True)
 class Piece:
-    """A union of cells with one description. ``sample``: a point of it; ``dimension``: of its largest cell."""
+    """A union of cells with one description. ``dimension``: of its largest cell, the one at ``path`` in ``table``."""
 
     ranges: tuple[Range, ...]
-    sample: Mapping[str, object]
     dimension: int
+    table: CellTable = field(repr=False, compare=False)
+    path: tuple[int, ...] = field(repr=False, compare=False)
+
+    @property
+    def sample(self) -> Mapping[str, Number]:
+        """A point of the largest cell. Irrational coordinates get their minimal polynomials, which can take long."""
+        place = root_place(self.table)
+        for position in self.path:
+            place = child(self.table, place, position)
+        return coordinates(self.table, place)
 
     def __str__(self) -> str:
-        return " and ".join(str(r) for r in self.ranges if r.lower is not None or r.upper is not None) or "everything"
+        return " and ".join(str(r) for r in self._bounded) or "everything"
+
+    def brief(self) -> str:
+        """As ``str``, for people: bounds whose exact text is longer than ``LONGEST`` characters are described only."""
+        return " and ".join(r.brief() for r in self._bounded) or "everything"
+
+    @property
+    def _bounded(self) -> list[Range]:
+        return [r for r in self.ranges if r.lower is not None or r.upper is not None]
 
 
 Candidates = frozenset[RootFunction]
@@ -117,43 +157,84 @@ class _Branch:
         return self.start % 2 == 1, self.stop % 2 == 1
 
 
-def merge(table: CellTable, *, distinct: bool = False) -> list[Piece]:
+def merge(table: CellTable, *, distinct: bool = False, budget: Budget | None = None) -> list[Piece]:
     """The pieces of the set of true cells (all variables free), in order.
 
     With ``distinct`` the roots in the bounds are counted without multiplicity, as ``RootAtom`` does; then fewer
-    cells merge.
+    cells merge. Raises ``BudgetExceeded``.
     """
-    branches = _branches(table, root_place(table), distinct)
+    branches = _Merging(table, distinct, budget or Budget()).branches(root_place(table))
     if branches is None:
         return [_piece(table, (), root_place(table))]
     return [p for b in branches for p in _flatten(table, b, ())]
 
 
-def _branches(table: CellTable, place: Place, distinct: bool) -> tuple[_Branch, ...] | None:
-    """The description of the truth set over a cell: None for everything, () for nothing."""
-    cell = place.cell
-    if cell.stack is None:
-        return None if cell.truth else ()
-    ends = _section_roots(table, place, distinct)
-    merged: list[_Branch] = []
-    for position, below in enumerate(cell.stack.cells):
-        if below.stack is None and not below.truth:
-            continue
-        inner = child(table, place, position)
-        above = _branches(table, inner, distinct)
-        if above == ():
-            continue
-        lower = ends[(position - 1) // 2] if position > 0 else None
-        upper = ends[position // 2] if position < len(cell.stack.cells) - 1 else None
-        if position % 2:
-            lower = upper = ends[position // 2]
-        branch = _Branch(position, position, lower, upper, above, inner)
-        joined = _joined(merged[-1], branch) if merged else None
-        if joined is None:
-            merged.append(branch)
-        else:
-            merged[-1] = joined
-    return tuple(merged)
+@dataclass(slots=True)
+class _Merging:
+    """The walk through a table, with the real roots of its polynomials in one variable."""
+
+    table: CellTable
+    distinct: bool
+    budget: Budget
+    values: dict[Poly, list[RealAlgebraic]] = field(default_factory=dict)
+
+    def branches(self, place: Place) -> tuple[_Branch, ...] | None:
+        """The description of the truth set over a cell: None for everything, () for nothing."""
+        self.budget.check("merge cells")
+        cell = place.cell
+        if cell.stack is None:
+            return None if cell.truth else ()
+        ends = self.section_roots(place)
+        merged: list[_Branch] = []
+        for position, below in enumerate(cell.stack.cells):
+            if below.stack is None and not below.truth:
+                continue
+            inner = child(self.table, place, position)
+            above = self.branches(inner)
+            if above == ():
+                continue
+            lower = ends[(position - 1) // 2] if position > 0 else None
+            upper = ends[position // 2] if position < len(cell.stack.cells) - 1 else None
+            if position % 2:
+                lower = upper = ends[position // 2]
+            branch = _Branch(position, position, lower, upper, above, inner)
+            joined = _joined(merged[-1], branch) if merged else None
+            if joined is None:
+                merged.append(branch)
+            else:
+                merged[-1] = joined
+        return tuple(merged)
+
+    def section_roots(self, place: Place) -> list[Candidates]:
+        """For every section the root functions that describe it (several where roots meet or factors share it)."""
+        stack = place.cell.stack
+        assert stack is not None
+        level = place.depth
+        seen: dict[int, int] = {}
+        met = dict.fromkeys(stack.used, 0)
+        totals = {j: sum(j in s for s in stack.sections) for j in stack.used}
+        result: list[Candidates] = []
+        for members in stack.sections:
+            found: set[RootFunction] = set()
+            for j in members:
+                poly = self.table.factors[level][j]
+                k = seen.get(j, 0) + 1
+                single = not self.distinct and totals[j] == 1
+                multiplicity = 2 if single and _true_degree(place.point, poly, level) == 2 else 1
+                value = self.value(poly, met[j]) if poly.variables == (level,) else None
+                met[j] += 1
+                found.update(RootFunction(poly, k + m, value) for m in range(multiplicity))
+                seen[j] = k + multiplicity - 1
+            result.append(frozenset(found))
+        return result
+
+    def value(self, poly: Poly, position: int) -> RealAlgebraic:
+        """A real root of a polynomial in one variable; over every point, all its roots are among the sections."""
+        stored = self.values.get(poly)
+        if stored is None:
+            self.budget.check("merge cells")
+            stored = self.values[poly] = real_roots(poly.to_univariate(poly.level))
+        return stored[position]
 
 
 def _joined(left: _Branch, right: _Branch) -> _Branch | None:
@@ -197,30 +278,6 @@ def _common(a: Candidates | None, b: Candidates | None) -> Candidates | None:
     return a & b
 
 
-def _section_roots(table: CellTable, place: Place, distinct: bool) -> list[Candidates]:
-    """For every section the root functions that describe it (several where roots meet or factors share it)."""
-    stack = place.cell.stack
-    assert stack is not None
-    level = place.depth
-    seen: dict[int, int] = {}
-    totals = {j: sum(j in s for s in stack.sections) for j in stack.used}
-    result: list[Candidates] = []
-    for section, members in enumerate(stack.sections):
-        found: set[RootFunction] = set()
-        for j in members:
-            poly = table.factors[level][j]
-            k = seen.get(j, 0) + 1
-            multiplicity = 2 if not distinct and totals[j] == 1 and _true_degree(place.point, poly, level) == 2 else 1
-            value = None
-            if poly.variables == (level,):
-                number = child(table, place, 2 * section + 1).point.number(level)
-                value = number if isinstance(number, RealAlgebraic) else RealAlgebraic.rational(number)
-            found.update(RootFunction(poly, k + m, value) for m in range(multiplicity))
-            seen[j] = k + multiplicity - 1
-        result.append(frozenset(found))
-    return result
-
-
 def _true_degree(point: Point, poly: Poly, level: int) -> int:
     """The degree over the point, for polynomials of formal degree 2 (others: -1)."""
     if poly.degree(level) != 2:
@@ -240,11 +297,9 @@ def _flatten(table: CellTable, branch: _Branch, ranges: tuple[Range, ...]) -> li
 
 
 def _piece(table: CellTable, ranges: tuple[Range, ...], place: Place) -> Piece:
-    from qe.solution.walk import coordinates
-
     rest = tuple(Range(name, None, None) for name in table.order[len(ranges) :])
     dimension = sum(not r.is_point for r in (*ranges, *rest))
-    return Piece((*ranges, *rest), coordinates(table, place), dimension)
+    return Piece((*ranges, *rest), dimension, table, place.path)
 
 
 def _chosen(candidates: Candidates | None) -> RootFunction | None:

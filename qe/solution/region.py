@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
+from typing import Any, TypeVar
 
-from qe.arguments import by_name, by_place, name, ratio
+from qe.arguments import by_name, by_place, name, ratio, seconds
 from qe.arguments import path as name_of_file
 from qe.eliminate.cad.decompose import decompose
 from qe.errors import InputError
 from qe.evidence.cells import Cell, CellTable
 from qe.evidence.certificate import Certificate
 from qe.exact.algebraic import RealAlgebraic
-from qe.exact.ring import Ring
+from qe.exact.ring import Poly, Ring
 from qe.exact.sample import Point
+from qe.execution import Budgets, Limits, perform
 from qe.formula.build import convert
 from qe.formula.evaluate import truth_under
 from qe.formula.normal import nnf
@@ -24,21 +27,39 @@ from qe.options import Budget
 from qe.solution.fibres import any_true, fibre_of
 from qe.solution.interval import Coordinate, Interval, Number, number_of
 from qe.solution.pieces import Piece, merge
-from qe.solution.walk import coordinates, free_part, leaves
+from qe.solution.walk import Place, coordinates, free_part, leaves
+
+T = TypeVar("T")
+NONE = Limits()
+_CACHES = ("_bounds", "_formula", "_pieces", "_table")
 
 
 class Region:
-    """The set of real points that satisfy ``formula``; ``table`` proves where it is true."""
+    """The set of real points that satisfy ``formula``; ``table`` proves where it is true.
 
-    __slots__ = ("_bounds", "_formula", "_pieces", "_table", "order")
+    ``limits`` hold for every question (replace them to change them); ``timeout`` in seconds, where a question has one,
+    goes before theirs. Questions that take long are worked on in another process (see ``qe.execution``); they raise
+    ``BudgetExceeded`` at a limit.
+    """
 
-    def __init__(self, formula: Formula | None, table: CellTable | None, order: tuple[str, ...]) -> None:
-        self._formula, self._table, self.order = formula, table, order
+    __slots__ = ("_bounds", "_budget", "_formula", "_pieces", "_table", "limits", "order")
+
+    def __init__(
+        self, formula: Formula | None, table: CellTable | None, order: tuple[str, ...], limits: Limits = NONE
+    ) -> None:
+        self._formula, self._table, self.order, self.limits = formula, table, order, limits
         self._pieces: list[Piece] | None = None
         self._bounds: dict[str, Interval] = {}
+        self._budget: Budget | None = None
 
     @staticmethod
-    def of(formula: Formula, order: tuple[str, ...] | None = None, *, budget: Budget | None = None) -> Region:
+    def of(
+        formula: Formula,
+        order: tuple[str, ...] | None = None,
+        *,
+        budget: Budget | None = None,
+        limits: Limits = NONE,
+    ) -> Region:
         """Decompose the space of the free variables (or of ``order``, which may name more).
 
         Raises ``InputError`` when ``order`` misses a free variable.
@@ -46,7 +67,41 @@ class Region:
         chosen = checked_order(free_variables(formula), order)
         matrix = nnf(convert(formula, Ring.of(chosen)))
         done = decompose(matrix, chosen, ("",) * len(chosen), budget=budget or Budget())
-        return Region(matrix, done.table, chosen)
+        return Region(matrix, done.table, chosen, limits)
+
+    # --- questions under limits ----------------------------------------------------------------
+    def _asked(self, work: Callable[[], T], timeout: float | None = None, *, at_once: bool = False) -> T:
+        """The answer to a question, found under the limits; what was learned on the way is kept.
+
+        A question that is part of another shares its budget.
+        """
+        if self._budget is not None:
+            return work()
+        before = {cache: _known(getattr(self, cache)) for cache in _CACHES}
+
+        def question(budgets: Budgets) -> tuple[T, dict[str, Any]]:
+            self._budget = budgets()
+            found = work()
+            learned = {cache: getattr(self, cache) for cache in _CACHES}
+            return found, {cache: value for cache, value in learned.items() if _known(value) != before[cache]}
+
+        limits = self.limits if timeout is None else replace(self.limits, timeout=seconds(timeout))
+        try:
+            found, learned = perform(question, limits, at_once=at_once and limits.timeout is not None)
+        finally:
+            self._budget = None
+        for learnt, value in learned.items():
+            setattr(self, learnt, value)
+        return found
+
+    def _current(self) -> Budget:
+        """The budget of the question that is being answered."""
+        return Budget() if self._budget is None else self._budget
+
+    def __getstate__(self) -> tuple[None, dict[str, Any]]:
+        """A region is pickled without the question that is being answered."""
+        names = {name for kind in type(self).__mro__ for name in getattr(kind, "__slots__", ())}
+        return None, {name: getattr(self, name) if name != "_budget" else None for name in sorted(names)}
 
     # --- what it is --------------------------------------------------------------------------
     @property
@@ -69,7 +124,7 @@ class Region:
     def cells(self) -> list[Piece]:
         """The cylindrical pieces, merged from the true cells."""
         if self._pieces is None:
-            self._pieces = merge(self.table)
+            self._pieces = self._asked(lambda: merge(self.table, budget=self._current()))
         return self._pieces
 
     @property
@@ -78,12 +133,13 @@ class Region:
         size = len(self.order)
         return max((p.dimension + size - p.depth for p in leaves(self.table, is_true)), default=-1)
 
-    def contains(self, point: Mapping[str, Coordinate]) -> bool:
+    def contains(self, point: Mapping[str, Coordinate], *, timeout: float | None = None) -> bool:
         """Exact membership. Coordinates: int, Fraction, decimal or fraction text, exact irrational numbers.
 
         A float is the decimal number that it prints. Raises ``InputError`` for other things and missing names.
         """
-        return self._holds(self._values(by_name(point, "point"), len(self.order)))
+        values = self._values(by_name(point, "point"), len(self.order))
+        return self._asked(lambda: self._holds(values), timeout, at_once=_are_irrational(values))
 
     def _values(self, point: Mapping[str, Coordinate], count: int) -> list[Number]:
         """The numbers given for the first ``count`` variables."""
@@ -94,11 +150,19 @@ class Region:
 
     def _holds(self, values: list[Number]) -> bool:
         place = Point.of(Ring.of(self.order), values)
-        truth = truth_under(self.formula, place.sign)
+        budget = self._current()
+
+        def sign(poly: Poly) -> int:
+            budget.check("membership")
+            return place.sign(poly)
+
+        truth = truth_under(self.formula, sign)
         assert truth is not None
         return truth
 
-    def fibre(self, prefix: Mapping[str, Coordinate] | Sequence[Coordinate] = ()) -> list[Interval]:
+    def fibre(
+        self, prefix: Mapping[str, Coordinate] | Sequence[Coordinate] = (), *, timeout: float | None = None
+    ) -> list[Interval]:
         """The exact set still possible for the next variable of ``order`` when the first ones have these values.
 
         ``prefix``: values by name (of the first variables of ``order``) or in order. Disjoint intervals, ascending;
@@ -113,45 +177,57 @@ class Region:
         if len(named) < size or len(named) >= len(self.order) or set(named) != set(self.order[: len(named)]):
             expected = ", ".join(self.order[:-1])
             raise InputError(f"prefix: values for the first variables of {expected} expected")
-        return self._fibre(self._values(named, len(named)))
+        values = self._values(named, len(named))
+        return self._asked(lambda: self._fibre(values), timeout, at_once=_are_irrational(values))
 
     def _fibre(self, values: list[Number]) -> list[Interval]:
-        return fibre_of(self.table, values)
+        return fibre_of(self.table, values, budget=self._current())
 
-    def sample_points(self) -> list[dict[str, Number]]:
+    def sample_points(self, *, timeout: float | None = None) -> list[dict[str, Number]]:
         """One exact point in every true cell of the decomposition."""
-        return [coordinates(self.table, place) for place in leaves(self.table, is_true)]
+        return self._asked(self._samples, timeout, at_once=True)
 
-    def bounds(self, variable: str) -> Interval:
+    def _samples(self) -> list[dict[str, Number]]:
+        return self._points_of(leaves(self.table, is_true))
+
+    def _points_of(self, places: Iterable[Place]) -> list[dict[str, Number]]:
+        points: list[dict[str, Number]] = []
+        for place in places:
+            self._current().check("sample points", len(points))
+            points.append(coordinates(self.table, place))
+        return points
+
+    def bounds(self, variable: str, *, timeout: float | None = None) -> Interval:
         """The exact infimum and supremum of a variable over the region, and whether they are attained."""
         variable = name(variable, "variable")
         if variable not in self.order:
             raise InputError(f"variable: one of {', '.join(self.order)} expected, {variable} found")
-        if self.is_empty:
-            raise InputError("an empty region has no bounds")
         if variable not in self._bounds:
-            self._bounds[variable] = self._projected(variable)
+            self._bounds[variable] = self._asked(lambda: self._bounded(variable), timeout, at_once=True)
         return self._bounds[variable]
 
-    def _projected(self, variable: str) -> Interval:
+    def _bounded(self, variable: str) -> Interval:
+        if self.is_empty:
+            raise InputError("an empty region has no bounds")
         order = (variable, *(v for v in reversed(self.order) if v != variable))
         quantifiers = ("", *("E" for _ in order[1:]))
-        table = decompose(self.formula, order, quantifiers, budget=Budget()).table
-        pieces = merge(free_part(table))
+        table = decompose(self.formula, order, quantifiers, budget=self._current()).table
+        pieces = merge(free_part(table), budget=self._current())
         first, last = pieces[0].ranges[0], pieces[-1].ranges[0]
         lower = None if first.lower is None else _value(first.lower.value)
         upper = None if last.upper is None else _value(last.upper.value)
         return Interval(lower, upper, first.lower_closed, last.upper_closed)
 
-    def volume(self, rel_error: float = 0.01) -> tuple[Fraction, Fraction]:
+    def volume(self, rel_error: float = 0.01, *, timeout: float | None = None) -> tuple[Fraction, Fraction]:
         """Rational numbers lo <= volume <= hi with hi - lo <= rel_error * hi (area in 2-D, length in 1-D).
 
         Regions bounded by planes and ellipsoids take well under a second at 0.01; other regions in space take longer.
-        Raises ``Unable`` for unbounded regions.
+        Raises ``Unable`` for unbounded regions, and ``BudgetExceeded``, with what is known by then, at a limit.
         """
         from qe.solution.volume import enclose
 
-        return enclose(self, ratio(rel_error, "rel_error"))
+        error = ratio(rel_error, "rel_error")
+        return self._asked(lambda: enclose(self, error, budget=self._current()), timeout, at_once=True)
 
     def to_formula(self) -> Formula:
         """The defining quantifier-free formula."""
@@ -177,7 +253,7 @@ class Region:
             raise InputError("a region in JSON expected")
         return Region(payload.table.matrix, payload.table, payload.table.order)
 
-    def plot(self, path: str | Path) -> None:
+    def plot(self, path: str | Path, *, timeout: float | None = None) -> None:
         """Write a picture (PNG, SVG or PDF by the ending) of a region in one to three variables.
 
         Raises ``InputError`` in more variables, and for a file that cannot be written.
@@ -186,7 +262,7 @@ class Region:
 
         target = name_of_file(path)
         try:
-            draw(self, target)
+            self._asked(lambda: draw(self, target), timeout, at_once=True)
         except OSError as error:
             raise InputError(f"{target}: cannot be written: {error.strerror}") from None
 
@@ -201,6 +277,15 @@ def checked_order(free: tuple[str, ...], order: tuple[str, ...] | None) -> tuple
     if missing or len(set(chosen)) != len(chosen):
         raise InputError(f"order: each of {', '.join(free)} once expected, {', '.join(chosen)} found")
     return chosen
+
+
+def _known(value: object) -> int:
+    """How much a cache holds."""
+    return 0 if value is None else len(value) if isinstance(value, dict) else 1
+
+
+def _are_irrational(values: Sequence[Number]) -> bool:
+    return any(isinstance(value, RealAlgebraic) and not value.is_rational for value in values)
 
 
 def is_true(cell: Cell) -> bool:

@@ -14,12 +14,13 @@ from dataclasses import replace
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from qe.errors import Unable
+from qe.errors import BudgetExceeded, Unable
 from qe.exact.algebraic import RealAlgebraic
 from qe.exact.balls import precision
 from qe.exact.enclosure import Jet, Sides, box_sides, constant, ends, root_jet, smooth_side
 from qe.exact.nearby import rational_between
 from qe.exact.translate import translated
+from qe.options import Budget
 from qe.solution.pieces import Piece, RootFunction
 from qe.solution.slices import has_closed_slices, slice_area
 
@@ -37,23 +38,25 @@ _HALF = Fraction(1, 2)
 Box = tuple[tuple[Fraction, Fraction], ...]
 
 
-def enclose(region: Region, rel_error: Fraction) -> tuple[Fraction, Fraction]:
+def enclose(region: Region, rel_error: Fraction, *, budget: Budget) -> tuple[Fraction, Fraction]:
     """lo <= measure <= hi, rational, with hi - lo <= rel_error * hi (0, 0 for a region without interior).
 
-    Raises ``Unable`` for unbounded pieces and when the error is not reached within ``MOST_BOXES`` boxes.
+    Raises ``Unable`` for unbounded pieces and when the error is not reached within ``MOST_BOXES`` boxes,
+    ``BudgetExceeded`` (with what is known of the measure by then) at a limit.
     """
     pieces = [p for p in region.cells if p.dimension == len(region.order)]
     for piece in pieces:
         for r in piece.ranges:
             if r.lower is None or r.upper is None:
                 raise Unable(f"the region is unbounded in {r.variable}")
-    return _Sum(region, pieces).refine(rel_error)
+    return _Sum(region, pieces, budget).refine(rel_error)
 
 
 class _Sum:
     """The boxes of all pieces, worst first."""
 
-    def __init__(self, region: Region, pieces: Sequence[Piece]) -> None:
+    def __init__(self, region: Region, pieces: Sequence[Piece], budget: Budget) -> None:
+        self.budget = budget
         self.region, self.sides = region, len(region.order) - 1
         self.queue: list[tuple[Fraction, int, Piece, Box, Fraction, Fraction]] = []
         self.low = self.high = Fraction(0)
@@ -68,7 +71,11 @@ class _Sum:
     def refine(self, rel_error: Fraction) -> tuple[Fraction, Fraction]:
         while self.queue and self.high - self.low > rel_error * self.high:
             if self.count > MOST_BOXES:
-                raise Unable(f"volume known only between {float(self.low):.6g} and {float(self.high):.6g}")
+                raise Unable(self._known())
+            try:
+                self.budget.check("volume", self.count)
+            except BudgetExceeded as error:
+                raise BudgetExceeded(f"{error}: {self._known()}", limit=error.limit) from None
             _, _, piece, box, low, high = heapq.heappop(self.queue)
             self.low -= low
             self.high -= high
@@ -79,6 +86,9 @@ class _Sum:
             for half in _halves(box) if box else [box]:
                 self._push(piece, half)
         return max(self.low, Fraction(0)), self.high
+
+    def _known(self) -> str:
+        return f"volume known only between {float(self.low):.6g} and {float(self.high):.6g}"
 
     def _push(self, piece: Piece, box: Box) -> None:
         self.count += 1

@@ -180,3 +180,19 @@ def test_the_public_function_brings_whole_answers_home():
     formula = "ex x. x^2 + b*x + c = 0"
     assert qe.eliminate(formula, memory=2000).formula == qe.eliminate(formula).formula
     assert seen
+
+
+def test_threads_of_flint_do_not_stop_a_worker():
+    """A worker waited for ever for threads that only its parent had."""
+    import flint
+
+    ring = flint.fmpz_mpoly_ctx.get(("x", "y", "z"), "lex")
+    x, y, z = ring.gens()
+    flint.ctx.threads = 2
+    try:
+        power = (x + 2 * y + 3 * z + 1) ** 20
+        terms = len(power * power)
+        assert run(lambda channel: len(power * power), timeout=20) == terms
+        assert flint.ctx.threads == 2
+    finally:
+        flint.ctx.threads = 1

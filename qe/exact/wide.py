@@ -1,0 +1,176 @@
+"""Polynomials of rings with many variables, of which each contains few.
+
+Lists with an entry for every variable of the ring, of which python-flint makes one for the degrees and one for each
+term, and factoring in the large ring take longer than everything else then. Such a polynomial remembers a small set of
+variables that contains its own; degrees and terms are read off derivatives and coefficients with respect to these, and
+what is not simple arithmetic is done in a ring of these alone.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from fractions import Fraction
+from functools import cached_property, reduce
+
+from flint import fmpz_mpoly, fmpz_poly
+
+from qe.errors import InternalError
+from qe.exact.ring import Poly, Ring, SparseTerm
+
+_NOTHING: frozenset[int] = frozenset()
+
+
+class WidePoly(Poly):
+    """A ``Poly`` whose variables are among ``support``; equal to, and hashed like, any other with its value."""
+
+    __slots__ = ()
+
+    @staticmethod
+    def of(ring: Ring, p: fmpz_mpoly, support: frozenset[int] = _NOTHING) -> WidePoly:
+        """The polynomial, which has no variables but those of ``support``."""
+        made = WidePoly(ring, p)
+        made.__dict__["support"] = support
+        return made
+
+    @cached_property
+    def support(self) -> frozenset[int]:
+        return frozenset(i for i, d in enumerate(reversed(self.p.degrees())) if d)
+
+    def _like(self, p: fmpz_mpoly) -> WidePoly:
+        return WidePoly.of(self.ring, p, self.support)
+
+    def _with(self, p: fmpz_mpoly, other: Poly | int) -> WidePoly:
+        if isinstance(other, int):
+            return self._like(p)
+        more = other.support if isinstance(other, WidePoly) else frozenset(other.variables)
+        return WidePoly.of(self.ring, p, self.support | more)
+
+    def __reduce__(self) -> tuple[object, tuple[object, ...]]:
+        return _rebuild, (self.ring, tuple(self.sparse_terms()))
+
+    # --- arithmetic -------------------------------------------------------------------------
+    def __add__(self, other: Poly | int) -> Poly:
+        return self._with(self.p + self._lift(other), other)
+
+    __radd__ = __add__
+
+    def __sub__(self, other: Poly | int) -> Poly:
+        return self._with(self.p - self._lift(other), other)
+
+    def __rsub__(self, other: int) -> Poly:
+        return self._like(other - self.p)
+
+    def __mul__(self, other: Poly | int) -> Poly:
+        return self._with(self.p * self._lift(other), other)
+
+    __rmul__ = __mul__
+
+    # --- structure --------------------------------------------------------------------------
+    @cached_property
+    def variables(self) -> tuple[int, ...]:
+        """The indices that occur, ascending."""
+        return tuple(i for i in sorted(self.support) if self.p.derivative(self.ring.slot(i)))
+
+    @cached_property
+    def degrees(self) -> tuple[int, ...]:
+        """The degree in every variable of the ring, in ring order (0 for the zero polynomial)."""
+        own = self._own_degrees
+        return tuple(own.get(i, 0) for i in range(self.ring.size))
+
+    @cached_property
+    def _own_degrees(self) -> dict[int, int]:
+        return {i: len(self.coefficients(i)) - 1 for i in self.variables}
+
+    def degree(self, i: int) -> int:
+        """The degree in variable ``i``."""
+        return self._own_degrees.get(i, 0)
+
+    def sparse_terms(self) -> list[SparseTerm]:
+        """The terms in no particular order: ((variable, exponent > 0), ...), ascending, with the coefficient."""
+        if self.is_constant:
+            return [((), self.constant_value())] if self.p else []
+        i = self.variables[-1]
+        found: list[SparseTerm] = []
+        for k, c in enumerate(self.coefficients(i)):
+            found += [((*below, (i, k)) if k else below, a) for below, a in c.sparse_terms()]
+        return found
+
+    def terms(self) -> list[tuple[tuple[int, ...], int]]:
+        """(exponent vector in ring order, coefficient), highest first in the lexicographic order."""
+        found = []
+        for powers, c in self.sparse_terms():
+            own = [0] * self.ring.size
+            for i, k in powers:
+                own[i] = k
+            found.append((tuple(own), c))
+        return sorted(found, key=lambda term: term[0][::-1], reverse=True)
+
+    # --- in a ring of the variables that occur --------------------------------------------------
+    def _compact(self, *others: Poly) -> tuple[tuple[int, ...], list[Poly]]:
+        """The variables of all, and the polynomials in a ring of just so many variables, in the same order."""
+        polys = (self, *others)
+        own = tuple(sorted({i for f in polys for i in f.variables}))
+        place = {i: j for j, i in enumerate(own)}
+        ring = Ring.of(f"x{j}" for j in range(len(own)))
+        return own, [
+            ring.from_sparse([(tuple((place[i], k) for i, k in powers), c) for powers, c in f.sparse_terms()])
+            for f in polys
+        ]
+
+    def _expanded(self, own: tuple[int, ...], small: Poly) -> Poly:
+        terms = [(tuple((own[j], k) for j, k in powers), c) for powers, c in small.sparse_terms()]
+        return self.ring.from_sparse(terms)
+
+    def gcd(self, other: Poly) -> Poly:
+        own, (f, g) = self._compact(other)
+        return self._expanded(own, f.gcd(g))
+
+    def resultant(self, other: Poly, i: int) -> Poly:
+        """The resultant with respect to variable ``i``; both need not contain it."""
+        own, (f, g) = self._compact(other)
+        return self._expanded(own, f.resultant(g, own.index(i))) if i in own else self.ring.constant(1)
+
+    def discriminant(self, i: int) -> Poly:
+        """The discriminant with respect to variable ``i``, of degree at least 1 in it."""
+        own, (f,) = self._compact()
+        return self._expanded(own, f.discriminant(own.index(i)))
+
+    def factors(self) -> tuple[int, tuple[tuple[Poly, int], ...]]:
+        """(unit, ((irreducible primitive factor, multiplicity), ...)), cached in the ring."""
+        stored = self.ring.cache.get(("factors", self))
+        if stored is None:
+            own, (f,) = self._compact()
+            unit, parts = f.factors()
+            stored = unit, tuple((self._expanded(own, q), e) for q, e in parts)
+            self.ring.remember(("factors", self), stored)
+        return stored  # type: ignore[return-value]
+
+    # --- substitution -----------------------------------------------------------------------
+    def at_rational(self, i: int, value: Fraction | int) -> Poly:
+        """A positive multiple of the polynomial with variable ``i`` set to a rational number."""
+        own, (f,) = self._compact()
+        return self._expanded(own, f.at_rational(own.index(i), value)) if i in own else self
+
+    def evaluate(self, values: Iterable[Fraction | int]) -> Fraction:
+        """The value at a rational point (one value per ring variable)."""
+        point = tuple(values)
+        own, (f,) = self._compact()
+        return f.evaluate([point[i] for i in own])
+
+    def compose(self, substitution: Mapping[int, Poly]) -> Poly:
+        """Replace variables by polynomials of the same ring, simultaneously."""
+        total: Poly = self.ring.constant(0)
+        for powers, c in self.sparse_terms():
+            images = (substitution[i] if i in substitution else self.ring.gen(i) for i, _ in powers)
+            total += reduce(lambda a, b: a * b, (f**k for f, (_, k) in zip(images, powers, strict=True)), total * 0 + c)
+        return total
+
+    def to_univariate(self, i: int) -> fmpz_poly:
+        """The polynomial as a FLINT univariate one; no other variable may occur."""
+        if self.variables not in ((i,), ()):
+            raise InternalError("a polynomial in one variable expected")
+        return fmpz_poly([c.constant_value() for c in self.coefficients(i)])
+
+
+def _rebuild(ring: Ring, terms: tuple[SparseTerm, ...]) -> Poly:
+    return ring.from_sparse(terms)

@@ -1,0 +1,39 @@
+"""Whether a single operation on the polynomials of a formula could take long, from figures that need no algebra."""
+
+from __future__ import annotations
+
+import re
+from itertools import islice
+
+from qe.exact.ring import Poly
+from qe.formula.syntax import Formula
+from qe.formula.traverse import atoms
+
+MOST_ATOMS = 300
+MOST_TERMS, MOST_DEGREE, MOST_BITS, MOST_WEIGHT = 60, 40, 2000, 300
+_LONG_TEXT = 20_000
+_POWER = re.compile(r"(?:\^|\*\*)\s*(\d+)")
+
+
+def may_block(formula: Formula) -> bool:
+    """Whether one resultant, factorization or root isolation about the formula may take some tenths of a second.
+
+    ``total degree ^ (number of variables)`` of a polynomial, for at most three of its variables, measures the size of
+    its resultants. A guess in both directions: it decides where work is done, never its result.
+    """
+    found = list(islice(atoms(formula), MOST_ATOMS + 1))
+    return len(found) > MOST_ATOMS or any(_is_large(a.poly) for a in found)
+
+
+def _is_large(poly: Poly) -> bool:
+    degree, variables, terms = poly.total_degree, len(poly.variables), poly.term_count()
+    if terms > MOST_TERMS or degree > MOST_DEGREE:
+        return True
+    return degree ** min(variables, 3) > MOST_WEIGHT or poly.height_bits() > MOST_BITS
+
+
+def text_may_block(text: str) -> bool:
+    """Whether reading may take long: a long text, or powers that may have to be multiplied out."""
+    if len(text) > _LONG_TEXT:
+        return True
+    return any(len(k) > 2 or int(k) > MOST_DEGREE for k in _POWER.findall(text))

@@ -1,0 +1,91 @@
+"""Polynomials in rings with many variables do what those in a ring of their own variables do."""
+
+from __future__ import annotations
+
+import pickle
+from fractions import Fraction
+
+from hypothesis import given
+from hypothesis import strategies as st
+
+from qe.exact.ring import WIDE, Poly, Ring, format_poly
+from qe.exact.wide import WidePoly
+
+BIG = Ring.of(f"y{i}" for i in range(2 * WIDE))
+NAMES = ("y3", f"y{WIDE - 1}", f"y{WIDE}", f"y{2 * WIDE - 1}")
+SMALL = Ring.of(NAMES)
+PLACES = tuple(BIG.index[name] for name in NAMES)
+COEFFICIENTS = st.integers(-9, 9) | st.integers(-(10**40), 10**40)
+EXPONENTS = st.tuples(*(st.integers(0, 2) for _ in NAMES))
+POLYS = st.dictionaries(EXPONENTS, COEFFICIENTS, max_size=4).map(
+    lambda terms: SMALL.from_terms({e: c for e, c in terms.items() if c})
+)
+RATIONALS = st.fractions(-5, 5, max_denominator=9)
+
+
+def wide(small: Poly) -> Poly:
+    made = small.convert(BIG)
+    assert isinstance(made, WidePoly)
+    return made
+
+
+def same(small: Poly, large: Poly) -> None:
+    """That the two are one polynomial, in every figure, and that the large one agrees with a plain one."""
+    plain = Poly(BIG, large.p)  # what remembers nothing
+    assert large.convert(SMALL) == small and small.convert(BIG) == large == plain
+    assert hash(large) == hash(plain) and pickle.loads(pickle.dumps(large)) == large
+    assert large.variables == plain.variables == tuple(PLACES[i] for i in small.variables)
+    assert large.degrees == plain.degrees and large.terms() == plain.terms()
+    assert [large.degree(i) for i in PLACES] == list(small.degrees)
+    assert sorted(large.sparse_terms()) == sorted(plain.sparse_terms())
+    assert format_poly(large) == format_poly(small) and large.is_constant == small.is_constant
+
+
+@given(POLYS, POLYS, st.integers(-3, 3))
+def test_arithmetic(f, g, number):
+    large, other = wide(f), wide(g)
+    same(f, large)
+    same(f + g, large + other)
+    same(f + (-f), large + (-large))
+    same(f - g, large - other)
+    same(f * g, large * other)
+    same(number - f, number - large)
+    same(number * f + number, number * large + number)
+    same(f**2, large**2)
+    same(f, large + Poly(BIG, other.p) - other)  # with one that remembers nothing
+
+
+@given(POLYS, POLYS)
+def test_algebra(f, g):
+    large, other = wide(f), wide(g)
+    if f and g:
+        same(f.gcd(g * f), large.gcd(other * large))
+    if f:
+        (unit, parts), (large_unit, large_parts) = f.factors(), large.factors()
+        assert unit == large_unit and [e for _, e in parts] == [e for _, e in large_parts]
+        for (a, _), (b, _) in zip(parts, large_parts, strict=True):
+            same(a, b)
+        same(f.normal()[1], large.normal()[1])
+        assert f.normal()[0] == large.normal()[0]
+    for i, place in enumerate(PLACES):
+        same(f.derivative(i), large.derivative(place))
+        same(f.resultant(g, i), large.resultant(other, place))
+        if f.degree(i):
+            same(f.discriminant(i), large.discriminant(place))
+        for a, b in zip(f.coefficients(i), large.coefficients(place), strict=True):
+            same(a, b)
+
+
+@given(POLYS, POLYS, st.tuples(*(RATIONALS for _ in NAMES)))
+def test_substitution(f, g, values):
+    large, other = wide(f), wide(g)
+    point = [Fraction(0)] * BIG.size
+    for place, value in zip(PLACES, values, strict=True):
+        point[place] = value
+    assert f.evaluate(values) == large.evaluate(point)
+    for i, place in enumerate(PLACES):
+        same(f.compose({i: g}), large.compose({place: other}))
+        same(f.at_rational(i, values[i]), large.at_rational(place, values[i]))
+        if f.variables == (i,):
+            assert f.to_univariate(i) == large.to_univariate(place)
+    assert large.at_rational(0, 3) == large

@@ -1,0 +1,177 @@
+"""``timeout`` ends every public function, also while it is in a call that never looks at its budget."""
+
+from __future__ import annotations
+
+import pickle
+import time
+from collections.abc import Callable
+from fractions import Fraction
+from pathlib import Path
+
+import pytest
+
+import qe
+from qe.errors import BudgetExceeded, Unable
+from qe.exact.algebraic import RealAlgebraic
+from qe.progress import Event
+
+SQRT2 = RealAlgebraic.from_root([-2, 0, 1], 1, 2)
+DISC = "x^2 + y^2 <= 2"
+SHADOW = "ex u. x^2 + y^2 + u^2 <= 2 and x + y >= u"
+HARD = "ex a, b, c. all x, y. a*x^4*y + b*x*y^3 + c*x^2*y^2 + d*x + e*y + f > a^2*x^3 + b^2*y^5"
+LIMIT, BOUND = 0.3, 5.0
+"""Seconds; the worker is killed 0.25 s after its limit, and the machine may be busy."""
+
+
+def stuck(*arguments: object, **keywords: object) -> None:
+    time.sleep(120)
+
+
+def witness() -> qe.ParametricWitness:
+    return qe.parametric_witnesses("ex x. a*x^2 + b*x + 1 = 0")[0]
+
+
+Call = Callable[[], object]
+CASES: dict[str, tuple[str, Callable[[], Call]]] = {
+    "eliminate": ("qe.pipeline.solve", lambda: lambda: qe.decide("ex x. x > 2", timeout=LIMIT)),
+    "find_instance": ("qe.pipeline.solve", lambda: lambda: qe.find_instance("x > 2", timeout=LIMIT)),
+    "equivalent": ("qe.pipeline.solve", lambda: lambda: qe.equivalent("x > 2", "x > 3", timeout=LIMIT)),
+    "check_witness": (
+        "qe.pipeline.solve",
+        lambda: lambda: qe.check_witness("all a. ex x. x > a", {"x": "a + 1"}, timeout=LIMIT),
+    ),
+    "minimize": ("qe.solution.optimum.solve", lambda: lambda: qe.minimize("x", "x >= 1", timeout=LIMIT)),
+    "maximize": ("qe.solution.optimum.solve", lambda: lambda: qe.maximize("x", "x <= 1", timeout=LIMIT)),
+    "parametric_witnesses": (
+        "qe.solution.parametric.eliminate_block",
+        lambda: lambda: qe.parametric_witnesses("ex x. x > a", timeout=LIMIT),
+    ),
+    "ParametricWitness.at": (
+        "qe.solution.parametric.witness",
+        lambda: lambda found=witness(): found.at({"a": 1, "b": 9}, timeout=LIMIT),
+    ),
+    "region": ("qe.solution.region.decompose", lambda: lambda: qe.region(DISC, timeout=LIMIT)),
+    "region of a quantified formula": (
+        "qe.pipeline.solve",
+        lambda: lambda: qe.region("ex z. z^3 = x*y and z > 0", timeout=LIMIT),
+    ),
+    "Region.contains": (
+        "qe.solution.region.truth_under",
+        lambda: lambda found=qe.region(DISC): found.contains({"x": SQRT2, "y": 0}, timeout=LIMIT),
+    ),
+    "Region.fibre": (
+        "qe.solution.region.fibre_of",
+        lambda: lambda found=qe.region(DISC): found.fibre([SQRT2], timeout=LIMIT),
+    ),
+    "Region.bounds": (
+        "qe.solution.region.decompose",
+        lambda: lambda found=qe.region(DISC): found.bounds("y", timeout=LIMIT),
+    ),
+    "Region.sample_points": (
+        "qe.solution.region.coordinates",
+        lambda: lambda found=qe.region(DISC): found.sample_points(timeout=LIMIT),
+    ),
+    "Region.volume": (
+        "qe.solution.volume.ends",
+        lambda: lambda found=qe.region(DISC): found.volume(timeout=LIMIT),
+    ),
+    "Region.plot": (
+        "qe.report.picture.draw",
+        lambda: lambda found=qe.region(DISC): found.plot("nowhere.png", timeout=LIMIT),
+    ),
+    "Region.formula": (
+        "qe.pipeline.solve",
+        lambda: lambda found=qe.region(SHADOW, timeout=LIMIT): found.formula,
+    ),
+    "Region.cells": (
+        "qe.solution.convex_region.decompose",
+        lambda: lambda found=qe.region(SHADOW, timeout=LIMIT): found.cells,
+    ),
+    "bounds of a convex region": (
+        "qe.solution.convex_region.minimize",
+        lambda: lambda found=qe.region(SHADOW): found.bounds("x", timeout=LIMIT),
+    ),
+}
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_the_limit_holds(name, monkeypatch):
+    place, prepared = CASES[name]
+    call = prepared()
+    monkeypatch.setattr(place, stuck)
+    start = time.monotonic()
+    with pytest.raises(Unable, match="limit"):
+        call()
+    assert LIMIT <= time.monotonic() - start < BOUND
+
+
+def test_a_hard_region_ends_soon_after_its_limit():
+    start = time.monotonic()
+    with pytest.raises(BudgetExceeded):
+        qe.region("x^6*y^5 + z^7*x - y*z^3 + 3 > 0 and x^7 + y^6*z^5 - x*y*z = 1", timeout=1)
+    assert time.monotonic() - start < BOUND
+
+
+def test_what_a_volume_is_known_to_be_is_told_at_the_limit():
+    region = qe.region("x^2 + y^2 + z^2 <= 1 and x*y*z >= 1/50")
+    with pytest.raises(BudgetExceeded, match=r"volume known only between [\d.]+ and \d"):
+        region.volume(1e-9, timeout=1)
+
+
+def test_memory_limits_hold_for_regions_and_their_questions(monkeypatch):
+    region = qe.region(DISC, memory=2000)
+    monkeypatch.setattr("qe.solution.region.decompose", lambda *arguments, **keywords: bytearray(1 << 33))
+    for call in (lambda: qe.region(DISC, memory=2000), lambda: region.bounds("x")):
+        with pytest.raises(BudgetExceeded) as caught:
+            call()
+        assert caught.value.limit == "memory"
+
+
+def test_what_a_question_has_learned_is_kept():
+    region = qe.region(SHADOW, timeout=60)
+    formula = region.formula
+    assert region._formula is formula and region.formula is formula
+    table = region.table
+    assert region.table is table and region.cells is region.cells
+    assert region.bounds("x") is region.bounds("x")
+
+
+@pytest.mark.parametrize("text", [DISC, SHADOW, "x^2 = 2 and y^3 > x", "x + y + z + w < 1 and x^2 + w^2 <= 3"])
+def test_regions_of_another_process_are_whole(text):
+    seen: list[Event] = []
+    far, near = qe.region(text, timeout=60, progress=seen.append), qe.region(text, process=False)
+    assert type(far) is type(near) and far.order == near.order
+    for region in (far, pickle.loads(pickle.dumps(far))):
+        assert tuple(region.bounds(region.order[0])) == tuple(near.bounds(near.order[0]))
+        assert region.formula == near.formula and region.sample_points() == near.sample_points()
+        assert qe.verify(region.certificate).accepted
+        assert region.fibre([Fraction(1, 3)] * (len(region.order) - 1)) is not None
+
+
+def test_optima_of_another_process_are_whole():
+    far = qe.minimize("x + y", "x^2 + 2*y^2 <= 3 and x <= 1/2", timeout=60)
+    near = qe.minimize("x + y", "x^2 + 2*y^2 <= 3 and x <= 1/2")
+    assert far == near and str(far.value) == str(near.value)
+    assert far.point["x"] + far.point["y"] == far.value  # elements of one and the same field
+    assert qe.verify(far.certificate).accepted and pickle.loads(pickle.dumps(near)) == near
+
+
+def test_witnesses_of_another_process_are_whole():
+    far = qe.parametric_witnesses("ex x. a*x^2 + b*x + 1 = 0", timeout=60)
+    near = qe.parametric_witnesses("ex x. a*x^2 + b*x + 1 = 0", process=False)
+    assert [str(w) for w in far] == [str(w) for w in near]
+    assert [w.at({"a": 1, "b": 9}) for w in far[:1]] == [w.at({"a": 1, "b": 9}, timeout=60) for w in near[:1]]
+
+
+def test_a_picture_is_drawn_by_another_process(tmp_path: Path):
+    qe.region(DISC).plot(tmp_path / "disc.png", timeout=60)
+    assert (tmp_path / "disc.png").stat().st_size > 1000
+
+
+def test_reading_holds_the_limit(monkeypatch):
+    monkeypatch.setattr("qe.api.read_formula", stuck)
+    start = time.monotonic()
+    assert qe.eliminate("(x + y + z + 1)^70 > 0", timeout=LIMIT).status is qe.Status.UNABLE
+    with pytest.raises(BudgetExceeded):
+        qe.region("(x + y + z + 1)^70 > 0", timeout=LIMIT)
+    assert time.monotonic() - start < 2 * BOUND
