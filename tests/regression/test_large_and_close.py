@@ -18,7 +18,7 @@ from qe.exact.balls import precision
 from qe.exact.fibre_stack import isolate_over
 from qe.exact.nearby import rational_between
 from qe.exact.ring import Poly, Ring
-from qe.exact.sample import Point
+from qe.exact.sample import FibreRoot, Point
 from qe.exact.sturm import count_roots_between
 from qe.formula.build import atom
 from qe.formula.syntax import Relation
@@ -130,6 +130,20 @@ def test_no_number_was_looked_for_between_ends_in_the_wrong_order_for_ever() -> 
         with pytest.raises(InternalError):
             rational_between(low, high)
     assert Fraction(7, 5) < rational_between(Fraction(141421356, 10**8), root) < root
+
+
+@given(st.integers(-3, 3), st.sampled_from(HUGE), st.integers(-1, 1))
+def test_a_root_over_an_algebraic_point_is_compared_with_rationals_exactly(whole: int, big: int, side: int) -> None:
+    """Also with itself: no precision tells a rational root from the rational number that it is."""
+    x, y = PLANE.gen(0), PLANE.gen(1)
+    point = Point.of(PLANE, [RealAlgebraic.from_root((-2, 0, 1), 1, 2)])
+    f = (big * y - whole) * (y**2 - x - 20)
+    found = isolate_over(point, (f,))
+    values = [s.value for s in found.sections]
+    assert len(values) == 3 and isinstance(values[1], FibreRoot)
+    shifted = Fraction(whole, big) + Fraction(side, big**3)
+    assert values[1].compare_rational(fmpq(shifted.numerator, shifted.denominator)) == -side
+    assert values[0].compare_rational(fmpq(0)) == -1 and values[2].compare_rational(fmpq(0)) == 1
 
 
 @settings(max_examples=40)
