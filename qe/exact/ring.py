@@ -207,8 +207,8 @@ class Poly:
         return len(self.p)
 
     def height_bits(self) -> int:
-        """The bit length of the largest coefficient."""
-        return max((int(c).bit_length() for c in self.p.coeffs()), default=0)
+        """The number of bits of the largest coefficient."""
+        return max((int(abs(c)).bit_length() for c in self.p.coeffs()), default=0)
 
     def terms(self) -> list[tuple[tuple[int, ...], int]]:
         """(exponent vector in ring order, coefficient), highest first in the lexicographic order."""
