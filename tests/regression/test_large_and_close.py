@@ -20,8 +20,10 @@ from qe.exact.nearby import rational_between
 from qe.exact.ring import Poly, Ring
 from qe.exact.sample import FibreRoot, Point
 from qe.exact.sturm import count_roots_between
-from qe.formula.build import atom
+from qe.formula.build import atom, exists
+from qe.formula.evaluate import holds_at
 from qe.formula.syntax import Relation
+from tests.differential.generate import at_point
 from tests.strategies import HUGE, close_roots
 
 LINE, PLANE = Ring.of(("x",)), Ring.of(("x", "y"))
@@ -87,6 +89,17 @@ def test_newton_stalled_in_the_checker_and_the_answer_was_lost() -> None:
     )
     answer = qe.eliminate(text, check=True, timeout=60)
     assert answer.truth is True and answer.guarantee is qe.Guarantee.CHECKED
+
+
+def test_an_answer_was_lost_where_it_was_shortened_by_a_decomposition_with_large_numbers() -> None:
+    """No rational number was found between two roots in a stack of the decomposition."""
+    text = "-(10^40+3)*x - a*y + a + 999999999999 > 0 and a*x - 3*b*y + 4*b + 4 <= 0 and 2*x + 4*y + b <= 0"
+    answer = qe.eliminate(f"ex y, x. {text}", timeout=60).formula
+    assert answer is not None
+    for a, b in ((0, -5), (0, 0), (3, -1), (-1, -2), (10**20, -(10**20)), (-(10**20), Fraction(1, 10**20))):
+        point = {"a": Fraction(a), "b": Fraction(b)}
+        expected = qe.decide(exists(("x", "y"), at_point(qe.api.read_formula(text), point)))
+        assert holds_at(answer, point) is expected
 
 
 def test_sector_samples_between_roots_that_were_found_to_more_bits_than_asked() -> None:
