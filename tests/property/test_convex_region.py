@@ -16,10 +16,11 @@ from qe.solution.interval import Interval
 from qe.solution.region import Region
 from tests.optimum_problems import at_most_zero, cubic, norm
 from tests.property.test_critical import eliminated
+from tests.strategies import rationals
 
 PLANE = Ring.of(("p0", "p1", "y0", "y1"))
 SMALL = st.integers(-2, 2)
-QUARTERS = st.fractions(-3, 3, max_denominator=4)
+QUARTERS = rationals(3, 4)
 
 
 @st.composite

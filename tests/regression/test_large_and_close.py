@@ -18,10 +18,12 @@ from qe.exact.balls import precision
 from qe.exact.fibre_stack import isolate_over
 from qe.exact.nearby import rational_between
 from qe.exact.ring import Poly, Ring
-from qe.exact.sample import Point
+from qe.exact.sample import FibreRoot, Point
 from qe.exact.sturm import count_roots_between
-from qe.formula.build import atom
+from qe.formula.build import atom, exists
+from qe.formula.evaluate import holds_at
 from qe.formula.syntax import Relation
+from tests.differential.generate import at_point
 from tests.strategies import HUGE, close_roots
 
 LINE, PLANE = Ring.of(("x",)), Ring.of(("x", "y"))
@@ -89,6 +91,17 @@ def test_newton_stalled_in_the_checker_and_the_answer_was_lost() -> None:
     assert answer.truth is True and answer.guarantee is qe.Guarantee.CHECKED
 
 
+def test_an_answer_was_lost_where_it_was_shortened_by_a_decomposition_with_large_numbers() -> None:
+    """No rational number was found between two roots in a stack of the decomposition."""
+    text = "-(10^40+3)*x - a*y + a + 999999999999 > 0 and a*x - 3*b*y + 4*b + 4 <= 0 and 2*x + 4*y + b <= 0"
+    answer = qe.eliminate(f"ex y, x. {text}", timeout=60).formula
+    assert answer is not None
+    for a, b in ((0, -5), (0, 0), (3, -1), (-1, -2), (10**20, -(10**20)), (-(10**20), Fraction(1, 10**20))):
+        point = {"a": Fraction(a), "b": Fraction(b)}
+        expected = qe.decide(exists(("x", "y"), at_point(qe.api.read_formula(text), point)))
+        assert holds_at(answer, point) is expected
+
+
 def test_sector_samples_between_roots_that_were_found_to_more_bits_than_asked() -> None:
     """The ends of their balls were rounded to fewer bits than the balls have: no rational number between them."""
     x, y = PLANE.gen(0), PLANE.gen(1)
@@ -130,6 +143,20 @@ def test_no_number_was_looked_for_between_ends_in_the_wrong_order_for_ever() -> 
         with pytest.raises(InternalError):
             rational_between(low, high)
     assert Fraction(7, 5) < rational_between(Fraction(141421356, 10**8), root) < root
+
+
+@given(st.integers(-3, 3), st.sampled_from(HUGE), st.integers(-1, 1))
+def test_a_root_over_an_algebraic_point_is_compared_with_rationals_exactly(whole: int, big: int, side: int) -> None:
+    """Also with itself: no precision tells a rational root from the rational number that it is."""
+    x, y = PLANE.gen(0), PLANE.gen(1)
+    point = Point.of(PLANE, [RealAlgebraic.from_root((-2, 0, 1), 1, 2)])
+    f = (big * y - whole) * (y**2 - x - 20)
+    found = isolate_over(point, (f,))
+    values = [s.value for s in found.sections]
+    assert len(values) == 3 and isinstance(values[1], FibreRoot)
+    shifted = Fraction(whole, big) + Fraction(side, big**3)
+    assert values[1].compare_rational(fmpq(shifted.numerator, shifted.denominator)) == -side
+    assert values[0].compare_rational(fmpq(0)) == -1 and values[2].compare_rational(fmpq(0)) == 1
 
 
 @settings(max_examples=40)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import time
 from typing import Any
 
@@ -70,19 +71,24 @@ def _substitution(degree: int) -> str:
     return _text("substitution", {**payload, "answer": answer})
 
 
+TOO_LARGE = "not decided: .* is needed"
+
 HOSTILE = {
     "a large exponent": (_witness("x^10000 - 2", [ROOT]), "accepted"),
     "a huge exponent": (_witness("x^1000000000 - 2", [{**ROOT, "polynomial": "x^1000000000 - 2"}]), "rejected"),
     "a long number": (_witness(f"{LONG}*x - 1", [f"1/{LONG}"]), "accepted"),
-    "a power of a long number": (_witness("x^10000 - 2", [f"1/{LONG}"]), "not decided"),
-    "a root between long numbers": (_witness("x^10000 - 2", [{**ROOT, "interval": ["1", LONG_END]}]), "not decided"),
-    "a resultant of large degree": (_cells("x", "y^10000 - x"), "not decided"),
+    "a power of a long number": (_witness("x^10000 - 2", [f"1/{LONG}"]), TOO_LARGE),
+    "a root between long numbers": (
+        _witness("x^10000 - 2", [{**ROOT, "interval": ["1", LONG_END]}]),
+        TOO_LARGE,
+    ),
+    "a resultant of large degree": (_cells("x", "y^10000 - x"), TOO_LARGE),
     "a resultant of many steps": (_cells("x", "x^400*y^400 - x^3*y + 1"), "not decided"),
-    "a number field of large degree": (_field(["-2", *["0"] * 3000, "1"]), "not decided"),
-    "a number field of long numbers": (_field([f"-{LONG}", *["1"] * 99, f"{LONG}8"]), "not decided"),
+    "a number field of large degree": (_field(["-2", *["0"] * 3000, "1"]), TOO_LARGE),
+    "a number field of long numbers": (_field([f"-{LONG}", *["1"] * 99, f"{LONG}8"]), TOO_LARGE),
     "a large power of a curve that is a point": (_power(10**9), "rejected"),
-    "many variables": (_many_variables(30_000), "not decided"),
-    "a power of a sum": (_substitution(9999), "not decided"),
+    "many variables": (_many_variables(30_000), TOO_LARGE),
+    "a power of a sum": (_substitution(9999), TOO_LARGE),
 }
 
 
@@ -95,9 +101,9 @@ def test_a_certificate_that_asks_for_too_much_has_a_clear_verdict_soon(name: str
     except qe.CertificateRejected as error:
         verdict = Verdict(False, error.step, error.reason)
     assert time.monotonic() - start < 8  # 2 s and a little are asked; the tests' machine may be busy
-    assert str(verdict).startswith(expected)
+    assert re.match(expected, str(verdict))
     assert verdict.accepted is (expected == "accepted")
-    assert verdict.decided is (expected != "not decided")
+    assert verdict.decided is not expected.startswith("not decided")
     assert verdict.reason or verdict.accepted
 
 

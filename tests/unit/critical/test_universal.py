@@ -5,7 +5,6 @@ from __future__ import annotations
 from fractions import Fraction
 
 import pytest
-from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import qe
@@ -15,6 +14,7 @@ from qe.formula.evaluate import holds_at, substituted
 from qe.formula.syntax import ForAll, Formula
 from qe.options import Budget, Method, Options
 from qe.pipeline_critical import convex_universal
+from tests.enough import enough
 
 ASKED = Options(method=Method.CRITICAL)
 
@@ -109,34 +109,33 @@ def test_sets_without_interior_points(text: str, expected: str) -> None:
 family = st.tuples(st.lists(coefficients, min_size=8, max_size=8), st.integers(1, 6), st.integers(1, 2))
 
 
-def examine(given_family: tuple[list[int], int, int], seconds: float) -> None:
-    """|a(t) + b(t) (x, y)|^2 <= s on [0, 1] is convex in (x, y) whatever a and b are."""
+def examine(given_family: tuple[list[int], int, int], seconds: float) -> bool:
+    """|a(t) + b(t) (x, y)|^2 <= s on [0, 1] is convex in (x, y) whatever a and b are. Whether that was decided."""
     (a, b, e, f, g, h, i, j), square, degree = given_family
     text = (
         f"all t. 0 <= t and t <= 1 -> ({a} + {b}*t + ({e} + {f}*t^{degree})*x)^2"
         f" + ({g} + {h}*t + ({i} + {j}*t)*y)^2 <= {square}"
     )
     if not isinstance(formula := qe.api.read_formula(text), ForAll):
-        return
+        return False
     try:
         answer = convex_universal(formula, ASKED, Budget(seconds), Story())
     except qe.Unable:
-        return
+        return False
     if answer is not None:
         agree(text, answer, GRID[::5])
+    return answer is not None
 
 
-@settings(max_examples=6, deadline=None)
-@given(family)
-def test_random_families_of_discs(chosen: tuple[list[int], int, int]) -> None:
-    examine(chosen, 1)
+@enough(1, 6, family)
+def test_random_families_of_discs(chosen: tuple[list[int], int, int]) -> bool:
+    return examine(chosen, 1)
 
 
 @pytest.mark.deep
-@settings(max_examples=150, deadline=None)
-@given(family)
-def test_many_random_families_of_discs(chosen: tuple[list[int], int, int]) -> None:
-    examine(chosen, 20)
+@enough(30, 150, family)
+def test_many_random_families_of_discs(chosen: tuple[list[int], int, int]) -> bool:
+    return examine(chosen, 20)
 
 
 def test_curves_that_meet_once_over_a_point_of_high_degree() -> None:

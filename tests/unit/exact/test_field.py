@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 from qe.errors import InputError
 from qe.exact.algebraic import RealAlgebraic
 from qe.exact.field import FieldElement, NumberField
+from tests.strategies import rationals
 
 FIELDS = [
     NumberField.rationals(),
@@ -22,7 +23,7 @@ FIELDS = [
     NumberField.from_root([-1, -1, 0, 0, 0, 1], 1, 2),
     NumberField.from_root([-3, 0, 2, 7], 0, 1),
 ]
-numbers = st.fractions(-5, 5, max_denominator=7)
+numbers = rationals(5, 7)
 
 
 @st.composite

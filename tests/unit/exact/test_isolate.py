@@ -11,6 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from qe.exact.isolate import isolate, sign_at
+from tests.strategies import HUGE
 
 X = fmpz_poly([0, 1])
 
@@ -52,9 +53,12 @@ def test_roots_beside_roots_that_are_ends(roots: str) -> None:
 
 dyadic = st.builds(Fraction, st.integers(-16, 16), st.sampled_from((1, 2, 4)))
 other = st.builds(Fraction, st.integers(-60, 60), st.sampled_from((3, 5, 7, 11)))
+far_or_close = st.builds(lambda near, by: near + by, dyadic, st.sampled_from([Fraction(h) for h in HUGE])) | st.builds(
+    lambda near, by: near + 1 / by, dyadic, st.sampled_from([Fraction(h) for h in HUGE])
+)
 
 
 @settings(max_examples=150, deadline=None)
-@given(st.sets(dyadic, max_size=4), st.sets(other, max_size=4))
+@given(st.sets(dyadic, max_size=4), st.sets(other | far_or_close, max_size=4))
 def test_every_root_has_its_interval(dyadic_roots: set[Fraction], others: set[Fraction]) -> None:
     check(sorted(dyadic_roots | others))
