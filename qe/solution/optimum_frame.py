@@ -28,7 +28,7 @@ def centred_frame(flat: Flat, forms: Sequence[Quadratic]) -> Flat:
 
 
 def lies_far(flat: Flat, forms: Sequence[Quadratic]) -> bool:
-    """Whether floats could not see the constraints at all in the plain frame."""
+    """Whether floats lose the constraints of a flat in the coordinates that it has."""
     centre, exponents = _centre_and_exponents(flat, forms)
     off = (_binary(abs(c)) - e for c, e in zip(centre, exponents, strict=True))
     return any(abs(e) > _STRANGE for e in exponents) or any(o > _STRANGE for o in off)
