@@ -9,7 +9,7 @@ start and recognised in one number field. The result is a candidate: the caller 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
 from math import gcd, lcm
@@ -203,7 +203,7 @@ def critical_point(
     if reduced is None:
         return None
     flat, rest = reduced
-    f = _primitive(replace(objective.restrict(flat.origin, flat.basis), constant=Fraction(0)))
+    f = _primitive(objective.restrict(flat.origin, flat.basis))
     rest = [_primitive(q) for q in rest]
     if not rest:
         solution = solve_linear(f.hessian, [-b for b in f.gradient], f.size)

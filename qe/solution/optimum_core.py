@@ -78,7 +78,7 @@ def solve(task: Task, *, budget: Budget) -> OptimumEvidence:
     if flat is None:
         return _contradictory_equations(task)
     first, second = plain_frame, centred_frame
-    if lies_far(flat, task.forms):
+    if lies_far(plain_frame(flat, task.forms), task.forms):
         first, second = second, first
     try:
         return _solved(task, flat, first, budget)

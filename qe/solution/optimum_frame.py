@@ -28,7 +28,11 @@ def centred_frame(flat: Flat, forms: Sequence[Quadratic]) -> Flat:
 
 
 def lies_far(flat: Flat, forms: Sequence[Quadratic]) -> bool:
-    """Whether floats could not see the constraints at all in the plain frame."""
+    """Whether floats lose the constraints of a flat in the coordinates that it has."""
+    numbers = [v for form in forms for row in (*form.hessian, form.gradient, (form.constant,)) for v in row]
+    numbers += [v for row in (flat.origin, *flat.basis) for v in row]
+    if all(max(v.numerator.bit_length(), v.denominator.bit_length()) <= _STRANGE for v in numbers):
+        return False
     centre, exponents = _centre_and_exponents(flat, forms)
     off = (_binary(abs(c)) - e for c, e in zip(centre, exponents, strict=True))
     return any(abs(e) > _STRANGE for e in exponents) or any(o > _STRANGE for o in off)
