@@ -6,11 +6,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from enum import IntEnum
 
+from qe.exact.digits import digits as digits
 from qe.exact.ring import Poly
 from qe.formula.syntax import And, Atom, Constant, Exists, ForAll, Formula, Not, Or, Relation, RootAtom
 
 Monomial = tuple[int, tuple[tuple[str, int], ...]]
-_BLOCK = 10**4000
 
 
 class Level(IntEnum):
@@ -20,17 +20,6 @@ class Level(IntEnum):
     OR = 1
     AND = 2
     NOT = 3
-
-
-def digits(value: int) -> str:
-    """Decimal digits of an integer of any size (``str`` refuses more than 4300 of them)."""
-    if value < 0:
-        return "-" + digits(-value)
-    blocks: list[str] = []
-    while value >= _BLOCK:
-        value, low = divmod(value, _BLOCK)
-        blocks.append(str(low).zfill(4000))
-    return str(value) + "".join(reversed(blocks))
 
 
 def monomials(poly: Poly) -> list[Monomial]:

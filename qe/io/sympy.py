@@ -158,8 +158,8 @@ def _variables(variables: object) -> tuple[str, ...]:
 def _symbol(symbol: sympy.Symbol) -> str:
     import sympy
 
-    if isinstance(symbol, sympy.Dummy):
-        raise InputError(f"{symbol} is a Dummy, which no name tells from others; use a Symbol")
+    if isinstance(symbol, sympy.Dummy | sympy.Wild):
+        raise InputError(f"{symbol} is a {type(symbol).__name__}, which is no variable with a name; use a Symbol")
     known = sympy.Symbol("x", real=True).assumptions0
     extra = [key for key, value in symbol.assumptions0.items() if known.get(key) is not value]
     extra.sort(key=lambda key: ("_" in key, not symbol.assumptions0[key], key not in _SIGNS, key))
@@ -208,7 +208,7 @@ def polynomial_from_sympy(expression: object) -> tuple[Poly, Fraction]:
     whole = _basic(expression, "a SymPy expression")
     (guards, term), *others = _Reader(sympy).real(whole)
     if guards or others:
-        raise InputError(f"a polynomial expected, {_shown(whole)} found")
+        raise InputError(f"{_shown(whole)} distinguishes cases")
     try:
         value = s.lower_term(term, lambda message, _: InputError(f"{_shown(whole)}: {message}"))
     except RecursionError:

@@ -7,6 +7,7 @@ few dozen unknowns, and importing a numerical library costs more than solving th
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -92,12 +93,17 @@ def interior_point(objective: Quadratic, constraints: Sequence[Quadratic], start
 
     Infeasible-start primal-dual Newton steps (Boyd–Vandenberghe, section 11.7), first with Mehrotra's choice of the
     centring (Mehrotra 1992), which is fast; if that does not converge, again with fixed centring and a line search on
-    the residuals, which is robust. Multipliers are those of the constraints as given (unscaled).
+    the residuals, which is robust. Multipliers are those of the constraints as given (unscaled). Coefficients too
+    large or too small for floats give a proposal of infinite residual.
     """
-    scales = [natural_scale(g) for g in constraints]
-    unit = natural_scale(objective)
-    f = to_float(objective, unit)
-    g = [to_float(q, s) for q, s in zip(constraints, scales, strict=True)]
+    try:
+        scales = [natural_scale(g) for g in constraints]
+        unit = natural_scale(objective)
+        f = to_float(objective, unit)
+        g = [to_float(q, s) for q, s in zip(constraints, scales, strict=True)]
+    except (OverflowError, ZeroDivisionError):
+        nothing = (0.0,) * len(constraints)
+        return Proposal(tuple(start), nothing, nothing, math.inf)
     x, dual, slack, residual = _iterate(f, g, start, False)
     if residual > 1e-8:
         again = _iterate(f, g, start, True)

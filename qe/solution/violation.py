@@ -67,10 +67,7 @@ def proposed(forms: Sequence[Quadratic]) -> tuple[tuple[Fraction, ...] | None, t
     """
     size = forms[0].size
     extended, scales = violation_forms(forms, size)
-    try:
-        proposal = interior_point(height(size), extended, [0.0] * (size + 1))
-    except OverflowError:  # numbers beyond the range of floats
-        return None, None
+    proposal = interior_point(height(size), extended, [0.0] * (size + 1))
     if not proposal.residual < 1e-3:
         return None, None
     if proposal.point[-1] > 0:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 from decimal import Decimal
+from fractions import Fraction
 
 import pytest
 import sympy as sp
@@ -166,6 +167,24 @@ def test_wrong_values_get_a_line_and_no_raw_error(call) -> None:
     with pytest.raises(qe.InputError) as caught:
         call()
     assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("objective", "constraints", "value"),
+    [
+        ("10^400*x", "x >= 1", 10**400),
+        ("x", "10^400*x >= 1", Fraction(1, 10**400)),
+        ("x", "x >= 10^400", 10**400),
+        ("x^2/10^400", "x >= 1", Fraction(1, 10**400)),
+        ("x^2", "10^400*x^2 <= 1 and x >= -1", 0),
+    ],
+)
+def test_coefficients_that_no_float_holds(objective: str, constraints: str, value: Fraction) -> None:
+    """They ended in an OverflowError; what no proof is found for is said to be so."""
+    try:
+        assert qe.minimize(objective, constraints).value == value
+    except qe.Unable as error:
+        assert "could" in str(error)
 
 
 def test_parametric_witnesses_of_a_body_that_is_a_constant() -> None:

@@ -145,7 +145,7 @@ SKIPPED = {
     "coefficients": {"huge"},
     "objective": {"huge"},
 }
-"""No matter of types: little memory, much precision, coefficients past the floats, functions that take no event."""
+"""No matter of types: little memory, much precision, coefficients of great length, functions that take no event."""
 
 
 def arguments(door: Door) -> list[str]:
