@@ -134,7 +134,7 @@ def process_rows() -> list[Row]:
 
         pictures, bare = median(plan()), median(plan("--no-plots"))
     return [
-        Row("import qe", 0.200, statistics.median(imported() for _ in range(REPEAT))),
+        Row("import qe", 0.150, statistics.median(imported() for _ in range(REPEAT))),
         Row("bezier plan, whole process", 6.0, pictures),
         Row("bezier plan --no-plots, whole process", 1.5, bare),
         Row("peak memory of any of these", 400, max(peaks) / 1024, unit="MiB"),

@@ -7,6 +7,7 @@ import sys
 from collections.abc import Callable, Iterable, Mapping
 from enum import Enum
 from fractions import Fraction
+from importlib import import_module
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from qe.errors import InputError, InternalError, Unable
@@ -31,6 +32,9 @@ if TYPE_CHECKING:  # the checker and the optimiser are loaded where they are use
 Choice = TypeVar("Choice", bound=Enum)
 TABLE_VARIABLES = 3
 """In more variables than this, convex regions are not decomposed unless that is asked for."""
+
+MOSTLY_NEEDED = ("qe.engine.run", "qe.rules.block", "qe.elimination.vs.block", "qe.elimination.vs.witness")
+"""The parts of the engine that nearly every problem with a quantifier needs."""
 
 Progress = Callable[[Event], None]
 AnyFormula = Any
@@ -125,6 +129,9 @@ def _limited(formula: Formula, options: Options, timeout: float | None, memory: 
     """The answer, found in a worker process where a limit is to hold."""
     if (memory is not None or timeout is not None) and hasattr(os, "fork"):
         from qe.worker import Channel, run
+
+        for part in MOSTLY_NEEDED:  # loaded here once, and not again and again in every worker
+            import_module(part)
 
         def work(channel: Channel) -> Answer:
             return _answer(formula, options.with_(progress=channel.event), timeout, check)

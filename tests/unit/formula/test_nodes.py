@@ -11,9 +11,10 @@ import pytest
 from hypothesis import given
 
 from qe.exact.ring import Ring
-from qe.formula.build import atom, conj, convert, disj, exists, root_atom
-from qe.formula.syntax import FALSE, TRUE, And, Atom, Exists, ForAll, Formula, Relation, RootAtom
-from qe.formula.traverse import atoms, children, free_variables, is_quantifier_free, ring_of
+from qe.formula.build import atom, conj, convert, disj, exists, neg, root_atom
+from qe.formula.normal import nnf
+from qe.formula.syntax import FALSE, TRUE, And, Atom, Exists, ForAll, Formula, Or, Relation, RootAtom
+from qe.formula.traverse import atoms, children, free_variables, is_quantifier_free, map_atoms, ring_of
 from qe.io.text import read
 from qe.simplify.simplify import simplify
 from tests.strategies import formulas
@@ -93,6 +94,24 @@ def test_a_simplified_formula_is_not_simplified_again(formula: Formula) -> None:
     assert simplify(found) is found
     fresh = pickle.loads(pickle.dumps(found))  # equal, but nothing is known about it
     assert simplify(fresh) == found
+
+
+@given(formulas(max_quantifiers=2, root_atoms=True))
+def test_what_does_not_change_stays_the_node(formula: Formula) -> None:
+    normal = nnf(formula)
+    assert nnf(normal) is normal
+    assert conj((normal,)) is disj((normal,)) is normal
+    assert conj((TRUE, normal, normal)) is disj((normal, FALSE)) is normal
+    assert map_atoms(normal, lambda leaf: leaf) is normal
+    assert nnf(neg(neg(normal))) == normal
+
+
+def test_joined_parts_are_flattened_and_met_once() -> None:
+    x, y, z = read("x > 0 and y > 0 and z > 0").args
+    assert conj((conj((x, y)), conj((y, x)))) == conj((x, y))
+    assert conj((x, conj((x, y)))) == conj((x, y))
+    assert conj((conj((x, y)), z)).args == (x, y, z)
+    assert conj((And((x, x)),)) == x == disj((Or((x, x)),))
 
 
 def test_nothing_is_known_under_assumptions() -> None:
