@@ -3,9 +3,13 @@
 from __future__ import annotations
 
 import copy
+import os
 import pickle
+import subprocess
+import sys
 import time
 from itertools import pairwise
+from pathlib import Path
 
 import pytest
 from hypothesis import given
@@ -19,6 +23,7 @@ from qe.io.text import read
 from qe.simplify.simplify import simplify
 from tests.strategies import formulas
 
+ROOT = Path(__file__).resolve().parents[3]
 FACTS = ("_free", "_hash", "_is_quantifier_free", "_is_simple", "_ring")
 
 
@@ -152,3 +157,14 @@ def test_questions_to_large_formulas_are_answered_at_once(ask) -> None:
     for _ in range(1000):
         ask(formula)
     assert time.process_time() - start < 0.5  # a walk through the formula takes several milliseconds each time
+
+
+def test_hashes_are_the_same_in_every_process_of_one_seed() -> None:
+    """So that nothing that is ever gone through in the order of a set differs between runs that could be alike."""
+    script = (
+        "from qe.io.text import read; print(hash(read('x > 0 and (y < 1 or ex z. z*x = 1)')))"
+    )
+    run = [sys.executable, "-c", script]
+    seeded = {**os.environ, "PYTHONHASHSEED": "1"}
+    found = {subprocess.run(run, capture_output=True, check=True, env=seeded, cwd=ROOT).stdout for _ in range(2)}
+    assert len(found) == 1
