@@ -161,9 +161,7 @@ def test_questions_to_large_formulas_are_answered_at_once(ask) -> None:
 
 def test_hashes_are_the_same_in_every_process_of_one_seed() -> None:
     """So that nothing that is ever gone through in the order of a set differs between runs that could be alike."""
-    script = (
-        "from qe.io.text import read; print(hash(read('x > 0 and (y < 1 or ex z. z*x = 1)')))"
-    )
+    script = "from qe.io.text import read; print(hash(read('x > 0 and (y < 1 or ex z. z*x = 1)')))"
     run = [sys.executable, "-c", script]
     seeded = {**os.environ, "PYTHONHASHSEED": "1"}
     found = {subprocess.run(run, capture_output=True, check=True, env=seeded, cwd=ROOT).stdout for _ in range(2)}
