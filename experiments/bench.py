@@ -124,6 +124,12 @@ def process_rows() -> list[Row]:
         code = "import time; t = time.perf_counter(); import qe; print(time.perf_counter() - t)"
         return float(subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout)
 
+    def short_command() -> float:
+        before = resource.getrusage(resource.RUSAGE_CHILDREN)
+        subprocess.run([str(BIN / "qe"), "eliminate", "x > 0"], capture_output=True, check=True)
+        after = resource.getrusage(resource.RUSAGE_CHILDREN)
+        return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+
     with tempfile.TemporaryDirectory() as folder:
         peaks = [resource.getrusage(resource.RUSAGE_SELF).ru_maxrss]
 
@@ -134,7 +140,8 @@ def process_rows() -> list[Row]:
 
         pictures, bare = median(plan()), median(plan("--no-plots"))
     return [
-        Row("import qe", 0.200, statistics.median(imported() for _ in range(REPEAT))),
+        Row("import qe", 0.150, statistics.median(imported() for _ in range(REPEAT))),
+        Row("qe eliminate 'x > 0', processor time", 0.350, statistics.median(short_command() for _ in range(REPEAT))),
         Row("bezier plan, whole process", 6.0, pictures),
         Row("bezier plan --no-plots, whole process", 1.5, bare),
         Row("peak memory of any of these", 400, max(peaks) / 1024, unit="MiB"),

@@ -7,6 +7,7 @@ import time
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
 from fractions import Fraction
+from importlib import import_module
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from qe import arguments
@@ -36,6 +37,9 @@ if TYPE_CHECKING:  # the checker and the optimiser are loaded where they are use
 Result = TypeVar("Result")
 VERIFY_SECONDS = 60.0
 """The limit of a verification for which the caller gives none."""
+
+MOSTLY_NEEDED = ("qe.engine.run", "qe.rules.block", "qe.elimination.vs.block", "qe.elimination.vs.witness")
+"""The parts of the engine that nearly every problem with a quantifier needs."""
 
 Progress = Callable[[Event], None]
 Order = Any
@@ -128,7 +132,11 @@ def _solved(formula: Formula, options: Options, budget: Budget) -> Outcome:
 
 def _performed(work: Callable[[Budgets], Result], formula: Formula, limits: Limits) -> Result:
     """The work on a formula, in a process of its own from the start where a limit must hold."""
-    return perform(work, limits, at_once=limits.timeout is not None or may_block(formula))
+    at_once = limits.timeout is not None or may_block(formula)
+    if at_once:
+        for part in MOSTLY_NEEDED:  # loaded here once, and not again and again in every worker
+            import_module(part)
+    return perform(work, limits, at_once=at_once)
 
 
 def _limited(formula: Formula, options: Options, limits: Limits, check: bool) -> Answer:

@@ -21,29 +21,39 @@ def atom(poly: Poly, relation: Relation) -> Formula:
 def conj(args: Iterable[Formula]) -> Formula:
     """Conjunction, flattened, without duplicates; FALSE absorbs; of nothing: TRUE."""
     seen: dict[Formula, None] = {}
+    whole: And | None = None
     for arg in args:
         if isinstance(arg, Constant):
             if not arg.value:
                 return FALSE
         elif isinstance(arg, And):
+            whole = whole or arg
             seen.update(dict.fromkeys(arg.args))
         else:
             seen[arg] = None
-    return TRUE if not seen else next(iter(seen)) if len(seen) == 1 else And(tuple(seen))
+    if len(seen) <= 1:
+        return next(iter(seen), TRUE)
+    joined = tuple(seen)
+    return whole if whole is not None and whole.args == joined else And(joined)  # a node knows more than a new one
 
 
 def disj(args: Iterable[Formula]) -> Formula:
     """Disjunction, flattened, without duplicates; TRUE absorbs; of nothing: FALSE."""
     seen: dict[Formula, None] = {}
+    whole: Or | None = None
     for arg in args:
         if isinstance(arg, Constant):
             if arg.value:
                 return TRUE
         elif isinstance(arg, Or):
+            whole = whole or arg
             seen.update(dict.fromkeys(arg.args))
         else:
             seen[arg] = None
-    return FALSE if not seen else next(iter(seen)) if len(seen) == 1 else Or(tuple(seen))
+    if len(seen) <= 1:
+        return next(iter(seen), FALSE)
+    joined = tuple(seen)
+    return whole if whole is not None and whole.args == joined else Or(joined)
 
 
 def neg(arg: Formula) -> Formula:

@@ -30,17 +30,19 @@ def nnf(formula: Formula, *, negate: bool = False) -> Formula:
     """The negation normal form of ``formula`` (of its negation with ``negate``).
 
     Equivalent over R; ``Not`` remains only in front of a ``RootAtom``, whose negation is not a root atom
-    because it is false where the root does not exist.
+    because it is false where the root does not exist. A formula of that form is returned itself.
     """
     match formula:
         case Not(arg):
             return nnf(arg, negate=not negate)
         case And(args) | Or(args):
             join = conj if isinstance(formula, And) is not negate else disj
-            return join([nnf(arg, negate=negate) for arg in args])
+            joined = join([nnf(arg, negate=negate) for arg in args])
+            return formula if joined == formula else joined
         case Exists(variables, body) | ForAll(variables, body):
             quantify = exists if isinstance(formula, Exists) is not negate else forall
-            return quantify(variables, nnf(body, negate=negate))
+            rebuilt = quantify(variables, nnf(body, negate=negate))
+            return formula if rebuilt == formula else rebuilt
     return neg(formula) if negate else formula
 
 

@@ -15,8 +15,6 @@ class Relation(Enum):
     GT = ">"
     GE = ">="
 
-    __hash__ = object.__hash__  # members are single objects, and those of Enum are hashed by the text of their names
-
     def holds(self, sign: int) -> bool:
         """Whether a number of this sign (-1, 0, 1) satisfies the relation."""
         return sign in _SIGNS[self]

@@ -75,7 +75,7 @@ class Formula:
         try:
             return self._hash
         except AttributeError:
-            value = hash((self.__class__, *[getattr(self, name) for name in self.__match_args__]))
+            value = hash((self.__class__.__name__, *[getattr(self, name) for name in self.__match_args__]))
             object.__setattr__(self, "_hash", value)
             return value
 

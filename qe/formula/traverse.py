@@ -61,7 +61,12 @@ def has_root_atoms(formula: Formula) -> bool:
 
 
 def map_atoms(formula: Formula, change: Callable[[Atom | RootAtom], Formula]) -> Formula:
-    """Replace every atom by a formula and rebuild with the smart constructors."""
+    """Replace every atom by a formula and rebuild with the smart constructors; what does not change stays the node."""
+    rebuilt = _mapped(formula, change)
+    return formula if rebuilt == formula else rebuilt
+
+
+def _mapped(formula: Formula, change: Callable[[Atom | RootAtom], Formula]) -> Formula:
     match formula:
         case Atom() | RootAtom():
             return change(formula)

@@ -53,7 +53,7 @@ BESIDE = {("qe.io", "qe.formula")}  # importer and imported: of one row, but one
 
 def part(module: str) -> str:
     """The longest listed prefix of a module name."""
-    pieces = module.split(".")
+    pieces = module.replace("qe.api_", "qe.api.").split(".")
     for length in range(len(pieces), 0, -1):
         if (name := ".".join(pieces[:length])) in ROWS and not (name == "qe" and len(pieces) > 1):
             return name

@@ -3,21 +3,27 @@
 from __future__ import annotations
 
 import copy
+import os
 import pickle
+import subprocess
+import sys
 import time
 from itertools import pairwise
+from pathlib import Path
 
 import pytest
 from hypothesis import given
 
 from qe.exact.ring import Ring
-from qe.formula.build import atom, conj, convert, disj, exists, root_atom
-from qe.formula.syntax import FALSE, TRUE, And, Atom, Exists, ForAll, Formula, Relation, RootAtom
-from qe.formula.traverse import atoms, children, free_variables, is_quantifier_free, ring_of
+from qe.formula.build import atom, conj, convert, disj, exists, neg, root_atom
+from qe.formula.normal import nnf
+from qe.formula.syntax import FALSE, TRUE, And, Atom, Exists, ForAll, Formula, Or, Relation, RootAtom
+from qe.formula.traverse import atoms, children, free_variables, is_quantifier_free, map_atoms, ring_of
 from qe.io.text import read
 from qe.simplify.simplify import simplify
 from tests.strategies import formulas
 
+ROOT = Path(__file__).resolve().parents[3]
 FACTS = ("_free", "_hash", "_is_quantifier_free", "_is_simple", "_ring")
 
 
@@ -95,6 +101,24 @@ def test_a_simplified_formula_is_not_simplified_again(formula: Formula) -> None:
     assert simplify(fresh) == found
 
 
+@given(formulas(max_quantifiers=2, root_atoms=True))
+def test_what_does_not_change_stays_the_node(formula: Formula) -> None:
+    normal = nnf(formula)
+    assert nnf(normal) is normal
+    assert conj((normal,)) is disj((normal,)) is normal
+    assert conj((TRUE, normal, normal)) is disj((normal, FALSE)) is normal
+    assert map_atoms(normal, lambda leaf: leaf) is normal
+    assert nnf(neg(neg(normal))) == normal
+
+
+def test_joined_parts_are_flattened_and_met_once() -> None:
+    x, y, z = read("x > 0 and y > 0 and z > 0").args
+    assert conj((conj((x, y)), conj((y, x)))) == conj((x, y))
+    assert conj((x, conj((x, y)))) == conj((x, y))
+    assert conj((conj((x, y)), z)).args == (x, y, z)
+    assert conj((And((x, x)),)) == x == disj((Or((x, x)),))
+
+
 def test_nothing_is_known_under_assumptions() -> None:
     assumed = read("x > 0")
     there = simplify(read("x > 0 or x = -3"), assumed)
@@ -133,3 +157,12 @@ def test_questions_to_large_formulas_are_answered_at_once(ask) -> None:
     for _ in range(1000):
         ask(formula)
     assert time.process_time() - start < 0.5  # a walk through the formula takes several milliseconds each time
+
+
+def test_hashes_are_the_same_in_every_process_of_one_seed() -> None:
+    """So that nothing that is ever gone through in the order of a set differs between runs that could be alike."""
+    script = "from qe.io.text import read; print(hash(read('x > 0 and (y < 1 or ex z. z*x = 1)')))"
+    run = [sys.executable, "-c", script]
+    seeded = {**os.environ, "PYTHONHASHSEED": "1"}
+    found = {subprocess.run(run, capture_output=True, check=True, env=seeded, cwd=ROOT).stdout for _ in range(2)}
+    assert len(found) == 1
