@@ -21,7 +21,7 @@ from qe.formula.features import features
 from qe.formula.syntax import Exists, ForAll, Formula
 from qe.formula.traverse import free_variables, is_quantifier_free, ring_of
 from qe.formula.weight import may_block, text_may_block
-from qe.options import Budget, Method, Options, Stage
+from qe.options import VERIFY_SECONDS, Budget, Method, Options, Stage
 from qe.progress import Event, silent
 from qe.proof.answer import Answer, Guarantee, Status
 from qe.proof.certificate import Certificate, Kind
@@ -35,8 +35,6 @@ if TYPE_CHECKING:  # the checker and the optimiser are loaded where they are use
     from qe.regions.region import Region
 
 Result = TypeVar("Result")
-VERIFY_SECONDS = 60.0
-"""The limit of a verification for which the caller gives none."""
 
 MOSTLY_NEEDED = ("qe.engine.run", "qe.rules.block", "qe.elimination.vs.block", "qe.elimination.vs.witness")
 """The parts of the engine that nearly every problem with a quantifier needs."""

@@ -7,10 +7,9 @@ from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from qe.api import VERIFY_SECONDS
 from qe.certify.verify import verify as checked
 from qe.errors import InternalError, Unable
-from qe.options import Budget
+from qe.options import VERIFY_SECONDS, Budget
 from qe.proof.answer import Answer, Guarantee
 from qe.proof.cells_json import CellEvidence
 from qe.proof.certificate import Certificate, Labelled

@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Generic, NoReturn, TypeVar, cast
 
 from qe.options import Budget, Handover
 from qe.progress import Event, Listener, silent
+from qe.surroundings import surrounding_deadline
 
 if TYPE_CHECKING:  # row 0 knows itself; the worker, which only some systems can have, is loaded when one is needed
     from qe.worker import Channel
@@ -31,9 +32,6 @@ HERE = 0.05
 
 SWITCH = "QE_PROCESS"
 """The environment variable that, set to ``off``, keeps all work in the process of the caller."""
-
-MARK = "QE_WORKER"
-"""The environment variable in which a worker notes its process and its deadline, for calls inside it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,12 +93,6 @@ def _may_fork(limits: Limits, start: float) -> bool:
     if deadline is None or limits.memory is not None:
         return True
     return limits.timeout is not None and start + limits.timeout < deadline
-
-
-def surrounding_deadline() -> float | None:
-    """When the limit ends this process (of ``time.monotonic``; infinity: none does), None if it is no worker."""
-    pid, _, deadline = os.environ.get(MARK, "").partition(":")
-    return float(deadline) if pid == str(os.getpid()) else None
 
 
 class _Arrived(BaseException):

@@ -11,6 +11,9 @@ from enum import Enum
 from qe.errors import BudgetExceeded
 from qe.progress import Event, Listener, silent
 
+VERIFY_SECONDS = 60.0
+"""The limit of a verification for which the caller gives none."""
+
 
 class Method(Enum):
     """Elimination methods that a caller can ask for; ``AUTO`` lets the planner choose."""

@@ -28,8 +28,8 @@ from types import TracebackType
 from typing import Generic, NoReturn, TypeVar
 
 from qe.errors import BudgetExceeded, InternalError, QEError, Unable
-from qe.execution import MARK, surrounding_deadline
 from qe.progress import Event, Listener, silent
+from qe.surroundings import MARK, surrounding_deadline
 
 T = TypeVar("T")
 

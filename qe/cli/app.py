@@ -143,8 +143,8 @@ def check(
 
     Exit status 4 when it is rejected, 3 when the time does not suffice to tell.
     """
-    from qe.api import VERIFY_SECONDS
     from qe.cli import work as cli_work
+    from qe.options import VERIFY_SECONDS
 
     check_limits(timeout, memory)
     source = read_source(certificate, InputFormat.JSON)

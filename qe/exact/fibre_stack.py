@@ -18,8 +18,9 @@ from qe.exact.algebraic import RealAlgebraic, irreducible_factors, irreducible_r
 from qe.exact.balls import EXACT_FROM, FIRST_PRECISION, lower_end, precision, upper_end
 from qe.exact.isolate import simplest_between
 from qe.exact.lazard import lazard_evaluation
-from qe.exact.ring import Poly, from_univariate
+from qe.exact.ring import Poly
 from qe.exact.sample import Fibre, FibreRoot, Point, common_fibre
+from qe.exact.univariate import from_univariate
 
 _CHARACTER = {1: "+", -1: "-", 0: "0"}
 

@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterable, Mapping
 from fractions import Fraction
 from functools import cache, cached_property
+from importlib import import_module
 from math import prod
 from typing import Any
 
@@ -18,10 +19,9 @@ from flint import fmpq, fmpq_mpoly, fmpq_mpoly_ctx, fmpz, fmpz_mpoly, fmpz_mpoly
 
 from qe.errors import BudgetExceeded, InternalError
 from qe.exact.factor import guarded_factor
+from qe.exact.sparse_text import SparseTerm as SparseTerm
+from qe.exact.sparse_text import sparse_text
 from qe.spelling import quoted
-
-SparseTerm = tuple[tuple[tuple[int, int], ...], int]
-"""((variable, exponent > 0), ...), ascending, and the coefficient."""
 
 WIDE = 24
 """In rings with more variables, polynomials keep track of the few that they contain (``qe.exact.wide``)."""
@@ -71,9 +71,8 @@ class Ring:
     def _poly(self, p: fmpz_mpoly, support: tuple[int, ...] = ()) -> Poly:
         if self.size <= WIDE:
             return Poly(self, p)
-        from qe.exact.wide import WidePoly
-
-        return WidePoly.of(self, p, frozenset(support))
+        found: Poly = import_module("qe.exact.wide").WidePoly.of(self, p, frozenset(support))  # only such rings need it
+        return found
 
     def from_terms(self, terms: Mapping[tuple[int, ...], int]) -> Poly:
         """The polynomial with coefficient ``terms[e]`` at the exponent vector ``e`` (in ring order)."""
@@ -341,11 +340,10 @@ class Poly:
 
     def evaluate(self, values: Iterable[Fraction | int]) -> Fraction:
         """The value at a rational point (one value per ring variable)."""
-        point = [Fraction(v) for v in values]
         if self.ring.size == 0:
             return Fraction(self.constant_value())
-        rational = fmpq_mpoly(self.p, self.ring.qctx)
-        value = rational(*[fmpq(v.numerator, v.denominator) for v in reversed(point)])
+        point = [Fraction(v) for v in values]
+        value = fmpq_mpoly(self.p, self.ring.qctx)(*[fmpq(v.numerator, v.denominator) for v in reversed(point)])
         return Fraction(int(value.p), int(value.q))
 
     def at_quotient(self, i: int, top: Poly, bottom: Poly, *, most_terms: int | None = None) -> Poly:
@@ -374,23 +372,15 @@ class Poly:
         """The same polynomial in another ring that has all variables occurring here (by name)."""
         if ring is self.ring:
             return self
-        if not self.variables:
-            return ring.constant(self.constant_value())
-        missing = [self.ring.names[i] for i in self.variables if self.ring.names[i] not in ring.index]
-        if missing:
-            raise InternalError(f"{missing} not in {ring}")
         names, index = self.ring.names, ring.index
+        if missing := [names[i] for i in self.variables if names[i] not in index]:
+            raise InternalError(f"{missing} not in {ring}")
         if max(ring.size, self.ring.size) > WIDE:
             moved = ((sorted((index[names[i]], k) for i, k in powers), c) for powers, c in self.sparse_terms())
             return ring.from_sparse((tuple(powers), c) for powers, c in moved)
-        target = [(i, index[names[i]]) for i in self.variables]
-        terms = {}
-        for exponents, coefficient in self.terms():
-            own = [0] * ring.size
-            for source, destination in target:
-                own[destination] = exponents[source]
-            terms[tuple(own)] = coefficient
-        return ring.from_terms(terms)
+        source = {index[names[i]]: i for i in self.variables}
+        places = [source.get(k) for k in range(ring.size)]
+        return ring.from_terms({tuple([0 if i is None else e[i] for i in places]): c for e, c in self.terms()})
 
     def to_univariate(self, i: int) -> fmpz_poly:
         """The polynomial as a FLINT univariate one; no other variable may occur."""
@@ -405,36 +395,6 @@ def _rebuild(names: tuple[str, ...], terms: tuple[tuple[tuple[int, ...], int], .
     return Ring.of(names).from_terms(dict(terms))
 
 
-def from_univariate(ring: Ring, i: int, p: fmpz_poly) -> Poly:
-    """The FLINT univariate polynomial ``p`` as a polynomial in variable ``i``."""
-    unit = [0] * ring.size
-    terms = {}
-    for k, c in enumerate(p.coeffs()):
-        if c:
-            unit[i] = k
-            terms[tuple(unit)] = int(c)
-    return ring.from_terms(terms)
-
-
 def format_poly(p: Poly, spelled: Callable[[str], str] = quoted) -> str:
     """Text such as ``x^2 - 2*x*y + 1``, which the text reader reads back; ``spelled`` writes a name."""
-    if not p:
-        return "0"
-    names = [spelled(name) for name in p.ring.names]
-    pieces: list[str] = []
-    ordered = sorted(p.sparse_terms(), key=_by_degree, reverse=True)
-    for exponents, coefficient in ordered:
-        used = ((names[i], k) for i, k in exponents)
-        powers = [name if k == 1 else f"{name}^{k}" for name, k in used]
-        magnitude = abs(coefficient)
-        body = "*".join(([str(fmpz(magnitude))] if magnitude != 1 or not powers else []) + powers)
-        if not pieces:
-            pieces.append(f"-{body}" if coefficient < 0 else body)
-        else:
-            pieces.append(f"{'-' if coefficient < 0 else '+'} {body}")
-    return " ".join(pieces)
-
-
-def _by_degree(term: SparseTerm) -> tuple[int, list[tuple[int, int]]]:
-    """Total degree, then the exponents of the variables in order: an early variable makes a term high."""
-    return sum(k for _, k in term[0]), [(-i, k) for i, k in term[0]]
+    return sparse_text(p.sparse_terms(), [spelled(name) for name in p.ring.names])

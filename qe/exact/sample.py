@@ -17,8 +17,9 @@ from qe.exact.algebraic import RealAlgebraic, select_root
 from qe.exact.ball_roots import certified_roots, quadratic_roots
 from qe.exact.balls import EXACT_FROM, FIRST_PRECISION, ball_sign, lower_end, precision, upper_end
 from qe.exact.remainder import common_coefficients, squarefree_coefficients
-from qe.exact.ring import Poly, Ring, from_univariate
+from qe.exact.ring import Poly, Ring
 from qe.exact.tower import Tower
+from qe.exact.univariate import from_univariate
 
 SMALL = 100
 """Zero tests use remainder sequences up to this degree, and normal forms in the tower of fields above (measured)."""

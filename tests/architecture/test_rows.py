@@ -18,6 +18,7 @@ ROWS = {
     "qe.spelling": 0,
     "qe.arguments": 0,
     "qe.options": 0,
+    "qe.surroundings": 0,
     "qe.worker": 0,
     "qe.execution": 0,
     "qe.exact": 1,

@@ -19,7 +19,8 @@ from qe.certify.arithmetic.triangular import ORIGIN, Coordinate
 from qe.certify.verify import verify
 from qe.errors import BudgetExceeded
 from qe.exact.algebraic import real_roots
-from qe.exact.ring import Ring, from_univariate
+from qe.exact.ring import Ring
+from qe.exact.univariate import from_univariate
 from qe.formula.build import conj, disj
 from qe.formula.syntax import Atom, Formula
 from qe.options import Budget, Projection

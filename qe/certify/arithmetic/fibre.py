@@ -35,7 +35,8 @@ from qe.certify.arithmetic.triangular import (
     reduce,
     trim,
 )
-from qe.exact.ring import Poly, from_univariate
+from qe.exact.ring import Poly
+from qe.exact.univariate import from_univariate
 
 ENCLOSURE_BITS = (64, 256, 1024)
 LONG_BITS = (64, 256, 1024, 4096, 16384)  # a quotient loses many bits by cancellation
