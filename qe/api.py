@@ -35,6 +35,7 @@ if TYPE_CHECKING:  # the checker and the optimiser are loaded where they are use
     from qe.regions.region import Region
 
 Result = TypeVar("Result")
+Reader = Callable[[AnyFormula, str], Formula]
 
 MOSTLY_NEEDED = ("qe.engine.run", "qe.rules.block", "qe.elimination.vs.block", "qe.elimination.vs.witness")
 """The parts of the engine that nearly every problem with a quantifier needs."""
@@ -114,11 +115,11 @@ def _check_order(order: tuple[str, ...] | None, formula: Formula) -> None:
         raise InputError(f"order: variables of the formula expected, each once, {', '.join(names)} found")
 
 
-def _read(formula: AnyFormula, format: str, limits: Limits) -> Formula:
+def _read(formula: AnyFormula, format: str, limits: Limits, read: Reader = read_formula) -> Formula:
     """The formula, read under the limits where reading may take long. Raises ``BudgetExceeded`` at one."""
     if not isinstance(formula, str) or not text_may_block(formula):
-        return read_formula(formula, format)
-    return perform(lambda budgets: read_formula(formula, format), limits, at_once=True)
+        return read(formula, format)
+    return perform(lambda budgets: read(formula, format), limits, at_once=True)
 
 
 def _solved(formula: Formula, options: Options, budget: Budget) -> Outcome:
@@ -212,7 +213,7 @@ def parametric_witnesses(
     from qe.elimination.vs.parametric import parametric_witnesses as find
 
     limits = _limits(timeout, memory, progress, process).begun(start)
-    given = without_root_atoms(read_block(_read(formula, format, limits), format))
+    given = without_root_atoms(_read(formula, format, limits, read_block))
 
     def work(budgets: Budgets) -> tuple[ParametricWitness, ...]:
         block = given

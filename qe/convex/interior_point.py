@@ -37,13 +37,17 @@ class FloatQuadratic:
         return value, slope
 
 
+class OutOfFloats(Unable, OverflowError):
+    """Numbers that no float holds: those who have another way catch it, for the others the method is unable."""
+
+
 def to_float(q: Quadratic, scale: float = 1.0) -> FloatQuadratic:
     """The quadratic polynomial times ``scale``, in floats. Raises ``Unable`` for numbers that no float holds."""
     try:
         entries = tuple((i, j, float(h) * scale) for i, row in enumerate(q.hessian) for j, h in enumerate(row) if h)
         return FloatQuadratic(entries, tuple(float(b) * scale for b in q.gradient), float(q.constant) * scale)
     except OverflowError:
-        raise Unable("a number is too large to be proposed to the numerical method") from None
+        raise OutOfFloats("a number is too large to be proposed to the numerical method") from None
 
 
 def natural_scale(q: Quadratic) -> float:
@@ -52,7 +56,7 @@ def natural_scale(q: Quadratic) -> float:
     try:
         return 1 / float(largest) if largest else 1.0
     except (OverflowError, ZeroDivisionError):
-        raise Unable("a coefficient is out of the range of the numerical method") from None
+        raise OutOfFloats("a coefficient is out of the range of the numerical method") from None
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
-from qe.arguments import name
+from qe.arguments import name, seconds
 from qe.cad.decompose import decompose
 from qe.cells.interval import Interval, Number
 from qe.cells.sampled_cells import leaves
@@ -157,7 +157,7 @@ class ConvexRegion(Region):
 
     def bounds(self, variable: str, *, timeout: float | None = None) -> Interval:
         """The exact infimum and supremum of a variable, whether they are attained, and the certificates of both."""
-        variable = name(variable, "variable")
+        variable, timeout = name(variable, "variable"), seconds(timeout)
         if variable not in self.order:
             raise InputError(f"variable: one of {', '.join(self.order)} expected, {variable} found")
         return super().bounds(variable, timeout=timeout)

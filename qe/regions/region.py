@@ -8,7 +8,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any, TypeVar
 
-from qe.arguments import by_name, by_place, name, ratio, seconds
+from qe.arguments import by_name, by_place, instance, name, ratio, seconds
 from qe.arguments import path as name_of_file
 from qe.cad.decompose import decompose
 from qe.cells.fibres import any_true, fibre_of
@@ -200,7 +200,7 @@ class Region:
 
     def bounds(self, variable: str, *, timeout: float | None = None) -> Interval:
         """The exact infimum and supremum of a variable over the region, and whether they are attained."""
-        variable = name(variable, "variable")
+        variable, timeout = name(variable, "variable"), seconds(timeout)
         if variable not in self.order:
             raise InputError(f"variable: one of {', '.join(self.order)} expected, {variable} found")
         if variable not in self._bounds:
@@ -255,6 +255,7 @@ class Region:
     def within(self, condition: Formula) -> Region:
         """The part where a quantifier-free condition on the region's variables holds, decomposed in the same order."""
         ring = Ring.of(self.order)
+        condition = instance(condition, Formula, "condition", "a formula")
         both = conj((convert(self.formula, ring), convert(condition, ring)))
         return Region.of(both, self.order, budget=self._budget, limits=self.limits)
 
@@ -266,10 +267,14 @@ class Region:
         from qe.regions.picture import draw
 
         target = name_of_file(path)
-        try:
-            self._asked(lambda: draw(self, target), timeout, at_once=True)
-        except OSError as error:
-            raise InputError(f"{target}: cannot be written: {error.strerror}") from None
+
+        def drawn() -> None:  # perhaps in another process, from which errors of this package come back as they are
+            try:
+                draw(self, target)
+            except OSError as error:
+                raise InputError(f"{target}: cannot be written: {error.strerror}") from None
+
+        self._asked(drawn, seconds(timeout), at_once=True)
 
     def __repr__(self) -> str:
         return f"Region({', '.join(self.order)}: {self.formula})"

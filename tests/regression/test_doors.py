@@ -184,7 +184,7 @@ def test_coefficients_that_no_float_holds(objective: str, constraints: str, valu
     try:
         assert qe.minimize(objective, constraints).value == value
     except qe.Unable as error:
-        assert "could" in str(error)
+        assert "could" in str(error) or "numerical method" in str(error)
 
 
 def test_parametric_witnesses_of_a_body_that_is_a_constant() -> None:

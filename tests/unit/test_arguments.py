@@ -111,8 +111,10 @@ DOORS = {
         REGION.fibre, {"prefix": 0}, {"prefix": {*NUMBERS, "float", "digits"}}, {"prefix": lambda v: [v]}
     ),
     "Region.bounds": Door(REGION.bounds, {"variable": "x"}),
+    "Region.sample_points": Door(REGION.sample_points, {}),
+    "Region.within": Door(REGION.within, {"condition": REGION.formula}),
     "Region.volume": Door(REGION.volume, {"rel_error": 0.5}, {"rel_error": {"float"}}),
-    "Region.plot": Door(REGION.plot, {"path": "no/such/folder/picture.png"}),
+    "Region.plot": Door(REGION.plot, {"path": "no/such/folder/picture.png"}, {"timeout": set()}),
     "ConvexRegion.contains": Door(CONVEX.contains, {"point": dict.fromkeys("xyzu", 0)}),
     "ConvexRegion.fibre": Door(CONVEX.fibre, {"prefix": [0]}, {"prefix": {"list", "dict"}}),
     "ConvexRegion.bounds": Door(CONVEX.bounds, {"variable": "x"}),
