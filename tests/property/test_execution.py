@@ -57,15 +57,15 @@ def test_optima(discs):
     assert qe.verify(moved.certificate).accepted
 
 
-@given(st.lists(st.sampled_from(["share", "apart", "cells"]), max_size=4))
+@given(st.lists(st.sampled_from(["share", "part", "work"]), max_size=4))
 def test_every_part_of_a_budget_moves_with_it(ways):
     moved: list[int] = []
     budget = Budget(handover=Handover(0.0, lambda: moved.append(1)))
     for way in ways:
         budget = {
             "share": lambda b: b.share(0.5),
-            "apart": lambda b: b.apart(9.0),
-            "cells": lambda b: b.apart(cells=9),
+            "part": lambda b: b.part(None),
+            "work": lambda b: b.part(9),
         }[way](budget)
     budget.check("work")
     budget.check("work")

@@ -20,7 +20,7 @@ from qe.formula.weight import may_block, text_may_block
 from qe.options import Budget
 from qe.progress import Event
 
-HARD = "ex a, b, c. all x, y. a*x^4*y + b*x*y^3 + c*x^2*y^2 + d*x + e*y + f > a^2*x^3 + b^2*y^5"
+HARD = "ex a, b, c. all x, y. a*x^4*y + b*x*y^3 + c*x^2*y^2 + d*x + g*y + f > a^2*x^3 + b^2*y^5"
 """No method finishes this in minutes."""
 
 
@@ -42,7 +42,7 @@ def spent(seconds: float, then: Callable[[Budget], object] = lambda budget: os.g
 
     def work(budgets: Budgets) -> object:
         budget, end = budgets(), time.monotonic() + seconds
-        part = budget.share(0.9).apart(cells=10)  # parts of a budget move with it
+        part = budget.share(0.9).part(10)  # parts of a budget move with it
         while time.monotonic() < end:
             part.check("waiting")
             time.sleep(0.002)

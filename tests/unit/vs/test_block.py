@@ -154,7 +154,7 @@ RING = Ring.of(("a", "x", "y"))
 
 
 def test_settled_atoms_are_strict_and_tried_before() -> None:
-    matrix = read("ex x. x > a and x > b and x >= c and x /= d and x^2 <= e").body  # type: ignore[attr-defined]
+    matrix = read("ex x. x > a and x > b and x >= c and x /= d and x^2 <= f").body  # type: ignore[attr-defined]
     x = next(iter(matrix.args)).poly.ring.index["x"]
     found = bounds(matrix, x, 1, NOTHING)
     assert found is not None
