@@ -115,8 +115,9 @@ def _check_order(order: tuple[str, ...] | None, formula: Formula) -> None:
         raise InputError(f"order: variables of the formula expected, each once, {', '.join(names)} found")
 
 
-def _read(formula: AnyFormula, format: str, limits: Limits, read: Reader = read_formula) -> Formula:
+def _read(formula: AnyFormula, format: str, limits: Limits, reader: Reader | None = None) -> Formula:
     """The formula, read under the limits where reading may take long. Raises ``BudgetExceeded`` at one."""
+    read = reader or read_formula
     if not isinstance(formula, str) or not text_may_block(formula):
         return read(formula, format)
     return perform(lambda budgets: read(formula, format), limits, at_once=True)

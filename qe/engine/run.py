@@ -27,6 +27,7 @@ from qe.formula.syntax import FALSE, TRUE, And, Constant, Exists, ForAll, Formul
 from qe.formula.traverse import free_variables, is_quantifier_free
 from qe.options import Budget, Options, Stage
 from qe.proof.certificate import Certificate, Root
+from qe.proof.derivation import negated
 from qe.proof.run_log import RunLog
 from qe.rules.preparation import Prepared, prepare
 from qe.rules.step import ALL_STEPS, EQUATION_STEPS
@@ -80,7 +81,7 @@ class _Run:
         dual = problem.dual
         mark = self.log.mark()
         if problem.universal:
-            self.log.step("duality", problem.formula, neg(dual.formula))
+            self.log.step("duality", problem.formula, negated(dual.formula))
         ready = self.prepared(dual.formula)
         if ready.formula == dual.formula and dual.is_flat:
             self.log.forget_steps(mark)

@@ -30,7 +30,7 @@ def name(variable: str) -> str:
     """A variable: ``x1`` as x with an index, Greek letters by name, long words upright."""
     found = _NAME.fullmatch(variable)
     if found is None:
-        return f"<mi>{escape(variable)}</mi>"
+        return f"<mi>{escape(visible(variable))}</mi>"
     letters, number, primes = found.groups()
     text = _LETTERS.get(letters, escape(letters)) + "′" * len(primes)
     return f"<msub><mi>{text}</mi><mn>{number}</mn></msub>" if number else f"<mi>{text}</mi>"

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 
 from qe.exact.ring import Ring
 from qe.formula.build import conj, convert, disj, exists, forall, neg
-from qe.formula.syntax import And, Exists, ForAll, Formula, Not, Or
+from qe.formula.syntax import And, Constant, Exists, ForAll, Formula, Not, Or
 from qe.formula.traverse import children
 from qe.io.names import names_in
 from qe.proof import writing
@@ -66,6 +66,11 @@ def put_together(start: Formula, steps: Iterable[Step], answer: Formula) -> Deri
     return Derivation(start, tuple(kept), tuple(whole), current == convert(answer, ring))
 
 
+def negated(formula: Formula) -> Formula:
+    """The negation as it stands: steps inside it have their places there, which pushing it inwards would change."""
+    return neg(formula) if isinstance(formula, Constant) else Not(formula)
+
+
 def _formulas(steps: Iterable[Step]) -> Iterator[Formula]:
     for step in steps:
         yield from (step.before, step.after, step.context)
@@ -86,7 +91,7 @@ def _replaced(formula: Formula, before: Formula, after: Formula, path: Place, pl
                 return build((*rest, after))
             return build(changed) if changed != list(args) else formula
         case Not(arg):
-            return neg(changed[0]) if changed[0] is not arg else formula
+            return negated(changed[0]) if changed[0] is not arg else formula
         case Exists(variables, body) | ForAll(variables, body):
             rebuilt = exists if isinstance(formula, Exists) else forall
             return rebuilt(variables, changed[0]) if changed[0] is not body else formula

@@ -12,6 +12,7 @@ from qe.formula.normal import nnf
 from qe.formula.syntax import And, Atom, Exists, ForAll, Formula, Or
 from qe.formula.traverse import free_variables
 from qe.options import Budget
+from qe.proof.derivation import negated as negation
 from qe.proof.run_log import RunLog
 from qe.rules.block_context import BlockContext
 from qe.rules.step import ALL_STEPS, StepKind
@@ -89,9 +90,9 @@ def _block(formula: Exists | ForAll, context: BlockContext) -> Node:
     if isinstance(formula, Exists):
         return reduce_block(formula.variables, body, context)
     negated = nnf(body, negate=True)
-    context.step("duality", forall(formula.variables, body), neg(exists(formula.variables, negated)))
+    context.step("duality", forall(formula.variables, body), negation(exists(formula.variables, negated)))
     tree = reduce_block(formula.variables, negated, context)
-    context.step("negation normal form", neg(tree.formula), nnf(tree.formula, negate=True))
+    context.step("negation normal form", negation(tree.formula), nnf(tree.formula, negate=True))
     return tree
 
 

@@ -8,11 +8,13 @@ from hypothesis import strategies as st
 
 import qe
 from qe.elimination.cad import decomposed
-from qe.elimination.critical.method import by_critical_values
+from qe.elimination.critical.method import CriticalValues
+from qe.elimination.protocol import Context, Problem
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj, disj, exists
 from qe.formula.evaluate import holds_at
 from qe.formula.syntax import Formula, Relation
+from qe.formula.traverse import is_quantifier_free
 from qe.options import Budget, Options
 from qe.proof.run_log import RunLog
 from tests.enough import enough
@@ -21,12 +23,10 @@ RELATIONS = (Relation.LE, Relation.LT, Relation.EQ, Relation.GE, Relation.GT, Re
 
 
 def eliminated(variables: tuple[str, ...], body: Formula, seconds: float = 60) -> Formula:
-    """By critical values alone, without the preparation that would solve many of these problems before."""
-
-    def otherwise(formula: Formula, budget: Budget) -> Formula:
-        return decomposed(formula, Options(), budget, RunLog()).formula
-
-    return by_critical_values(variables, body, Options(), Budget(seconds), RunLog(), otherwise)
+    """By critical values, what these leave open by decomposition; without the preparation that would solve many."""
+    budget = Budget(seconds)
+    formula = CriticalValues().run(Problem(variables, body), Context(Options(), budget, RunLog())).formula
+    return formula if is_quantifier_free(formula) else decomposed(formula, Options(), budget, RunLog()).formula
 
 
 @st.composite

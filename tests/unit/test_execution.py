@@ -181,7 +181,7 @@ def test_work_of_a_thread_moves_too():
 
 CALLS = {
     "eliminate": f"qe.eliminate({HARD!r})",
-    "find_instance": f"qe.find_instance({HARD!r})",
+    "find_instance": "qe.find_instance('all a, b. ex x. all y. a*x^4*y^3 + b*x^3*y^5 + x^2*y + z*x > a^2*y^4 + x*y')",
     "region": "qe.region('x^6*y^5+z^7*x-y*z^3+3 > 0 and x^7+y^6*z^5-x*y*z = 1')",
     "a long FLINT call": "perform(lambda budgets: fmpz.fac_ui(10**9), Limits(), at_once=True)",
 }

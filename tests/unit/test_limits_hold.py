@@ -52,7 +52,7 @@ CASES: dict[str, tuple[str, Callable[[], Call]]] = {
     ),
     "region": ("qe.regions.region.decompose", lambda: lambda: qe.region(DISC, timeout=LIMIT)),
     "region of a quantified formula": (
-        "qe.engine.run.solve",
+        "qe.regions.build.solve",
         lambda: lambda: qe.region("ex z. z^3 = x*y and z > 0", timeout=LIMIT),
     ),
     "Region.contains": (
@@ -80,7 +80,7 @@ CASES: dict[str, tuple[str, Callable[[], Call]]] = {
         lambda: lambda found=qe.region(DISC): found.plot("nowhere.png", timeout=LIMIT),
     ),
     "Region.formula": (
-        "qe.engine.run.solve",
+        "qe.regions.build.solve",
         lambda: lambda found=qe.region(SHADOW, timeout=LIMIT): found.formula,
     ),
     "Region.cells": (
