@@ -9,6 +9,7 @@ from html import escape
 from qe.formula.notation import Monomial, digits, oriented, positive
 from qe.formula.syntax import And, Atom, Constant, Exists, ForAll, Formula, Not, Or, Relation, RootAtom
 from qe.io.latex import GREEK
+from qe.spelling import visible
 
 WIDTH = 12
 """Leaves (monomials) after which the outermost operator is written in lines."""

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from qe.formula.build import conj, disj, exists, forall, neg
+from qe.formula.build import conj, disj, exists, forall
 from qe.formula.normal import nnf
 from qe.formula.syntax import And, Atom, Exists, ForAll, Formula, Or
 from qe.formula.traverse import free_variables
