@@ -10,12 +10,12 @@ import qe
 from qe.elimination.cad import decomposed
 from qe.elimination.critical.method import CriticalValues
 from qe.elimination.protocol import Context, Problem
+from qe.engine.run import _Run
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj, disj, exists
 from qe.formula.evaluate import holds_at
 from qe.formula.syntax import Formula, Relation
-from qe.formula.traverse import is_quantifier_free
-from qe.options import Budget, Options
+from qe.options import Budget, Method, Options
 from qe.proof.run_log import RunLog
 from tests.enough import enough
 
@@ -26,7 +26,7 @@ def eliminated(variables: tuple[str, ...], body: Formula, seconds: float = 60) -
     """By critical values, what these leave open by decomposition; without the preparation that would solve many."""
     budget = Budget(seconds)
     formula = CriticalValues().run(Problem(variables, body), Context(Options(), budget, RunLog())).formula
-    return formula if is_quantifier_free(formula) else decomposed(formula, Options(), budget, RunLog()).formula
+    return _Run(Options(method=Method.CAD), budget).without_quantifiers(formula)
 
 
 @st.composite

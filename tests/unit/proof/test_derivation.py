@@ -9,7 +9,7 @@ import xml.etree.ElementTree as ET
 import pytest
 
 import qe
-from qe.formula.syntax import FALSE, TRUE, ForAll, Formula
+from qe.formula.syntax import FALSE, TRUE, ForAll, Formula, Not
 from qe.formula.traverse import free_variables
 from qe.io import formats
 from qe.proof.derivation import put_together
@@ -54,7 +54,8 @@ def test_an_incomplete_derivation_says_so() -> None:
 
 def test_quantified_places_and_negations() -> None:
     start = read("all y. not (ex x. x^2 = y)")
-    found = put_together(start, [step("ex x. x^2 = y", "y >= 0"), Step("end", read("all y. y < 0"), FALSE)], FALSE)
+    last = Step("end", ForAll(("y",), Not(read("y >= 0"))), FALSE)
+    found = put_together(start, [step("ex x. x^2 = y", "y >= 0"), last], FALSE)
     assert found.is_complete and found.steps[0].places == ((0, 0),)
 
 
