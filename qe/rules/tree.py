@@ -34,22 +34,10 @@ class Leaf:
 
 
 @dataclass(frozen=True, slots=True)
-class Pending:
-    """exists variables. body, still to be reduced, where ``given`` holds beside what is known already."""
+class Pending(Leaf):
+    """A leaf that is still to be reduced, where ``given`` holds beside what is known already."""
 
-    variables: tuple[str, ...]
-    body: Formula
     given: tuple[Formula, ...] = ()
-
-    @property
-    def formula(self) -> Formula:
-        return exists(self.variables, self.body)
-
-    def satisfied(self, at: Assignment) -> bool:
-        return holds_at(self.body, at)
-
-    def lift(self, at: Assignment) -> dict[str, Value]:
-        return dict(at)
 
 
 @dataclass(frozen=True, slots=True)
@@ -143,8 +131,6 @@ def leaves(node: Node) -> tuple[Leaf, ...]:
     match node:
         case Leaf():
             return (node,)
-        case Pending(variables, body):
-            return (Leaf(variables, body),)
         case Lifted(_, child) | Perturbed(_, _, child):
             return leaves(child)
     return tuple(leaf for child in node.children for leaf in leaves(child))
