@@ -98,8 +98,6 @@ def eliminate(
         given = _read(formula, format, limits)
     except BudgetExceeded as error:
         return Answer(Status.UNABLE, None, reason=str(error))
-    options = _options(method, order, root_atoms, without, progress).with_(certify=check)
-    given = read_formula(formula, format)
     _check_order(options.order, given)
     answer = _limited(given, options, limits, check)
     if explain:

@@ -32,6 +32,8 @@ def constant_value(formula: Formula, is_satisfiable: Callable[[Formula], bool]) 
     always = _at(formula, names, PATTERNS[0])
     if any(_at(formula, names, pattern) is not always for pattern in PATTERNS[1:]):
         return None
+    if holds_at(formula, _middle(formula, names)) is not always:
+        return None
     exception = nnf(formula, negate=always)
     if is_satisfiable(exists(names, exception)):
         return None
@@ -40,6 +42,24 @@ def constant_value(formula: Formula, is_satisfiable: Callable[[Formula], bool]) 
 
 def _at(formula: Formula, names: tuple[str, ...], pattern: tuple[int | Fraction, ...]) -> bool:
     return holds_at(formula, {name: pattern[i % len(pattern)] for i, name in enumerate(names)})
+
+
+def _middle(formula: Formula, names: tuple[str, ...]) -> dict[str, Fraction]:
+    """The middle of the box around the vertices of the parabolas on the axes: for balls, of their centres.
+
+    Balls that meet mostly meet there, where the small coordinates above seldom are.
+    """
+    vertices: dict[str, list[Fraction]] = {name: [] for name in names}
+    for atom in atoms(formula):
+        ring = atom.poly.ring
+        slopes: dict[int, dict[int, int]] = {}
+        for exponents, coefficient in atom.poly.terms():
+            if sum(exponents) in (1, 2) and max(exponents) == sum(exponents):
+                slopes.setdefault(exponents.index(sum(exponents)), {})[sum(exponents)] = int(coefficient)
+        for index, slope in slopes.items():
+            if 2 in slope:
+                vertices[ring.names[index]].append(Fraction(-slope.get(1, 0), 2 * slope[2]))
+    return {name: (min(v) + max(v)) / 2 if v else Fraction(0) for name, v in vertices.items()}
 
 
 def _is_cheap(formula: Formula, size: int) -> bool:
