@@ -171,8 +171,8 @@ class RootAtom(Formula):
 
 
 @dataclass(frozen=True, slots=True)
-class And(Formula):
-    """Conjunction. Invariant (builders): at least two arguments, none an And or a Constant."""
+class Connective(Formula):
+    """Two or more formulas joined by one connective."""
 
     args: tuple[Formula, ...]
 
@@ -186,27 +186,23 @@ class And(Formula):
 
     def _find_quantifier_free(self) -> bool:
         return all(arg.is_quantifier_free for arg in self.args)
+
+
+@dataclass(frozen=True, slots=True)
+class And(Connective):
+    """Conjunction. Invariant (builders): at least two arguments, none an And or a Constant."""
+
+    __hash__ = Formula.__hash__
 
     def written(self, notation: Notation, level: Level = Level.OPEN, last: bool = True) -> str:
         return chain(self.args, Level.AND, level, last, notation)
 
 
 @dataclass(frozen=True, slots=True)
-class Or(Formula):
+class Or(Connective):
     """Disjunction. Invariant (builders): at least two arguments, none an Or or a Constant."""
 
-    args: tuple[Formula, ...]
-
     __hash__ = Formula.__hash__
-
-    def _find_ring(self) -> Ring | None:
-        return next((arg.ring for arg in self.args if arg.ring is not None), None)
-
-    def _find_free(self) -> tuple[str, ...]:
-        return _together(self.ring, self.args)
-
-    def _find_quantifier_free(self) -> bool:
-        return all(arg.is_quantifier_free for arg in self.args)
 
     def written(self, notation: Notation, level: Level = Level.OPEN, last: bool = True) -> str:
         return chain(self.args, Level.OR, level, last, notation)
@@ -236,8 +232,8 @@ class Not(Formula):
 
 
 @dataclass(frozen=True, slots=True)
-class Exists(Formula):
-    """There are real values of ``variables`` such that ``body``."""
+class Quantified(Formula):
+    """A block of one kind of quantifier over a body."""
 
     variables: tuple[str, ...]
     body: Formula
@@ -254,29 +250,26 @@ class Exists(Formula):
         return False
 
     def written(self, notation: Notation, level: Level = Level.OPEN, last: bool = True) -> str:
-        return _quantified(self, notation, last)
+        prefix = notation.quantifier(isinstance(self, ForAll), self.variables)
+        if notation.scope is not None:
+            return prefix + bracketed(self.body, notation.scope, notation)
+        if not last:
+            return bracketed(self, notation.brackets, notation)
+        return prefix + self.body.written(notation)
 
 
 @dataclass(frozen=True, slots=True)
-class ForAll(Formula):
-    """For all real values of ``variables``, ``body``."""
-
-    variables: tuple[str, ...]
-    body: Formula
+class Exists(Quantified):
+    """There are real values of ``variables`` such that ``body``."""
 
     __hash__ = Formula.__hash__
 
-    def _find_ring(self) -> Ring | None:
-        return self.body.ring
 
-    def _find_free(self) -> tuple[str, ...]:
-        return tuple([name for name in self.body.free if name not in self.variables])
+@dataclass(frozen=True, slots=True)
+class ForAll(Quantified):
+    """For all real values of ``variables``, ``body``."""
 
-    def _find_quantifier_free(self) -> bool:
-        return False
-
-    def written(self, notation: Notation, level: Level = Level.OPEN, last: bool = True) -> str:
-        return _quantified(self, notation, last)
+    __hash__ = Formula.__hash__
 
 
 def _together(ring: Ring | None, parts: tuple[Formula, ...]) -> tuple[str, ...]:
@@ -287,12 +280,3 @@ def _together(ring: Ring | None, parts: tuple[Formula, ...]) -> tuple[str, ...]:
     for part in parts:
         found.update(part.free)
     return tuple([name for name in ring.names if name in found])
-
-
-def _quantified(formula: Exists | ForAll, notation: Notation, last: bool) -> str:
-    prefix = notation.quantifier(isinstance(formula, ForAll), formula.variables)
-    if notation.scope is not None:
-        return prefix + bracketed(formula.body, notation.scope, notation)
-    if not last:
-        return bracketed(formula, notation.brackets, notation)
-    return prefix + formula.body.written(notation)
