@@ -26,7 +26,7 @@ $(CORE): pyproject.toml constraints.txt
 	@touch $@
 
 $(DEV): $(CORE)
-	$(PIP) install --editable '.[dev,solvers,sweep]'
+	$(PIP) install --editable '.[dev,solvers,sweep,sat]'
 	@touch $@
 
 setup: $(DEV) ## create .venv with every dependency
