@@ -23,11 +23,12 @@ help: ## list the targets
 $(CORE): pyproject.toml constraints.txt
 	@test -n "$(PYTHON)" || { echo "Python 3.11 or newer with venv and pip is needed" >&2; exit 1; }
 	@test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
-	$(PIP) install --editable .
+	$(PIP) install --editable '.[plan]'
 	@touch $@
 
 $(DEV): $(CORE)
 	$(PIP) install --editable '.[dev,solvers,sweep,sat]'
+	@printf '#!/bin/sh\nexec "$$(dirname "$$0")/python" -m experiments "$$@"\n' > $(BIN)/experiments && chmod +x $(BIN)/experiments
 	@touch $@
 
 $(DOCS): $(DEV)

@@ -20,6 +20,7 @@ from qe.exact.algebraic import RealAlgebraic
 from qe.exact.ring import Poly, Ring
 from qe.exact.sample import Point
 from qe.execution import Budgets, Limits, perform
+from qe.extras import lacking
 from qe.formula.build import conj, convert
 from qe.formula.evaluate import truth_under
 from qe.formula.normal import nnf
@@ -262,7 +263,7 @@ class Region:
     def plot(self, path: str | Path, *, timeout: float | None = None) -> None:
         """Write a picture (PNG, SVG or PDF by the ending) of a region in one to three variables.
 
-        Raises ``InputError`` in more variables, and for a file that cannot be written.
+        Raises ``InputError`` in more variables, and for a file that cannot be written, ``Unable`` without matplotlib.
         """
         from qe.regions.picture import draw
 
@@ -273,6 +274,8 @@ class Region:
                 draw(self, target)
             except OSError as error:
                 raise InputError(f"{target}: cannot be written: {error.strerror}") from None
+            except ImportError as error:
+                raise lacking(error) or error from None
 
         self._asked(drawn, seconds(timeout), at_once=True)
 

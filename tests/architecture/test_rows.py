@@ -19,6 +19,8 @@ ROWS = {
     "qe.arguments": 0,
     "qe.options": 0,
     "qe.surroundings": 0,
+    "qe.extras": 0,
+    "qe.portable": 0,
     "qe.worker": 0,
     "qe.execution": 0,
     "qe.exact": 1,
