@@ -9,6 +9,7 @@ _EXTRAS = {
     "dask": "sweep",
     "distributed": "sweep",
     "jinja2": "plan",
+    "markupsafe": "plan",
     "matplotlib": "pictures",
     "mpl_toolkits": "pictures",
     "networkx": "plan",
