@@ -15,7 +15,13 @@ from qe.extras import _EXTRAS, lacking
 
 ROOT = Path(__file__).resolve().parents[2]
 EXTRAS = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["optional-dependencies"]
-PACKAGES = {"z3": "z3-solver", "pysat": "python-sat", "jinja2": "Jinja2", "mpl_toolkits": "matplotlib", "markupsafe": "Jinja2"}
+PACKAGES = {
+    "z3": "z3-solver",
+    "pysat": "python-sat",
+    "jinja2": "Jinja2",
+    "mpl_toolkits": "matplotlib",
+    "markupsafe": "Jinja2",
+}
 BARE = f"import sys\nfor name in {sorted(_EXTRAS)!r}: sys.modules[name] = None\n"
 
 
