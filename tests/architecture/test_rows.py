@@ -44,6 +44,7 @@ ROWS = {
     "qe.regions": 9,
     "qe.api": 10,
     "qe.cli": 10,
+    "qe.__main__": 10,
     "qe": 10,
     "bezier": 11,
     "experiments": 12,
