@@ -46,6 +46,8 @@ if TYPE_CHECKING:
     from qe.elimination.vs.parametric import ParametricWitness
     from qe.exact.algebraic import RealAlgebraic
     from qe.io.sympy import Exists, ForAll
+    from qe.optimization.global_optimum import GlobalOptimum
+    from qe.optimization.parametric_optimum import ParametricOptimum
     from qe.regions.region import Region
 
 __version__ = "0.1.0"
@@ -71,7 +73,9 @@ _LATER = {
     **dict.fromkeys(_API, "qe.api"),
     "Exists": "qe.io.sympy",
     "ForAll": "qe.io.sympy",
+    "GlobalOptimum": "qe.optimization.global_optimum",
     "Optimum": "qe.convex.optimum",
+    "ParametricOptimum": "qe.optimization.parametric_optimum",
     "ParametricWitness": "qe.elimination.vs.parametric",
     "RealAlgebraic": "qe.exact.algebraic",
     "Region": "qe.regions.region",
@@ -102,6 +106,7 @@ __all__ = [
     "DegreeTooHigh",
     "Exists",
     "ForAll",
+    "GlobalOptimum",
     "Guarantee",
     "InputError",
     "InternalError",
@@ -109,6 +114,7 @@ __all__ = [
     "NoTruthValue",
     "NotWellOriented",
     "Optimum",
+    "ParametricOptimum",
     "ParametricWitness",
     "ParseError",
     "QEError",

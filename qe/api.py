@@ -32,6 +32,8 @@ if TYPE_CHECKING:  # the checker and the optimiser are loaded where they are use
     from qe.convex.optimum import Optimum
     from qe.elimination.protocol import Outcome
     from qe.elimination.vs.parametric import ParametricWitness
+    from qe.optimization.global_optimum import GlobalOptimum
+    from qe.optimization.parametric_optimum import ParametricOptimum
     from qe.regions.region import Region
 
 Result = TypeVar("Result")
@@ -285,40 +287,61 @@ def minimize(
     objective: AnyFormula,
     constraints: AnyFormula = "true",
     *,
+    parameters: Order = None,
     timeout: float | None = None,
     memory: int | None = None,
     progress: Progress = silent,
     process: bool = True,
-) -> Optimum:
-    """The exact minimum of a convex quadratic (or linear) polynomial under convex quadratic or linear constraints.
+) -> Optimum | GlobalOptimum | ParametricOptimum:
+    """The exact global minimum of a polynomial where the constraints hold.
 
     ``objective``: text, ``Poly``, or a SymPy expression; ``constraints``: a formula, or a list of formulas to be
-    conjoined. Raises ``Unable`` outside that class, ``BudgetExceeded`` at a limit; see ``eliminate`` for the limits.
+    conjoined. Convex quadratic (or linear) problems get an ``Optimum`` with multipliers; all others are solved by
+    elimination, with quantifiers in the constraints if need be, and get a ``GlobalOptimum`` with all minimisers.
+    ``parameters``: variables that are not optimised over; the answer is a ``ParametricOptimum``, their function.
+    Raises ``Unable`` where no proof was found, ``BudgetExceeded`` at a limit; see ``eliminate`` for the limits.
     """
-    from qe.convex.optimum import minimize as solve
-
-    return _best(solve, objective, constraints, _limits(timeout, memory, progress, process))
+    return _best(1, objective, constraints, parameters, _limits(timeout, memory, progress, process))
 
 
 def maximize(
     objective: AnyFormula,
     constraints: AnyFormula = "true",
     *,
+    parameters: Order = None,
     timeout: float | None = None,
     memory: int | None = None,
     progress: Progress = silent,
     process: bool = True,
-) -> Optimum:
-    """The exact maximum; see ``minimize``."""
-    from qe.convex.optimum import maximize as solve
-
-    return _best(solve, objective, constraints, _limits(timeout, memory, progress, process))
+) -> Optimum | GlobalOptimum | ParametricOptimum:
+    """The exact global maximum; see ``minimize``."""
+    return _best(-1, objective, constraints, parameters, _limits(timeout, memory, progress, process))
 
 
-def _best(solve: Callable[..., Optimum], objective: AnyFormula, constraints: AnyFormula, limits: Limits) -> Optimum:
+def _best(
+    sign: int, objective: AnyFormula, constraints: AnyFormula, parameters: Order, limits: Limits
+) -> Optimum | GlobalOptimum | ParametricOptimum:
+    """The optimum of a convex problem by its method, of any other by elimination."""
+    from qe.convex.optimum import NotConvex, maximize, minimize
+
     poly, scale = read_polynomial(objective, "objective")
     conditions = read_constraints(constraints)
-    return _performed(lambda budgets: solve(poly, conditions, scale=scale, budget=budgets()), conditions, limits)
+    given = arguments.names(parameters, "parameters")
+
+    def work(budgets: Budgets) -> Optimum | GlobalOptimum | ParametricOptimum:
+        budget = budgets()
+        if given is not None:
+            from qe.optimization.parametric_optimum import optimum_of
+
+            return optimum_of(sign, poly, conditions, given, scale=scale, budget=budget)
+        try:
+            return (minimize if sign > 0 else maximize)(poly, conditions, scale=scale, budget=budget)
+        except NotConvex:
+            from qe.optimization.global_optimum import best
+
+            return best(sign, poly, conditions, scale=scale, budget=budget)
+
+    return _performed(work, conditions, limits)
 
 
 def _limits(timeout: float | None, memory: int | None, progress: Progress, process: bool) -> Limits:

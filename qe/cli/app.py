@@ -120,6 +120,7 @@ def minimize(
     constraints: Annotated[str, typer.Argument(metavar="CONSTRAINTS|FILE|-", show_default=False)] = "true",
     format: Format = None,
     maximize: Annotated[bool, typer.Option("--maximize", help="Find the greatest value instead.")] = False,
+    parameters: Annotated[str | None, typer.Option("--parameters", help="Variables not optimised over: a, b.")] = None,
     timeout: Timeout = None,
     memory: Memory = None,
     certificate: CertificateFile = None,
@@ -127,10 +128,11 @@ def minimize(
     plain: Plain = False,
 ) -> int:
     """Print the exact least value of a polynomial under CONSTRAINTS, and where it is attained."""
-    from qe.cli import region as cli_region
+    from qe.cli import optimize as cli_optimize
 
     asked = request(constraints, format, timeout, memory, certificate, json)
-    work = partial(cli_region.optimize, request=asked, objective=objective, maximize=maximize)
+    goal = cli_optimize.Goal(objective, maximize, parameters)
+    work = partial(cli_optimize.optimize, request=asked, goal=goal)
     reply = limited(work, timeout=timeout, memory=memory, plain=plain)
     return deliver(reply, {"certificate": certificate})
 

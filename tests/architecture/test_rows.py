@@ -42,6 +42,7 @@ ROWS = {
     "qe.elimination": 7,
     "qe.engine": 8,
     "qe.regions": 9,
+    "qe.optimization": 9,
     "qe.api": 10,
     "qe.cli": 10,
     "qe.__main__": 10,

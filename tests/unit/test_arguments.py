@@ -62,6 +62,7 @@ EVERYWHERE = {
     "memory": {"none"},
     **{name: {"bool"} for name in ("root_atoms", "explain", "check", "process")},
     "order": {"none", "list"},
+    "parameters": {"none", "list", "text"},
     "without": {"list", "dict"},
 }
 """What is no mistake for an argument of this name, unless a door says otherwise."""
@@ -116,7 +117,9 @@ DOORS = {
     "Region.sample_points": Door(REGION.sample_points, {}),
     "Region.within": Door(REGION.within, {"condition": REGION.formula}),
     "Region.volume": Door(REGION.volume, {"rel_error": 0.5}, {"rel_error": {"float"}}),
-    "Region.plot": Door(REGION.plot, {"path": os.path.join(tempfile.gettempdir(), "region-of-a-test.png")}),
+    "Region.plot": Door(
+        REGION.plot, {"path": os.path.join(tempfile.gettempdir(), "region-of-a-test.png")}, {"path": {"none"}, "ax": {"none"}}
+    ),
     "ConvexRegion.contains": Door(CONVEX.contains, {"point": dict.fromkeys("xyzu", 0)}),
     "ConvexRegion.fibre": Door(CONVEX.fibre, {"prefix": [0]}, {"prefix": {"list", "dict"}}),
     "ConvexRegion.bounds": Door(CONVEX.bounds, {"variable": "x"}),

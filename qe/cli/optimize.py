@@ -1,0 +1,101 @@
+"""What ``qe minimize`` does inside the worker."""
+
+from __future__ import annotations
+
+import json
+import time
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from qe.cli.numbers import exact_and_decimal, shown
+from qe.cli.work import Reply, Request, certificate_text, read_formula
+from qe.errors import Unable
+from qe.spelling import quoted
+from qe.worker import Channel
+
+if TYPE_CHECKING:
+    from qe.convex.optimum import Optimum
+    from qe.optimization.global_optimum import GlobalOptimum
+    from qe.optimization.parametric_optimum import ParametricOptimum
+
+
+@dataclass(frozen=True, slots=True)
+class Goal:
+    """What is to be optimised, as the command line gives it."""
+
+    objective: str
+    maximize: bool = False
+    parameters: str | None = None
+
+
+def optimize(channel: Channel, request: Request, goal: Goal) -> Reply:
+    """``qe minimize``: the exact value, the point, and what is active there; with parameters, the cases."""
+    from qe import api
+    from qe.optimization.parametric_optimum import ParametricOptimum
+
+    start = time.perf_counter()
+    solve = api.maximize if goal.maximize else api.minimize
+    constraints = read_formula(channel, request.source)
+    limits: dict[str, Any] = {"timeout": request.timeout, "progress": channel.event}
+    best = solve(goal.objective, constraints, parameters=goal.parameters, **limits)
+    files: dict[str, str | bytes] = {"certificate": certificate_text(best)} if request.certificate else {}
+    if isinstance(best, ParametricOptimum):
+        data, lines = _cases(best), str(best).splitlines()
+    elif best.value is None:
+        raise Unable(f"{best.status.name.lower()}: no {'greatest' if goal.maximize else 'least'} value")
+    else:
+        data, lines = _data(best), _lines(best)
+    seconds = time.perf_counter() - start
+    if request.json:
+        return Reply(json.dumps({**data, "seconds": round(seconds, 6)}, indent=2, ensure_ascii=False), files=files)
+    how = "proved optimal" if best.certificate is not None else "found"
+    return Reply("\n".join([*lines, f"{how} in {seconds:.3f} s"]), files=files)
+
+
+def _data(best: Optimum | GlobalOptimum) -> dict[str, Any]:
+    """One optimum for machines; what only convex problems have is empty for others."""
+    from qe.convex.optimum import Optimum
+
+    data: dict[str, Any] = {
+        "status": best.status.name.lower(),
+        "value": exact_and_decimal(best.value),
+        "point": {name: exact_and_decimal(value) for name, value in best.point.items()},
+        "attained": best.attained,
+    }
+    if not isinstance(best, Optimum):
+        return {**data, "active": [], "unique": None, "multipliers": [], "minimisers": str(best.minimisers)}
+    return {
+        **data,
+        "active": [best.constraints[i] for i in best.active],
+        "unique": best.unique,
+        "multipliers": [exact_and_decimal(value) for value in best.multipliers],
+    }
+
+
+def _lines(best: Optimum | GlobalOptimum) -> list[str]:
+    from qe.convex.optimum import Optimum
+
+    lines = [f"value {shown(best.value)}"]
+    lines += [f"{quoted(name)} = {shown(value)}" for name, value in best.point.items()]
+    if isinstance(best, Optimum):
+        lines.append(f"active: {', '.join(best.constraints[i] for i in best.active) or 'nothing'}")
+    elif best.attained:
+        lines.append(f"attained where {best.minimisers}")
+    if best.attained is False:
+        lines.append("not attained: the value is a limit")
+    return lines
+
+
+def _cases(best: ParametricOptimum) -> dict[str, Any]:
+    return {
+        "status": "optimal",
+        "parameters": list(best.parameters),
+        "cases": [
+            {
+                "where": [str(r) for r in case.ranges],
+                "value": None if case.value is None else str(case.value),
+                "attained": case.attained,
+            }
+            for case in best
+        ],
+    }

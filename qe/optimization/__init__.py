@@ -1,0 +1,1 @@
+"""Global optima of any polynomial over any semialgebraic set, by elimination; with parameters as functions of them."""

@@ -1,0 +1,150 @@
+"""Exact global optima without convexity: the values by elimination, the least of them, the points that have it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from fractions import Fraction
+
+from qe.cad.decompose import decompose
+from qe.cells.pieces import merge
+from qe.engine.run import solve
+from qe.errors import Unable
+from qe.exact.algebraic import RealAlgebraic
+from qe.exact.number import Values
+from qe.exact.ring import Poly, Ring
+from qe.formula.build import atom, conj, convert, exists
+from qe.formula.syntax import FALSE, TRUE, Formula, Relation
+from qe.optimization.values import Goal
+from qe.options import Budget, Options
+from qe.proof.certificate import Certificate
+from qe.proof.multipliers import OptimumStatus
+
+Number = Fraction | RealAlgebraic
+
+
+@dataclass(frozen=True, slots=True)
+class GlobalOptimum:
+    """The answer to an optimisation problem that need not be convex.
+
+    OPTIMAL: ``value`` is the exact minimum or maximum where ``attained``; otherwise it is the infimum or supremum, and
+    no point has it. ``point``: one point that has it, empty where none does. ``minimisers``: quantifier-free, holds at
+    exactly the points that have it (``qe.region`` of it lists or describes them). INFEASIBLE: no point meets the
+    constraints; UNBOUNDED: there is no bound. For both ``value`` and ``attained`` are None.
+    ``values``: a formula of ``variable``, the values that are taken (of the negative, for a maximum). ``certificate``:
+    a bundle that proves them, the least of them, and the point; None where the elimination had no certificate.
+    """
+
+    status: OptimumStatus
+    value: Number | None
+    attained: bool | None
+    point: Mapping[str, Number]
+    minimisers: Formula
+    values: Formula
+    variable: str
+    certificate: Certificate | None = None
+
+    @property
+    def is_optimal(self) -> bool:
+        return self.status is OptimumStatus.OPTIMAL
+
+
+def minimize_globally(
+    objective: Poly, constraints: Formula, *, scale: Fraction | int = 1, budget: Budget | None = None
+) -> GlobalOptimum:
+    """The minimum of ``scale * objective`` where ``constraints`` hold (they may have quantifiers).
+
+    Raises ``Unable`` (``BudgetExceeded`` at a limit) where elimination does.
+    """
+    limits = budget or Budget()
+    options = Options(progress=limits.listener)
+    goal = Goal.of(objective, Fraction(scale), constraints)
+    taken = goal.values(limits, options)
+    if taken.formula is FALSE:
+        return _without(OptimumStatus.INFEASIBLE, goal, taken.formula)
+    if taken.formula is TRUE:
+        return _without(OptimumStatus.UNBOUNDED, goal, taken.formula)
+    table = decompose(taken.formula, (goal.value,), ("",), budget=limits).table
+    pieces = merge(table, budget=limits)
+    if not pieces:
+        return _without(OptimumStatus.INFEASIBLE, goal, taken.formula)
+    least = pieces[0].ranges[0]
+    if least.lower is None:
+        return _without(OptimumStatus.UNBOUNDED, goal, taken.formula)
+    assert least.lower.value is not None
+    value = _plain(least.lower.value)
+    members = [] if taken.certificate is None else [("values", taken.certificate), ("least", Certificate.cells(table))]
+    point: Values = {}
+    if least.lower_closed:
+        found = solve(exists((goal.value, *goal.variables), _place(goal, value)), options, limits)
+        if found.witness is None:
+            raise Unable("the least value was found, but no point that has it")
+        point = {name: found.witness.get(name, Fraction(0)) for name in goal.variables}
+        if found.certificate is not None:
+            members.append(("point", found.certificate))
+    return GlobalOptimum(
+        status=OptimumStatus.OPTIMAL,
+        value=value,
+        attained=least.lower_closed,
+        point=point,
+        minimisers=_level_set(goal, value) if least.lower_closed else FALSE,
+        values=taken.formula,
+        variable=goal.value,
+        certificate=Certificate.bundle(members) if members else None,
+    )
+
+
+def best(
+    sign: int, objective: Poly, constraints: Formula, *, scale: Fraction | int = 1, budget: Budget | None = None
+) -> GlobalOptimum:
+    """The minimum (``sign`` 1), or the maximum (-1): minus the minimum of the negative."""
+    found = minimize_globally(objective, constraints, scale=sign * Fraction(scale), budget=budget)
+    return found if sign > 0 or found.value is None else replace(found, value=-found.value)
+
+
+def _without(status: OptimumStatus, goal: Goal, values: Formula) -> GlobalOptimum:
+    return GlobalOptimum(status, None, None, {}, FALSE, values, goal.value)
+
+
+def _plain(value: RealAlgebraic) -> Number:
+    return value.as_fraction() if value.is_rational else value
+
+
+def _place(goal: Goal, value: Number) -> Formula:
+    """The constraints, the equation of the value, and which number the value is."""
+    number = goal.objective.ring.var(goal.value)
+    if isinstance(value, Fraction):
+        known = [atom(number * value.denominator - value.numerator, Relation.EQ)]
+    else:
+        low, high = value.interval()
+        ring = Ring.of((goal.value,))
+        minimal = ring.from_terms({(k,): c for k, c in enumerate(value.minimal_polynomial) if c})
+        known = [
+            atom(minimal.convert(number.ring), Relation.EQ),
+            atom(number * low.denominator - low.numerator, Relation.GE),
+            atom(number * high.denominator - high.numerator, Relation.LE),
+        ]
+    return conj((goal.conditions, atom(goal.equation, Relation.EQ), *known))
+
+
+def _level_set(goal: Goal, value: Number) -> Formula:
+    """Where the constraints hold and the objective has the value, without a name for the value.
+
+    An irrational value is the only root of its minimal polynomial between two rational numbers, so the objective has
+    it exactly where it is a root of that polynomial and lies between them.
+    """
+    ring = Ring.of(tuple(name for name in goal.objective.ring.names if name != goal.value))
+    objective, conditions = goal.objective.convert(ring), convert(goal.conditions, ring)
+    if isinstance(value, Fraction):
+        wanted = value / goal.scale
+        return conj((conditions, atom(objective * wanted.denominator - wanted.numerator, Relation.EQ)))
+    scaled, bottom = objective * goal.scale.numerator, goal.scale.denominator
+    low, high = value.interval()
+    root, power = ring.constant(0), 1
+    for c in reversed(value.minimal_polynomial):
+        root, power = root * scaled + c * power, power * bottom
+    between = (
+        atom(scaled * low.denominator - low.numerator * bottom, Relation.GE),
+        atom(scaled * high.denominator - high.numerator * bottom, Relation.LE),
+    )
+    return conj((conditions, atom(root, Relation.EQ), *between))

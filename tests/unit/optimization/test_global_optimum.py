@@ -1,0 +1,104 @@
+"""Global optima without convexity: values, attainment, points, all minimisers, certificates, bad input."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+import qe
+from qe.convex.optimum import OptimumStatus
+
+CASES = [
+    ("x^4 - x^2", "x^2 <= 4", "-1/4", True),
+    ("(1 - x)^2 + 100*(y - x^2)^2", "true", "0", True),
+    ("x*y", "x^2 + y^2 <= 1", "-1/2", True),
+    ("(x*y - 1)^2 + x^2", "true", "0", False),
+    ("x^3", "x > 1", "1", False),
+    ("x + y", "x^2 + y^2 = 1 or x*y >= 3 and x > 0", "-sqrt(2)", True),
+    ("x", "ex y. y^2 = x^3 - x", "-1", True),
+    ("7", "x^3 > 2", "7", True),
+    ("x*y*z", "x^2 + 2*y^2 + 3*z^2 <= 1", "-sqrt(2)/18", True),
+]
+
+
+@pytest.mark.parametrize(("objective", "constraints", "value", "attained"), CASES)
+def test_known_minima(objective, constraints, value, attained):
+    found = qe.minimize(objective, constraints)
+    assert (str(found.value), found.attained, found.status) == (value, attained, OptimumStatus.OPTIMAL)
+    if found.certificate is not None:
+        assert qe.verify(found.certificate).accepted
+
+
+@pytest.mark.parametrize(("objective", "constraints", "value", "attained"), CASES)
+def test_a_maximum_is_minus_the_minimum_of_the_negative(objective, constraints, value, attained):
+    found = qe.maximize(f"-({objective})", constraints)
+    assert (str(found.value), found.attained) == (str(-qe.minimize(objective, constraints).value), attained)
+
+
+@pytest.mark.parametrize(
+    ("objective", "constraints", "status"),
+    [
+        ("x^3", "true", OptimumStatus.UNBOUNDED),
+        ("x*y", "x > 0", OptimumStatus.UNBOUNDED),
+        ("x^3", "x^4 < 0", OptimumStatus.INFEASIBLE),
+        ("x^4", "y^4 + 1 = 0", OptimumStatus.INFEASIBLE),
+    ],
+)
+def test_no_minimum(objective, constraints, status):
+    found = qe.minimize(objective, constraints)
+    assert (found.status, found.value, found.attained) == (status, None, None)
+    assert not found.is_optimal
+
+
+def test_all_minimisers():
+    found = qe.minimize("x^4 - x^2", "x^2 <= 4")
+    points = [p["x"] for p in qe.region(found.minimisers).sample_points()]
+    assert [str(p) for p in points] == ["-sqrt(2)/2", "sqrt(2)/2"]
+    assert qe.equivalent(qe.minimize("x*y", "x^2 + y^2 <= 1").minimisers, "2*x*y = -1 and x = -y")
+    assert str(qe.minimize("x^3", "x > 1").minimisers) == "false"
+
+
+def test_an_irrational_value_is_told_from_its_conjugates():
+    """x^3 - 2 has one real root; x^2 - 2 two, of which the value is the smaller."""
+    found = qe.minimize("x", "x^2 = 2 and x^3 < 100")
+    assert str(found.value) == "-sqrt(2)"
+    assert qe.equivalent(found.minimisers, "x^2 = 2 and x < 0")
+
+
+@settings(max_examples=25, deadline=None)
+@given(st.lists(st.integers(-4, 4), min_size=2, max_size=5), st.integers(-3, 2), st.integers(1, 3), st.booleans())
+def test_no_value_on_a_grid_is_smaller_and_the_point_has_it(coefficients, low, width, strict):
+    assume(any(coefficients[1:]))
+    text = " + ".join(f"({c})*x^{k}" for k, c in enumerate(coefficients))
+    sign = "<" if strict else "<="
+    found = qe.minimize(f"({text})/3 + 0*y", f"{low} {sign} x and x {sign} {low + width} and x^4 >= -1")
+
+    def f(x):
+        return sum(c * x**k for k, c in enumerate(coefficients)) / Fraction(3)
+
+    inside = [low + width * Fraction(k, 16) for k in range(1, 16)]
+    ends = [] if strict else [Fraction(low), Fraction(low + width)]
+    assert all(found.value <= f(x) for x in [*inside, *ends])
+    if found.attained:
+        assert qe.decide(f"ex x. {found.minimisers}".replace("ex x. ", "ex x, y. "))
+        assert qe.find_instance(found.minimisers) is not None
+        x = found.point["x"]
+        assert low <= x <= low + width
+        if isinstance(x, Fraction):
+            assert f(x) == found.value
+    else:
+        assert strict
+
+
+@pytest.mark.parametrize("given", [True, None, ["x"], "x +", "x = 1"])
+def test_bad_objectives(given):
+    with pytest.raises(qe.QEError):
+        qe.minimize(given, "x^4 < 2", timeout=5)
+
+
+def test_a_limit_holds():
+    with pytest.raises(qe.BudgetExceeded):
+        qe.minimize("x^6*y + y^5*z - x*z^7 + x*y*z", "x^4*y + z^3 = x*y + 5 and y^7 > x*z^3 + 1", timeout=0.3)
