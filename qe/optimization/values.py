@@ -16,7 +16,7 @@ from qe.engine.run import solve
 from qe.errors import InputError
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj, convert, exists
-from qe.formula.syntax import Formula, Relation
+from qe.formula.syntax import FALSE, Formula, Relation
 from qe.formula.traverse import ring_of
 from qe.options import Budget, Options
 
@@ -39,14 +39,15 @@ class Goal:
 
     @staticmethod
     def of(objective: Poly, scale: Fraction, conditions: Formula, parameters: Iterable[str] = ()) -> Goal:
-        """The goal with all names in one ring. Raises ``InputError`` for a parameter that is named twice."""
+        """The goal with all names in one ring. Raises ``InputError`` for a parameter that is unknown or named twice."""
         known = ring_of(conditions)
         names = dict.fromkeys((*objective.ring.names, *(known.names if known is not None else ())))
         given, value = tuple(parameters), VALUE
         while value in names or value in given:
             value += "_"
-        if len(set(given)) < len(given):
-            raise InputError(f"parameters: each name once expected, {', '.join(given)} found")
+        strangers = [name for name in given if name not in names and conditions is not FALSE]
+        if strangers or len(set(given)) < len(given):
+            raise InputError(f"parameters: variables of the problem expected, each once, {', '.join(given)} found")
         ring = Ring.of((*given, value, *(name for name in names if name not in given)))
         used = {*conditions.free, *(objective.ring.names[i] for i in objective.variables)}
         variables = tuple(name for name in names if name in used and name not in given)

@@ -62,7 +62,6 @@ EVERYWHERE = {
     "memory": {"none"},
     **{name: {"bool"} for name in ("root_atoms", "explain", "check", "process")},
     "order": {"none", "list"},
-    "parameters": {"none", "list", "text"},
     "without": {"list", "dict"},
 }
 """What is no mistake for an argument of this name, unless a door says otherwise."""
@@ -91,10 +90,10 @@ DOORS = {
         qe.region, {"formula": "x > 0", "order": "y"}, {"order": {"text", "digits"}}, {"order": lambda v: ["x", v]}
     ),
     "minimize": Door(
-        qe.minimize, {"objective": "x"}, {"objective": {*NUMBERS, "digits"}, "constraints": {"list"}}
+        qe.minimize, {"objective": "x"}, {"objective": {*NUMBERS, "digits"}, "constraints": {"list"}, "parameters": {"none", "list"}}
     ),
     "maximize": Door(
-        qe.maximize, {"objective": "-x"}, {"objective": {*NUMBERS, "digits"}, "constraints": {"list"}}
+        qe.maximize, {"objective": "-x"}, {"objective": {*NUMBERS, "digits"}, "constraints": {"list"}, "parameters": {"none", "list"}}
     ),
     "minimize list": Door(
         qe.minimize, {"objective": "x", "constraints": "x > 0"}, {}, {"constraints": lambda value: ["x > 1", value]}
@@ -118,7 +117,9 @@ DOORS = {
     "Region.within": Door(REGION.within, {"condition": REGION.formula}),
     "Region.volume": Door(REGION.volume, {"rel_error": 0.5}, {"rel_error": {"float"}}),
     "Region.plot": Door(
-        REGION.plot, {"path": os.path.join(tempfile.gettempdir(), "region-of-a-test.png")}, {"path": {"none"}, "ax": {"none"}}
+        REGION.plot,
+        {"path": os.path.join(tempfile.gettempdir(), "region-of-a-test.png")},
+        {"path": {"none"}, "ax": {"none"}},
     ),
     "ConvexRegion.contains": Door(CONVEX.contains, {"point": dict.fromkeys("xyzu", 0)}),
     "ConvexRegion.fibre": Door(CONVEX.fibre, {"prefix": [0]}, {"prefix": {"list", "dict"}}),

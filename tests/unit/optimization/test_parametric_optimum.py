@@ -55,7 +55,7 @@ def test_at_every_parameter_it_is_the_optimum_there(p, q, k, m):
 
 
 def test_a_parameter_twice_is_refused():
-    with pytest.raises(qe.InputError, match="parameters: each name once"):
+    with pytest.raises(qe.InputError, match="parameters: variables of the problem expected, each once"):
         qe.minimize("x", "x > a", parameters="a, a")
 
 
