@@ -69,6 +69,7 @@ EVERYWHERE = {
 EVERY = dict.fromkeys(name for name in inspect.signature(qe.eliminate).parameters if name != "formula")
 BETWEEN = {"lo": {"negative", "zero", "float"}, "hi": {"int", "digits", "huge"}}
 POINT = {"x": 0, "y": 0}
+GOAL = {"objective": {*NUMBERS, "digits"}, "constraints": {"list"}, "parameters": {"none", "list"}}
 
 DOORS = {
     "eliminate": Door(qe.eliminate, {"formula": "ex x. x^2 = a"}),
@@ -90,10 +91,10 @@ DOORS = {
         qe.region, {"formula": "x > 0", "order": "y"}, {"order": {"text", "digits"}}, {"order": lambda v: ["x", v]}
     ),
     "minimize": Door(
-        qe.minimize, {"objective": "x"}, {"objective": {*NUMBERS, "digits"}, "constraints": {"list"}, "parameters": {"none", "list"}}
+        qe.minimize, {"objective": "x"}, GOAL
     ),
     "maximize": Door(
-        qe.maximize, {"objective": "-x"}, {"objective": {*NUMBERS, "digits"}, "constraints": {"list"}, "parameters": {"none", "list"}}
+        qe.maximize, {"objective": "-x"}, GOAL
     ),
     "minimize list": Door(
         qe.minimize, {"objective": "x", "constraints": "x > 0"}, {}, {"constraints": lambda value: ["x > 1", value]}
