@@ -117,7 +117,9 @@ def _excludes_zero(member: Formula, a: Poly) -> bool:
 
 def _check_implication(tried: Tried, whole: Formula, x: int, shift: int, entry: Entry) -> None:
     for member in conjuncts(whole):
-        if not implies(tried.formula, member) and (tried.point is not None or not _holds(member, tried.guard, x, shift)):
+        if not implies(tried.formula, member) and (
+            tried.point is not None or not _holds(member, tried.guard, x, shift)
+        ):
             raise entry.fail("does not imply the formula")
 
 

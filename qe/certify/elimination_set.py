@@ -107,4 +107,3 @@ def _rest(cover: Cover, degenerate: Formula, gauss: Formula, original: Formula) 
         return False
     whole = conj((degenerate, original))
     return any(t.point is None and implies(whole, conj((t.guard, t.formula))) for t in cover.tried)
-

@@ -97,9 +97,7 @@ class Cover:
         """The conditions outside which the formula has finitely many solutions, all of which are met."""
         match formula:
             case Atom(poly, Relation.EQ) if poly.degree(self.x):
-                if all(
-                    self.meets(t, conj((*around, formula)), len(self.tried)) for t in self._turns(formula, 1, NONE)
-                ):
+                if all(self.meets(t, conj((*around, formula)), len(self.tried)) for t in self._turns(formula, 1, NONE)):
                     yield vanishing(poly, self.x)
             case Or(args):
                 found = [next(self.finite(a, around), None) for a in args]
