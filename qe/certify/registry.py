@@ -4,12 +4,32 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from qe.certify.block import check_block
+from qe.certify.degree_shift import check_degree_shift
+from qe.certify.inequations import check_inequations, check_only_nonzero
+from qe.certify.linear_equation import check_guarded_linear, check_linear
+from qe.certify.miniscoping import check_miniscoping
 from qe.certify.negation import check_negation
 from qe.certify.renaming import check_renaming
 from qe.certify.step import Check
+from qe.certify.symmetry import check_scaling, check_translation
 
 RULES: Mapping[str, Check] = {
     "renaming": check_renaming,
     "duality": check_negation,
     "negation normal form": check_negation,
+    "simplification": check_block,
+    "standard simplification": check_block,
+    "case split on factors": check_block,
+    "boundary apart": check_block,
+    "vanishing sum of squares split": check_block,
+    "Groebner basis of the equations": check_block,
+    "independent parts and miniscoping": check_miniscoping,
+    "linear equation solved": check_linear,
+    "linear equation solved under a guard": check_guarded_linear,
+    "degree shift": check_degree_shift,
+    "translation of the origin": check_translation,
+    "homogeneous scaling": check_scaling,
+    "inequations that remove no interior": check_inequations,
+    "only asked to be no root": check_only_nonzero,
 }

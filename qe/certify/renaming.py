@@ -24,7 +24,12 @@ def check_renaming(claim: Claim, context: Context, limits: Limits) -> None:
 
 def same_up_to_names(left: Formula, right: Formula) -> bool:
     """Whether two formulas are the same up to bound names, idle quantifiers, and how blocks of one kind are joined."""
-    return _shape(left, {}, 0) == _shape(right, {}, 0)
+    return shape(left) == shape(right)
+
+
+def shape(formula: Formula) -> object:
+    """A value that is the same for formulas that are the same up to names of bound variables."""
+    return _shape(formula, {}, 0)
 
 
 def _shape(formula: Formula, bound: Binding, depth: int) -> object:

@@ -181,14 +181,14 @@ def formula_from_json(entry: Entry, ring: Ring, depth: int = 0, *, quantified: b
     if quantified and kind in ("exists", "forall") and len(rest) == 2:
         return (Exists if kind == "exists" else ForAll)(variables_from_json(rest[0], ring), inner(rest[1]))
     if kind == "atom" and len(rest) == 2:
-        return Atom(_normal(rest[0], ring), relation_from_json(rest[1]))
+        return Atom(polynomial_from_json(rest[0], ring), relation_from_json(rest[1]))
     if kind == "root" and len(rest) == 4:
         variable, k = rest[0].text(), rest[3].value
         if variable not in ring.index:
             raise rest[0].fail("unknown variable")
         if not isinstance(k, int) or isinstance(k, bool) or k == 0:
             raise rest[3].fail("expected a root number, not 0")
-        return RootAtom(variable, relation_from_json(rest[1]), _normal(rest[2], ring), k)
+        return RootAtom(variable, relation_from_json(rest[1]), polynomial_from_json(rest[2], ring), k)
     raise entry.fail('expected ["and", ...], ["or", ...], ["not", f], ["atom", p, rel] or ["root", x, rel, p, k]')
 
 
@@ -200,7 +200,8 @@ def variables_from_json(entry: Entry, ring: Ring) -> tuple[str, ...]:
     return names
 
 
-def _normal(entry: Entry, ring: Ring) -> Poly:
+def polynomial_from_json(entry: Entry, ring: Ring) -> Poly:
+    """A polynomial as atoms have it: primitive, with positive leading coefficient, not constant."""
     poly = entry.polynomial(ring)
     if poly.is_constant or poly.normal()[0] != 1:
         raise entry.fail("expected a primitive polynomial with positive leading coefficient")

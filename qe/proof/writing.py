@@ -21,6 +21,7 @@ RULES: Mapping[str, str] = {
     "linear equation solved under a guard": "The coefficient of a linear equation vanishes, or gives its variable.",
     "degree shift": "All exponents share a divisor: the power becomes the variable.",
     "inequations that remove no interior": "A nonempty open set lies in no hypersurface.",
+    "boundary apart": "A weak inequality is a strict one or an equation.",
     "translation of the origin": "All polynomials are constant along a direction: one coordinate may be zero.",
     "homogeneous scaling": "All polynomials are homogeneous: one coordinate may be -1, 0 or 1.",
     "Groebner basis of the equations": "The equations have the same common zeros as others (Buchberger 1965).",
