@@ -11,8 +11,10 @@ from qe.certify.linear_equation import check_guarded_linear, check_linear
 from qe.certify.miniscoping import check_miniscoping
 from qe.certify.negation import check_negation
 from qe.certify.renaming import check_renaming
+from qe.certify.sentence import check_sentence
 from qe.certify.step import Check
 from qe.certify.symmetry import check_scaling, check_translation
+from qe.certify.table import check_table
 
 RULES: Mapping[str, Check] = {
     "renaming": check_renaming,
@@ -32,4 +34,8 @@ RULES: Mapping[str, Check] = {
     "homogeneous scaling": check_scaling,
     "inequations that remove no interior": check_inequations,
     "only asked to be no root": check_only_nonzero,
+    "cells": check_table,
+    "shorter": check_table,
+    "constant": check_table,
+    "convex": check_sentence,
 }

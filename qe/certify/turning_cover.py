@@ -12,7 +12,7 @@ from qe.errors import CertificateRejected
 from qe.exact.ring import Poly
 from qe.formula.build import conj, disj
 from qe.formula.syntax import FALSE, And, Atom, Formula, Or, Relation
-from qe.formula.traverse import conjuncts, disjuncts
+from qe.formula.traverse import disjuncts
 
 Around = tuple[Formula, ...]
 NONE: frozenset[Poly] = frozenset()
