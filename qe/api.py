@@ -167,7 +167,7 @@ def _answer(formula: Formula, options: Options, budget: Budget, check: bool) -> 
         question=formula,
         log=found.log,
     )
-    if certificate is not None and (check or certificate.kind is Kind.WITNESS):
+    if certificate is not None and (check or certificate.kind is Kind.WITNESS or found.witness is not None):
         from qe.api_verify import with_verdict
 
         return with_verdict(answer, budget)

@@ -38,4 +38,5 @@ RULES: Mapping[str, Check] = {
     "shorter": check_table,
     "constant": check_table,
     "convex": check_sentence,
+    "point or multipliers": check_sentence,
 }

@@ -5,7 +5,7 @@ Nothing here is trusted: a step counts as proved when the checker of its rule ac
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
 
@@ -21,7 +21,7 @@ from qe.exact.ring import Poly, Ring
 from qe.formula.syntax import And, Formula, Or
 from qe.formula.traverse import children, conjuncts
 from qe.options import Budget, Options
-from qe.proof.certificate import Certificate, Proof
+from qe.proof.certificate import Certificate, Proof, written
 from qe.proof.derivation import Derivation, moved
 from qe.proof.entry import Entry, Json, formula_to_json, poly_to_text
 from qe.proof.step import Place, Step
@@ -95,20 +95,8 @@ class _Prover:
             self.unchecked.append(step.rule)
         else:
             rule, evidence = found
-            self.steps.append(self._written(rule, place, step.before, step.after, context, evidence))
+            self.steps.append(written(rule, place, step.before, step.after, context, evidence))
         return changed
-
-    def _written(
-        self, rule: str, place: Sequence[int], before: Formula, after: Formula, context: Context, evidence: Json
-    ) -> Json:
-        return {
-            "rule": rule,
-            "at": list(place),
-            "before": formula_to_json(before, quantified=True),
-            "after": formula_to_json(after, quantified=True),
-            "context": [formula_to_json(f, quantified=True) for f in context],
-            "evidence": evidence,
-        }
 
     def joined(self, current: Formula, goal: Formula) -> None:
         """The last formula of the derivation and the answer, where steps between them are missing."""
@@ -116,7 +104,7 @@ class _Prover:
         if found is None:
             self.unchecked.append(UNRECORDED)
         else:
-            self.steps.append(self._written(found[0], (), current, goal, (), found[1]))
+            self.steps.append(written(found[0], (), current, goal, (), found[1]))
 
     # --- evidence ------------------------------------------------------------------------------
     def evidence(self, step: Step, context: Context) -> tuple[str, Json] | None:
