@@ -14,7 +14,6 @@ from math import lcm
 from qe.certify.boolean import Theory
 from qe.certify.signs import read_lemma
 from qe.certify.step import Limits
-from qe.errors import CertificateRejected, Unable
 from qe.exact.algebraic import real_roots
 from qe.exact.nearby import rational_between
 from qe.exact.ring import Poly, Ring
@@ -124,10 +123,15 @@ def refuting(goals: Sequence[Sequence[Formula]], ring: Ring, limits: Limits) -> 
     if len(polys) > MOST_POLYNOMIALS:
         return None
     found = Lemmas(ring)
-    for extend in (lambda: None, lambda: _algebra(found, polys), lambda: _lines(found, polys), lambda: _ranges(found)):
+    for stage in range(4):
         count = len(found.lemmas)
-        extend()
-        if count == len(found.lemmas) and extend is not None and count:
+        if stage == 1:
+            _algebra(found, polys)
+        elif stage == 2:
+            _lines(found, polys)
+        elif stage == 3:
+            _ranges(found)
+        if stage and count == len(found.lemmas):
             continue
         used = _used(found, goals, limits)
         if used is not None:
@@ -261,7 +265,3 @@ def _ranges(found: Lemmas) -> None:
     for poly in list(found.numbers):
         if 1 < poly.term_count() <= MOST_MONOMIALS:
             found.identity([(-1, ((poly, 1),)), *_monomials(poly)])
-
-
-UNREFUTED = (CertificateRejected, Unable)
-"""What a check of a step raises where the evidence does not do."""

@@ -5,7 +5,7 @@ Nothing here is trusted: a step counts as proved when the checker of its rule ac
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
 
@@ -78,7 +78,7 @@ class _Prover:
             current = self._at(found, step, current)
         return current
 
-    def _places(self, formula: Formula, before: Formula, path: Place = ()) -> Iterable[Place]:
+    def _places(self, formula: Formula, before: Formula, path: Place = ()) -> Iterator[Place]:
         """Where a formula stands, or is a part of a conjunction or disjunction."""
         part = isinstance(formula, And | Or) and type(before) is type(formula)
         if formula == before or (part and set(before.args) < set(formula.args)):  # type: ignore[attr-defined]
