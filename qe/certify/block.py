@@ -12,25 +12,26 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from qe.certify.boolean import read_theory, require_equivalent
+from qe.certify.boolean import ByLemmas, Goal, equivalence
 from qe.certify.negation import negation, normal
-from qe.certify.step import Claim, Context, Limits, only
+from qe.certify.step import Claim, Context, only
 from qe.formula.build import disj, exists
 from qe.formula.syntax import Exists, ForAll, Formula
 from qe.formula.traverse import disjuncts
 
 
-def check_block(claim: Claim, context: Context, limits: Limits) -> None:
+def block_goals(claim: Claim, context: Context) -> list[Goal]:
     """The body before, and the disjunction of the bodies after, have the same truth under the context."""
-    theory = read_theory(only(claim, "theory")[0], claim, limits)
+    only(claim, "theory")
     before, after = existential(claim)
     if not isinstance(before, Exists):
-        require_equivalent(before, after, context, theory, claim)
-        return
+        return equivalence(before, after, context)
     names = before.variables
     bodies = disj(opened(piece, names, claim) for piece in disjuncts(after))
-    known = [f for f in context if not set(names) & set(f.free)]
-    require_equivalent(before.body, bodies, known, theory, claim)
+    return equivalence(before.body, bodies, [f for f in context if not set(names) & set(f.free)])
+
+
+check_block = ByLemmas(block_goals)
 
 
 def existential(claim: Claim) -> tuple[Formula, Formula]:

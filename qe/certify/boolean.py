@@ -5,18 +5,18 @@ assignment of signs that respects the lemmas (``qe.certify.signs``, each proved)
 different, then A <-> B holds wherever that is. Quantified parts and root atoms count as conditions of their own: the
 same where they are the same up to the names of bound variables, and all x not A is the negation of ex x A.
 
-Evidence: ``polynomials`` (those of the comparisons, and others that the lemmas use), ``lemmas``.
+Evidence of a step, as its member ``theory``: ``polynomials`` (those that the lemmas use), ``lemmas``.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from qe.certify.negation import negation, normal
 from qe.certify.renaming import shape
 from qe.certify.signs import ANY, NEGATIVE, POSITIVE, ZERO, Domains, Lemma, read_lemma, read_polynomials
-from qe.certify.step import Claim, Limits
+from qe.certify.step import Claim, Context, Limits
 from qe.errors import Unable
 from qe.exact.ring import Poly
 from qe.formula.syntax import And, Atom, Constant, Exists, ForAll, Formula, Not, Or, Relation
@@ -30,6 +30,37 @@ _SIGNS: Mapping[Relation, int] = {
 }
 
 
+Goal = tuple[Formula, ...]
+"""Formulas that cannot hold together."""
+
+
+@dataclass(frozen=True, slots=True)
+class ByLemmas:
+    """A checker: what has to be refuted so that a step is right, and the refutation by the lemmas in its evidence.
+
+    ``obligations`` raises ``CertificateRejected`` where no refutation could help. The member ``theory`` of the evidence
+    is read here.
+    """
+
+    obligations: Callable[[Claim, Context], Sequence[Goal]]
+
+    def __call__(self, claim: Claim, context: Context, limits: Limits) -> None:
+        goals = self.obligations(claim, context)
+        assert isinstance(claim.evidence.value, dict)  # the obligations have read it
+        theory = read_theory(Entry(claim.evidence.value.get("theory"), f"{claim.evidence.path}.theory"), claim, limits)
+        for goal in goals:
+            if not theory.refutes(goal):
+                raise claim.fail("the signs that the lemmas allow do not exclude that it is wrong")
+
+
+def equivalence(left: Formula, right: Formula, context: Iterable[Formula]) -> list[Goal]:
+    """What has to be refuted so that two formulas have the same truth under the context."""
+    if normal(left) == normal(right):
+        return []
+    known = tuple(context)
+    return [(*known, left, negation(right)), (*known, right, negation(left))]
+
+
 def read_theory(entry: Entry, claim: Claim, limits: Limits) -> Theory:
     """The lemmas of a step's evidence, proved."""
     listed, lemmas = entry.fields("polynomials", "lemmas")
@@ -39,15 +70,6 @@ def read_theory(entry: Entry, claim: Claim, limits: Limits) -> Theory:
         limits.tick()
         found.append(read_lemma(lemma, polys, claim.ring))
     return Theory(polys, tuple(found), limits)
-
-
-def require_equivalent(left: Formula, right: Formula, context: Iterable[Formula], theory: Theory, claim: Claim) -> None:
-    """``CertificateRejected`` unless the lemmas show that two formulas have the same truth under the context."""
-    known = tuple(context)
-    if normal(left) == normal(right):
-        return
-    if not theory.refutes((*known, left, negation(right))) or not theory.refutes((*known, right, negation(left))):
-        raise claim.fail("the signs that the lemmas allow do not give both sides the same truth")
 
 
 @dataclass(frozen=True, slots=True)

@@ -47,6 +47,11 @@ def check_derivation(
         raise answer.fail("not the formula to which the steps lead")
 
 
+def limits_of(budget: Budget, rules: Mapping[str, Check], check_leaf: LeafChecker) -> Limits:
+    """What the checkers of single steps are given."""
+    return _Replay(budget, rules, check_leaf).limits
+
+
 class _Replay:
     """The steps of one derivation, and of those nested in its evidence, under one budget."""
 

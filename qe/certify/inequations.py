@@ -1,8 +1,8 @@
 """Rules "inequations that remove no interior" and "only asked to be no root".
 
 THEOREM. Let f be open in the variables v of a block: every comparison in it that contains one of them is <, > or /=,
-and stands under conjunctions and disjunctions only. Its solutions form an open set, and a nonempty open set is not inside
-the zeros of finitely many polynomials that are not the zero polynomial. So
+and stands under conjunctions and disjunctions only. Its solutions form an open set, and a nonempty open set is not
+inside the zeros of finitely many polynomials that are not the zero polynomial. So
 ex v (f and p_1 /= 0 and ...) iff ex v (f and, for each i, some coefficient of p_i with respect to v is not 0).
 Where f does not contain v at all, nothing is left to be quantified.
 """
@@ -10,7 +10,7 @@ Where f does not contain v at all, nothing is left to be quantified.
 from __future__ import annotations
 
 from qe.certify.block import existential
-from qe.certify.boolean import read_theory, require_equivalent
+from qe.certify.boolean import ByLemmas, Goal, equivalence
 from qe.certify.step import Claim, Context, Limits, only
 from qe.formula.build import atom, conj, disj, exists
 from qe.formula.syntax import And, Atom, Constant, Exists, Formula, Or, Relation
@@ -26,16 +26,19 @@ def check_inequations(claim: Claim, context: Context, limits: Limits) -> None:
         raise claim.fail("not what the theorem gives")
 
 
-def check_only_nonzero(claim: Claim, context: Context, limits: Limits) -> None:
-    """What stands after is equivalent to the conditions on coefficients, without the block."""
-    theory = read_theory(only(claim, "theory")[0], claim, limits)
+def only_nonzero_goals(claim: Claim, context: Context) -> list[Goal]:
+    """What stands after is to be equivalent to the conditions on coefficients, without the block."""
+    only(claim, "theory")
     before, after = existential(claim)
     if not isinstance(before, Exists):
         raise claim.fail("expected a block")
     conditions = generic(before, claim)
     if set(before.variables) & set(conditions.free):
         raise claim.fail("more is asked of the variables of the block than that polynomials do not vanish")
-    require_equivalent(conditions, after, context, theory, claim)
+    return equivalence(conditions, after, [f for f in context if not set(before.variables) & set(f.free)])
+
+
+check_only_nonzero = ByLemmas(only_nonzero_goals)
 
 
 def generic(block: Exists, claim: Claim) -> Formula:

@@ -55,5 +55,5 @@ Check = Callable[[Claim, Context, Limits], None]
 
 
 def only(claim: Claim, *names: str, optional: Sequence[str] = ()) -> list[Entry]:
-    """The members of the evidence, which has exactly these names."""
+    """The members of the evidence, which has exactly these names beside the optional ones."""
     return claim.evidence.fields(*names, optional=tuple(optional))

@@ -8,14 +8,14 @@ value may be left out if f implies that x has not its sign.
 Bound are the variables of the block and of quantifiers inside, which range over R before and after a translation or
 scaling; x is one of the block, and no name is bound twice on the way down or both free and bound.
 
-Evidence: ``variable``, ``weights`` ([[name, rational], ...]); for scaling ``theory`` (for the signs left out).
+Evidence: ``variable``, ``weights`` ([[name, rational], ...]); for scaling ``values`` (those put in) and ``theory``.
 """
 
 from __future__ import annotations
 
 from fractions import Fraction
 
-from qe.certify.boolean import read_theory
+from qe.certify.boolean import ByLemmas, Goal
 from qe.certify.step import Claim, Context, Limits, only
 from qe.certify.substitution import at_number
 from qe.exact.ring import Poly
@@ -44,24 +44,26 @@ def check_translation(claim: Claim, context: Context, limits: Limits) -> None:
         raise claim.fail("not the block with 0 for the variable")
 
 
-def check_scaling(claim: Claim, context: Context, limits: Limits) -> None:
-    """The polynomials are homogeneous, the values left out are impossible, and the others are put in."""
-    variable, weights, lemmas = only(claim, "variable", "weights", "theory")
+def scaling_goals(claim: Claim, context: Context) -> list[Goal]:
+    """The polynomials are homogeneous, and numbers are put in; the values left out are to be impossible."""
+    variable, weights, values, _ = only(claim, "variable", "weights", "values", "theory")
     block, x, vector = _moved(variable, weights, claim)
     for poly in _polynomials(block.body):
-        limits.tick()
         degrees = {sum((w * exponents[i] for i, w in vector.items()), Fraction(0)) for exponents, _ in poly.terms()}
         if len(degrees) > 1:
             raise weights.fail("a polynomial is not homogeneous for these weights")
-    theory, ring = read_theory(lemmas, claim, limits), claim.ring
+    ring, kept = claim.ring, [e.integer(-1) for e in values.items()]
+    if kept != [s for s in (1, 0, -1) if s in kept]:
+        raise values.fail("expected some of 1, 0, -1, in this order")
     known = [f for f in context if not set(block.variables) & set(f.free)]
     rest = [v for v in block.variables if v != ring.names[x]]
-    cases = []
-    for sign in (1, 0, -1):
-        if not theory.refutes((*known, *conjuncts(block.body), atom(ring.gen(x), _SIGN[sign]))):
-            cases.append(exists(rest, at_number(block.body, x, Fraction(sign), claim)))
-    if claim.after != disj(cases):
-        raise claim.fail("not the block with 1, 0 and -1 for the variable, as far as they are possible")
+    if claim.after != disj(exists(rest, at_number(block.body, x, Fraction(s), claim)) for s in kept):
+        raise claim.fail("not the block with these values for the variable")
+    excluded = [relation for sign, relation in _SIGN.items() if sign not in kept]
+    return [(*known, *conjuncts(block.body), atom(ring.gen(x), relation)) for relation in excluded]
+
+
+check_scaling = ByLemmas(scaling_goals)
 
 
 def _moved(variable: Entry, weights: Entry, claim: Claim) -> tuple[Exists, int, dict[int, Fraction]]:
