@@ -16,6 +16,7 @@ from qe.certify.miniscoping import check_miniscoping
 from qe.certify.negation import check_negation
 from qe.certify.open_block import check_open_block
 from qe.certify.renaming import check_renaming
+from qe.certify.replayed_block import check_replayed_block
 from qe.certify.step import Check
 from qe.certify.symmetry import check_scaling, check_translation
 
@@ -37,6 +38,7 @@ RULES: Mapping[str, Check] = {
     "homogeneous scaling": check_scaling,
     "inequations that remove no interior": check_inequations,
     "only asked to be no root": check_only_nonzero,
+    "virtual substitution": check_replayed_block,
     "elimination set": check_elimination_set,
     "alternatives": check_alternatives,
     "independent parts": check_independent_parts,
