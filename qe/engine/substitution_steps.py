@@ -133,10 +133,10 @@ class _Steps:
     def substituted(self, before: Formula, names: Collection[str], trace: Substituted) -> list[Json]:
         if not isinstance(before, Exists):
             raise CertificateRejected("trace", "an existential block expected")
-        points = Points(before, trace, self.ring, self.limits)
+        thin = self.is_thinned(before, trace)
+        points = Points(before, trace, self.ring, self.limits, complete=thin)
         rest = [v for v in before.variables if v != points.name]
-        thin = bool(rest) and shows_open(before.body, before.variables)
-        if thin and any(inside(p.result, rest) != p.result for p in points.listed):
+        if thin:
             return self.open_block(before, points, rest)
         lists: list[Json] = []
         answers: list[Formula] = []
@@ -147,10 +147,17 @@ class _Steps:
             answers.append(point.answer)
         return self.step("elimination set", before, disj(answers), points.evidence(lists))
 
+    def is_thinned(self, before: Exists, trace: Substituted) -> bool:
+        """Whether openness in the other variables changed what was found."""
+        given = trace.formula.ring
+        rest = [v for v in before.variables if given is None or v != given.names[trace.plan.x]]
+        results = [self.moved(a.result) for a in trace.attempts]
+        return bool(rest) and shows_open(before.body, before.variables) and any(inside(r, rest) != r for r in results)
+
     def solved(self, begin: Formula, made: Formula, left: Collection[str], point: Point) -> list[Json]:
         """From what the checker puts in to what the engine made of it, then on to the answer."""
         if point.trace is None:
-            return self.simplified(begin, FALSE)
+            return self.simplified(begin, FALSE) if point.needed else []
         simple = block_of(left, point.simple, self.ring)
         try:
             found = self.simplified(begin, simple)
@@ -163,10 +170,12 @@ class _Steps:
         one = block_of((points.name,), before.body, self.ring)
         kept: list[Json] = []
         lists: list[Json] = []
+        answers: list[Formula] = []
         for point in points.listed:
             alone = start(point.tried, points.x, points.name, (points.name,), self.ring)
             kept.append(list(self.simplified(alone, point.result)))
             begin = block_of(rest, inside(point.result, rest), self.ring)
+            answers.append(point.answer if point.needed else begin)
             lists.append(self.solved(begin, begin, rest, point))
         results = [p.result for p in points.listed]
         evidence: Json = {
@@ -175,4 +184,4 @@ class _Steps:
             "pieces": [self.json(r) for r in results],
             "parts": lists,
         }
-        return self.step("open block", before, disj(p.answer for p in points.listed), evidence)
+        return self.step("open block", before, disj(answers), evidence)

@@ -17,6 +17,7 @@ from qe.elimination.vs.radical_free import convex_family, lone_quadratic
 from qe.elimination.vs.trace import Attempt, Substituted, Trace
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj
+from qe.formula.normal import nnf
 from qe.formula.syntax import FALSE, TRUE, Exists, Formula, Relation
 from qe.formula.traverse import conjuncts
 from qe.proof.derivation import moved
@@ -29,7 +30,7 @@ from qe.simplify.simplify import simplify
 class Point:
     """What is tried, what the engine made of it, simplified, and the answer there with its trace.
 
-    No trace: the engine knew that nothing holds there.
+    No trace: the engine knew that nothing holds there. Not ``needed``: it did not look, because the answer was known.
     """
 
     tried: Tried
@@ -37,12 +38,13 @@ class Point:
     simple: Formula = FALSE
     answer: Formula = FALSE
     trace: Trace | None = None
+    needed: bool = True
 
 
 class Points:
     """The points of one variable's elimination, over the ring of the derivation."""
 
-    def __init__(self, block: Exists, trace: Substituted, ring: Ring, limits: Limits) -> None:
+    def __init__(self, block: Exists, trace: Substituted, ring: Ring, limits: Limits, *, complete: bool) -> None:
         given = trace.formula.ring
         assert given is not None
         self.ring, self.plan = ring, trace.plan
@@ -53,17 +55,32 @@ class Points:
         infinities = trace.plan.infinities
         self.side = 0 if len(infinities) == 2 else -infinities[0].sign if infinities else 1
         self.quadratics: list[Poly] = [] if self.side else self._quadratics()
-        attempts = list(enumerate(trace.attempts))
-        if trace.parts and trace.parts[-1][0] == TRUE:  # this point alone is the proof
-            attempts = attempts[-1:]
+        decided = bool(trace.parts) and trace.parts[-1][0] == TRUE
+        attempts = list(enumerate(trace.attempts))[-1 if decided and not complete else 0 :]
         tried = [self._tried(attempt) for _, attempt in attempts]
-        if not (trace.parts and trace.parts[-1][0] == TRUE):
+        count = len(tried)
+        if decided and complete:
+            tried += self._untried(tried)
+        untried = len(tried)
+        if complete or not decided:
             tried = self._guarded(tried, limits)
         self.listed = [
             Point(t, self.moved(a.result), self.moved(a.simple), self.moved(trace.parts[k][0]), trace.parts[k][1])
             for t, (k, a) in zip(tried, attempts, strict=False)
         ]
-        self.listed += [Point(t) for t in tried[len(attempts) :]]
+        self.listed += [Point(t, t.result(self.x), needed=False) for t in tried[count:untried]]
+        self.listed += [Point(t) for t in tried[untried:]]
+
+    def _untried(self, tried: Sequence[Tried]) -> list[Tried]:
+        """The points of the plan that were not looked at, with nothing settled."""
+        infinities = [
+            Attempt(point, self.plan.infinity_guard or TRUE, self.plan.formula, frozenset(), TRUE, TRUE)
+            for point in self.plan.infinities
+        ]
+        others = [Attempt(c.point, c.guard, c.formula, frozenset(), TRUE, TRUE) for c in self.plan.candidates]
+        known = {(t.point, t.guard, t.formula) for t in tried}
+        found = dict.fromkeys(self._tried(attempt) for attempt in (*infinities, *others))
+        return [t for t in found if (t.point, t.guard, t.formula) not in known]
 
     def moved(self, formula: Formula) -> Formula:
         return moved(formula, self.ring)
@@ -144,12 +161,24 @@ class _Needs(Cover):
         self._facts = [m for m in conjuncts(original) if name not in m.free]
 
     def meets(self, turn: Turn, formula: Formula, before: int | None = None) -> list[Met] | None:
-        for k in self._places.get(_one_sign(turn.point), ()):
-            if (before is None or k < before) and implies(formula, self.tried[k].formula):
-                self.points[k] = turn.point
-                return [(k, conj(turn.conditions))]
+        there = [
+            k
+            for k in self._places.get(_one_sign(turn.point), ())
+            if (before is None or k < before) and implies(formula, self.tried[k].formula)
+        ]
+        if there:
+            k = there[0] if len(there) == 1 else next((k for k in there if self._follows(turn, formula, k)), there[0])
+            self.points[k] = turn.point
+            return [(k, conj(turn.conditions))]
         self.missing = f"a place where {formula} can turn true"
         return self._impossible(turn.conditions)
+
+    def _follows(self, turn: Turn, formula: Formula, k: int) -> bool:
+        """Whether the engine's guard follows from the conditions of the theorem."""
+        guard = self.tried[k].guard
+        if implies(conj((*turn.conditions, formula)), guard):
+            return True
+        return simplify(conj((*turn.conditions, *self._facts, nnf(guard, negate=True)))) == FALSE
 
     def kept(self, under: Around) -> list[Met] | None:
         for k in self.there(None):
