@@ -158,7 +158,15 @@ def _answer(formula: Formula, options: Options, budget: Budget, check: bool) -> 
         log.work("limits", {"work": budget.used})
         return Answer(Status.UNABLE, None, reason=str(error), question=formula, log=log)
     certificate = found.certificate
-    answer = Answer(Status.SOLVED, found.formula, found.witness, certificate, question=formula, log=found.log)
+    answer = Answer(
+        Status.SOLVED,
+        found.formula,
+        found.witness,
+        certificate,
+        unchecked_steps=found.unchecked,
+        question=formula,
+        log=found.log,
+    )
     if certificate is not None and (check or certificate.kind is Kind.WITNESS):
         from qe.api_verify import with_verdict
 

@@ -17,8 +17,10 @@ from qe.certify.negation import check_negation
 from qe.certify.open_block import check_open_block
 from qe.certify.renaming import check_renaming
 from qe.certify.replayed_block import check_replayed_block
+from qe.certify.sentence import check_sentence
 from qe.certify.step import Check
 from qe.certify.symmetry import check_scaling, check_translation
+from qe.certify.table import check_table
 
 RULES: Mapping[str, Check] = {
     "renaming": check_renaming,
@@ -44,4 +46,8 @@ RULES: Mapping[str, Check] = {
     "independent parts": check_independent_parts,
     "open block": check_open_block,
     "instance": check_instance,
+    "cells": check_table,
+    "shorter": check_table,
+    "constant": check_table,
+    "convex": check_sentence,
 }

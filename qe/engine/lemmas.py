@@ -124,7 +124,12 @@ def refuting(goals: Sequence[Sequence[Formula]], ring: Ring, limits: Limits) -> 
     if len(polys) > MOST_POLYNOMIALS:
         return None
     found = Lemmas(ring)
-    for extend in (lambda: None, lambda: _algebra(found, polys), lambda: _lines(found, polys), lambda: _ranges(found)):
+    for extend in (
+        lambda: None,
+        lambda: _algebra(found, polys),
+        lambda: _lines(found, polys),
+        lambda: _ranges(found, polys),
+    ):
         count = len(found.lemmas)
         extend()
         if count == len(found.lemmas) and extend is not None and count:
@@ -256,9 +261,9 @@ def _lines(found: Lemmas, polys: dict[Poly, bool]) -> None:
         found.line(list(dict.fromkeys(members)), x)
 
 
-def _ranges(found: Lemmas) -> None:
+def _ranges(found: Lemmas, polys: Iterable[Poly]) -> None:
     """Polynomials as sums of monomials in their variables."""
-    for poly in list(found.numbers):
+    for poly in dict.fromkeys((*found.numbers, *polys)):
         if 1 < poly.term_count() <= MOST_MONOMIALS:
             found.identity([(-1, ((poly, 1),)), *_monomials(poly)])
 

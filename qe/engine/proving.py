@@ -5,7 +5,7 @@ Nothing here is trusted: a step counts as proved when the checker of its rule ac
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 
@@ -15,37 +15,32 @@ from qe.certify.derivation import limits_of, replaced
 from qe.certify.registry import RULES
 from qe.certify.step import Claim, Context, Limits
 from qe.certify.verify import check_certificate
+from qe.elimination.cad import certificate_for
 from qe.elimination.vs.trace import Eliminated
 from qe.engine.lemmas import EMPTY, refuting
 from qe.engine.substitution_steps import steps
-from qe.errors import BudgetExceeded, CertificateRejected, Unable
+from qe.errors import CertificateRejected, Unable
 from qe.exact.ring import Poly, Ring
 from qe.formula.syntax import And, Exists, Formula, Or
 from qe.formula.traverse import children, conjuncts
-from qe.options import Budget
-from qe.proof.certificate import Certificate
+from qe.options import Budget, Options
+from qe.proof.certificate import Certificate, Proof
 from qe.proof.derivation import Derivation, moved
 from qe.proof.entry import Entry, Json, formula_to_json, poly_to_text
 from qe.proof.step import Place, Step
 
-ByTable = Callable[[Formula, Formula, Budget], Certificate | None]
-"""A decomposition that proves that two formulas are equivalent."""
+TABLE_WORK = 3_000
+"""Units of work for a decomposition that proves a single step."""
 
 UNRECORDED = "steps that are not recorded"
 
 
-@dataclass(frozen=True, slots=True)
-class Proof:
-    """``certificate``: of the whole derivation, where every step is proved; ``unchecked``: the rules of those that are
-    not."""
+def proved(derivation: Derivation, answer: Formula, options: Options, budget: Budget) -> Proof:
+    """The derivation with evidence. Steps without any of their own are proved by a decomposition, if it is small.
 
-    certificate: Certificate | None
-    unchecked: tuple[str, ...] = ()
-
-
-def proved(derivation: Derivation, answer: Formula, budget: Budget, table: ByTable | None = None) -> Proof:
-    """The derivation with evidence. Steps without any of their own are proved by ``table``, if it can."""
-    prover = _Prover(_ring(derivation, answer), budget, table)
+    Raises ``BudgetExceeded``.
+    """
+    prover = _Prover(_ring(derivation, answer), options, budget)
     current = moved(derivation.start, prover.ring)
     start = current
     for step in derivation.steps:
@@ -60,17 +55,15 @@ def proved(derivation: Derivation, answer: Formula, budget: Budget, table: ByTab
 
 
 def _ring(derivation: Derivation, answer: Formula) -> Ring:
-    found = next(
-        (f.ring for f in (derivation.start, *(s.before for s in derivation.steps)) if f.ring is not None), None
-    )
-    return found or answer.ring or Ring.of(())
+    formulas = (derivation.start, *(step.before for step in derivation.steps), answer)
+    return next((f.ring for f in formulas if f.ring is not None), Ring.of(()))
 
 
 @dataclass(slots=True)
 class _Prover:
     ring: Ring
+    options: Options
     budget: Budget
-    table: ByTable | None
     steps: list[Json] = field(default_factory=list)
     unchecked: list[str] = field(default_factory=list)
     limits: Limits = field(init=False)
@@ -188,13 +181,12 @@ class _Prover:
         return Claim(rule, step.before, step.after, self.ring, Entry(evidence, "evidence"), "step")
 
     def _tabulated(self, step: Step) -> Json | None:
-        if self.table is None or not step.after.is_quantifier_free:
+        if not step.after.is_quantifier_free:
             return None
         try:
-            certificate = self.table(step.before, step.after, self.budget)
-        except Unable as error:
-            if isinstance(error, BudgetExceeded):
-                self.budget.check("prove")
+            certificate = certificate_for(step.before, step.after, self.options, self.budget.part(TABLE_WORK))
+        except Unable:
+            self.budget.check("prove")
             return None
         if certificate is None:
             return None
@@ -217,6 +209,8 @@ class _Prover:
                 return [self._json(v) for v in value]
             case Mapping():
                 return self._plain(value)
+            case Certificate():
+                return value.to_data()
             case Formula():
                 return formula_to_json(moved(value, self.ring), quantified=True)
             case None | bool() | int() | str():

@@ -1,4 +1,4 @@
-"""The test points of an elimination set as evidence: which of the engine's points meets which need, and what is kept."""
+"""The test points of an elimination set as evidence: the engine's points for the theorem's needs, and what is kept."""
 
 from __future__ import annotations
 
@@ -166,12 +166,15 @@ class _Needs(Cover):
             for k in self._places.get(_one_sign(turn.point), ())
             if (before is None or k < before) and implies(formula, self.tried[k].formula)
         ]
-        if there:
-            k = there[0] if len(there) == 1 else next((k for k in there if self._follows(turn, formula, k)), there[0])
-            self.points[k] = turn.point
-            return [(k, conj(turn.conditions))]
-        self.missing = f"a place where {formula} can turn true"
-        return self._impossible(turn.conditions)
+        chosen = next((k for k in there if self._follows(turn, formula, k)), None)
+        if chosen is None:
+            self.missing = f"a place where {formula} can turn true"
+            impossible = self._impossible(turn.conditions)
+            if impossible is not None or not there:
+                return impossible
+            chosen = there[0]
+        self.points[chosen] = turn.point
+        return [(chosen, conj(turn.conditions))]
 
     def _follows(self, turn: Turn, formula: Formula, k: int) -> bool:
         """Whether the engine's guard follows from the conditions of the theorem."""

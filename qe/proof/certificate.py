@@ -186,6 +186,15 @@ class Certificate:
         return Certificate(read.kind, read.payload, (stated, digest(whole)))
 
 
+@dataclass(frozen=True, slots=True)
+class Proof:
+    """``certificate`` of an answer, if there is one; ``unchecked``: the rules of the steps of its derivation that no
+    checker has accepted."""
+
+    certificate: Certificate | None
+    unchecked: tuple[str, ...] = ()
+
+
 def digest(whole: dict[str, Json]) -> str:
     """The SHA-256 digest of the canonical text of everything but the digest itself."""
     content = {k: v for k, v in whole.items() if k != "digest"}
