@@ -33,7 +33,7 @@ class Tried:
 
 def implies(strong: Formula, weak: Formula) -> bool:
     """Whether the shapes show that ``strong`` implies ``weak``: conjuncts left out, disjuncts added."""
-    if strong == weak or weak == TRUE or strong == FALSE:
+    if strong in (weak, FALSE) or weak == TRUE:
         return True
     if isinstance(weak, And):
         return all(implies(strong, w) for w in weak.args)
@@ -93,7 +93,7 @@ def is_free_of(formula: Formula, x: int) -> bool:
 
 
 def _is_real(point: TestPoint, known: Formula) -> bool:
-    """Whether the known conjuncts say that the denominator is not 0, and that no square root is of a negative number."""
+    """Whether known conjuncts say that the denominator is not 0, and the number under the square root not negative."""
     if not point.coefficients:
         return True
     members = conjuncts(known)
@@ -124,7 +124,7 @@ def _check_implication(tried: Tried, whole: Formula, x: int, shift: int, entry: 
 
 
 def _holds(member: Formula, guard: Formula, x: int, shift: int) -> bool:
-    """Whether the guard says that an equation, or each of several joined by "or" that does, vanishes identically in x."""
+    """Whether the guard says that an equation, or one of several joined by "or", vanishes identically in x."""
     return any(
         isinstance(e, Atom)
         and e.relation is EQ

@@ -1,10 +1,11 @@
 """Degree shift, recomputed: x^d renamed to x.
 
-THEOREM (Dolzmann, Sturm & Weispfenning 1998). If the exponents of x in the atoms of F are multiples of d, but for atoms
-that compare x itself with 0, then exists x. F iff exists x. G, with x for x^d in G; for even d with x >= 0 added, and atoms
-that compare x itself need a conjunct of F that says x >= 0. For odd d, x^d takes every value once and has the sign of x; for
-even d and x >= 0 it takes every value >= 0 once, and F without such atoms is the same at -x. If all atoms with x in F are
-strict, the solutions are an open set, so 0 is not the only one, and x > 0 may be added instead.
+THEOREM (Dolzmann, Sturm & Weispfenning 1998). If the exponents of x in the atoms of F are multiples of d, but for
+atoms that compare x itself with 0, then exists x. F iff exists x. G, with x for x^d in G; for even d with x >= 0
+added, and atoms that compare x itself need a conjunct of F that says x >= 0. For odd d, x^d takes every value once
+and has the sign of x; for even d and x >= 0 it takes every value >= 0 once, and F without such atoms is the same at
+-x. If all atoms with x in F are strict, the solutions are an open set, so 0 is not the only one, and x > 0 may be
+added instead.
 """
 
 from __future__ import annotations

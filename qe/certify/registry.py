@@ -4,13 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from qe.certify.alternatives import check_alternatives
 from qe.certify.block import check_block
 from qe.certify.degree_shift import check_degree_shift
+from qe.certify.elimination_set import check_elimination_set
+from qe.certify.independent_parts import check_independent_parts
 from qe.certify.inequations import check_inequations, check_only_nonzero
+from qe.certify.instance import check_instance
 from qe.certify.linear_equation import check_guarded_linear, check_linear
 from qe.certify.miniscoping import check_miniscoping
 from qe.certify.negation import check_negation
+from qe.certify.open_block import check_open_block
 from qe.certify.renaming import check_renaming
+from qe.certify.replayed_block import check_replayed_block
 from qe.certify.sentence import check_sentence
 from qe.certify.step import Check
 from qe.certify.symmetry import check_scaling, check_translation
@@ -34,6 +40,12 @@ RULES: Mapping[str, Check] = {
     "homogeneous scaling": check_scaling,
     "inequations that remove no interior": check_inequations,
     "only asked to be no root": check_only_nonzero,
+    "virtual substitution": check_replayed_block,
+    "elimination set": check_elimination_set,
+    "alternatives": check_alternatives,
+    "independent parts": check_independent_parts,
+    "open block": check_open_block,
+    "instance": check_instance,
     "cells": check_table,
     "shorter": check_table,
     "constant": check_table,

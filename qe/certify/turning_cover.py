@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 
 from qe.certify.elimination_points import Tried, implies, is_free_of
 from qe.certify.step import Limits
@@ -23,55 +23,76 @@ def mixed(finite: Formula) -> bool:
     return any(isinstance(a, And) for a in disjuncts(finite))
 
 
+Met = tuple[int, Formula]
+"""A test point that is used, by its number, and the conditions under which it is."""
+
+
 class Cover:
-    """The points that are tried for variable x. ``around``: what holds beside a formula; ``under``: conditions given."""
+    """The points that are tried for variable x in ``original`` (with x^d for x: ``body``).
 
-    def __init__(self, x: int, tried: tuple[Tried, ...], limits: Limits) -> None:
-        self.x, self.tried, self.limits = x, tried, limits
+    ``around``: what holds beside a formula; ``under``: conditions that are given. Found is what is used, or None.
+    """
+
+    def __init__(self, x: int, original: Formula, tried: Sequence[Tried], limits: Limits) -> None:
+        self.x, self.original, self.tried, self.limits = x, original, tuple(tried), limits
         self.missing = ""
-        self._by_point: dict[TestPoint, list[int]] = {}
+        self._by_point: dict[TestPoint | None, list[int]] = {}
         for k, t in enumerate(tried):
-            if t.point is not None:
-                self._by_point.setdefault(t.point, []).append(k)
+            self._by_point.setdefault(t.point, []).append(k)
 
-    def far(self, body: Formula, side: int, under: Around) -> bool:
-        """Whether the end is tried at which a component of the solutions may have no first place."""
-        return self.meets(Turn(TestPoint((), 0, -side), under), body, len(self.tried))
+    def far(self, body: Formula, side: int, under: Around) -> list[Met] | None:
+        """The end at which a component of the solutions may have no first place."""
+        return self.meets(Turn(TestPoint((), 0, -side), under), body)
 
-    def meets(self, turn: Turn, formula: Formula, before: int) -> bool:
-        """Whether one of the first points is tried there, with a guard and a formula that hold if these do."""
+    def meets(self, turn: Turn, formula: Formula, before: int | None = None) -> list[Met] | None:
+        """One of the points (of the first ones) there, with a guard and a formula that hold if these do."""
         known = conj((*turn.conditions, formula))
-        for k in self._by_point.get(turn.point, ()):
-            if k < before and implies(known, conj((self.tried[k].guard, self.tried[k].formula))):
-                return True
+        for k in self.there(turn.point):
+            if (before is None or k < before) and implies(known, conj((self.tried[k].guard, self.tried[k].formula))):
+                return [(k, conj(turn.conditions))]
         self.missing = f"a place where {formula} can turn true"
-        return False
+        return self.kept(turn.conditions)
+
+    def there(self, point: TestPoint | None) -> list[int]:
+        """The numbers of the points at a place (None: where all x stay quantified)."""
+        return self._by_point.get(point, [])
+
+    def kept(self, under: Around) -> list[Met] | None:
+        """Where these conditions hold, the problem itself is kept as one of the points."""
+        known = conj((*under, self.original))
+        for k in self.there(None):
+            if implies(known, conj((self.tried[k].guard, self.tried[k].formula))):
+                return [(k, conj(under))]
+        return None
 
     def ends(
         self, formula: Formula, around: Around, side: int, under: Around = (), omit: frozenset[Poly] = NONE
-    ) -> bool:
-        """Whether all places are met where the formula can turn true on the way from one side.
+    ) -> list[Met] | None:
+        """What meets all places where the formula can turn true on the way from one side.
 
         Not asked for: the roots of the quadratics ``omit``.
         """
         self.limits.tick()
         if is_free_of(formula, self.x):
-            return True
+            return []
         match formula:
             case Atom():
-                return all(
-                    self.meets(Turn(t.point, (*t.conditions, *under)), conj((*around, formula)), len(self.tried))
+                return _all(
+                    self.meets(Turn(t.point, (*t.conditions, *under)), conj((*around, formula)))
                     for t in self._turns(formula, side, omit)
                 )
             case Or(args):
-                return all(self.ends(a, around, side, under, omit) for a in args)
+                return _all(self.ends(a, around, side, under, omit) for a in args)
             case And(args):
-                return self._ends_of_finite(args, around, side, under, omit) or all(
-                    self.ends(a, (*around, *args[:k], *args[k + 1 :]), side, under, omit) for k, a in enumerate(args)
+                finite = self._ends_of_finite(args, around, side, under, omit)
+                return (
+                    finite
+                    if finite is not None
+                    else _all(self.ends(a, (*around, *rest), side, under, omit) for a, rest in _each(args))
                 )
         raise CertificateRejected("", f"an and/or combination of atoms expected, {formula} found")
 
-    def _turns(self, given: Atom, side: int, omit: frozenset[Poly]) -> list[Turn]:
+    def _turns(self, given: Atom, side: int, omit: frozenset[Poly] = NONE) -> list[Turn]:
         found = turns(given, self.x, side)
         if found is None:
             raise CertificateRejected("", f"the degree of the variable is too high in {given}")
@@ -80,33 +101,38 @@ class Cover:
         return [t for t in found if len(t.point.coefficients) == 2]
 
     def _ends_of_finite(
-        self, args: tuple[Formula, ...], around: Around, side: int, under: Around, omit: frozenset[Poly]
-    ) -> bool:
+        self, args: Around, around: Around, side: int, under: Around, omit: frozenset[Poly]
+    ) -> list[Met] | None:
         """The Gauss case: one conjunct has finitely many solutions, unless it degenerates."""
-        for k, arg in enumerate(args):
-            for degenerate in self.finite(arg, (*around, *args[:k], *args[k + 1 :])):
-                if degenerate == FALSE or all(
-                    self.ends(other, (*around, *args[:j], *args[j + 1 :]), side, (*under, degenerate), omit)
-                    for j, other in enumerate(args)
-                    if j != k or mixed(arg)
-                ):
-                    return True
-        return False
+        for arg, rest in _each(args):
+            for used, degenerate in self.finite(arg, (*around, *rest)):
+                if degenerate == FALSE:
+                    return used
+                left = self.kept((*under, degenerate))
+                if left is None:
+                    left = _all(
+                        self.ends(other, (*around, *beside), side, (*under, degenerate), omit)
+                        for other, beside in _each(args)
+                        if other != arg or mixed(arg)
+                    )
+                if left is not None:
+                    return [*used, *left]
+        return None
 
-    def finite(self, formula: Formula, around: Around) -> Iterator[Formula]:
-        """The conditions outside which the formula has finitely many solutions, all of which are met."""
+    def finite(self, formula: Formula, around: Around) -> Iterator[tuple[list[Met], Formula]]:
+        """What meets all solutions, and the condition outside which there are finitely many."""
         match formula:
             case Atom(poly, Relation.EQ) if poly.degree(self.x):
-                if all(self.meets(t, conj((*around, formula)), len(self.tried)) for t in self._turns(formula, 1, NONE)):
-                    yield vanishing(poly, self.x)
+                used = _all(self.meets(t, conj((*around, formula))) for t in self._turns(formula, 1))
+                if used is not None:
+                    yield used, vanishing(poly, self.x)
             case Or(args):
                 found = [next(self.finite(a, around), None) for a in args]
-                parts = [f for f in found if f is not None]
-                if len(parts) == len(args):
-                    yield disj(parts)
+                if None not in found:
+                    yield [m for f in found if f for m in f[0]], disj(f[1] for f in found if f)
             case And(args):
-                for k, arg in enumerate(args):
-                    yield from self.finite(arg, (*around, *args[:k], *args[k + 1 :]))
+                for arg, rest in _each(args):
+                    yield from self.finite(arg, (*around, *rest))
 
     def check_settled(self, k: int) -> None:
         """That the atoms taken at the root itself for point k can vanish there only where another point was tried."""
@@ -114,6 +140,20 @@ class Cover:
         assert point is not None
         for atom in self.tried[k].settled:
             assert isinstance(atom, Atom)
-            for turn in self._turns(atom, point.shift, NONE):
-                if not self.meets(Turn(turn.point, (*turn.conditions, self.tried[k].guard)), formula, k):
+            for turn in self._turns(atom, point.shift):
+                if self.meets(Turn(turn.point, (*turn.conditions, self.tried[k].guard)), formula, k) is None:
                     raise CertificateRejected("", f"{atom} may vanish at a point where it is taken for settled")
+
+
+def _each(args: Around) -> Iterator[tuple[Formula, Around]]:
+    """Every argument with the others."""
+    return ((arg, args[:k] + args[k + 1 :]) for k, arg in enumerate(args))
+
+
+def _all(parts: Iterable[list[Met] | None]) -> list[Met] | None:
+    found: list[Met] = []
+    for part in parts:
+        if part is None:
+            return None
+        found += part
+    return found

@@ -2,11 +2,12 @@
 
 THEOREM. Fix the parameters, and let p*rel*0 be true at a place of the line (a point, or the points just right of one)
 and false just before it. Then p is not identically 0 and the place is at a root e of p: the root itself for =, <=, >=
-(which hold where p = 0), the points just right of it for <, >, /= (which do not). For p = q*f^m with q free of x, m odd,
-f of degree 1 or 2 in x: if e is a simple root of f, then p changes its sign there, so it rises (p > 0, p >= 0) or falls
-(p < 0, p <= 0) at e; f = a*x + b rises iff a > 0, and f = a*x^2 + b*x + c, a /= 0, rises at the root with branch 1 and
-falls at the one with branch -1. If e is a double root, both branches are e. So the conditions on the sign of q below
-keep a point for e in each case. Going left, rising and falling change places. (Loos & Weispfenning 1993.)
+(which hold where p = 0), the points just right of it for <, >, /= (which do not). For p = q*f^m with q free of x, m
+odd, f of degree 1 or 2 in x: if e is a simple root of f, then p changes its sign there, so it rises (p > 0, p >= 0)
+or falls (p < 0, p <= 0) at e; f = a*x + b rises iff a > 0, and f = a*x^2 + b*x + c, a /= 0, rises at the root with
+branch 1 and falls at the one with branch -1. If e is a double root, both branches are e. So the conditions on the
+sign of q below keep a point for e in each case. Going left, rising and falling change places. (Loos & Weispfenning
+1993.)
 """
 
 from __future__ import annotations

@@ -1,15 +1,15 @@
 """A test point put for a variable, recomputed from the theorem: no roots or infinitesimals appear in the result.
 
-THEOREM. Let t be -b/a with a /= 0, or (-b + s*sqrt(D))/(2*a) with a /= 0, D = b^2 - 4*a*c >= 0 and s = 1 or -1; let
-f have degree n in x. Then ``f relation 0`` at t is equivalent to the formula made here.
+THEOREM. Let t be -b/a with a /= 0, or (-b + s*sqrt(D))/(2*a) with a /= 0, D = b^2 - 4*a*c >= 0 and s = 1 or -1; let f
+have degree n in x. Then ``f relation 0`` at t is equivalent to the formula made here.
 * -b/a: N = a^n*f(-b/a) is a polynomial, and f(t) has the sign of N for even n, of a*N for odd n.
-* With a^k*f = u*x + v modulo a*x^2 + b*x + c: 2*a^(k+1)*f(t) = A + B*sqrt(D) for A = 2*a*v - b*u, B = s*u, and
-  A^2 - B^2*D = 4*a*(a*v^2 - b*u*v + c*u^2). For even k both sides are multiplied by a, so that the sign is right.
-* A + B*r with r = sqrt(D), and N of the sign of A^2 - B^2*D: it is 0 iff N = 0 and A*B <= 0; it is < 0 iff
-  A < 0 and N > 0, or B <= 0 and (A < 0 or N < 0); it is <= 0 iff A <= 0 and N >= 0, or B <= 0 and N <= 0. (If N > 0, the
-  sign is that of A; if N < 0, that of B; if N = 0, |A| = |B|*r, and the sum is 0 or 2*A.)
-* Next to t (on the side e = 1 or -1) a polynomial that is not identically 0 is not 0: f = 0 iff all coefficients are 0;
-  f < 0 iff f(t) < 0, or f(t) = 0 and e*f' < 0 there. Near infinity the first coefficient decides that is not 0.
+* With a^k*f = u*x + v modulo a*x^2 + b*x + c: 2*a^(k+1)*f(t) = A + B*sqrt(D) for A = 2*a*v - b*u, B = s*u, and A^2 -
+  B^2*D = 4*a*(a*v^2 - b*u*v + c*u^2). For even k both sides are multiplied by a, so that the sign is right.
+* A + B*r with r = sqrt(D), and N of the sign of A^2 - B^2*D: it is 0 iff N = 0 and A*B <= 0; it is < 0 iff A < 0 and
+  N > 0, or B <= 0 and (A < 0 or N < 0); it is <= 0 iff A <= 0 and N >= 0, or B <= 0 and N <= 0. (If N > 0, the sign
+  is that of A; if N < 0, that of B; if N = 0, |A| = |B|*r, and the sum is 0 or 2*A.)
+* Next to t (on the side e = 1 or -1) a polynomial that is not identically 0 is not 0: f = 0 iff all coefficients are
+  0; f < 0 iff f(t) < 0, or f(t) = 0 and e*f' < 0 there. Near infinity the first coefficient decides that is not 0.
 Loos & Weispfenning 1993; Weispfenning 1997.
 """
 

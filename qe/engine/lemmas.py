@@ -130,7 +130,7 @@ def refuting(goals: Sequence[Sequence[Formula]], ring: Ring, limits: Limits) -> 
         elif stage == 2:
             _lines(found, polys)
         elif stage == 3:
-            _ranges(found)
+            _ranges(found, polys)
         if stage and count == len(found.lemmas):
             continue
         used = _used(found, goals, limits)
@@ -260,8 +260,8 @@ def _lines(found: Lemmas, polys: dict[Poly, bool]) -> None:
         found.line(list(dict.fromkeys(members)), x)
 
 
-def _ranges(found: Lemmas) -> None:
+def _ranges(found: Lemmas, polys: Iterable[Poly]) -> None:
     """Polynomials as sums of monomials in their variables."""
-    for poly in list(found.numbers):
+    for poly in dict.fromkeys((*found.numbers, *polys)):
         if 1 < poly.term_count() <= MOST_MONOMIALS:
             found.identity([(-1, ((poly, 1),)), *_monomials(poly)])

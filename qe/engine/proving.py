@@ -9,16 +9,19 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
 
+from qe.certify.block import existential
 from qe.certify.boolean import ByLemmas
 from qe.certify.derivation import limits_of, replaced
 from qe.certify.registry import RULES
 from qe.certify.step import Claim, Context, Limits
 from qe.certify.verify import check_certificate
 from qe.elimination.cad import certificate_for
+from qe.elimination.vs.trace import Eliminated
 from qe.engine.lemmas import EMPTY, refuting
+from qe.engine.substitution_steps import steps
 from qe.errors import CertificateRejected, Unable
 from qe.exact.ring import Poly, Ring
-from qe.formula.syntax import And, Formula, Or
+from qe.formula.syntax import And, Exists, Formula, Or
 from qe.formula.traverse import children, conjuncts
 from qe.options import Budget, Options
 from qe.proof.certificate import Certificate, Proof, written
@@ -109,6 +112,11 @@ class _Prover:
     # --- evidence ------------------------------------------------------------------------------
     def evidence(self, step: Step, context: Context) -> tuple[str, Json] | None:
         """The rule by whose checker the step is accepted, and the evidence."""
+        trace = step.evidence.get("trace")
+        if isinstance(trace, Eliminated):
+            inner = self._substituted(step, trace)
+            if inner is not None:
+                return "virtual substitution", inner
         given = step.evidence.get("proof")
         own = self._tried(step.rule, step, context, self._plain(given) if isinstance(given, Mapping) else {})
         if own is not None:
@@ -133,6 +141,29 @@ class _Prover:
             self.budget.check("prove")
             return None
         return evidence
+
+    def _substituted(self, step: Step, trace: Eliminated) -> Json | None:
+        """The steps of virtual substitution, all of them accepted."""
+        claim = self._claim("virtual substitution", step, {})
+        before, after = existential(claim)
+        try:
+            if not isinstance(before, Exists):
+                return None
+            evidence: Json = {"steps": steps(before, trace, after, self.ring, self._simplified, self.limits)}
+            RULES[claim.rule](self._claim(claim.rule, step, evidence), (), self.limits)
+        except CertificateRejected:
+            return None
+        except Unable:
+            self.budget.check("prove")
+            return None
+        return evidence
+
+    def _simplified(self, before: Formula, after: Formula) -> Json:
+        """A step of simplification inside another one; ``CertificateRejected`` where it is not proved."""
+        found = self._tried("simplification", Step("simplification", before, after), (), {})
+        if found is None:
+            raise CertificateRejected("simplification", "no lemmas found")
+        return written("simplification", (), before, after, (), found)
 
     def _claim(self, rule: str, step: Step, evidence: Json) -> Claim:
         return Claim(rule, step.before, step.after, self.ring, Entry(evidence, "evidence"), "step")

@@ -71,7 +71,7 @@ Solved = tuple[Formula, Node, Trace]
 
 
 class _Run:
-    """One elimination: ``solve`` maps a subproblem to an equivalent formula, its tree of solutions, and the way there."""
+    """One elimination: ``solve`` maps a subproblem to an equivalent formula, its tree of solutions, and its trace."""
 
     __slots__ = ("budget", "done", "ring", "simplify", "stats")
 

@@ -96,6 +96,8 @@ class Eliminated:
 
 def without(formula: Formula, context: tuple[Formula, ...]) -> Formula:
     """The formula with TRUE for every occurrence of a context member (under And and Or, so this is sound)."""
+    if not context:
+        return formula
     if formula in context:
         return TRUE
     if isinstance(formula, And):
