@@ -6,7 +6,7 @@ What is found here is checked where it is read: nothing depends on its being rig
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from itertools import pairwise
 from math import lcm
@@ -26,7 +26,7 @@ from qe.simplify.minima import minimum
 Term = tuple[int, tuple[tuple[Poly, int], ...]]
 """A coefficient, and polynomials with exponents."""
 
-MOST_POLYNOMIALS, MOST_PAIRS, MOST_MONOMIALS = 120, 400, 24
+MOST_POLYNOMIALS, MOST_PAIRS, MOST_MONOMIALS, MOST_TRIED = 120, 400, 24, 16
 
 
 @dataclass(slots=True)
@@ -133,14 +133,24 @@ def refuting(goals: Sequence[Sequence[Formula]], ring: Ring, limits: Limits) -> 
             _ranges(found, polys)
         if stage and count == len(found.lemmas):
             continue
-        used = _used(found, goals, limits)
+        used = _used(found.theory(limits), goals)
         if used is not None:
-            return found.only(used)
+            return found.only(_needed(found.theory(limits), goals, used))
     return None
 
 
-def _used(found: Lemmas, goals: Sequence[Sequence[Formula]], limits: Limits) -> set[int] | None:
-    theory = found.theory(limits)
+def _needed(theory: Theory, goals: Sequence[Sequence[Formula]], used: set[int]) -> list[int]:
+    """Those of the lemmas without which the refutation fails, as far as it is cheap to find out."""
+    kept = sorted(used)
+    for k in kept if len(kept) <= MOST_TRIED else ():
+        left = [i for i in kept if i != k]
+        if _used(replace(theory, lemmas=tuple(theory.lemmas[i] for i in left)), goals) is not None:
+            kept = left
+    return kept
+
+
+def _used(theory: Theory, goals: Sequence[Sequence[Formula]]) -> set[int] | None:
+    """The lemmas by which all goals are refuted, or None."""
     used: set[int] = set()
     for goal in goals:
         refutation = theory.used(goal)

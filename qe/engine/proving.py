@@ -40,7 +40,7 @@ def proved(derivation: Derivation, answer: Formula, options: Options, budget: Bu
 
     Raises ``BudgetExceeded``.
     """
-    prover = _Prover(_ring(derivation, answer), options, budget)
+    prover = Prover(_ring(derivation, answer), options, budget)
     current = moved(derivation.start, prover.ring)
     start = current
     for step in derivation.steps:
@@ -60,10 +60,13 @@ def _ring(derivation: Derivation, answer: Formula) -> Ring:
 
 
 @dataclass(slots=True)
-class _Prover:
+class Prover:
+    """The steps written so far, and the rules of those that no checker accepts; ``tables``: whether decompositions may help."""
+
     ring: Ring
     options: Options
     budget: Budget
+    tables: bool = True
     steps: list[Json] = field(default_factory=list)
     unchecked: list[str] = field(default_factory=list)
     limits: Limits = field(init=False)
@@ -169,7 +172,7 @@ class _Prover:
         return Claim(rule, step.before, step.after, self.ring, Entry(evidence, "evidence"), "step")
 
     def _tabulated(self, step: Step) -> Json | None:
-        if not step.after.is_quantifier_free:
+        if not self.tables or not step.after.is_quantifier_free:
             return None
         try:
             certificate = certificate_for(step.before, step.after, self.options, self.budget.part(TABLE_WORK))
