@@ -7,7 +7,6 @@ from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from qe.api_input import AnyFormula, read_formula
 from qe.certify.verify import verify as checked
 from qe.errors import InternalError, Unable
 from qe.formula.syntax import Formula
@@ -29,11 +28,7 @@ SMALL_DEGREE, SMALL_POLYNOMIALS, SMALL_TEXT = 8, 40, 20_000
 
 
 def verify(
-    certificate: Certificate,
-    *,
-    formula: AnyFormula = None,
-    format: str = "text",
-    timeout: float | None = VERIFY_SECONDS,
+    certificate: Certificate, *, formula: Formula | None = None, timeout: float | None = VERIFY_SECONDS
 ) -> Verdict:
     """Whether separate code accepts the certificate within ``timeout`` seconds (None: no limit); see ``qe.certify``.
 
@@ -43,13 +38,12 @@ def verify(
     Large certificates, and all that were read from text, are checked in a process of their own, which is killed at the
     limit (where processes cannot fork, the limit is only looked at between steps). Past it, and where the certificate
     asks for numbers out of reach, the verdict is neither accepted nor ``decided``. Raises ``InputError`` for what is no
-    certificate, for a formula that cannot be read and for a limit that is not positive.
+    certificate and for a limit that is not positive.
     """
     if not isinstance(certificate, Certificate):
         return checked(certificate)  # which says what was expected
-    asked = None if formula is None else read_formula(formula, format)
     verdict = _limited(certificate, timeout)
-    return verdict if asked is None or not verdict.accepted else of_question(certificate, asked)
+    return verdict if formula is None or not verdict.accepted else of_question(certificate, formula)
 
 
 def of_question(certificate: Certificate, asked: Formula) -> Verdict:

@@ -61,7 +61,10 @@ def _ring(derivation: Derivation, answer: Formula) -> Ring:
 
 @dataclass(slots=True)
 class Prover:
-    """The steps written so far, and the rules of those that no checker accepts; ``tables``: whether decompositions may help."""
+    """The steps written so far, and the rules of those that no checker accepts.
+
+    ``tables``: whether decompositions may help.
+    """
 
     ring: Ring
     options: Options
