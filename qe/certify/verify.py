@@ -6,8 +6,10 @@ from qe.arguments import shown
 from qe.certify.cells import check_cells
 from qe.certify.clearance import check_clearance
 from qe.certify.containment import check_containment
+from qe.certify.derivation import check_derivation
 from qe.certify.gauss import check_substitution
 from qe.certify.optimum import check_optimum
+from qe.certify.registry import RULES
 from qe.certify.verdict import Verdict
 from qe.certify.witness import check_witness
 from qe.errors import CertificateRejected, InputError, Unable
@@ -35,7 +37,7 @@ def verify(certificate: Certificate, budget: Budget | None = None) -> Verdict:
         hint = "a certificate in JSON is read by Certificate.from_json" if isinstance(certificate, str) else ""
         raise InputError(f"certificate: a Certificate expected, {shown(certificate)} found" + (hint and f"; {hint}"))
     try:
-        _check(certificate, budget or Budget())
+        check_certificate(certificate, budget or Budget())
         if certificate.digests is not None and certificate.digests[0] != certificate.digests[1]:
             raise CertificateRejected("digest", "the content is not the one that was signed with this digest")
     except CertificateRejected as error:
@@ -60,20 +62,25 @@ def verify_json(text: str, budget: Budget | None = None) -> Verdict:
     return verify(certificate, budget)
 
 
-def _check(certificate: Certificate, budget: Budget) -> None:
+def check_certificate(certificate: Certificate, budget: Budget) -> None:
+    """Accept silently, or raise ``CertificateRejected`` naming the entry that fails, or ``Unable``."""
     payload = certificate.payload
     if not isinstance(certificate.kind, Kind):
         raise CertificateRejected("kind", "unknown kind of certificate")
     if isinstance(payload, CellEvidence) and certificate.kind is Kind.CELLS:
         check_cells(payload, budget)
+    elif isinstance(payload, dict) and certificate.kind is Kind.DERIVATION:
+        check_derivation(payload, budget, RULES, check_certificate)
     elif isinstance(payload, dict) and certificate.kind in _CHECKERS:
         _CHECKERS[certificate.kind](payload, budget)
     elif isinstance(payload, tuple) and certificate.kind is Kind.BUNDLE:
+        if not payload:
+            raise CertificateRejected("certificates", "an empty bundle proves nothing")
         for position, member in enumerate(payload):
             if not isinstance(member, Labelled) or not isinstance(member.certificate, Certificate):
                 raise CertificateRejected(f"certificates[{position}]", "a certificate with a label expected")
             try:
-                _check(member.certificate, budget)
+                check_certificate(member.certificate, budget)
             except CertificateRejected as error:
                 step = f"certificates[{position}].{error.step}"
                 raise CertificateRejected(step, f"{member.label}: {error.reason}") from None

@@ -69,12 +69,17 @@ def decomposed(formula: Formula, options: Options, budget: Budget, log: RunLog) 
         answer = TRUE if truth else FALSE
         if truth is (quantifiers[0] == "E"):
             values = deciding_point(proof, truth)
-    log.step("cells", formula, answer)
     log.work("cad", _figures(order, reason, first, time.perf_counter() - start))
     certificate = Certificate.cells(proof, convert(answer, Ring.of(order))) if follows(answer, proof) else None
+    log.step("cells", formula, answer, evidence=kept(certificate, options))
     # back into the ring of the formula it came from: it is joined with parts of that formula
     ring = ring_of(formula)
     return Outcome(answer if ring is None else convert(answer, ring), values, certificate)
+
+
+def kept(certificate: Certificate | None, options: Options) -> dict[str, object]:
+    """The evidence of a step by a table, where evidence is wanted: tables are large."""
+    return {"proof": {"certificate": certificate}} if certificate is not None and options.certify else {}
 
 
 def certificate_for(formula: Formula, answer: Formula, options: Options, budget: Budget) -> Certificate | None:

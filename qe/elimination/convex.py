@@ -36,10 +36,13 @@ class ConvexOptimisation:
         if found is None:
             return None
         truth = FALSE if found.values is None else TRUE
-        context.log.step("convex", problem.formula, problem.asked(truth))
-        if found.values is None:
+        known = found.values
+        values = None if known is None else {name: known.get(name, Fraction(0)) for name in dual.variables}
+        proof = found.certificate if values is None else dual.witnessed(values)
+        context.log.step("convex", problem.formula, problem.asked(truth), evidence={"proof": {"certificate": proof}})
+        if values is None:
             return Outcome(problem.asked(truth), certificate=found.certificate)
-        return Outcome(problem.asked(truth), dict(found.values))
+        return Outcome(problem.asked(truth), values)
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,12 +7,13 @@ from dataclasses import dataclass, field
 from typing import Protocol
 
 from qe.exact.number import Values
-from qe.formula.build import exists, forall
+from qe.exact.ring import Ring
+from qe.formula.build import convert, exists, forall
 from qe.formula.normal import nnf
 from qe.formula.syntax import Exists, ForAll, Formula
 from qe.formula.traverse import free_variables, is_quantifier_free
 from qe.options import Budget, Options
-from qe.proof.certificate import Certificate
+from qe.proof.certificate import Certificate, Root
 from qe.proof.run_log import RunLog
 
 
@@ -60,6 +61,13 @@ class Problem:
         """The existential problem that is this one, or its negation if ``universal``."""
         return Problem(self.variables, self.positive) if self.universal else self
 
+    def witnessed(self, values: Values) -> Certificate:
+        """That the body of the existential dual, quantifier-free, holds at these values of the variables."""
+        ring = Ring.of(self.variables)
+        return Certificate.witness(
+            convert(self.positive, ring), self.variables, [Root.of(values[name]) for name in self.variables]
+        )
+
     def asked(self, formula: Formula) -> Formula:
         """The answer to this problem, from one to its dual."""
         return nnf(formula, negate=self.universal)
@@ -72,13 +80,15 @@ class Outcome:
     ``witness``: exact values for the block's variables that make a true existential sentence true, or a false universal
     one false; None when not known. ``certificate``: of this very problem and formula, where the method makes one.
     ``order``: that of the free variables in which the formula was found, where that matters to who goes on.
-    ``log``: how the whole answer was found; the engine fills it in.
+    ``unchecked``: the rules of the steps that no checker has accepted, where that was asked for. ``log``: how the whole
+    answer was found; the engine fills both in.
     """
 
     formula: Formula
     witness: Values | None = None
     certificate: Certificate | None = None
     order: tuple[str, ...] | None = None
+    unchecked: tuple[str, ...] = ()
     log: RunLog = field(default_factory=RunLog)
 
     @property

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from qe.elimination.cad import decomposed, is_small, length
+from qe.elimination.cad import decomposed, is_small, kept, length
 from qe.elimination.protocol import Context
 from qe.engine.constant import constant_value
 from qe.engine.strategy import allows
@@ -23,11 +23,13 @@ def shortened(formula: Formula, context: Context) -> Formula:
     if has_root_atoms(formula) or not allows(context.options, Method.CAD) or not is_small(formula):
         return formula
     try:
-        shorter = decomposed(formula, context.options, context.budget.part(SHORTEN_WORK), RunLog()).formula
+        found = decomposed(formula, context.options, context.budget.part(SHORTEN_WORK), RunLog())
     except Unable:
         context.budget.check("shorten")
         return formula
-    return context.log.step("shorter", formula, shorter) if length(shorter) < length(formula) else formula
+    if length(found.formula) >= length(formula):
+        return formula
+    return context.log.step("shorter", formula, found.formula, evidence=kept(found.certificate, context.options))
 
 
 def settled(formula: Formula, context: Context, satisfiable: Callable[[Formula, Context], bool]) -> Formula:

@@ -26,8 +26,9 @@ from qe.formula.normal import nnf, rename_apart
 from qe.formula.syntax import FALSE, TRUE, And, Constant, Exists, ForAll, Formula, Not, Or
 from qe.formula.traverse import free_variables, is_quantifier_free
 from qe.options import Budget, Options, Stage
-from qe.proof.certificate import Certificate, Root
-from qe.proof.derivation import negated
+from qe.proof.certificate import Certificate, Kind, Proof, written
+from qe.proof.derivation import negated, put_together
+from qe.proof.entry import Json
 from qe.proof.run_log import RunLog
 from qe.rules.preparation import Prepared, prepare
 from qe.rules.step import ALL_STEPS, EQUATION_STEPS
@@ -47,10 +48,10 @@ def solve(formula: Formula, options: Options, budget: Budget) -> Outcome:
     plain = formula if options.root_atoms and is_quantifier_free(formula) else without_root_atoms(formula)
     question = run.log.step("renaming", formula, rename_apart(run.log.step("roots counted", formula, plain)))
     found = run.question(question)
-    certificate = run.certificate(question, found)
     answer = convert(found.formula, Ring.of(free)) if free else found.formula
+    proof = run.certificate(formula, question, replace(found, formula=answer))
     run.log.seconds = round(time.perf_counter() - started, 6)
-    return replace(found, formula=answer, certificate=certificate, log=run.log)
+    return replace(found, formula=answer, certificate=proof.certificate, unchecked=proof.unchecked, log=run.log)
 
 
 @dataclass(slots=True)
@@ -119,24 +120,39 @@ class _Run:
         return Context(self.options, budget or self.budget, self.log)
 
     # --- certificates --------------------------------------------------------------------------
-    def certificate(self, question: Formula, found: Outcome) -> Certificate | None:
-        """The certificate that a method made if it is about this very question and answer; else one by a witness,
-        by linear equations, or, where one was asked for, by a decomposition if time allows."""
+    def certificate(self, asked: Formula, question: Formula, found: Outcome) -> Proof:
+        """The certificate that a method made if it is about this very question and answer; else one by a witness or
+        by linear equations. Where one was asked for also: the derivation, or a decomposition if time allows."""
         from qe.elimination.cad import certificate_for, claims
 
-        if found.certificate is not None and claims(found.certificate, question, found.formula):
-            return found.certificate
         problem = Problem.of(question)
+        if found.certificate is not None and claims(found.certificate, question, found.formula):
+            return Proof(as_asked(found.certificate, problem, found.formula))
         if found.witness is not None and problem is not None and problem.is_flat and not problem.free:
-            return witness_certificate(problem, found.witness)
+            return Proof(as_asked(problem.witnessed(found.witness), problem, found.formula))
         linear = substitution_certificate(question, found.formula)
         if linear is not None or not self.options.certify:
-            return linear
+            return Proof(linear)
+        proof = self.proof(asked, found.formula)
+        if proof.certificate is not None:
+            return proof
+        self.log.switch("derivation", f"no checked evidence for: {', '.join(proof.unchecked)}")
         try:
-            return certificate_for(question, found.formula, self.options, self.budget.share(CERTIFY_SHARE))
+            table = certificate_for(question, found.formula, self.options, self.budget.share(CERTIFY_SHARE))
         except Unable as error:
             self.log.switch("no certificate", error)
-            return None
+            return proof
+        return replace(proof, certificate=table)
+
+    def proof(self, asked: Formula, answer: Formula) -> Proof:
+        """The derivation with evidence for each step, within a share of the time."""
+        from qe.engine.proving import proved
+
+        derivation = put_together(asked, self.log.steps(), answer)
+        try:
+            return proved(derivation, answer, self.options, self.budget.share(CERTIFY_SHARE))
+        except Unable as error:
+            return Proof(None, (f"all ({error})",))
 
     # --- preparation ---------------------------------------------------------------------------
     def prepared(self, formula: Formula) -> Prepared:
@@ -258,6 +274,17 @@ class _Run:
         return found if simple == found.formula else replace(found, formula=simple)
 
 
+def as_asked(certificate: Certificate, problem: Problem | None, answer: Formula) -> Certificate:
+    """A certificate about a universal sentence itself, where a method made one about its negation."""
+    if problem is None or not problem.universal or certificate.kind not in (Kind.WITNESS, Kind.OPTIMUM):
+        return certificate
+    ring = problem.body.ring
+    assert ring is not None
+    evidence: dict[str, Json] = {"certificate": certificate.to_data()}
+    step = written("point or multipliers", (), problem.formula, answer, (), evidence)
+    return Certificate.derivation(ring.names, problem.formula, [step], answer)
+
+
 def gathered_block(formula: Formula) -> Problem | None:
     """The existential block of a conjunction together with the conditions that preparation moved out of it."""
     args = formula.args if isinstance(formula, And) else (formula,)
@@ -267,10 +294,3 @@ def gathered_block(formula: Formula) -> Problem | None:
     rest = [a for a in args if a is not blocks[0]]
     body = conj((*rest, blocks[0].body))
     return Problem(blocks[0].variables, body) if is_quantifier_free(body) else None
-
-
-def witness_certificate(problem: Problem, values: Values) -> Certificate:
-    """That the matrix of the existential dual holds at these values."""
-    ring = Ring.of(problem.variables)
-    listed = [values[name] for name in problem.variables]
-    return Certificate.witness(convert(problem.positive, ring), problem.variables, [Root.of(v) for v in listed])

@@ -50,11 +50,11 @@ def put_together(start: Formula, steps: Iterable[Step], answer: Formula) -> Deri
     """The derivation with its places. A step whose formula stands nowhere belongs to an attempt that was given up."""
     listed = list(steps)
     ring = Ring.of(dict.fromkeys(n for f in (start, answer, *_formulas(listed)) for n in names_in(f)))
-    current = start = _moved(start, ring)
+    current = start = moved(start, ring)
     kept: list[Step] = []
     whole = [current]
     for step in listed:
-        before, after = _moved(step.before, ring), _moved(step.after, ring)
+        before, after = moved(step.before, ring), moved(step.after, ring)
         if before == after:
             continue
         places: list[Place] = []
@@ -62,21 +62,21 @@ def put_together(start: Formula, steps: Iterable[Step], answer: Formula) -> Deri
         if places:
             current = changed
             whole.append(current)
-            kept.append(Step(step.rule, before, after, _moved(step.context, ring), step.evidence, tuple(places)))
-    return Derivation(start, tuple(kept), tuple(whole), current == _moved(answer, ring))
+            kept.append(Step(step.rule, before, after, moved(step.context, ring), step.evidence, tuple(places)))
+    return Derivation(start, tuple(kept), tuple(whole), current == moved(answer, ring))
 
 
-def _moved(formula: Formula, ring: Ring) -> Formula:
+def moved(formula: Formula, ring: Ring) -> Formula:
     """The formula over another ring, with its negations where they stand."""
     if formula.ring is ring:
         return formula
     match formula:
         case Not(arg):
-            return negated(_moved(arg, ring))
+            return negated(moved(arg, ring))
         case And(args) | Or(args):
-            return (conj if isinstance(formula, And) else disj)(_moved(a, ring) for a in args)
+            return (conj if isinstance(formula, And) else disj)(moved(a, ring) for a in args)
         case Exists(variables, body) | ForAll(variables, body):
-            return (exists if isinstance(formula, Exists) else forall)(variables, _moved(body, ring))
+            return (exists if isinstance(formula, Exists) else forall)(variables, moved(body, ring))
     return convert(formula, ring)
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 from qe.formula.build import conj
@@ -42,19 +42,33 @@ class BlockContext:
         """The same where these hold too."""
         return replace(self, facts=self.facts.extended(formulas), known=(*self.known, *formulas))
 
-    def step(self, rule: str, before: Formula, after: Formula, detail: str = "") -> None:
+    def step(
+        self, rule: str, before: Formula, after: Formula, detail: str = "", proof: Mapping[str, object] | None = None
+    ) -> None:
         """Record a step under what is known."""
-        evidence = {"detail": detail} if detail else None
+        evidence: dict[str, object] = {"detail": detail} if detail else {}
+        if proof:
+            evidence["proof"] = proof
         self.log.step(rule, before, after, context=conj(self.known), evidence=evidence)
 
 
 @dataclass(frozen=True, slots=True)
 class Found:
-    """What a rule found: the tree, whose pending leaves are reduced next, and a word on what was done."""
+    """What a rule found: the tree, whose pending leaves are reduced next, and a word on what was done.
+
+    ``proof``: what a checker needs beside the formulas; ``theorem``: its name where it is not that of the kind.
+    """
 
     kind: StepKind
     detail: str
     node: Node
+    proof: Mapping[str, object] | None = None
+    theorem: str = ""
+
+    @property
+    def rule(self) -> str:
+        """The name of the step in the log."""
+        return self.theorem or self.kind.value
 
 
 Rule = Callable[[tuple[str, ...], Formula, BlockContext], Found | None]

@@ -33,7 +33,7 @@ def shift_degree(variables: tuple[str, ...], body: Formula, context: BlockContex
         if step > 1:
             shifted = conj((values(ring.gen(x), step), lowered(body, x, step)))
             node = Lifted((RootOf(name, step),), Pending(variables, shifted))
-            return Found(StepKind.DEGREE_SHIFT, f"{name}^{step}", node)
+            return Found(StepKind.DEGREE_SHIFT, f"{name}^{step}", node, {"variable": name, "exponent": step})
     return None
 
 

@@ -53,7 +53,7 @@ def _boundary_apart(
     strict = Relation.GT if first.relation is Relation.GE else Relation.LT
     cases = [atom(first.poly, strict), atom(first.poly, Relation.EQ)]
     node = Any(tuple(Pending(variables, conj((case, *rest))) for case in cases))
-    return Found(StepKind.GENERIC, "boundary apart", node)
+    return Found(StepKind.GENERIC, "boundary apart", node, theorem="boundary apart")
 
 
 def _indices(variables: tuple[str, ...], formula: Formula) -> frozenset[int]:

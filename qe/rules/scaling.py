@@ -54,7 +54,12 @@ def fix_scale(variables: tuple[str, ...], body: Formula, context: BlockContext) 
     for sign in sorted(signs, reverse=True):
         fixed = _at(body, ring.index[name], sign)
         nodes.append(Lifted((Solve(name, ring.constant(sign), one),), Pending(rest, fixed)))
-    return Found(StepKind.SCALING, f"{name} in {sorted(signs)}", Any(tuple(nodes)))
+    proof = {
+        "variable": name,
+        "weights": [(ring.names[i], w) for i, w in weights.items() if w],
+        "values": sorted(signs, reverse=True),
+    }
+    return Found(StepKind.SCALING, f"{name} in {sorted(signs)}", Any(tuple(nodes)), proof)
 
 
 def _worthwhile(body: Formula) -> bool:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from fractions import Fraction
 
-from qe.exact.ring import format_poly
+from qe.exact.ring import Poly, format_poly
 from qe.formula.build import atom, conj, disj
 from qe.formula.syntax import Atom, Constant, Formula, Or, Relation
 from qe.formula.traverse import conjuncts, connected, free_variables
@@ -44,6 +44,7 @@ def linear_equation(variables: tuple[str, ...], body: Formula, context: BlockCon
     if StepKind.LINEAR not in context.enabled:
         return None
     rules: list[Solve] = []
+    solved_by: list[tuple[str, Poly, int | None]] = []
     details: list[str] = []
     while not isinstance(body, Constant):
         context.budget.check("prepare")
@@ -53,12 +54,14 @@ def linear_equation(variables: tuple[str, ...], body: Formula, context: BlockCon
         if pivot is None or solved is None:
             break
         details.append(_described(parts, pivot))
+        solved_by.append(_evidence(parts, pivot))
         rules.append(Solve(pivot.name, -pivot.rest, pivot.lead, Fraction(0) if pivot.alone else None))
         variables = tuple(v for v in variables if v != pivot.name)
         body = solved
     if not rules:
         return None
-    return Found(StepKind.LINEAR, ", ".join(details), Lifted(tuple(rules), Pending(variables, body)))
+    node = Lifted(tuple(rules), Pending(variables, body))
+    return Found(StepKind.LINEAR, ", ".join(details), node, {"solved": solved_by})
 
 
 def _solved(parts: Sequence[Formula], pivot: Pivot) -> Formula | None:
@@ -88,7 +91,7 @@ def guarded_linear_equation(variables: tuple[str, ...], body: Formula, context: 
     regular = Lifted((rule,), Pending(remaining, conj((_nonzero(pivot), replaced))))
     vanishing = (atom(pivot.lead, Relation.EQ), atom(pivot.rest, Relation.EQ), others)
     node = Any((regular, Pending(variables, conj(vanishing))))
-    return Found(StepKind.GUARDED_LINEAR, _described(parts, pivot), node)
+    return Found(StepKind.GUARDED_LINEAR, _described(parts, pivot), node, {"solved": [_evidence(parts, pivot)]})
 
 
 def _pivot(parts: Sequence[Formula], variables: Sequence[str], context: BlockContext) -> Pivot | None:
@@ -100,6 +103,13 @@ def _pivot(parts: Sequence[Formula], variables: Sequence[str], context: BlockCon
 
 def _others(parts: Sequence[Formula], pivot: Pivot) -> Formula:
     return conj(p for k, p in enumerate(parts) if k != pivot.position)
+
+
+def _evidence(parts: Sequence[Formula], pivot: Pivot) -> tuple[str, Poly, int | None]:
+    """The variable, the equation and what is known of the sign of its coefficient."""
+    equation = parts[pivot.position]
+    assert isinstance(equation, Atom)
+    return pivot.name, equation.poly, pivot.sign
 
 
 def _described(parts: Sequence[Formula], pivot: Pivot) -> str:

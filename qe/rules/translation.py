@@ -49,7 +49,8 @@ def fix_origin(variables: tuple[str, ...], body: Formula, context: BlockContext)
     rest = tuple(v for v in variables if v != name)
     child = Pending(rest, rewrite(body, change, ()))
     node = Lifted((Solve(name, ring.constant(0), ring.constant(1)),), child)
-    return Found(StepKind.TRANSLATION, f"{name} = 0", node)
+    proof = {"variable": name, "weights": [(ring.names[i], w) for i, w in direction.items() if w]}
+    return Found(StepKind.TRANSLATION, f"{name} = 0", node, proof)
 
 
 def _derivatives(poly: Poly, columns: Sequence[int]) -> Iterator[list[Fraction]]:

@@ -9,6 +9,20 @@ from qe.elimination.vs.plan import Plan, choose, occurring, split_equation
 from qe.elimination.vs.points import SymbolicPoint, Value
 from qe.elimination.vs.result import BlockResult, Choice
 from qe.elimination.vs.substitute import Substitution
+from qe.elimination.vs.trace import (
+    Alternatives,
+    Apart,
+    Attempt,
+    Decided,
+    Eliminated,
+    Part,
+    Split,
+    Substituted,
+    Trace,
+    Traces,
+    Unchanged,
+    without,
+)
 from qe.elimination.vs.univariate_samples import solution
 from qe.exact.ring import Ring
 from qe.formula.build import conj, disj
@@ -40,9 +54,9 @@ def eliminate_block(variables: Sequence[str], matrix: Formula, *, budget: Budget
         return BlockResult(formula, (), Leaf((), formula))
     run = _Run(ring, budget, simplify)
     block = frozenset(ring.index[v] for v in variables if v in ring.index)
-    answer, tree = run.solve(formula, block)
-    answer = simplify(answer)
-    return BlockResult(answer, tuple(_existentials(answer)), tree, dict(run.stats))
+    found, tree, trace = run.solve(formula, block)
+    answer = simplify(found)
+    return BlockResult(answer, tuple(_existentials(answer)), tree, dict(run.stats), Eliminated(formula, found, trace))
 
 
 def _existentials(formula: Formula) -> Iterator[Exists]:
@@ -53,11 +67,11 @@ def _existentials(formula: Formula) -> Iterator[Exists]:
             yield from _existentials(arg)
 
 
-Solved = tuple[Formula, Node]
+Solved = tuple[Formula, Node, Trace]
 
 
 class _Run:
-    """One elimination: ``solve`` maps a subproblem to an equivalent formula and its tree of solutions."""
+    """One elimination: ``solve`` maps a subproblem to an equivalent formula, its tree of solutions, and its trace."""
 
     __slots__ = ("budget", "done", "ring", "simplify", "stats")
 
@@ -70,7 +84,7 @@ class _Run:
         """``exists block. formula``; the formula is simplified and positive."""
         inside = occurring(formula) & block
         if not inside:
-            return formula, Leaf((), formula)
+            return formula, Leaf((), formula), Unchanged()
         key = (formula, inside)
         found = self.done.get(key)
         if found is None:
@@ -81,7 +95,8 @@ class _Run:
 
     def _solve(self, formula: Formula, block: frozenset[int]) -> Solved:
         if isinstance(formula, Or):
-            return self._any(self.solve(part, block) for part in formula.args)
+            answer, tree, parts = self._any(self.solve(part, block) for part in formula.args)
+            return answer, tree, Alternatives(formula.args, parts)
         context, groups = connected(conjuncts(formula), lambda part: occurring(part) & block)
         parts = [conj(members) for _, members in groups]
         if not context and len(parts) == 1:
@@ -92,18 +107,17 @@ class _Run:
         """exists x, y. C and F(x) and G(y)  iff  C and (exists x. F) and (exists y. G)."""
         answers: list[Formula] = list(context)
         trees: list[Node] = []
+        found: list[Part] = []
         for part in parts:
             # the context comes along as background knowledge and is taken out of the answer again
-            if context:
-                formula, tree = self._step(conj((*context, part)), part, block)
-                formula = _without(formula, context)
-            else:
-                formula, tree = self._step(part, part, block)
+            whole, tree, trace = self._step(conj((*context, part)), part, block)
+            formula = without(whole, context)
+            found.append(Part(part, whole, trace))
             if formula == FALSE:
-                return FALSE, NEVER
+                return FALSE, NEVER, Apart(context, tuple(found))
             answers.append(formula)
             trees.append(tree)
-        return conj(answers), All((Leaf((), conj(context)), *trees))
+        return conj(answers), All((Leaf((), conj(context)), *trees)), Apart(context, tuple(found))
 
     def _step(self, formula: Formula, part: Formula, block: frozenset[int]) -> Solved:
         """Eliminate one variable of ``part`` (``formula`` is ``part`` with its context), then the others."""
@@ -114,22 +128,28 @@ class _Run:
         strict = is_open(part, inside)
         plan = choose(formula, inside, strict=strict)
         if plan is not None:
-            return self._any(self._alternatives(plan, formula, inside, strict))
+            attempts: list[Attempt] = []
+            answer, tree, traces = self._any(self._alternatives(plan, formula, inside, strict, attempts))
+            return answer, tree, Substituted(plan, formula, inside, tuple(attempts), traces)
         cases = split_equation(formula, inside)
         if cases is not None:
-            return self._any(self.solve(self.simplify(case), inside) for case in cases)
+            simple = tuple(map(self.simplify, cases))
+            answer, tree, traces = self._any(self.solve(case, inside) for case in simple)
+            return answer, tree, Split(cases, simple, traces)
         left = Exists(tuple(self.ring.names[i] for i in sorted(inside)), part)
-        return left, Leaf(left.variables, part)
+        return left, Leaf(left.variables, part), Unchanged()
 
     def _decide(self, formula: Formula, variable: str) -> Solved:
         """A formula in one variable alone, of any degree."""
         self.budget.check("real roots")
         found = solution(formula, variable, {})
         if found is None:
-            return FALSE, NEVER
-        return TRUE, Lifted((Choice(variable, Value(found), 1, formula),), Leaf((), TRUE))
+            return FALSE, NEVER, Decided(None)
+        return TRUE, Lifted((Choice(variable, Value(found), 1, formula),), Leaf((), TRUE)), Decided(found)
 
-    def _alternatives(self, plan: Plan, before: Formula, block: frozenset[int], strict: bool) -> Iterator[Solved]:
+    def _alternatives(
+        self, plan: Plan, before: Formula, block: frozenset[int], strict: bool, attempts: list[Attempt]
+    ) -> Iterator[Solved]:
         """The subproblems of a plan, solved one after the other, cheap test points first."""
         rest = block - {plan.x}
 
@@ -137,49 +157,47 @@ class _Run:
             known = NOTHING.extended((*_free_of(formula, plan.x), *conjuncts(guard)))
             result = conj((guard, Substitution(plan.x, point, known, settled)(formula)))
             choice = Choice(self.ring.names[plan.x], point, plan.exponent, before)
-            return self._substituted(choice, thinned(result, rest) if strict else result, rest)
+            simple = self._counted(thinned(result, rest) if strict else result)
+            attempts.append(Attempt(point, guard, formula, settled, result, simple))
+            return self._substituted(choice, simple, rest)
 
         for infinity in plan.infinities:
             yield attempt(infinity, plan.infinity_guard or TRUE, plan.formula, frozenset())
         for candidate, settled in in_order(plan.candidates):
             yield attempt(candidate.point, candidate.guard, candidate.formula, settled)
         if plan.degenerate != FALSE:
-            yield self.solve(self.simplify(plan.degenerate), block)
+            simple = self.simplify(plan.degenerate)
+            attempts.append(Attempt(None, TRUE, plan.degenerate, frozenset(), plan.degenerate, simple))
+            yield self.solve(simple, block)
 
-    def _substituted(self, choice: Choice, result: Formula, rest: frozenset[int]) -> Solved:
-        """The subproblem that a choice leaves, solved."""
+    def _counted(self, result: Formula) -> Formula:
+        """What a substitution gives, simplified; one more test point."""
         self.budget.check("virtual substitution", self.stats["test points"])
         self.stats["test points"] += 1
         self.budget.spend(SUBSTITUTION_COST)
-        simple = self.simplify(result)
-        if simple == FALSE:
-            return FALSE, NEVER
-        answer, tree = self.solve(simple, rest)
-        return answer, Lifted((choice,), tree)
+        return self.simplify(result)
 
-    def _any(self, alternatives: Iterable[Solved]) -> Solved:
+    def _substituted(self, choice: Choice, simple: Formula, rest: frozenset[int]) -> Solved:
+        """The subproblem that a choice leaves, solved."""
+        if simple == FALSE:
+            return FALSE, NEVER, Unchanged()
+        answer, tree, trace = self.solve(simple, rest)
+        return answer, Lifted((choice,), tree), trace
+
+    def _any(self, alternatives: Iterable[Solved]) -> tuple[Formula, Node, Traces]:
         """The disjunction; stops at the first alternative that is TRUE."""
         found: dict[Formula, Node] = {}
-        for formula, tree in alternatives:
+        traces: list[tuple[Formula, Trace]] = []
+        for formula, tree, trace in alternatives:
+            traces.append((formula, trace))
             if formula == TRUE:
-                return TRUE, tree
+                return TRUE, tree, tuple(traces)
             if formula != FALSE:
                 found.setdefault(formula, tree)
         trees = tuple(found.values())
-        return disj(found), trees[0] if len(trees) == 1 else Any(trees)
+        return disj(found), trees[0] if len(trees) == 1 else Any(trees), tuple(traces)
 
 
 def _free_of(formula: Formula, x: int) -> list[Formula]:
     """The conjuncts that do not contain the variable."""
     return [a for a in conjuncts(formula) if x not in occurring(a)]
-
-
-def _without(formula: Formula, context: tuple[Formula, ...]) -> Formula:
-    """The formula with TRUE for every occurrence of a context member (under And and Or, so this is sound)."""
-    if formula in context:
-        return TRUE
-    if isinstance(formula, And):
-        return conj(_without(a, context) for a in formula.args)
-    if isinstance(formula, Or):
-        return disj(_without(a, context) for a in formula.args)
-    return formula

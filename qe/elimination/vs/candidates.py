@@ -22,7 +22,7 @@ from qe.elimination.vs.points import LinearRoot, QuadraticRoot
 from qe.exact.ring import Poly
 from qe.formula.build import conj, disj
 from qe.formula.syntax import FALSE, And, Atom, Formula, Or, Relation
-from qe.formula.traverse import conjuncts
+from qe.formula.traverse import conjuncts, disjuncts
 from qe.simplify.factors import atom_under
 from qe.simplify.facts import Facts, factor_list
 
@@ -162,12 +162,16 @@ def vanishing(f: Poly, x: int, facts: Facts) -> Formula:
 def _with_gauss(
     whole: And, gauss: Gauss, k: int, x: int, side: int, facts: Facts, omit: frozenset[Poly]
 ) -> tuple[Candidate, ...] | None:
-    """The Gauss constituent's candidates, and where it degenerates those of the other conjuncts."""
+    """The Gauss constituent's candidates, and where it degenerates those of the other conjuncts.
+
+    Where it degenerates, equations joined by "or" are true for all x. Any other constituent can turn true there, too.
+    """
     args = whole.args
     inner = _within(whole, args, k, gauss.candidates)
     if gauss.degenerate == FALSE or inner is None:
         return inner
-    others = _joined(_within(whole, args, j, bounds(arg, x, side, facts, omit)) for j, arg in enumerate(args) if j != k)
+    kept = [j for j in range(len(args)) if j != k or any(isinstance(a, And) for a in disjuncts(args[k]))]
+    others = _joined(_within(whole, args, j, bounds(args[j], x, side, facts, omit)) for j in kept)
     if others is None:
         return None
     return (*inner, *(replace(c, guard=conj((gauss.degenerate, c.guard))) for c in others))

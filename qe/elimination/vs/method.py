@@ -29,9 +29,8 @@ class VirtualSubstitution:
         result = eliminate_block(problem.variables, matrix, budget=context.budget, simplify=simplify)
         seconds = round(time.perf_counter() - start, 6)
         context.log.work(self.name, {"variables": list(problem.variables), **result.stats, "seconds": seconds})
-        answer = context.log.step(
-            "elimination set", problem.formula, problem.asked(result.formula), evidence=result.stats
-        )
+        evidence = {**result.stats, "trace": result.trace}
+        answer = context.log.step("elimination set", problem.formula, problem.asked(result.formula), evidence=evidence)
         values: Values | None = None
         if not result.remaining and result.formula == TRUE:
             certain = next((found for found in result.answers if simplify(found.guard) == TRUE), None)

@@ -8,6 +8,7 @@ from fractions import Fraction
 from itertools import product
 
 from qe.elimination.vs.points import TestPoint
+from qe.elimination.vs.trace import Eliminated
 from qe.elimination.vs.univariate_samples import solution
 from qe.errors import InternalError
 from qe.formula.build import conj
@@ -65,13 +66,15 @@ class BlockResult:
 
     It is quantifier-free in the other variables if ``remaining`` is empty. Otherwise it contains the existential
     subformulas listed in ``remaining``, over block variables of too high a degree, for another method to continue.
-    ``tree``: how solutions are found; its leaves without variables hold the guards, its rules are choices.
+    ``tree``: how solutions are found; its leaves without variables hold the guards, its rules are choices. ``trace``:
+    how the answer was found (None where nothing was to be eliminated).
     """
 
     formula: Formula
     remaining: tuple[Exists, ...]
     tree: Node
     stats: Mapping[str, int] = field(default_factory=dict)
+    trace: Eliminated | None = field(default=None, repr=False)
 
     @property
     def answers(self) -> Iterator[Answer]:

@@ -48,6 +48,18 @@ def agree(found: Formula, expected: str, values: tuple[Fraction | int, ...] = GR
 
 
 @pytest.mark.parametrize(
+    "problem", ["(a*x = b and x > 1 and x < 2 or x = 5) and x < c", "(a*x = b and x > 1 or a*x = 1) and x < 4"]
+)
+def test_where_the_finitely_many_solutions_of_an_alternative_degenerate_its_other_conjuncts_still_begin_to_hold(
+    problem: str,
+) -> None:
+    """At a = b = 0 the first alternative is an interval: its ends were left out of the elimination set."""
+    found = run(f"ex x. {problem}").formula
+    assert holds_at(found, {"a": 0, "b": 0, "c": 3})
+    assert not holds_at(found, {"a": 0, "b": 1, "c": 3})
+
+
+@pytest.mark.parametrize(
     ("problem", "answer"),
     [
         ("ex x. x^2 + b*x + c = 0", "b^2 - 4*c >= 0"),

@@ -1,0 +1,136 @@
+"""Rules "linear equation solved", also under a guard (Gauss).
+
+THEOREM (Loos, Weispfenning 1993). Let a, b be polynomials without x, and f[-b/a] be f with a^d g(-b/a) in place of each
+g of degree d in x, times a once more where d is odd and the sign of a is not known (with the sign changed where it is
+negative). Then ex x (a*x + b = 0 and f) iff f[-b/a], if a /= 0 follows from what is known and from conjuncts of f
+without x, which f[-b/a] keeps; (a /= 0 and f[-b/a]) or ex x (a = 0 and b = 0 and f) in any case; and
+(a /= 0 or b = 0) and f, if x does not occur in f.
+That conjuncts with x do not count is a side condition: 1 + a*x <= 0 implies a /= 0, but becomes a^2*(1 - b) <= 0.
+
+Evidence: ``solved``: [variable, equation, sign of a] in their order, the sign 1, -1, 0 (only known not to be zero) or
+null (not known); ``theory``: lemmas for the signs.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from qe.certify.boolean import ByLemmas, Goal
+from qe.certify.negation import negation
+from qe.certify.step import Claim, Context, Limits, only
+from qe.certify.substitution import mapped, quotient
+from qe.exact.ring import Poly
+from qe.formula.build import atom, conj, disj, exists
+from qe.formula.syntax import Atom, Exists, Formula, Relation
+from qe.formula.traverse import conjuncts
+from qe.proof.entry import Entry, polynomial_from_json
+
+_KNOWN = {1: Relation.GT, -1: Relation.LT, 0: Relation.NE}
+
+
+def linear_goals(claim: Claim, context: Context) -> list[Goal]:
+    """The substitutions are carried out and compared with what stands after; signs are to be shown."""
+    solved = only(claim, "solved", "theory")[0]
+    goals: list[Goal] = []
+    block, body = _block(claim)
+    known = [f for f in context if not set(block) & set(f.free)]
+    for entry in solved.items():
+        pivot = _pivot(entry, block, body, claim)
+        if pivot.sign is not None:
+            beside = [p for p in conjuncts(pivot.others) if pivot.name not in p.free]
+            goals.append((*known, *beside, negation(atom(pivot.lead, _KNOWN[pivot.sign]))))
+        body = _solved(pivot, claim)
+        block = tuple(v for v in block if v != pivot.name)
+    if _parts(exists(block, body)) != _parts(claim.after):
+        raise claim.fail("not what the substitutions give")
+    return goals
+
+
+check_linear = ByLemmas(linear_goals)
+
+
+def check_guarded_linear(claim: Claim, context: Context, limits: Limits) -> None:
+    """Both cases are compared with what stands after."""
+    entry, *more = only(claim, "solved")[0].items()
+    block, body = _block(claim)
+    pivot = _pivot(entry, block, body, claim)
+    if more or pivot.sign is not None:
+        raise claim.fail("expected one equation with a coefficient of unknown sign")
+    lead, rest = pivot.lead, pivot.rest
+    regular = conj((atom(lead, Relation.NE), _substituted(pivot, claim)))
+    vanishing = conj((atom(lead, Relation.EQ), atom(rest, Relation.EQ), pivot.others))
+    left = tuple(v for v in block if v != pivot.name)
+    if claim.after != disj((exists(left, regular), exists(block, vanishing))):
+        raise claim.fail("not the two cases of the coefficient")
+
+
+@dataclass(frozen=True, slots=True)
+class _Pivot:
+    """lead*x + rest = 0 beside ``others``; ``sign``: what is claimed of lead."""
+
+    x: int
+    name: str
+    lead: Poly
+    rest: Poly
+    sign: int | None
+    others: Formula
+
+
+def _block(claim: Claim) -> tuple[tuple[str, ...], Formula]:
+    if not isinstance(claim.before, Exists):
+        raise claim.fail("expected an existential block")
+    return claim.before.variables, claim.before.body
+
+
+def _pivot(entry: Entry, block: Sequence[str], body: Formula, claim: Claim) -> _Pivot:
+    parts = list(entry.items())
+    if len(parts) != 3 or parts[0].text() not in block:
+        raise entry.fail("expected [variable of the block, equation, sign]")
+    name, equation = parts[0].text(), polynomial_from_json(parts[1], claim.ring)
+    x, sign = claim.ring.index[name], parts[2].value
+    if isinstance(sign, bool) or sign not in (1, -1, 0, None):
+        raise parts[2].fail("expected 1, -1, 0 or null")
+    if equation.degree(x) != 1 or Atom(equation, Relation.EQ) not in conjuncts(body):
+        raise parts[1].fail("no conjunct here that is linear in the variable")
+    rest, lead = equation.coefficients(x)
+    if lead.is_constant and sign != (1 if lead.constant_value() > 0 else -1):
+        raise parts[2].fail("not the sign of this number")
+    others = conj(p for p in conjuncts(body) if p != Atom(equation, Relation.EQ))
+    return _Pivot(x, name, lead, rest, sign if isinstance(sign, int) else None, others)
+
+
+def _solved(pivot: _Pivot, claim: Claim) -> Formula:
+    """What the equation leaves of the conjunction."""
+    if pivot.sign is None:
+        if pivot.name in pivot.others.free:
+            raise claim.fail(f"the coefficient of {pivot.name} may vanish")
+        return conj((disj((atom(pivot.lead, Relation.NE), atom(pivot.rest, Relation.EQ))), pivot.others))
+    return _substituted(pivot, claim)
+
+
+def _substituted(pivot: _Pivot, claim: Claim) -> Formula:
+    """The other conjuncts with -rest/lead for the variable."""
+    x, lead = pivot.x, pivot.lead
+
+    def change(given: Atom) -> Formula:
+        degree, relation = given.poly.degree(x), given.relation
+        if not degree:
+            return given
+        image = quotient(given.poly, x, -pivot.rest, lead)
+        if degree % 2 and relation not in (Relation.EQ, Relation.NE):
+            image = image * (lead if pivot.sign in (0, None) else claim.ring.constant(pivot.sign or 1))
+        return atom(image, relation)
+
+    used = {claim.ring.names[i] for p in (lead, pivot.rest) for i in p.variables} | {pivot.name}
+    return conj(
+        mapped(part, change, frozenset(used), claim) if pivot.name in part.free else part
+        for part in conjuncts(pivot.others)
+    )
+
+
+def _parts(formula: Formula) -> tuple[object, ...]:
+    """The formula, whatever the order of the conjuncts of its block."""
+    if isinstance(formula, Exists):
+        return frozenset(formula.variables), frozenset(conjuncts(formula.body))
+    return (frozenset(conjuncts(formula)),)

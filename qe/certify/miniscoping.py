@@ -1,0 +1,36 @@
+"""Rule "independent parts and miniscoping": conditions that share no variable of a block are quantified apart.
+
+THEOREM. ex v (A or B) iff ex v A or ex v B. ex v, w (A and B and C) iff A and ex v B and ex w C where no variable of
+the block is free in A, none but v in B and none but w in C.
+"""
+
+from __future__ import annotations
+
+from qe.certify.step import Claim, Context, Limits, only
+from qe.formula.build import conj, disj, exists
+from qe.formula.syntax import Exists, Formula, Or
+from qe.formula.traverse import conjuncts
+
+
+def check_miniscoping(claim: Claim, context: Context, limits: Limits) -> None:
+    """What stands after, with its quantifiers drawn together again, is what stood before."""
+    only(claim)
+    before = claim.before
+    if not isinstance(before, Exists):
+        raise claim.fail("expected an existential block")
+    if isinstance(before.body, Or):
+        if claim.after != disj(exists(before.variables, part) for part in before.body.args):
+            raise claim.fail("expected the block before each part of the disjunction")
+        return
+    block, taken = set(before.variables), set[str]()
+    parts: list[Formula] = []
+    for piece in conjuncts(claim.after):
+        own = block & set(piece.variables) if isinstance(piece, Exists) else set[str]()
+        if block & set(piece.free) or own & taken:
+            raise claim.fail("parts share a variable of the block")
+        taken |= own
+        if isinstance(piece, Exists) and own:
+            piece = exists([v for v in piece.variables if v not in own], piece.body)
+        parts.append(piece)
+    if set(conjuncts(conj(parts))) != set(conjuncts(before.body)):
+        raise claim.fail("the parts are not the conjuncts of the block")

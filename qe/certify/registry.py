@@ -1,0 +1,54 @@
+"""The rules of derivations, each with its checker: one line a rule. A rule that is not here proves nothing."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from qe.certify.alternatives import check_alternatives
+from qe.certify.block import check_block
+from qe.certify.degree_shift import check_degree_shift
+from qe.certify.elimination_set import check_elimination_set
+from qe.certify.independent_parts import check_independent_parts
+from qe.certify.inequations import check_inequations, check_only_nonzero
+from qe.certify.instance import check_instance
+from qe.certify.linear_equation import check_guarded_linear, check_linear
+from qe.certify.miniscoping import check_miniscoping
+from qe.certify.negation import check_negation
+from qe.certify.open_block import check_open_block
+from qe.certify.renaming import check_renaming
+from qe.certify.replayed_block import check_replayed_block
+from qe.certify.sentence import check_sentence
+from qe.certify.step import Check
+from qe.certify.symmetry import check_scaling, check_translation
+from qe.certify.table import check_table
+
+RULES: Mapping[str, Check] = {
+    "renaming": check_renaming,
+    "duality": check_negation,
+    "negation normal form": check_negation,
+    "simplification": check_block,
+    "standard simplification": check_block,
+    "case split on factors": check_block,
+    "boundary apart": check_block,
+    "vanishing sum of squares split": check_block,
+    "Groebner basis of the equations": check_block,
+    "independent parts and miniscoping": check_miniscoping,
+    "linear equation solved": check_linear,
+    "linear equation solved under a guard": check_guarded_linear,
+    "degree shift": check_degree_shift,
+    "translation of the origin": check_translation,
+    "homogeneous scaling": check_scaling,
+    "inequations that remove no interior": check_inequations,
+    "only asked to be no root": check_only_nonzero,
+    "virtual substitution": check_replayed_block,
+    "elimination set": check_elimination_set,
+    "alternatives": check_alternatives,
+    "independent parts": check_independent_parts,
+    "open block": check_open_block,
+    "instance": check_instance,
+    "cells": check_table,
+    "shorter": check_table,
+    "constant": check_table,
+    "convex": check_sentence,
+    "point or multipliers": check_sentence,
+}

@@ -1,0 +1,277 @@
+"""Lemmas about the signs of polynomials, as evidence for boolean steps; ``qe.certify.signs`` has what they say.
+
+What is found here is checked where it is read: nothing depends on its being right, or complete.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
+from itertools import pairwise
+from math import lcm
+
+from qe.certify.boolean import Theory
+from qe.certify.signs import read_lemma
+from qe.certify.step import Limits
+from qe.exact.algebraic import real_roots
+from qe.exact.nearby import rational_between
+from qe.exact.ring import Poly, Ring
+from qe.formula.syntax import Atom, Exists, ForAll, Formula, Relation
+from qe.formula.traverse import children
+from qe.proof.entry import Entry, Json, poly_to_text
+from qe.simplify.facts import factor_list, key_of
+from qe.simplify.minima import minimum
+
+Term = tuple[int, tuple[tuple[Poly, int], ...]]
+"""A coefficient, and polynomials with exponents."""
+
+MOST_POLYNOMIALS, MOST_PAIRS, MOST_MONOMIALS, MOST_TRIED = 120, 400, 24, 16
+
+
+@dataclass(slots=True)
+class Lemmas:
+    """Lemmas under way: polynomials in the order in which they are first used."""
+
+    ring: Ring
+    numbers: dict[Poly, int] = field(default_factory=dict)
+    lemmas: list[Json] = field(default_factory=list)
+
+    def number(self, poly: Poly) -> int:
+        """The number of a primitive polynomial."""
+        return self.numbers.setdefault(poly, len(self.numbers))
+
+    def identity(self, terms: Iterable[Term]) -> None:
+        """That the terms add up to 0."""
+        listed: list[Json] = []
+        for coefficient, powers in terms:
+            found: dict[Poly, int] = {}
+            for poly, exponent in powers:
+                if poly.is_constant:
+                    coefficient *= poly.constant_value() ** exponent
+                    continue
+                content, primitive = content_of(poly)
+                coefficient *= content**exponent
+                found[primitive] = found.get(primitive, 0) + exponent
+            listed.append([str(coefficient), [[self.number(p), e] for p, e in found.items()]])
+        self.lemmas.append({"identity": listed})
+
+    def line(self, polys: Sequence[Poly], x: int) -> None:
+        """The sign vectors of irreducible polynomials in one variable."""
+        roots = sorted(r for p in polys for r in real_roots(p.to_univariate(x)))
+        ends = [None, *roots, None]
+        samples = [rational_between(a, b) for a, b in pairwise(ends)]
+        self.lemmas.append({"line": [self.number(p) for p in polys], "samples": [str(s) for s in samples]})
+
+    def theory(self, limits: Limits) -> Theory:
+        """The lemmas as the checker reads them."""
+        polys = tuple(self.numbers)
+        return Theory(polys, tuple(read_lemma(Entry(e, "lemma"), polys, self.ring) for e in self.lemmas), limits)
+
+    def only(self, used: Iterable[int]) -> Json:
+        """The evidence with these lemmas alone."""
+        chosen = [self.lemmas[k] for k in sorted(used)]
+        polys = list(self.numbers)
+        numbers = {i: k for k, i in enumerate(dict.fromkeys(i for lemma in chosen for i in _mentioned(lemma)))}
+        listed: list[Json] = [poly_to_text(polys[i]) for i in numbers]
+        return {"polynomials": listed, "lemmas": [_renumbered(lemma, numbers) for lemma in chosen]}
+
+
+EMPTY: Json = {"polynomials": [], "lemmas": []}
+
+
+def content_of(poly: Poly) -> tuple[int, Poly]:
+    """(c, q) with poly = c * q, q primitive with positive leading coefficient."""
+    primitive = poly.normal()[1]
+    exponents, coefficient = primitive.terms()[0]
+    return next(c for e, c in poly.terms() if e == exponents) // coefficient, primitive
+
+
+def _mentioned(lemma: Json) -> list[int]:
+    assert isinstance(lemma, dict)
+    if "line" in lemma:
+        return lemma["line"]  # type: ignore[return-value]
+    return [power[0] for _, powers in lemma["identity"] for power in powers]  # type: ignore
+
+
+def _renumbered(lemma: Json, numbers: dict[int, int]) -> Json:
+    assert isinstance(lemma, dict)
+    if "line" in lemma:
+        return {**lemma, "line": [numbers[i] for i in lemma["line"]]}  # type: ignore
+    return {"identity": [[c, [[numbers[i], e] for i, e in powers]] for c, powers in lemma["identity"]]}  # type: ignore
+
+
+def polynomials_outside(formulas: Iterable[Formula]) -> dict[Poly, bool]:
+    """The polynomials of comparisons that stand under no quantifier; whether one of them is an equation or not =."""
+    found: dict[Poly, bool] = {}
+    pending = list(formulas)
+    while pending:
+        formula = pending.pop()
+        if isinstance(formula, Atom):
+            found[formula.poly] = found.get(formula.poly, False) or formula.relation in (Relation.EQ, Relation.NE)
+        elif not isinstance(formula, Exists | ForAll):
+            pending += children(formula)
+    return dict(sorted(found.items(), key=lambda entry: poly_to_text(entry[0])))
+
+
+def refuting(goals: Sequence[Sequence[Formula]], ring: Ring, limits: Limits) -> Json | None:
+    """Evidence with which each of the lists of formulas is refuted, or None where none is found.
+
+    Raises ``Unable`` where the search is too long.
+    """
+    polys = polynomials_outside(f for goal in goals for f in goal)
+    if len(polys) > MOST_POLYNOMIALS:
+        return None
+    found = Lemmas(ring)
+    for stage in range(4):
+        count = len(found.lemmas)
+        if stage == 1:
+            _algebra(found, polys)
+        elif stage == 2:
+            _lines(found, polys)
+        elif stage == 3:
+            _ranges(found, polys)
+        if stage and count == len(found.lemmas):
+            continue
+        used = _used(found.theory(limits), goals)
+        if used is not None:
+            return found.only(_needed(found.theory(limits), goals, used))
+    return None
+
+
+def _needed(theory: Theory, goals: Sequence[Sequence[Formula]], used: set[int]) -> list[int]:
+    """Those of the lemmas without which the refutation fails, as far as it is cheap to find out."""
+    kept = sorted(used)
+    for k in kept if len(kept) <= MOST_TRIED else ():
+        left = [i for i in kept if i != k]
+        if _used(replace(theory, lemmas=tuple(theory.lemmas[i] for i in left)), goals) is not None:
+            kept = left
+    return kept
+
+
+def _used(theory: Theory, goals: Sequence[Sequence[Formula]]) -> set[int] | None:
+    """The lemmas by which all goals are refuted, or None."""
+    used: set[int] = set()
+    for goal in goals:
+        refutation = theory.used(goal)
+        if refutation is None:
+            return None
+        used |= refutation
+    return used
+
+
+def _algebra(found: Lemmas, polys: dict[Poly, bool]) -> None:
+    """Factors, equations put into the others, differences that are constant, squares."""
+    pool: dict[Poly, None] = dict.fromkeys(polys)
+    for poly in polys:
+        pool.update(dict.fromkeys(_factored(found, poly)))
+    for equation in [p for p, is_equation in polys.items() if is_equation]:
+        for poly in list(polys):
+            if poly != equation:
+                pool.update(dict.fromkeys(_reduced(found, poly, equation)))
+    _differences(found, pool)
+    for poly in pool:
+        _squares(found, poly)
+
+
+def _factored(found: Lemmas, poly: Poly) -> list[Poly]:
+    parts = [(f, e) for f, e in factor_list(poly) if not f.is_constant]
+    if sum(e for _, e in parts) < 2:
+        return [poly]
+    product = poly.ring.constant(1)
+    for factor, exponent in parts:
+        product = product * factor**exponent
+    content, primitive = content_of(product)
+    if primitive == poly:
+        found.identity([(content, ((poly, 1),)), (-1, tuple(parts))])
+    return [f for f, _ in parts]
+
+
+def _reduced(found: Lemmas, poly: Poly, equation: Poly) -> list[Poly]:
+    """lead^k * poly = r + s * equation, division in the first variable in which the equation is linear."""
+    x = next((i for i in equation.variables if equation.degree(i) == 1 and equation.leading(i).is_constant), None)
+    if x is None or not poly.degree(x) or len(found.lemmas) > MOST_PAIRS:
+        return []
+    rest, lead = equation.coefficients(x)
+    if rest.term_count() > 3:
+        return []
+    image = poly.at_quotient(x, -rest, lead)
+    scale = lead.constant_value() ** poly.degree(x)
+    quotient = (poly * scale - image).exact_divide(equation)
+    factors = factor_list(image.normal()[1]) if not image.is_constant else ()
+    powers: tuple[tuple[Poly, int], ...] = ((image, 1),) if image else ()
+    terms: list[Term] = [(scale, ((poly, 1),)), (-1, ((quotient, 1), (equation, 1)))]
+    found.identity([*terms, (-1, powers)] if image else terms)
+    if image.is_constant:
+        return []
+    primitive = image.normal()[1]
+    return [primitive, *_factored(found, primitive)] if factors else [primitive]
+
+
+def _differences(found: Lemmas, pool: Iterable[Poly]) -> None:
+    """u_j * p_i - u_i * p_j = constant for polynomials with one key, neighbours by value."""
+    groups: dict[Poly, list[tuple[Fraction, int, int, Poly]]] = {}
+    for poly in pool:
+        key, unit, constant = key_of(poly)
+        groups.setdefault(key, []).append((Fraction(constant, unit), unit, constant, poly))
+    for members in groups.values():
+        for (_, u, c, p), (_, v, d, q) in pairwise(sorted(members, key=lambda m: m[0])):
+            found.identity([(v, ((p, 1),)), (-u, ((q, 1),)), (u * d - v * c, ())])
+
+
+def _squares(found: Lemmas, poly: Poly) -> None:
+    """The polynomial as a constant and positive multiples of squares (or of even monomials)."""
+    for sign in (1, -1):
+        least = minimum(poly * sign)
+        if least is not None:
+            _sum_of_squares(found, poly * sign, least.value, least.zeros)
+
+
+def _sum_of_squares(found: Lemmas, poly: Poly, value: Fraction, zeros: Sequence[Poly]) -> None:
+    if all(not any(k % 2 for k in e) for e, _ in poly.terms()):
+        found.identity([(-1, ((poly, 1),)), *_monomials(poly)])
+        return
+    weights: list[Fraction] = []
+    rest, scale = poly, 1
+    for zero in zeros:  # the first variable of each square stands in no later one
+        first = zero.variables[0]
+        lead = zero.leading(first).constant_value()
+        square = Fraction(_square_coefficient(rest, first), scale) / lead**2
+        weights.append(square)
+        common = lcm(scale, square.denominator)
+        rest = rest * (common // scale) - zero * zero * int(square * common)
+        scale = common
+    if not rest.is_constant or Fraction(rest.constant_value(), scale) != value:
+        return
+    squares: list[Term] = [(int(w * scale), ((z, 2),)) for w, z in zip(weights, zeros, strict=True)]
+    constant: list[Term] = [(rest.constant_value(), ())] if rest else []
+    found.identity([(-scale, ((poly, 1),)), *squares, *constant])
+
+
+def _square_coefficient(poly: Poly, x: int) -> int:
+    """The coefficient of x^2, for a polynomial of total degree 2."""
+    parts = poly.coefficients(x)
+    return parts[2].constant_value() if len(parts) > 2 else 0
+
+
+def _monomials(poly: Poly) -> list[Term]:
+    ring = poly.ring
+    return [(c, tuple((ring.gen(i), k) for i, k in enumerate(exponents) if k)) for exponents, c in poly.terms()]
+
+
+def _lines(found: Lemmas, polys: dict[Poly, bool]) -> None:
+    """All polynomials in one variable alone, by variable."""
+    groups: dict[int, list[Poly]] = {}
+    for poly in dict.fromkeys((*found.numbers, *polys)):
+        if len(poly.variables) == 1:
+            for factor, _ in factor_list(poly):
+                groups.setdefault(poly.variables[0], []).append(factor)
+    for x, members in groups.items():
+        found.line(list(dict.fromkeys(members)), x)
+
+
+def _ranges(found: Lemmas, polys: Iterable[Poly]) -> None:
+    """Polynomials as sums of monomials in their variables."""
+    for poly in dict.fromkeys((*found.numbers, *polys)):
+        if 1 < poly.term_count() <= MOST_MONOMIALS:
+            found.identity([(-1, ((poly, 1),)), *_monomials(poly)])

@@ -1,0 +1,212 @@
+"""From the derivation of an answer to a certificate: evidence for every step, as far as it can be had.
+
+Nothing here is trusted: a step counts as proved when the checker of its rule accepts it, and is named otherwise.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from fractions import Fraction
+
+from qe.certify.block import existential
+from qe.certify.boolean import ByLemmas
+from qe.certify.derivation import limits_of, replaced
+from qe.certify.registry import RULES
+from qe.certify.step import Claim, Context, Limits
+from qe.certify.verify import check_certificate
+from qe.elimination.cad import certificate_for
+from qe.elimination.vs.trace import Eliminated
+from qe.engine.lemmas import EMPTY, refuting
+from qe.engine.substitution_steps import steps
+from qe.errors import CertificateRejected, Unable
+from qe.exact.ring import Poly, Ring
+from qe.formula.syntax import And, Exists, Formula, Or
+from qe.formula.traverse import children, conjuncts
+from qe.options import Budget, Options
+from qe.proof.certificate import Certificate, Proof, written
+from qe.proof.derivation import Derivation, moved
+from qe.proof.entry import Entry, Json, formula_to_json, poly_to_text
+from qe.proof.step import Place, Step
+
+TABLE_WORK = 3_000
+"""Units of work for a decomposition that proves a single step."""
+
+UNRECORDED = "steps that are not recorded"
+
+
+def proved(derivation: Derivation, answer: Formula, options: Options, budget: Budget) -> Proof:
+    """The derivation with evidence. Steps without any of their own are proved by a decomposition, if it is small.
+
+    Raises ``BudgetExceeded``.
+    """
+    prover = Prover(_ring(derivation, answer), options, budget)
+    current = moved(derivation.start, prover.ring)
+    start = current
+    for step in derivation.steps:
+        current = prover.taken(step, current)
+    goal = moved(answer, prover.ring)
+    if current != goal:
+        prover.joined(current, goal)
+    unchecked = tuple(dict.fromkeys(prover.unchecked))
+    if unchecked:
+        return Proof(None, unchecked)
+    return Proof(Certificate.derivation(prover.ring.names, start, prover.steps, goal))
+
+
+def _ring(derivation: Derivation, answer: Formula) -> Ring:
+    formulas = (derivation.start, *(step.before for step in derivation.steps), answer)
+    return next((f.ring for f in formulas if f.ring is not None), Ring.of(()))
+
+
+@dataclass(slots=True)
+class Prover:
+    """The steps written so far, and the rules of those that no checker accepts.
+
+    ``tables``: whether decompositions may help.
+    """
+
+    ring: Ring
+    options: Options
+    budget: Budget
+    tables: bool = True
+    steps: list[Json] = field(default_factory=list)
+    unchecked: list[str] = field(default_factory=list)
+    limits: Limits = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.limits = limits_of(self.budget, RULES, check_certificate)
+
+    # --- steps ---------------------------------------------------------------------------------
+    def taken(self, step: Step, current: Formula) -> Formula:
+        """The formula after a step at each of its places, one after the other."""
+        for _ in step.places:
+            found = next(self._places(current, step.before), None)
+            if found is None:
+                break
+            current = self._at(found, step, current)
+        return current
+
+    def _places(self, formula: Formula, before: Formula, path: Place = ()) -> Iterator[Place]:
+        """Where a formula stands, or is a part of a conjunction or disjunction."""
+        part = isinstance(formula, And | Or) and type(before) is type(formula)
+        if formula == before or (part and set(before.args) < set(formula.args)):  # type: ignore[attr-defined]
+            yield path
+            return
+        for k, child in enumerate(children(formula)):
+            yield from self._places(child, before, (*path, k))
+
+    def _at(self, place: Place, step: Step, current: Formula) -> Formula:
+        facts, changed = replaced(current, place, step.before, step.after, (), Entry(None, "place"))
+        context = tuple(f for f in conjuncts(step.context) if f in facts)
+        found = self.evidence(step, context)
+        if found is None:
+            self.unchecked.append(step.rule)
+        else:
+            rule, evidence = found
+            self.steps.append(written(rule, place, step.before, step.after, context, evidence))
+        return changed
+
+    def joined(self, current: Formula, goal: Formula) -> None:
+        """The last formula of the derivation and the answer, where steps between them are missing."""
+        found = self.evidence(Step("simplification", current, goal), ())
+        if found is None:
+            self.unchecked.append(UNRECORDED)
+        else:
+            self.steps.append(written(found[0], (), current, goal, (), found[1]))
+
+    # --- evidence ------------------------------------------------------------------------------
+    def evidence(self, step: Step, context: Context) -> tuple[str, Json] | None:
+        """The rule by whose checker the step is accepted, and the evidence."""
+        trace = step.evidence.get("trace")
+        if isinstance(trace, Eliminated):
+            inner = self._substituted(step, trace)
+            if inner is not None:
+                return "virtual substitution", inner
+        given = step.evidence.get("proof")
+        own = self._tried(step.rule, step, context, self._plain(given) if isinstance(given, Mapping) else {})
+        if own is not None:
+            return step.rule, own
+        leaf = self._tabulated(step)
+        return None if leaf is None else ("cells", leaf)
+
+    def _tried(self, rule: str, step: Step, context: Context, evidence: dict[str, Json]) -> Json | None:
+        checker = RULES.get(rule)
+        if checker is None:
+            return None
+        try:
+            if isinstance(checker, ByLemmas):
+                evidence = {**evidence, "theory": EMPTY}
+                goals = checker.obligations(self._claim(rule, step, evidence), context)
+                theory = refuting(goals, self.ring, self.limits) if goals else EMPTY
+                return None if theory is None else {**evidence, "theory": theory}
+            checker(self._claim(rule, step, evidence), context, self.limits)
+        except CertificateRejected:
+            return None
+        except Unable:
+            self.budget.check("prove")
+            return None
+        return evidence
+
+    def _substituted(self, step: Step, trace: Eliminated) -> Json | None:
+        """The steps of virtual substitution, all of them accepted."""
+        claim = self._claim("virtual substitution", step, {})
+        before, after = existential(claim)
+        try:
+            if not isinstance(before, Exists):
+                return None
+            evidence: Json = {"steps": steps(before, trace, after, self.ring, self._simplified, self.limits)}
+            RULES[claim.rule](self._claim(claim.rule, step, evidence), (), self.limits)
+        except CertificateRejected:
+            return None
+        except Unable:
+            self.budget.check("prove")
+            return None
+        return evidence
+
+    def _simplified(self, before: Formula, after: Formula) -> Json:
+        """A step of simplification inside another one; ``CertificateRejected`` where it is not proved."""
+        found = self._tried("simplification", Step("simplification", before, after), (), {})
+        if found is None:
+            raise CertificateRejected("simplification", "no lemmas found")
+        return written("simplification", (), before, after, (), found)
+
+    def _claim(self, rule: str, step: Step, evidence: Json) -> Claim:
+        return Claim(rule, step.before, step.after, self.ring, Entry(evidence, "evidence"), "step")
+
+    def _tabulated(self, step: Step) -> Json | None:
+        if not self.tables or not step.after.is_quantifier_free:
+            return None
+        try:
+            certificate = certificate_for(step.before, step.after, self.options, self.budget.part(TABLE_WORK))
+        except Unable:
+            self.budget.check("prove")
+            return None
+        if certificate is None:
+            return None
+        return self._tried("cells", step, (), {"certificate": certificate.to_data()})
+
+    def _plain(self, value: Mapping[str, object]) -> dict[str, Json]:
+        return {name: self._json(part) for name, part in value.items()}
+
+    def _json(self, value: object) -> Json:
+        """Evidence from the log as JSON data over the ring of the derivation."""
+        match value:
+            case Poly():
+                return poly_to_text(value.convert(self.ring).normal()[1])
+            case Fraction():
+                return str(value)
+            case (str() as name, Poly() as equation, int() | None as sign):
+                flips = equation.convert(self.ring).normal()[0] < 0
+                return [name, self._json(equation), -sign if flips and sign else sign]
+            case list() | tuple():
+                return [self._json(v) for v in value]
+            case Mapping():
+                return self._plain(value)
+            case Certificate():
+                return value.to_data()
+            case Formula():
+                return formula_to_json(moved(value, self.ring), quantified=True)
+            case None | bool() | int() | str():
+                return value
+        raise TypeError(f"no evidence: {type(value).__name__}")
