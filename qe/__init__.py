@@ -41,10 +41,12 @@ if TYPE_CHECKING:
         region,
         verify,
     )
+    from qe.api_groebner import comprehensive_groebner
     from qe.certify.verdict import Verdict
     from qe.convex.optimum import Optimum
     from qe.elimination.vs.parametric import ParametricWitness
     from qe.exact.algebraic import RealAlgebraic
+    from qe.groebner.system import ComprehensiveGroebnerSystem
     from qe.io.sympy import Exists, ForAll
     from qe.regions.region import Region
 
@@ -69,6 +71,8 @@ _API = (
 )
 _LATER = {
     **dict.fromkeys(_API, "qe.api"),
+    "ComprehensiveGroebnerSystem": "qe.groebner.system",
+    "comprehensive_groebner": "qe.api_groebner",
     "Exists": "qe.io.sympy",
     "ForAll": "qe.io.sympy",
     "Optimum": "qe.convex.optimum",
@@ -99,6 +103,7 @@ __all__ = [
     "BudgetExceeded",
     "Certificate",
     "CertificateRejected",
+    "ComprehensiveGroebnerSystem",
     "DegreeTooHigh",
     "Exists",
     "ForAll",
@@ -119,6 +124,7 @@ __all__ = [
     "Unable",
     "Verdict",
     "check_witness",
+    "comprehensive_groebner",
     "decide",
     "eliminate",
     "equivalent",

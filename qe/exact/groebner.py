@@ -21,10 +21,21 @@ _HEAVY = (1009, 1213, 1471, 1723, 1999, 2293, 2557, 2819, 3089, 3359)
 
 
 class MonomialOrder(Enum):
-    """Degree reverse lexicographic or lexicographic; the first listed variable is the largest."""
+    """By total degree and then reverse lexicographic or lexicographic, or lexicographic; the first listed variable is
+    the largest.
+    """
 
     DEGREVLEX = "degrevlex"
+    DEGLEX = "deglex"
     LEX = "lex"
+
+    def key(self, exponents: Sequence[int]) -> tuple[int, ...]:
+        """A key by which monomials are sorted: the larger the higher."""
+        if self is MonomialOrder.LEX:
+            return tuple(exponents)
+        if self is MonomialOrder.DEGLEX:
+            return (sum(exponents), *exponents)
+        return (sum(exponents), *(-e for e in reversed(exponents)))
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,26 +78,27 @@ class Basis:
     @property
     def leads(self) -> tuple[tuple[int, ...], ...]:
         """The exponents of the leading monomials, each in the order of ``variables``, as ``polys`` stand."""
-        weights = self._weights or (1,) * len(self.variables)
-        return tuple(tuple(int(k) // w for k, w in zip(g.monomial(0), weights, strict=False)) for g in self._internal)
+        return tuple(
+            tuple(int(k) // w for k, w in zip(g.monomial(0), self._scales, strict=False)) for g in self._internal
+        )
 
     def tails(self) -> list[dict[tuple[int, ...], fmpq]]:
         """For every element the normal form of its leading monomial: exponents -> coefficients."""
-        weights = self._weights or (1,) * len(self.variables)
         found = []
         for g in self._internal:
             terms = iter(g.terms())
             lead = next(terms)[1]
-            moved = ((tuple(int(k) // w for k, w in zip(e, weights, strict=False)), c) for e, c in terms)
+            moved = ((tuple(int(k) // w for k, w in zip(e, self._scales, strict=False)), c) for e, c in terms)
             found.append({e: fmpq(-c, lead) for e, c in moved})
         return found
 
     def rank(self, exponents: Sequence[int]) -> tuple[int, ...]:
         """A key by which monomials are sorted, exponents in the order of ``variables``: the larger the higher."""
-        if self.order is MonomialOrder.LEX:
-            return tuple(exponents)
-        heights = [e * w for e, w in zip(exponents, self._weights or (1,) * len(self.variables), strict=True)]
-        return (sum(heights), *(-h for h in reversed(heights)))
+        return self.order.key([e * w for e, w in zip(exponents, self._scales, strict=True)])
+
+    @property
+    def _scales(self) -> tuple[int, ...]:
+        return self._weights or (1,) * len(self.variables)
 
     @property
     def is_unit(self) -> bool:
@@ -126,7 +138,7 @@ class Basis:
 
     def _outside(self, g: fmpz_mpoly) -> Poly:
         size = self.ring.size
-        weights = self._weights or (1,) * len(self.variables)
+        weights = self._scales
         terms = {}
         for exponents, coefficient in g.terms():
             moved = [0] * size

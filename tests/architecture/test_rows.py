@@ -30,6 +30,7 @@ ROWS = {
     "qe.simplify": 4,
     "qe.rules": 5,
     "qe.cad": 5,
+    "qe.groebner": 5,
     "qe.cells": 6,
     "qe.convex": 6,
     "qe.elimination.vs": 7,
