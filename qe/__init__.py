@@ -41,11 +41,12 @@ if TYPE_CHECKING:
         region,
         verify,
     )
-    from qe.api_groebner import comprehensive_groebner
+    from qe.api_groebner import comprehensive_groebner, real_root_classification
     from qe.certify.verdict import Verdict
     from qe.convex.optimum import Optimum
     from qe.elimination.vs.parametric import ParametricWitness
     from qe.exact.algebraic import RealAlgebraic
+    from qe.groebner.counting import RealRootClassification
     from qe.groebner.system import ComprehensiveGroebnerSystem
     from qe.io.sympy import Exists, ForAll
     from qe.regions.region import Region
@@ -72,7 +73,9 @@ _API = (
 _LATER = {
     **dict.fromkeys(_API, "qe.api"),
     "ComprehensiveGroebnerSystem": "qe.groebner.system",
+    "RealRootClassification": "qe.groebner.counting",
     "comprehensive_groebner": "qe.api_groebner",
+    "real_root_classification": "qe.api_groebner",
     "Exists": "qe.io.sympy",
     "ForAll": "qe.io.sympy",
     "Optimum": "qe.convex.optimum",
@@ -118,6 +121,7 @@ __all__ = [
     "ParseError",
     "QEError",
     "RealAlgebraic",
+    "RealRootClassification",
     "Region",
     "Stage",
     "Status",
@@ -132,6 +136,7 @@ __all__ = [
     "maximize",
     "minimize",
     "parametric_witnesses",
+    "real_root_classification",
     "region",
     "verify",
 ]

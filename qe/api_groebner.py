@@ -15,6 +15,7 @@ from qe.exact.block_order import Block
 from qe.exact.groebner import MonomialOrder
 from qe.exact.ring import Poly, Ring, format_poly
 from qe.execution import Budgets, Limits, perform
+from qe.groebner.counting import RealRootClassification, classified
 from qe.groebner.question import ParametricSystem
 from qe.groebner.system import ComprehensiveGroebnerSystem, exact_number
 from qe.progress import silent
@@ -66,18 +67,53 @@ def comprehensive_groebner(
     start = time.monotonic()
     chosen = _ORDERS[arguments.member(order, Order, "order")]
     wanted = arguments.flag(faithful, "faithful")
-    limits = Limits(
-        arguments.seconds(timeout),
-        arguments.mebibytes(memory),
-        arguments.listener(progress),
-        arguments.flag(process, "process"),
-    ).begun(start)
-    system = read_system(polys, variables, parameters, chosen, constants, equal, nonzero)
+    limits = _limits(timeout, memory, progress, process).begun(start)
+    system, _ = read_system(polys, variables, parameters, chosen, constants, equal, nonzero)
 
     def work(budgets: Budgets) -> ComprehensiveGroebnerSystem:
         return system.solved(budgets(), faithful=wanted)
 
     return perform(work, limits, at_once=timeout is not None)
+
+
+def real_root_classification(
+    polys: Sequence[Any],
+    variables: Names,
+    parameters: Names = None,
+    *,
+    positive: Sequence[Any] = (),
+    constants: Mapping[str, Any] | None = None,
+    equal: Sequence[Any] = (),
+    nonzero: Sequence[Any] = (),
+    timeout: float | None = None,
+    memory: int | None = None,
+    progress: Any = silent,
+    process: bool = True,
+) -> RealRootClassification:
+    """The partition of parameter space by the number of distinct real solutions of polys = 0, as formulas.
+
+    ``positive``: only solutions at which all of these polynomials are positive count. Signatures of Hermite's trace
+    forms over the segments of a comprehensive Gröbner system (Weispfenning 1998; Fukasaku, Iwane, Sato 2015); where
+    the system has infinitely many complex solutions the count is None. Other arguments and errors as for
+    ``comprehensive_groebner``.
+    """
+    start = time.monotonic()
+    limits = _limits(timeout, memory, progress, process).begun(start)
+    asked = read_system(polys, variables, parameters, MonomialOrder.DEGREVLEX, constants, equal, nonzero, positive)
+
+    def work(budgets: Budgets) -> RealRootClassification:
+        return classified(*asked, budgets())
+
+    return perform(work, limits, at_once=timeout is not None)
+
+
+def _limits(timeout: object, memory: object, progress: object, process: object) -> Limits:
+    return Limits(
+        arguments.seconds(timeout),
+        arguments.mebibytes(memory),
+        arguments.listener(progress),
+        arguments.flag(process, "process"),
+    )
 
 
 def read_system(
@@ -88,15 +124,17 @@ def read_system(
     constants: Mapping[str, Any] | None,
     equal: Sequence[Any] = (),
     nonzero: Sequence[Any] = (),
-) -> ParametricSystem:
-    """The arguments of a question about a parametric system, checked. Raises ``InputError``."""
+    positive: Sequence[Any] = (),
+) -> tuple[ParametricSystem, tuple[Poly, ...]]:
+    """The arguments of a question about a parametric system, checked, and ``positive``. Raises ``InputError``."""
     offered = arguments.by_name({} if constants is None else constants, "constants")
     fixed = {name: algebraic(value, f"constants: {name}") for name, value in offered.items()}
     largest = arguments.names(variables, "variables") or ()
     named = arguments.names(parameters, "parameters")
     known = {*largest, *(named or ()), *fixed}
     lists = [
-        _polynomials(given, what, known) for given, what in ((polys, "polys"), (equal, "equal"), (nonzero, "nonzero"))
+        _polynomials(given, what, known)
+        for given, what in ((polys, "polys"), (equal, "equal"), (nonzero, "nonzero"), (positive, "positive"))
     ]
     if not lists[0]:
         raise InputError("polys: at least one polynomial expected, none found")
@@ -112,7 +150,7 @@ def read_system(
         for p in group:
             if not block.is_free(p):
                 raise InputError(f"{what}: polynomials in the parameters expected, {format_poly(p)} found")
-    return ParametricSystem(ring, block, read[0], fixed, read[1], read[2])
+    return ParametricSystem(ring, block, read[0], fixed, read[1], read[2]), read[3]
 
 
 def _check_names(
@@ -159,4 +197,10 @@ def algebraic(value: object, what: str) -> RealAlgebraic:
     return number if isinstance(number, RealAlgebraic) else RealAlgebraic.rational(number)
 
 
-__all__ = ["ComprehensiveGroebnerSystem", "Order", "comprehensive_groebner"]
+__all__ = [
+    "ComprehensiveGroebnerSystem",
+    "Order",
+    "RealRootClassification",
+    "comprehensive_groebner",
+    "real_root_classification",
+]

@@ -105,6 +105,10 @@ class ComprehensiveGroebnerSystem:
         place = self._place(values)
         return all(place.sign(c) == 0 for c in self.block.terms(rest).values())
 
+    def place(self, point: Mapping[str, object] | Sequence[object]) -> Point:
+        """A point of the parameters, with the constants, for exact signs."""
+        return self._place(self._values(point))
+
     def _values(self, point: Mapping[str, object] | Sequence[object]) -> dict[str, Number]:
         names = self.parameters
         if isinstance(point, Mapping):
@@ -128,9 +132,7 @@ class ComprehensiveGroebnerSystem:
     # --- written -----------------------------------------------------------------------------
     def condition(self, segment: Segment) -> Formula:
         """The segment as a formula between parameters (and constants)."""
-        some = [disj(atom(p, Relation.NE) for p in segment.some)] if segment.some else []
-        zero, other = (atom(p, Relation.EQ) for p in segment.equal), (atom(p, Relation.NE) for p in segment.nonzero)
-        return conj([*zero, *other, *some])
+        return condition_of(segment)
 
     def to_dict(self) -> dict[str, object]:
         """The system as plain data: polynomials as text."""
@@ -179,6 +181,13 @@ class ComprehensiveGroebnerSystem:
             lines.append(f"{self.condition(segment)}:")
             lines += [f"    {format_poly(p)}" for p in segment.basis] or ["    0"]
         return "\n".join(lines)
+
+
+def condition_of(segment: Segment) -> Formula:
+    """The segment as a formula between parameters."""
+    some = [disj(atom(p, Relation.NE) for p in segment.some)] if segment.some else []
+    zero, other = (atom(p, Relation.EQ) for p in segment.equal), (atom(p, Relation.NE) for p in segment.nonzero)
+    return conj([*zero, *other, *some])
 
 
 def exact_number(value: object, what: str) -> Number:

@@ -35,6 +35,7 @@ ROWS = {
     "qe.convex": 6,
     "qe.elimination.vs": 7,
     "qe.elimination.cad": 7,
+    "qe.elimination.cgs": 7,
     "qe.elimination.critical": 7,
     "qe.elimination.convex": 7,
     "qe.elimination.witness": 7,
