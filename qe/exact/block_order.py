@@ -21,7 +21,7 @@ Terms = dict[Exponents, Poly]
 
 LIMITS = Limits(elements=600, terms=20_000, bits=40_000)
 
-_TRIALS = ((4, 16), (8, 128), (24, 1024))
+_TRIALS = ((4, 16), (8, 128), (24, 1024), (96, 8192))
 """(K, scale): differences of exponents of one variable up to K, degrees in the parameters up to the scale."""
 
 

@@ -35,6 +35,10 @@ class Segment:
     elements: tuple[Poly, ...] = ()
     faithful: tuple[Poly, ...] | None = None
 
+    def __reduce__(self) -> tuple[object, tuple[object, ...]]:
+        """Without what is only remembered."""
+        return Segment, (self.block, self.equal, self.nonzero, self.some, self.basis, self.elements, self.faithful)
+
     @property
     def unequal(self) -> tuple[Poly, ...]:
         """N: the segment is where E vanishes and not all of these do."""
