@@ -23,7 +23,7 @@ from qe.exact.ring import Poly, Ring
 from qe.exact.zeros import Zero
 from qe.formula.build import atom, conj, convert, disj, exists
 from qe.formula.syntax import TRUE, And, Atom, Constant, Formula, Or, Relation
-from qe.formula.traverse import atoms, free_variables
+from qe.formula.traverse import atoms, free_variables, ring_of
 from qe.groebner.counting import SolutionCount
 from qe.groebner.kapur_sun_wang import segments
 from qe.groebner.segment import Segment
@@ -41,11 +41,11 @@ class ComprehensiveGroebner:
     name = "cgs"
 
     def suits(self, problem: Problem, options: Options) -> str | None:
-        """Flat blocks with an equation between their variables (an inequation in a universal one)."""
+        """Flat blocks with an equation, or an inequation, between their variables."""
         if not problem.is_flat:
             return None
-        block, wanted = set(problem.variables), Relation.NE if problem.universal else Relation.EQ
-        found = any(a.relation is wanted and block & set(_names(a.poly)) for a in _atoms(problem.body))
+        block, either = set(problem.variables), (Relation.EQ, Relation.NE)
+        found = any(a.relation in either and block & set(_names(a.poly)) for a in _atoms(problem.body))
         return "equations bind quantified variables" if found else None
 
     def run(self, problem: Problem, context: Context) -> Outcome | None:
@@ -64,14 +64,19 @@ class ComprehensiveGroebner:
             return None
         found: list[Formula] = []
         for part in read:
-            if not free and (witness := part.witness()) is not None:
+            zeros = None if free else part.zeros()
+            if zeros is None:
+                found.append(part.eliminated(context.budget))
+            elif (witness := part.witness(zeros)) is not None:
                 return _outcome(problem, context, TRUE, witness)
-            found.append(part.eliminated(context.budget))
         return _outcome(problem, context, simplify(disj(found)), None)
 
 
 def _outcome(problem: Problem, context: Context, found: Formula, witness: Values | None) -> Outcome:
-    answer = context.log.step("comprehensive Gröbner system", problem.formula, problem.asked(found))
+    # back into the ring of the formula it came from: it is joined with parts of that formula
+    ring = ring_of(problem.formula)
+    moved = found if ring is None else convert(found, ring)
+    answer = context.log.step("comprehensive Gröbner system", problem.formula, problem.asked(moved))
     return Outcome(answer, witness)
 
 
@@ -165,15 +170,17 @@ class _Conjunction:
     def _unbound(self, variables: Sequence[str]) -> Formula:
         return exists(tuple(variables), conj(atom(g, r) for g, r in self.conditions))
 
-    def witness(self) -> Values | None:
-        """Exact values of the block's variables, where there are finitely many complex solutions; None else."""
-        variables = [self.ring.index[v] for v in self.block]
-        if not self.equations:
+    def zeros(self) -> list[Zero] | None:
+        """All real solutions of equations without parameters; None where there are infinitely many complex ones."""
+        if not any(self.equations):
             return None
         try:
-            zeros = solve_system(self.equations, variables=variables)
+            return solve_system(self.equations, variables=[self.ring.index[v] for v in self.block])
         except PositiveDimensional:
             return None
+
+    def witness(self, zeros: Sequence[Zero]) -> Values | None:
+        """Exact values of the block's variables: a solution that meets the other conditions."""
         for zero in zeros:
             if all(r.holds(sign_at(zero, g)) for g, r in self.conditions):
                 return {name: simplest(value.to_algebraic()) for name, value in zero.values.items()}

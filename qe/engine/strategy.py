@@ -110,6 +110,7 @@ A unit is one cell, or about the time of one (a tenth of a millisecond); see ``B
 STRATEGY: tuple[Attempt, ...] = (
     Attempt(Scope.ASKED, "witness", on.inner_blocks, SHORTCUT),
     Attempt(Scope.ASKED, "convex", on.closed_in_many_variables, SHORTCUT),
+    Attempt(Scope.ASKED, "cgs", on.equations_bind_a_sentence, SHORTCUT, complete),
     Attempt(Scope.ASKED, "critical, convex universal", on.curved_in_the_block, SHORTCUT),
     Attempt(Scope.PREPARED, "critical", on.convex_conditions, SHORTCUT),
     Attempt(Scope.BLOCK, "only asked to be no root", on.parameters),

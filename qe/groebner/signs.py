@@ -61,6 +61,15 @@ class SignatureConditions:
     def is_in(self, wanted: Collection[int]) -> Formula:
         """That the signature is one of these numbers."""
 
+        if self.is_hankel:
+            return self._by_minors(wanted)
+        last = self.minors[-1]
+        regular = conj([atom(last, Relation.NE), self._by_minors(wanted)])
+        return disj([regular, conj([atom(last, Relation.EQ), self._by_descartes(wanted)])])
+
+    def _by_minors(self, wanted: Collection[int]) -> Formula:
+        """For a Hankel matrix; for others where the whole determinant is not 0."""
+
         def after(state: _State, sign: int) -> _State | None:
             gap = state.zeros + 1
             if state.signature is None or (gap > 3 and not self.is_hankel):
@@ -71,7 +80,9 @@ class SignatureConditions:
             return _State(sign, 0, state.signature) if fits else None
 
         def end(state: _State) -> Formula | None:
-            if state.signature is None or (state.zeros and not self.is_hankel):
+            if state.zeros and not self.is_hankel:
+                return None
+            if state.signature is None:
                 return self._by_descartes(wanted)
             return self._leaf(state.signature, wanted)
 
