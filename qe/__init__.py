@@ -41,10 +41,13 @@ if TYPE_CHECKING:
         region,
         verify,
     )
+    from qe.api_groebner import comprehensive_groebner, real_root_classification
     from qe.certify.verdict import Verdict
     from qe.convex.optimum import Optimum
     from qe.elimination.vs.parametric import ParametricWitness
     from qe.exact.algebraic import RealAlgebraic
+    from qe.groebner.counting import RealRootClassification
+    from qe.groebner.system import ComprehensiveGroebnerSystem
     from qe.io.sympy import Exists, ForAll
     from qe.optimization.global_optimum import GlobalOptimum
     from qe.optimization.parametric_optimum import ParametricOptimum
@@ -71,6 +74,10 @@ _API = (
 )
 _LATER = {
     **dict.fromkeys(_API, "qe.api"),
+    "ComprehensiveGroebnerSystem": "qe.groebner.system",
+    "RealRootClassification": "qe.groebner.counting",
+    "comprehensive_groebner": "qe.api_groebner",
+    "real_root_classification": "qe.api_groebner",
     "Exists": "qe.io.sympy",
     "ForAll": "qe.io.sympy",
     "GlobalOptimum": "qe.optimization.global_optimum",
@@ -103,6 +110,7 @@ __all__ = [
     "BudgetExceeded",
     "Certificate",
     "CertificateRejected",
+    "ComprehensiveGroebnerSystem",
     "DegreeTooHigh",
     "Exists",
     "ForAll",
@@ -119,12 +127,14 @@ __all__ = [
     "ParseError",
     "QEError",
     "RealAlgebraic",
+    "RealRootClassification",
     "Region",
     "Stage",
     "Status",
     "Unable",
     "Verdict",
     "check_witness",
+    "comprehensive_groebner",
     "decide",
     "eliminate",
     "equivalent",
@@ -132,6 +142,7 @@ __all__ = [
     "maximize",
     "minimize",
     "parametric_witnesses",
+    "real_root_classification",
     "region",
     "verify",
 ]

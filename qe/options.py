@@ -24,6 +24,7 @@ class Method(Enum):
     CRITICAL = "critical"
     CONVEX = "convex"
     WITNESS = "witness"
+    CGS = "cgs"
 
 
 class Projection(Enum):

@@ -25,6 +25,7 @@ METHODS = {
     "critical, convex universal": ("qe.elimination.critical.method", "ConvexUniversal"),
     "convex": ("qe.elimination.convex", "ConvexOptimisation"),
     "witness": ("qe.elimination.witness", "PolynomialWitnesses"),
+    "cgs": ("qe.elimination.cgs", "ComprehensiveGroebner"),
     "only asked to be no root": ("qe.elimination.nonzero", "OnlyNonzero"),
     "infinity first": ("qe.elimination.vs.infinity_first", "InfinityFirst"),
 }
@@ -38,6 +39,7 @@ SPOKEN = {
     "critical": "elimination by critical values alone",
     "convex": "convex optimisation alone",
     "witness": "the search for witnesses alone",
+    "cgs": "elimination by comprehensive Gröbner systems alone",
     "infinity first": "looking at infinity alone",
 }
 """What a method is called where it does not suffice."""
@@ -108,6 +110,7 @@ A unit is one cell, or about the time of one (a tenth of a millisecond); see ``B
 STRATEGY: tuple[Attempt, ...] = (
     Attempt(Scope.ASKED, "witness", on.inner_blocks, SHORTCUT),
     Attempt(Scope.ASKED, "convex", on.closed_in_many_variables, SHORTCUT),
+    Attempt(Scope.ASKED, "cgs", on.equations_bind_a_sentence, SHORTCUT, complete),
     Attempt(Scope.ASKED, "critical, convex universal", on.curved_in_the_block, SHORTCUT),
     Attempt(Scope.PREPARED, "critical", on.convex_conditions, SHORTCUT),
     Attempt(Scope.BLOCK, "only asked to be no root", on.parameters),
@@ -119,6 +122,8 @@ STRATEGY: tuple[Attempt, ...] = (
     Attempt(Scope.BLOCK, "vs", on.always, None, complete_if_closed, shorten=True),
     Attempt(Scope.INNER, "vs", on.always, FIRST, complete),
     Attempt(Scope.INNER, "critical", on.never),
+    Attempt(Scope.BLOCK, "cgs", on.never),
+    Attempt(Scope.INNER, "cgs", on.never),
     Attempt(Scope.NESTED, "cad", on.complete),
 )
 

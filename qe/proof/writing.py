@@ -31,6 +31,7 @@ RULES: Mapping[str, str] = {
     "elimination set": "A block holds somewhere if and only if it holds at one of finitely many test points "
     "(Loos, Weispfenning 1993; Weispfenning 1997).",
     "infinity first": "Solutions near infinity follow from leading terms; elsewhere a leading coefficient is zero.",
+    "comprehensive Gröbner system": "Signatures of trace forms count the real solutions of equations.",
     "only asked to be no root": "Polynomials that are not identically zero have a common point where none vanishes.",
     "cells": "On every cell of a cylindrical algebraic decomposition the formula has one truth value "
     "(Collins 1975; Collins, Hong 1991).",

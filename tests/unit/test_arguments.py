@@ -86,6 +86,26 @@ DOORS = {
         {"witness": lambda value: {"x": value}},
     ),
     "parametric_witnesses": Door(qe.parametric_witnesses, {"formula": "ex x. x > a"}),
+    "comprehensive_groebner": Door(
+        qe.comprehensive_groebner,
+        {"polys": ["a*x - 1"], "variables": "x", "parameters": "a", "constants": {}},
+        {
+            "parameters": {"none"},
+            "constants": {"none", "dict"},
+            "order": set(),
+            "faithful": {"bool"},
+            **{name: {"list"} for name in ("equal", "nonzero")},
+        },
+    ),
+    "real_root_classification": Door(
+        qe.real_root_classification,
+        {"polys": ["a*x - 1"], "variables": "x", "parameters": "a", "constants": {}},
+        {
+            "parameters": {"none"},
+            "constants": {"none", "dict"},
+            **{name: {"list"} for name in ("equal", "nonzero", "positive")},
+        },
+    ),
     "region": Door(qe.region, {"formula": "x > 0"}, {"order": {"none"}}),
     "region order": Door(
         qe.region, {"formula": "x > 0", "order": "y"}, {"order": {"text", "digits"}}, {"order": lambda v: ["x", v]}

@@ -40,6 +40,14 @@ CASES: dict[str, tuple[str, Callable[[], Call]]] = {
         "qe.engine.run.solve",
         lambda: lambda: qe.check_witness("all a. ex x. x > a", {"x": "a + 1"}, timeout=LIMIT),
     ),
+    "comprehensive_groebner": (
+        "qe.groebner.question.segments",
+        lambda: lambda: qe.comprehensive_groebner(["a*x - 1"], "x", timeout=LIMIT),
+    ),
+    "real_root_classification": (
+        "qe.groebner.question.segments",
+        lambda: lambda: qe.real_root_classification(["a*x - 1"], "x", timeout=LIMIT),
+    ),
     "minimize": ("qe.convex.optimum.solve", lambda: lambda: qe.minimize("x", "x >= 1", timeout=LIMIT)),
     "maximize": ("qe.convex.optimum.solve", lambda: lambda: qe.maximize("x", "x <= 1", timeout=LIMIT)),
     "parametric_witnesses": (

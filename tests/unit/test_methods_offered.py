@@ -11,13 +11,13 @@ from qe.cli.app import app
 OWN = {
     qe.Method.CONVEX: ("ex x, y. x^2 + y^2 <= 1 and x + y >= 1", "true"),
     qe.Method.WITNESS: ("all a. ex x. (x - a)^2 <= 0", "true"),
+    qe.Method.CGS: ("ex x. x^2 = a and x > b", "a >= 0 and (b < 0 or b^2 < a)"),
 }
-"""Questions for methods that take sentences of one kind only."""
+"""Questions for methods that take problems of one kind only."""
 
 
 @pytest.mark.parametrize("method", list(qe.Method))
 def test_every_offered_method_answers(method: qe.Method) -> None:
-    """``cgs`` was offered and always ended in "not available"."""
     text, expected = OWN.get(
         method, ("ex x. x^2 + y^2 <= 1 and x >= y", "y <= 1 and y >= -1 and (y <= 0 or 2*y^2 <= 1)")
     )
@@ -26,6 +26,6 @@ def test_every_offered_method_answers(method: qe.Method) -> None:
 
 def test_the_help_names_no_other_method() -> None:
     shown = CliRunner().invoke(app, ["eliminate", "--help"], env={"COLUMNS": "200"}).output
-    assert "critical" in shown and "cgs" not in shown
+    assert "critical" in shown and "fourier" not in shown
     with pytest.raises(qe.InputError, match="method"):
-        qe.eliminate("x > 0", method="cgs")
+        qe.eliminate("x > 0", method="fourier")

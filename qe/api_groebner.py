@@ -1,0 +1,206 @@
+"""The public functions about parametric polynomial systems."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Container, Mapping, Sequence
+from enum import Enum
+from typing import Any
+
+from qe import arguments
+from qe.api_input import read_polynomial
+from qe.errors import InputError
+from qe.exact.algebraic import RealAlgebraic
+from qe.exact.block_order import Block
+from qe.exact.groebner import MonomialOrder
+from qe.exact.ring import Poly, Ring, format_poly
+from qe.execution import Budgets, Limits, perform
+from qe.groebner.counting import RealRootClassification, classified
+from qe.groebner.question import ParametricSystem
+from qe.groebner.system import ComprehensiveGroebnerSystem, exact_number
+from qe.progress import silent
+
+Names = Any
+"""``"y, x"``, ``"y x"``, or a list of names or SymPy symbols."""
+
+
+class Order(Enum):
+    """Orders of the monomials in the variables, of which the first listed is the largest."""
+
+    GREVLEX = "grevlex"
+    GRLEX = "grlex"
+    LEX = "lex"
+
+
+_ORDERS = {
+    Order.GREVLEX: MonomialOrder.DEGREVLEX,
+    Order.GRLEX: MonomialOrder.DEGLEX,
+    Order.LEX: MonomialOrder.LEX,
+}
+
+
+def comprehensive_groebner(
+    polys: Sequence[Any],
+    variables: Names,
+    parameters: Names = None,
+    order: str | Order = Order.GREVLEX,
+    *,
+    constants: Mapping[str, Any] | None = None,
+    equal: Sequence[Any] = (),
+    nonzero: Sequence[Any] = (),
+    faithful: bool = False,
+    timeout: float | None = None,
+    memory: int | None = None,
+    progress: Any = silent,
+    process: bool = True,
+) -> ComprehensiveGroebnerSystem:
+    """A comprehensive Gröbner system: parameter space in disjoint segments, each with one basis for all its points.
+
+    Algorithm of Kapur, Sun and Wang (ISSAC 2010; JSC 49, 2013). ``polys``: a list of polynomials over Q (text,
+    ``Poly``, SymPy). ``variables``: largest first; ``parameters``: by default all other names, sorted. ``order``: of
+    the monomials in the variables, ``"grevlex"``, ``"grlex"`` or ``"lex"``. ``constants``: names that stand for real
+    algebraic numbers (``RealAlgebraic``, SymPy numbers), treated exactly by their minimal polynomials. ``equal`` and
+    ``nonzero``: polynomials in the parameters; only where the former vanish and none of the latter does segments are
+    made. ``faithful``: every segment also has elements of the given ideal itself with the same values as its basis.
+    Limits as for ``qe.eliminate``. Raises ``InputError``, ``Unable`` where bases grow too large, ``BudgetExceeded``.
+    """
+    start = time.monotonic()
+    chosen = _ORDERS[arguments.member(order, Order, "order")]
+    wanted = arguments.flag(faithful, "faithful")
+    limits = _limits(timeout, memory, progress, process).begun(start)
+    system, _ = read_system(polys, variables, parameters, chosen, constants, equal, nonzero)
+
+    def work(budgets: Budgets) -> ComprehensiveGroebnerSystem:
+        return system.solved(budgets(), faithful=wanted)
+
+    return perform(work, limits, at_once=timeout is not None)
+
+
+def real_root_classification(
+    polys: Sequence[Any],
+    variables: Names,
+    parameters: Names = None,
+    *,
+    positive: Sequence[Any] = (),
+    constants: Mapping[str, Any] | None = None,
+    equal: Sequence[Any] = (),
+    nonzero: Sequence[Any] = (),
+    timeout: float | None = None,
+    memory: int | None = None,
+    progress: Any = silent,
+    process: bool = True,
+) -> RealRootClassification:
+    """The partition of parameter space by the number of distinct real solutions of polys = 0, as formulas.
+
+    ``positive``: only solutions at which all of these polynomials are positive count. Signatures of Hermite's trace
+    forms over the segments of a comprehensive Gröbner system (Weispfenning 1998; Fukasaku, Iwane, Sato 2015); where
+    the system has infinitely many complex solutions the count is None. Other arguments and errors as for
+    ``comprehensive_groebner``.
+    """
+    start = time.monotonic()
+    limits = _limits(timeout, memory, progress, process).begun(start)
+    asked = read_system(polys, variables, parameters, MonomialOrder.DEGREVLEX, constants, equal, nonzero, positive)
+
+    def work(budgets: Budgets) -> RealRootClassification:
+        return classified(*asked, budgets())
+
+    return perform(work, limits, at_once=timeout is not None)
+
+
+def _limits(timeout: object, memory: object, progress: object, process: object) -> Limits:
+    return Limits(
+        arguments.seconds(timeout),
+        arguments.mebibytes(memory),
+        arguments.listener(progress),
+        arguments.flag(process, "process"),
+    )
+
+
+def read_system(
+    polys: Sequence[Any],
+    variables: Names,
+    parameters: Names,
+    order: MonomialOrder,
+    constants: Mapping[str, Any] | None,
+    equal: Sequence[Any] = (),
+    nonzero: Sequence[Any] = (),
+    positive: Sequence[Any] = (),
+) -> tuple[ParametricSystem, tuple[Poly, ...]]:
+    """The arguments of a question about a parametric system, checked, and ``positive``. Raises ``InputError``."""
+    offered = arguments.by_name({} if constants is None else constants, "constants")
+    fixed = {name: algebraic(value, f"constants: {name}") for name, value in offered.items()}
+    largest = arguments.names(variables, "variables") or ()
+    named = arguments.names(parameters, "parameters")
+    known = {*largest, *(named or ()), *fixed}
+    lists = [
+        _polynomials(given, what, known)
+        for given, what in ((polys, "polys"), (equal, "equal"), (nonzero, "nonzero"), (positive, "positive"))
+    ]
+    if not lists[0]:
+        raise InputError("polys: at least one polynomial expected, none found")
+    occurring = sorted({name for group in lists for p in group for name in _names(p)} - {*largest, *fixed})
+    others = tuple(occurring) if named is None else named
+    _check_names(largest, others, fixed, occurring)
+    ring = Ring.of((*fixed, *reversed(others), *reversed(largest)))
+    block = Block(
+        tuple(ring.index[n] for n in largest), tuple(ring.index[n] for n in (*others, *reversed([*fixed]))), order
+    )
+    read = [tuple(p.convert(ring) for p in group) for group in lists]
+    for what, group in (("equal", read[1]), ("nonzero", read[2])):
+        for p in group:
+            if not block.is_free(p):
+                raise InputError(f"{what}: polynomials in the parameters expected, {format_poly(p)} found")
+    return ParametricSystem(ring, block, read[0], fixed, read[1], read[2]), read[3]
+
+
+def _check_names(
+    variables: tuple[str, ...],
+    parameters: tuple[str, ...],
+    constants: Mapping[str, RealAlgebraic],
+    found: Sequence[str],
+) -> None:
+    if not variables:
+        raise InputError("variables: the name of at least one variable expected, none found")
+    everything = (*variables, *parameters, *constants)
+    twice = [name for k, name in enumerate(everything) if name in everything[:k]]
+    if twice:
+        raise InputError(
+            f"parameters: every name once, as variable, parameter or constant, expected, {twice[0]} found twice"
+        )
+    if unknown := [name for name in found if name not in everything]:
+        raise InputError(f"polys: variables and parameters as listed expected, {unknown[0]} found")
+
+
+def _polynomials(given: object, what: str, known: Container[str]) -> list[Poly]:
+    if isinstance(given, Mapping | set | frozenset):
+        raise arguments.wrong(what, "a list of polynomials", given)
+    return [
+        read_polynomial(p, f"{what}: entry {k}", known=known)[0]
+        for k, p in enumerate(arguments.by_place(given, what), 1)
+    ]
+
+
+def _names(poly: Poly) -> list[str]:
+    return [poly.ring.names[i] for i in poly.variables]
+
+
+def algebraic(value: object, what: str) -> RealAlgebraic:
+    """A real algebraic number: ``RealAlgebraic``, an element of a number field, a SymPy or a rational number."""
+    if not isinstance(value, str | int | float) and hasattr(value, "is_number"):
+        from qe.io.sympy_numbers import number_from_sympy
+
+        found = number_from_sympy(value)
+        if found is None:
+            raise arguments.wrong(what, "a real algebraic number", value)
+        return found
+    number = exact_number(value, what)
+    return number if isinstance(number, RealAlgebraic) else RealAlgebraic.rational(number)
+
+
+__all__ = [
+    "ComprehensiveGroebnerSystem",
+    "Order",
+    "RealRootClassification",
+    "comprehensive_groebner",
+    "real_root_classification",
+]

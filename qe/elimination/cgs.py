@@ -1,0 +1,209 @@
+"""Elimination by comprehensive Groebner systems: blocks whose variables are bound by equations.
+
+The equations of a conjunction, with the free variables as parameters, have a comprehensive Groebner system. Over a
+segment with finitely many complex solutions there is a real solution with the right signs of the other polynomials iff
+a combination of signatures of trace forms is positive, which is a condition on signs of polynomials in the parameters.
+Over the others a largest set of variables that the equations leave free joins the parameters and stays quantified
+(Weispfenning, A new approach to quantifier elimination for real algebra, 1998; Fukasaku, Iwane, Sato, ISSAC 2015).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import product
+
+from qe.elimination.protocol import Context, Outcome, Problem
+from qe.errors import Unable
+from qe.exact.block_order import Block
+from qe.exact.number import Values, simplest
+from qe.exact.polynomial_system import solve_system
+from qe.exact.quotient import PositiveDimensional, independent_sets
+from qe.exact.ring import Poly, Ring
+from qe.exact.zeros import Zero
+from qe.formula.build import atom, conj, convert, disj, exists
+from qe.formula.syntax import TRUE, And, Atom, Constant, Formula, Or, Relation
+from qe.formula.traverse import atoms, free_variables, ring_of
+from qe.groebner.counting import SolutionCount
+from qe.groebner.kapur_sun_wang import segments
+from qe.groebner.segment import Segment
+from qe.groebner.system import condition_of
+from qe.options import Budget, Options
+from qe.simplify.simplify import simplify
+
+MOST_CONJUNCTIONS = 24
+"""Conjunctions in the disjunctive normal form of a body."""
+
+
+class ComprehensiveGroebner:
+    """Blocks over disjunctions of conjunctions with equations in the block's variables."""
+
+    name = "cgs"
+
+    def suits(self, problem: Problem, options: Options) -> str | None:
+        """Flat blocks with an equation, or an inequation, between their variables."""
+        if not problem.is_flat:
+            return None
+        block, either = set(problem.variables), (Relation.EQ, Relation.NE)
+        found = any(a.relation in either and block & set(_names(a.poly)) for a in _atoms(problem.body))
+        return "equations bind quantified variables" if found else None
+
+    def run(self, problem: Problem, context: Context) -> Outcome | None:
+        """The block as far as its equations bind its variables; None for conditions of another kind.
+
+        Raises ``Unable`` where bases or trace forms grow past their limits, ``BudgetExceeded``.
+        """
+        dual = problem.dual
+        free = free_variables(dual.formula)
+        ring = Ring.of((*free, *dual.variables))
+        parts = list(_conjunctions(convert(dual.body, ring)))
+        if len(parts) > MOST_CONJUNCTIONS or not all(isinstance(a, Atom) for part in parts for a in part):
+            return None
+        read = [_Conjunction.of(part, ring, dual.variables) for part in parts]
+        if not any(part.equations for part in read):
+            return None
+        found: list[Formula] = []
+        for part in read:
+            zeros = None if free else part.zeros()
+            if zeros is None:
+                found.append(part.eliminated(context.budget))
+            elif (witness := part.witness(zeros)) is not None:
+                return _outcome(problem, context, TRUE, witness)
+        return _outcome(problem, context, simplify(disj(found)), None)
+
+
+def _outcome(problem: Problem, context: Context, found: Formula, witness: Values | None) -> Outcome:
+    # back into the ring of the formula it came from: it is joined with parts of that formula
+    ring = ring_of(problem.formula)
+    moved = found if ring is None else convert(found, ring)
+    answer = context.log.step("comprehensive Gröbner system", problem.formula, problem.asked(moved))
+    return Outcome(answer, witness)
+
+
+def _atoms(formula: Formula) -> Iterator[Atom]:
+    return (a for a in atoms(formula) if isinstance(a, Atom))
+
+
+def _names(poly: Poly) -> list[str]:
+    return [poly.ring.names[i] for i in poly.variables]
+
+
+def _conjunctions(formula: Formula) -> Iterator[tuple[Formula, ...]]:
+    """The disjunctive normal form of a formula in negation normal form, as long as it is short."""
+    match formula:
+        case Or(args):
+            for arg in args:
+                yield from _conjunctions(arg)
+        case And(args):
+            options = [list(_conjunctions(arg)) for arg in args]
+            size = 1
+            for option in options:
+                size *= len(option)
+            if size > MOST_CONJUNCTIONS:
+                raise Unable("the disjunctive normal form is too long for comprehensive Gröbner systems")
+            yield from (tuple(a for part in choice for a in part) for choice in product(*options))
+        case Constant(value):
+            if value:
+                yield ()
+        case _:
+            yield (formula,)
+
+
+@dataclass(frozen=True)
+class _Conjunction:
+    """``ex block. equations = 0 and conditions``, and ``outside``, which is free of the block."""
+
+    ring: Ring
+    block: tuple[str, ...]
+    equations: tuple[Poly, ...]
+    conditions: tuple[tuple[Poly, Relation], ...]
+    outside: tuple[Atom, ...]
+
+    @staticmethod
+    def of(parts: Sequence[Formula], ring: Ring, block: tuple[str, ...]) -> _Conjunction:
+        inside, outside = [], []
+        for a in parts:
+            if isinstance(a, Atom):
+                (inside if set(_names(a.poly)) & set(block) else outside).append(a)
+        equations = tuple(a.poly for a in inside if a.relation is Relation.EQ)
+        conditions = tuple(_upward(a) for a in inside if a.relation is not Relation.EQ)
+        used = {name for p in (*equations, *(g for g, _ in conditions)) for name in _names(p)}
+        return _Conjunction(ring, tuple(v for v in block if v in used), equations, conditions, tuple(outside))
+
+    def eliminated(self, budget: Budget) -> Formula:
+        """Equivalent, with quantifiers only where the equations leave variables free."""
+        if not self.equations:
+            return conj([*self.outside, self._unbound(self.block)])
+        zero = [a.poly for a in self.outside if a.relation is Relation.EQ]
+        nonzero = [a.poly for a in self.outside if a.relation is Relation.NE]
+        return conj([*self.outside, self._over(self.equations, self.block, zero, nonzero, budget)])
+
+    def _over(
+        self,
+        equations: Sequence[Poly],
+        variables: Sequence[str],
+        zero: Sequence[Poly],
+        nonzero: Sequence[Poly],
+        budget: Budget,
+    ) -> Formula:
+        """The elimination of ``variables`` where some polynomials in the others vanish and some do not."""
+        index = self.ring.index
+        inner = tuple(index[v] for v in variables)
+        others = tuple(i for i in reversed(range(self.ring.size)) if i not in inner)
+        found = []
+        for segment in segments(equations, Block(inner, others), budget, equal=zero, nonzero=nonzero):
+            if not segment.is_unit:
+                found.append(conj([condition_of(segment), self._of_segment(segment, variables, budget)]))
+        return disj(found)
+
+    def _of_segment(self, segment: Segment, variables: Sequence[str], budget: Budget) -> Formula:
+        if segment.dimension == 0:
+            return SolutionCount(segment, self.conditions, budget).is_positive
+        if segment.dimension == len(variables):  # nothing is bound
+            return self._unbound(variables)
+        positions = next(independent_sets(segment.leads, len(variables)))
+        free = tuple(variables[k] for k in positions)
+        bound = [v for v in variables if v not in free]
+        inside = self._over(segment.basis, bound, segment.equal, segment.nonzero, budget)
+        return exists(free, conj([condition_of(segment), inside]))
+
+    def _unbound(self, variables: Sequence[str]) -> Formula:
+        return exists(tuple(variables), conj(atom(g, r) for g, r in self.conditions))
+
+    def zeros(self) -> list[Zero] | None:
+        """All real solutions of equations without parameters; None where there are infinitely many complex ones."""
+        if not any(self.equations):
+            return None
+        try:
+            return solve_system(self.equations, variables=[self.ring.index[v] for v in self.block])
+        except PositiveDimensional:
+            return None
+
+    def witness(self, zeros: Sequence[Zero]) -> Values | None:
+        """Exact values of the block's variables: a solution that meets the other conditions."""
+        for zero in zeros:
+            if all(r.holds(sign_at(zero, g)) for g, r in self.conditions):
+                return {name: simplest(value.to_algebraic()) for name, value in zero.values.items()}
+        return None
+
+
+def sign_at(zero: Zero, poly: Poly) -> int:
+    """The sign of a polynomial at a zero, exactly."""
+    values = [zero.values.get(name) for name in poly.ring.names]
+    some = next(iter(zero.values.values()))
+    total = some.field.rational(0)
+    for exponents, c in poly.terms():
+        term = some.field.rational(c)
+        for value, k in zip(values, exponents, strict=True):
+            if k and value is not None:
+                term = term * value**k
+        total = total + term
+    return total.sign()
+
+
+def _upward(found: Atom) -> tuple[Poly, Relation]:
+    """The polynomial and one of >, >=, /=."""
+    turned = {Relation.LT: Relation.GT, Relation.LE: Relation.GE}
+    if found.relation in turned:
+        return -found.poly, turned[found.relation]
+    return found.poly, found.relation

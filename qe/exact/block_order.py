@@ -1,0 +1,97 @@
+"""Groebner bases of parametric ideals: in an order in which the variables count before the parameters.
+
+FLINT knows no block orders. Weights on the variables, put in by inflation of exponents, make its degree reverse
+lexicographic order compare the variables' monomials as the wanted order does, as long as exponents stay small: one
+variable's weight is W - K^i, W + K^(n-i) or K^(n-i). Whether it did is checked on the result: if every element has the
+same leading monomial in both orders, the initial ideals are the same (one contains the other, and both leave a basis
+of the same quotient), so that the basis is one for the wanted order.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from qe.errors import Unable
+from qe.exact.groebner import Basis, Limits, MonomialOrder, groebner_basis
+from qe.exact.ring import Poly
+
+Exponents = tuple[int, ...]
+Terms = dict[Exponents, Poly]
+
+LIMITS = Limits(elements=600, terms=20_000, bits=40_000)
+
+_TRIALS = ((4, 16), (8, 128), (24, 1024), (96, 8192))
+"""(K, scale): differences of exponents of one variable up to K, degrees in the parameters up to the scale."""
+
+
+@dataclass(frozen=True, slots=True)
+class Block:
+    """Variables and parameters by ring index, largest first, and the order of the variables' monomials."""
+
+    variables: tuple[int, ...]
+    parameters: tuple[int, ...]
+    order: MonomialOrder = MonomialOrder.DEGREVLEX
+
+    def terms(self, poly: Poly) -> Terms:
+        """The polynomial as one in the variables: exponents -> coefficient in the parameters; highest first."""
+        found = poly.collected(self.variables)
+        return dict(sorted(found.items(), key=lambda pair: self.order.key(pair[0]), reverse=True))
+
+    def lead(self, poly: Poly) -> tuple[Exponents, Poly]:
+        """The leading monomial in the variables of a polynomial other than 0, and its coefficient."""
+        return next(iter(self.terms(poly).items()))
+
+    def is_free(self, poly: Poly) -> bool:
+        """Whether only parameters occur."""
+        return not set(self.variables) & set(poly.variables)
+
+
+def parametric_basis(polys: Sequence[Poly], block: Block, limits: Limits = LIMITS) -> tuple[Poly, ...]:
+    """The reduced Groebner basis over Q in the order "variables first, then parameters by degree and reverse lex".
+
+    () for the zero ideal, (1,) for the unit ideal. Raises ``Unable`` at a limit.
+    """
+    given = sorted({p for p in polys if p}, key=lambda p: (p.term_count(), p.total_degree))
+    if not given:
+        return ()
+    everything = (*block.variables, *block.parameters)
+    if all(block.is_free(p) for p in given) or not block.parameters:
+        order = block.order if not block.parameters else MonomialOrder.DEGREVLEX
+        basis = groebner_basis(given, variables=everything, order=order, limits=limits)
+        if basis is None:
+            raise Unable("a Gröbner basis grows past its limits")
+        return basis.polys
+    for most, scale in _TRIALS:
+        weights = (*_weights(block.order, len(block.variables), most, scale), *(1 for _ in block.parameters))
+        basis = groebner_basis(given, variables=everything, weights=weights, limits=limits)
+        if basis is None:
+            raise Unable("a parametric Gröbner basis grows past its limits")
+        if _agrees(basis, block):
+            return basis.polys
+    raise Unable("the degrees in a parametric Gröbner basis grow past their limits")
+
+
+def _agrees(basis: Basis, block: Block) -> bool:
+    """Whether every element has the leading monomial that the order of the block gives it."""
+    size, places = len(block.variables), (*block.variables, *block.parameters)
+    for poly, lead in zip(basis.polys, basis.leads, strict=True):
+        exponents = ([e[i] for i in places] for e, _ in poly.terms())
+        if max(exponents, key=lambda e: _key(block, e, size)) != list(lead):
+            return False
+    return True
+
+
+def _key(block: Block, exponents: list[int], size: int) -> tuple[tuple[int, ...], tuple[int, ...]]:
+    return block.order.key(exponents[:size]), MonomialOrder.DEGREVLEX.key(exponents[size:])
+
+
+def _weights(order: MonomialOrder, size: int, most: int, scale: int) -> list[int]:
+    if order is MonomialOrder.LEX:
+        return [scale * most ** (size - 1 - i) for i in range(size)]
+    if order is MonomialOrder.DEGLEX:
+        return [scale * (most**size + most ** (size - 1 - i)) for i in range(size)]
+    return [scale * (most**size - most**i) for i in range(size)]
+
+
+__all__ = ["Block", "Exponents", "Terms", "parametric_basis"]

@@ -1,0 +1,237 @@
+"""The quotient of a polynomial ring by a zero-dimensional ideal: its monomials, products, traces and signatures.
+
+Q[x]/I has the monomials that no leading monomial of a Groebner basis divides as a basis of vectors (Macaulay 1927). A
+polynomial acts on it by multiplication; the traces of these maps are sums over the common zeros of I, each counted
+with its multiplicity, so the trace form (f, g) -> Tr(h*f*g) is Hermite's: its rank is the number of distinct zeros with
+h /= 0, its signature the number of real zeros with h > 0 minus that of those with h < 0 (Hermite 1853; Pedersen, Roy,
+Szpirglas 1993).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from functools import cached_property
+from itertools import combinations, pairwise
+
+from flint import fmpq, fmpq_mat, fmpq_poly
+
+from qe.errors import InternalError, Unable
+from qe.exact.groebner import Basis
+from qe.exact.ring import Poly
+from qe.exact.zeros import Zero, zeros_of
+
+Exponents = tuple[int, ...]
+Sparse = dict[int, fmpq]
+
+MOST_DIMENSIONS = 600
+"""Vectors of a quotient basis: beyond, matrices over Q take minutes."""
+
+
+class PositiveDimensional(Unable):
+    """A system has infinitely many complex solutions; ``free``: as many variables as can be that no equation binds."""
+
+    def __init__(self, free: Sequence[str]) -> None:
+        self.free = tuple(free)
+        named = ", ".join(self.free)
+        super().__init__(f"the system has infinitely many complex solutions ({named} can vary)")
+
+    def __reduce__(self) -> tuple[object, tuple[tuple[str, ...]]]:
+        return PositiveDimensional, (self.free,)
+
+
+def independent_sets(leads: Sequence[Exponents], size: int) -> Iterator[tuple[int, ...]]:
+    """The largest sets of positions such that no leading monomial is in these variables alone, one after the other.
+
+    Their size is the dimension of the ideal (Kredel and Weispfenning 1988). Nothing for the unit ideal.
+    """
+    supports = [frozenset(k for k, e in enumerate(lead) if e) for lead in leads]
+    if frozenset() in supports:
+        return
+    for count in range(size, -1, -1):
+        found = False
+        for chosen in combinations(range(size), count):
+            if not any(support <= set(chosen) for support in supports):
+                found = True
+                yield chosen
+        if found:
+            return
+
+
+def dimension(basis: Basis) -> int:
+    """The dimension of the set of complex zeros in the space of the basis' variables; -1 where there are none."""
+    found = next(independent_sets(basis.leads, len(basis.variables)), None)
+    return -1 if found is None else len(found)
+
+
+class Quotient:
+    """Q[variables]/I with its basis of monomials, ascending. Raises ``PositiveDimensional``; may be {0} (no zeros)."""
+
+    def __init__(self, basis: Basis) -> None:
+        self.basis, self._leads = basis, basis.leads
+        self.monomials = self._standard()
+        self._place = {m: k for k, m in enumerate(self.monomials)}
+        self._columns = self._products()
+
+    @property
+    def size(self) -> int:
+        """The number of complex zeros with their multiplicities."""
+        return len(self.monomials)
+
+    def _standard(self) -> tuple[Exponents, ...]:
+        size = len(self.basis.variables)
+        free = next(independent_sets(self._leads, size), None)
+        if free is None:
+            return ()
+        if free:
+            names = self.basis.ring.names
+            raise PositiveDimensional([names[self.basis.variables[k]] for k in free])
+        found = {(0,) * size}
+        pending = list(found)
+        while pending:
+            monomial = pending.pop()
+            for k in range(size):
+                larger = _times(monomial, k)
+                if larger not in found and not self._is_leading(larger):
+                    found.add(larger)
+                    pending.append(larger)
+            if len(found) > MOST_DIMENSIONS:
+                raise Unable(f"the system has more than {MOST_DIMENSIONS} complex solutions")
+        return tuple(sorted(found, key=self.basis.rank))
+
+    def _is_leading(self, monomial: Exponents) -> bool:
+        return any(all(a <= b for a, b in zip(lead, monomial, strict=True)) for lead in self._leads)
+
+    def _products(self) -> list[dict[Exponents, Sparse]]:
+        """Normal forms of x_k times every basis monomial, found from small to large without further divisions.
+
+        A product that is neither in the basis of vectors nor a leading monomial is x_j times a smaller product, whose
+        normal form is known (Faugère, Gianni, Lazard, Mora 1993).
+        """
+        size = len(self.basis.variables)
+        tails = dict(zip(self._leads, self.basis.tails(), strict=True))
+        known: dict[Exponents, Sparse] = {m: {k: fmpq(1)} for k, m in enumerate(self.monomials)}
+        border = {_times(m, k) for m in self.monomials for k in range(size)} - self._place.keys()
+        for monomial in sorted(border, key=self.basis.rank):
+            if monomial in tails:
+                known[monomial] = {self._place[m]: c for m, c in tails[monomial].items()}
+                continue
+            k = next(
+                k for k, e in enumerate(monomial) if e and (below := _over(monomial, k)) in border and below in known
+            )
+            total: Sparse = {}
+            for j, c in known[_over(monomial, k)].items():
+                for i, d in known[_times(self.monomials[j], k)].items():
+                    total[i] = total.get(i, fmpq(0)) + c * d
+            known[monomial] = {i: c for i, c in total.items() if c}
+        return [{m: known[_times(m, k)] for m in self.monomials} for k in range(size)]
+
+    @cached_property
+    def matrices(self) -> tuple[fmpq_mat, ...]:
+        """Multiplication by each variable: column j holds the coordinates of variable*monomial_j."""
+        found = []
+        for columns in self._columns:
+            matrix = fmpq_mat(self.size, self.size)
+            for j, monomial in enumerate(self.monomials):
+                for i, c in columns[monomial].items():
+                    matrix[i, j] = c
+            found.append(matrix)
+        return tuple(found)
+
+    @cached_property
+    def powers(self) -> tuple[fmpq_mat, ...]:
+        """Multiplication by each monomial of the basis."""
+        known: dict[Exponents, fmpq_mat] = {}
+        for monomial in self.monomials:
+            k = next((k for k, e in enumerate(monomial) if e), None)
+            known[monomial] = _identity(self.size) if k is None else self.matrices[k] * known[_over(monomial, k)]
+        return tuple(known[m] for m in self.monomials)
+
+    @cached_property
+    def traces(self) -> fmpq_mat:
+        """The row of the traces of the basis monomials."""
+        size = self.size
+        return fmpq_mat(1, size, [sum((p[i, i] for i in range(size)), fmpq(0)) for p in self.powers])
+
+    def matrix(self, poly: Poly) -> fmpq_mat:
+        """Multiplication by a polynomial in the basis' variables."""
+        total = fmpq_mat(self.size, self.size)
+        for i, c in enumerate(self.coordinates(poly)):
+            if c:
+                total += self.powers[i] * c
+        return total
+
+    def coordinates(self, poly: Poly) -> list[fmpq]:
+        """The coordinates of a polynomial: its normal form."""
+        scale, rest = self.basis.reduce(poly)
+        found = [fmpq(0)] * self.size
+        for exponents, c in rest.terms():
+            found[self._place[tuple(exponents[i] for i in self.basis.variables)]] = fmpq(c, scale)
+        return found
+
+    @cached_property
+    def trace_form(self) -> fmpq_mat:
+        """Hermite's matrix Tr(b_i*b_j); symmetric."""
+        return self._form(self.traces)
+
+    def form(self, poly: Poly) -> fmpq_mat:
+        """Hermite's matrix Tr(h*b_i*b_j) for h = poly; symmetric."""
+        return self._form(self.traces * self.matrix(poly))
+
+    def _form(self, row: fmpq_mat) -> fmpq_mat:
+        size = self.size
+        return fmpq_mat(size, size, [c for p in self.powers for c in (row * p).entries()])
+
+    def signature(self, poly: Poly | None = None) -> int:
+        """#{real zeros with h > 0} - #{real zeros with h < 0}; the number of distinct real zeros for h = 1."""
+        if not self.size:
+            return 0
+        return signature(self.trace_form if poly is None else self.form(poly))
+
+    @cached_property
+    def distinct(self) -> int:
+        """The number of distinct complex zeros."""
+        return int(self.trace_form.rank()) if self.size else 0
+
+    def characteristic(self, poly: Poly) -> fmpq_poly:
+        """The characteristic polynomial of the multiplication: its roots are the values at the zeros."""
+        return self.matrix(poly).charpoly()
+
+    def zeros(self) -> list[Zero]:
+        """All real zeros, exactly; their number is checked against the signature of the trace form."""
+        if not self.size:
+            return []
+        names = [self.basis.ring.names[i] for i in self.basis.variables]
+        found = zeros_of(self.matrices, self.traces, self.distinct, names)
+        if len(found) != self.signature():
+            raise InternalError(f"{len(found)} real zeros isolated, the signature says {self.signature()}")
+        return found
+
+
+def signature(matrix: fmpq_mat) -> int:
+    """The signature of a symmetric matrix, exactly.
+
+    Its characteristic polynomial has real roots only, for which Descartes' rule counts exactly.
+    """
+    signs = [(c > 0) - (c < 0) for c in matrix.charpoly().coeffs()]
+    mirrored = [-s if k % 2 else s for k, s in enumerate(signs)]
+    return _changes(signs) - _changes(mirrored)
+
+
+def _changes(signs: Sequence[int]) -> int:
+    kept = [s for s in signs if s]
+    return sum(a != b for a, b in pairwise(kept))
+
+
+def _identity(size: int) -> fmpq_mat:
+    return fmpq_mat(size, size, [fmpq(i == j) for i in range(size) for j in range(size)])
+
+
+def _times(monomial: Exponents, k: int) -> Exponents:
+    return (*monomial[:k], monomial[k] + 1, *monomial[k + 1 :])
+
+
+def _over(monomial: Exponents, k: int) -> Exponents:
+    return (*monomial[:k], monomial[k] - 1, *monomial[k + 1 :])
+
+
+__all__ = ["PositiveDimensional", "Quotient", "dimension", "independent_sets", "signature"]

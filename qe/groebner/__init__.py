@@ -1,0 +1,1 @@
+"""Parametric ideals: comprehensive Gröbner systems and the real solutions that they count."""

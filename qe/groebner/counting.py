@@ -1,0 +1,146 @@
+"""The number of real solutions of a parametric system as conditions on the parameters."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+from qe.errors import InputError, InternalError, Unable
+from qe.exact.ring import Poly
+from qe.formula.build import conj, convert, disj
+from qe.formula.evaluate import truth_under
+from qe.formula.syntax import FALSE, Formula, Relation
+from qe.groebner.question import ParametricSystem
+from qe.groebner.segment import Segment
+from qe.groebner.signs import SignatureConditions, signatures_sum_to
+from qe.groebner.system import ComprehensiveGroebnerSystem
+from qe.groebner.trace_form import ParametricQuotient
+from qe.options import Budget
+from qe.simplify.simplify import simplify
+
+MOST_CASES = 3000
+"""Cases of the signatures of all trace forms of a segment, in one formula."""
+
+_WEIGHTS = {
+    Relation.GT: (2, {1: 1, 2: 1}),
+    Relation.GE: (2, {0: 2, 1: 1, 2: -1}),
+    Relation.NE: (1, {2: 1}),
+}
+"""Scale, and weights of powers of a sign s in {-1, 0, 1}: the sum is the scale where the relation holds, and else 0."""
+
+
+class SolutionCount:
+    """Conditions on the number of real solutions over a segment at which further conditions g > 0, g >= 0, g /= 0 hold.
+
+    The signature of the form M_h is the sum of the signs of h at the real solutions. A product over the conditions of
+    combinations of powers of their signs is 1 where they hold and 0 elsewhere (``_WEIGHTS``), and so the number of
+    solutions is a combination of the signatures for products of powers of the g (Ben-Or, Kozen, Reif 1986; Pedersen,
+    Roy, Szpirglas 1993).
+    """
+
+    def __init__(self, segment: Segment, conditions: Sequence[tuple[Poly, Relation]], budget: Budget) -> None:
+        self._quotient = ParametricQuotient(segment, budget)
+        one = segment.basis[0].ring.constant(1)
+        self._scale, factors = 1, {one: 1}
+        for g, relation in conditions:
+            scale, weights = _WEIGHTS[relation]
+            self._scale *= scale
+            wider: dict[Poly, int] = {}
+            for factor, weight in factors.items():
+                for power, c in weights.items():
+                    wider[factor * g**power] = wider.get(factor * g**power, 0) + weight * c
+            factors = wider
+        self._factors = {factor: weight for factor, weight in factors.items() if weight}
+        if (2 * self.most + 1) ** (len(self._factors) - 1) > MOST_CASES:
+            raise Unable("too many inequalities for trace forms")
+
+    @property
+    def most(self) -> int:
+        """No more real solutions than complex ones."""
+        return self._quotient.size
+
+    @cached_property
+    def _signatures(self) -> list[tuple[int, SignatureConditions]]:
+        return [(w, self._quotient.conditions(None if h.is_constant else h)) for h, w in self._factors.items()]
+
+    def is_in(self, counts: Collection[int]) -> Formula:
+        """That the number of distinct real solutions is one of these."""
+        return signatures_sum_to(self._signatures, {k * self._scale for k in counts})
+
+    @property
+    def is_positive(self) -> Formula:
+        """That there is a real solution."""
+        return self.is_in(range(1, self.most + 1))
+
+
+@dataclass(frozen=True)
+class RootClass:
+    """Where the system has ``count`` distinct real solutions; None: where it has infinitely many complex ones."""
+
+    count: int | None
+    condition: Formula
+
+
+@dataclass(frozen=True)
+class RealRootClassification:
+    """A partition of parameter space by the number of distinct real solutions; ``classes``: by count, None last.
+
+    Conditions may hold the names of constants, which stand for their numbers.
+    """
+
+    system: ComprehensiveGroebnerSystem
+    classes: tuple[RootClass, ...]
+
+    def __iter__(self) -> Iterator[RootClass]:
+        return iter(self.classes)
+
+    def condition(self, count: int | None) -> Formula:
+        """Where there are so many real solutions. ``InputError`` for a count that occurs nowhere."""
+        for found in self.classes:
+            if found.count == count:
+                return found.condition
+        raise InputError(f"count: one of {', '.join(str(c.count) for c in self.classes)} expected, {count} found")
+
+    def at(self, point: Mapping[str, object] | Sequence[object]) -> int | None:
+        """The number of distinct real solutions at a point, exactly."""
+        place = self.system.place(point)
+        for found in self.classes:
+            if truth_under(convert(found.condition, place.ring), place.sign):
+                return found.count
+        raise InternalError("no class contains a point of the parameters")
+
+    def to_dict(self) -> dict[str, object]:
+        """The partition as plain data, formulas as text."""
+        return {
+            "variables": list(self.system.variables),
+            "parameters": list(self.system.parameters),
+            "constants": {name: str(value) for name, value in self.system.constants.items()},
+            "classes": [{"count": c.count, "condition": str(c.condition)} for c in self.classes],
+        }
+
+    def __str__(self) -> str:
+        names = {None: "infinitely many complex solutions"}
+        return "\n".join(f"{names.get(c.count, c.count)}: {c.condition}" for c in self.classes)
+
+
+def classified(question: ParametricSystem, positive: Sequence[Poly], budget: Budget) -> RealRootClassification:
+    """The partition of the parameters of a system by its number of real solutions with all of ``positive`` positive.
+
+    Raises ``Unable`` where a basis or a trace form grows past its limits, ``BudgetExceeded``.
+    """
+    system = question.solved(budget)
+    parts: dict[int | None, list[Formula]] = {}
+    for segment in system:
+        where = system.condition(segment)
+        if segment.is_unit:
+            parts.setdefault(0, []).append(where)
+        elif segment.dimension > 0:
+            parts.setdefault(None, []).append(where)
+        else:
+            number = SolutionCount(segment, [(g, Relation.GT) for g in positive], budget)
+            for k in range(number.most + 1):
+                parts.setdefault(k, []).append(conj([where, number.is_in({k})]))
+    found = {count: simplify(disj(conditions)) for count, conditions in parts.items()}
+    classes = [RootClass(count, f) for count, f in found.items() if f != FALSE]
+    return RealRootClassification(system, tuple(sorted(classes, key=lambda c: (c.count is None, c.count or 0))))

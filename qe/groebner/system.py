@@ -1,0 +1,215 @@
+"""Comprehensive Groebner systems as objects: segments, the one at a point, membership, and how they are written."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+
+from qe import arguments
+from qe.errors import InputError, InternalError
+from qe.exact.algebraic import RealAlgebraic
+from qe.exact.block_order import Block, parametric_basis
+from qe.exact.number import Number
+from qe.exact.polynomial_system import solve_system
+from qe.exact.quotient import PositiveDimensional
+from qe.exact.ring import Poly, format_poly
+from qe.exact.sample import Point
+from qe.exact.tower import clear_denominators
+from qe.exact.zeros import Zero
+from qe.formula.build import atom, conj, disj
+from qe.formula.syntax import Formula, Relation
+from qe.groebner.segment import Segment, monomial_names
+from qe.groebner.writing import system_to_html, system_to_latex
+
+
+@dataclass(frozen=True)
+class ComprehensiveGroebnerSystem:
+    """Disjoint segments that cover the whole space of parameters, each with a Groebner basis for all its points.
+
+    ``polys``: the given generators. ``variables``: largest first; ``parameters``; ``constants``: parameters that stand
+    for one real algebraic number each: every segment carries their minimal polynomials. A segment that the true numbers
+    contradict is possible, since segments are told apart by algebra alone; ``at`` never finds it.
+    """
+
+    polys: tuple[Poly, ...]
+    block: Block
+    constants: Mapping[str, RealAlgebraic]
+    segments: tuple[Segment, ...]
+
+    @property
+    def variables(self) -> tuple[str, ...]:
+        """The names of the variables, largest first."""
+        return tuple(self._names[i] for i in self.block.variables)
+
+    @property
+    def parameters(self) -> tuple[str, ...]:
+        """The names of the parameters, without constants."""
+        return tuple(n for i in self.block.parameters if (n := self._names[i]) not in self.constants)
+
+    @property
+    def _names(self) -> tuple[str, ...]:
+        return self.polys[0].ring.names
+
+    def __len__(self) -> int:
+        return len(self.segments)
+
+    def __iter__(self) -> Iterator[Segment]:
+        return iter(self.segments)
+
+    # --- at a point --------------------------------------------------------------------------
+    def at(self, point: Mapping[str, object] | Sequence[object]) -> Segment:
+        """The segment of a point: exact numbers for the parameters, by name or in order. ``InputError`` otherwise."""
+        place = self._place(self._values(point))
+        for segment in self.segments:
+            if _lies_in(place, segment):
+                return segment
+        raise InternalError("no segment contains a point of the parameters")
+
+    def basis_at(self, point: Mapping[str, object] | Sequence[object]) -> tuple[Poly, ...]:
+        """The reduced Groebner basis of the ideal at a point, over the field of the constants.
+
+        Irrational numbers of the point join the constants: the names of their parameters stay in the basis and stand
+        for them.
+        """
+        values = self._values(point)
+        ring, tower = self.polys[0].ring, self._place(values).tower
+        # irreducible one over the other, so that what they divide out is a field
+        moduli, basis = [clear_denominators(ring, m) for m in tower.moduli], self.at(values).basis
+        special = [_specialised(p, values, self._names) for p in basis]
+        found = parametric_basis([*special, *moduli], self.block)
+        return tuple(p for p in found if not self.block.is_free(p) or p.is_constant)
+
+    def solutions_at(self, point: Mapping[str, object] | Sequence[object]) -> list[Zero]:
+        """All real solutions at a point, exactly, with multiplicities; see ``qe.exact.polynomial_system``.
+
+        Raises ``PositiveDimensional`` where infinitely many complex solutions exist.
+        """
+        values = self._values(point)
+        basis = self.basis_at(values)
+        index = self.polys[0].ring.index
+        irrational = {n: v for n, v in values.items() if isinstance(v, RealAlgebraic)}
+        constants = {index[n]: v for n, v in {**self.constants, **irrational}.items()}
+        if not basis:
+            raise PositiveDimensional(self.variables)
+        if basis[0].is_constant:
+            return []
+        found = solve_system(basis, variables=self.block.variables, constants=constants)
+        return [Zero({n: z.values[n] for n in self.variables}, z.multiplicity) for z in found]
+
+    def contains(self, poly: Poly, point: Mapping[str, object] | Sequence[object]) -> bool:
+        """Whether a polynomial in variables and parameters is in the ideal at a point, exactly."""
+        values = self._values(point)
+        _, rest = self.at(values).reduce(poly)
+        place = self._place(values)
+        return all(place.sign(c) == 0 for c in self.block.terms(rest).values())
+
+    def place(self, point: Mapping[str, object] | Sequence[object]) -> Point:
+        """A point of the parameters, with the constants, for exact signs."""
+        return self._place(self._values(point))
+
+    def _values(self, point: Mapping[str, object] | Sequence[object]) -> dict[str, Number]:
+        names = self.parameters
+        if isinstance(point, Mapping):
+            given = arguments.by_name(point, "point")
+        else:
+            numbers = arguments.by_place(point, "point")
+            if len(numbers) != len(names):
+                raise InputError(f"point: {len(names)} numbers expected, one for each parameter, {len(numbers)} found")
+            given = dict(zip(names, numbers, strict=True))
+        if missing := [n for n in names if n not in given]:
+            raise InputError(f"point: a number for {', '.join(missing)} expected, none found")
+        if unknown := [n for n in given if n not in names]:
+            raise InputError(f"point: numbers for the parameters {', '.join(names)} expected, {unknown[0]} found")
+        return {name: exact_number(given[name], f"point: {name}") for name in names}
+
+    def _place(self, values: Mapping[str, Number]) -> Point:
+        known: dict[str, Number] = {**values, **self.constants}
+        below = [self._names[i] for i in range(len(self.block.parameters))]
+        return Point.of(self.polys[0].ring, [known[name] for name in below])
+
+    # --- written -----------------------------------------------------------------------------
+    def condition(self, segment: Segment) -> Formula:
+        """The segment as a formula between parameters (and constants)."""
+        return condition_of(segment)
+
+    def to_dict(self) -> dict[str, object]:
+        """The system as plain data: polynomials as text."""
+
+        def texts(polys: Sequence[Poly]) -> list[str]:
+            return [format_poly(p) for p in polys]
+
+        def written(segment: Segment) -> dict[str, object]:
+            entries: dict[str, object] = {
+                "equal": texts(segment.equal),
+                "nonzero": texts(segment.nonzero),
+                "some_nonzero": texts(segment.some),
+                "basis": texts(segment.basis),
+                "leading": [monomial_names(e, self.variables) for e in segment.leads],
+                "dimension": segment.dimension,
+            }
+            return entries if segment.faithful is None else {**entries, "faithful": texts(segment.faithful)}
+
+        return {
+            "polynomials": texts(self.polys),
+            "variables": list(self.variables),
+            "parameters": list(self.parameters),
+            "constants": {name: str(value) for name, value in self.constants.items()},
+            "order": self.block.order.value,
+            "segments": [written(s) for s in self.segments],
+        }
+
+    def to_json(self, *, indent: int | None = None) -> str:
+        """``to_dict`` as JSON."""
+        return json.dumps(self.to_dict(), indent=indent, ensure_ascii=False)
+
+    def to_latex(self) -> str:
+        """An array of conditions and bases, for math mode."""
+        return system_to_latex([(self.condition(s), s.basis) for s in self.segments])
+
+    def to_html(self) -> str:
+        """A table of conditions, bases and dimensions; formulas in MathML."""
+        return system_to_html([(self.condition(s), s.basis, s.dimension) for s in self.segments])
+
+    def _repr_html_(self) -> str:
+        return self.to_html()
+
+    def __str__(self) -> str:
+        lines = []
+        for segment in self.segments:
+            lines.append(f"{self.condition(segment)}:")
+            lines += [f"    {format_poly(p)}" for p in segment.basis] or ["    0"]
+        return "\n".join(lines)
+
+
+def condition_of(segment: Segment) -> Formula:
+    """The segment as a formula between parameters."""
+    some = [disj(atom(p, Relation.NE) for p in segment.some)] if segment.some else []
+    zero, other = (atom(p, Relation.EQ) for p in segment.equal), (atom(p, Relation.NE) for p in segment.nonzero)
+    return conj([*zero, *other, *some])
+
+
+def exact_number(value: object, what: str) -> Number:
+    """A rational number, or a real algebraic one (also an element of a number field); ``InputError`` otherwise."""
+    if isinstance(value, RealAlgebraic):
+        return value.as_fraction() if value.is_rational else value
+    convert = getattr(value, "to_algebraic", None)
+    if convert is not None:
+        return exact_number(convert(), what)
+    return arguments.rational(value, what)
+
+
+def _lies_in(place: Point, segment: Segment) -> bool:
+    return (
+        all(place.sign(p) == 0 for p in segment.equal)
+        and all(place.sign(p) != 0 for p in segment.nonzero)
+        and (not segment.some or any(place.sign(p) != 0 for p in segment.some))
+    )
+
+
+def _specialised(poly: Poly, values: Mapping[str, Number], names: Sequence[str]) -> Poly:
+    for name, value in values.items():
+        if isinstance(value, Fraction | int):
+            poly = poly.at_rational(names.index(name), value)
+    return poly

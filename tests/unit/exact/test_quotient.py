@@ -1,0 +1,64 @@
+"""Quotients by zero-dimensional ideals: monomials, matrices, traces, signatures; dimensions."""
+
+from __future__ import annotations
+
+import pytest
+from flint import fmpq, fmpq_mat
+from hypothesis import given
+from hypothesis import strategies as st
+
+from qe.exact.groebner import Basis, MonomialOrder, groebner_basis
+from qe.exact.quotient import Quotient, dimension, independent_sets, signature
+from qe.exact.ring import Poly, Ring
+
+RING = Ring.of(("z", "y", "x"))
+z, y, x = (RING.gen(i) for i in range(3))
+
+
+def basis_of(*polys: Poly, order: MonomialOrder = MonomialOrder.DEGREVLEX) -> Basis:
+    found = groebner_basis(polys, variables=(2, 1, 0), order=order)
+    assert found is not None
+    return found
+
+
+@pytest.mark.parametrize("order", list(MonomialOrder))
+def test_matrices_commute_and_satisfy_the_equations(order: MonomialOrder) -> None:
+    equations = (x**2 + y * z - 2, y**2 - x * z + 1, z**2 - x - y)
+    quotient = Quotient(basis_of(*equations, order=order))
+    assert quotient.size == 8
+    a, b, c = quotient.matrices
+    assert a * b == b * a and a * c == c * a and b * c == c * b
+    for p in equations:
+        assert quotient.matrix(p) == fmpq_mat(8, 8)
+    assert quotient.matrix(x * y + 3 * z) == a * b + c * fmpq(3)
+
+
+def test_signatures_count_signs_at_real_zeros() -> None:
+    quotient = Quotient(basis_of((x - 1) * (x - 2) * (x + 3) * (x**2 + 1), y - x**2, z))
+    assert quotient.distinct == 5 and quotient.signature() == 3
+    assert quotient.signature(x) == 1
+    assert quotient.signature(y - 4) == 0 - 1 + 1  # -3 at 1, 0 at 2, 5 at -3
+    assert quotient.signature(x - 1) == 0
+
+
+def test_multiplicities_do_not_count_twice() -> None:
+    quotient = Quotient(basis_of((x - 1) ** 3, y**2, z - x))
+    assert quotient.size == 6 and quotient.distinct == 1 and quotient.signature() == 1
+    assert quotient.signature(-x) == -1
+
+
+def test_dimensions() -> None:
+    assert dimension(basis_of(x * y, x * z)) == 2
+    assert dimension(basis_of(x * y - 1, z)) == 1
+    assert dimension(basis_of(x - 1, y, z)) == 0
+    assert dimension(basis_of(x, x - 1)) == -1
+    assert set(independent_sets(basis_of(x * y, x * z).leads, 3)) == {(1, 2)}
+
+
+@given(st.lists(st.integers(-3, 3), min_size=6, max_size=6))
+def test_the_signature_of_a_congruent_diagonal(entries: list[int]) -> None:
+    a, b, c, d, e, f = entries
+    lower = fmpq_mat(3, 3, [1, 0, 0, d, 1, 0, e, f, 1])
+    diagonal = fmpq_mat(3, 3, [a, 0, 0, 0, b, 0, 0, 0, c])
+    expected = sum((v > 0) - (v < 0) for v in (a, b, c))
+    assert signature(lower * diagonal * lower.transpose()) == expected
