@@ -30,7 +30,7 @@ from qe.proof.certificate import Certificate, Root
 from qe.proof.derivation import negated
 from qe.proof.run_log import RunLog
 from qe.rules.preparation import Prepared, prepare
-from qe.rules.step import ALL_STEPS, EQUATION_STEPS
+from qe.rules.step import ALL_STEPS, EQUATION_STEPS, SYMMETRY_STEPS, StepKind
 from qe.simplify.simplify import simplify
 
 CERTIFY_SHARE = 0.4
@@ -141,8 +141,9 @@ class _Run:
     # --- preparation ---------------------------------------------------------------------------
     def prepared(self, formula: Formula) -> Prepared:
         """Every block brought to its real dimension by the rules."""
-        enabled = ALL_STEPS - EQUATION_STEPS if Stage.EQUATIONS in self.options.without else ALL_STEPS
-        return prepare(formula, budget=self.budget, enabled=enabled, log=self.log)
+        switched = {Stage.EQUATIONS: EQUATION_STEPS, Stage.SYMMETRY: SYMMETRY_STEPS}
+        off = frozenset[StepKind]().union(*(switched.get(stage, ()) for stage in self.options.without))
+        return prepare(formula, budget=self.budget, enabled=ALL_STEPS - off, log=self.log)
 
     # --- sentences, with their witnesses ---------------------------------------------------------
     def decided(self, formula: Formula) -> Outcome:

@@ -75,12 +75,12 @@ def complexity(poly: Poly) -> tuple[int, int, int]:
 
 
 def better_equations(old: Sequence[Poly], basis: Basis, block: Sequence[str]) -> tuple[Poly, ...]:
-    """The generators to go on with: the old ones, the basis, or a lexicographic basis.
+    """The generators to go on with: the old ones, linear combinations of them, the basis, or a lexicographic basis.
 
     Variables that can be solved for count first (as long as the size stays moderate), then the size.
     """
     best: tuple[Poly, ...] = tuple(dict.fromkeys(old))
-    candidates = [basis.polys]
+    candidates = [combined(best), basis.polys]
     if len(basis.polys) > 1:
         triangular = groebner_basis(basis.polys, variables=basis.variables, order=MonomialOrder.LEX, limits=_LIMITS)
         if triangular is not None:
@@ -92,6 +92,29 @@ def better_equations(old: Sequence[Poly], basis: Basis, block: Sequence[str]) ->
         if allowed or (gain >= 0 and size < room):
             best = polys
     return best
+
+
+def combined(polys: Sequence[Poly]) -> tuple[Poly, ...]:
+    """Linear combinations over Q that span the same space, no two with the same leading monomial (by total degree).
+
+    They have no monomial that the given ones have not: what is linear in a variable after the higher terms cancel (the
+    difference of two circles) appears, without the growth of a basis.
+    """
+    rows: dict[tuple[int, ...], Poly] = {}
+    for poly in sorted(dict.fromkeys(polys), key=Poly.term_count):
+        while poly:
+            lead, coefficient = _leading(poly)
+            if lead not in rows:
+                rows[lead] = poly
+                break
+            other = rows[lead]
+            poly = (_leading(other)[1] * poly - coefficient * other).normal()[1]
+    return tuple(rows.values())
+
+
+def _leading(poly: Poly) -> tuple[tuple[int, ...], int]:
+    """The term of the greatest monomial by total degree, then lexicographically."""
+    return max(poly.terms(), key=lambda term: (sum(term[0]), term[0]))
 
 
 def total(polys: Sequence[Poly]) -> int:

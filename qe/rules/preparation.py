@@ -85,15 +85,19 @@ def _simplified(formula: Formula, context: BlockContext) -> Formula:
 def _block(formula: Exists | ForAll, context: BlockContext) -> Node:
     """The tree of an existential block, or of the negation of a universal one, inner blocks prepared first."""
     from qe.rules.block import reduce_block  # all rules, loaded where there is a block
+    from qe.rules.symmetry import without_rotations
+    from qe.rules.tree import Lifted
 
-    body = _inside(formula.body, context)
+    variables, symmetric, rules = without_rotations(formula, context)
+    body = _inside(symmetric, context)
     if isinstance(formula, Exists):
-        return reduce_block(formula.variables, body, context)
+        tree = reduce_block(variables, body, context)
+        return Lifted(tuple(rules), tree) if rules else tree
     negated = nnf(body, negate=True)
-    context.step("duality", forall(formula.variables, body), negation(exists(formula.variables, negated)))
-    tree = reduce_block(formula.variables, negated, context)
+    context.step("duality", forall(variables, body), negation(exists(variables, negated)))
+    tree = reduce_block(variables, negated, context)
     context.step("negation normal form", negation(tree.formula), nnf(tree.formula, negate=True))
-    return tree
+    return Lifted(tuple(rules), tree) if rules else tree
 
 
 def _inside(formula: Formula, context: BlockContext) -> Formula:

@@ -15,6 +15,7 @@ class StepKind(Enum):
     DEGREE_SHIFT = "degree shift"
     GENERIC = "inequations that remove no interior"
     TRANSLATION = "translation of the origin"
+    ROTATION = "rotation of the axes"
     SCALING = "homogeneous scaling"
     GROEBNER = "Groebner basis of the equations"
     FACTOR_SPLIT = "case split on factors"
@@ -23,3 +24,4 @@ class StepKind(Enum):
 
 ALL_STEPS = frozenset(StepKind)
 EQUATION_STEPS = frozenset({StepKind.LINEAR, StepKind.GUARDED_LINEAR, StepKind.GROEBNER})
+SYMMETRY_STEPS = frozenset({StepKind.TRANSLATION, StepKind.ROTATION, StepKind.SCALING})
