@@ -16,7 +16,7 @@ from qe.exact.groebner import Basis, Limits, MonomialOrder, groebner_basis
 from qe.exact.ring import Poly, format_poly
 from qe.formula.build import atom, conj
 from qe.formula.syntax import Atom, Formula, Relation
-from qe.formula.traverse import atoms
+from qe.formula.traverse import atoms, is_quantifier_free
 from qe.rules.rewrite import rewrite
 from qe.simplify.facts import factor_list
 
@@ -65,8 +65,17 @@ def reduce_atoms(formula: Formula, basis: Basis) -> Formula:
             return atom(rest, found.relation)
         return found
 
-    names = {basis.ring.names[i] for i in basis.variables}
+    names = {basis.ring.names[i] for p in basis.polys for i in p.variables}
     return rewrite(formula, change, names)
+
+
+def reduce_by_equations(assumed: Sequence[Formula], parts: Sequence[Formula]) -> tuple[Formula, ...]:
+    """The parts, every one that has quantifiers with its atoms reduced by the equations among what is assumed."""
+    found, _ = split_equations(assumed)
+    basis = ideal_basis(squarefree(found), variable_order(conj((*assumed, *parts)), ())) if found else None
+    if basis is None or basis.is_unit:
+        return tuple(parts)
+    return tuple(part if is_quantifier_free(part) else reduce_atoms(part, basis) for part in parts)
 
 
 def complexity(poly: Poly) -> tuple[int, int, int]:

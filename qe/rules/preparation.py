@@ -100,15 +100,29 @@ def _block(formula: Exists | ForAll, context: BlockContext) -> Node:
     return Lifted(tuple(rules), tree) if rules else tree
 
 
+def _reduced(formula: And | Or, assumed: tuple[Formula, ...], context: BlockContext) -> tuple[Formula, ...]:
+    """The parts, those with quantifiers reduced by the equations assumed inside them: what these say should not be found
+    out once more where it cannot be seen."""
+    from qe.rules.equations import reduce_by_equations
+
+    if StepKind.GROEBNER not in context.enabled:
+        return formula.args
+    parts = reduce_by_equations(assumed, formula.args)
+    context.step(StepKind.GROEBNER.value, formula, (conj if isinstance(formula, And) else disj)(parts))
+    return parts
+
+
 def _inside(formula: Formula, context: BlockContext) -> Formula:
     """Prepare the quantifier blocks inside a formula, innermost first, under their sibling atoms."""
     match formula:
-        case And(args):
-            plain = tuple(a for a in args if isinstance(a, Atom))
-            inner = context.given(plain) if len(plain) < len(args) else context
-            return conj(_inside(a, inner) for a in args)
-        case Or(args):
-            return disj(_inside(a, context) for a in args)
+        case And(args) | Or(args):
+            plain = [a for a in args if isinstance(a, Atom)]
+            if len(plain) == len(args):
+                return formula
+            # inside a conjunction its other members hold, inside a disjunction their negations
+            assumed = tuple(nnf(a, negate=isinstance(formula, Or)) for a in plain)
+            inner, parts = context.given(assumed), _reduced(formula, assumed, context)
+            return (conj if isinstance(formula, And) else disj)(_inside(a, inner) for a in parts)
         case Exists(variables) | ForAll(variables):
             known = tuple(f for f in context.known if not set(variables) & set(free_variables(f)))
             tree = _block(formula, replace(context, facts=context.facts.without(variables), known=known))

@@ -19,6 +19,7 @@ class StepKind(Enum):
     SCALING = "homogeneous scaling"
     GROEBNER = "Groebner basis of the equations"
     FACTOR_SPLIT = "case split on factors"
+    DISTRIBUTION = "disjuncts with equations apart"
     SUM_OF_SQUARES = "vanishing sum of squares split"
 
 
