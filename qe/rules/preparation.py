@@ -85,9 +85,11 @@ def _simplified(formula: Formula, context: BlockContext) -> Formula:
 def _block(formula: Exists | ForAll, context: BlockContext) -> Node:
     """The tree of an existential block, or of the negation of a universal one, inner blocks prepared first."""
     from qe.rules.block import reduce_block  # all rules, loaded where there is a block
+    from qe.rules.gather import gathered
     from qe.rules.symmetry import without_rotations
     from qe.rules.tree import Lifted
 
+    formula = gathered(formula, context)
     variables, symmetric, rules = without_rotations(formula, context)
     body = _inside(symmetric, context)
     if isinstance(formula, Exists):

@@ -9,6 +9,7 @@ class StepKind(Enum):
     """Equivalence-preserving steps, cheapest first."""
 
     SIMPLIFY = "standard simplification"
+    GATHERING = "nested blocks of one kind gathered"
     MINISCOPE = "independent parts and miniscoping"
     LINEAR = "linear equation solved"
     GUARDED_LINEAR = "linear equation solved under a guard"
