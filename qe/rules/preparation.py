@@ -103,7 +103,7 @@ def _block(formula: Exists | ForAll, context: BlockContext) -> Node:
 
 
 def _reduced(formula: And | Or, assumed: tuple[Formula, ...], context: BlockContext) -> tuple[Formula, ...]:
-    """The parts, those with quantifiers reduced by the equations assumed inside them: what these say should not be found
+    """The parts, those with quantifiers reduced by the equations assumed inside them: what these say need not be found
     out once more where it cannot be seen."""
     from qe.rules.equations import reduce_by_equations
 

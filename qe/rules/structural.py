@@ -92,8 +92,8 @@ def guarded_linear_equation(variables: tuple[str, ...], body: Formula, context: 
 
 
 def solvable_disjuncts(variables: tuple[str, ...], body: Formula, context: BlockContext) -> Found | None:
-    """ex x (f and (g or h)) iff (ex x (f and g)) or (ex x (f and h)), where every disjunct has an equation that is linear
-    in a variable of the block: each part then loses one. Lift: a branch that is satisfied.
+    """ex x (f and (g or h)) iff (ex x (f and g)) or (ex x (f and h)), where every disjunct has an equation linear in a
+    variable of the block: each part then loses one. Lift: a branch that is satisfied.
     """
     if StepKind.DISTRIBUTION not in context.enabled:
         return None
