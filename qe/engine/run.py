@@ -74,7 +74,7 @@ class _Run:
             found = self.formula(formula)
         if found.certificate is not None or isinstance(found.formula, Constant):
             return found
-        return replace(found, formula=self.finished(found.formula))
+        return replace(found, formula=self.finished(found.formula, formula))
 
     def sentence(self, problem: Problem) -> Outcome:
         """A sentence of one outermost block, by its existential dual, with values for the block's variables."""
@@ -106,9 +106,9 @@ class _Run:
             found = self.eliminated(problem)
         return found if found is not None else Outcome(self.without_quantifiers(ready))
 
-    def finished(self, formula: Formula) -> Formula:
+    def finished(self, formula: Formula, question: Formula) -> Formula:
         """A last look: shorter, and TRUE or FALSE where it is that."""
-        return settled(shortened(formula, self.context()), self.context(), self.satisfiable)
+        return settled(shortened(formula, self.context()), self.context(), self.satisfiable, question)
 
     def satisfiable(self, sentence: Formula, context: Context) -> bool:
         """Whether a sentence is true, found in a run of its own within the limits of the context."""

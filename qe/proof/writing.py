@@ -40,6 +40,7 @@ RULES: Mapping[str, str] = {
     "degenerate truth set": "A convex truth set without interior points lies on a hyperplane.",
     "convex": "A convex set has a point, or multipliers combine its conditions to a contradiction.",
     "witness in the parameters": "Polynomials in the universal variables satisfy the inner blocks.",
+    "equations taken apart": "The equations have the same common zeros as others (Buchberger 1965), factor by factor.",
     "shorter": "A decomposition of the space of the free variables shows that the shorter formula is equivalent.",
     "constant": "The formula holds everywhere, or nowhere.",
 }

@@ -27,3 +27,7 @@ class StepKind(Enum):
 ALL_STEPS = frozenset(StepKind)
 EQUATION_STEPS = frozenset({StepKind.LINEAR, StepKind.GUARDED_LINEAR, StepKind.GROEBNER})
 SYMMETRY_STEPS = frozenset({StepKind.TRANSLATION, StepKind.ROTATION, StepKind.SCALING})
+POINTWISE_STEPS = frozenset(
+    {StepKind.SIMPLIFY, StepKind.MINISCOPE, StepKind.GROEBNER, StepKind.FACTOR_SPLIT, StepKind.SUM_OF_SQUARES}
+)
+"""The steps that change no variable: equivalences of the matrix at every point."""
