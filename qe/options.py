@@ -40,7 +40,8 @@ class Stage(Enum):
     ``EQUATIONS``: linear equations and Gröbner bases before anything else. ``SUBSTITUTION``: virtual substitution.
     ``CONSTRAINTS``: projection and lifting restricted by equational constraints. ``PARTIAL``: stacks are left as
     soon as their truth is known. ``OPEN``: sectors only where all atoms are strict. ``MCCALLUM``: Brown–McCallum
-    projection before Lazard's. ``ORDER``: the variable order is chosen, not taken as written.
+    projection before Lazard's. ``ORDER``: the variable order is chosen, not taken as written. ``SYMMETRY``: variables
+    are taken from a block by translations, rotations and scalings that leave its truth alone.
     """
 
     EQUATIONS = "equations"
@@ -50,6 +51,7 @@ class Stage(Enum):
     OPEN = "open"
     MCCALLUM = "mccallum"
     ORDER = "order"
+    SYMMETRY = "symmetry"
 
 
 @dataclass(slots=True)

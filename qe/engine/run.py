@@ -31,7 +31,7 @@ from qe.proof.derivation import negated, put_together
 from qe.proof.entry import Json
 from qe.proof.run_log import RunLog
 from qe.rules.preparation import Prepared, prepare
-from qe.rules.step import ALL_STEPS, EQUATION_STEPS
+from qe.rules.step import ALL_STEPS, EQUATION_STEPS, SYMMETRY_STEPS, StepKind
 from qe.simplify.simplify import simplify
 
 CERTIFY_SHARE = 0.4
@@ -75,7 +75,7 @@ class _Run:
             found = self.formula(formula)
         if found.certificate is not None or isinstance(found.formula, Constant):
             return found
-        return replace(found, formula=self.finished(found.formula))
+        return replace(found, formula=self.finished(found.formula, formula))
 
     def sentence(self, problem: Problem) -> Outcome:
         """A sentence of one outermost block, by its existential dual, with values for the block's variables."""
@@ -107,9 +107,9 @@ class _Run:
             found = self.eliminated(problem)
         return found if found is not None else Outcome(self.without_quantifiers(ready))
 
-    def finished(self, formula: Formula) -> Formula:
+    def finished(self, formula: Formula, question: Formula) -> Formula:
         """A last look: shorter, and TRUE or FALSE where it is that."""
-        return settled(shortened(formula, self.context()), self.context(), self.satisfiable)
+        return settled(shortened(formula, self.context()), self.context(), self.satisfiable, question)
 
     def satisfiable(self, sentence: Formula, context: Context) -> bool:
         """Whether a sentence is true, found in a run of its own within the limits of the context."""
@@ -157,8 +157,9 @@ class _Run:
     # --- preparation ---------------------------------------------------------------------------
     def prepared(self, formula: Formula) -> Prepared:
         """Every block brought to its real dimension by the rules."""
-        enabled = ALL_STEPS - EQUATION_STEPS if Stage.EQUATIONS in self.options.without else ALL_STEPS
-        return prepare(formula, budget=self.budget, enabled=enabled, log=self.log)
+        switched = {Stage.EQUATIONS: EQUATION_STEPS, Stage.SYMMETRY: SYMMETRY_STEPS}
+        off = frozenset[StepKind]().union(*(switched.get(stage, ()) for stage in self.options.without))
+        return prepare(formula, budget=self.budget, enabled=ALL_STEPS - off, log=self.log)
 
     # --- sentences, with their witnesses ---------------------------------------------------------
     def decided(self, formula: Formula) -> Outcome:

@@ -23,6 +23,9 @@ RULES: Mapping[str, str] = {
     "inequations that remove no interior": "A nonempty open set lies in no hypersurface.",
     "boundary apart": "A weak inequality is a strict one or an equation.",
     "translation of the origin": "All polynomials are constant along a direction: one coordinate may be zero.",
+    "nested blocks of one kind gathered": "A quantifier may also stand before conditions without its variables.",
+    "rotation of the axes": "All polynomials are constant along a rotation: one coordinate may be zero.",
+    "disjuncts with equations apart": "A disjunction holds somewhere if and only if one of its members does.",
     "homogeneous scaling": "All polynomials are homogeneous: one coordinate may be -1, 0 or 1.",
     "Groebner basis of the equations": "The equations have the same common zeros as others (Buchberger 1965).",
     "case split on factors": "A product is zero if and only if a factor is.",
@@ -40,6 +43,7 @@ RULES: Mapping[str, str] = {
     "convex": "A convex set has a point, or multipliers combine its conditions to a contradiction.",
     "point or multipliers": "A universal sentence is false if it fails at a point, and true if its negation has none.",
     "witness in the parameters": "Polynomials in the universal variables satisfy the inner blocks.",
+    "equations taken apart": "The equations have the same common zeros as others (Buchberger 1965), factor by factor.",
     "shorter": "A decomposition of the space of the free variables shows that the shorter formula is equivalent.",
     "constant": "The formula holds everywhere, or nowhere.",
 }

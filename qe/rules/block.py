@@ -13,7 +13,7 @@ from qe.rules.degree_shift import shift_degree
 from qe.rules.generic import drop_inequations
 from qe.rules.scaling import fix_scale
 from qe.rules.step import StepKind
-from qe.rules.structural import guarded_linear_equation, independent_parts, linear_equation
+from qe.rules.structural import guarded_linear_equation, independent_parts, linear_equation, solvable_disjuncts
 from qe.rules.translation import fix_origin
 from qe.rules.tree import NEVER, All, Any, Leaf, Lifted, Node, Pending, Perturbed, either
 from qe.simplify.simplify import simplify_under
@@ -29,6 +29,7 @@ RULES: tuple[Rule, ...] = (
     split_factors,
     fix_scale,
     guarded_linear_equation,
+    solvable_disjuncts,
 )
 
 

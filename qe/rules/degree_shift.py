@@ -1,9 +1,10 @@
 """Degree shift (Dolzmann, Sturm & Weispfenning, J. Automated Reasoning 21 (1998), section 3).
 
 THEOREM. Let every exponent of x in f be a multiple of k > 1, f(x) = g(x^k). Then ex x f iff ex x (g and x >= 0) for
-even k, and iff ex x g for odd k, because x^k takes all non-negative (all) real values. Atoms x rel 0 may stay as they
-are for odd k, and for even k if x >= 0 is known: then x and x^k have the same sign. A solution of the right side
-lifts to its real k-th root. Where the solutions of f form an open set, x = 0 is never the only one, and x > 0 will do.
+even k, and iff ex x g for odd k, because x^k takes all non-negative (all) real values. Atoms x = 0 and x /= 0 may stay
+as they are, and other atoms x rel 0 for odd k, and for even k if x >= 0 is known: then x and x^k have the same sign. A
+solution of the right side lifts to its real k-th root. Where the solutions of f form an open set, x = 0 is never the
+only one, and x > 0 will do.
 """
 
 from __future__ import annotations
@@ -48,7 +49,7 @@ def common_exponent(body: Formula, x: int, *, nonnegative: bool = False) -> int:
         if isinstance(found, RootAtom) and (found.poly.degree(x) or found.poly.ring.index[found.variable] == x):
             return 1
         if _is_bare(found.poly, x):
-            bare = True
+            bare = bare or found.relation not in (Relation.EQ, Relation.NE)
         elif found.poly.degree(x):
             for exponent, coefficient in enumerate(found.poly.coefficients(x)):
                 if coefficient:

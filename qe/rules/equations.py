@@ -16,7 +16,7 @@ from qe.exact.groebner import Basis, Limits, MonomialOrder, groebner_basis
 from qe.exact.ring import Poly, format_poly
 from qe.formula.build import atom, conj
 from qe.formula.syntax import Atom, Formula, Relation
-from qe.formula.traverse import atoms
+from qe.formula.traverse import atoms, is_quantifier_free
 from qe.rules.rewrite import rewrite
 from qe.simplify.facts import factor_list
 
@@ -65,8 +65,17 @@ def reduce_atoms(formula: Formula, basis: Basis) -> Formula:
             return atom(rest, found.relation)
         return found
 
-    names = {basis.ring.names[i] for i in basis.variables}
+    names = {basis.ring.names[i] for p in basis.polys for i in p.variables}
     return rewrite(formula, change, names)
+
+
+def reduce_by_equations(assumed: Sequence[Formula], parts: Sequence[Formula]) -> tuple[Formula, ...]:
+    """The parts, every one that has quantifiers with its atoms reduced by the equations among what is assumed."""
+    found, _ = split_equations(assumed)
+    basis = ideal_basis(squarefree(found), variable_order(conj((*assumed, *parts)), ())) if found else None
+    if basis is None or basis.is_unit:
+        return tuple(parts)
+    return tuple(part if is_quantifier_free(part) else reduce_atoms(part, basis) for part in parts)
 
 
 def complexity(poly: Poly) -> tuple[int, int, int]:
@@ -75,12 +84,12 @@ def complexity(poly: Poly) -> tuple[int, int, int]:
 
 
 def better_equations(old: Sequence[Poly], basis: Basis, block: Sequence[str]) -> tuple[Poly, ...]:
-    """The generators to go on with: the old ones, the basis, or a lexicographic basis.
+    """The generators to go on with: the old ones, linear combinations of them, the basis, or a lexicographic basis.
 
     Variables that can be solved for count first (as long as the size stays moderate), then the size.
     """
     best: tuple[Poly, ...] = tuple(dict.fromkeys(old))
-    candidates = [basis.polys]
+    candidates = [combined(best), basis.polys]
     if len(basis.polys) > 1:
         triangular = groebner_basis(basis.polys, variables=basis.variables, order=MonomialOrder.LEX, limits=_LIMITS)
         if triangular is not None:
@@ -92,6 +101,29 @@ def better_equations(old: Sequence[Poly], basis: Basis, block: Sequence[str]) ->
         if allowed or (gain >= 0 and size < room):
             best = polys
     return best
+
+
+def combined(polys: Sequence[Poly]) -> tuple[Poly, ...]:
+    """Linear combinations over Q that span the same space, no two with the same leading monomial (by total degree).
+
+    They have no monomial that the given ones have not: what is linear in a variable after the higher terms cancel (the
+    difference of two circles) appears, without the growth of a basis.
+    """
+    rows: dict[tuple[int, ...], Poly] = {}
+    for poly in sorted(dict.fromkeys(polys), key=Poly.term_count):
+        while poly:
+            lead, coefficient = _leading(poly)
+            if lead not in rows:
+                rows[lead] = poly
+                break
+            other = rows[lead]
+            poly = (_leading(other)[1] * poly - coefficient * other).normal()[1]
+    return tuple(rows.values())
+
+
+def _leading(poly: Poly) -> tuple[tuple[int, ...], int]:
+    """The term of the greatest monomial by total degree, then lexicographically."""
+    return max(poly.terms(), key=lambda term: (sum(term[0]), term[0]))
 
 
 def total(polys: Sequence[Poly]) -> int:

@@ -14,6 +14,7 @@ from typing import Protocol
 
 from qe.errors import Unable
 from qe.exact.algebraic import RealAlgebraic, real_roots
+from qe.exact.field import NumberField
 from qe.exact.ring import Poly, Ring
 from qe.exact.sample import Point
 from qe.formula.syntax import And, Atom, Constant, Formula, Not, Or
@@ -41,6 +42,9 @@ def value_at(poly: Poly, assignment: Assignment) -> Value:
     values = {name: assignment.get(name, Fraction(0)) for name in names}
     if all(isinstance(v, Fraction) for v in values.values()):
         return poly.evaluate([values.get(name, Fraction(0)) for name in poly.ring.names])  # type: ignore[misc]
+    algebraic = [name for name in names if not isinstance(values[name], Fraction)]
+    if len(algebraic) == 1:
+        return _in_field(poly, algebraic[0], values)
     total: Value = Fraction(0)
     for exponents, coefficient in poly.terms():
         term: Value = Fraction(coefficient)
@@ -49,6 +53,17 @@ def value_at(poly: Poly, assignment: Assignment) -> Value:
                 term = values[poly.ring.names[i]] ** exponents[i] * term
         total = term + total
     return simplest(total)
+
+
+def _in_field(poly: Poly, name: str, values: Assignment) -> Value:
+    """The value where a single variable has an irrational one: an element of the field that this one generates."""
+    ring, theta = poly.ring, values[name]
+    assert isinstance(theta, RealAlgebraic)
+    coefficients = []
+    for c in poly.coefficients(ring.index[name]):
+        at = [values.get(v, Fraction(0)) if c.degree(i) else Fraction(0) for i, v in enumerate(ring.names)]
+        coefficients.append(c.evaluate(at))
+    return simplest(NumberField(theta).element(coefficients).to_algebraic())
 
 
 def sign_at(poly: Poly, assignment: Assignment) -> int:

@@ -85,26 +85,46 @@ def _simplified(formula: Formula, context: BlockContext) -> Formula:
 def _block(formula: Exists | ForAll, context: BlockContext) -> Node:
     """The tree of an existential block, or of the negation of a universal one, inner blocks prepared first."""
     from qe.rules.block import reduce_block  # all rules, loaded where there is a block
+    from qe.rules.gather import gathered
+    from qe.rules.symmetry import without_rotations
+    from qe.rules.tree import Lifted
 
-    body = _inside(formula.body, context)
+    formula = gathered(formula, context)
+    variables, symmetric, rules = without_rotations(formula, context)
+    body = _inside(symmetric, context)
     if isinstance(formula, Exists):
-        return reduce_block(formula.variables, body, context)
+        tree = reduce_block(variables, body, context)
+        return Lifted(tuple(rules), tree) if rules else tree
     negated = nnf(body, negate=True)
-    context.step("duality", forall(formula.variables, body), negation(exists(formula.variables, negated)))
-    tree = reduce_block(formula.variables, negated, context)
+    context.step("duality", forall(variables, body), negation(exists(variables, negated)))
+    tree = reduce_block(variables, negated, context)
     context.step("negation normal form", negation(tree.formula), nnf(tree.formula, negate=True))
-    return tree
+    return Lifted(tuple(rules), tree) if rules else tree
+
+
+def _reduced(formula: And | Or, assumed: tuple[Formula, ...], context: BlockContext) -> tuple[Formula, ...]:
+    """The parts, those with quantifiers reduced by the equations assumed inside them: what these say need not be found
+    out once more where it cannot be seen."""
+    from qe.rules.equations import reduce_by_equations
+
+    if StepKind.GROEBNER not in context.enabled:
+        return formula.args
+    parts = reduce_by_equations(assumed, formula.args)
+    context.step(StepKind.GROEBNER.value, formula, (conj if isinstance(formula, And) else disj)(parts))
+    return parts
 
 
 def _inside(formula: Formula, context: BlockContext) -> Formula:
     """Prepare the quantifier blocks inside a formula, innermost first, under their sibling atoms."""
     match formula:
-        case And(args):
-            plain = tuple(a for a in args if isinstance(a, Atom))
-            inner = context.given(plain) if len(plain) < len(args) else context
-            return conj(_inside(a, inner) for a in args)
-        case Or(args):
-            return disj(_inside(a, context) for a in args)
+        case And(args) | Or(args):
+            plain = [a for a in args if isinstance(a, Atom)]
+            if len(plain) == len(args):
+                return formula
+            # inside a conjunction its other members hold, inside a disjunction their negations
+            assumed = tuple(nnf(a, negate=isinstance(formula, Or)) for a in plain)
+            inner, parts = context.given(assumed), _reduced(formula, assumed, context)
+            return (conj if isinstance(formula, And) else disj)(_inside(a, inner) for a in parts)
         case Exists(variables) | ForAll(variables):
             known = tuple(f for f in context.known if not set(variables) & set(free_variables(f)))
             tree = _block(formula, replace(context, facts=context.facts.without(variables), known=known))

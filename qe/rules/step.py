@@ -9,17 +9,25 @@ class StepKind(Enum):
     """Equivalence-preserving steps, cheapest first."""
 
     SIMPLIFY = "standard simplification"
+    GATHERING = "nested blocks of one kind gathered"
     MINISCOPE = "independent parts and miniscoping"
     LINEAR = "linear equation solved"
     GUARDED_LINEAR = "linear equation solved under a guard"
     DEGREE_SHIFT = "degree shift"
     GENERIC = "inequations that remove no interior"
     TRANSLATION = "translation of the origin"
+    ROTATION = "rotation of the axes"
     SCALING = "homogeneous scaling"
     GROEBNER = "Groebner basis of the equations"
     FACTOR_SPLIT = "case split on factors"
+    DISTRIBUTION = "disjuncts with equations apart"
     SUM_OF_SQUARES = "vanishing sum of squares split"
 
 
 ALL_STEPS = frozenset(StepKind)
 EQUATION_STEPS = frozenset({StepKind.LINEAR, StepKind.GUARDED_LINEAR, StepKind.GROEBNER})
+SYMMETRY_STEPS = frozenset({StepKind.TRANSLATION, StepKind.ROTATION, StepKind.SCALING})
+POINTWISE_STEPS = frozenset(
+    {StepKind.SIMPLIFY, StepKind.MINISCOPE, StepKind.GROEBNER, StepKind.FACTOR_SPLIT, StepKind.SUM_OF_SQUARES}
+)
+"""The steps that change no variable: equivalences of the matrix at every point."""

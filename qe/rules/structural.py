@@ -94,6 +94,34 @@ def guarded_linear_equation(variables: tuple[str, ...], body: Formula, context: 
     return Found(StepKind.GUARDED_LINEAR, _described(parts, pivot), node, {"solved": [_evidence(parts, pivot)]})
 
 
+def solvable_disjuncts(variables: tuple[str, ...], body: Formula, context: BlockContext) -> Found | None:
+    """ex x (f and (g or h)) iff (ex x (f and g)) or (ex x (f and h)), where every disjunct has an equation linear in a
+    variable of the block: each part then loses one. Lift: a branch that is satisfied.
+    """
+    if StepKind.DISTRIBUTION not in context.enabled:
+        return None
+    parts = conjuncts(body)
+    block = frozenset(variables)
+    for position, part in enumerate(parts):
+        if not isinstance(part, Or) or not all(_has_linear_equation(arg, block) for arg in part.args):
+            continue
+        if not context.may_split(StepKind.DISTRIBUTION, len(part.args)):
+            return None
+        rest = [p for k, p in enumerate(parts) if k != position]
+        node = Any(tuple(Pending(variables, conj((*rest, arg))) for arg in part.args))
+        return Found(StepKind.DISTRIBUTION, f"{len(part.args)} cases", node)
+    return None
+
+
+def _has_linear_equation(formula: Formula, block: frozenset[str]) -> bool:
+    return any(
+        isinstance(part, Atom)
+        and part.relation is Relation.EQ
+        and any(part.poly.ring.names[i] in block and part.poly.degree(i) == 1 for i in part.poly.variables)
+        for part in conjuncts(formula)
+    )
+
+
 def _pivot(parts: Sequence[Formula], variables: Sequence[str], context: BlockContext) -> Pivot | None:
     def facts(position: int) -> Facts:
         return context.facts.extended(p for k, p in enumerate(parts) if k != position and isinstance(p, Atom))

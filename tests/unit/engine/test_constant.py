@@ -39,3 +39,31 @@ def test_text_is_read_once(monkeypatch):
     monkeypatch.setattr(api, "read_formula", lambda *given: read.append(given) or original(*given))
     assert str(qe.eliminate("ex x. x^2 = a").formula) == "a >= 0"
     assert len(read) == 1
+
+
+def test_a_large_answer_without_solutions_is_asked_about_by_its_question():
+    """The answer to a triangle inequality is of degree 10 in two variables; its question has no solution at all."""
+    text = (
+        "ex w, b, c, h. (w^2 = 3 and w > 0 and b >= 0 and c >= 0 and h >= 0 and y /= 0 and b^2 = (x - 1)^2 + y^2"
+        " and c^2 = x^2 + y^2 and h^2 = y^2 and (1 + b + c)^2 < 6*w*h)"
+    )
+    assert qe.eliminate(text).formula == FALSE
+
+
+def test_an_answer_that_holds_somewhere_is_not_asked_about():
+    wide = api.read_formula("x^30*y^30 > x^2 + y^2 + 1")
+    assert constant_value(wide, never, wide) is None
+
+
+def test_equations_of_an_answer_are_taken_apart():
+    """A sixth root of unity that is none of lower order: one factor of its equations is right."""
+    powers = {0: ("1", "0")}
+    real, imaginary = "1", "0"
+    for k in range(1, 7):
+        real, imaginary = f"(a*({real}) - b*({imaginary}))", f"(b*({real}) + a*({imaginary}))"
+        powers[k] = real, imaginary
+    lower = " and ".join(f"({powers[k][0]} /= 1 or {powers[k][1]} /= 0)" for k in range(1, 6))
+    answer = qe.eliminate(f"{powers[6][0]} = 1 and {powers[6][1]} = 0 and {lower}")
+    assert str(answer.formula) == "2*a - 1 = 0 and 4*b^2 - 3 = 0"
+    kept = qe.eliminate("x*y = 0 and x + y > 1")
+    assert qe.equivalent(kept.formula, "x*y = 0 and x + y > 1")

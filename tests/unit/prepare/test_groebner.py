@@ -10,7 +10,10 @@ from hypothesis import strategies as st
 
 from qe.errors import InternalError
 from qe.exact.groebner import Limits, MonomialOrder, groebner_basis
+from qe.exact.quadratic_form import independent_rows
 from qe.exact.ring import Poly, Ring
+from qe.rules.equations import combined
+from tests.strategies import polynomials
 
 RING = Ring.of(("x", "y", "z"))
 x, y, z = (RING.gen(i) for i in range(3))
@@ -84,3 +87,18 @@ def test_value_on_the_variety() -> None:
     scale, rest = basis.reduce(p)
     at = (Fraction(2), Fraction(4), Fraction(0))
     assert rest.evaluate(at) == scale * p.evaluate(at)
+
+
+@given(st.lists(polynomials(Ring.of(("x", "y", "z")), max_degree=3, max_terms=5), min_size=1, max_size=4))
+def test_linear_combinations_span_the_same_space(given_polys: list[Poly]) -> None:
+    polys = [p for p in given_polys if p]
+    if not polys:
+        return
+    made = combined(polys)
+    monomials = sorted({e for p in polys for e, _ in p.terms()})
+
+    def rank(listing: list[Poly]) -> int:
+        return len(independent_rows([[Fraction(dict(p.terms()).get(e, 0)) for e in monomials] for p in listing]))
+
+    assert {e for p in made for e, _ in p.terms()} <= set(monomials)
+    assert len(made) == rank(list(made)) == rank(polys) == rank([*polys, *made])

@@ -181,3 +181,25 @@ def test_differences_lose_a_variable() -> None:
     assert taken == [StepKind.TRANSLATION]
     assert isinstance(prepared.formula, Exists) and len(prepared.formula.variables) == 2
     assert rules(read("ex x, y. (x - y > b and x*y > 1)"), {StepKind.TRANSLATION}) == []
+
+
+def test_comparisons_for_zero_alone_do_not_hinder_a_degree_shift() -> None:
+    """x = 0 iff x^2 = 0, so only the signs of x stand in the way of its squares."""
+    both = prepare(
+        read("ex x. (x /= 0 and x^4 - a*x^2 + 1 < 0 and b*x^2 > 1)"), enabled={StepKind.DEGREE_SHIFT}
+    ).formula
+    assert max(a.poly.degree(a.poly.ring.index["x"]) for a in atoms(both) if "x" in a.poly.ring.index) == 2
+    assert not rules(read("ex x. (x <= 1 and x^4 - a*x^2 + 1 < 0)"), {StepKind.DEGREE_SHIFT})
+    assert not rules(read("ex x. (x < 0 and x^4 - a*x^2 + 1 < 0)"), {StepKind.DEGREE_SHIFT})
+
+
+def test_differences_of_equations_give_linear_ones() -> None:
+    """A triangle by its sides: the coordinate that the difference of two circles gives is solved for, and the equation
+    with the parameter keeps its degree, though the whole Groebner basis is large."""
+    text = (
+        "ex u, v, b, c. (v /= 0 and b > 0 and c > 0 and u^2 - 2*u + 1 + v^2 = b^2 and u^2 + v^2 = c^2"
+        " and m*(b^3 + c^3 + 3*b*c + 1) = b^3 + b^2*c + b^2 + b*c^2 + b + c^3 + c^2 + c + 1)"
+    )
+    left = prepare(read(text)).formula
+    assert isinstance(left, Exists) and set(left.variables) == {"b", "c"}
+    assert max(a.poly.degree(a.poly.ring.index["m"]) for a in atoms(left)) == 1

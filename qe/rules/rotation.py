@@ -1,0 +1,180 @@
+"""Rotations: a block that only looks at lengths and angles loses a variable for every free angle.
+
+Let S be a skew-symmetric matrix over variables that are bound, each pair of variables that it joins by the same
+quantifier, and X = sum of S_ij * (x_i * d/dx_j - x_j * d/dx_i), with X p = 0 for every atom's polynomial p; equations
+of a conjunction may be taken together as the vanishing of the sum of their squares, and inequations of a disjunction as
+its not vanishing.
+THEOREM. The truth of the formula f inside the outermost block is the same at x and at exp(t*S) x, for all real t, where
+the inner variables have been left out of x.
+PROOF. p is constant along the curves exp(t*S) x, as its derivative there is X p = 0. S joins no variables of different
+quantifiers, so exp(t*S) maps the values of every inner block onto themselves, whatever the values outside.
+COROLLARY. Let S join two variables u, v of the outermost block to each other and to no others. Then exp(t*S) turns
+their plane, some t makes v = 0 and u >= 0, and:  ex u, v, y f  iff  ex u, y (u >= 0 and f[v = 0]).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from fractions import Fraction
+from itertools import combinations
+from typing import TypeVar
+
+from qe.exact.ring import Poly
+from qe.formula.syntax import And, Atom, Exists, ForAll, Formula, Or, Relation, RootAtom
+from qe.formula.traverse import atoms, children, polynomials, subformulas
+
+Key = TypeVar("Key")
+Pair = tuple[int, int]
+Skew = dict[Pair, Fraction]
+"""A skew-symmetric matrix by its entries above the diagonal."""
+
+_TERMS = 1200  # terms in all polynomials together up to which rotations are looked for
+_PAIRS = 400  # pairs of variables up to which they are looked for
+_COMPONENT = 8  # terms of a polynomial that may be one component of a vector
+
+
+def invariant_plane(variables: Sequence[str], body: Formula, wanted: Iterable[str]) -> tuple[str, str, set[str]] | None:
+    """(u, v, moved): v may be set to 0 where u >= 0, by a matrix S that moves the variables ``moved`` of the block.
+
+    Planes with one of ``wanted`` go first, as u; then the ones that occur in most terms. None if there is no plane.
+    """
+    polys = polynomials(body)
+    if not polys or any(isinstance(a, RootAtom) for a in atoms(body)):
+        return None
+    if max(p.total_degree for p in polys) < 2 or sum(p.term_count() for p in polys) > _TERMS:
+        return None
+    for taken in dict.fromkeys((tuple(polys), tuple(dict.fromkeys(_sums(body))))):
+        found = _plane(variables, body, taken, frozenset(wanted))
+        if found is not None:
+            return found
+    return None
+
+
+def _sums(formula: Formula) -> Iterator[Poly]:
+    """The polynomials of the atoms; those that look alike in equations side by side, as the components of a vector do,
+    as one sum of squares, and so for inequations.
+    """
+    if isinstance(formula, And | Or):
+        relation = Relation.EQ if isinstance(formula, And) else Relation.NE
+        alike: dict[object, list[Poly]] = {}
+        for arg in formula.args:
+            if isinstance(arg, Atom) and arg.relation is relation and arg.poly.term_count() <= _COMPONENT:
+                look = (arg.poly.total_degree, sorted(abs(c) for _, c in arg.poly.terms()))
+                alike.setdefault(str(look), []).append(arg.poly)
+            else:
+                yield from _sums(arg)
+        for group in alike.values():
+            yield group[0] if len(group) == 1 else sum((p * p for p in group[1:]), group[0] * group[0])
+    elif isinstance(formula, Atom):
+        yield formula.poly
+    else:
+        for child in children(formula):
+            yield from _sums(child)
+
+
+def _plane(
+    variables: Sequence[str], body: Formula, polys: Sequence[Poly], wanted: frozenset[str]
+) -> tuple[str, str, set[str]] | None:
+    """``invariant_plane`` for given polynomials that the truth of the body depends on."""
+    ring = polys[0].ring
+    blocks = [tuple(variables), *(f.variables for f in subformulas(body) if isinstance(f, Exists | ForAll))]
+    names = [name for block in blocks for name in block]
+    if len(names) != len(set(names)):
+        return None
+    occurring = {i for p in polys for i in p.variables}
+    pairs = [
+        pair
+        for block in blocks
+        for pair in combinations(sorted(ring.index[v] for v in block if ring.index.get(v) in occurring), 2)
+    ]
+    if not pairs or len(pairs) > _PAIRS:
+        return None
+    outer = {ring.index[v] for v in variables if v in ring.index}
+    favoured = {ring.index[v] for v in wanted}
+    weight = {i: sum(p.degree(i) > 0 for p in polys) for i in outer}
+    best: tuple[tuple[bool, int, int, int], str, str, set[str]] | None = None
+    for skew in rotations(polys, pairs):
+        moved = {i for pair in skew for i in pair}
+        for i, j in skew:
+            if i not in outer or sum(i in pair or j in pair for pair in skew) > 1:
+                continue
+            u, v = (j, i) if j in favoured or (i not in favoured and weight[i] > weight[j]) else (i, j)
+            rank = (u in favoured, weight[u] + weight[v], -u, -v)
+            if best is None or rank > best[0]:
+                best = rank, ring.names[u], ring.names[v], {ring.names[k] for k in moved & outer}
+    return best and best[1:]
+
+
+def rotations(polys: Sequence[Poly], pairs: Sequence[Pair]) -> list[Skew]:
+    """A basis of the matrices on these pairs whose X annihilates all polynomials, in reduced echelon form."""
+    found: list[Skew] = [{pair: Fraction(1)} for pair in pairs]
+    for p in sorted(dict.fromkeys(polys), key=Poly.term_count):
+        slopes = {i: p.derivative(i) for pair in pairs for i in pair}
+        images = [_image(p, slopes, skew) for skew in found]
+        found = [_combined(found, relation) for relation in _relations(images)]
+        if not found:
+            break
+    return _echelon(found)
+
+
+def _image(p: Poly, slopes: dict[int, Poly], skew: Skew) -> dict[tuple[int, ...], Fraction]:
+    """The terms of X p."""
+    ring = p.ring
+    total: dict[tuple[int, ...], Fraction] = {}
+    for (i, j), factor in skew.items():
+        turned = ring.gen(i) * slopes[j] - ring.gen(j) * slopes[i]
+        for exponents, c in turned.terms():
+            total[exponents] = total.get(exponents, Fraction(0)) + factor * c
+    return {e: c for e, c in total.items() if c}
+
+
+def _relations(rows: Sequence[dict[tuple[int, ...], Fraction]]) -> list[dict[int, Fraction]]:
+    """A basis of the vectors r with sum of r_k * rows_k = 0."""
+    pivots: list[tuple[tuple[int, ...], dict[tuple[int, ...], Fraction], dict[int, Fraction]]] = []
+    relations: list[dict[int, Fraction]] = []
+    for k, row in enumerate(rows):
+        rest, made = dict(row), {k: Fraction(1)}
+        for lead, other, how in pivots:
+            if lead in rest:
+                factor = -rest[lead] / other[lead]
+                _add(rest, other, factor)
+                _add(made, how, factor)
+        if rest:
+            pivots.append((min(rest), rest, made))
+        else:
+            relations.append(made)
+    return relations
+
+
+def _combined(found: Sequence[Skew], relation: dict[int, Fraction]) -> Skew:
+    total: Skew = {}
+    for k, factor in relation.items():
+        _add(total, found[k], factor)
+    return total
+
+
+def _echelon(found: Sequence[Skew]) -> list[Skew]:
+    """The reduced echelon form: a rotation in few planes stands alone."""
+    done: list[tuple[Pair, Skew]] = []
+    for skew in found:
+        rest = dict(skew)
+        for lead, other in done:
+            if lead in rest:
+                _add(rest, other, -rest[lead] / other[lead])
+        if rest:
+            lead = min(rest)
+            for _, other in done:
+                if lead in other:
+                    _add(other, rest, -other[lead] / rest[lead])
+            done.append((lead, rest))
+    return [skew for _, skew in done]
+
+
+def _add(total: dict[Key, Fraction], other: dict[Key, Fraction], factor: Fraction) -> None:
+    """total += factor * other, without zeros."""
+    for key, c in other.items():
+        value = total.get(key, Fraction(0)) + factor * c
+        if value:
+            total[key] = value
+        else:
+            total.pop(key, None)

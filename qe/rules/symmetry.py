@@ -1,0 +1,53 @@
+"""Translations and rotations of a whole block, looked for before the blocks inside are touched: they break symmetry."""
+
+from __future__ import annotations
+
+from qe.formula.build import atom, conj, disj, exists, forall
+from qe.formula.syntax import Atom, Exists, ForAll, Formula, Relation
+from qe.formula.traverse import free_variables, ring_of
+from qe.rules.block_context import BlockContext
+from qe.rules.lift import Solve
+from qe.rules.rewrite import rewrite
+from qe.rules.rotation import invariant_plane
+from qe.rules.step import StepKind
+
+
+def without_rotations(formula: Exists | ForAll, context: BlockContext) -> tuple[tuple[str, ...], Formula, list[Solve]]:
+    """The block with a coordinate fixed for every rotation that the corollary in ``qe.rules.rotation`` gives; and the
+    values of these coordinates.
+
+    One rotation after another: ``f`` below is equivalent to the question with or without each of the ``signs`` u >= 0.
+    A rotation that moves such a u without making it the new one costs the sign. Dually for a universal block.
+    """
+    variables, body = formula.variables, formula.body
+    signs: set[str] = set()
+    rules: list[Solve] = []
+    while StepKind.ROTATION in context.enabled and len(variables) > 1:
+        context.budget.check("prepare")
+        plane = invariant_plane(variables, body, signs)
+        if plane is None:
+            break
+        u, v, moved = plane
+        signs = (signs - moved) | {u}
+        ring = ring_of(body)
+        assert ring is not None
+        index = ring.index[v]
+
+        def change(given: Atom, index: int = index) -> Formula:
+            return atom(given.poly.at_rational(index, 0), given.relation) if given.poly.degree(index) else given
+
+        variables, body = tuple(name for name in variables if name != v), rewrite(body, change, ())
+        rules.append(Solve(v, ring.constant(0), ring.constant(1)))
+    if not rules:
+        return variables, body, rules
+    ring = rules[0].numerator.ring
+    occurring = free_variables(body)
+    halves = [ring.var(name) for name in sorted(signs) if name in occurring]
+    if isinstance(formula, Exists):
+        body = conj((*(atom(u, Relation.GE) for u in halves), body))
+        after = exists(variables, body)
+    else:
+        body = disj((*(atom(u, Relation.LT) for u in halves), body))
+        after = forall(variables, body)
+    context.step(StepKind.ROTATION.value, formula, after, ", ".join(f"{rule.variable} = 0" for rule in rules))
+    return variables, body, rules
