@@ -120,7 +120,7 @@ def problem_of(table: Table) -> Problem:
     points = {"start": start, "via[0]": via[0], "via[1]": via[1], "goal": goal}
     _check_distinct(table, points)
     for name, point in points.items():
-        if any(abs(Fraction(c)) > LARGEST for c in point):  # type: ignore[arg-type]
+        if any(abs(exactly(c)) > LARGEST for c in point):
             raise table.error(name, "coordinates of at most 10^50", "a larger one")
     squared = max(dot(p, p) for p in points.values()) if auto else _radius(table, raw_radius)
     workspace = Workspace(kind, squared)

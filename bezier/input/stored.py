@@ -65,7 +65,7 @@ def entry(table: Mapping[str, Any], key: str, kind: type, place: str = "") -> An
     """A value of this type under a key."""
     value = table.get(key)
     if not isinstance(value, kind):
-        words = {dict: "an object", list: "a list", str: "a string"}
+        words: dict[type, str] = {dict: "an object", list: "a list", str: "a string"}
         raise CertificateRejected(f"{place}{key}", f"expected {words.get(kind, kind.__name__)}")
     return value
 

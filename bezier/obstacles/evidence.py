@@ -45,7 +45,7 @@ def contact_certificate(curve: Bezier, obstacle: Obstacle, contact: Contact) -> 
     pieces = _pieces(curve, obstacle, after) if met else None
     if pieces is None:
         return None
-    where = {"after": str(after), "t": str(high), "piece": met[0]}
+    where: dict[str, Any] = {"after": str(after), "t": str(high), "piece": met[0]}
     return Certificate(Kind.CLEARANCE, {**curve_payload(curve), "pieces": pieces, "contact": where})
 
 
