@@ -12,6 +12,7 @@ from bezier.curves.containment import Inside
 from bezier.curves.scalar import Vector
 from bezier.input.stored import numbers
 from bezier.methods.control.claims import check_optimum_of, member, optimal_points
+from bezier.methods.control.statements import Statement
 from bezier.methods.control.system import System
 from bezier.paths.path import Path, Proof, assemble, path_certificates, prove
 from bezier.plan import Clock
@@ -20,7 +21,6 @@ from qe.errors import CertificateRejected, InternalError, Unable
 from qe.exact.ring import Ring
 from qe.formula.build import convert
 from qe.formula.syntax import FALSE, Atom, Exists, Formula
-from qe.io.formats import read
 from qe.proof.certificate import Kind
 
 ELIMINATION, OPTIMUM = "elimination", "optimum"
@@ -34,10 +34,10 @@ def answered(answer: Any) -> Any:
     return answer
 
 
-def quantifier_free(text: str, clock: Clock) -> Any:
+def quantifier_free(question: Statement, clock: Clock) -> Any:
     """The engine's answer to a formula. Raises ``Unable`` where it has none."""
     with clock.step("elimination"):
-        answer = answered(qe.eliminate(text, timeout=clock.remaining()))
+        answer = answered(qe.eliminate(question.formula, timeout=clock.remaining()))
     clock.learn("quantifier-free answer", str(answer.formula))
     return answer
 
@@ -45,8 +45,8 @@ def quantifier_free(text: str, clock: Clock) -> Any:
 def least(system: System, answer: Any, clock: Clock) -> Any:
     """The engine's exact minimum of the objective under the quantifier-free answer, or its proof that there is none."""
     # an answer "false" holds no conditions to combine to a contradiction: then the given ones are taken
-    conditions = system.conditions_text() if answer.formula == FALSE else answer.formula
-    return qe.minimize(system.objective(), conditions, timeout=clock.remaining())
+    conditions = system.in_free_points().formula if answer.formula == FALSE else answer.formula
+    return qe.minimize(system.objective().polynomial, conditions, timeout=clock.remaining())
 
 
 @dataclass(frozen=True, slots=True)
@@ -114,9 +114,9 @@ def _whole_curves(problem: Problem, system: System, path: Path) -> tuple[Proof, 
     return tuple(proof for proof in found if isinstance(proof.outcome, Inside))
 
 
-def body_of(text: str, order: tuple[str, ...]) -> Formula:
+def body_of(statement: Statement, order: tuple[str, ...]) -> Formula:
     """The formula behind an outermost existential block (or the whole formula), over the ring of these variables."""
-    formula = read(text)
+    formula = statement.formula
     return convert(formula.body if isinstance(formula, Exists) else formula, Ring.of(order))
 
 
@@ -125,14 +125,14 @@ def elimination(system: System) -> tuple[str, qe.Certificate]:
     the conditions with those points put in."""
     shape = system.shape
     order = (*shape.variables, *shape.quantified)
-    equations = [body_of(text, order) for text in system.equations()]
+    equations = [body_of(join, order) for join in system.joins()]
     solved = [
         (name, equation.poly)
         for name, equation in zip(shape.quantified, equations, strict=True)
         if isinstance(equation, Atom)
     ]
-    answer = body_of(system.conditions_text(), order)
-    return ELIMINATION, qe.Certificate.substitution(body_of(system.formula(), order), order, solved, answer)
+    answer = body_of(system.in_free_points(), order)
+    return ELIMINATION, qe.Certificate.substitution(body_of(system.statement(), order), order, solved, answer)
 
 
 def verified(

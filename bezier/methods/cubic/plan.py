@@ -54,8 +54,8 @@ class CubicPlan(Plan):
 def make(problem: Problem, clock: Clock) -> CubicPlan:
     """Plan with formula (7)."""
     system = cubic.system(problem)
-    text = system.formula()
-    answer = quantifier_free(text, clock)
+    question = system.statement()
+    answer = quantifier_free(question, clock)
     with clock.step("optimum"):
         optimum = least(system, answer, clock)
     clock.learn("optimum", optimum.status.value)
@@ -69,7 +69,7 @@ def make(problem: Problem, clock: Clock) -> CubicPlan:
     return CubicPlan(
         problem=problem,
         outcome=Outcome.SOLVED if path else Outcome.INFEASIBLE,
-        formula=text,
+        formula=str(question),
         answer=answer,
         objective=objective,
         path=path,
@@ -93,7 +93,7 @@ def restore(problem: Problem, certificate: Certificate) -> CubicPlan:
     return CubicPlan(
         problem=problem,
         outcome=Outcome.SOLVED if path else Outcome.INFEASIBLE,
-        formula=system.formula(),
+        formula=str(system.statement()),
         answer=None,
         objective=objective,
         path=path,

@@ -74,8 +74,8 @@ class QuadraticPlan(Plan):
 def make(problem: Problem, clock: Clock) -> QuadraticPlan:
     """Plan with formula (8)."""
     system = quadratic.system(problem)
-    text = system.formula()
-    answer = quantifier_free(text, clock)
+    question = system.statement()
+    answer = quantifier_free(question, clock)
     with clock.step("region"):
         region = qe.region(answer.formula, order=quadratic.FREE, timeout=clock.remaining())
     clock.learn("region", "empty" if region.is_empty else f"{len(region.cells)} cells")
@@ -93,7 +93,7 @@ def make(problem: Problem, clock: Clock) -> QuadraticPlan:
     return QuadraticPlan(
         problem=problem,
         outcome=Outcome.SOLVED if path else Outcome.INFEASIBLE,
-        formula=text,
+        formula=str(question),
         answer=answer,
         objective=objective,
         path=path,
@@ -114,7 +114,7 @@ def _gap(problem: Problem, region: Any, path: Path | None, clock: Clock) -> Gap:
 
     ``region``: the problem's own region, which is the corrected one for a hemisphere.
     """
-    asked = answered(qe.eliminate(quadratic.leaving_formula(problem), timeout=clock.remaining()))
+    asked = answered(qe.eliminate(quadratic.leaving(problem).formula, timeout=clock.remaining()))
     floor = Workspace(WorkspaceKind.HEMISPHERE, problem.workspace.radius_squared).floor
     chosen = prove(path.curves, (floor,)) if path else ()
     if asked.truth is False:
@@ -129,7 +129,7 @@ def _gap(problem: Problem, region: Any, path: Path | None, clock: Clock) -> Gap:
     shown = ((BELOW, example_certificate(problem, example, asked.certificate)),)
     if problem.workspace.kind is WorkspaceKind.HEMISPHERE:
         return Gap(example, region, chosen, shown)
-    answer = answered(qe.eliminate(quadratic.corrected(problem).formula(), timeout=clock.remaining()))
+    answer = answered(qe.eliminate(quadratic.corrected(problem).statement().formula, timeout=clock.remaining()))
     smaller = qe.region(answer.formula, order=quadratic.FREE, timeout=clock.remaining())
     return Gap(example, smaller, chosen, shown)
 
@@ -139,7 +139,7 @@ def above_certificates(problem: Problem, clock: Clock) -> Iterator[tuple[str, qe
     printed = quadratic.printed(problem)
     for point in quadratic.SHAPE.inner:
         least_height = qe.minimize(
-            printed.coordinate_text(point, 2), printed.conditions_text(), timeout=clock.remaining()
+            printed.coordinate(point, 2).polynomial, printed.in_free_points().formula, timeout=clock.remaining()
         )
         if least_height.is_optimal and sign(least_height.value) < 0:
             raise InternalError(f"{point} can lie below the table although that was refuted")
@@ -154,7 +154,7 @@ def example_certificate(
     known = [v for v in values if v is not None]
     if len(known) == len(values):
         order = quadratic.FREE + quadratic.QUANTIFIED
-        return qe.Certificate.witness(body_of(quadratic.leaving_formula(problem), order), order, known)
+        return qe.Certificate.witness(body_of(quadratic.leaving(problem), order), order, known)
     if found is None:
         raise InternalError("an irrational example without a certificate")
     return found

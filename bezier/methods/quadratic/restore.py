@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from typing import Any
 
 import qe
@@ -37,7 +38,7 @@ def restore(problem: Problem, certificate: Certificate) -> QuadraticPlan:
     return QuadraticPlan(
         problem=problem,
         outcome=Outcome.SOLVED if path else Outcome.INFEASIBLE,
-        formula=system.formula(),
+        formula=str(system.statement()),
         answer=None,
         objective=objective,
         path=path,
@@ -83,7 +84,7 @@ def _says_the_same(system: System, matrix: Formula, *, infeasible: bool) -> bool
         return ours or matrix == FALSE
     if ours and all(_follows(condition_terms(system, item), known, fixed) for item in system.conditions):
         return True
-    return qe.equivalent(system.conditions_text(), str(matrix))
+    return qe.equivalent(system.in_free_points().formula, matrix)
 
 
 def _at_most_zero(part: Formula) -> tuple[Terms, str] | None:
@@ -91,7 +92,7 @@ def _at_most_zero(part: Formula) -> tuple[Terms, str] | None:
     if not isinstance(part, Atom) or part.relation not in (Relation.LE, Relation.GE, Relation.EQ):
         return None
     side = -1 if part.relation is Relation.GE else 1
-    terms: Terms = {exponents: side * numbers([str(c)], None, REGION)[0] for exponents, c in part.poly.terms()}
+    terms: Terms = {exponents: Fraction(side * c) for exponents, c in part.poly.terms()}
     return terms, "=" if part.relation is Relation.EQ else "<="
 
 
@@ -150,7 +151,7 @@ def _check_example(problem: Problem, payload: dict[str, Any]) -> None:
     if tuple(payload["order"]) != order:
         raise CertificateRejected(f"{BELOW}: order", f"expected {', '.join(order)}")
     stated = formula_from_json(Entry(payload["matrix"], f"{BELOW}: matrix"), Ring.of(order))
-    if _parts(stated) != _parts(body_of(quadratic.leaving_formula(problem), order)):
+    if _parts(stated) != _parts(body_of(quadratic.leaving(problem), order)):
         raise CertificateRejected(f"{BELOW}: matrix", "not the question of this problem")
 
 
