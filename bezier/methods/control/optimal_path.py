@@ -15,16 +15,18 @@ from bezier.methods.control.claims import check_optimum_of, member, optimal_poin
 from bezier.methods.control.statements import Statement
 from bezier.methods.control.system import System
 from bezier.paths.path import Path, Proof, assemble, path_certificates, prove
-from bezier.plan import Clock
+from bezier.plan import Clock, Outcome, Plan
 from bezier.problem import Problem
 from qe.errors import CertificateRejected, InternalError, Unable
 from qe.exact.ring import Ring
 from qe.formula.build import convert
 from qe.formula.syntax import FALSE, Atom, Exists, Formula
-from qe.proof.certificate import Kind
+from qe.proof.certificate import Certificate, Kind
 
 ELIMINATION, OPTIMUM = "elimination", "optimum"
 """The labels of the certificates that every method with a system of control points has."""
+Members = list[tuple[str, Certificate]]
+"""Certificates with their labels."""
 
 
 def answered(answer: Any) -> Any:
@@ -83,14 +85,36 @@ def restored_optimum(system: System, certificate: qe.Certificate) -> Certified:
     return Certified.of(system, qe.Certificate(Kind.OPTIMUM, payload))
 
 
-def chosen_path(problem: Problem, system: System, found: Certified) -> tuple[Path | None, tuple[str, ...], Any]:
-    """The path through the optimum, the labels of the active conditions, and the value of the objective.
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SystemPlan(Plan):
+    """The plan of a method with a system of control points.
 
-    (None, (), None) when there is no optimum.
+    ``optimum``: what the engine's minimisation found, or its certificate shows: a point or a contradiction.
     """
-    if found.points is None:
-        return None, (), None
-    return path_through(problem, system, found.points), system.active(found.points), system.objective_at(found.points)
+
+    system: System
+    optimum: Any
+
+
+def drawn(problem: Problem, system: System, found: Certified) -> dict[str, Any]:
+    """What follows from the optimum of a system, as fields of its plan: the path through it, if there is one, the
+    labels of the active conditions and the value of the objective."""
+    points = found.points
+    return {
+        "problem": problem,
+        "system": system,
+        "formula": str(system.statement()),
+        "outcome": Outcome.INFEASIBLE if points is None else Outcome.SOLVED,
+        "path": None if points is None else path_through(problem, system, points),
+        "active": () if points is None else system.active(points),
+        "objective": None if points is None else system.objective_at(points),
+    }
+
+
+def restored(fields: Mapping[str, Any], found: Certified, members: Members) -> dict[str, Any]:
+    """All fields of the plan that certificates prove: nothing was asked of the engine, and the time is not known."""
+    certificate = bundled(members, fields["path"])
+    return {**fields, "optimum": found, "certificate": certificate, "answer": None, "checks": {}, "seconds": {}}
 
 
 def path_through(problem: Problem, system: System, points: Mapping[str, Vector]) -> Path:
@@ -135,9 +159,7 @@ def elimination(system: System) -> tuple[str, qe.Certificate]:
     return ELIMINATION, qe.Certificate.substitution(body_of(system.statement(), order), order, solved, answer)
 
 
-def verified(
-    members: list[tuple[str, qe.Certificate]], path: Path | None
-) -> tuple[qe.Certificate, dict[str, qe.Verdict]]:
+def verified(members: Members, path: Path | None) -> tuple[qe.Certificate, dict[str, qe.Verdict]]:
     """All certificates in one, those of the path included, and what the independent checker says of each part."""
     checks = {label: qe.verify(certificate) for label, certificate in members}
     of_path = path_certificates(path) if path else []
@@ -146,6 +168,6 @@ def verified(
     return qe.Certificate.bundle([*members, *of_path]), checks
 
 
-def bundled(members: list[tuple[str, qe.Certificate]], path: Path | None) -> qe.Certificate:
+def bundled(members: Members, path: Path | None) -> qe.Certificate:
     """All certificates in one, those of the path included."""
     return qe.Certificate.bundle([*members, *(path_certificates(path) if path else [])])

@@ -12,9 +12,11 @@ from bezier.curves.scalar import Vector, rational, sign
 from bezier.curves.workspace import Workspace, WorkspaceKind
 from bezier.methods.control.optimal_path import (
     OPTIMUM,
+    Members,
+    SystemPlan,
     answered,
     body_of,
-    chosen_path,
+    drawn,
     elimination,
     found_optimum,
     least,
@@ -24,7 +26,7 @@ from bezier.methods.control.optimal_path import (
 from bezier.methods.control.system import System
 from bezier.methods.quadratic import formula as quadratic
 from bezier.paths.path import Path, Proof, prove
-from bezier.plan import Clock, Outcome, Plan
+from bezier.plan import Clock
 from bezier.problem import Problem
 from qe.errors import InternalError
 
@@ -61,12 +63,10 @@ class Gap:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class QuadraticPlan(Plan):
-    """``region``: of Q1. ``optimum``: what the engine's minimisation found, be it a point or a contradiction."""
+class QuadraticPlan(SystemPlan):
+    """``region``: of Q1. ``gap``: what the printed formula leaves open about the table."""
 
-    system: System
     region: Any
-    optimum: Any
     balls: quadratic.ThreeBalls
     gap: Gap
 
@@ -74,8 +74,7 @@ class QuadraticPlan(Plan):
 def make(problem: Problem, clock: Clock) -> QuadraticPlan:
     """Plan with formula (8)."""
     system = quadratic.system(problem)
-    question = system.statement()
-    answer = quantifier_free(question, clock)
+    answer = quantifier_free(system.statement(), clock)
     with clock.step("region"):
         region = qe.region(answer.formula, order=quadratic.FREE, timeout=clock.remaining())
     clock.learn("region", "empty" if region.is_empty else f"{len(region.cells)} cells")
@@ -84,29 +83,22 @@ def make(problem: Problem, clock: Clock) -> QuadraticPlan:
     if region.is_empty == optimum.is_optimal:
         raise InternalError("the region and the optimum disagree about the existence of a control point")
     with clock.step("curves and proofs"):
-        path, active, objective = chosen_path(problem, system, found_optimum(system, optimum.certificate))
+        fields = drawn(problem, system, found_optimum(system, optimum.certificate))
     with clock.step("hemisphere question"):
-        gap = _gap(problem, region, path, clock)
+        gap = _gap(problem, region, fields["path"], clock)
+    fields |= {"region": region, "gap": gap, "balls": quadratic.three_balls(problem)}
     with clock.step("verification"):
-        members = [elimination(system), (REGION, region.certificate), (OPTIMUM, optimum.certificate)]
-        certificate, checks = verified([*members, *gap.certificates], path)
+        members = certificates(system, region, optimum, gap)
+        certificate, checks = verified(members, fields["path"])
     return QuadraticPlan(
-        problem=problem,
-        outcome=Outcome.SOLVED if path else Outcome.INFEASIBLE,
-        formula=str(question),
-        answer=answer,
-        objective=objective,
-        path=path,
-        active=active,
-        certificate=certificate,
-        checks=checks,
-        seconds=clock.seconds,
-        system=system,
-        region=region,
-        optimum=optimum,
-        balls=quadratic.three_balls(problem),
-        gap=gap,
+        **fields, answer=answer, optimum=optimum, certificate=certificate, checks=checks, seconds=clock.seconds
     )
+
+
+def certificates(system: System, region: qe.Region, optimum: Any, gap: Gap) -> Members:
+    """The labelled certificates of a plan, those of its path left out."""
+    found = [elimination(system), (REGION, region.certificate), (OPTIMUM, optimum.certificate)]
+    return [*found, *gap.certificates]
 
 
 def _gap(problem: Problem, region: Any, path: Path | None, clock: Clock) -> Gap:

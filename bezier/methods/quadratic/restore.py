@@ -10,13 +10,12 @@ from bezier.curves.scalar import sign
 from bezier.curves.workspace import Workspace, WorkspaceKind
 from bezier.input.stored import numbers
 from bezier.methods.control.claims import check_optimum_of, foreign, member
-from bezier.methods.control.optimal_path import OPTIMUM, body_of, bundled, chosen_path, elimination, restored_optimum
+from bezier.methods.control.optimal_path import body_of, drawn, restored, restored_optimum
 from bezier.methods.control.system import System
 from bezier.methods.control.terms import Terms, condition_terms, coordinate_terms, fixed_by, reduced
 from bezier.methods.quadratic import formula as quadratic
-from bezier.methods.quadratic.plan import BELOW, REGION, Gap, QuadraticPlan, above_label
+from bezier.methods.quadratic.plan import BELOW, REGION, Gap, QuadraticPlan, above_label, certificates
 from bezier.paths.path import Path, prove
-from bezier.plan import Outcome
 from bezier.problem import Problem
 from qe.errors import CertificateRejected
 from qe.exact.ring import Ring
@@ -31,27 +30,11 @@ def restore(problem: Problem, certificate: Certificate) -> QuadraticPlan:
     """The plan that the certificates of a folder prove. Raises ``CertificateRejected``."""
     system = quadratic.system(problem)
     optimum = restored_optimum(system, certificate)
-    path, active, objective = chosen_path(problem, system, optimum)
-    region = _region(system, certificate, infeasible=path is None)
-    gap = _gap(problem, certificate, path)
-    members = [elimination(system), (REGION, region.certificate), (OPTIMUM, optimum.certificate), *gap.certificates]
-    return QuadraticPlan(
-        problem=problem,
-        outcome=Outcome.SOLVED if path else Outcome.INFEASIBLE,
-        formula=str(system.statement()),
-        answer=None,
-        objective=objective,
-        path=path,
-        active=active,
-        certificate=bundled(members, path),
-        checks={},
-        seconds={},
-        system=system,
-        region=region,
-        optimum=optimum,
-        balls=quadratic.three_balls(problem),
-        gap=gap,
-    )
+    fields = drawn(problem, system, optimum)
+    region = _region(system, certificate, infeasible=fields["path"] is None)
+    gap = _gap(problem, certificate, fields["path"])
+    fields |= {"region": region, "gap": gap, "balls": quadratic.three_balls(problem)}
+    return QuadraticPlan(**restored(fields, optimum, certificates(system, region, optimum, gap)))
 
 
 def _region(system: System, certificate: Certificate, *, infeasible: bool) -> qe.Region:
