@@ -64,7 +64,7 @@ ROWS = {
     "bezier.check": 23,
     "bezier.compare": 23,
     "bezier.cli": 24,
-    "bezier.__main__": 24,
+    "bezier.__main__": 25,
     "bezier.cubic": 24,
     "bezier.single": 24,
     "bezier": 24,
