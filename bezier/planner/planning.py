@@ -17,7 +17,6 @@ from qe.errors import BudgetExceeded, Unable
 
 def make_plan(problem: Problem, clock: Clock | None = None) -> Plan:
     """Plan a path. Raises ``Unable`` where no answer is reached, at limits with what is known by then."""
-
     watch = clock or Clock()
     try:
         plan: Plan = avoiding(problem, watch) if problem.obstacles else method_of(problem.method).make(problem, watch)
@@ -25,9 +24,12 @@ def make_plan(problem: Problem, clock: Clock | None = None) -> Plan:
             plan = _with_findings(plan, watch)
         with watch.step("quality"):
             return with_quality(plan)
-    except BudgetExceeded as error:
+    except Unable as error:
+        limit = error.limit if isinstance(error, BudgetExceeded) else "time" if watch.is_over else None
+        if limit is None:
+            raise
         known = "; ".join(f"{name}: {value}" for name, value in watch.facts.items()) or "nothing yet"
-        raise BudgetExceeded(f"{error}; known so far: {known}", limit=error.limit) from None
+        raise BudgetExceeded(f"{error}; known so far: {known}", limit=limit) from None
 
 
 def _with_findings(plan: Plan, clock: Clock) -> Plan:
