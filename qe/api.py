@@ -303,8 +303,8 @@ def minimize(
 ) -> Optimum | GlobalOptimum | ParametricOptimum:
     """The exact global minimum of a polynomial where the constraints hold.
 
-    ``objective``: text, ``Poly``, or a SymPy expression; ``constraints``: a formula, or a list of formulas to be
-    conjoined. Convex quadratic (or linear) problems get an ``Optimum`` with multipliers; all others are solved by
+    ``objective``: text, ``Poly``, a pair of p and a rational s for s p, or a SymPy expression; ``constraints``: a
+    formula, or a list of formulas to be conjoined. Convex quadratic (or linear) problems get an ``Optimum`` with multipliers; all others are solved by
     elimination, with quantifiers in the constraints if need be, and get a ``GlobalOptimum`` with all minimisers.
     ``parameters``: variables that are not optimised over; the answer is a ``ParametricOptimum``, their function.
     Raises ``Unable`` where no proof was found, ``BudgetExceeded`` at a limit; see ``eliminate`` for the limits.

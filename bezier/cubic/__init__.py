@@ -1,1 +1,1 @@
-"""Method 2 with three cubic curves: formula (7)."""
+"""The former place of the cubic method, kept for programs that import it: see ``bezier.methods.cubic``."""

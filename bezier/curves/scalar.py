@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from fractions import Fraction
-from typing import Any, Protocol
+from typing import Any, Protocol, overload
 
 Vector = tuple["Scalar", ...]
 
@@ -49,6 +49,16 @@ def vector(values: Iterable[Any]) -> Vector:
 def add(a: Sequence[Any], b: Sequence[Any]) -> Vector:
     """a + b, coordinate by coordinate."""
     return tuple(x + y for x, y in zip(a, b, strict=True))
+
+
+@overload
+def subtract(a: Sequence[Fraction], b: Sequence[Fraction]) -> tuple[Fraction, ...]:
+    """Of rational vectors."""
+
+
+@overload
+def subtract(a: Sequence[Any], b: Sequence[Any]) -> Vector:
+    """Of vectors in general."""
 
 
 def subtract(a: Sequence[Any], b: Sequence[Any]) -> Vector:

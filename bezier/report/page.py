@@ -10,26 +10,24 @@ from typing import TYPE_CHECKING, Any
 from jinja2 import Environment, PackageLoader, StrictUndefined, Template
 from markupsafe import Markup
 
-from bezier import heights
-from bezier.methods import method_of
-from bezier.obstacles import report as obstacle_report
-from bezier.plan import Plan
+from bezier.paths import heights
+from bezier.plan import Method, Plan
 from bezier.report import mathml, parts
+from bezier.report import obstacles as obstacle_report
 
 if TYPE_CHECKING:
     from bezier.pictures.picture import Drawing, PathPicture
 
 
-def render(plan: Plan, drawing: Drawing | None) -> str:
-    """The page. Without ``drawing`` there are no pictures and no script."""
-    method = method_of(plan.problem.method)
+def render(plan: Plan, method: Method[Any], drawing: Drawing | None) -> str:
+    """The page of a plan by this method. Without ``drawing`` there are no pictures and no script."""
     page = template(method.template).render(_common(plan, drawing) | method.sections(plan))
-    return page if method.hats else mathml.without_hats(page)
+    return page if method.hatted_names else mathml.without_hats(page)
 
 
 def template(name: str) -> Template:
     """A page's template."""
-    environment = Environment(loader=PackageLoader("bezier"), autoescape=True, undefined=StrictUndefined)
+    environment = Environment(loader=PackageLoader("bezier.report"), autoescape=True, undefined=StrictUndefined)
     environment.trim_blocks = True
     return environment.get_template(name)
 
@@ -54,7 +52,7 @@ def _common(plan: Plan, drawing: Drawing | None) -> dict[str, Any]:
         "charts": Markup(drawing.charts if drawing else ""),
         "clearance_chart": Markup(drawing.clearance if drawing else ""),
         **obstacle_report.sections(plan),
-        "heights": heights.words(plan.heights) if plan.heights else [],
+        "heights": heights.summary_lines(plan.heights) if plan.heights else [],
         "heights_tone": parts.tone(plan.heights is None or plan.heights.hold),
         "figures": figures(drawing.picture if drawing else None),
         "plotly_script": _script(drawing),

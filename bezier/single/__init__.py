@@ -1,1 +1,1 @@
-"""Method 1: one curve of degree n, as printed and closed."""
+"""The former place of Method 1, kept for programs that import it: see ``bezier.methods.single``."""

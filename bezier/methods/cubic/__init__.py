@@ -1,0 +1,1 @@
+"""Method 2 with three cubic curves: formula (7)."""

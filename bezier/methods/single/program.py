@@ -1,0 +1,125 @@
+"""Method 1, one Bézier curve of degree n, as printed (Hatakeyama, Terui and Mikawa, SCSS 2024, 4.1).
+
+The x-coordinates are equally spaced; the y- and z-coordinates of the inner control points solve problem (4), each
+coordinate for itself: P(t_a) = P(t_b) = h, start <= the first p, h <= the next up to q, goal <= the others, and the sum
+over p+1..q is smallest. (4) does not say that the curve stays above h between, nor that it stays in the workspace:
+``dips`` and ``bezier.curves.containment`` find out, ``bezier.methods.single.closed`` repairs it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from math import comb
+
+from bezier.curves import bernstein as bs
+from bezier.curves.curve import Bezier
+from bezier.curves.nonnegative import Negative, decide
+from bezier.input.task import Axis, Task, Values, equally_spaced
+from bezier.methods.single.simplex import Contradiction, Duals, LinearOptimum, LinearProgram, Row, solve
+
+TIE_BREAK = (
+    "among the minima of the sum the one whose largest |coordinate| is least, then the lexicographically smallest"
+)
+"""The paper leaves the choice open. The maximum norm keeps the choice a linear problem and the numbers rational."""
+
+
+@dataclass(frozen=True, slots=True)
+class Chosen:
+    """Problem (4) of one axis with its answer: ``outcome`` for ``program`` and ``objective``, with the dual proof.
+
+    ``values``: all coordinates from start to goal, by the ``TIE_BREAK``; None when (4) has no solution.
+    """
+
+    axis: Axis
+    program: LinearProgram
+    objective: Values
+    outcome: LinearOptimum | Contradiction
+
+    @property
+    def values(self) -> Values | None:
+        """All n+1 coordinates."""
+        if isinstance(self.outcome, Contradiction):
+            return None
+        return (self.axis.start, *self.outcome.point, self.axis.goal)
+
+
+def weights_at(degree: int, t: Fraction) -> Values:
+    """C(n,i) t^i (1-t)^(n-i) for i = 0..n: P(t) is the sum of these times P_i."""
+    return tuple(comb(degree, i) * t**i * (1 - t) ** (degree - i) for i in range(degree + 1))
+
+
+def variables(given: Task, axis: Axis) -> tuple[str, ...]:
+    """The names y1, ..., y(n-1)."""
+    return tuple(f"{axis.name}{i}" for i in range(1, given.degree))
+
+
+def program(given: Task, axis: Axis) -> LinearProgram:
+    """The constraints of (4) for one raised axis."""
+    rows = []
+    for t in given.times:
+        first, *inner, last = weights_at(given.degree, t)
+        bound = Fraction(axis.height or 0) - first * axis.start - last * axis.goal
+        rows.append(Row(tuple(inner), bound, equation=True))
+    lower = tuple(given.lower_bound(axis, i) for i in range(1, given.degree))
+    return LinearProgram(variables(given, axis), lower, tuple(rows))
+
+
+def objective(given: Task) -> Values:
+    """The coefficients of the sum over p+1..q on the inner coordinates of one axis."""
+    return tuple(Fraction(int(i in given.middle)) for i in range(1, given.degree))
+
+
+def choose(given: Task, axis: Axis) -> Chosen:
+    """Solve (4) exactly for one raised axis, with the ``TIE_BREAK``."""
+    base, cost = program(given, axis), objective(given)
+    size = len(cost)
+    unit = [tuple(Fraction(int(i == j)) for i in range(size + 1)) for j in range(size + 1)]
+    signed = [(side, j) for side in (1, -1) for j in range(size) if side > 0 or base.lower[j] < 0]
+    at_most = [Row((*(side * v for v in unit[j][:-1]), Fraction(-1)), Fraction(0)) for side, j in signed]
+    wider = LinearProgram(
+        (*base.names, f"{axis.name}max"),
+        (*base.lower, Fraction(0)),
+        (*(Row((*row.coefficients, Fraction(0)), row.bound, row.equation) for row in base.rows), *at_most),
+    )
+    outcome = solve(wider, [(*cost, Fraction(0)), unit[-1], *unit[:-1]])
+    duals = Duals(outcome.duals.rows[: len(base.rows)], outcome.duals.bounds[:size])
+    if isinstance(outcome, Contradiction):
+        return Chosen(axis, base, cost, Contradiction(duals))
+    return Chosen(axis, base, cost, replace(outcome, point=outcome.point[:size], duals=duals))
+
+
+def lowest(given: Task, axis: Axis, t: Fraction) -> Values | None:
+    """Among the solutions of (4) with the least sum one that is lowest at ``t``: what (4) allows just as well."""
+    height = weights_at(given.degree, t)[1:-1]
+    outcome = solve(program(given, axis), [objective(given), height])
+    return None if isinstance(outcome, Contradiction) else (axis.start, *outcome.point, axis.goal)
+
+
+def curve(given: Task, values: Mapping[str, Values]) -> Bezier:
+    """The curve with these coordinates of the raised axes; the other axes are equally spaced."""
+    columns = [values.get(axis.name, equally_spaced(given.degree, axis.start, axis.goal)) for axis in given.axes]
+    return Bezier(tuple(zip(given.abscissae, *columns, strict=True)))
+
+
+@dataclass(frozen=True, slots=True)
+class Dip:
+    """The curve is below the height of ``axis`` at the parameter ``t`` in (t_a, t_b): a hole of (4)."""
+
+    axis: Axis
+    t: Fraction
+    value: Fraction
+
+
+def dips(given: Task, path: Bezier) -> tuple[Dip, ...]:
+    """One proved dip for each raised axis that has any: complete, by ``bezier.curves.nonnegative``."""
+    found = []
+    low, high = given.times
+    for axis in given.raised:
+        height = Fraction(axis.height or 0)
+        margin = bs.restrict(path.coordinate(1 + given.axes.index(axis)), low, high)
+        outcome = decide([c - height for c in margin])
+        if isinstance(outcome, Negative):
+            found.append(Dip(axis, low + outcome.t * (high - low), outcome.value + height))
+    return tuple(found)

@@ -1,0 +1,116 @@
+"""A path of several curves with what is proved about it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
+from itertools import pairwise
+from typing import Any
+
+from bezier.curves.containment import Inside, Leaves, Outcome, examine_all
+from bezier.curves.curve import Bezier, Join, Smoothness, join
+from bezier.curves.evidence import containment
+from bezier.curves.scalar import Vector, scale
+from bezier.curves.workspace import Condition, Workspace
+from qe.proof.certificate import Certificate
+
+
+@dataclass(frozen=True, slots=True)
+class ProvedJoin:
+    """Where two named curves of the path meet."""
+
+    first: str
+    second: str
+    join: Join
+
+
+@dataclass(frozen=True, slots=True)
+class Proof:
+    """What was found out about one curve and one condition of the workspace."""
+
+    curve: str
+    outcome: Outcome
+
+    @property
+    def condition(self) -> Condition:
+        """The condition examined."""
+        return self.outcome.condition
+
+
+@dataclass(frozen=True, slots=True)
+class Path:
+    """The curves in order, the control points by name, the joins, and the containment proofs.
+
+    ``durations``: the time that a curve takes, where it is not 1.
+    """
+
+    curves: Mapping[str, Bezier]
+    points: Mapping[str, Vector]
+    joins: tuple[ProvedJoin, ...]
+    proofs: tuple[Proof, ...]
+    durations: Mapping[str, Fraction] = field(default_factory=dict)
+
+    def duration(self, curve: str) -> Fraction:
+        """The time that a curve takes."""
+        return self.durations.get(curve, Fraction(1))
+
+    def with_proofs(self, more: tuple[Proof, ...]) -> Path:
+        """The path with further containment proofs."""
+        return replace(self, proofs=self.proofs + more)
+
+    @property
+    def is_inside(self) -> bool:
+        """Whether every whole curve is proved to lie in the workspace."""
+        return all(isinstance(proof.outcome, Inside) for proof in self.proofs)
+
+    @property
+    def violations(self) -> tuple[Proof, ...]:
+        """The proofs that failed, each with a parameter outside."""
+        return tuple(proof for proof in self.proofs if isinstance(proof.outcome, Leaves))
+
+    @property
+    def smoothness(self) -> Smoothness:
+        """The smoothness that every join has with respect to time."""
+        return min((j.join.smoothness for j in self.joins), default=Smoothness.C2)
+
+
+def assemble(
+    curves: Mapping[str, Bezier],
+    points: Mapping[str, Vector],
+    workspace: Workspace,
+    *,
+    durations: Mapping[str, Fraction] | None = None,
+) -> Path:
+    """Examine joins and containment of the curves, exactly."""
+    path = Path(dict(curves), dict(points), (), prove(curves, workspace.conditions), durations or {})
+    joins = [
+        ProvedJoin(a, b, join(curves[a], curves[b], (path.duration(a), path.duration(b)))) for a, b in pairwise(curves)
+    ]
+    return replace(path, joins=tuple(joins))
+
+
+def prove(curves: Mapping[str, Bezier], conditions: tuple[Condition, ...]) -> tuple[Proof, ...]:
+    """The containment of each curve in each condition."""
+    return tuple(Proof(name, outcome) for name, curve in curves.items() for outcome in examine_all(curve, conditions))
+
+
+def speed_at_joins(path: Path) -> dict[str, Vector]:
+    """The common velocity at each join that is at least C1, by the name of the join."""
+    found: dict[str, Any] = {}
+    for item in path.joins:
+        if item.join.smoothness >= Smoothness.C1:
+            slope = path.curves[item.second].derivative(1, Fraction(0))
+            found[f"{item.first}-{item.second}"] = scale(1 / path.duration(item.second), slope)
+    return found
+
+
+def path_certificates(path: Path) -> list[tuple[str, Certificate]]:
+    """A labelled certificate for each containment proof that has this form."""
+    found = []
+    for proof in path.proofs:
+        if isinstance(proof.outcome, Inside):
+            certificate = containment(path.curves[proof.curve], proof.outcome)
+            if certificate is not None:
+                found.append((f"{proof.curve} in {proof.condition.name}", certificate))
+    return found

@@ -1,0 +1,100 @@
+"""Obstacles in pictures. Floating point, for the eye only."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from bezier.obstacles.bodies import Body, Cylinder, HalfSpaceBody, Rounded
+from bezier.obstacles.obstacle import Obstacle
+from bezier.pictures.mesh import Array, Indices, hull, hull_faces, icosphere
+
+COLOURS = ("#c9772b", "#8a6fb0", "#5d8a3a", "#b5537c", "#4a8d97", "#a08a2e")
+"""The colours of obstacles, in turn."""
+GRID = 21
+"""Grid points per axis to show an obstacle given by a formula."""
+
+
+@dataclass(frozen=True, slots=True)
+class ObstaclePicture:
+    """An obstacle's surface as triangles; without ``faces`` the vertices are points inside it."""
+
+    name: str
+    colour: str
+    vertices: Array
+    faces: Indices | None
+
+    def outline(self, i: int, j: int) -> Array | None:
+        """Its silhouette in a coordinate view, None for a cloud of points."""
+        return None if self.faces is None else hull(self.vertices[:, [i, j]])
+
+
+def obstacle_pictures(obstacles: Sequence[Obstacle], reach: float) -> tuple[ObstaclePicture, ...]:
+    """All obstacles as far as they lie within ``reach`` of the origin; those that do not are left out."""
+    found = []
+    for k, obstacle in enumerate(obstacles):
+        colour = COLOURS[k % len(COLOURS)]
+        if obstacle.body is None:
+            inside = _cloud(obstacle, reach)
+            if len(inside):
+                found.append(ObstaclePicture(obstacle.name, colour, inside, None))
+            continue
+        points = _surface(obstacle.body, reach)
+        if len(points):
+            found.append(ObstaclePicture(obstacle.name, colour, points, hull_faces(points, points.mean(axis=0))))
+    return tuple(found)
+
+
+def _surface(body: Body, reach: float) -> Array:
+    """Points whose convex hull is the body, or its part that matters."""
+    match body:
+        case Rounded(core, radius):
+            return _widened(np.array([[float(c) for c in p] for p in core.corners]), float(radius))
+        case Cylinder():
+            angle = np.linspace(0, 2 * np.pi, 33)[:-1]
+            x, y = (float(c) + float(body.tube_radius) * turn(angle) for c, turn in zip(body.centre, (np.cos, np.sin)))
+            heights = [-reach if body.bottom is None else float(body.bottom)]
+            heights.append(reach if body.top is None else float(body.top))
+            return _widened(np.concatenate([np.stack([x, y, 0 * x + h], axis=1) for h in heights]), float(body.radius))
+    return _slice(body, reach)
+
+
+def _widened(points: Array, radius: float) -> Array:
+    """The points with balls around them."""
+    if not radius:
+        return points
+    directions, _ = icosphere(3 if len(points) < 4 else 2 if len(points) < 20 else 1)
+    widened: Array = (points[:, None, :] + radius * directions[None]).reshape(-1, 3)
+    return widened
+
+
+def _slice(body: HalfSpaceBody, reach: float) -> Array:
+    """A plate on the boundary plane of a half-space, inside the ball of radius ``reach``."""
+    normal = np.array([float(c) for c in body.normal])
+    size = np.linalg.norm(normal)
+    unit, height = normal / size, float(body.offset) / size + float(body.radius)
+    if abs(height) >= reach:
+        return np.zeros((0, 3))
+    first = np.cross(unit, np.eye(3)[np.argmin(abs(unit))])
+    first /= np.linalg.norm(first)
+    angle, wide = np.linspace(0, 2 * np.pi, 49)[:-1, None], (reach**2 - height**2) ** 0.5
+    rim = height * unit + wide * (np.cos(angle) * first + np.sin(angle) * np.cross(unit, first))
+    plate: Array = np.concatenate([rim, rim - 0.02 * reach * unit])
+    return plate
+
+
+def _cloud(obstacle: Obstacle, reach: float) -> Array:
+    """Grid points inside an obstacle, within ``reach`` of the origin."""
+    axis = np.linspace(-reach, reach, GRID)
+    grid = np.stack(np.meshgrid(axis, axis, axis), axis=-1).reshape(-1, 3)
+    grid = grid[np.linalg.norm(grid, axis=1) <= reach]
+    inside = np.zeros(len(grid), dtype=bool)
+    for piece in obstacle.pieces:
+        held = np.ones(len(grid), dtype=bool)
+        for constraint in piece.constraints:
+            held &= sum(float(c) * np.prod(grid ** np.array(e), axis=1) for e, c in constraint.terms) >= 0
+        inside |= held
+    found: Array = grid[inside]
+    return found

@@ -1,0 +1,25 @@
+"""The table of the planning methods: the one place that knows all of them."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from bezier.plan import Method
+from bezier.problem import PlanMethod
+
+
+def method_of(choice: PlanMethod) -> Method[Any]:
+    """The method of this name, loaded when it is needed."""
+    match choice:
+        case PlanMethod.QUADRATIC:
+            from bezier.methods.quadratic.method import QUADRATIC
+
+            return QUADRATIC
+        case PlanMethod.CUBIC:
+            from bezier.methods.cubic.method import CUBIC
+
+            return CUBIC
+        case PlanMethod.SINGLE:
+            from bezier.methods.single.method import SINGLE
+
+            return SINGLE
