@@ -35,13 +35,12 @@ if TYPE_CHECKING:
         eliminate,
         equivalent,
         find_instance,
-        maximize,
-        minimize,
         parametric_witnesses,
         region,
         verify,
     )
     from qe.api_groebner import comprehensive_groebner, real_root_classification
+    from qe.api_optimum import maximize, minimize
     from qe.certify.verdict import Verdict
     from qe.convex.optimum import Optimum
     from qe.elimination.vs.parametric import ParametricWitness
@@ -66,8 +65,6 @@ _API = (
     "eliminate",
     "equivalent",
     "find_instance",
-    "maximize",
-    "minimize",
     "parametric_witnesses",
     "region",
     "verify",
@@ -78,6 +75,7 @@ _LATER = {
     "RealRootClassification": "qe.groebner.counting",
     "comprehensive_groebner": "qe.api_groebner",
     "real_root_classification": "qe.api_groebner",
+    **dict.fromkeys(("maximize", "minimize"), "qe.api_optimum"),
     "Exists": "qe.io.sympy",
     "ForAll": "qe.io.sympy",
     "GlobalOptimum": "qe.optimization.global_optimum",

@@ -7,11 +7,12 @@ import time
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
 from fractions import Fraction
-from importlib import import_module
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from qe import arguments
-from qe.api_input import AnyFormula, read_block, read_constraints, read_formula, read_polynomial, together
+from qe.api_input import AnyFormula, read_block, read_formula, read_polynomial, together
+from qe.api_limits import limits_of as _limits
+from qe.api_limits import performed as _performed
 from qe.errors import BudgetExceeded, InputError, Unable
 from qe.exact.number import Assignment
 from qe.execution import Budgets, Limits, perform
@@ -20,7 +21,7 @@ from qe.formula.counting import without_root_atoms
 from qe.formula.features import features
 from qe.formula.syntax import Exists, ForAll, Formula
 from qe.formula.traverse import free_variables, is_quantifier_free, ring_of
-from qe.formula.weight import may_block, text_may_block
+from qe.formula.weight import text_may_block
 from qe.options import VERIFY_SECONDS, Budget, Method, Options, Stage
 from qe.progress import Event, silent
 from qe.proof.answer import Answer, Guarantee, Status
@@ -29,18 +30,12 @@ from qe.proof.run_log import RunLog
 
 if TYPE_CHECKING:  # the checker and the optimiser are loaded where they are used
     from qe.certify.verdict import Verdict
-    from qe.convex.optimum import Optimum
     from qe.elimination.protocol import Outcome
     from qe.elimination.vs.parametric import ParametricWitness
-    from qe.optimization.global_optimum import GlobalOptimum
-    from qe.optimization.parametric_optimum import ParametricOptimum
     from qe.regions.region import Region
 
 Result = TypeVar("Result")
 Reader = Callable[[AnyFormula, str], Formula]
-
-MOSTLY_NEEDED = ("qe.engine.run", "qe.rules.block", "qe.elimination.vs.block", "qe.elimination.vs.witness")
-"""The parts of the engine that nearly every problem with a quantifier needs."""
 
 Progress = Callable[[Event], None]
 Order = Any
@@ -128,15 +123,6 @@ def _solved(formula: Formula, options: Options, budget: Budget) -> Outcome:
     from qe.engine.run import solve
 
     return solve(formula, options, budget)
-
-
-def _performed(work: Callable[[Budgets], Result], formula: Formula, limits: Limits) -> Result:
-    """The work on a formula, in a process of its own from the start where a limit must hold."""
-    at_once = limits.timeout is not None or may_block(formula)
-    if at_once:
-        for part in MOSTLY_NEEDED:  # loaded here once, and not again and again in every worker
-            import_module(part)
-    return perform(work, limits, at_once=at_once)
 
 
 def _limited(formula: Formula, options: Options, limits: Limits, check: bool) -> Answer:
@@ -291,77 +277,6 @@ def region(
     return _performed(lambda budgets: described(read, names, budgets(), whole), read, limits)
 
 
-def minimize(
-    objective: AnyFormula,
-    constraints: AnyFormula = "true",
-    *,
-    parameters: Order = None,
-    timeout: float | None = None,
-    memory: int | None = None,
-    progress: Progress = silent,
-    process: bool = True,
-) -> Optimum | GlobalOptimum | ParametricOptimum:
-    """The exact global minimum of a polynomial where the constraints hold.
-
-    ``objective``: text, ``Poly``, a pair of p and a rational s for s p, or a SymPy expression; ``constraints``: a
-    formula, or a list of formulas to be conjoined. Convex quadratic (or linear) problems get an ``Optimum`` with multipliers; all others are solved by
-    elimination, with quantifiers in the constraints if need be, and get a ``GlobalOptimum`` with all minimisers.
-    ``parameters``: variables that are not optimised over; the answer is a ``ParametricOptimum``, their function.
-    Raises ``Unable`` where no proof was found, ``BudgetExceeded`` at a limit; see ``eliminate`` for the limits.
-    """
-    return _best(1, objective, constraints, parameters, _limits(timeout, memory, progress, process))
-
-
-def maximize(
-    objective: AnyFormula,
-    constraints: AnyFormula = "true",
-    *,
-    parameters: Order = None,
-    timeout: float | None = None,
-    memory: int | None = None,
-    progress: Progress = silent,
-    process: bool = True,
-) -> Optimum | GlobalOptimum | ParametricOptimum:
-    """The exact global maximum; see ``minimize``."""
-    return _best(-1, objective, constraints, parameters, _limits(timeout, memory, progress, process))
-
-
-def _best(
-    sign: int, objective: AnyFormula, constraints: AnyFormula, parameters: Order, limits: Limits
-) -> Optimum | GlobalOptimum | ParametricOptimum:
-    """The optimum of a convex problem by its method, of any other by elimination."""
-    from qe.convex.optimum import NotConvex, maximize, minimize
-
-    poly, scale = read_polynomial(objective, "objective")
-    conditions = read_constraints(constraints)
-    given = arguments.names(parameters, "parameters")
-
-    def work(budgets: Budgets) -> Optimum | GlobalOptimum | ParametricOptimum:
-        budget = budgets()
-        if given is not None:
-            from qe.optimization.parametric_optimum import optimum_of
-
-            return optimum_of(sign, poly, conditions, given, scale=scale, budget=budget)
-        try:
-            return (minimize if sign > 0 else maximize)(poly, conditions, scale=scale, budget=budget)
-        except NotConvex:
-            from qe.optimization.global_optimum import best
-
-            return best(sign, poly, conditions, scale=scale, budget=budget)
-
-    return _performed(work, conditions, limits)
-
-
-def _limits(timeout: float | None, memory: int | None, progress: Progress, process: bool) -> Limits:
-    """The limits that a caller sets, checked."""
-    return Limits(
-        arguments.seconds(timeout),
-        arguments.mebibytes(memory),
-        arguments.listener(progress),
-        arguments.flag(process, "process"),
-    )
-
-
 def verify(
     certificate: Certificate,
     *,
@@ -392,8 +307,6 @@ __all__ = [
     "eliminate",
     "equivalent",
     "find_instance",
-    "maximize",
-    "minimize",
     "parametric_witnesses",
     "read_formula",
     "region",

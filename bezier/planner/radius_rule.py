@@ -132,7 +132,9 @@ def helps(problem: Problem, radius: Fraction, remaining: Limit = unlimited) -> b
     """Whether the optimum with this radius exists, has an accepted certificate and differs from both via points."""
     changed = replace(problem, workspace=Workspace(problem.workspace.kind, radius * radius), radius_is_auto=False)
     system = _system(changed)
-    optimum = qe.minimize(system.objective().polynomial, system.in_free_points().formula, timeout=remaining())
+    optimum = qe.minimize(
+        system.objective().polynomial, system.in_free_points().formula, method="convex", timeout=remaining()
+    )
     if not optimum.is_optimal or not qe.verify(optimum.certificate).accepted:
         return False
     values = iter([optimum.point[name] for name in system.shape.variables])

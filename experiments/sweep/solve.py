@@ -86,7 +86,9 @@ def _quadratic(task: Task, timeout: float | None) -> Mapping[str, Any]:
 def _cubic(task: Task, timeout: float | None) -> Mapping[str, Any]:
     """The least |Q1 - Q0|^2 + |Q2 - Q1|^2 + |R0 - Q2|^2 under the conditions of (7), which can always be met."""
     system = cubic.system(_problem(task))
-    optimum = qe.minimize(system.objective().polynomial, system.in_free_points().formula, timeout=timeout)
+    optimum = qe.minimize(
+        system.objective().polynomial, system.in_free_points().formula, method="convex", timeout=timeout
+    )
     if not optimum.is_optimal:
         return {"feasible": False}
     value: Fraction | Any = optimum.value

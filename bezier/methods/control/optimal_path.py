@@ -48,7 +48,7 @@ def least(system: System, answer: Any, clock: Clock) -> Any:
     """The engine's exact minimum of the objective under the quantifier-free answer, or its proof that there is none."""
     # an answer "false" holds no conditions to combine to a contradiction: then the given ones are taken
     conditions = system.in_free_points().formula if answer.formula == FALSE else answer.formula
-    return qe.minimize(system.objective().polynomial, conditions, timeout=clock.remaining())
+    return qe.minimize(system.objective().polynomial, conditions, method="convex", timeout=clock.remaining())
 
 
 @dataclass(frozen=True, slots=True)

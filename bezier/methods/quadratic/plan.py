@@ -131,7 +131,10 @@ def above_certificates(problem: Problem, clock: Clock) -> Iterator[tuple[str, qe
     printed = quadratic.printed(problem)
     for point in quadratic.SHAPE.inner:
         least_height = qe.minimize(
-            printed.coordinate(point, 2).polynomial, printed.in_free_points().formula, timeout=clock.remaining()
+            printed.coordinate(point, 2).polynomial,
+            printed.in_free_points().formula,
+            method="convex",
+            timeout=clock.remaining(),
         )
         if least_height.is_optimal and sign(least_height.value) < 0:
             raise InternalError(f"{point} can lie below the table although that was refuted")

@@ -1,0 +1,38 @@
+"""The limits that callers of public functions set, and work under them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from importlib import import_module
+from typing import TypeVar
+
+from qe import arguments
+from qe.execution import Budgets, Limits, perform
+from qe.formula.syntax import Formula
+from qe.formula.weight import may_block
+from qe.progress import Event
+
+Result = TypeVar("Result")
+Progress = Callable[[Event], None]
+
+MOSTLY_NEEDED = ("qe.engine.run", "qe.rules.block", "qe.elimination.vs.block", "qe.elimination.vs.witness")
+"""The parts of the engine that nearly every problem with a quantifier needs."""
+
+
+def performed(work: Callable[[Budgets], Result], formula: Formula, limits: Limits) -> Result:
+    """The work on a formula, in a process of its own from the start where a limit must hold."""
+    at_once = limits.timeout is not None or may_block(formula)
+    if at_once:
+        for part in MOSTLY_NEEDED:  # loaded here once, and not again and again in every worker
+            import_module(part)
+    return perform(work, limits, at_once=at_once)
+
+
+def limits_of(timeout: float | None, memory: int | None, progress: Progress, process: bool) -> Limits:
+    """The limits that a caller sets, checked."""
+    return Limits(
+        arguments.seconds(timeout),
+        arguments.mebibytes(memory),
+        arguments.listener(progress),
+        arguments.flag(process, "process"),
+    )

@@ -1,0 +1,159 @@
+"""The public functions that optimise: ``minimize`` and ``maximize``."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Any, Literal, overload
+
+from qe import arguments
+from qe.api_input import AnyFormula, read_constraints, read_polynomial
+from qe.api_limits import Progress, limits_of, performed
+from qe.errors import InputError
+from qe.execution import Budgets, Limits
+from qe.progress import silent
+
+if TYPE_CHECKING:
+    from qe.convex.optimum import Optimum
+    from qe.optimization.global_optimum import GlobalOptimum
+    from qe.optimization.parametric_optimum import ParametricOptimum
+
+Names = str | Iterable[Any]
+Way = Literal["auto", "convex", "elimination"]
+
+
+@overload
+def minimize(
+    objective: AnyFormula,
+    constraints: AnyFormula = ...,
+    *,
+    method: Literal["convex"],
+    timeout: float | None = ...,
+    memory: int | None = ...,
+    progress: Progress = ...,
+    process: bool = ...,
+) -> Optimum: ...
+@overload
+def minimize(
+    objective: AnyFormula,
+    constraints: AnyFormula = ...,
+    *,
+    parameters: Names,
+    method: Way = ...,
+    timeout: float | None = ...,
+    memory: int | None = ...,
+    progress: Progress = ...,
+    process: bool = ...,
+) -> ParametricOptimum: ...
+@overload
+def minimize(
+    objective: AnyFormula,
+    constraints: AnyFormula = ...,
+    *,
+    method: Way = ...,
+    timeout: float | None = ...,
+    memory: int | None = ...,
+    progress: Progress = ...,
+    process: bool = ...,
+) -> Optimum | GlobalOptimum: ...
+def minimize(
+    objective: AnyFormula,
+    constraints: AnyFormula = "true",
+    *,
+    parameters: Names | None = None,
+    method: Way = "auto",
+    timeout: float | None = None,
+    memory: int | None = None,
+    progress: Progress = silent,
+    process: bool = True,
+) -> Optimum | GlobalOptimum | ParametricOptimum:
+    """The exact global minimum of a polynomial where the constraints hold.
+
+    ``objective``: text, ``Poly``, a pair of p and a rational s for s p, or a SymPy expression; ``constraints``: a
+    formula, or a list of formulas to be conjoined. Convex quadratic (or linear) problems get an ``Optimum`` with
+    multipliers; all others are solved by elimination, with quantifiers in the constraints if need be, and get a
+    ``GlobalOptimum`` with all minimisers. ``method``: "convex" or "elimination" takes that way only.
+    ``parameters``: variables that are not optimised over; the answer is a ``ParametricOptimum``, their function.
+    Raises ``Unable`` where no proof was found, ``BudgetExceeded`` at a limit; see ``eliminate`` for the limits.
+    """
+    return _best(1, objective, constraints, parameters, method, limits_of(timeout, memory, progress, process))
+
+
+@overload
+def maximize(
+    objective: AnyFormula,
+    constraints: AnyFormula = ...,
+    *,
+    method: Literal["convex"],
+    timeout: float | None = ...,
+    memory: int | None = ...,
+    progress: Progress = ...,
+    process: bool = ...,
+) -> Optimum: ...
+@overload
+def maximize(
+    objective: AnyFormula,
+    constraints: AnyFormula = ...,
+    *,
+    parameters: Names,
+    method: Way = ...,
+    timeout: float | None = ...,
+    memory: int | None = ...,
+    progress: Progress = ...,
+    process: bool = ...,
+) -> ParametricOptimum: ...
+@overload
+def maximize(
+    objective: AnyFormula,
+    constraints: AnyFormula = ...,
+    *,
+    method: Way = ...,
+    timeout: float | None = ...,
+    memory: int | None = ...,
+    progress: Progress = ...,
+    process: bool = ...,
+) -> Optimum | GlobalOptimum: ...
+def maximize(
+    objective: AnyFormula,
+    constraints: AnyFormula = "true",
+    *,
+    parameters: Names | None = None,
+    method: Way = "auto",
+    timeout: float | None = None,
+    memory: int | None = None,
+    progress: Progress = silent,
+    process: bool = True,
+) -> Optimum | GlobalOptimum | ParametricOptimum:
+    """The exact global maximum; see ``minimize``."""
+    return _best(-1, objective, constraints, parameters, method, limits_of(timeout, memory, progress, process))
+
+
+def _best(
+    sign: int, objective: AnyFormula, constraints: AnyFormula, parameters: Names | None, method: Way, limits: Limits
+) -> Optimum | GlobalOptimum | ParametricOptimum:
+    """The optimum of a convex problem by its method, of any other by elimination."""
+    from qe.convex.optimum import NotConvex, maximize, minimize
+
+    poly, scale = read_polynomial(objective, "objective")
+    conditions = read_constraints(constraints)
+    given = arguments.names(parameters, "parameters")
+    if method not in ("auto", "convex", "elimination"):
+        raise InputError(f"method: auto, convex or elimination expected, {method!r:.40} found")
+    if given is not None and method == "convex":
+        raise InputError("parameters: method auto or elimination expected with parameters, convex found")
+
+    def work(budgets: Budgets) -> Optimum | GlobalOptimum | ParametricOptimum:
+        from qe.optimization.global_optimum import best
+        from qe.optimization.parametric_optimum import optimum_of
+
+        budget = budgets()
+        if given is not None:
+            return optimum_of(sign, poly, conditions, given, scale=scale, budget=budget)
+        if method != "elimination":
+            try:
+                return (minimize if sign > 0 else maximize)(poly, conditions, scale=scale, budget=budget)
+            except NotConvex:
+                if method == "convex":
+                    raise
+        return best(sign, poly, conditions, scale=scale, budget=budget)
+
+    return performed(work, conditions, limits)
