@@ -167,7 +167,7 @@ def _answer(formula: Formula, options: Options, budget: Budget, check: bool) -> 
         question=formula,
         log=found.log,
     )
-    if certificate is not None and (check or certificate.kind is Kind.WITNESS):
+    if certificate is not None and (check or certificate.kind is Kind.WITNESS or found.witness is not None):
         from qe.api_verify import with_verdict
 
         return with_verdict(answer, budget)
@@ -339,15 +339,24 @@ def _limits(timeout: float | None, memory: int | None, progress: Progress, proce
     )
 
 
-def verify(certificate: Certificate, *, timeout: float | None = VERIFY_SECONDS) -> Verdict:
+def verify(
+    certificate: Certificate,
+    *,
+    formula: AnyFormula = None,
+    format: str = "text",
+    timeout: float | None = VERIFY_SECONDS,
+) -> Verdict:
     """Whether separate code accepts the certificate, within ``timeout`` seconds (None: no limit); see ``qe.certify``.
 
-    Past the limit the verdict is neither accepted nor ``decided``. Raises ``InputError`` for what is no certificate
-    and for a limit that is not positive.
+    With ``formula``, also whether it is about that question, or its negation, up to the names of bound variables and
+    the order of conjuncts and disjuncts; if not, it is rejected at ``claim``. Past the limit the verdict is neither
+    accepted nor ``decided``. Raises ``InputError`` for what is no certificate, a formula that cannot be read and a
+    limit that is not positive.
     """
     from qe.api_verify import verify as check
 
-    return check(certificate, timeout=arguments.seconds(timeout))
+    asked = None if formula is None else read_formula(formula, format)
+    return check(certificate, formula=asked, timeout=arguments.seconds(timeout))
 
 
 __all__ = [

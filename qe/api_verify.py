@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from qe.certify.verify import verify as checked
 from qe.errors import InternalError, Unable
+from qe.formula.syntax import Formula
 from qe.options import VERIFY_SECONDS, Budget
 from qe.proof.answer import Answer, Guarantee
 from qe.proof.cells_json import CellEvidence
@@ -26,8 +27,13 @@ SMALL_DEGREE, SMALL_POLYNOMIALS, SMALL_TEXT = 8, 40, 20_000
 """A certificate of this size needs no process of its own: no single step of its verification takes long."""
 
 
-def verify(certificate: Certificate, *, timeout: float | None = VERIFY_SECONDS) -> Verdict:
+def verify(
+    certificate: Certificate, *, formula: Formula | None = None, timeout: float | None = VERIFY_SECONDS
+) -> Verdict:
     """Whether separate code accepts the certificate within ``timeout`` seconds (None: no limit); see ``qe.certify``.
+
+    With ``formula``, also whether it is about that question, or its negation, up to the names of bound variables and
+    the order of conjuncts and disjuncts; if not, it is rejected at ``claim`` (``qe.certify.claims``).
 
     Large certificates, and all that were read from text, are checked in a process of their own, which is killed at the
     limit (where processes cannot fork, the limit is only looked at between steps). Past it, and where the certificate
@@ -36,7 +42,18 @@ def verify(certificate: Certificate, *, timeout: float | None = VERIFY_SECONDS) 
     """
     if not isinstance(certificate, Certificate):
         return checked(certificate)  # which says what was expected
-    return _limited(certificate, timeout)
+    verdict = _limited(certificate, timeout)
+    return verdict if formula is None or not verdict.accepted else of_question(certificate, formula)
+
+
+def of_question(certificate: Certificate, asked: Formula) -> Verdict:
+    """The verdict on an accepted certificate: whether it is about a question."""
+    from qe.certify.claims import claim_of, is_about
+    from qe.certify.verdict import Verdict
+
+    if is_about(certificate, asked) is not None:
+        return Verdict(True)
+    return Verdict(False, "claim", f"it is about something else: {' '.join(claim_of(certificate).words)}")
 
 
 def with_verdict(answer: Answer, budget: Budget) -> Answer:

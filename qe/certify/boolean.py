@@ -22,7 +22,7 @@ from qe.exact.ring import Poly
 from qe.formula.syntax import And, Atom, Constant, Exists, ForAll, Formula, Not, Or, Relation
 from qe.proof.entry import Entry
 
-NODES = 20_000
+NODES = 2_000
 """Case distinctions of one proof, at most."""
 
 _SIGNS: Mapping[Relation, int] = {

@@ -94,6 +94,8 @@ def _pivot(entry: Entry, block: Sequence[str], body: Formula, claim: Claim) -> _
     if equation.degree(x) != 1 or Atom(equation, Relation.EQ) not in conjuncts(body):
         raise parts[1].fail("no conjunct here that is linear in the variable")
     rest, lead = equation.coefficients(x)
+    if lead.is_constant and sign != (1 if lead.constant_value() > 0 else -1):
+        raise parts[2].fail("not the sign of this number")
     others = conj(p for p in conjuncts(body) if p != Atom(equation, Relation.EQ))
     return _Pivot(x, name, lead, rest, sign if isinstance(sign, int) else None, others)
 

@@ -50,4 +50,5 @@ RULES: Mapping[str, Check] = {
     "shorter": check_table,
     "constant": check_table,
     "convex": check_sentence,
+    "point or multipliers": check_sentence,
 }

@@ -6,11 +6,11 @@ in A, since R is not empty. Both sides are compared with bound variables by the 
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 
 from qe.certify.step import Claim, Context, Limits, only
 from qe.exact.ring import Poly
-from qe.formula.syntax import And, Atom, Constant, Exists, ForAll, Formula, Not, Or, Relation
+from qe.formula.syntax import And, Atom, Constant, Exists, ForAll, Formula, Not, Or, Relation, RootAtom
 
 Binding = Mapping[str, int]
 
@@ -32,7 +32,14 @@ def shape(formula: Formula) -> object:
     return _shape(formula, {}, 0)
 
 
-def _shape(formula: Formula, bound: Binding, depth: int) -> object:
+def arranged(formula: Formula) -> object:
+    """As ``shape``, and the same for formulas whose conjunctions and disjunctions have the same parts in any order."""
+    return _shape(formula, {}, 0, lambda parts: tuple(sorted(set(parts), key=repr)))
+
+
+def _shape(
+    formula: Formula, bound: Binding, depth: int, join: Callable[[list[object]], tuple[object, ...]] = tuple
+) -> object:
     """The formula with numbers for bound variables; those of a block are numbered in its order."""
     match formula:
         case Constant(value):
@@ -40,17 +47,20 @@ def _shape(formula: Formula, bound: Binding, depth: int) -> object:
         case Atom(poly, relation):
             return _comparison(poly, relation, bound)
         case Not(arg):
-            return "not", _shape(arg, bound, depth)
+            return "not", _shape(arg, bound, depth, join)
         case And(args) | Or(args):
-            return type(formula).__name__, tuple(_shape(a, bound, depth) for a in args)
+            return type(formula).__name__, join([_shape(a, bound, depth, join) for a in args])
         case Exists(variables, body) | ForAll(variables, body):
             names = [v for v in variables if v in body.free]
             inner = {**bound, **{name: depth + k for k, name in enumerate(names)}}
-            shape = _shape(body, inner, depth + len(names))
+            found = _shape(body, inner, depth + len(names), join)
             for _ in names:
-                shape = (type(formula).__name__, shape)
-            return shape
-    return None, formula, tuple(sorted(bound.items()))  # root atoms: the same only under the same names
+                found = (type(formula).__name__, found)
+            return found
+        case RootAtom(variable, relation, poly, k):
+            place = bound.get(variable, f"_{variable}")
+            return "root", str(place), relation.value, k, _comparison(poly, Relation.EQ, bound)
+    raise TypeError(f"not a formula: {formula!r}")
 
 
 def _comparison(poly: Poly, relation: Relation, bound: Binding) -> object:

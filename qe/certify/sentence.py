@@ -9,20 +9,22 @@ positive factor, cannot hold together).
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from fractions import Fraction
 from math import lcm
 
 from qe.certify.block import existential
 from qe.certify.negation import normal
 from qe.certify.step import Claim, Context, Limits, only
-from qe.exact.ring import Ring
+from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, convert
-from qe.formula.syntax import FALSE, TRUE, Exists, Formula, Relation
+from qe.formula.syntax import FALSE, TRUE, Exists, Relation
 from qe.formula.traverse import conjuncts
 from qe.proof.certificate import Kind
-from qe.proof.entry import Entry, Json, formula_from_json
+from qe.proof.entry import Entry, formula_from_json
 
-_RELATIONS = {"<=": Relation.LE, "<": Relation.LT, "=": Relation.EQ}
+RELATIONS = {"<=": Relation.LE, "<": Relation.LT, "=": Relation.EQ}
+"""The relations of optima."""
 
 
 def check_sentence(claim: Claim, context: Context, limits: Limits) -> None:
@@ -62,12 +64,12 @@ def _check_conjuncts(payload: Entry, before: Exists, claim: Claim) -> None:
     known = set(conjuncts(before.body))
     for constraint in constraints.items():
         terms, relation = constraint.fields("terms", "relation")
-        if _comparison(terms, relation.value, names, claim.ring) not in known:
+        if atom(read_polynomial(terms, names, claim.ring)[0], RELATIONS[relation.text()]) not in known:
             raise constraint.fail("not a conjunct of the sentence")
 
 
-def _comparison(terms: Entry, relation: Json, names: list[str], ring: Ring) -> Formula:
-    """The constraint as an atom."""
+def read_polynomial(terms: Entry, names: Sequence[str], ring: Ring) -> tuple[Poly, int]:
+    """(p, c) such that the terms, [rational coefficient, exponents of the names], add up to p/c with c > 0."""
     found: dict[tuple[int, ...], Fraction] = {}
     for term in terms.items():
         coefficient, exponents = term.items()
@@ -76,5 +78,4 @@ def _comparison(terms: Entry, relation: Json, names: list[str], ring: Ring) -> F
             powers[ring.index[name]] = exponent.integer()
         found[tuple(powers)] = coefficient.rational()
     scale = lcm(*(c.denominator for c in found.values()))
-    poly = ring.from_terms({powers: int(c * scale) for powers, c in found.items()})
-    return atom(poly, _RELATIONS[str(relation)])
+    return ring.from_terms({powers: int(c * scale) for powers, c in found.items()}), scale

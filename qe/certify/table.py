@@ -10,16 +10,17 @@ Evidence: ``certificate``, of kind "cells", with the truth of ``after`` on every
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
+
 from qe.certify.negation import normal
+from qe.certify.renaming import arranged
 from qe.certify.step import Claim, Context, Limits, only
 from qe.exact.ring import Ring
 from qe.formula.build import conj, convert, disj
-from qe.formula.syntax import And, Exists, ForAll, Formula, Or
+from qe.formula.syntax import And, Constant, Exists, ForAll, Formula, Or
 from qe.formula.traverse import subformulas
 from qe.proof.cells import CellTable
 from qe.proof.cells_json import CellEvidence
-
-Bound = tuple[tuple[str, str], ...]
 
 
 def check_table(claim: Claim, context: Context, limits: Limits) -> None:
@@ -34,9 +35,8 @@ def check_table(claim: Claim, context: Context, limits: Limits) -> None:
         raise entry.fail("the table is about other variables")
     if normal(_moved(evidence.answer, claim.ring)) != normal(claim.after):
         raise entry.fail("the table is about another answer")
-    if normal(_moved(table.matrix, claim.ring)) != normal(_matrix(before)):
+    if not is_prenex_form(before, table):
         raise entry.fail("the table is about another formula")
-    _check_prefix(before, table, claim)
 
 
 def _moved(formula: Formula, ring: Ring) -> Formula:
@@ -55,35 +55,42 @@ def _matrix(formula: Formula) -> Formula:
     return formula
 
 
-def _check_prefix(formula: Formula, table: CellTable, claim: Claim) -> None:
+def is_prenex_form(formula: Formula, table: CellTable) -> bool:
+    """Whether the prefix and the matrix of a table are a prenex form of a formula, by the theorem."""
+    formula = normal(formula)
+    kinds = dict(zip(table.order, table.quantifiers, strict=True))
     names = [v for f in subformulas(formula) if isinstance(f, Exists | ForAll) for v in f.variables]
     if len(set(names)) < len(names) or set(names) & set(formula.free):
-        raise claim.fail("a name is bound twice, or free and bound")
-    kinds = dict(zip(table.order, table.quantifiers, strict=True))
-    if any(kinds[v] for v in formula.free):
-        raise claim.fail("the table quantifies a free variable")
-    _check_nesting(formula, (), table, kinds, claim)
+        return False
+    if any(kinds.get(v, "free") for v in formula.free) or not _is_nested(formula, (), table.order, kinds):
+        return False
+    matrix, ring = _matrix(formula), formula.ring
+    if ring is None or not set(table.order) <= set(ring.names):
+        return isinstance(matrix, Constant) and normal(table.matrix) == matrix
+    return arranged(normal(_moved(table.matrix, ring))) == arranged(normal(matrix))
 
 
-def _check_nesting(formula: Formula, outside: Bound, table: CellTable, kinds: dict[str, str], claim: Claim) -> None:
-    """``outside``: the variables bound on the way down, with their kinds."""
+def _is_nested(formula: Formula, outside: tuple[str, ...], order: Sequence[str], kinds: Mapping[str, str]) -> bool:
+    """Whether the quantifiers have their kinds and, below those of ``outside``, a possible order."""
     match formula:
         case And(args) | Or(args):
-            for arg in args:
-                _check_nesting(arg, outside, table, kinds, claim)
+            return all(_is_nested(a, outside, order, kinds) for a in args)
         case Exists(variables, body) | ForAll(variables, body):
             kind = "E" if isinstance(formula, Exists) else "A"
-            for name in variables:
-                if name in kinds and kinds[name] != kind:
-                    raise claim.fail(f"the table has another quantifier for {name}")
-                if name in kinds and not all(_in_order(a, name, table, kinds) for a, _ in outside):
-                    raise claim.fail(f"the table quantifies {name} too early")
-            _check_nesting(body, outside + tuple((v, kind) for v in variables), table, kinds, claim)
+            if any(kinds.get(v, kind) != kind or not _follows(v, outside, order, kinds) for v in variables):
+                return False
+            return _is_nested(body, outside + variables, order, kinds)
+    return True
 
 
-def _in_order(outer: str, inner: str, table: CellTable, kinds: dict[str, str]) -> bool:
-    """Whether the outer variable comes first, or only quantifiers of one kind stand between the two."""
-    if outer not in kinds or table.order.index(outer) < table.order.index(inner):
+def _follows(name: str, outside: Sequence[str], order: Sequence[str], kinds: Mapping[str, str]) -> bool:
+    """Whether a variable comes after those outside, or only quantifiers of one kind stand between."""
+    if name not in kinds:
         return True
-    between = table.order[table.order.index(inner) : table.order.index(outer) + 1]
-    return len({kinds[v] for v in between}) == 1
+    place = order.index(name)
+    for other in outside:
+        if other in kinds and order.index(other) > place:
+            between = order[place : order.index(other) + 1]
+            if len({kinds[v] for v in between}) > 1:
+                return False
+    return True

@@ -74,6 +74,8 @@ def check_certificate(certificate: Certificate, budget: Budget) -> None:
     elif isinstance(payload, dict) and certificate.kind in _CHECKERS:
         _CHECKERS[certificate.kind](payload, budget)
     elif isinstance(payload, tuple) and certificate.kind is Kind.BUNDLE:
+        if not payload:
+            raise CertificateRejected("certificates", "an empty bundle proves nothing")
         for position, member in enumerate(payload):
             if not isinstance(member, Labelled) or not isinstance(member.certificate, Certificate):
                 raise CertificateRejected(f"certificates[{position}]", "a certificate with a label expected")

@@ -136,12 +136,15 @@ def minimize(
 @app.command()
 def check(
     certificate: Annotated[str, typer.Argument(metavar="CERTIFICATE|-", show_default=False)],
+    formula: Annotated[
+        str | None, typer.Option("--formula", metavar="FORMULA|FILE", help="The question that it has to be about.")
+    ] = None,
     timeout: Timeout = None,
     memory: Memory = None,
 ) -> int:
-    """Verify a certificate with the independent checker, for 60 seconds if no --timeout is given.
+    """Verify a certificate with the independent checker (60 seconds if no --timeout is given); say what it proves.
 
-    Exit status 4 when it is rejected, 3 when the time does not suffice to tell.
+    Exit status 4 when it is rejected or not about --formula, 3 when the time does not suffice to tell.
     """
     from qe.cli import work as cli_work
     from qe.options import VERIFY_SECONDS
@@ -151,7 +154,8 @@ def check(
     if source.name == "<argument>":
         raise InputError(f"{certificate}: no such file")
     seconds = VERIFY_SECONDS if timeout is None else timeout
-    work = partial(cli_work.check, text=source.text, name=source.name, seconds=remaining(seconds))
+    asked = None if formula is None else read_source(formula, None)
+    work = partial(cli_work.check, text=source.text, asked=asked, seconds=remaining(seconds))
     return deliver(limited(work, timeout=seconds, memory=memory, plain=True), {})
 
 

@@ -133,20 +133,29 @@ def convert(channel: Channel, source: Source, output: OutputFormat) -> Reply:
     return Reply(formats.write(read_formula(channel, source), output.value).rstrip("\n"))
 
 
-def check(channel: Channel, text: str, name: str, seconds: float) -> Reply:
+def check(channel: Channel, text: str, asked: Source | None, seconds: float) -> Reply:
     """``qe check``: exit status 4 when the certificate is rejected, 3 when that is not decided."""
     from qe import api
+    from qe.api_verify import of_question
+    from qe.certify.claims import claim_of
     from qe.certify.verify import verify
     from qe.errors import CertificateRejected
     from qe.options import Budget
 
     start = time.perf_counter()
-    verdict = verify(api.Certificate.from_json(text), Budget(seconds, listener=channel.event))
+    formula = None if asked is None else read_formula(channel, asked)
+    certificate = api.Certificate.from_json(text)
+    verdict = verify(certificate, Budget(seconds, listener=channel.event))
+    if verdict.accepted and formula is not None:
+        verdict = of_question(certificate, formula)
     if not verdict.decided:
         raise Unable(f"not decided: {verdict.reason}")
     if not verdict.accepted:
         raise CertificateRejected(verdict.step, verdict.reason)
-    return Reply(f"accepted ({time.perf_counter() - start:.3f} s)")
+    lines = [f"accepted ({time.perf_counter() - start:.3f} s)", *claim_of(certificate).words]
+    if formula is not None:
+        lines.append("this is the question that was given, or its negation")
+    return Reply("\n".join(lines))
 
 
 def certificate_text(answer: object) -> str:

@@ -6,7 +6,7 @@ What is found here is checked where it is read: nothing depends on its being rig
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from itertools import pairwise
 from math import lcm
@@ -14,7 +14,6 @@ from math import lcm
 from qe.certify.boolean import Theory
 from qe.certify.signs import read_lemma
 from qe.certify.step import Limits
-from qe.errors import CertificateRejected, Unable
 from qe.exact.algebraic import real_roots
 from qe.exact.nearby import rational_between
 from qe.exact.ring import Poly, Ring
@@ -27,7 +26,7 @@ from qe.simplify.minima import minimum
 Term = tuple[int, tuple[tuple[Poly, int], ...]]
 """A coefficient, and polynomials with exponents."""
 
-MOST_POLYNOMIALS, MOST_PAIRS, MOST_MONOMIALS = 120, 400, 24
+MOST_POLYNOMIALS, MOST_PAIRS, MOST_MONOMIALS, MOST_TRIED = 120, 400, 24, 16
 
 
 @dataclass(slots=True)
@@ -124,24 +123,34 @@ def refuting(goals: Sequence[Sequence[Formula]], ring: Ring, limits: Limits) -> 
     if len(polys) > MOST_POLYNOMIALS:
         return None
     found = Lemmas(ring)
-    for extend in (
-        lambda: None,
-        lambda: _algebra(found, polys),
-        lambda: _lines(found, polys),
-        lambda: _ranges(found, polys),
-    ):
+    for stage in range(4):
         count = len(found.lemmas)
-        extend()
-        if count == len(found.lemmas) and extend is not None and count:
+        if stage == 1:
+            _algebra(found, polys)
+        elif stage == 2:
+            _lines(found, polys)
+        elif stage == 3:
+            _ranges(found, polys)
+        if stage and count == len(found.lemmas):
             continue
-        used = _used(found, goals, limits)
+        used = _used(found.theory(limits), goals)
         if used is not None:
-            return found.only(used)
+            return found.only(_needed(found.theory(limits), goals, used))
     return None
 
 
-def _used(found: Lemmas, goals: Sequence[Sequence[Formula]], limits: Limits) -> set[int] | None:
-    theory = found.theory(limits)
+def _needed(theory: Theory, goals: Sequence[Sequence[Formula]], used: set[int]) -> list[int]:
+    """Those of the lemmas without which the refutation fails, as far as it is cheap to find out."""
+    kept = sorted(used)
+    for k in kept if len(kept) <= MOST_TRIED else ():
+        left = [i for i in kept if i != k]
+        if _used(replace(theory, lemmas=tuple(theory.lemmas[i] for i in left)), goals) is not None:
+            kept = left
+    return kept
+
+
+def _used(theory: Theory, goals: Sequence[Sequence[Formula]]) -> set[int] | None:
+    """The lemmas by which all goals are refuted, or None."""
     used: set[int] = set()
     for goal in goals:
         refutation = theory.used(goal)
@@ -266,7 +275,3 @@ def _ranges(found: Lemmas, polys: Iterable[Poly]) -> None:
     for poly in dict.fromkeys((*found.numbers, *polys)):
         if 1 < poly.term_count() <= MOST_MONOMIALS:
             found.identity([(-1, ((poly, 1),)), *_monomials(poly)])
-
-
-UNREFUTED = (CertificateRejected, Unable)
-"""What a check of a step raises where the evidence does not do."""

@@ -26,8 +26,9 @@ from qe.formula.normal import nnf, rename_apart
 from qe.formula.syntax import FALSE, TRUE, And, Constant, Exists, ForAll, Formula, Not, Or
 from qe.formula.traverse import free_variables, is_quantifier_free
 from qe.options import Budget, Options, Stage
-from qe.proof.certificate import Proof
+from qe.proof.certificate import Certificate, Kind, Proof, written
 from qe.proof.derivation import negated, put_together
+from qe.proof.entry import Json
 from qe.proof.run_log import RunLog
 from qe.rules.preparation import Prepared, prepare
 from qe.rules.step import ALL_STEPS, EQUATION_STEPS
@@ -124,11 +125,11 @@ class _Run:
         by linear equations. Where one was asked for also: the derivation, or a decomposition if time allows."""
         from qe.elimination.cad import certificate_for, claims
 
-        if found.certificate is not None and claims(found.certificate, question, found.formula):
-            return Proof(found.certificate)
         problem = Problem.of(question)
+        if found.certificate is not None and claims(found.certificate, question, found.formula):
+            return Proof(as_asked(found.certificate, problem, found.formula))
         if found.witness is not None and problem is not None and problem.is_flat and not problem.free:
-            return Proof(problem.witnessed(found.witness))
+            return Proof(as_asked(problem.witnessed(found.witness), problem, found.formula))
         linear = substitution_certificate(question, found.formula)
         if linear is not None or not self.options.certify:
             return Proof(linear)
@@ -271,6 +272,17 @@ class _Run:
             formula = shortened(formula, self.context())
         simple = self.log.step("simplification", formula, simplify(formula))
         return found if simple == found.formula else replace(found, formula=simple)
+
+
+def as_asked(certificate: Certificate, problem: Problem | None, answer: Formula) -> Certificate:
+    """A certificate about a universal sentence itself, where a method made one about its negation."""
+    if problem is None or not problem.universal or certificate.kind not in (Kind.WITNESS, Kind.OPTIMUM):
+        return certificate
+    ring = problem.body.ring
+    assert ring is not None
+    evidence: dict[str, Json] = {"certificate": certificate.to_data()}
+    step = written("point or multipliers", (), problem.formula, answer, (), evidence)
+    return Certificate.derivation(ring.names, problem.formula, [step], answer)
 
 
 def gathered_block(formula: Formula) -> Problem | None:

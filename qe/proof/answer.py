@@ -37,8 +37,9 @@ class Answer:
     ``truth``: True or False for sentences. ``witness``: exact values for the outermost block of a true existential
     sentence, or a counterexample to a false universal one. ``certificate``: what ``qe.verify`` accepts, when the
     method produces one. ``reason``: why there is no answer, or why its certificate was not verified.
-    ``unchecked_steps``: with ``check``, the rules of the steps of the derivation that no checker has accepted; the answer
-    can be ``CHECKED`` all the same, by a decomposition. ``question`` and ``log``: what was asked, and how it was answered.
+    ``unchecked_steps``: with ``check``, the rules of the steps of the derivation that no checker has accepted; the
+    answer can be ``CHECKED`` all the same, by a decomposition. ``question`` and ``log``: what was asked, and how it was
+    answered.
     """
 
     status: Status

@@ -186,6 +186,20 @@ class Certificate:
         return Certificate(read.kind, read.payload, (stated, digest(whole)))
 
 
+def written(
+    rule: str, place: Sequence[int], before: Formula, after: Formula, context: Iterable[Formula], evidence: Json
+) -> Json:
+    """One step of a derivation as JSON data."""
+    return {
+        "rule": rule,
+        "at": list(place),
+        "before": formula_to_json(before, quantified=True),
+        "after": formula_to_json(after, quantified=True),
+        "context": [formula_to_json(f, quantified=True) for f in context],
+        "evidence": evidence,
+    }
+
+
 @dataclass(frozen=True, slots=True)
 class Proof:
     """``certificate`` of an answer, if there is one; ``unchecked``: the rules of the steps of its derivation that no

@@ -37,6 +37,7 @@ RULES: Mapping[str, str] = {
     "critical values": "The truth of a block over bounded fibres changes only at critical values.",
     "degenerate truth set": "A convex truth set without interior points lies on a hyperplane.",
     "convex": "A convex set has a point, or multipliers combine its conditions to a contradiction.",
+    "point or multipliers": "A universal sentence is false if it fails at a point, and true if its negation has none.",
     "witness in the parameters": "Polynomials in the universal variables satisfy the inner blocks.",
     "shorter": "A decomposition of the space of the free variables shows that the shorter formula is equivalent.",
     "constant": "The formula holds everywhere, or nowhere.",

@@ -1,0 +1,72 @@
+"""Derivations to be altered: one or more for each rule, found by the engine."""
+
+from __future__ import annotations
+
+import functools
+import json
+from typing import Any
+
+from qe.api_input import read_formula
+from qe.engine.proving import proved
+from qe.engine.run import solve
+from qe.formula.syntax import Formula
+from qe.options import Budget, Options
+from qe.proof.certificate import Certificate
+from qe.proof.derivation import Derivation, put_together
+
+CASES = {
+    "names": "(ex x. x = a) and (ex x. x = b)",
+    "lines": "ex x, y. x = a*y and y = b + 1 and x > 3",
+    "sign": "a > 1 and (ex x. a*x = b and x^3 > 2)",
+    "guard": "ex x, y. a*x = y and x + y > 1 and y < 2",
+    "shift": "ex x. x^12 = a",
+    "translated": "ex x, y. (x - y)^4 + (x - y) < a",
+    "scaled": "ex x, y. x^3 + y^3 > 0 and x^2*y > 0",
+    "squares": "ex x, y. x^2 + y^2 = 0 and x*y = a",
+    "factors": "ex x. (x - a)*(x - b) = 0 and x > 0",
+    "inequations": "ex x, y. x*y < 1 and a*x + b*y /= 0 and x > y",
+    "nonzero": "ex x. a*x^2 + b*x + c /= 0 and x /= d",
+    "universal": "all x, y. x >= 0 and y >= 0 -> x^2*y + x + y >= 0",
+    "apart": "ex x, y. x^2 < a and y^3 - y = b and y > 2",
+    "cells": "ex x. x^4 - a*x + 1 = 0",
+    "counterexample": "all x. x^2 > 1",
+    "none": "all x, y. x^2 + y^2 + 1 > 0 and x + y < 1 + x^2 + y^2",
+    "negations": "not (ex x. x = a and x > b)",
+    "guarded": "ex x, y. a*x + b*y = 1 and x^3*y > 2",
+    "boundary": "ex x. x^2 >= a and b*x /= 1",
+    "shorter": "ex x. a*x^2 + b*x + c = 0",
+    "constant": "x^2 + y^2 < 1 and x*y > 1",
+    "point": "all x, y, z, u. x^2 + y^2 + z^2 + u^2 > 1",
+    "multipliers": "ex x, y, z, u. x^2 + y^2 + z^2 + u^2 + x < -1",
+    "basis": "ex x, y. x*y = 1 and x^2 + y^2 = a and x > 0 and y > x",
+    "intervals": "all x. x > 3 -> x^2 - 2 > 0 and x /= 1",
+}
+
+
+def derived(text: str) -> tuple[Derivation, Formula]:
+    """The derivation of the engine's answer, and the answer."""
+    question = read_formula(text)
+    found = solve(question, Options(certify=True), Budget(20))
+    return put_together(question, found.log.steps(), found.formula), found.formula
+
+
+@functools.cache
+def certificate(text: str) -> Certificate:
+    """The certificate of the derivation."""
+    derivation, answer = derived(text)
+    proof = proved(derivation, answer, Options(certify=True), Budget(20))
+    assert proof.certificate is not None, (text, proof.unchecked)
+    return proof.certificate
+
+
+def data(text: str) -> dict[str, Any]:
+    """The certificate as JSON data."""
+    whole: dict[str, Any] = json.loads(certificate(text).to_json())
+    return whole
+
+
+def rules(text: str) -> list[str]:
+    """The rules of the steps of a certificate."""
+    return [step["rule"] for step in data(text)["payload"]["steps"]]
+
+

@@ -1,0 +1,210 @@
+"""Each side condition of a rule, switched off in its producer, leads to a step that is not accepted."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from fractions import Fraction
+
+import pytest
+
+import qe.elimination.nonzero as nonzero
+import qe.rules.block as block
+import qe.rules.cases as cases
+import qe.rules.degree_shift as degree_shift
+import qe.rules.generic as generic
+import qe.rules.linear as linear
+import qe.rules.preparation as preparation
+import qe.rules.scaling as scaling
+import qe.rules.structural as structural
+import qe.rules.translation as translation
+import qe.simplify.factors as factors
+from qe.api_input import read_formula
+from qe.elimination.protocol import Context, Problem
+from qe.engine.proving import Prover
+from qe.formula.build import conj
+from qe.formula.normal import nnf, rename_apart
+from qe.formula.syntax import FALSE, TRUE, Exists, Formula
+from qe.formula.traverse import conjuncts
+from qe.options import Budget, Options
+from qe.proof.run_log import RunLog
+from qe.proof.step import Step
+
+Patch = Callable[[pytest.MonkeyPatch], None]
+
+
+def unproved(text: str) -> set[str]:
+    """The rules of the steps of a preparation that are not accepted."""
+    log, given = RunLog(), read_formula(text)
+    preparation.prepare(given, log=log)
+    return {step.rule for step in log.steps() if not accepted(step)}
+
+
+def accepted(step: Step) -> bool:
+    """Whether evidence is found for a step, decompositions apart."""
+    ring = step.before.ring or step.after.ring
+    assert ring is not None
+    prover = Prover(ring, Options(), Budget(20), tables=False)
+    return prover.evidence(step, tuple(conjuncts(step.context)) if step.context != TRUE else ()) is not None
+
+
+def known_sign(m: pytest.MonkeyPatch) -> None:
+    """Every coefficient counts as positive."""
+    m.setattr(linear, "_sign", lambda lead, position, facts: 1)
+
+
+def no_guard(m: pytest.MonkeyPatch) -> None:
+    """The guard of the regular case is left out."""
+    m.setattr(structural, "_nonzero", lambda pivot: TRUE)
+
+
+def no_sign(m: pytest.MonkeyPatch) -> None:
+    """x >= 0 is left out after an even shift of degrees."""
+    m.setattr(degree_shift, "values", lambda variable, k, strict=False: TRUE)
+
+
+def any_exponent(m: pytest.MonkeyPatch) -> None:
+    """Exponents are divided by 2 whatever they are, bare comparisons of x too."""
+    once = iter([2])
+    m.setattr(degree_shift, "common_exponent", lambda body, x, nonnegative=False: next(once, 1))
+    m.setattr(block, "RULES", (degree_shift.shift_degree,))
+
+
+def any_weights(m: pytest.MonkeyPatch) -> None:
+    """Polynomials count as homogeneous for equal weights."""
+    m.setattr(scaling, "find_weights", lambda body, names: {k: Fraction(1) for k in range(2)})
+    m.setattr(block, "RULES", (scaling.fix_scale,))
+
+
+def one_value(m: pytest.MonkeyPatch) -> None:
+    """The values 0 and -1 are left out after scaling."""
+    m.setattr(scaling, "sorted", lambda signs, reverse=False: [1], raising=False)
+    m.setattr(block, "RULES", (scaling.fix_scale,))
+
+
+def any_direction(m: pytest.MonkeyPatch) -> None:
+    """Polynomials count as constant along a direction."""
+    m.setattr(translation, "kernel_vector", lambda columns, rows: {k: Fraction(1) for k in columns})
+    m.setattr(block, "RULES", (translation.fix_origin,))
+
+
+def all_open(m: pytest.MonkeyPatch) -> None:
+    """Every condition counts as open."""
+    m.setattr(generic, "is_open", lambda formula, indices: True)
+
+
+def no_squares(m: pytest.MonkeyPatch) -> None:
+    """Every polynomial counts as a sum of the squares of its variables."""
+    m.setattr(cases, "vanishing", lambda poly: tuple(poly.ring.gen(i) for i in poly.variables))
+    m.setattr(block, "RULES", (cases.split_squares,))
+
+
+def fewer_factors(m: pytest.MonkeyPatch) -> None:
+    """One factor of a product is forgotten."""
+    full = cases.eq.factor_choice
+
+    def fewer(equations: object, limit: int) -> object:
+        found = full(equations, limit)  # type: ignore[arg-type]
+        return found and (found[0], found[1][:-1])
+
+    m.setattr(cases.eq, "factor_choice", fewer)
+    m.setattr(block, "RULES", (cases.split_factors,))
+
+
+def other_equations(m: pytest.MonkeyPatch) -> None:
+    """A basis loses an equation."""
+    m.setattr(cases.eq, "better_equations", lambda found, basis, variables: tuple(basis.polys)[:1])
+    m.setattr(block, "RULES", (cases.groebner_equations,))
+
+
+def all_apart(m: pytest.MonkeyPatch) -> None:
+    """Conditions that share a variable are quantified apart."""
+    m.setattr(structural, "connected", lambda parts, names: ((), [(frozenset("xy"), (p,)) for p in parts]))
+    m.setattr(block, "RULES", (structural.independent_parts,))
+
+
+def no_dual(m: pytest.MonkeyPatch) -> None:
+    """The body of a universal block is not negated."""
+    m.setattr(preparation, "nnf", lambda formula, negate=False: nnf(formula))
+
+
+def wrong_factors(m: pytest.MonkeyPatch) -> None:
+    """A factor of even exponent is dropped where it may be zero."""
+    m.setattr(factors, "_assemble", lambda relation, odd, even, settled: settled(factors.atom(odd, relation)))
+
+
+CASES: dict[str, tuple[Patch, str, str]] = {
+    "sign": (known_sign, "ex x. a*x = b and x > c", "linear equation solved"),
+    "guard": (no_guard, "ex x. a*x = b and x > c", "linear equation solved under a guard"),
+    "no sign": (no_sign, "ex x. x^4 + a < 0 and x^2 + b > 0", "degree shift"),
+    "bare": (any_exponent, "ex x. x^4 + a < 0 and x < 0", "degree shift"),
+    "exponents": (any_exponent, "ex x. x^5 + a < 0 and x^3 > c", "degree shift"),
+    "weights": (any_weights, "ex x, y. x^2 + y > 1 and x*y < 2", "homogeneous scaling"),
+    "values": (one_value, "ex x, y. x^3 + y^3 < 0 and x < y", "homogeneous scaling"),
+    "direction": (any_direction, "ex x, y. x^2 + y^2 < a", "translation of the origin"),
+    "closed": (all_open, "ex x, y. x + y <= a and x*y >= a^2 and x - y /= a", "inequations that remove no interior"),
+    "squares": (no_squares, "ex x, y. x^2 - y^2 = 0 and x*y = a", "vanishing sum of squares split"),
+    "factors": (fewer_factors, "ex x. (x - a)*(x + a) = 0 and x > 1", "case split on factors"),
+    "equations": (other_equations, "ex x, y. x^2 + y = a and x*y = 1 and x > y", "Groebner basis of the equations"),
+    "apart": (all_apart, "ex x, y. x*y > a and x + y < 1", "independent parts and miniscoping"),
+    "dual": (no_dual, "all x. x^2 + a > 0", "duality"),
+    "even": (wrong_factors, "ex x. a^2*(x^3 + b) < 0 and x^5 > c", "standard simplification"),
+}
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_the_step_is_not_accepted(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    patch, text, rule = CASES[name]
+    patch(monkeypatch)
+    assert rule in unproved(text)
+
+
+def test_with_their_side_conditions_they_are(monkeypatch: pytest.MonkeyPatch) -> None:
+    for name, (_, text, rule) in CASES.items():
+        if name != "equations":  # a basis is not always a combination that is found
+            assert rule not in unproved(text), name
+
+
+def test_a_coefficient_that_conjuncts_with_the_variable_keep_from_zero() -> None:
+    """1 + a*x <= 0 implies a /= 0, but what the substitution makes of it does not."""
+    before = read_formula("ex x. a*x + b = 0 and 1 + a*x <= 0")
+    after = read_formula("a^2*(b - 1) >= 0")
+    assert isinstance(before, Exists)
+    equation = conjuncts(before.body)[0]
+    evidence = {"proof": {"solved": [("x", equation.poly, 0)]}}  # type: ignore[attr-defined]
+    ring = before.ring
+    assert ring is not None
+    from qe.proof.derivation import moved
+
+    assert not accepted(Step("linear equation solved", before, moved(after, ring), TRUE, evidence))
+
+
+def test_more_asked_than_no_root(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The rule for inequations alone, where an inequality stands beside them."""
+    given = read_formula("ex x. a*x + b > 0 and x /= c")
+    problem = Problem.of(given)
+    assert problem is not None
+
+    def careless(variables: object, body: Formula) -> Formula:
+        return conj(nonzero.somewhere_nonzero(p.poly, {given.ring.index["x"]}) for p in conjuncts(body))  # type: ignore
+
+    right = "ex x. a*x + b /= 0 and x /= c"
+    assert accepted(steps_of(right)[0])
+    monkeypatch.setattr(nonzero, "only_nonzero", careless)
+    (step,) = steps_of("ex x. a*x + b > 0 and x /= c")
+    assert not accepted(step)
+
+
+def steps_of(text: str) -> list[Step]:
+    """What the rule for inequations alone does."""
+    problem, log = Problem.of(read_formula(text)), RunLog()
+    assert problem is not None
+    nonzero.OnlyNonzero().run(problem, Context(Options(), Budget(), log))
+    return list(log.steps())
+
+
+def test_a_name_that_captures() -> None:
+    given = read_formula("(ex x. x > a) and (ex x. x < b)")
+    right = rename_apart(given)
+    assert accepted(Step("renaming", given, right))
+    wrong = read_formula("(ex a. a > a + 0*x) and (ex x. x < b)")
+    assert not accepted(Step("renaming", given, wrong if wrong.ring else FALSE))

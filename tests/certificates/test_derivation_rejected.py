@@ -1,0 +1,201 @@
+"""Derivations with any field altered, any step dropped, swapped or repeated: refused, with the step named."""
+
+from __future__ import annotations
+
+import copy
+import json
+import re
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import pytest
+
+import qe
+from qe.certify.verdict import Verdict
+from qe.certify.verify import verify, verify_json
+from qe.exact.ring import Ring
+from qe.proof.certificate import Certificate, digest
+from qe.proof.entry import Entry, formula_from_json
+from tests.certificates.derivations import CASES, certificate, data, rules
+
+STEPS = [(name, k) for name, text in CASES.items() for k in range(len(rules(text)))]
+RELATIONS = ("=", "/=", "<", "<=", ">", ">=")
+LARGE = {"guarded", "shorter", "constant", "basis"}
+"""Cases with long cell tables, whose alterations the tests of tables make."""
+
+
+def altered(whole: dict[str, Any], change: Callable[[dict[str, Any]], object]) -> Verdict:
+    """The verdict on a changed certificate, signed with the digest of its new content."""
+    other = copy.deepcopy(whole)
+    change(other["payload"])
+    other["digest"] = digest(other)
+    return verify_json(json.dumps(other))
+
+
+def refused(verdict: Verdict, k: int | None = None) -> None:
+    """Not accepted; where the checker says what is wrong, it is a step (step k, or the place where steps meet)."""
+    assert not verdict.accepted
+    if verdict.decided:
+        named = re.match(r"payload\.(steps\[(\d+)\]|answer|start)", verdict.step)
+        assert named, verdict
+        assert k is None or named[2] is None or int(named[2]) >= k, verdict
+
+
+def test_as_it_stands_it_is_accepted() -> None:
+    for text in CASES.values():
+        assert verify(certificate(text)).accepted
+        assert verify(Certificate.from_json(certificate(text).to_json())).accepted
+
+
+@pytest.mark.parametrize(("name", "k"), STEPS)
+def test_dropped_and_repeated_steps(name: str, k: int) -> None:
+    whole = data(CASES[name])
+    refused(altered(whole, lambda p: p["steps"].pop(k)), k)
+    refused(altered(whole, lambda p: p["steps"].insert(k, p["steps"][k])))
+
+
+@pytest.mark.parametrize(("name", "k"), [(name, k) for name, k in STEPS if k > 0])
+def test_swapped_steps(name: str, k: int) -> None:
+    """Steps at places of their own may be taken in another order: then they are the ones that were given."""
+    whole = data(CASES[name])
+    verdict = altered(whole, lambda p: p["steps"].insert(k - 1, p["steps"].pop(k)))
+    if verdict.accepted:
+        first, second = whole["payload"]["steps"][k - 1]["at"], whole["payload"]["steps"][k]["at"]
+        assert first[: len(second)] != second
+        assert second[: len(first)] != first
+    else:
+        refused(verdict, k - 1)
+
+
+@pytest.mark.parametrize(("name", "k"), STEPS)
+def test_every_field_of_a_step(name: str, k: int) -> None:
+    whole = data(CASES[name])
+    step = whole["payload"]["steps"][k]
+    for field in step:
+        refused(altered(whole, lambda p, field=field: p["steps"][k].pop(field)), k)  # type: ignore[misc]
+        for other in (None, "other", 7, ["other"], {"other": 1}):
+            refused(altered(whole, lambda p, field=field, other=other: p["steps"][k].update({field: other})), k)  # type: ignore[misc]
+    refused(altered(whole, lambda p: p["steps"][k].update(at=[*step["at"], 0])), k)
+    refused(altered(whole, lambda p: p["steps"][k].update(at=[9, *step["at"]])), k)
+    refused(altered(whole, lambda p: p["steps"][k].update(context=[["atom", f"{p['order'][0]}^2 + 7", "/="]])), k)
+
+
+@pytest.mark.parametrize(("name", "k"), STEPS)
+def test_another_formula_before_or_after(name: str, k: int) -> None:
+    whole = data(CASES[name])
+    for field in ("before", "after"):
+        for path in atoms(whole["payload"]["steps"][k][field]):
+            for relation in RELATIONS:
+                changed = at(whole["payload"]["steps"][k][field], path)
+                if changed[2] != relation:
+
+                    def change(p: dict[str, Any], field: str = field, path: Any = path, new: str = relation) -> None:
+                        at(p["steps"][k][field], path)[2] = new
+
+                    verdict = altered(whole, change)
+                    if verdict.accepted:  # a part that does not matter, as one disjunct is true
+                        other = copy.deepcopy(whole)
+                        change(other["payload"])
+                        assert is_right(other["payload"], k), (field, path, relation)
+                    else:
+                        refused(verdict, k)
+
+
+def is_right(payload: dict[str, Any], k: int) -> bool:
+    """Whether the engine, too, finds the two sides of a step equivalent."""
+    ring = Ring.of(payload["order"])
+    step = payload["steps"][k]
+    left, right = (formula_from_json(Entry(step[f], f), ring, quantified=True) for f in ("before", "after"))
+    return qe.equivalent(left, right)
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_another_start_or_answer(name: str) -> None:
+    whole = data(CASES[name])
+    for field in ("start", "answer"):
+        for other in (True, False, ["atom", whole["payload"]["order"][0], ">"]):
+            if whole["payload"][field] != other:
+                refused(altered(whole, lambda p, f=field, o=other: p.update({f: o})))  # type: ignore[misc]
+
+
+@pytest.mark.parametrize(("name", "k"), [(name, k) for name, k in STEPS if name not in LARGE])
+def test_every_entry_of_the_evidence(name: str, k: int) -> None:
+    """Numbers, names and lemmas: none may be changed, and none is there for nothing."""
+    whole = data(CASES[name])
+    step = whole["payload"]["steps"][k]
+    if step["rule"] in ("cells", "convex", "shorter", "virtual substitution"):
+        pytest.skip("evidence with tests of its own")
+    for path, value in entries(step["evidence"]):
+        if "samples" in path:
+            continue  # other samples between the same roots are as good
+        for other in others(value):
+
+            def change(payload: dict[str, Any], path: Any = path, other: object = other) -> None:
+                at(payload["steps"][k]["evidence"], path[:-1])[path[-1]] = other
+
+            refused(altered(whole, change), k)
+    for path, value in lists(step["evidence"]):
+        for index in range(len(value)):
+            if path[-1] in ("samples", "line"):  # a shorter list may do
+                continue
+
+            def drop(payload: dict[str, Any], path: Any = path, index: int = index) -> None:
+                del at(payload["steps"][k]["evidence"], path)[index]
+
+            refused(altered(whole, drop), k)
+
+
+def test_an_empty_bundle_proves_nothing() -> None:
+    verdict = verify(Certificate.bundle([]))
+    assert not verdict.accepted
+    assert "proves nothing" in verdict.reason
+
+
+def test_a_rule_without_a_checker_proves_nothing() -> None:
+    verdict = altered(data(CASES["lines"]), lambda p: p["steps"][0].update(rule="witchcraft"))
+    assert not verdict.accepted
+    assert not verdict.decided
+    assert "witchcraft" in verdict.reason
+
+
+def at(node: Any, path: tuple[Any, ...]) -> Any:
+    """What stands at a path of JSON data."""
+    for key in path:
+        node = node[key]
+    return node
+
+
+def atoms(node: Any, path: tuple[Any, ...] = ()) -> Iterator[tuple[Any, ...]]:
+    """The places of atoms in a formula."""
+    if isinstance(node, list):
+        if node and node[0] == "atom":
+            yield path
+        for k, part in enumerate(node):
+            yield from atoms(part, (*path, k))
+
+
+def entries(node: Any, path: tuple[Any, ...] = ()) -> Iterator[tuple[tuple[Any, ...], Any]]:
+    """The places of numbers and texts."""
+    if isinstance(node, dict | list):
+        for key, value in node.items() if isinstance(node, dict) else enumerate(node):
+            yield from entries(value, (*path, key))
+    else:
+        yield path, node
+
+
+def lists(node: Any, path: tuple[Any, ...] = ()) -> Iterator[tuple[tuple[Any, ...], list[Any]]]:
+    """The places of lists."""
+    if isinstance(node, list):
+        yield path, node
+    if isinstance(node, dict | list):
+        for key, value in node.items() if isinstance(node, dict) else enumerate(node):
+            yield from lists(value, (*path, key))
+
+
+def others(value: Any) -> Iterator[Any]:
+    """Other entries of the same kind, and of another."""
+    yield from (None, [], {}) if value is not None else ([], 3)
+    if isinstance(value, int):
+        yield from (value + 1, -value - 1)
+    elif isinstance(value, str):
+        yield from (f"{value} + 1", f"-{value}", "", "1/0")
