@@ -1160,7 +1160,7 @@ def resultant(f: Sequence[Line], g: Sequence[Line]) -> Line:
     m, n = len(f) - 1, len(g) - 1
     if m + n > SIZE:
         raise Undecided("a resultant of high degree")
-    rows = [[[]] * k + [_trimmed(c) for c in reversed(f)] + [[]] * (n - 1 - k) for k in range(n)]
+    rows: list[list[Line]] = [[[]] * k + [_trimmed(c) for c in reversed(f)] + [[]] * (n - 1 - k) for k in range(n)]
     rows += [[[]] * k + [_trimmed(c) for c in reversed(g)] + [[]] * (m - 1 - k) for k in range(m)]
     before: Line = [Fraction(1)]
     for k in range(len(rows) - 1):
@@ -1343,7 +1343,7 @@ def _impossible(f: Formula, signs: dict[Any, Signs]) -> bool:
     return not signs.get(key, ALL) & allowed
 
 
-_BLOCK = ("simplification", "standard simplification", "case split on factors", "boundary apart")
+_BLOCK: tuple[str, ...] = ("simplification", "standard simplification", "case split on factors", "boundary apart")
 _BLOCK += ("vanishing sum of squares split", "Groebner basis of the equations")
 
 
