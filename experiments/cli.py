@@ -110,6 +110,24 @@ def report(
     _write_html(log, out / "benchmarks.html")
 
 
+@app.command()
+def proofs(
+    suites: Annotated[list[str] | None, typer.Option("--suite", help="A suite; default: classics.")] = None,
+    limit: Annotated[float, typer.Option(min=0.01, help="Seconds for each answer, the check included.")] = 15.0,
+    memory: Annotated[int, typer.Option(min=1, help="MiB for each answer.")] = 2048,
+    only: Annotated[str, typer.Option(help="Problems whose name or set contains this.")] = "",
+) -> None:
+    """How many answers are proved step by step, and what the proofs cost in time and size."""
+    from experiments.proofs import lines, measured
+
+    rows = []
+    for problem in [p for name in suites or ["classics"] for p in _problems(name, only)]:
+        rows.append(measured(problem, limit, memory))
+        print(rows[-1], flush=True)
+    for text in lines(rows):
+        print(text)
+
+
 @baselines.command()
 def freeze(
     out: Annotated[Path, typer.Argument(help="The file to write.")],

@@ -1,15 +1,14 @@
 """A second reader of certificates: the language's own integers and fractions, nothing else.
 
-    python -m qe.certify.plain FILE          or, from anywhere,          python plain.py FILE
+python -m qe.certify.plain FILE          or, from anywhere,          python plain.py FILE
 
 It shares no line with the engine, nor with the other checkers, so that a mistake in one reader is not one in both. It
-reads witnesses, optima, substitutions, cell tables in up to two variables, bundles, and derivations by the rules
-"simplification" and its kin, "negation normal form", and "linear equation solved". It says one of three things:
-accepted; rejected, with the entry that is wrong; or not decided, where a certificate is beyond what is read here.
-Exit status: 0, 4, 3, and 2 for what is no certificate.
+reads witnesses, optima, substitutions, cell tables in up to two variables, bundles, and derivations by boolean steps,
+cases and "negation normal form". It says one of three things: accepted; rejected, with the entry that is wrong; or
+not decided, where a certificate is beyond what is read here. Exit status: 0, 4, 3, and 2 for what is no certificate.
 
 A polynomial is a dict from exponents to integers; one in a single variable is a list of fractions from degree 0 up.
-It is one file of more than 400 lines on purpose: it can be taken elsewhere and read on its own.
+It is one file on purpose: it can be taken elsewhere and read on its own.
 """
 
 from __future__ import annotations
@@ -94,8 +93,8 @@ def polynomial(value: Any, names: Sequence[str], where: str) -> Poly:
     found, start = Poly(), 0
     while value != "0" and start < len(value):
         term = _TERM.match(value, start)
-        require(term and bool(term[1]) is bool(start) and not (start and term[2]), where, "expected a polynomial")
-        assert term is not None
+        if term is None or bool(term[1]) is not bool(start) or (start and term[2]):
+            raise Rejected(where, "expected a polynomial")
         exponents, coefficient = (
             [0] * len(names),
             int(term[3] or term[5] or 1) * (-1 if "-" in (term[1], term[2]) else 1),
@@ -216,7 +215,7 @@ def _plus(p: Poly, q: Poly, factor: int = 1) -> Poly:
 def _times(p: Poly, q: Poly) -> Poly:
     if len(p) * len(q) > TERMS:
         raise Undecided("a product of too many terms")
-    found: Poly = {}
+    found = Poly()
     for e, c in p.items():
         for f, d in q.items():
             key = tuple(i + j for i, j in zip(e, f, strict=True))
@@ -512,11 +511,12 @@ class Field:
     def __init__(self, value: Any, where: str) -> None:
         text, ends = fields(value, where, "minimal_polynomial interval")
         p = [number(c, where) for c in _members(text, where)]
-        require(p and all(c.denominator == 1 for c in p) and p[-1] > 0, where, "expected integers")
+        whole = all(c.denominator == 1 for c in p) and gcd(*(c.numerator for c in p)) == 1
+        require(p and whole and p[-1] > 0, where, "expected a primitive polynomial")
         low, high = (number(e, where) for e in _pair(ends, where))
         if len(p) == 2:
             theta = -p[0] / p[1]
-            require(low <= theta <= high, where, "the root is outside the interval")
+            require(low < theta < high or low == theta == high, where, "the root is outside the interval")
             low, high = theta - 1, theta + 1
         self.degree, self.root = len(p) - 1, Root(p, low, high, where)
 
@@ -1160,7 +1160,7 @@ def resultant(f: Sequence[Line], g: Sequence[Line]) -> Line:
     m, n = len(f) - 1, len(g) - 1
     if m + n > SIZE:
         raise Undecided("a resultant of high degree")
-    rows = [[[]] * k + [_trimmed(c) for c in reversed(f)] + [[]] * (n - 1 - k) for k in range(n)]
+    rows: list[list[Line]] = [[[]] * k + [_trimmed(c) for c in reversed(f)] + [[]] * (n - 1 - k) for k in range(n)]
     rows += [[[]] * k + [_trimmed(c) for c in reversed(g)] + [[]] * (m - 1 - k) for k in range(m)]
     before: Line = [Fraction(1)]
     for k in range(len(rows) - 1):
@@ -1343,7 +1343,7 @@ def _impossible(f: Formula, signs: dict[Any, Signs]) -> bool:
     return not signs.get(key, ALL) & allowed
 
 
-_BLOCK = ("simplification", "standard simplification", "case split on factors", "boundary apart")
+_BLOCK: tuple[str, ...] = ("simplification", "standard simplification", "case split on factors", "boundary apart")
 _BLOCK += ("vanishing sum of squares split", "Groebner basis of the equations")
 
 

@@ -21,7 +21,8 @@ from qe.engine.lemmas import EMPTY, refuting
 from qe.engine.substitution_steps import steps
 from qe.errors import CertificateRejected, Unable
 from qe.exact.ring import Poly, Ring
-from qe.formula.syntax import And, Exists, Formula, Or
+from qe.formula.build import conj, disj
+from qe.formula.syntax import FALSE, TRUE, And, Exists, ForAll, Formula, Or
 from qe.formula.traverse import children, conjuncts
 from qe.options import Budget, Options
 from qe.proof.certificate import Certificate, Proof, written
@@ -31,6 +32,9 @@ from qe.proof.step import Place, Step
 
 TABLE_WORK = 3_000
 """Units of work for a decomposition that proves a single step."""
+
+SIMPLIFYING = ("simplification", "standard simplification")
+"""Rules whose steps go on under quantifiers."""
 
 UNRECORDED = "steps that are not recorded"
 
@@ -99,13 +103,79 @@ class Prover:
     def _at(self, place: Place, step: Step, current: Formula) -> Formula:
         facts, changed = replaced(current, place, step.before, step.after, (), Entry(None, "place"))
         context = tuple(f for f in conjuncts(step.context) if f in facts)
-        found = self.evidence(step, context)
+        found = self.own(step, context)
+        if found is None and step.rule in SIMPLIFYING and self._simplified_inside(place, step, current) == changed:
+            return changed
+        if found is None:
+            found = self._tabulated(step)
         if found is None:
             self.unchecked.append(step.rule)
         else:
             rule, evidence = found
             self.steps.append(written(rule, place, step.before, step.after, context, evidence))
         return changed
+
+    # --- simplification under quantifiers --------------------------------------------------------
+    def _simplified_inside(self, place: Place, step: Step, current: Formula) -> Formula | None:
+        """The formula after a simplification that goes on under quantifiers, as a step for each place; None where no
+        evidence is found: then no step is written either."""
+        mark = len(self.steps)
+        try:
+            found = self._inside(place, step.before, step.after, current)
+        except CertificateRejected:  # the step is about a part of what stands there
+            found = None
+        if found is None:
+            del self.steps[mark:]
+        return found
+
+    def _inside(self, place: Place, before: Formula, after: Formula, current: Formula) -> Formula | None:
+        if before == after:
+            return current
+        facts, changed = replaced(current, place, before, after, (), Entry(None, "place"))
+        context = tuple(f for f in facts if f.is_quantifier_free)
+        for used in ((), context) if context else ((),):
+            found = self._tried("simplification", Step("simplification", before, after), used, {})
+            if found is not None:
+                self.steps.append(written("simplification", place, before, after, used, found))
+                return changed
+        if isinstance(before, Exists | ForAll):
+            return self._under(place, before, after, current)
+        if isinstance(before, And | Or) and not before.is_quantifier_free:
+            return self._parts(place, before, after, current)
+        return None
+
+    def _under(self, place: Place, before: Exists | ForAll, after: Formula, current: Formula) -> Formula | None:
+        """The body simplified, then quantifiers of variables that no longer occur left out."""
+        if type(after) is not type(before) or not isinstance(after, Exists | ForAll):
+            return None
+        inner = self._inside((*place, 0), before.body, after.body, current)
+        if inner is None:
+            return None
+        kept = type(before)(before.variables, after.body)
+        if kept != after:
+            self.steps.append(written("renaming", place, kept, after, (), {}))
+            inner = replaced(inner, place, kept, after, (), Entry(None, "place"))[1]
+        return inner
+
+    def _parts(self, place: Place, before: And | Or, after: Formula, current: Formula) -> Formula | None:
+        """Quantified parts turned into those of the simpler formula, or into constants, and then the whole."""
+        listed = after.args if isinstance(after, And | Or) and type(after) is type(before) else (after,)
+        targets = [f for f in listed if not f.is_quantifier_free]
+        for k, part in enumerate(before.args):
+            if part.is_quantifier_free or part in targets:
+                continue
+            alike = sorted(targets, key=lambda target, part=part: type(target) is not type(part))  # type: ignore[misc]
+            for target in (*alike, TRUE, FALSE):
+                mark = len(self.steps)
+                found = self._inside((*place, k), part, target, current)
+                if found is not None:
+                    join = conj if isinstance(before, And) else disj
+                    rest = join((*before.args[:k], target, *before.args[k + 1 :]))
+                    if rest == after:
+                        return found
+                    return self._inside(place, rest, after, found)
+                del self.steps[mark:]
+        return None
 
     def joined(self, current: Formula, goal: Formula) -> None:
         """The last formula of the derivation and the answer, where steps between them are missing."""
@@ -118,6 +188,10 @@ class Prover:
     # --- evidence ------------------------------------------------------------------------------
     def evidence(self, step: Step, context: Context) -> tuple[str, Json] | None:
         """The rule by whose checker the step is accepted, and the evidence."""
+        return self.own(step, context) or self._tabulated(step)
+
+    def own(self, step: Step, context: Context) -> tuple[str, Json] | None:
+        """As ``evidence``, without decompositions that nobody has made yet."""
         trace = step.evidence.get("trace")
         if isinstance(trace, Eliminated):
             inner = self._substituted(step, trace)
@@ -125,10 +199,7 @@ class Prover:
                 return "virtual substitution", inner
         given = step.evidence.get("proof")
         own = self._tried(step.rule, step, context, self._plain(given) if isinstance(given, Mapping) else {})
-        if own is not None:
-            return step.rule, own
-        leaf = self._tabulated(step)
-        return None if leaf is None else ("cells", leaf)
+        return None if own is None else (step.rule, own)
 
     def _tried(self, rule: str, step: Step, context: Context, evidence: dict[str, Json]) -> Json | None:
         checker = RULES.get(rule)
@@ -174,7 +245,8 @@ class Prover:
     def _claim(self, rule: str, step: Step, evidence: Json) -> Claim:
         return Claim(rule, step.before, step.after, self.ring, Entry(evidence, "evidence"), "step")
 
-    def _tabulated(self, step: Step) -> Json | None:
+    def _tabulated(self, step: Step) -> tuple[str, Json] | None:
+        """A decomposition that proves the step."""
         if not self.tables or not step.after.is_quantifier_free:
             return None
         try:
@@ -184,7 +256,8 @@ class Prover:
             return None
         if certificate is None:
             return None
-        return self._tried("cells", step, (), {"certificate": certificate.to_data()})
+        leaf = self._tried("cells", step, (), {"certificate": certificate.to_data()})
+        return None if leaf is None else ("cells", leaf)
 
     def _plain(self, value: Mapping[str, object]) -> dict[str, Json]:
         return {name: self._json(part) for name, part in value.items()}
