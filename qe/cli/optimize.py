@@ -30,14 +30,14 @@ class Goal:
 
 def optimize(channel: Channel, request: Request, goal: Goal) -> Reply:
     """``qe minimize``: the exact value, the point, and what is active there; with parameters, the cases."""
-    from qe import api_optimum as api
+    from qe import api_optimum
     from qe.optimization.parametric_optimum import ParametricOptimum
 
     start = time.perf_counter()
-    solve = api.maximize if goal.maximize else api.minimize
+    solve = api_optimum.maximize if goal.maximize else api_optimum.minimize
     constraints = read_formula(channel, request.source)
-    limits: dict[str, Any] = {"timeout": request.timeout, "progress": channel.event}
-    best = solve(goal.objective, constraints, parameters=goal.parameters, **limits)
+    asked: dict[str, Any] = {"timeout": request.timeout, "progress": channel.event, "parameters": goal.parameters}
+    best: Optimum | GlobalOptimum | ParametricOptimum = solve(goal.objective, constraints, **asked)
     files: dict[str, str | bytes] = {"certificate": certificate_text(best)} if request.certificate else {}
     if isinstance(best, ParametricOptimum):
         data, lines = _cases(best), str(best).splitlines()
