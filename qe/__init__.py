@@ -23,6 +23,7 @@ from qe.errors import (
     Unable,
 )
 from qe.options import Method, Stage
+from qe.sympy_form import written_by
 
 if TYPE_CHECKING:
     from qe.api import (
@@ -88,6 +89,9 @@ def __getattr__(name: str) -> Any:
         raise AttributeError(f"module 'qe' has no attribute {name!r}")
     found = globals()[name] = getattr(import_module(_LATER[name]), name)
     return found
+
+
+written_by(lambda value: import_module("qe.io.sympy").sympy_form(value))
 
 
 def __dir__() -> list[str]:
