@@ -116,8 +116,8 @@ def method_2_outer() -> Iterator[Evidence]:
     q1, q2 = ([found.point[f"{p}{axis}"] for axis in "xyz"] for p in SEVEN.chosen)
     p1 = [4 * q - 4 * a + b for q, a, b in zip(OUTER["q0"], q1, q2)]
     p2 = [2 * q - a for q, a in zip(OUTER["q0"], q1)]
-    low, high = q1[0].field.theta.interval(20)
-    powers = enumerate(q1[0].field.minimal_polynomial)
+    low, high = found.field.theta.interval(20)
+    powers = enumerate(found.field.minimal_polynomial)
     field = " + ".join(f"({c})*w^{k}" for k, c in powers) + f" = 0 and {low} < w and w < {high}"
     x, z = (curve([START[k], _in_w(p1[k]), _in_w(p2[k]), OUTER["q0"][k]]) for k in (0, 2))
     inside = f"0 < t and t < 1 and {x} > -1 and {x} < 1"
