@@ -27,10 +27,6 @@ from qe.sympy_form import written_by
 
 if TYPE_CHECKING:
     from qe.api import (
-        Answer,
-        Certificate,
-        Guarantee,
-        Status,
         check_witness,
         decide,
         eliminate,
@@ -47,29 +43,16 @@ if TYPE_CHECKING:
     from qe.elimination.vs.parametric import ParametricWitness
     from qe.exact.algebraic import RealAlgebraic
     from qe.io.sympy import Exists, ForAll
+    from qe.proof.answer import Answer, Guarantee, Status
+    from qe.proof.certificate import Certificate
     from qe.regions.region import Region
 
 __version__ = "0.1.0"
 
 
-_API = (
-    "Answer",
-    "Certificate",
-    "Guarantee",
-    "Status",
-    "check_witness",
-    "decide",
-    "eliminate",
-    "equivalent",
-    "find_instance",
-    "maximize",
-    "minimize",
-    "parametric_witnesses",
-    "region",
-    "verify",
-)
-_LATER = {
-    **dict.fromkeys(_API, "qe.api"),
+_ELSEWHERE = {
+    **dict.fromkeys(("Answer", "Guarantee", "Status"), "qe.proof.answer"),
+    "Certificate": "qe.proof.certificate",
     "Exists": "qe.io.sympy",
     "ForAll": "qe.io.sympy",
     "Optimum": "qe.convex.optimum",
@@ -78,16 +61,19 @@ _LATER = {
     "Region": "qe.regions.region",
     "Verdict": "qe.certify.verdict",
 }
-"""Public names whose modules are loaded at first use: ``import qe`` alone loads neither FLINT nor the engine."""
+"""Where public names stand that are neither here nor in ``qe.api``.
+
+All are loaded at first use: ``import qe`` alone loads neither FLINT nor the engine.
+"""
 
 
 def __getattr__(name: str) -> Any:
     """A public name from a module that is loaded at its first use (PEP 562)."""
     if name == "api":
         return import_module("qe.api")
-    if name not in _LATER:
+    if name not in __all__:
         raise AttributeError(f"module 'qe' has no attribute {name!r}")
-    found = globals()[name] = getattr(import_module(_LATER[name]), name)
+    found = globals()[name] = getattr(import_module(_ELSEWHERE.get(name, "qe.api")), name)
     return found
 
 

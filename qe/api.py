@@ -23,7 +23,7 @@ from qe.formula.traverse import free_variables, is_quantifier_free, ring_of
 from qe.formula.weight import may_block, text_may_block
 from qe.options import VERIFY_SECONDS, Budget, Method, Options, Stage
 from qe.progress import Event, silent
-from qe.proof.answer import Answer, Guarantee, Status
+from qe.proof.answer import Answer, Status
 from qe.proof.certificate import Certificate, Kind
 from qe.proof.run_log import RunLog
 
@@ -340,22 +340,3 @@ def verify(certificate: Certificate, *, timeout: float | None = VERIFY_SECONDS) 
     from qe.api_verify import verify as check
 
     return check(certificate, timeout=arguments.seconds(timeout))
-
-
-__all__ = [
-    "Answer",
-    "Certificate",
-    "Guarantee",
-    "Status",
-    "check_witness",
-    "decide",
-    "eliminate",
-    "equivalent",
-    "find_instance",
-    "maximize",
-    "minimize",
-    "parametric_witnesses",
-    "read_formula",
-    "region",
-    "verify",
-]

@@ -135,13 +135,13 @@ def convert(channel: Channel, source: Source, output: OutputFormat) -> Reply:
 
 def check(channel: Channel, text: str, name: str, seconds: float) -> Reply:
     """``qe check``: exit status 4 when the certificate is rejected, 3 when that is not decided."""
-    from qe import api
     from qe.certify.verify import verify
     from qe.errors import CertificateRejected
     from qe.options import Budget
+    from qe.proof.certificate import Certificate
 
     start = time.perf_counter()
-    verdict = verify(api.Certificate.from_json(text), Budget(seconds, listener=channel.event))
+    verdict = verify(Certificate.from_json(text), Budget(seconds, listener=channel.event))
     if not verdict.decided:
         raise Unable(f"not decided: {verdict.reason}")
     if not verdict.accepted:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from qe.convex.facial_reduction import implied_equations
-from qe.convex.read import NotConvex
+from qe.convex.system import NotConvex
 from qe.elimination.critical import necessary_conditions
 from qe.formula.build import atom, conj, convert
 from qe.formula.syntax import FALSE, ForAll, Formula, Relation
