@@ -6,7 +6,6 @@ from qe.convex.optimum import Decision, decide
 from qe.convex.system import NotConvex
 from qe.elimination.protocol import Context, Outcome, Problem
 from qe.formula.syntax import FALSE, TRUE, Exists
-from qe.formula.traverse import ring_of
 from qe.options import Budget, Options
 
 
@@ -38,7 +37,7 @@ def decide_convex(sentence: Exists, *, budget: Budget) -> Decision | None:
 
     Raises ``Unable`` when neither a solution nor a contradiction was proved.
     """
-    if ring_of(sentence.body) is None:
+    if sentence.body.ring is None:
         return None
     try:
         return decide(sentence.body, budget=budget)

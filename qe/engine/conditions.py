@@ -7,7 +7,7 @@ from collections.abc import Callable
 from qe.convex.system import NotConvex, read_system
 from qe.elimination.protocol import Problem
 from qe.formula.syntax import And, Formula
-from qe.formula.traverse import conjuncts, connected, free_variables, polynomials
+from qe.formula.traverse import conjuncts, connected, polynomials
 from qe.options import Options
 
 Condition = Callable[[Problem, Options], str | None]
@@ -68,7 +68,7 @@ def _falls_apart(problem: Problem) -> bool:
     """Whether some conjuncts share no variable with the others."""
     block = frozenset(problem.variables)
     parts = conjuncts(problem.positive)
-    return len(connected(parts, lambda part: block.intersection(free_variables(part)))[1]) > 1
+    return len(connected(parts, lambda part: block.intersection(part.free))[1]) > 1
 
 
 def curved_in_the_block(problem: Problem, options: Options) -> str | None:
@@ -120,7 +120,7 @@ def worth_a_short_try(problem: Problem, options: Options) -> str | None:
 
 def _sizes(problem: Problem) -> tuple[int, int]:
     """(quantified variables that occur, all variables)."""
-    names = free_variables(problem.body)
+    names = problem.body.free
     return sum(v in names for v in problem.variables), len(names)
 
 

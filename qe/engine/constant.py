@@ -9,7 +9,7 @@ from qe.formula.build import exists
 from qe.formula.evaluate import holds_at
 from qe.formula.normal import nnf
 from qe.formula.syntax import FALSE, TRUE, Formula
-from qe.formula.traverse import atoms, free_variables
+from qe.formula.traverse import atoms
 
 PATTERNS = ((0,), (1,), (-1,), (1, -2, 3, -5), (-3, 2, -1, 4), (Fraction(1, 7), 2), (9, Fraction(-1, 3)), (1, 8, 64))
 """Coordinates of the points that are tried, repeated as far as needed: signs and sizes in several combinations."""
@@ -26,7 +26,7 @@ def constant_value(formula: Formula, is_satisfiable: Callable[[Formula], bool]) 
 
     ``is_satisfiable`` decides an existential sentence; it is asked only where no point settles the matter.
     """
-    names = free_variables(formula)
+    names = formula.free
     if not names or not _is_cheap(formula, len(names)):
         return None
     always = _at(formula, names, PATTERNS[0])

@@ -24,7 +24,6 @@ from qe.formula.counting import without_root_atoms
 from qe.formula.features import features
 from qe.formula.normal import nnf, rename_apart
 from qe.formula.syntax import FALSE, TRUE, And, Constant, Exists, ForAll, Formula, Not, Or
-from qe.formula.traverse import free_variables, is_quantifier_free
 from qe.options import Budget, Options, Stage
 from qe.proof.certificate import Certificate, Root
 from qe.proof.derivation import negated
@@ -46,8 +45,8 @@ def solve(formula: Formula, options: Options, budget: Budget) -> Outcome:
     Raises ``Unable`` (``BudgetExceeded`` at a limit) when no method finished.
     """
     started = time.perf_counter()
-    run, free = _Run(options, budget), free_variables(formula)
-    plain = formula if options.root_atoms and is_quantifier_free(formula) else without_root_atoms(formula)
+    run, free = _Run(options, budget), formula.free
+    plain = formula if options.root_atoms and formula.is_quantifier_free else without_root_atoms(formula)
     question = run.log.step("renaming", formula, rename_apart(run.log.step("roots counted", formula, plain)))
     found = run.question(question)
     certificate = run.certificate(question, found)
@@ -178,7 +177,7 @@ class _Run:
     # --- formulas ----------------------------------------------------------------------------------
     def without_quantifiers(self, formula: Formula, *, inner: bool = False) -> Formula:
         """All quantifiers removed, innermost first; with ``inner`` only those that an inner block's methods remove."""
-        if is_quantifier_free(formula):
+        if formula.is_quantifier_free:
             return formula
         match formula:
             case And(args) | Or(args):
@@ -196,7 +195,7 @@ class _Run:
         """The problem with its body as far as inner blocks can be eliminated, simplified; a formula where no block is
         left."""
         body = self.without_quantifiers(problem.body, inner=True)
-        if not is_quantifier_free(body):
+        if not body.is_quantifier_free:
             return replace(problem, body=body)
         before = replace(problem, body=body).formula
         simple = problem.asked(simplify(nnf(body, negate=problem.universal)))
@@ -251,7 +250,7 @@ class _Run:
     def whole_of(self, found: Outcome, problem: Problem, attempt: Attempt, name: str) -> Outcome:
         """An outcome without what a method left quantified, and short where that is worth a look."""
         formula = found.formula
-        if not is_quantifier_free(formula) and attempt.scope is not Scope.INNER:
+        if not formula.is_quantifier_free and attempt.scope is not Scope.INNER:
             if formula == problem.formula:
                 raise alone(name)
             self.log.switch(name, f"{', '.join(features(formula).bound)} left for another method")
@@ -270,7 +269,7 @@ def gathered_block(formula: Formula) -> Problem | None:
         return None
     rest = [a for a in args if a is not blocks[0]]
     body = conj((*rest, blocks[0].body))
-    return Problem(blocks[0].variables, body) if is_quantifier_free(body) else None
+    return Problem(blocks[0].variables, body) if body.is_quantifier_free else None
 
 
 def witness_certificate(problem: Problem, values: Values) -> Certificate:

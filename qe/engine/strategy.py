@@ -15,7 +15,7 @@ from qe.elimination.protocol import Method as EliminationMethod
 from qe.elimination.protocol import Outcome, Problem
 from qe.engine import conditions as on
 from qe.errors import Unable
-from qe.formula.traverse import atoms, is_quantifier_free
+from qe.formula.traverse import atoms
 from qe.options import Method, Options, Stage
 
 METHODS = {
@@ -62,7 +62,7 @@ def any_outcome(outcome: Outcome, problem: Problem) -> bool:
 
 def complete(outcome: Outcome, problem: Problem) -> bool:
     """Nothing is left quantified."""
-    return is_quantifier_free(outcome.formula)
+    return outcome.formula.is_quantifier_free
 
 
 def complete_if_closed(outcome: Outcome, problem: Problem) -> bool:
