@@ -6,8 +6,10 @@ from qe.arguments import shown
 from qe.certify.cells import check_cells
 from qe.certify.clearance import check_clearance
 from qe.certify.containment import check_containment
+from qe.certify.derivation import check_derivation
 from qe.certify.gauss import check_substitution
 from qe.certify.optimum import check_optimum
+from qe.certify.registry import RULES
 from qe.certify.verdict import Verdict
 from qe.certify.witness import check_witness
 from qe.errors import CertificateRejected, InputError, Unable
@@ -66,6 +68,8 @@ def _check(certificate: Certificate, budget: Budget) -> None:
         raise CertificateRejected("kind", "unknown kind of certificate")
     if isinstance(payload, CellEvidence) and certificate.kind is Kind.CELLS:
         check_cells(payload, budget)
+    elif isinstance(payload, dict) and certificate.kind is Kind.DERIVATION:
+        check_derivation(payload, budget, RULES, _check)
     elif isinstance(payload, dict) and certificate.kind in _CHECKERS:
         _CHECKERS[certificate.kind](payload, budget)
     elif isinstance(payload, tuple) and certificate.kind is Kind.BUNDLE:

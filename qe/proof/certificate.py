@@ -22,7 +22,9 @@ from qe.proof.cells import CellTable
 from qe.proof.cells_json import CellEvidence, cells_from_json, cells_to_json
 from qe.proof.entry import Entry, Json, formula_to_json, poly_to_text
 
-FORMAT, VERSION = "bezier-qe certificate", 1
+FORMAT = "bezier-qe certificate"
+VERSIONS = (1, 2)
+"""The versions that are read. Written is the lowest that can say it: 2 where a derivation is inside, else 1."""
 
 
 class Kind(Enum):
@@ -32,7 +34,8 @@ class Kind(Enum):
     follows. OPTIMUM: an optimal point of a convex problem, or that there is none. WITNESS: that an assignment
     satisfies a quantifier-free formula. SUBSTITUTION: that linear equations eliminate an existential block.
     CONTAINMENT: that a Bezier curve stays in a ball or half-space. CLEARANCE: that one never meets an obstacle, or
-    where it first does. BUNDLE: several certificates with labels.
+    where it first does. DERIVATION: that a formula is equivalent to another, step by step. BUNDLE: several certificates
+    with labels.
     """
 
     CELLS = "cells"
@@ -41,6 +44,7 @@ class Kind(Enum):
     SUBSTITUTION = "substitution"
     CONTAINMENT = "containment"
     CLEARANCE = "clearance"
+    DERIVATION = "derivation"
     BUNDLE = "bundle"
 
 
@@ -116,6 +120,24 @@ class Certificate:
         }
         return Certificate(Kind.SUBSTITUTION, payload)
 
+    @staticmethod
+    def derivation(order: Sequence[str], start: Formula, steps: Iterable[Json], answer: Formula) -> Certificate:
+        """That ``start`` <-> ``answer`` (over the ring of ``order``) by these steps, see ``qe.certify.derivation``."""
+        payload: dict[str, Json] = {
+            "order": list(order),
+            "start": formula_to_json(start, quantified=True),
+            "steps": list(steps),
+            "answer": formula_to_json(answer, quantified=True),
+        }
+        return Certificate(Kind.DERIVATION, payload)
+
+    @property
+    def version(self) -> int:
+        """The version of the format in which it is written."""
+        if isinstance(self.payload, tuple):
+            return max((m.certificate.version for m in self.payload), default=1)
+        return 2 if self.kind is Kind.DERIVATION else 1
+
     def to_data(self) -> dict[str, Json]:
         """Kind and payload as JSON data."""
         if isinstance(self.payload, CellEvidence):
@@ -129,7 +151,7 @@ class Certificate:
         """The certificate as text, with version and digest; equal certificates give equal text."""
         if indent is not None:
             whole_number(indent, "indent", 80)
-        whole: dict[str, Json] = {"format": FORMAT, "version": VERSION, **self.to_data()}
+        whole: dict[str, Json] = {"format": FORMAT, "version": self.version, **self.to_data()}
         whole["digest"] = digest(whole)
         separators = (",", ":") if indent is None else None
         return json.dumps(whole, ensure_ascii=False, indent=indent, separators=separators)
@@ -148,16 +170,19 @@ class Certificate:
             raise InputError(f"not a certificate: {error}") from None
         if not isinstance(whole, dict) or whole.get("format") != FORMAT:
             raise InputError(f'not a certificate: expected an object with "format": "{FORMAT}"')
-        if whole.get("version") != VERSION or isinstance(whole.get("version"), bool):
-            raise InputError(f"certificate version {whole.get('version')!r} is not {VERSION}, the one known here")
+        version = whole.get("version")
+        if version not in VERSIONS or isinstance(version, bool):
+            raise InputError(f"certificate version {version!r} is not one of {VERSIONS}, which are known here")
         stated = whole.get("digest")
         if not isinstance(stated, str):
             raise CertificateRejected("digest", "expected a string")
         content = {k: v for k, v in whole.items() if k not in ("format", "version", "digest")}
         try:
-            read = _from_data(Entry(content, ""))
+            read = certificate_from(Entry(content, ""))
         except RecursionError:
             raise InputError("certificate nested too deeply") from None
+        if read.version != version:
+            raise InputError(f"certificate version {version}: what it holds is written in version {read.version}")
         return Certificate(read.kind, read.payload, (stated, digest(whole)))
 
 
@@ -176,7 +201,8 @@ def _value_to_json(value: Root | Fraction, name: str) -> Json:
     return {"polynomial": poly_to_text(poly.normal()[1]), "interval": [str(value.low), str(value.high)]}
 
 
-def _from_data(entry: Entry, labelled: bool = False) -> Certificate:
+def certificate_from(entry: Entry, labelled: bool = False) -> Certificate:
+    """The certificate that ``to_data`` writes. Raises ``CertificateRejected`` where an entry is malformed."""
     extra = ("label",) if labelled else ()
     if not isinstance(entry.value, dict):
         raise entry.fail("expected an object")
@@ -200,7 +226,7 @@ def _member(entry: Entry) -> Labelled:
     if not isinstance(entry.value, dict):
         raise entry.fail("expected an object")
     label = Entry(entry.value.get("label"), f"{entry.path}.label").text()
-    return Labelled(label, _from_data(entry, labelled=True))
+    return Labelled(label, certificate_from(entry, labelled=True))
 
 
 def _no_floats(text: str) -> Json:

@@ -134,8 +134,13 @@ def parse_poly(text: str, ring: Ring) -> Poly:
     return ring.from_terms(terms)
 
 
-def formula_to_json(formula: Formula) -> Json:
-    """Quantifier-free formulas as JSON: ``true``, ``["and", ...]``, ``["atom", poly, relation]``, ..."""
+def formula_to_json(formula: Formula, *, quantified: bool = False) -> Json:
+    """Formulas as JSON: ``true``, ``["and", ...]``, ``["atom", poly, relation]``, ...; with ``quantified`` also
+    ``["exists", [names], f]`` and ``["forall", [names], f]``, which are refused otherwise."""
+
+    def inner(part: Formula) -> Json:
+        return formula_to_json(part, quantified=quantified)
+
     match formula:
         case Constant(value):
             return value
@@ -144,18 +149,24 @@ def formula_to_json(formula: Formula) -> Json:
         case RootAtom(variable, relation, poly, k):
             return ["root", variable, relation.value, poly_to_text(poly), k]
         case And(args):
-            return ["and", *(formula_to_json(a) for a in args)]
+            return ["and", *map(inner, args)]
         case Or(args):
-            return ["or", *(formula_to_json(a) for a in args)]
+            return ["or", *map(inner, args)]
         case Not(arg):
-            return ["not", formula_to_json(arg)]
+            return ["not", inner(arg)]
+        case Exists(variables, body) | ForAll(variables, body) if quantified:
+            return ["exists" if isinstance(formula, Exists) else "forall", list(variables), inner(body)]
         case Exists() | ForAll():
             raise CertificateRejected("matrix", "a quantifier where a quantifier-free formula is needed")
     raise CertificateRejected("matrix", f"unknown kind of formula {type(formula).__name__}")
 
 
-def formula_from_json(entry: Entry, ring: Ring, depth: int = 0) -> Formula:
+def formula_from_json(entry: Entry, ring: Ring, depth: int = 0, *, quantified: bool = False) -> Formula:
     """The formula written by ``formula_to_json``, exactly as it stands (nothing is simplified)."""
+
+    def inner(part: Entry) -> Formula:
+        return formula_from_json(part, ring, depth + 1, quantified=quantified)
+
     if isinstance(entry.value, bool):
         return TRUE if entry.value else FALSE
     parts = list(entry.items())
@@ -163,10 +174,12 @@ def formula_from_json(entry: Entry, ring: Ring, depth: int = 0) -> Formula:
         raise entry.fail("expected a formula")
     kind, rest = parts[0].text(), parts[1:]
     if kind in ("and", "or") and len(rest) >= 2:
-        args = tuple(formula_from_json(r, ring, depth + 1) for r in rest)
+        args = tuple(map(inner, rest))
         return And(args) if kind == "and" else Or(args)
     if kind == "not" and len(rest) == 1:
-        return Not(formula_from_json(rest[0], ring, depth + 1))
+        return Not(inner(rest[0]))
+    if quantified and kind in ("exists", "forall") and len(rest) == 2:
+        return (Exists if kind == "exists" else ForAll)(variables_from_json(rest[0], ring), inner(rest[1]))
     if kind == "atom" and len(rest) == 2:
         return Atom(_normal(rest[0], ring), relation_from_json(rest[1]))
     if kind == "root" and len(rest) == 4:
@@ -177,6 +190,14 @@ def formula_from_json(entry: Entry, ring: Ring, depth: int = 0) -> Formula:
             raise rest[3].fail("expected a root number, not 0")
         return RootAtom(variable, relation_from_json(rest[1]), _normal(rest[2], ring), k)
     raise entry.fail('expected ["and", ...], ["or", ...], ["not", f], ["atom", p, rel] or ["root", x, rel, p, k]')
+
+
+def variables_from_json(entry: Entry, ring: Ring) -> tuple[str, ...]:
+    """One or more different variables of the ring."""
+    names = tuple(e.text() for e in entry.items())
+    if not names or len(set(names)) < len(names) or not ring.index.keys() >= set(names):
+        raise entry.fail("expected different variables of the order")
+    return names
 
 
 def _normal(entry: Entry, ring: Ring) -> Poly:
