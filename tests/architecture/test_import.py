@@ -65,15 +65,16 @@ def test_the_command_line_loads_no_pictures() -> None:
 COMMAND = """
 from qe.cli import work
 from qe.cli.app import main
-from qe.cli.source import InputFormat, OutputFormat, Source
+from qe.cli.source import Source
+from qe.io.formats import Format
 
 class Channel:
     def event(self, event): pass
     def fact(self, name, value): pass
 
 main(["eliminate", "x > 0", "--timeout", "20", "--method", "auto"])
-request = work.Request(source=Source("x > 0", InputFormat.TEXT, "<argument>"))
-work.eliminate(Channel(), request, OutputFormat.TEXT)  # what the worker process does
+request = work.Request(source=Source("x > 0", Format.TEXT, "<argument>"))
+work.eliminate(Channel(), request, Format.TEXT)  # what the worker process does
 """
 
 
