@@ -40,7 +40,7 @@ SPOKEN = {
     "witness": "the search for witnesses alone",
     "infinity first": "looking at infinity alone",
 }
-"""What a method is called where it does not suffice."""
+"""What a method is called where it does not suffice, if not by its name."""
 
 
 class Scope(Enum):
@@ -153,4 +153,4 @@ def allows(options: Options, name: Method) -> bool:
 
 def alone(name: str) -> Unable:
     """The error where a method, or all of them, leave quantifiers."""
-    return Unable(f"{SPOKEN[name]} does not eliminate all quantifiers of this formula")
+    return Unable(f"{SPOKEN.get(name, f'{name} alone')} does not eliminate all quantifiers of this formula")
