@@ -1,4 +1,4 @@
-"""The page about extending is true: its files are put into a copy of the packages, and its sessions and commands run."""
+"""The page about extending is true: its files go into a copy of the packages; its sessions and commands run there."""
 
 from __future__ import annotations
 
