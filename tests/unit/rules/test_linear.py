@@ -49,6 +49,12 @@ def test_the_equation_that_is_chosen(text: str, position: int, name: str, sign: 
     )
 
 
+def test_the_sign_of_a_constant_coefficient() -> None:
+    for text, sign in (("x - 2*a = 0 and a^2 > b", -1), ("x + 2*a = 0 and a^2 > b", 1)):
+        found = pivot_of(text, "a")
+        assert found is not None and (found.name, found.sign) == ("a", sign)
+
+
 def test_what_is_known_of_the_leading_coefficient() -> None:
     for known, sign in (("a > 0", 1), ("a < 0", -1), ("a /= 0", 0), ("a >= 0", None)):
         found = pivot_of("a*x - b = 0 and x > 1", known=known)
@@ -87,12 +93,14 @@ def test_substitution_keeps_the_truth(poly, relation, name):
 
 
 def test_where_nothing_can_be_put_in() -> None:
-    pivot = Pivot(0, 2, A, B, None, False)
+    pivot = Pivot(0, 2, WIDER.gen(0), WIDER.gen(1), None, False)
 
     def put(text: str) -> Formula | None:
-        return substitute(convert(read(text), RING), pivot)
+        return substitute(convert(read(text), WIDER), pivot)
 
     assert put("ex b. b > x") is None and put("all b. b > a") is not None
     assert str(put("ex x. x > a")) == "ex x. a - x < 0"
     assert str(put("not (x > 0 and b > 0)")) == "not (a*b < 0 and b > 0)"
+    assert str(put("ex y. y > x")) == "ex y. a^2*y + a*b > 0" and str(put("all y. y > x")) == "all y. a^2*y + a*b > 0"
+    assert str(put("true")) == "true" and put("a < root(1, a^3 - x)") is None
     assert put("x < root(1, x^3 - 2)") is None and put("a < root(1, a^3 - b)") is not None
