@@ -52,7 +52,7 @@ docs: $(DOCS) ## build the documentation site: open build/site/index.html
 deep: $(DEV) ## the long randomised tests
 	HYPOTHESIS_PROFILE=explore $(BIN)/python -m pytest -n $(WORKERS) -q -m deep
 
-lint: $(DEV) ## ruff, and mypy --strict on qe and bezier
+lint: $(DEV) ## ruff, and mypy --strict on all packages
 	$(BIN)/ruff check .
 	$(BIN)/mypy
 

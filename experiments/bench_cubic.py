@@ -11,6 +11,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 from fractions import Fraction
 from itertools import pairwise
+from typing import Any
 
 import qe
 from bezier.compare import whole_curve
@@ -90,13 +91,19 @@ def _in_the_plane(text: str) -> str:
 def optimum_rows() -> Iterator[Row]:
     """The exact optimum with its certificate."""
     conditions, objective = planar_conditions(), planar_objective()
-    found = qe.minimize(objective, conditions)
-    yield Row("optimum with certificate, planar", 0.3, median(lambda: qe.minimize(objective, conditions).certificate))
+    found = qe.minimize(objective, conditions, method="convex")
+    yield Row(
+        "optimum with certificate, planar",
+        0.3,
+        median(lambda: qe.minimize(objective, conditions, method="convex").certificate),
+    )
     yield Row("  its verification", 0.2, median(lambda: qe.verify(found.certificate)))
     system = cubic.system(spatial_hemisphere())
     spatial, aim = system.in_free_points().formula, system.objective().polynomial
-    above = qe.minimize(aim, spatial)
-    yield Row("optimum, spatial, hemisphere", 1.0, median(lambda: qe.minimize(aim, spatial).certificate))
+    above = qe.minimize(aim, spatial, method="convex")
+    yield Row(
+        "optimum, spatial, hemisphere", 1.0, median(lambda: qe.minimize(aim, spatial, method="convex").certificate)
+    )
     yield Row("  its verification", 0.2, median(lambda: qe.verify(above.certificate)))
 
 
@@ -110,7 +117,9 @@ def region_rows() -> Iterator[Row]:
     yield Row("membership of a Q1, planar", 0.050, median(lambda: [planar.contains(p) for p in places]) / len(places))
     names = ", ".join(f"q2{axis}" for axis in "xyz")
     spatial = qe.region(f"ex {names}. {cubic.system(given).in_free_points()}")
-    points = [dict(zip(("q1x", "q1y", "q1z"), plane.point(*p.values()), strict=True)) for p in places]
+    points: list[dict[str, Any]] = [
+        dict(zip(("q1x", "q1y", "q1z"), plane.point(*p.values()), strict=True)) for p in places
+    ]
     yield Row("membership of a Q1, spatial", 0.5, median(lambda: [spatial.contains(p) for p in points]) / len(points))
     yield Row("planar region of (7), Q2 quantified", 10.0, median(lambda: qe.region(formulas["(7)"]).cells))
     yield Row("planar region of (8*)", 5.0, median(lambda: whole_curve.region(given, plane).cells))

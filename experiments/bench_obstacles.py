@@ -11,6 +11,7 @@ import time
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import partial
 
 import numpy as np
 
@@ -22,6 +23,7 @@ from bezier.obstacles.obstacle import Obstacle, ObstacleKind, from_body
 from bezier.obstacles.polyhedron import Point, parallelepiped, point, segment
 from bezier.pictures.mesh import sampled
 from experiments.bench import Row, median
+from qe.arguments import rational
 
 SAMPLES = 1000
 CURVES, OBSTACLES = 1000, 20
@@ -84,7 +86,9 @@ def hidden_contacts() -> list[Near]:
     return [
         Near("dips 1e-7 into a ball", arch, ball((Fraction(0), Fraction(0), Fraction(3)), 1 + Fraction(1, 10**7))),
         Near("touches a ball", arch, ball((Fraction(0), Fraction(0), Fraction(3)), Fraction(1))),
-        Near("passes through a ball of radius 1e-4", slanted, ball([Fraction(c) for c in top], Fraction(1, 10**4))),
+        Near(
+            "passes through a ball of radius 1e-4", slanted, ball([rational(c, "top") for c in top], Fraction(1, 10**4))
+        ),
     ]
 
 
@@ -129,7 +133,7 @@ def single_pairs() -> list[Row]:
     rows = []
     for name, body in cases.items():
         obstacle = from_body(name, ObstacleKind.POLYHEDRON, body)
-        rows.append(Row(f"one cubic, {name}", 0.005, median(lambda o=obstacle: examine(curve, o))))
+        rows.append(Row(f"one cubic, {name}", 0.005, median(partial(examine, curve, obstacle))))
     return rows
 
 

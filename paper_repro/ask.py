@@ -41,7 +41,7 @@ def decided(text: str, sentence: Any, expected: bool = True) -> Asked:
 def optimised(text: str, objective: str, constraints: str, value: str) -> tuple[Asked, qe.Optimum]:
     """Minimise exactly; the least value must be the number ``value`` (as text), its certificate is checked."""
     start = time.perf_counter()
-    found = qe.minimize(objective, constraints, timeout=LIMIT)
+    found = qe.minimize(objective, constraints, timeout=LIMIT, method="convex")
     seconds = time.perf_counter() - start
     holds = str(found.value) == value and _accepted(found.certificate)
     shown = rf"\min = {number(found.value)}" if found.is_optimal else rf"\text{{{found.status.value}}}"

@@ -23,13 +23,10 @@ from qe.errors import (
     Unable,
 )
 from qe.options import Method, Stage
+from qe.sympy_form import written_by
 
 if TYPE_CHECKING:
     from qe.api import (
-        Answer,
-        Certificate,
-        Guarantee,
-        Status,
         check_witness,
         decide,
         eliminate,
@@ -50,27 +47,16 @@ if TYPE_CHECKING:
     from qe.io.sympy import Exists, ForAll
     from qe.optimization.global_optimum import GlobalOptimum
     from qe.optimization.parametric_optimum import ParametricOptimum
+    from qe.proof.answer import Answer, Guarantee, Status
+    from qe.proof.certificate import Certificate
     from qe.regions.region import Region
 
 __version__ = "0.1.0"
 
 
-_API = (
-    "Answer",
-    "Certificate",
-    "Guarantee",
-    "Status",
-    "check_witness",
-    "decide",
-    "eliminate",
-    "equivalent",
-    "find_instance",
-    "parametric_witnesses",
-    "region",
-    "verify",
-)
-_LATER = {
-    **dict.fromkeys(_API, "qe.api"),
+_ELSEWHERE = {
+    **dict.fromkeys(("Answer", "Guarantee", "Status"), "qe.proof.answer"),
+    "Certificate": "qe.proof.certificate",
     "ComprehensiveGroebnerSystem": "qe.groebner.system",
     "RealRootClassification": "qe.groebner.counting",
     "comprehensive_groebner": "qe.api_groebner",
@@ -86,17 +72,23 @@ _LATER = {
     "Region": "qe.regions.region",
     "Verdict": "qe.certify.verdict",
 }
-"""Public names whose modules are loaded at first use: ``import qe`` alone loads neither FLINT nor the engine."""
+"""Where public names stand that are neither here nor in ``qe.api``.
+
+All are loaded at first use: ``import qe`` alone loads neither FLINT nor the engine.
+"""
 
 
 def __getattr__(name: str) -> Any:
     """A public name from a module that is loaded at its first use (PEP 562)."""
     if name == "api":
         return import_module("qe.api")
-    if name not in _LATER:
+    if name not in __all__:
         raise AttributeError(f"module 'qe' has no attribute {name!r}")
-    found = globals()[name] = getattr(import_module(_LATER[name]), name)
+    found = globals()[name] = getattr(import_module(_ELSEWHERE.get(name, "qe.api")), name)
     return found
+
+
+written_by(lambda value: import_module("qe.io.sympy").sympy_form(value))
 
 
 def __dir__() -> list[str]:

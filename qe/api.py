@@ -24,7 +24,7 @@ from qe.formula.traverse import free_variables, is_quantifier_free, ring_of
 from qe.formula.weight import text_may_block
 from qe.options import VERIFY_SECONDS, Budget, Method, Options, Stage
 from qe.progress import Event, silent
-from qe.proof.answer import Answer, Guarantee, Status
+from qe.proof.answer import Answer, Status
 from qe.proof.certificate import Certificate, Kind
 from qe.proof.run_log import RunLog
 
@@ -295,20 +295,3 @@ def verify(
 
     asked = None if formula is None else read_formula(formula, format)
     return check(certificate, formula=asked, timeout=arguments.seconds(timeout))
-
-
-__all__ = [
-    "Answer",
-    "Certificate",
-    "Guarantee",
-    "Status",
-    "check_witness",
-    "decide",
-    "eliminate",
-    "equivalent",
-    "find_instance",
-    "parametric_witnesses",
-    "read_formula",
-    "region",
-    "verify",
-]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import tomllib
 from pathlib import Path
+from typing import Any
 
 from experiments.problem import ROOT, Problem
 from experiments.suites import paper, scaling
@@ -15,14 +16,14 @@ MIDDLE_SIZES = ("degree-8", "via-6", "balls-2d-6", "balls-3d-6", "bits-64", "tow
 LITERATURE = ROOT.parent / "shared" / "corpora"
 
 
-def records() -> list[dict[str, object]]:
+def records() -> list[dict[str, Any]]:
     """The raw records of the project's corpus."""
     return [r for path in sorted(CORPUS.glob("*.toml")) for r in tomllib.loads(path.read_text())["problem"]]
 
 
-def _problem(record: dict[str, object]) -> Problem:
+def _problem(record: dict[str, Any]) -> Problem:
     keys = ("formula", "expected", "assume")
-    return Problem("project", str(record["id"]), **{key: record[key] for key in keys if key in record})  # type: ignore[arg-type]
+    return Problem("project", str(record["id"]), **{key: record[key] for key in keys if key in record})
 
 
 def classics() -> list[Problem]:
@@ -32,7 +33,7 @@ def classics() -> list[Problem]:
 
 def timing_ids() -> list[str]:
     """The problems of the corpus on which systems are timed."""
-    return [str(record["id"]) for record in records() if "timing" in record["tags"]]  # type: ignore[operator]
+    return [str(record["id"]) for record in records() if "timing" in record["tags"]]
 
 
 def ablation() -> list[Problem]:

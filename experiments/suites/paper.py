@@ -103,7 +103,7 @@ def _identities() -> Iterator[Problem]:
 def _quadratic(i: int, problem: PlanningProblem) -> Iterator[Problem]:
     """Formula (8), with z >= 0, its feasibility, its shadow on an axis, and the whole-curve condition."""
     conditions = str(quadratic.system(problem).in_free_points())
-    above = " and ".join(f"{a} >= 0" for a in ("q1z", *(f"2*{number(p[2])} - q1z" for p in problem.via)))
+    above = " and ".join(f"{a} >= 0" for a in ("q1z", *(f"2*{number(exactly(p[2]))} - q1z" for p in problem.via)))
     x, y, z = quadratic.FREE
     yield _problem("formula-8", i, str(quadratic.printed(problem).statement()), conditions)
     corrected = str(quadratic.corrected(problem).statement())

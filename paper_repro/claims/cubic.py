@@ -103,7 +103,7 @@ def always_satisfiable() -> Iterator[Evidence]:
         before == after and any(after),
     )
     for square, stops in ((2, True), (4, False)):
-        found = qe.minimize(SEVEN.objective("xy", PLANE), SEVEN.substituted("xy", PLANE, square))
+        found = qe.minimize(SEVEN.objective("xy", PLANE), SEVEN.substituted("xy", PLANE, square), method="convex")
         q1, q2 = chosen(found, "xy")
         stopped = (tuple(map(str, q1)), tuple(map(str, q2))) == (("-1", "1"), ("1", "1"))
         said = "is this very choice" if stops else "is another one, without a stop at the joins"
@@ -133,7 +133,7 @@ def choice() -> Iterator[Evidence]:
     in space. The joins are compared exactly; the threshold is decided by putting the interior solution into (7)."""
     rows = []
     for radius in (Fraction(13, 5), Fraction(2), Fraction(17, 10), Fraction(3, 2)):
-        found = qe.minimize(SEVEN.objective("xy", PLANE), SEVEN.substituted("xy", PLANE, radius**2))
+        found = qe.minimize(SEVEN.objective("xy", PLANE), SEVEN.substituted("xy", PLANE, radius**2), method="convex")
         accepted = qe.verify(found.certificate).accepted
         yield Fact(
             f"$r = {radius}$: optimum found, unique, certificate accepted",

@@ -82,7 +82,9 @@ def hemisphere() -> Iterator[Evidence]:
     floor = Workspace(WorkspaceKind.HEMISPHERE, Fraction(9, 4)).floor
     yield Fact("the curve $P(t)$ itself is below it at some $t$", isinstance(examine(path["P"], floor), Leaves))
     yield Fact("$P_1$ and $R_2$ are below the table", [n for n, z in heights.items() if sign(z) < 0] == ["P1", "R2"])
-    above = qe.minimize(SEVEN.objective("xyz", given), SEVEN.substituted("xyz", given, "9/4", above=True))
+    above = qe.minimize(
+        SEVEN.objective("xyz", given), SEVEN.substituted("xyz", given, "9/4", above=True), method="convex"
+    )
     kept = curves(given, *chosen(above, "xyz"), [(x, 0, z) for x, z in ENDS])
     lowest = min(sign(item.points[i][2]) for item in kept.values() for i in (1, 2))
     yield Fact(
@@ -110,7 +112,7 @@ def planar_reduction() -> Iterator[Evidence]:
     component orthogonal to the plane does not increase it."""
     values = []
     for axes, given in zip(("xy", "xyz"), TILTED):
-        found = qe.minimize(SEVEN.objective(axes, given), SEVEN.substituted(axes, given, 36))
+        found = qe.minimize(SEVEN.objective(axes, given), SEVEN.substituted(axes, given, 36), method="convex")
         yield Fact(
             f"{len(axes)} coordinates: certificate accepted", found.is_optimal and qe.verify(found.certificate).accepted
         )

@@ -111,13 +111,15 @@ def method_2_outer() -> Iterator[Evidence]:
     """The optimum of (7) with $z \\ge 0$ is computed exactly; its coordinates lie in one number field. The engine,
     given the polynomial of the field's generator $w$, looks for a $t$ at which $P(t)$ is inside the interval and low.
     The stretches below the heights are then isolated."""
-    found = qe.minimize(SEVEN.objective("xyz", OUTER), SEVEN.substituted("xyz", OUTER, "9/4", above=True))
+    found = qe.minimize(
+        SEVEN.objective("xyz", OUTER), SEVEN.substituted("xyz", OUTER, "9/4", above=True), method="convex"
+    )
     yield Fact("the optimum is found, certificate accepted", found.is_optimal and qe.verify(found.certificate).accepted)
     q1, q2 = ([found.point[f"{p}{axis}"] for axis in "xyz"] for p in SEVEN.chosen)
     p1 = [4 * q - 4 * a + b for q, a, b in zip(OUTER["q0"], q1, q2)]
     p2 = [2 * q - a for q, a in zip(OUTER["q0"], q1)]
-    low, high = q1[0].field.theta.interval(20)
-    powers = enumerate(q1[0].field.minimal_polynomial)
+    low, high = found.field.theta.interval(20)
+    powers = enumerate(found.field.minimal_polynomial)
     field = " + ".join(f"({c})*w^{k}" for k, c in powers) + f" = 0 and {low} < w and w < {high}"
     x, z = (curve([START[k], _in_w(p1[k]), _in_w(p2[k]), OUTER["q0"][k]]) for k in (0, 2))
     inside = f"0 < t and t < 1 and {x} > -1 and {x} < 1"

@@ -43,7 +43,7 @@ def infeasible() -> Iterator[Evidence]:
         EIGHT.satisfiable("xyz", given, 9),
         expected=False,
     )
-    found = qe.minimize(EIGHT.objective("xyz", given), EIGHT.substituted("xyz", given, 9))
+    found = qe.minimize(EIGHT.objective("xyz", given), EIGHT.substituted("xyz", given, 9), method="convex")
     multipliers = ", ".join(map(str, found.multipliers))
     text = f"the norm conditions on P1, Q1, R1 times ({multipliers}) add up to a contradiction"
     yield verified(text, EIGHT.substituted("xyz", given, 9), found.certificate)

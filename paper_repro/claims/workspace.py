@@ -78,7 +78,7 @@ def radius() -> Iterator[Evidence]:
     )
     figure: Points = {"q0": GIVEN["C1"], "r0": GIVEN["C2"]}
     for square, stops in ((20, True), (25, False)):
-        found = qe.minimize(SEVEN.objective("xy", figure), SEVEN.substituted("xy", figure, square))
+        found = qe.minimize(SEVEN.objective("xy", figure), SEVEN.substituted("xy", figure, square), method="convex")
         at_point = [str(found.point[f"q2{axis}"]) for axis in "xy"] == ["2", "4"]
         said = "$Q_2 = R_0$: the path stops at $C_2$" if stops else "$Q_2 \\ne R_0$: the path does not stop"
         accepted = qe.verify(found.certificate).accepted

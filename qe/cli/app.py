@@ -16,9 +16,10 @@ import typer
 
 from qe import arguments
 from qe.cli.shell import check_writable, enter, limited, remaining, write_file
-from qe.cli.source import InputFormat, OutputFormat, read_source
+from qe.cli.source import read_source
 from qe.cli.work import Reply, Request
 from qe.errors import InputError
+from qe.io.formats import READABLE, Format
 from qe.options import Method
 
 app = typer.Typer(
@@ -31,8 +32,11 @@ app = typer.Typer(
 _LENIENT = {"ignore_unknown_options": True}
 
 Formula = Annotated[str, typer.Argument(metavar="FORMULA|FILE|-", show_default=False)]
-Format = Annotated[InputFormat | None, typer.Option("--format", help="Input format; a file's ending is the default.")]
-Output = Annotated[OutputFormat, typer.Option("--output", help="Format of the answer.")]
+InputFormat = Annotated[
+    Format | None,
+    typer.Option("--format", metavar=f"[{'|'.join(READABLE)}]", help="Input format; a file's ending is the default."),
+]
+Output = Annotated[Format, typer.Option("--output", help="Format of the answer.")]
 MethodOption = Annotated[Method, typer.Option("--method", help="Elimination method.")]
 Order = Annotated[str | None, typer.Option("--order", help="Variable order, as in x,y,z.")]
 Timeout = Annotated[float | None, typer.Option("--timeout", help="Seconds; enforced.")]
@@ -50,8 +54,8 @@ RootAtoms = Annotated[bool, typer.Option("--root-atoms", help="Allow x < root(k,
 @app.command(context_settings=_LENIENT)
 def eliminate(
     formula: Formula,
-    format: Format = None,
-    output: Output = OutputFormat.TEXT,
+    format: InputFormat = None,
+    output: Output = Format.TEXT,
     method: MethodOption = Method.AUTO,
     order: Order = None,
     timeout: Timeout = None,
@@ -75,7 +79,7 @@ def eliminate(
 @app.command(context_settings=_LENIENT)
 def decide(
     formula: Formula,
-    format: Format = None,
+    format: InputFormat = None,
     method: MethodOption = Method.AUTO,
     timeout: Timeout = None,
     memory: Memory = None,
@@ -95,7 +99,7 @@ def decide(
 @app.command(context_settings=_LENIENT)
 def region(
     formula: Formula,
-    format: Format = None,
+    format: InputFormat = None,
     order: Order = None,
     plot: PictureFile = None,
     timeout: Timeout = None,
@@ -118,7 +122,7 @@ def region(
 def minimize(
     objective: Annotated[str, typer.Argument(metavar="OBJECTIVE", show_default=False)],
     constraints: Annotated[str, typer.Argument(metavar="CONSTRAINTS|FILE|-", show_default=False)] = "true",
-    format: Format = None,
+    format: InputFormat = None,
     maximize: Annotated[bool, typer.Option("--maximize", help="Find the greatest value instead.")] = False,
     parameters: Annotated[str | None, typer.Option("--parameters", help="Variables not optimised over: a, b.")] = None,
     timeout: Timeout = None,
@@ -154,7 +158,7 @@ def check(
     from qe.options import VERIFY_SECONDS
 
     check_limits(timeout, memory)
-    source = read_source(certificate, InputFormat.JSON)
+    source = read_source(certificate, Format.JSON)
     if source.name == "<argument>":
         raise InputError(f"{certificate}: no such file")
     seconds = VERIFY_SECONDS if timeout is None else timeout
@@ -166,8 +170,8 @@ def check(
 @app.command(context_settings=_LENIENT)
 def convert(
     formula: Formula,
-    format: Format = None,
-    output: Output = OutputFormat.TEXT,
+    format: InputFormat = None,
+    output: Output = Format.TEXT,
 ) -> int:
     """Print FORMULA in another format, unchanged in meaning."""
     from qe.cli import work as cli_work
@@ -178,7 +182,7 @@ def convert(
 
 def request(
     source: str,
-    format: InputFormat | None,
+    format: Format | None,
     timeout: float | None,
     memory: int | None,
     certificate: Path | None,

@@ -5,44 +5,12 @@ from __future__ import annotations
 import re
 import sys
 from dataclasses import dataclass
-from enum import Enum
 from pathlib import Path
 
 from qe.errors import InputError
+from qe.io.formats import BY_ENDING, Format
 
-
-class InputFormat(Enum):
-    """Formats that ``qe.io.formats`` reads."""
-
-    TEXT = "text"
-    SMTLIB = "smtlib"
-    QEPCAD = "qepcad"
-    REDLOG = "redlog"
-    JSON = "json"
-
-
-class OutputFormat(Enum):
-    """Formats that ``qe.io.formats`` writes."""
-
-    TEXT = "text"
-    SMTLIB = "smtlib"
-    QEPCAD = "qepcad"
-    REDLOG = "redlog"
-    LATEX = "latex"
-    MATHML = "mathml"
-    JSON = "json"
-
-
-_BY_ENDING = {
-    ".smt2": InputFormat.SMTLIB,
-    ".smt": InputFormat.SMTLIB,
-    ".json": InputFormat.JSON,
-    ".qepcad": InputFormat.QEPCAD,
-    ".red": InputFormat.REDLOG,
-    ".qe": InputFormat.TEXT,
-    ".txt": InputFormat.TEXT,
-}
-_FILE_LIKE = re.compile(r"[^\s<>=]+\.(smt2|smt|json|qepcad|red|qe|txt)")
+_FILE_LIKE = re.compile(rf"[^\s<>=]+({'|'.join(map(re.escape, BY_ENDING))})")
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,11 +18,11 @@ class Source:
     """A text to read, its format, and the name to give in messages."""
 
     text: str
-    format: InputFormat
+    format: Format
     name: str
 
 
-def read_source(argument: str, wanted: InputFormat | None) -> Source:
+def read_source(argument: str, wanted: Format | None) -> Source:
     """The text behind a command-line argument: ``-`` is standard input, an existing file is read, else the text.
 
     Without a wanted format a file's ending decides; otherwise the format is ``text``. Raises ``InputError``
@@ -62,17 +30,17 @@ def read_source(argument: str, wanted: InputFormat | None) -> Source:
     """
     if argument == "-":
         try:
-            return Source(sys.stdin.read(), wanted or InputFormat.TEXT, "<stdin>")
+            return Source(sys.stdin.read(), wanted or Format.TEXT, "<stdin>")
         except UnicodeDecodeError:
             raise InputError("<stdin>: UTF-8 text expected, other bytes found") from None
     if argument.startswith("--"):
         raise InputError(f"no such option: {argument.split('=')[0]}")
     path = Path(argument)
     if is_file(path):
-        return Source(read_text(path), wanted or _BY_ENDING.get(path.suffix.lower(), InputFormat.TEXT), argument)
+        return Source(read_text(path), wanted or BY_ENDING.get(path.suffix.lower(), Format.TEXT), argument)
     if _FILE_LIKE.fullmatch(argument.strip()):
         raise InputError(f"{argument}: no such file")
-    return Source(argument, wanted or InputFormat.TEXT, "<argument>")
+    return Source(argument, wanted or Format.TEXT, "<argument>")
 
 
 def is_file(path: Path) -> bool:

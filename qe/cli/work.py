@@ -12,8 +12,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
-from qe.cli.source import InputFormat, OutputFormat, Source
+from qe.cli.source import Source
 from qe.errors import InputError, Unable
+from qe.io.formats import Format
 from qe.spelling import quoted
 from qe.worker import Channel
 
@@ -71,7 +72,7 @@ def read_formula(channel: Channel, source: Source) -> Formula:
     return formula
 
 
-def eliminate(channel: Channel, request: Request, output: OutputFormat) -> Reply:
+def eliminate(channel: Channel, request: Request, output: Format) -> Reply:
     """``qe eliminate``."""
     from qe import api
     from qe.io import formats
@@ -99,7 +100,7 @@ def decide(channel: Channel, request: Request) -> Reply:
 
     formula = read_formula(channel, request.source)
     free = traverse.free_variables(formula)
-    script = request.source.format is InputFormat.SMTLIB
+    script = request.source.format is Format.SMTLIB
     if free and not script:
         names = ", ".join(free)
         raise InputError(f"{request.source.name}: a sentence expected, but free here: {names} (use qe eliminate)")
@@ -126,7 +127,7 @@ def _summary(answer: Answer, seconds: float) -> dict[str, Any]:
     }
 
 
-def convert(channel: Channel, source: Source, output: OutputFormat) -> Reply:
+def convert(channel: Channel, source: Source, output: Format) -> Reply:
     """``qe convert``."""
     from qe.io import formats
 
@@ -135,16 +136,16 @@ def convert(channel: Channel, source: Source, output: OutputFormat) -> Reply:
 
 def check(channel: Channel, text: str, asked: Source | None, seconds: float) -> Reply:
     """``qe check``: exit status 4 when the certificate is rejected, 3 when that is not decided."""
-    from qe import api
     from qe.api_verify import of_question
     from qe.certify.claims import claim_of
     from qe.certify.verify import verify
     from qe.errors import CertificateRejected
     from qe.options import Budget
+    from qe.proof.certificate import Certificate
 
     start = time.perf_counter()
     formula = None if asked is None else read_formula(channel, asked)
-    certificate = api.Certificate.from_json(text)
+    certificate = Certificate.from_json(text)
     verdict = verify(certificate, Budget(seconds, listener=channel.event))
     if verdict.accepted and formula is not None:
         verdict = of_question(certificate, formula)

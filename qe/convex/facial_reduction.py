@@ -8,7 +8,7 @@ from math import lcm
 
 from qe.convex.kkt import Kkt, kkt_point, sign
 from qe.convex.minimise import rational_numbers
-from qe.convex.read import NotConvex, read_problem
+from qe.convex.system import NotConvex, read_system
 from qe.convex.violation import height, proposed, violation_forms
 from qe.errors import InternalError
 from qe.exact.kkt_system import HighDegree
@@ -64,16 +64,16 @@ def implied_equations(conditions: Formula, *, budget: Budget) -> list[Poly] | No
     ring = ring_of(conditions)
     if ring is None:
         return []
-    problem = read_problem(ring.constant(0), conditions)
-    forms = [c.form for c in problem.constraints]
-    if any(c.strict or c.equation for c in problem.constraints):
+    system = read_system(conditions)
+    forms = system.forms
+    if not system.is_weak:
         return []
     witness, weights = proposed(forms)
     if weights is not None:
         return None
     found = None if witness is not None else _least_violation(forms, budget)
     equations = [] if found is None else _equations(found, forms)
-    return [_poly(e, problem.names, ring) for e in equations if any(e.row)]
+    return [_poly(e, system.names, ring) for e in equations if any(e.row)]
 
 
 def _least_violation(forms: Sequence[Quadratic], budget: Budget) -> Kkt | None:

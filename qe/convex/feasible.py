@@ -3,14 +3,25 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from fractions import Fraction
 
-from qe.convex.minimise import Task, solve
+from qe.convex.minimise import solve
 from qe.convex.strict import settle_strict
+from qe.convex.system import ConvexSystem, constant
 from qe.errors import Unable
 from qe.exact.quadratic_form import Quadratic
 from qe.options import Budget
-from qe.proof.multipliers import FormRelation, OptimumStatus
+from qe.proof.multipliers import FormRelation, OptimumEvidence, OptimumStatus
+
+
+def proved(system: ConvexSystem, *, budget: Budget) -> OptimumEvidence:
+    """Evidence about the least value of the objective, strict conditions included. Raises ``Unable`` without a proof,
+    also where the floating-point numbers that propose one are beyond their range."""
+    try:
+        return settle_strict(system, solve(system, budget=budget), budget=budget)
+    except Unable:
+        raise
+    except OverflowError:
+        raise Unable("the numbers are beyond the range of floats, which propose the solution") from None
 
 
 def feasible(forms: Sequence[Quadratic], relations: Sequence[FormRelation], *, budget: Budget) -> bool:
@@ -21,12 +32,7 @@ def feasible(forms: Sequence[Quadratic], relations: Sequence[FormRelation], *, b
     """
     size = forms[0].size
     names = tuple(f"y{k}" for k in range(size))
-    nothing = Quadratic(((Fraction(0),) * size,) * size, (Fraction(0),) * size, Fraction(0))
-    task = Task(names, nothing, tuple(forms), tuple(relations))
-    try:
-        evidence = settle_strict(task, solve(task, budget=budget), budget=budget)
-    except OverflowError:
-        raise Unable("the numbers are beyond the range of floats, which propose the solution") from None
-    if evidence.status is OptimumStatus.UNBOUNDED:
+    found = proved(ConvexSystem(names, constant(size, 0), tuple(forms), tuple(relations)), budget=budget)
+    if found.status is OptimumStatus.UNBOUNDED:
         raise Unable("a constant objective was found unbounded")
-    return evidence.status is OptimumStatus.OPTIMAL
+    return found.status is OptimumStatus.OPTIMAL

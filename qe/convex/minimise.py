@@ -16,6 +16,7 @@ from qe.convex.frame import centred_frame, lies_far, plain_frame
 from qe.convex.interior_point import interior_point
 from qe.convex.kkt import Kkt, kkt_point, sign
 from qe.convex.linear import LinearConflict, LinearFall, is_linear_problem, linear_optimum
+from qe.convex.system import ConvexSystem
 from qe.convex.violation import height, rounded_contradiction, violation_forms
 from qe.errors import BudgetExceeded, InternalError, Unable
 from qe.exact.field import NumberField
@@ -36,28 +37,19 @@ _ZERO, _ONE = Fraction(0), Fraction(1)
 _SIMPLE_DEGREE = 4  # of the least violation: beyond, rounded multipliers are tried before an exact answer
 
 
-@dataclass(frozen=True, slots=True)
-class Task:
-    """Minimise ``objective`` subject to ``forms[i] relations[i] 0``; all convex, equations linear."""
-
-    names: tuple[str, ...]
-    objective: Quadratic
-    forms: tuple[Quadratic, ...]
-    relations: tuple[FormRelation, ...]
-
-    def start(self, **parts: object) -> OptimumEvidence:
-        """Evidence about this task, to be filled in."""
-        base = OptimumEvidence(
-            names=self.names,
-            objective=self.objective,
-            forms=self.forms,
-            relations=self.relations,
-            status=OptimumStatus.OPTIMAL,
-            field=NumberField.rationals(),
-            faces=(),
-            point=(),
-        )
-        return replace(base, **parts)  # type: ignore[arg-type]
+def evidence_about(system: ConvexSystem, **parts: object) -> OptimumEvidence:
+    """Evidence about the least value on a system, to be filled in."""
+    base = OptimumEvidence(
+        names=system.names,
+        objective=system.objective,
+        forms=system.forms,
+        relations=system.relations,
+        status=OptimumStatus.OPTIMAL,
+        field=NumberField.rationals(),
+        faces=(),
+        point=(),
+    )
+    return replace(base, **parts)  # type: ignore[arg-type]
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,81 +62,81 @@ class _State:
     frame: Frame
 
 
-def solve(task: Task, *, budget: Budget) -> OptimumEvidence:
+def solve(system: ConvexSystem, *, budget: Budget) -> OptimumEvidence:
     """Evidence that proves the optimum over the closed problem (strict relations read as weak ones), or that there
     is none. Raises ``Unable`` when nothing could be proved."""
-    equations = [f for f, r in zip(task.forms, task.relations, strict=True) if r is FormRelation.EQ]
-    flat = Flat.whole(len(task.names)).cut(equations)
+    equations = [f for f, r in zip(system.forms, system.relations, strict=True) if r is FormRelation.EQ]
+    flat = Flat.whole(len(system.names)).cut(equations)
     if flat is None:
-        return _contradictory_equations(task)
+        return _contradictory_equations(system)
     first, second = plain_frame, centred_frame
-    if lies_far(plain_frame(flat, task.forms), task.forms):
+    if lies_far(plain_frame(flat, system.forms), system.forms):
         first, second = second, first
     try:
-        return _solved(task, flat, first, budget)
+        return _solved(system, flat, first, budget)
     except (BudgetExceeded, HighDegree):
         raise
     except Unable as reason:
         try:
-            return _solved(task, flat, second, budget)
+            return _solved(system, flat, second, budget)
         except BudgetExceeded:
             raise
         except Unable:
             raise reason from None
 
 
-def _solved(task: Task, flat: Flat, frame: Frame, budget: Budget) -> OptimumEvidence:
-    state = _State((), (), frame(flat, task.forms), frame)
-    for _ in range(len(task.names) + 2):
-        step = _on_flat(task, state, budget)
+def _solved(system: ConvexSystem, flat: Flat, frame: Frame, budget: Budget) -> OptimumEvidence:
+    state = _State((), (), frame(flat, system.forms), frame)
+    for _ in range(len(system.names) + 2):
+        step = _on_flat(system, state, budget)
         if isinstance(step, OptimumEvidence):
             return step
         state = step
     raise InternalError("facial reduction did not shrink the flat")
 
 
-def _on_flat(task: Task, state: _State, budget: Budget) -> OptimumEvidence | _State:
+def _on_flat(system: ConvexSystem, state: _State, budget: Budget) -> OptimumEvidence | _State:
     flat = state.flat
-    inequalities = [i for i, r in enumerate(task.relations) if r is not FormRelation.EQ]
-    objective = task.objective.restrict(flat.origin, flat.basis)
-    forms = {i: task.forms[i].restrict(flat.origin, flat.basis) for i in inequalities}
+    inequalities = [i for i, r in enumerate(system.relations) if r is not FormRelation.EQ]
+    objective = system.objective.restrict(flat.origin, flat.basis)
+    forms = {i: system.forms[i].restrict(flat.origin, flat.basis) for i in inequalities}
     constant = [i for i, q in forms.items() if q.is_linear and not any(q.gradient)]
     for i in constant:
         # closed or not, 0 < 0 cannot be satisfied
-        strict = task.relations[i] is FormRelation.LT
+        strict = system.relations[i] is FormRelation.LT
         if forms[i].constant > 0 or (strict and forms[i].constant == 0):
-            return _close(task, state, NumberField.rationals(), flat.origin, {i: _ONE}, infeasible=True)
+            return _close(system, state, NumberField.rationals(), flat.origin, {i: _ONE}, infeasible=True)
         del forms[i]
     keys = list(forms)
     found = _least(objective, list(forms.values()), budget, MAX_DEGREE, refuse=True)
     if found is not None:
         weights = {keys[k]: m for k, m in found.multipliers.items()}
-        return _close(task, state, found.field, flat.lift(found.point), weights, unique=found.unique)
+        return _close(system, state, found.field, flat.lift(found.point), weights, unique=found.unique)
     if is_linear_problem(objective, list(forms.values())):
-        return _linear(task, state, objective, forms, budget)
-    return _without_multipliers(task, state, {i: forms[i] for i in keys}, budget)
+        return _linear(system, state, objective, forms, budget)
+    return _without_multipliers(system, state, {i: forms[i] for i in keys}, budget)
 
 
 def _linear(
-    task: Task, state: _State, objective: Quadratic, forms: dict[int, Quadratic], budget: Budget
+    system: ConvexSystem, state: _State, objective: Quadratic, forms: dict[int, Quadratic], budget: Budget
 ) -> OptimumEvidence:
     """The exact answer to a linear problem for which floats proposed nothing that could be proved."""
     flat, keys, rationals = state.flat, list(forms), NumberField.rationals()
     found = linear_optimum(objective, list(forms.values()), budget=budget)
     if isinstance(found, LinearFall):
-        direction = Flat((_ZERO,) * len(task.names), flat.basis).lift(found.direction)
+        direction = Flat((_ZERO,) * len(system.names), flat.basis).lift(found.direction)
         point = flat.lift(found.point)
-        return task.start(
-            status=OptimumStatus.UNBOUNDED, field=rationals, faces=state.faces, point=point, direction=direction
+        return evidence_about(
+            system, status=OptimumStatus.UNBOUNDED, field=rationals, faces=state.faces, point=point, direction=direction
         )
     conflict = isinstance(found, LinearConflict)
     point = flat.origin if isinstance(found, LinearConflict) else flat.lift(found.point)
     weights: dict[int, Number] = {keys[k]: w for k, w in found.weights.items()}
-    return _close(task, state, rationals, point, weights, infeasible=conflict)
+    return _close(system, state, rationals, point, weights, infeasible=conflict)
 
 
 def _without_multipliers(
-    task: Task, state: _State, forms: dict[int, Quadratic], budget: Budget
+    system: ConvexSystem, state: _State, forms: dict[int, Quadratic], budget: Budget
 ) -> OptimumEvidence | _State:
     """Phase one: infeasible, degenerate (a smaller flat) or unbounded."""
     size = len(state.flat.basis)
@@ -155,7 +147,7 @@ def _without_multipliers(
         if contradiction is not None:
             point, rounded = contradiction
             rational: dict[int, Number] = {i: w for i, w in zip(forms, rounded, strict=True) if w}
-            return _close(task, state, NumberField.rationals(), state.flat.lift(point), rational, infeasible=True)
+            return _close(system, state, NumberField.rationals(), state.flat.lift(point), rational, infeasible=True)
         found = _least(height(size), extended, budget, MAX_DEGREE)
     if found is None:
         raise Unable("the largest violation of the constraints could not be minimised exactly")
@@ -163,10 +155,10 @@ def _without_multipliers(
     weights = {keys[k]: m * scales[k] for k, m in found.multipliers.items() if k < len(keys)}
     point = state.flat.lift(found.point[:-1])
     if violation > 0:
-        return _close(task, state, found.field, point, weights, infeasible=True)
+        return _close(system, state, found.field, point, weights, infeasible=True)
     if violation == 0:
-        return _face(task, state, found, point, weights)
-    return _recede(task, state, found.field, point, budget)
+        return _face(system, state, found, point, weights)
+    return _recede(system, state, found.field, point, budget)
 
 
 def _contradiction(
@@ -208,23 +200,23 @@ def rational_numbers(values: Sequence[Number]) -> tuple[Fraction, ...] | None:
     return tuple(out)
 
 
-def _face(task: Task, state: _State, found: Kkt, point: Point, weights: dict[int, Number]) -> _State:
+def _face(system: ConvexSystem, state: _State, found: Kkt, point: Point, weights: dict[int, Number]) -> _State:
     """The smaller flat that holds the feasible set when the least possible violation is zero."""
     chosen, place = rational_numbers(list(weights.values())), rational_numbers(point)
     if chosen is None or place is None:
         raise Unable("the constraints touch in an irrational point or flat without common interior")
     exact: dict[int, Number] = dict(zip(weights, chosen, strict=True))
-    full, derived = _with_equations(task, state, place, exact, with_objective=False)
+    full, derived = _with_equations(system, state, place, exact, with_objective=False)
     face = Face(_fractions(full), _fractions(derived), place)
-    equations = derived_equations(face, task.forms, task.relations)
+    equations = derived_equations(face, system.forms, system.relations)
     known = (*state.derived, *equations)
-    size = len(task.names)
-    rows = [f for f, r in zip(task.forms, task.relations, strict=True) if r is FormRelation.EQ]
+    size = len(system.names)
+    rows = [f for f, r in zip(system.forms, system.relations, strict=True) if r is FormRelation.EQ]
     nothing = ((_ZERO,) * size,) * size
     flat = Flat.whole(size).cut(rows + [Quadratic(nothing, e.row, -e.rhs) for e in known])
     if flat is None or len(flat.basis) >= len(state.flat.basis):
         raise Unable("facial reduction found no smaller flat")
-    return _State((*state.faces, face), known, state.frame(flat, task.forms), state.frame)
+    return _State((*state.faces, face), known, state.frame(flat, system.forms), state.frame)
 
 
 def _fractions(values: Sequence[Number]) -> tuple[Fraction, ...]:
@@ -235,21 +227,21 @@ def _fractions(values: Sequence[Number]) -> tuple[Fraction, ...]:
 
 
 def _with_equations(
-    task: Task, state: _State, point: Point, weights: dict[int, Number], *, with_objective: bool
+    system: ConvexSystem, state: _State, point: Point, weights: dict[int, Number], *, with_objective: bool
 ) -> tuple[Point, Point]:
     """Multipliers of all constraints and of the derived equations that make the weighted sum stationary at point."""
-    size = len(task.names)
+    size = len(system.names)
     target: list[Number] = [_ZERO] * size
     if with_objective:
-        target = [-d for d in task.objective.slope(point)]
+        target = [-d for d in system.objective.slope(point)]
     for i, w in weights.items():
-        target = [t - w * d for t, d in zip(target, task.forms[i].slope(point), strict=True)]
-    linear = [i for i, r in enumerate(task.relations) if r is FormRelation.EQ]
-    rows = [task.forms[i].gradient for i in linear] + [e.row for e in state.derived]
+        target = [t - w * d for t, d in zip(target, system.forms[i].slope(point), strict=True)]
+    linear = [i for i, r in enumerate(system.relations) if r is FormRelation.EQ]
+    rows = [system.forms[i].gradient for i in linear] + [e.row for e in state.derived]
     solution = solve_linear([[row[j] for row in rows] for j in range(size)], target, len(rows))
     if solution is None:
         raise InternalError("stationarity on a flat does not extend to the whole space")
-    multipliers: list[Number] = [_ZERO] * len(task.forms)
+    multipliers: list[Number] = [_ZERO] * len(system.forms)
     for i, w in weights.items():
         multipliers[i] = w
     for i, w in zip(linear, solution.particular, strict=False):
@@ -258,7 +250,7 @@ def _with_equations(
 
 
 def _close(
-    task: Task,
+    system: ConvexSystem,
     state: _State,
     field: NumberField,
     point: Point,
@@ -272,8 +264,9 @@ def _close(
     For infeasibility the point has to be stationary for the weighted sum alone; on a flat where that sum is constant
     every point is.
     """
-    multipliers, derived = _with_equations(task, state, point, weights, with_objective=not infeasible)
-    return task.start(
+    multipliers, derived = _with_equations(system, state, point, weights, with_objective=not infeasible)
+    return evidence_about(
+        system,
         status=OptimumStatus.INFEASIBLE if infeasible else OptimumStatus.OPTIMAL,
         field=field,
         faces=state.faces,
@@ -284,34 +277,34 @@ def _close(
     )
 
 
-def _contradictory_equations(task: Task) -> OptimumEvidence:
+def _contradictory_equations(system: ConvexSystem) -> OptimumEvidence:
     """Weights w with sum w_i (a_i.x - b_i) = 1 identically: the equations have no common solution."""
-    size = len(task.names)
-    linear = [i for i, r in enumerate(task.relations) if r is FormRelation.EQ]
-    rows = [[task.forms[i].gradient[j] for i in linear] for j in range(size)]
-    rows.append([task.forms[i].constant for i in linear])
+    size = len(system.names)
+    linear = [i for i, r in enumerate(system.relations) if r is FormRelation.EQ]
+    rows = [[system.forms[i].gradient[j] for i in linear] for j in range(size)]
+    rows.append([system.forms[i].constant for i in linear])
     solution = solve_linear(rows, [*([_ZERO] * size), _ONE], len(linear))
     if solution is None:
         raise InternalError("inconsistent equations without a contradiction")
-    multipliers = [_ZERO] * len(task.forms)
+    multipliers = [_ZERO] * len(system.forms)
     for i, w in zip(linear, solution.particular, strict=True):
         multipliers[i] = w
-    return task.start(
-        status=OptimumStatus.INFEASIBLE, point=(_ZERO,) * size, multipliers=tuple(multipliers), derived=()
+    return evidence_about(
+        system, status=OptimumStatus.INFEASIBLE, point=(_ZERO,) * size, multipliers=tuple(multipliers), derived=()
     )
 
 
-def _recede(task: Task, state: _State, field: NumberField, point: Point, budget: Budget) -> OptimumEvidence:
+def _recede(system: ConvexSystem, state: _State, field: NumberField, point: Point, budget: Budget) -> OptimumEvidence:
     """Unboundedness: a direction of recession of the feasible set along which the objective falls forever.
 
     d with H_f d = 0, H_i d = 0, b_i.d <= 0 for inequalities, a_j.d = 0 for equations; the least grad f.d over the
     box |d_j| <= 1 is negative iff there is such a direction (Rockafellar 1970, theorems 8.3 and 27.1).
     """
-    size = len(task.names)
+    size = len(system.names)
     nothing = ((_ZERO,) * size,) * size
-    rows = [row for row in task.objective.hessian if any(row)]
+    rows = [row for row in system.objective.hessian if any(row)]
     halves: list[tuple[Fraction, ...]] = []
-    for form, relation in zip(task.forms, task.relations, strict=True):
+    for form, relation in zip(system.forms, system.relations, strict=True):
         rows += [row for row in form.hessian if any(row)]
         if relation is FormRelation.EQ:
             rows.append(form.gradient)
@@ -323,13 +316,15 @@ def _recede(task: Task, state: _State, field: NumberField, point: Point, budget:
         for direction in (_ONE, -_ONE):
             bounded.append(Quadratic(nothing, tuple(direction * (k == j) for k in range(size)), -_ONE))
     relations = (FormRelation.EQ,) * len(linear) + (FormRelation.LE,) * len(bounded)
-    cone = Task(task.names, _linear_part(task.objective), (*linear, *bounded), relations)
+    cone = ConvexSystem(system.names, _linear_part(system.objective), (*linear, *bounded), relations)
     best = solve(cone, budget=budget)
     towards = rational_numbers(best.point)
-    slope = sum((a * b for a, b in zip(task.objective.gradient, towards or (), strict=False)), _ZERO)
+    slope = sum((a * b for a, b in zip(system.objective.gradient, towards or (), strict=False)), _ZERO)
     if best.status is not OptimumStatus.OPTIMAL or towards is None or slope >= 0:
         raise Unable("neither optimality conditions nor a direction of descent could be proved")
-    return task.start(status=OptimumStatus.UNBOUNDED, field=field, faces=state.faces, point=point, direction=towards)
+    return evidence_about(
+        system, status=OptimumStatus.UNBOUNDED, field=field, faces=state.faces, point=point, direction=towards
+    )
 
 
 def _linear_part(form: Quadratic) -> Quadratic:

@@ -6,19 +6,19 @@ and linear equations. Anything else raises ``NotConvex``; the caller may then tu
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
+from qe.convex.feasible import proved
 from qe.convex.kkt import sign
-from qe.convex.minimise import Task, solve
-from qe.convex.read import Constraint, NotConvex, Problem, read_problem
-from qe.convex.strict import settle_strict
+from qe.convex.system import NotConvex, atoms_of, read_system
 from qe.errors import Unable
+from qe.exact.algebraic import RealAlgebraic
 from qe.exact.field import FieldElement, NumberField
-from qe.exact.quadratic_form import Quadratic, independent_rows
-from qe.exact.ring import Poly
-from qe.formula.syntax import Formula
+from qe.exact.quadratic_form import independent_rows
+from qe.exact.ring import Poly, Ring
+from qe.formula.syntax import Atom, Formula
 from qe.options import Budget
 from qe.proof.certificate import Certificate, Kind
 from qe.proof.multipliers import (
@@ -30,6 +30,8 @@ from qe.proof.multipliers import (
     derived_equations,
     to_payload,
 )
+
+Exact = Fraction | RealAlgebraic
 
 __all__ = ["NotConvex", "Optimum", "OptimumStatus", "maximize", "minimize"]
 
@@ -80,12 +82,9 @@ def minimize(
     The answer is proved exactly and carries a certificate for ``qe.certify``. Raises ``NotConvex`` for problems
     outside the class, ``BudgetExceeded`` at a limit, and ``Unable`` when no proof was found.
     """
-    problem = read_problem(objective, constraints, scale=scale)
-    task = _task(problem)
-    limits = budget or Budget()
-    evidence = solve(task, budget=limits)
-    evidence = settle_strict(task, evidence, budget=limits)
-    return _answer(problem, _uniform(evidence))
+    system = read_system(constraints, objective, scale=scale)
+    evidence = proved(system, budget=budget or Budget())
+    return _answer(atoms_of(constraints), _uniform(evidence))
 
 
 def maximize(
@@ -96,20 +95,36 @@ def maximize(
     return found if found.value is None else replace(found, value=-found.value)
 
 
-def _task(problem: Problem) -> Task:
-    forms = [c.form for c in problem.constraints]
-    relations = [_relation(c) for c in problem.constraints]
-    if problem.contradiction:
-        size = len(problem.names)
-        forms.append(Quadratic(((Fraction(0),) * size,) * size, (Fraction(0),) * size, Fraction(1)))
-        relations.append(FormRelation.LE)
-    return Task(problem.names, problem.objective, tuple(forms), tuple(relations))
+@dataclass(frozen=True, slots=True)
+class Decision:
+    """``values``: a point of the set; None when it is empty, which ``certificate`` then proves."""
+
+    values: Mapping[str, Exact] | None
+    certificate: Certificate
 
 
-def _relation(constraint: Constraint) -> FormRelation:
-    if constraint.equation:
-        return FormRelation.EQ
-    return FormRelation.LT if constraint.strict else FormRelation.LE
+def decide(conditions: Formula, *, budget: Budget) -> Decision:
+    """Whether convex quadratic inequalities and linear equations have a common solution.
+
+    The minimum of the constant 0 over the set: an optimal point is a solution (one of the closure only may have been
+    found; the point that proves the strict conditions possible is one then), and there is none iff nonnegative
+    multipliers combine the constraints to a contradiction (up to facial reduction; see ``qe.convex.minimise``).
+    Raises ``NotConvex``, and ``Unable`` when neither was proved.
+    """
+    found = minimize(Ring.of(()).constant(0), conditions, budget=budget)
+    if found.status is OptimumStatus.INFEASIBLE:
+        return Decision(None, found.certificate)
+    if found.status is OptimumStatus.UNBOUNDED:
+        raise Unable("a constant objective was found unbounded")
+    values = found.point.values() if found.attained else found.evidence.inner_point
+    return Decision(dict(zip(found.point, map(exact, values), strict=True)), found.certificate)
+
+
+def exact(value: Number) -> Exact:
+    """The number without its field: rational where it is that."""
+    if isinstance(value, FieldElement):
+        return value.as_fraction() if value.is_rational else value.to_algebraic()
+    return Fraction(value)
 
 
 def _uniform(evidence: OptimumEvidence) -> OptimumEvidence:
@@ -133,7 +148,7 @@ def _uniform(evidence: OptimumEvidence) -> OptimumEvidence:
     )
 
 
-def _answer(problem: Problem, evidence: OptimumEvidence) -> Optimum:
+def _answer(constraints: Sequence[Atom], evidence: OptimumEvidence) -> Optimum:
     optimal = evidence.status is OptimumStatus.OPTIMAL
     signs = [sign(form.value(evidence.point)) for form in evidence.forms]
     if optimal and any(s > 0 or (s and r is FormRelation.EQ) for s, r in zip(signs, evidence.relations, strict=True)):
@@ -146,7 +161,7 @@ def _answer(problem: Problem, evidence: OptimumEvidence) -> Optimum:
         value=evidence.objective.value(evidence.point) if optimal else None,
         point=dict(zip(evidence.names, evidence.point, strict=True)),
         active=tuple(i for i, s in enumerate(signs) if s == 0) if optimal else (),
-        constraints=tuple(str(c.atom) for c in problem.constraints),
+        constraints=tuple(map(str, constraints)),
         multipliers=evidence.multipliers,
         unique=unique,
         attained=evidence.attained,

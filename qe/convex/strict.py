@@ -16,7 +16,8 @@ from fractions import Fraction
 
 from qe.convex.alternative import Balance, alternative
 from qe.convex.kkt import sign
-from qe.convex.minimise import Task
+from qe.convex.minimise import evidence_about
+from qe.convex.system import ConvexSystem
 from qe.errors import InternalError
 from qe.exact.kkt_system import Point
 from qe.exact.quadratic_form import Number, Quadratic, Vector, solve_linear
@@ -42,7 +43,7 @@ class _Excluded:
     links: tuple[FaceLink, ...]
 
 
-def settle_strict(task: Task, evidence: OptimumEvidence, *, budget: Budget) -> OptimumEvidence:
+def settle_strict(system: ConvexSystem, evidence: OptimumEvidence, *, budget: Budget) -> OptimumEvidence:
     """The evidence for the problem with its strict constraints, given that for the closed one.
 
     Attained iff some optimal point of the closed problem satisfies the strict constraints; ``point`` is then such a
@@ -53,24 +54,25 @@ def settle_strict(task: Task, evidence: OptimumEvidence, *, budget: Budget) -> O
     if evidence.status is OptimumStatus.INFEASIBLE:
         return evidence
     optimal = evidence.status is OptimumStatus.OPTIMAL
-    strict = [i for i, r in enumerate(task.relations) if r is FormRelation.LT]
-    if all(sign(task.forms[i].value(evidence.point)) < 0 for i in strict):
+    strict = [i for i, r in enumerate(system.relations) if r is FormRelation.LT]
+    if all(sign(system.forms[i].value(evidence.point)) < 0 for i in strict):
         return replace(evidence, attained=True) if optimal else evidence
-    flat = _equations(task, evidence)
+    flat = _equations(system, evidence)
     x = evidence.point
     links: tuple[FaceLink, ...] = ()
     if optimal and not any(evidence.multipliers[i] for i in strict):
-        best = _strictly_inside(task, x, [*flat, *optimal_tangents(evidence)], budget)
+        best = _strictly_inside(system, x, [*flat, *optimal_tangents(evidence)], budget)
         if not isinstance(best, _Excluded):
             return replace(evidence, attained=True, point=best, unique=False)
         links = best.links
-    inside = _strictly_inside(task, x, flat, budget)
+    inside = _strictly_inside(system, x, flat, budget)
     if not isinstance(inside, _Excluded):
         if not optimal:
             return replace(evidence, point=inside)
         return replace(evidence, attained=False, inner_field=evidence.field, inner_point=inside, links=links)
     *before, last = inside.links
-    return task.start(
+    return evidence_about(
+        system,
         status=OptimumStatus.INFEASIBLE,
         field=evidence.field,
         faces=evidence.faces,
@@ -81,73 +83,79 @@ def settle_strict(task: Task, evidence: OptimumEvidence, *, budget: Budget) -> O
     )
 
 
-def _equations(task: Task, evidence: OptimumEvidence) -> list[Vector]:
-    """The rows of the equations that hold on the closed problem: those of the task, then the derived ones."""
-    rows: list[Vector] = [f.gradient for f, r in zip(task.forms, task.relations, strict=True) if r is FormRelation.EQ]
+def _equations(system: ConvexSystem, evidence: OptimumEvidence) -> list[Vector]:
+    """The rows of the equations that hold on the closed problem: those of the system, then the derived ones."""
+    rows: list[Vector] = [
+        f.gradient for f, r in zip(system.forms, system.relations, strict=True) if r is FormRelation.EQ
+    ]
     for face in evidence.faces:
-        rows += [e.row for e in derived_equations(face, task.forms, task.relations)]
+        rows += [e.row for e in derived_equations(face, system.forms, system.relations)]
     return rows
 
 
-def _strictly_inside(task: Task, x: Point, equations: Sequence[Vector], budget: Budget) -> Point | _Excluded:
+def _strictly_inside(system: ConvexSystem, x: Point, equations: Sequence[Vector], budget: Budget) -> Point | _Excluded:
     """A point of the flat x + {d: row.d = 0 for all ``equations``} that satisfies every constraint, or why none does.
 
     x satisfies all constraints but for strict ones that may hold with equality. Each round ends the search or makes
     the flat smaller.
     """
     rows = list(equations)
-    active = [i for i, r in enumerate(task.relations) if r is not FormRelation.EQ and not sign(task.forms[i].value(x))]
-    slopes = {i: task.forms[i].slope(x) for i in active}
+    active = [
+        i for i, r in enumerate(system.relations) if r is not FormRelation.EQ and not sign(system.forms[i].value(x))
+    ]
+    slopes = {i: system.forms[i].slope(x) for i in active}
     links: list[FaceLink] = []
-    for _ in range(len(task.names) + 1):
-        solution = solve_linear(rows, [_ZERO] * len(rows), len(task.names))
+    for _ in range(len(system.names) + 1):
+        solution = solve_linear(rows, [_ZERO] * len(rows), len(system.names))
         assert solution is not None
         along = {i: [_dot(slopes[i], d) for d in solution.kernel] for i in active}
-        along = {i: row for i, row in along.items() if not _vanishes(task, i, row, solution.kernel)}
-        keys = sorted(along, key=lambda i: task.relations[i] is not FormRelation.LT)
+        along = {i: row for i, row in along.items() if not _vanishes(system, i, row, solution.kernel)}
+        keys = sorted(along, key=lambda i: system.relations[i] is not FormRelation.LT)
         found = alternative([along[i] for i in keys], len(solution.kernel), budget=budget)
         if not isinstance(found, Balance):
             return _moved(
-                task, x, [_dot(found.direction, column) for column in zip(*solution.kernel, strict=True)], budget
+                system, x, [_dot(found.direction, column) for column in zip(*solution.kernel, strict=True)], budget
             )
-        link = _link(task, slopes, {keys[k]: w for k, w in found.weights.items()}, rows)
+        link = _link(system, slopes, {keys[k]: w for k, w in found.weights.items()}, rows)
         links.append(link)
-        if any(r is FormRelation.LT and w for r, w in zip(task.relations, link.weights, strict=True)):
+        if any(r is FormRelation.LT and w for r, w in zip(system.relations, link.weights, strict=True)):
             return _Excluded(tuple(links))
-        rows += tangents(link.weights, task.forms, task.relations, x)
+        rows += tangents(link.weights, system.forms, system.relations, x)
     raise InternalError("the flat of the points that count did not shrink")
 
 
-def _vanishes(task: Task, i: int, slope: Sequence[Number], directions: Sequence[Vector]) -> bool:
+def _vanishes(system: ConvexSystem, i: int, slope: Sequence[Number], directions: Sequence[Vector]) -> bool:
     """Whether a weak constraint that is active at a point is zero on the whole flat there: it excludes nothing."""
-    if task.relations[i] is FormRelation.LT or any(slope):
+    if system.relations[i] is FormRelation.LT or any(slope):
         return False
-    return not any(_dot(row, d) for d in directions for row in task.forms[i].hessian)
+    return not any(_dot(row, d) for d in directions for row in system.forms[i].hessian)
 
 
-def _link(task: Task, slopes: dict[int, list[Number]], weights: dict[int, Number], rows: Sequence[Vector]) -> FaceLink:
+def _link(
+    system: ConvexSystem, slopes: dict[int, list[Number]], weights: dict[int, Number], rows: Sequence[Vector]
+) -> FaceLink:
     """The weights together with multipliers of the equations, which make the weighted sum stationary."""
-    size = len(task.names)
+    size = len(system.names)
     target: list[Number] = [_ZERO] * size
     for i, w in weights.items():
         target = [t - w * s for t, s in zip(target, slopes[i], strict=True)]
     solution = solve_linear([[row[j] for row in rows] for j in range(size)], target, len(rows))
     if solution is None:
         raise InternalError("stationarity on a flat does not extend to the whole space")
-    linear = [i for i, r in enumerate(task.relations) if r is FormRelation.EQ]
-    whole: list[Number] = [weights.get(i, _ZERO) for i in range(len(task.forms))]
+    linear = [i for i, r in enumerate(system.relations) if r is FormRelation.EQ]
+    whole: list[Number] = [weights.get(i, _ZERO) for i in range(len(system.forms))]
     for i, m in zip(linear, solution.particular, strict=False):
         whole[i] = m
     return FaceLink(tuple(whole), tuple(solution.particular[len(linear) :]))
 
 
-def _moved(task: Task, x: Point, step: Sequence[Number], budget: Budget) -> Point:
+def _moved(system: ConvexSystem, x: Point, step: Sequence[Number], budget: Budget) -> Point:
     """x + step/2^k for a k for which all constraints hold; the step descends into all that are active."""
     k = 0
     while k <= _FINEST:
         budget.check("optimum: strict conditions")
         point = tuple(a + d * Fraction(1, 2**k) for a, d in zip(x, step, strict=True))
-        if all(_holds(form, relation, point) for form, relation in zip(task.forms, task.relations, strict=True)):
+        if all(_holds(form, relation, point) for form, relation in zip(system.forms, system.relations, strict=True)):
             return point
         k = max(1, 2 * k)
     raise InternalError("a step into the interior of all active constraints never gets there")

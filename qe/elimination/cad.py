@@ -20,7 +20,7 @@ from qe.exact.ring import Poly, Ring
 from qe.formula.build import convert
 from qe.formula.normal import Quantifier, nnf, prenex
 from qe.formula.syntax import FALSE, TRUE, Constant, Formula, Or
-from qe.formula.traverse import atoms, free_variables, polynomials, ring_of, subformulas
+from qe.formula.traverse import atoms, polynomials, subformulas
 from qe.options import Budget, Options, Projection, Stage
 from qe.proof.cells import CellTable
 from qe.proof.cells_json import CellEvidence
@@ -57,7 +57,7 @@ def decomposed(formula: Formula, options: Options, budget: Budget, log: RunLog) 
     matrix = nnf(matrix)
     if isinstance(matrix, Constant):
         return Outcome(matrix, {} if matrix.value else None)
-    free = free_variables(formula)
+    free = formula.free
     order, quantifiers, reason = _order(prefix, free, matrix, options, budget)
     question = _Question(matrix, order, quantifiers, free, options)
     first = question.table(budget)
@@ -73,7 +73,7 @@ def decomposed(formula: Formula, options: Options, budget: Budget, log: RunLog) 
     certificate = Certificate.cells(proof, convert(answer, Ring.of(order))) if follows(answer, proof) else None
     log.step("cells", formula, answer, evidence=kept(certificate, options))
     # back into the ring of the formula it came from: it is joined with parts of that formula
-    ring = ring_of(formula)
+    ring = formula.ring
     return Outcome(answer if ring is None else convert(answer, ring), values, certificate)
 
 
@@ -93,7 +93,7 @@ def certificate_for(formula: Formula, answer: Formula, options: Options, budget:
     matrix = nnf(matrix)
     if isinstance(matrix, Constant):
         return None
-    free = free_variables(formula)
+    free = formula.free
     order, quantifiers, _ = _order(prefix, free, matrix, options, budget)
     ring = Ring.of(order)
     claim = convert(answer, ring)
@@ -178,7 +178,7 @@ def is_small(formula: Formula) -> bool:
     if not any(isinstance(part, Or) for part in subformulas(formula)):
         return False
     degree = max((a.poly.total_degree for a in atoms(formula)), default=0)
-    return degree <= SMALL_DEGREE.get(len(free_variables(formula)), 0)
+    return degree <= SMALL_DEGREE.get(len(formula.free), 0)
 
 
 def length(formula: Formula) -> tuple[int, int]:
@@ -194,7 +194,7 @@ def claims(certificate: Certificate, question: Formula, answer: Formula) -> bool
         return True
     table, ring = evidence.table, Ring.of(evidence.table.order)
     prefix, matrix = prenex(question)
-    if not set(free_variables(matrix)).issubset(ring.names):
+    if not set(matrix.free).issubset(ring.names):
         return False
     bound = {name: kind.value for kind, names in prefix for name in names}
     return (

@@ -2,21 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
 from fractions import Fraction
 
-from qe.convex.optimum import Optimum, minimize
-from qe.convex.read import NotConvex
+from qe.convex.optimum import Decision, decide
+from qe.convex.system import NotConvex
 from qe.elimination.protocol import Context, Outcome, Problem
-from qe.errors import Unable
-from qe.exact.algebraic import RealAlgebraic
-from qe.exact.field import FieldElement
 from qe.formula.syntax import FALSE, TRUE, Exists
-from qe.formula.traverse import ring_of
 from qe.options import Budget, Options
-from qe.proof.certificate import Certificate
-from qe.proof.multipliers import OptimumStatus
 
 
 class ConvexOptimisation:
@@ -45,39 +37,14 @@ class ConvexOptimisation:
         return Outcome(problem.asked(truth), values)
 
 
-@dataclass(frozen=True, slots=True)
-class ConvexDecision:
-    """``values``: a point of the set; None when it is empty, which ``certificate`` then proves."""
-
-    values: Mapping[str, Fraction | RealAlgebraic] | None
-    certificate: Certificate
-
-
-def decide_convex(sentence: Exists, *, budget: Budget) -> ConvexDecision | None:
+def decide_convex(sentence: Exists, *, budget: Budget) -> Decision | None:
     """Whether convex quadratic inequalities and linear equations have a common solution; None for other sentences.
 
-    The minimum of the constant 0 over the set: an optimal point is a solution (one of the closure only may have been
-    found; the point that proves the strict conditions possible is one then), and there is none iff nonnegative
-    multipliers combine the constraints to a contradiction (up to facial reduction; see ``qe.convex.minimise``).
-    Raises ``Unable`` when neither was proved.
+    Raises ``Unable`` when neither a solution nor a contradiction was proved.
     """
-    ring = ring_of(sentence.body)
-    if ring is None:
+    if sentence.body.ring is None:
         return None
     try:
-        found = minimize(ring.constant(0), sentence.body, budget=budget)
+        return decide(sentence.body, budget=budget)
     except NotConvex:
         return None
-    if found.status is OptimumStatus.INFEASIBLE:
-        return ConvexDecision(None, found.certificate)
-    if found.status is OptimumStatus.UNBOUNDED:
-        raise Unable("a constant objective was found unbounded")
-    return ConvexDecision(_solution(found), found.certificate)
-
-
-def _solution(found: Optimum) -> dict[str, Fraction | RealAlgebraic]:
-    values = found.point.values() if found.attained else found.evidence.inner_point
-    return {
-        name: value.to_algebraic() if isinstance(value, FieldElement) else Fraction(value)
-        for name, value in zip(found.point, values, strict=True)
-    }

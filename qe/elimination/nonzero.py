@@ -8,7 +8,7 @@ from qe.elimination.protocol import Context, Outcome, Problem
 from qe.formula.build import conj
 from qe.formula.openness import somewhere_nonzero
 from qe.formula.syntax import Atom, Formula, Relation
-from qe.formula.traverse import conjuncts, ring_of
+from qe.formula.traverse import conjuncts
 from qe.options import Options
 from qe.simplify.simplify import simplify
 
@@ -38,7 +38,7 @@ def only_nonzero(variables: Sequence[str], body: Formula) -> Formula | None:
     p_i has a coefficient, as a polynomial in x, that is not 0.
     None if the body has another shape.
     """
-    ring = ring_of(body)
+    ring = body.ring
     if ring is None:
         return None
     block = {ring.index[v] for v in variables if v in ring.index}

@@ -11,7 +11,6 @@ from qe.exact.ring import Ring
 from qe.formula.build import convert, exists, forall
 from qe.formula.normal import nnf
 from qe.formula.syntax import Exists, ForAll, Formula
-from qe.formula.traverse import free_variables, is_quantifier_free
 from qe.options import Budget, Options
 from qe.proof.certificate import Certificate, Root
 from qe.proof.run_log import RunLog
@@ -44,12 +43,12 @@ class Problem:
     @property
     def free(self) -> tuple[str, ...]:
         """The parameters."""
-        return free_variables(self.formula)
+        return self.formula.free
 
     @property
     def is_flat(self) -> bool:
         """Whether nothing inside is quantified."""
-        return is_quantifier_free(self.body)
+        return self.body.is_quantifier_free
 
     @property
     def positive(self) -> Formula:

@@ -26,7 +26,7 @@ from qe.formula.build import atom, conj, disj, exists, forall, neg
 from qe.formula.evaluate import holds_at
 from qe.formula.normal import nnf, rename_apart
 from qe.formula.syntax import TRUE, And, Atom, Exists, ForAll, Formula, Or, Relation, RootAtom
-from qe.formula.traverse import atoms, free_variables, is_quantifier_free, map_atoms, ring_of
+from qe.formula.traverse import atoms, map_atoms
 from qe.options import Budget, Options
 from qe.rules.preparation import prepare
 from qe.simplify.simplify import simplify
@@ -100,11 +100,11 @@ def instantiate(sentence: Formula, terms: Mapping[str, Term]) -> Formula:
     outside, and those of the same block that are not replaced. Raises ``InputError`` for other terms and names.
     """
     prepared = nnf(rename_apart(sentence))
-    ring = ring_of(prepared)
+    ring = prepared.ring
     if ring is not None:  # names of their own for variables that are quantified twice are part of it
         terms = {name: Term(term.numerator.convert(ring), term.denominator) for name, term in terms.items()}
     unused = dict(terms)
-    result = _instantiated(prepared, terms, frozenset(free_variables(prepared)), unused)
+    result = _instantiated(prepared, terms, frozenset(prepared.free), unused)
     if unused:
         raise InputError(f"witness: {', '.join(unused)} not found among the existential variables")
     return result
@@ -158,7 +158,7 @@ def _composed(poly: Poly, terms: Mapping[str, Term]) -> Poly:
 # --- the proof --------------------------------------------------------------------------------------------
 def _prove(formula: Formula, known: Formula, budget: Budget) -> tuple[PolynomialWitness, ...] | None:
     """Witnesses that prove ``formula``, in negation normal form, where ``known`` holds."""
-    if is_quantifier_free(formula):
+    if formula.is_quantifier_free:
         return () if simplify(formula, known) == TRUE else None
     match formula:
         case ForAll(_, body):
@@ -167,21 +167,21 @@ def _prove(formula: Formula, known: Formula, budget: Budget) -> tuple[Polynomial
             parts = [_prove(a, known, budget) for a in args]
             return None if any(p is None for p in parts) else tuple(w for p in parts if p is not None for w in p)
         case Or(args):
-            plain = [a for a in args if is_quantifier_free(a)]
+            plain = [a for a in args if a.is_quantifier_free]
             extended = conj((known, *(nnf(neg(a)) for a in plain)))
-            proofs = (_prove(a, extended, budget) for a in args if not is_quantifier_free(a))
+            proofs = (_prove(a, extended, budget) for a in args if not a.is_quantifier_free)
             return next((p for p in proofs if p is not None), None)
         case Exists():
             ready = prepare(formula, budget=budget).formula
             if not isinstance(ready, Exists):
                 return _prove(ready, known, budget)
-            found = _witness(ready, known, budget) if is_quantifier_free(ready.body) else None
+            found = _witness(ready, known, budget) if ready.body.is_quantifier_free else None
             return None if found is None else (found,)
     return None
 
 
 def _witness(block: Exists, known: Formula, budget: Budget) -> PolynomialWitness | None:
-    names = dict.fromkeys((*free_variables(known), *free_variables(block)))
+    names = dict.fromkeys((*known.free, *block.free))
     probes = list(_probes(known, names))
     for terms in islice(_candidates(block), None if probes else UNPROBED):
         budget.check("polynomial witness")
@@ -212,7 +212,7 @@ class _Slope:
 
 def _candidates(block: Exists) -> Iterator[dict[str, Term]]:
     """The minimisers of the sums over subsets of the conditions, each once."""
-    ring = ring_of(block.body)
+    ring = block.body.ring
     assert ring is not None
     places = [ring.index[name] for name in block.variables]
     slopes = [s for a in dict.fromkeys(atoms(block.body)) if (s := _slope(a, places)) is not None]

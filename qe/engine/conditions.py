@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable
 from math import prod
 
+from qe.convex.system import NotConvex, read_system
 from qe.elimination.protocol import Problem
-from qe.exact.quadratic_form import Definiteness, definiteness, quadratic
 from qe.formula.syntax import And, Atom, Formula, Relation
-from qe.formula.traverse import conjuncts, connected, free_variables, polynomials
+from qe.formula.traverse import conjuncts, connected, polynomials
 from qe.options import Options
 
 Condition = Callable[[Problem, Options], str | None]
@@ -73,7 +73,7 @@ def _falls_apart(problem: Problem) -> bool:
     """Whether some conjuncts share no variable with the others."""
     block = frozenset(problem.variables)
     parts = conjuncts(problem.positive)
-    return len(connected(parts, lambda part: block.intersection(free_variables(part)))[1]) > 1
+    return len(connected(parts, lambda part: block.intersection(part.free))[1]) > 1
 
 
 def equations_bind_a_sentence(problem: Problem, options: Options) -> str | None:
@@ -143,7 +143,7 @@ def worth_a_short_try(problem: Problem, options: Options) -> str | None:
 
 def _sizes(problem: Problem) -> tuple[int, int]:
     """(quantified variables that occur, all variables)."""
-    names = free_variables(problem.body)
+    names = problem.body.free
     return sum(v in names for v in problem.variables), len(names)
 
 
@@ -155,16 +155,10 @@ def _degree(problem: Problem) -> int:
 
 def _is_convex(body: Formula) -> bool:
     """Whether the body is a conjunction of weak convex quadratic inequalities of which one is not linear."""
-    if not isinstance(body, And) or not all(isinstance(a, Atom) for a in body.args):
+    if not isinstance(body, And):
         return False
-    curved = False
-    for found in body.args:
-        assert isinstance(found, Atom)
-        form = quadratic(found.poly, range(found.poly.ring.size))
-        if form is None or found.relation not in (Relation.LE, Relation.GE):
-            return False
-        hessian = [[-h for h in row] for row in form.hessian] if found.relation is Relation.GE else form.hessian
-        if definiteness(hessian) is Definiteness.NOT_SEMIDEFINITE:
-            return False
-        curved = curved or not form.is_linear
-    return curved
+    try:
+        system = read_system(body)
+    except NotConvex:
+        return False
+    return system.is_weak and not all(form.is_linear for form in system.forms)

@@ -10,7 +10,7 @@ from qe.formula.build import exists
 from qe.formula.evaluate import holds_at
 from qe.formula.normal import nnf
 from qe.formula.syntax import FALSE, TRUE, Formula
-from qe.formula.traverse import atoms, free_variables
+from qe.formula.traverse import atoms
 
 PATTERNS = ((0,), (1,), (-1,), (1, -2, 3, -5), (-3, 2, -1, 4), (Fraction(1, 7), 2), (9, Fraction(-1, 3)), (1, 8, 64))
 """Coordinates of the points that are tried, repeated as far as needed: signs and sizes in several combinations."""
@@ -37,7 +37,7 @@ def constant_value(
     hold nowhere and is larger than the ``question`` that it answers, it is asked about that: with all variables
     quantified the question leaves a freedom of order that the answer has lost (the existential closure).
     """
-    names = free_variables(formula)
+    names = formula.free
     if not names:
         return None
     cheap = _is_cheap(formula, len(names))
@@ -55,7 +55,7 @@ def constant_value(
     exception = nnf(formula, negate=always)
     if question is not None and not always and (not cheap or _size(question) < _size(formula)):
         exception = question
-    if is_satisfiable(exists(free_variables(exception), exception)):
+    if is_satisfiable(exists(exception.free, exception)):
         return None
     return TRUE if always else FALSE
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj, convert
 from qe.formula.syntax import And, Atom, Exists, Formula, Relation, RootAtom
-from qe.formula.traverse import conjuncts, free_variables, is_quantifier_free, map_atoms
+from qe.formula.traverse import conjuncts, map_atoms
 from qe.proof.certificate import Certificate
 
 
@@ -14,9 +14,9 @@ def substitution_certificate(block: Formula, answer: Formula) -> Certificate | N
 
     ``block`` must be ``ex variables. conjunction``. Source: the Gauss case of Loos & Weispfenning 1993, section 3.
     """
-    if not isinstance(block, Exists) or not is_quantifier_free(block.body) or not isinstance(block.body, And):
+    if not isinstance(block, Exists) or not block.body.is_quantifier_free or not isinstance(block.body, And):
         return None
-    ring = Ring.of(dict.fromkeys((*free_variables(block.body), *block.variables)))
+    ring = Ring.of(dict.fromkeys((*block.body.free, *block.variables)))
     body = matrix = convert(block.body, ring)
     solved: list[tuple[str, Poly]] = []
     left = list(block.variables)

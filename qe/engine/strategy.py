@@ -15,7 +15,7 @@ from qe.elimination.protocol import Method as EliminationMethod
 from qe.elimination.protocol import Outcome, Problem
 from qe.engine import conditions as on
 from qe.errors import Unable
-from qe.formula.traverse import atoms, is_quantifier_free
+from qe.formula.traverse import atoms
 from qe.options import Method, Options, Stage
 
 METHODS = {
@@ -42,7 +42,7 @@ SPOKEN = {
     "cgs": "elimination by comprehensive Gröbner systems alone",
     "infinity first": "looking at infinity alone",
 }
-"""What a method is called where it does not suffice."""
+"""What a method is called where it does not suffice, if not by its name."""
 
 
 class Scope(Enum):
@@ -64,7 +64,7 @@ def any_outcome(outcome: Outcome, problem: Problem) -> bool:
 
 def complete(outcome: Outcome, problem: Problem) -> bool:
     """Nothing is left quantified."""
-    return is_quantifier_free(outcome.formula)
+    return outcome.formula.is_quantifier_free
 
 
 def complete_if_closed(outcome: Outcome, problem: Problem) -> bool:
@@ -158,4 +158,4 @@ def allows(options: Options, name: Method) -> bool:
 
 def alone(name: str) -> Unable:
     """The error where a method, or all of them, leave quantifiers."""
-    return Unable(f"{SPOKEN[name]} does not eliminate all quantifiers of this formula")
+    return Unable(f"{SPOKEN.get(name, f'{name} alone')} does not eliminate all quantifiers of this formula")

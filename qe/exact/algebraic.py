@@ -10,7 +10,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from fractions import Fraction
 from functools import total_ordering
-from importlib import import_module
 from typing import Any
 
 from flint import arb, fmpq, fmpz, fmpz_mpoly_ctx, fmpz_poly
@@ -21,12 +20,13 @@ from qe.errors import InputError
 from qe.exact.algebraic_text import format_root
 from qe.exact.balls import FIRST_PRECISION, ball_sign, hull, lower_end, precision, upper_end
 from qe.exact.isolate import Interval, isolate, sign_at
+from qe.sympy_form import SymPyForm
 
 Rational = int | Fraction
 
 
 @total_ordering
-class RealAlgebraic:
+class RealAlgebraic(SymPyForm):
     """A real algebraic number. Supports + - * / with its kind and with rationals, ==, <, hash, float."""
 
     __slots__ = ("_ball", "_bits", "_hi", "_lo", "index", "poly")
@@ -249,11 +249,6 @@ class RealAlgebraic:
         for _ in range(abs(exponent)):
             result = result * base
         return result
-
-    def _sympy_(self) -> Any:
-        """The same number in SymPy, exactly; wherever SymPy meets one it asks for this."""
-        # found by name: SymPy's door knows the numbers, not the numbers their doors
-        return import_module("qe.io.sympy_numbers").number_to_sympy(self)
 
     def __reduce__(self) -> tuple[object, tuple[object, ...]]:
         return _restore, (self.minimal_polynomial, self.index)

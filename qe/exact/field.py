@@ -11,7 +11,6 @@ from __future__ import annotations
 from collections.abc import Iterable
 from fractions import Fraction
 from functools import total_ordering
-from typing import Any
 
 from flint import arb, fmpq, fmpq_mat, fmpq_poly, fmpz, fmpz_poly
 
@@ -19,6 +18,7 @@ from qe.errors import InputError
 from qe.exact.algebraic import RealAlgebraic, irreducible_factors, irreducible_roots, select_root
 from qe.exact.balls import FIRST_PRECISION, precision
 from qe.exact.radicals import format_number
+from qe.sympy_form import SymPyForm
 
 Rational = int | Fraction
 
@@ -99,7 +99,7 @@ class NumberField:
 
 
 @total_ordering
-class FieldElement:
+class FieldElement(SymPyForm):
     """An element of a number field: immutable, with + - * / and comparison with its kind and with rationals.
 
     Arithmetic between different fields raises ``InputError``; equality between them is decided exactly.
@@ -272,10 +272,6 @@ class FieldElement:
         """Minimal polynomial of multiplication by the element on the power basis."""
         p = fmpz_poly(fmpq_mat(self._products()).minpoly().numer().coeffs())
         return p if p.leading_coefficient() > 0 else -p
-
-    def _sympy_(self) -> Any:
-        """The same number in SymPy, exactly; see ``RealAlgebraic``."""
-        return self.to_algebraic()._sympy_()
 
     @property
     def minimal_polynomial(self) -> tuple[int, ...]:

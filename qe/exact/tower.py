@@ -193,4 +193,4 @@ def clear_denominators(ring: Ring, a: Element) -> Poly:
     scale = fmpz(1)
     for c in a.coeffs():
         scale = scale * c.q // scale.gcd(c.q)
-    return Poly(ring, ring.ctx.from_dict({m: int((c * scale).p) for m, c in a.terms()}))
+    return ring.element(ring.ctx.from_dict({m: int((c * scale).p) for m, c in a.terms()}))

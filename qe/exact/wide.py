@@ -11,13 +11,47 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from fractions import Fraction
 from functools import cached_property, reduce
+from math import prod
 
 from flint import fmpz_mpoly, fmpz_poly
 
 from qe.errors import InternalError
-from qe.exact.ring import Poly, Ring, SparseTerm
+from qe.exact.poly import Poly, Ring, SparseTerm
 
-_NOTHING: frozenset[int] = frozenset()
+WIDE = 24
+"""In rings with more variables, polynomials keep track of the few that they contain."""
+
+
+class WideRing(Ring, more_than=WIDE):
+    """A ring of many variables."""
+
+    is_wide = True
+    __slots__ = ()
+
+    def element(self, p: fmpz_mpoly, support: Iterable[int] | None = None) -> Poly:
+        """The polynomial with this value in FLINT; ``support``, where known, has all variables that occur."""
+        return WidePoly(self, p) if support is None else WidePoly.of(self, p, frozenset(support))
+
+    def constant(self, value: int) -> Poly:
+        """The constant polynomial ``value``."""
+        return self.element(self.ctx.constant(value), ())
+
+    def from_terms(self, terms: Mapping[tuple[int, ...], int]) -> Poly:
+        """The polynomial with coefficient ``terms[e]`` at the exponent vector ``e`` (in ring order)."""
+        if any(k < 0 for e in terms for k in e):
+            raise InternalError("negative exponent")
+        return self.from_sparse([(tuple((i, k) for i, k in enumerate(e) if k), int(c)) for e, c in terms.items()])
+
+    def from_sparse(self, terms: Iterable[SparseTerm]) -> Poly:
+        """The polynomial with these terms; see ``Poly.sparse_terms``."""
+        total = self.constant(0)
+        for powers, c in terms:
+            total += prod((self.gen(i) ** k for i, k in powers), start=self.constant(c))
+        return total
+
+    def hash_of(self, p: Poly) -> int:
+        """The hash of a polynomial of the ring: equal for equal values."""
+        return hash((p.variables, *(p.degree(i) for i in p.variables), *map(int, p.p.coeffs())))
 
 
 class WidePoly(Poly):
@@ -26,7 +60,7 @@ class WidePoly(Poly):
     __slots__ = ()
 
     @staticmethod
-    def of(ring: Ring, p: fmpz_mpoly, support: frozenset[int] = _NOTHING) -> WidePoly:
+    def of(ring: Ring, p: fmpz_mpoly, support: frozenset[int]) -> WidePoly:
         """The polynomial, which has no variables but those of ``support``."""
         made = WidePoly(ring, p)
         made.__dict__["support"] = support

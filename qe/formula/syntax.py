@@ -8,16 +8,16 @@ the invariants stated on each class; these constructors do not simplify.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from importlib import import_module
-from typing import Any, ClassVar
+from typing import ClassVar
 
 from qe.exact.ring import Poly, Ring
 from qe.formula.notation import Level, Notation, bracketed, chain, oriented, polynomial
 from qe.formula.relation import Relation as Relation
 from qe.formula.text import text_notation
+from qe.sympy_form import SymPyForm
 
 
-class Formula:
+class Formula(SymPyForm):
     """Base class of all nodes; ``str()`` prints the text syntax.
 
     ``ring``, ``free``, ``is_quantifier_free`` and the hash are worked out when they are first asked for and then kept.
@@ -97,11 +97,6 @@ class Formula:
         ``level``: the construct around it; ``last``: nothing follows, so that a quantifier may stay open.
         """
         raise TypeError(f"not a formula: {self!r}")
-
-    def _sympy_(self) -> Any:
-        """The SymPy Boolean, wherever SymPy meets a formula; ``InputError`` for quantifiers and root atoms."""
-        # found by name: SymPy's door knows the formulas, not the formulas their doors
-        return import_module("qe.io.sympy").to_sympy(self)
 
 
 @dataclass(frozen=True, slots=True, repr=False)

@@ -1,35 +1,48 @@
-"""All formats by name: ``read(text, "smtlib")``, ``write(formula, "latex")``. Modules are loaded when first used."""
+"""All formats by name: ``read(text, "smtlib")``, ``write(formula, "latex")``. Modules are loaded when first used.
+
+This is the only list of formats: a format is one line of ``Format`` and the module of its name beside this one.
+"""
 
 from __future__ import annotations
 
 from enum import Enum
 from importlib import import_module
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from qe.arguments import shown
 from qe.errors import InputError
-from qe.formula.syntax import Formula
+
+if TYPE_CHECKING:
+    from qe.formula.syntax import Formula
 
 
 class Format(Enum):
-    """The formats; ``value`` is the name used on the command line and the name of the module."""
+    """The formats; ``value`` is the name used on the command line and the name of the module.
 
-    TEXT = "text"
-    SMTLIB = "smtlib"
-    QEPCAD = "qepcad"
-    REDLOG = "redlog"
-    JSON = "json"
-    LATEX = "latex"
-    MATHML = "mathml"
+    ``endings``: of files in the format. ``readable``: whether the module has a reader; a writer all have.
+    """
 
-    @property
-    def readable(self) -> bool:
-        """Whether there is a reader; a writer there is for all."""
-        return self not in (Format.LATEX, Format.MATHML)
+    TEXT = "text", (".qe", ".txt")
+    SMTLIB = "smtlib", (".smt2", ".smt")
+    QEPCAD = "qepcad", (".qepcad",)
+    REDLOG = "redlog", (".red",)
+    JSON = "json", (".json",)
+    LATEX = "latex", (), False
+    MATHML = "mathml", (), False
+
+    endings: tuple[str, ...]
+    readable: bool
+
+    def __new__(cls, name: str, endings: tuple[str, ...], readable: bool = True) -> Format:
+        """A member: its value is the name."""
+        member = object.__new__(cls)
+        member._value_, member.endings, member.readable = name, endings, readable
+        return member
 
 
 READABLE = tuple(f.value for f in Format if f.readable)
 WRITABLE = tuple(f.value for f in Format)
+BY_ENDING = {ending: f for f in Format for ending in f.endings}
 
 
 def read(text: str, format: str | Format = Format.TEXT, *, source: str = "<text>") -> Formula:
@@ -45,6 +58,8 @@ def read(text: str, format: str | Format = Format.TEXT, *, source: str = "<text>
 
 def write(formula: Formula, format: str | Format = Format.TEXT) -> str:
     """The text of ``formula``. Raises ``InputError`` where the format cannot express it (root atoms)."""
+    from qe.formula.syntax import Formula
+
     chosen = checked(format)
     if not isinstance(formula, Formula):
         raise InputError(f"a formula expected, {type(formula).__name__} found")
@@ -54,10 +69,10 @@ def write(formula: Formula, format: str | Format = Format.TEXT) -> str:
 
 def checked(name: str | Format) -> Format:
     """The format of this name. Raises ``InputError``, naming those there are."""
-    try:
-        return Format(name)
-    except ValueError:
-        raise InputError(f"unknown format {shown(name)}; known: {', '.join(WRITABLE)}") from None
+    for known in Format:
+        if name in (known, known.value):
+            return known
+    raise InputError(f"unknown format {shown(name)}; known: {', '.join(WRITABLE)}")
 
 
 def _module(chosen: Format) -> Any:

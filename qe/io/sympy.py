@@ -17,6 +17,8 @@ from typing import TYPE_CHECKING, Any
 
 from qe import arguments
 from qe.errors import InputError, NoTruthValue
+from qe.exact.algebraic import RealAlgebraic
+from qe.exact.field import FieldElement
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import conj, convert, disj, exists, forall, implies, neg
 from qe.formula.syntax import And, Atom, Constant, Formula, Not, Or, Relation
@@ -24,7 +26,7 @@ from qe.formula.traverse import ring_of
 from qe.io import surface as s
 from qe.io.cases import Cases, choose, combine, compare, plain
 from qe.io.names import check_name, names_in
-from qe.io.sympy_numbers import decimal_of
+from qe.io.sympy_numbers import decimal_of, number_to_sympy
 from qe.io.terms import TermError
 
 if TYPE_CHECKING:
@@ -329,6 +331,13 @@ def _product(terms: list[s.Term]) -> s.Term:
     for term in terms[1:]:
         result = s.Product(result, term, -1)
     return result
+
+
+def sympy_form(value: Formula | RealAlgebraic | FieldElement) -> Any:
+    """What SymPy takes a value for: the Boolean of a formula, the number that equals a number."""
+    if isinstance(value, Formula):
+        return to_sympy(value)
+    return number_to_sympy(value.to_algebraic() if isinstance(value, FieldElement) else value)
 
 
 def to_sympy(formula: Formula, *, symbols: Mapping[str, Any] | None = None) -> Any:

@@ -10,11 +10,10 @@ from qe.arguments import name, seconds
 from qe.cad.decompose import decompose
 from qe.cells.interval import Interval, Number
 from qe.cells.sampled_cells import leaves
-from qe.convex.optimum import OptimumStatus, maximize, minimize
-from qe.convex.read import NotConvex, read_problem
+from qe.convex.optimum import OptimumStatus, decide, exact, maximize, minimize
+from qe.convex.system import NotConvex, read_system
 from qe.errors import BudgetExceeded, InputError, Unable
 from qe.exact.algebraic import RealAlgebraic
-from qe.exact.field import FieldElement
 from qe.exact.ring import Ring
 from qe.execution import Limits
 from qe.formula.build import convert, exists
@@ -50,7 +49,7 @@ def shadow_of(formula: Formula, eliminate: Eliminate) -> Shadow | None:
     body, hidden = (formula.body, formula.variables) if isinstance(formula, Exists) else (formula, ())
     body = nnf(body)
     try:
-        read_problem(Ring.of(()).constant(0), body)
+        read_system(body)
     except NotConvex:
         return None
     return Shadow(body, hidden, formula, eliminate)
@@ -148,12 +147,8 @@ class ConvexRegion(Region):
         """A point that satisfies the conditions, None if there is none."""
         if conditions in (TRUE, FALSE):
             return {} if conditions == TRUE else None
-        nothing = Ring.of((*self.order, *self._shadow.hidden)).constant(0)
-        found = minimize(nothing, conditions, budget=self._current())
-        if found.status is OptimumStatus.INFEASIBLE:
-            return None
-        strictly = found.evidence.inner_point if found.attained is False else tuple(found.point.values())
-        return {name: _number(value) for name, value in zip(found.point, strictly, strict=True)}
+        values = decide(conditions, budget=self._current()).values
+        return None if values is None else dict(values)
 
     def bounds(self, variable: str, *, timeout: float | None = None) -> Interval:
         """The exact infimum and supremum of a variable, whether they are attained, and the certificates of both."""
@@ -201,8 +196,8 @@ class ConvexRegion(Region):
             return None
         high = maximize(objective, conditions, budget=self._current())
         return Interval(
-            None if low.value is None else _number(low.value),
-            None if high.value is None else _number(high.value),
+            None if low.value is None else exact(low.value),
+            None if high.value is None else exact(high.value),
             low.attained is True,
             high.attained is True,
             (low.certificate, high.certificate),
@@ -216,10 +211,4 @@ class ConvexRegion(Region):
 def _rational(value: Number) -> Fraction | None:
     if isinstance(value, RealAlgebraic):
         return value.as_fraction() if value.is_rational else None
-    return value
-
-
-def _number(value: Fraction | FieldElement) -> Number:
-    if isinstance(value, FieldElement):
-        return value.as_fraction() if value.is_rational else value.to_algebraic()
     return value

@@ -6,7 +6,6 @@ from collections.abc import Sequence
 
 from qe.formula.build import exists
 from qe.formula.syntax import FALSE, Formula
-from qe.formula.traverse import free_variables
 from qe.rules.block_context import BlockContext, Rule
 from qe.rules.cases import groebner_equations, split_factors, split_squares
 from qe.rules.degree_shift import shift_degree
@@ -42,7 +41,7 @@ def reduce_block(variables: Sequence[str], body: Formula, context: BlockContext)
     before = body
     if StepKind.SIMPLIFY in context.enabled:
         body = simplify_under(body, context.facts)
-    occurring = free_variables(body)
+    occurring = body.free
     kept = tuple(v for v in variables if v in occurring)
     if body != before or len(kept) < len(variables):
         context.step(StepKind.SIMPLIFY.value, exists(variables, before), exists(kept, body))

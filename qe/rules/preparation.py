@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING
 from qe.formula.build import conj, disj, exists, forall
 from qe.formula.normal import nnf
 from qe.formula.syntax import And, Atom, Exists, ForAll, Formula, Or
-from qe.formula.traverse import free_variables
 from qe.options import Budget
 from qe.proof.derivation import negated as negation
 from qe.proof.run_log import RunLog
@@ -126,7 +125,7 @@ def _inside(formula: Formula, context: BlockContext) -> Formula:
             inner, parts = context.given(assumed), _reduced(formula, assumed, context)
             return (conj if isinstance(formula, And) else disj)(_inside(a, inner) for a in parts)
         case Exists(variables) | ForAll(variables):
-            known = tuple(f for f in context.known if not set(variables) & set(free_variables(f)))
+            known = tuple(f for f in context.known if not set(variables) & set(f.free))
             tree = _block(formula, replace(context, facts=context.facts.without(variables), known=known))
             return nnf(tree.formula, negate=isinstance(formula, ForAll))
     return formula

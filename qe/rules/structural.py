@@ -8,7 +8,7 @@ from fractions import Fraction
 from qe.exact.ring import Poly, format_poly
 from qe.formula.build import atom, conj, disj
 from qe.formula.syntax import Atom, Constant, Formula, Or, Relation
-from qe.formula.traverse import conjuncts, connected, free_variables
+from qe.formula.traverse import conjuncts, connected
 from qe.rules.block_context import BlockContext, Found
 from qe.rules.lift import Solve
 from qe.rules.linear import Pivot, choose_pivot, substitute
@@ -29,7 +29,7 @@ def independent_parts(variables: tuple[str, ...], body: Formula, context: BlockC
         node = Any(tuple(Pending(variables, part) for part in body.args))
         return Found(StepKind.MINISCOPE, "disjunction", node)
     block = frozenset(variables)
-    outside, groups = connected(conjuncts(body), lambda part: block.intersection(free_variables(part)))
+    outside, groups = connected(conjuncts(body), lambda part: block.intersection(part.free))
     if len(groups) + bool(outside) < 2:
         return None
     children: list[Node] = [Leaf((), conj(outside))] if outside else []

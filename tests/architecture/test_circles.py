@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Container, Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from pathlib import Path
 
 import pytest
@@ -19,12 +19,19 @@ def modules(package: str) -> dict[str, Path]:
     return {name.removesuffix(".__init__"): path for name, path in names}
 
 
-def imported(source: str, module: str, known: Container[str], *, is_package: bool = False) -> Iterator[str]:
-    """The known modules that import statements name, wherever they stand: in functions and for type checking as well.
+def imported(source: str, module: str, known: Collection[str], *, is_package: bool = False) -> Iterator[str]:
+    """The known modules that a file names: in import statements, wherever they stand (in functions and for type
+    checking as well), and as text, for loading by name.
 
-    ``from qe.exact import ring`` means the file ring, not that of the package it lies in.
+    ``from qe.exact import ring`` means the file ring, not that of the package it lies in. The text ``f"qe.io.{name}"``
+    names every other module of that package.
     """
     for node in ast.walk(ast.parse(source)):
+        if isinstance(node, ast.Constant) and isinstance(node.value, str) and "." in node.value:
+            yield from (name for name in known if name == node.value)
+        elif isinstance(node, ast.JoinedStr) and isinstance(start := node.values[0], ast.Constant):
+            others = (name for name in known if name != module)
+            yield from (name for name in others if "." in start.value and name.startswith(start.value))
         if isinstance(node, ast.Import):
             yield from (alias.name for alias in node.names if alias.name in known)
         elif isinstance(node, ast.ImportFrom):
@@ -93,3 +100,10 @@ def test_imports_are_found_wherever_they_stand() -> None:
     known = {"qe", "qe.a", "qe.a.b", "qe.c", "qe.one", "qe.one.d", "qe.e"}
     assert list(imported(source, "qe.one.two", known)) == ["qe.a.b", "qe.c", "qe.one.d", "qe.e"]
     assert list(imported("from . import d", "qe.one", known, is_package=True)) == ["qe.one.d"]
+
+
+def test_modules_loaded_by_name_are_found() -> None:
+    known = ["qe.a", "qe.io.b", "qe.io.c"]
+    source = 'TABLE = {"x": ("qe.a", "name")}\ndef load(x):\n    return import_module(f"qe.io.{x}")'
+    assert list(imported(source, "qe.one", known)) == ["qe.a", "qe.io.b", "qe.io.c"]
+    assert not list(imported('"qe.a and more", "a", f"{x}.b", ""', "qe.one", known))

@@ -65,15 +65,16 @@ def test_the_command_line_loads_no_pictures() -> None:
 COMMAND = """
 from qe.cli import work
 from qe.cli.app import main
-from qe.cli.source import InputFormat, OutputFormat, Source
+from qe.cli.source import Source
+from qe.io.formats import Format
 
 class Channel:
     def event(self, event): pass
     def fact(self, name, value): pass
 
 main(["eliminate", "x > 0", "--timeout", "20", "--method", "auto"])
-request = work.Request(source=Source("x > 0", InputFormat.TEXT, "<argument>"))
-work.eliminate(Channel(), request, OutputFormat.TEXT)  # what the worker process does
+request = work.Request(source=Source("x > 0", Format.TEXT, "<argument>"))
+work.eliminate(Channel(), request, Format.TEXT)  # what the worker process does
 """
 
 
@@ -92,3 +93,15 @@ def test_a_short_command_takes_little_processor_time() -> None:
         assert (done.returncode, done.stdout) == (0, "x > 0\n")
         times.append(after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime)
     assert min(times) < 1  # the figure asked is 0.35 s; this bound only catches a blunder
+
+
+def test_sympy_understands_values_though_nobody_asked_for_its_door() -> None:
+    script = (
+        "import sys\nfrom qe.exact.algebraic import RealAlgebraic\nfrom qe.exact.field import NumberField\n"
+        "from qe.exact.ring import Ring\nfrom qe.formula.build import atom\nfrom qe.formula.relation import Relation\n"
+        "formula = atom(Ring.of(['x']).var('x'), Relation.GT)\nroot = RealAlgebraic.from_root([-2, 0, 1], 1, 2)\n"
+        "assert not {'sympy', 'qe.io.sympy'} & set(sys.modules)\nimport sympy\n"
+        "print(sympy.sympify(formula), sympy.sympify(root), sympy.sympify(NumberField(root).generator()))"
+    )
+    out = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True).stdout
+    assert out.strip() == "x > 0 sqrt(2) sqrt(2)"

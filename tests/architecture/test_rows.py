@@ -19,6 +19,7 @@ ROWS = {
     "qe.arguments": 0,
     "qe.options": 0,
     "qe.surroundings": 0,
+    "qe.sympy_form": 0,
     "qe.extras": 0,
     "qe.portable": 0,
     "qe.worker": 0,

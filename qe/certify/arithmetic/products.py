@@ -36,16 +36,16 @@ def sign(product: Product, signs: Signs) -> int | None:
     return None if unknown else result
 
 
-_ANY, _SQUARE = frozenset((-1, 0, 1)), frozenset((0, 1))
+_ONE, _SQUARE, _ANY = frozenset((1,)), frozenset((0, 1)), frozenset((-1, 0, 1))
 
 
 def possible_signs(product: Product, signs: Signs) -> frozenset[int]:
     """The signs that the product can have where the factors have these signs; an unknown one can have any."""
-    known, open_factors = product.unit, _SQUARE
+    known, open_factors = product.unit, _ONE
     for level, index, exponent in product.powers:
         s = signs[level][index] if level < len(signs) else None
         if s is None:
-            open_factors = _ANY if exponent & 1 else open_factors
+            open_factors = _ANY if exponent & 1 else open_factors | _SQUARE
         elif s == 0:
             return frozenset((0,))
         elif exponent & 1:

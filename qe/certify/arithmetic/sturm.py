@@ -133,7 +133,7 @@ def divide_out(p: Poly, q: Poly) -> tuple[Poly, int]:
     while True:
         quotient, remainder = divmod(rest, q.p)
         if remainder:
-            return Poly(p.ring, rest), exponent
+            return p.ring.element(rest), exponent
         rest, exponent = quotient, exponent + 1
 
 

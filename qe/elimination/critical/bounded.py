@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 
+from qe.convex.system import is_convex
 from qe.elimination.critical.forms import parametric_form
 from qe.elimination.critical.system import System
 from qe.exact.quadratic_form import Definiteness, definiteness
@@ -63,7 +64,7 @@ def _definite_sum(system: System, rest: list[int]) -> bool:
     hessians = []
     for condition in system.conditions:
         form = parametric_form(condition.poly, system.free)
-        if form is not None and definiteness(form.hessian) is not Definiteness.NOT_SEMIDEFINITE:
+        if form is not None and is_convex(form.hessian, FormRelation.LE):
             hessians.append(form.hessian)
     if not hessians:
         return False

@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from qe.convex.facial_reduction import implied_equations
-from qe.convex.read import NotConvex
+from qe.convex.system import NotConvex
 from qe.elimination.critical import necessary_conditions
 from qe.formula.build import atom, conj, convert
 from qe.formula.syntax import FALSE, ForAll, Formula, Relation
-from qe.formula.traverse import ring_of
 from qe.options import Budget
 from qe.rules.linear import Pivot, substitute
 
@@ -37,5 +36,5 @@ def thin_universal(formula: ForAll, negated: Formula, parameters: Sequence[str],
     rest = substitute(convert(formula, equation.ring), pivot)
     if rest is None:
         return None
-    ring = ring_of(formula) or equation.ring
+    ring = formula.ring or equation.ring
     return conj(convert(part, ring) for part in (atom(equation, Relation.EQ), rest))

@@ -8,12 +8,13 @@ from fractions import Fraction
 from functools import cached_property
 from math import inf, lcm
 
+from qe.convex.system import is_convex
 from qe.elimination.critical.forms import ParametricForm, parametric_form
 from qe.elimination.critical.procedures import Decide, Procedures
 from qe.elimination.critical.system import System
 from qe.errors import Unable
 from qe.exact.nearby import rational_values
-from qe.exact.quadratic_form import Definiteness, Quadratic, combine, definiteness, solve_linear
+from qe.exact.quadratic_form import Quadratic, combine, solve_linear
 from qe.exact.ring import Poly
 from qe.exact.sample import Point
 from qe.formula.syntax import Relation
@@ -61,12 +62,7 @@ class Fibres:
         forms = []
         for condition in self.system.conditions:
             form = parametric_form(condition.poly, self.system.free)
-            if form is None:
-                return None
-            if condition.relation is FormRelation.EQ:
-                if any(map(any, form.hessian)):
-                    return None
-            elif definiteness(form.hessian) is Definiteness.NOT_SEMIDEFINITE:
+            if form is None or not is_convex(form.hessian, condition.relation):
                 return None
             forms.append(form)
         return forms

@@ -34,7 +34,7 @@ from qe.exact.sample import Point
 from qe.formula.build import atom, conj, convert, disj, exists
 from qe.formula.evaluate import substituted, truth_under
 from qe.formula.syntax import FALSE, TRUE, ForAll, Formula, Relation
-from qe.formula.traverse import free_variables, polynomials, ring_of
+from qe.formula.traverse import polynomials
 from qe.options import Budget, Options, Projection, Stage
 from qe.proof.cells import FreeCell
 from qe.simplify.simplify import simplify
@@ -103,7 +103,7 @@ def by_critical_values(
     flat = on_flat(variables, body, budget=budget)
     if flat is not None:
         outside, rest = flat
-        left = [v for v in variables if v in free_variables(rest)]
+        left = [v for v in variables if v in rest.free]
         inside, order = by_critical_values(left, rest, context) if left else (rest, None)
         return simplify(conj((*outside, inside))), order
     parameters = _order(variables, body, context.options)
@@ -125,12 +125,12 @@ def _logged(
     seconds = round(time.perf_counter() - start, 6)
     stats = [part.stats for part in found]
     context.log.work("critical", {"order": list(parameters), "disjuncts": stats, "seconds": seconds})
-    ring = ring_of(body)
+    ring = body.ring
     return formula if ring is None else convert(formula, ring)
 
 
 def _order(variables: Sequence[str], body: Formula, options: Options) -> tuple[str, ...]:
-    names = free_variables(exists(variables, body))
+    names = exists(variables, body).free
     named = tuple(v for v in options.order or () if v in names)
     if len(named) == len(names):
         return named
@@ -198,7 +198,7 @@ def _formula(
         found = found.tabulate()
     formula, _ = construct(found.table, found.refine)
     surfaces = [exists(variables, conj((atom(f, Relation.EQ), part.body))) for f in found.unsettled]
-    ring = ring_of(part.body) or Ring.of(parameters)
+    ring = part.body.ring or Ring.of(parameters)
     return disj((convert(formula, ring), *(convert(on_surface, ring) for on_surface in surfaces)))
 
 

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from functools import cached_property
 from itertools import product
 
+from qe.convex.system import Condition, NotConvex, read_system
 from qe.errors import Unable
-from qe.exact.quadratic_form import Definiteness, definiteness, quadratic
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj
 from qe.formula.openness import is_closed, is_open
@@ -15,14 +15,6 @@ from qe.formula.syntax import And, Atom, Constant, Formula, Or, Relation
 from qe.proof.multipliers import FormRelation
 
 MAX_DISJUNCTS = 32
-
-
-@dataclass(frozen=True, slots=True)
-class Condition:
-    """``poly relation 0`` with the relation <=, < or =."""
-
-    poly: Poly
-    relation: FormRelation
 
 
 @dataclass(frozen=True)
@@ -67,14 +59,15 @@ class System:
 
         Decided exactly: linear equations, and inequalities of degree at most two with semidefinite Hessian.
         """
-        conditions = [*self.conditions, *(_condition(a) for a in self.guards if a.relation is not Relation.NE)]
-        if len(conditions) < len(self.conditions) + len(self.guards):
+        try:
+            read_system(self.formula)
+        except NotConvex:
             return False
-        return all(_is_convex(c, self.ring.size) for c in conditions)
+        return True
 
     def without_parameters(self) -> System:
         """The same conjunction with all variables counted as quantified."""
-        guards = tuple(_condition(a) for a in self.guards if a.relation is not Relation.NE)
+        guards = tuple(Condition.of(a) for a in self.guards if a.relation is not Relation.NE)
         return System(self.ring, 0, (), (*guards, *self.conditions))
 
     @property
@@ -87,15 +80,6 @@ class System:
         """The conditions as a formula, without the guards."""
         relations = {FormRelation.LE: Relation.LE, FormRelation.LT: Relation.LT, FormRelation.EQ: Relation.EQ}
         return conj(atom(c.poly, relations[c.relation]) for c in self.conditions)
-
-
-def _is_convex(condition: Condition, size: int) -> bool:
-    form = quadratic(condition.poly, range(size))
-    if form is None:
-        return False
-    if condition.relation is FormRelation.EQ:
-        return form.is_linear
-    return definiteness(form.hessian) is not Definiteness.NOT_SEMIDEFINITE
 
 
 def systems(body: Formula, ring: Ring, free: int) -> list[System]:
@@ -133,16 +117,5 @@ def _disjuncts(formula: Formula, free: int) -> list[tuple[Atom, ...]]:
 def _system(literals: tuple[Atom, ...], ring: Ring, free: int) -> System:
     distinct = tuple(dict.fromkeys(literals))
     guards = tuple(a for a in distinct if a.poly.level < free)
-    conditions = tuple(_condition(a) for a in distinct if a.poly.level >= free)
+    conditions = tuple(Condition.of(a) for a in distinct if a.poly.level >= free)
     return System(ring, free, guards, conditions)
-
-
-def _condition(atom: Atom) -> Condition:
-    match atom.relation:
-        case Relation.EQ:
-            return Condition(atom.poly, FormRelation.EQ)
-        case Relation.LE | Relation.LT:
-            poly = atom.poly
-        case _:
-            poly = -atom.poly
-    return Condition(poly, FormRelation.LT if atom.relation.is_strict else FormRelation.LE)

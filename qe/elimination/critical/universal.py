@@ -14,12 +14,13 @@ from dataclasses import dataclass
 from fractions import Fraction
 from itertools import combinations
 
+from qe.convex.system import Condition
 from qe.elimination.critical.block import Disjunct, Run
 from qe.elimination.critical.boundary import critical_hypersurfaces, determinant
 from qe.elimination.critical.bounded import has_bounded_fibres
 from qe.elimination.critical.fibres import Fibres, Values
 from qe.elimination.critical.procedures import Procedures
-from qe.elimination.critical.system import Condition, System, systems
+from qe.elimination.critical.system import System, systems
 from qe.exact.ring import Poly, Ring
 from qe.exact.sample import Point
 from qe.formula.build import atom, conj, convert

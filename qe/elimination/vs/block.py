@@ -29,7 +29,7 @@ from qe.formula.build import conj, disj
 from qe.formula.normal import nnf
 from qe.formula.openness import is_open, thinned
 from qe.formula.syntax import FALSE, TRUE, And, Atom, Exists, Formula, Or
-from qe.formula.traverse import conjuncts, connected, has_root_atoms, ring_of
+from qe.formula.traverse import conjuncts, connected, has_root_atoms
 from qe.options import Budget
 from qe.rules.tree import NEVER, All, Any, Leaf, Lifted, Node
 from qe.simplify.facts import NOTHING
@@ -49,7 +49,7 @@ def eliminate_block(variables: Sequence[str], matrix: Formula, *, budget: Budget
     ``simplify`` must return an equivalent formula. Raises ``BudgetExceeded``.
     """
     formula = simplify(nnf(matrix))
-    ring = ring_of(formula)
+    ring = formula.ring
     if ring is None:
         return BlockResult(formula, (), Leaf((), formula))
     run = _Run(ring, budget, simplify)

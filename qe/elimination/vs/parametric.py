@@ -23,7 +23,6 @@ from qe.execution import Limits, perform
 from qe.formula.evaluate import truth_under
 from qe.formula.normal import nnf
 from qe.formula.syntax import FALSE, Constant, Exists, ForAll, Formula
-from qe.formula.traverse import free_variables, is_quantifier_free, ring_of
 from qe.options import Budget
 from qe.simplify.simplify import simplify
 
@@ -58,7 +57,7 @@ class ParametricWitness:
             n: number_of(v, "parameters", f"an exact number for {n}")
             for n, v in by_name(parameters, "parameters").items()
         }
-        missing = [name for name in free_variables(self.guard) if name not in given]
+        missing = [name for name in self.guard.free if name not in given]
         if missing:
             raise InputError(f"parameters: a value for {missing[0]} expected")
         limits = Limits(seconds(timeout), process=flag(process, "process"))
@@ -85,7 +84,7 @@ def parametric_witnesses(block: Formula, *, budget: Budget) -> tuple[ParametricW
     if isinstance(block, Constant):
         text = "true" if block.value else "false"
         raise InputError(f"the formula is {text} as it stands: no quantifier is left to find witnesses for")
-    if not isinstance(block, Exists | ForAll) or not is_quantifier_free(block.body):
+    if not isinstance(block, Exists | ForAll) or not block.body.is_quantifier_free:
         raise InputError("a formula that begins with one quantifier, with a quantifier-free body, expected")
     body = simplify(nnf(block.body, negate=isinstance(block, ForAll)))
     result = eliminate_block(block.variables, body, budget=budget, simplify=simplify)
@@ -109,7 +108,7 @@ def _terms(answer: Answer) -> dict[str, str]:
 
 
 def _holds(guard: Formula, values: Mapping[str, Number]) -> bool:
-    ring = ring_of(guard)
+    ring = guard.ring
     if ring is None:
         return truth_under(guard, lambda poly: 0) is True
     numbers = [values.get(name, Fraction(0)) for name in ring.names]

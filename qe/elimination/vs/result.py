@@ -13,7 +13,6 @@ from qe.elimination.vs.univariate_samples import solution
 from qe.errors import InternalError
 from qe.formula.build import conj
 from qe.formula.syntax import Exists, Formula
-from qe.formula.traverse import free_variables
 from qe.rules.lift import Assignment, Value
 from qe.rules.tree import All, Any, Leaf, Lifted, Node
 
@@ -36,7 +35,7 @@ class Choice:
 
         Raises ``Unable`` for formulas with root atoms, ``InternalError`` if there is no solution.
         """
-        others = {name: assignment.get(name, Fraction(0)) for name in free_variables(self.before)}
+        others = {name: assignment.get(name, Fraction(0)) for name in self.before.free}
         found = solution(self.before, self.variable, others)
         if found is None:
             raise InternalError(f"no solution for {self.variable}: its elimination was not an equivalence")

@@ -13,7 +13,7 @@ from qe.exact.sample import Point
 from qe.formula.build import atom, convert
 from qe.formula.evaluate import truth_under
 from qe.formula.syntax import Atom, Formula, RootAtom
-from qe.formula.traverse import free_variables, map_atoms, polynomials
+from qe.formula.traverse import map_atoms, polynomials
 
 Number = Fraction | RealAlgebraic
 Values = Mapping[str, Number]
@@ -34,7 +34,7 @@ def solution(formula: Formula, variable: str, values: Values) -> Number | None:
             algebraic[name] = value
         else:
             formula = _at(formula, name, value if isinstance(value, Fraction) else value.as_fraction())
-    used = [name for name in free_variables(formula) if name in algebraic]
+    used = [name for name in formula.free if name in algebraic]
     ring = Ring.of((*used, variable))
     line, point = convert(formula, ring), Point.of(ring, [algebraic[name] for name in used])
     polys = polynomials(line)

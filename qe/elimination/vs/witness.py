@@ -6,7 +6,6 @@ from fractions import Fraction
 
 from qe.elimination.vs.result import Answer
 from qe.elimination.vs.univariate_samples import Number, Values
-from qe.formula.traverse import free_variables
 from qe.options import Budget
 
 
@@ -22,7 +21,7 @@ def witness(answer: Answer, parameters: Values | None = None, *, budget: Budget)
     given = set(values)
     for choice in reversed(answer.choices):
         budget.check("witness")
-        for name in free_variables(choice.before):
+        for name in choice.before.free:
             values.setdefault(name, Fraction(0))
         values[choice.variable] = choice.value(values)
     return {name: value for name, value in values.items() if name not in given}

@@ -78,12 +78,25 @@ def test_the_order_of_attempts_follows_from_the_problem() -> None:
 def test_the_form_of_an_answer_does_not_depend_on_the_clock(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
     """On a machine four times slower the same answer comes, or none in time; never another one."""
     formula = random_formula(random.Random(7000 + seed), (*SMALL, *LARGE, *NESTED)[seed])
-    quick = qe.eliminate(formula, timeout=60)
+    quick = qe.eliminate(formula, timeout=60, check=True)
     start, clock = time.monotonic(), time.monotonic
     monkeypatch.setattr("qe.options.time.monotonic", lambda: start + 4 * (clock() - start))
-    slow = qe.eliminate(formula)
+    slow = qe.eliminate(formula, check=True)
     assert slow.formula is not None and str(slow.formula) == str(quick.formula)
     assert [s.rule for s in slow.log.steps()] == [s.rule for s in quick.log.steps()]
+    assert slow.guarantee is quick.guarantee
+    assert (slow.certificate and slow.certificate.to_json()) == (quick.certificate and quick.certificate.to_json())
+
+
+def test_a_certificate_is_looked_for_with_limited_work(monkeypatch: pytest.MonkeyPatch) -> None:
+    """So many units, however long each takes: the answer stays, the certificate does not come."""
+    question = QUESTIONS["vs"]
+    given = qe.eliminate(question, check=True)
+    assert given.guarantee is qe.Guarantee.CHECKED
+    monkeypatch.setattr("qe.engine.run.CERTIFY_WORK", 5)
+    short = qe.eliminate(question, check=True)
+    assert short.guarantee is qe.Guarantee.DERIVED and short.certificate is None
+    assert str(short.formula) == str(given.formula) and "limit of 5 units" in short.explanation
 
 
 def test_no_attempt_is_limited_by_seconds() -> None:

@@ -1,0 +1,399 @@
+"""Polynomial rings over the integers, and their immutable elements.
+
+A ``Ring`` is a tuple of variable names. Variable ``i`` is ``ring.names[i]``; a later variable is
+"higher": the *level* of a polynomial is the largest index it contains, its *main variable*. FLINT
+stores the variables in reverse, so that its lexicographic order puts the main variable first, which
+makes triangular sets of main-variable-monic polynomials Groebner bases for free.
+
+Import both from ``qe.exact.ring``, which knows every kind of ring.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Iterable, Mapping
+from fractions import Fraction
+from functools import cache, cached_property
+from typing import Any, ClassVar
+
+from flint import fmpq, fmpq_mpoly, fmpq_mpoly_ctx, fmpz, fmpz_mpoly, fmpz_mpoly_ctx, fmpz_poly
+
+from qe.errors import BudgetExceeded, InternalError
+from qe.exact.factor import guarded_factor
+from qe.exact.sparse_text import SparseTerm as SparseTerm
+from qe.exact.sparse_text import sparse_text
+from qe.spelling import quoted
+
+_PRIMES = (3, -7, 11, -13, 17, -19, 23, -29, 31, -37, 41, -43, 47, -53, 59, -61)
+_ZERO = fmpz(0)
+
+
+class Ring:
+    """Z[names], immutable; compared by identity (``Ring.of`` interns by names).
+
+    A subclass may be meant for rings of ``more_than`` so many variables; ``Ring.of`` takes it there.
+    """
+
+    kinds: ClassVar[tuple[tuple[int, type[Ring]], ...]] = ()
+    is_wide = False
+    __slots__ = ("__weakref__", "_gens", "_hash_point", "cache", "ctx", "index", "names", "qctx", "size")
+
+    def __init_subclass__(cls, *, more_than: int) -> None:
+        Ring.kinds += ((more_than, cls),)
+
+    def __init__(self, names: tuple[str, ...]) -> None:
+        if len(set(names)) != len(names):
+            raise InternalError(f"repeated variable in ring {names}")
+        self.names, self.size = names, len(names)
+        self.index = {name: i for i, name in enumerate(names)}
+        flint_names = tuple(f"v{i}" for i in range(max(1, self.size)))
+        self.ctx = fmpz_mpoly_ctx.get(flint_names, "lex")
+        self.qctx = fmpq_mpoly_ctx.get(flint_names, "lex")
+        self._gens = self.ctx.gens()
+        self._hash_point = tuple(fmpz(_PRIMES[i % 16] + 64 * (i // 16)) for i in range(max(1, self.size)))
+        self.cache: dict[object, object] = {}
+
+    @staticmethod
+    def of(names: Iterable[str]) -> Ring:
+        """The ring with these variable names, lowest first; equal names give the same ring."""
+        return _intern(tuple(names))
+
+    def slot(self, i: int) -> int:
+        """The FLINT index of variable ``i``."""
+        return self.size - 1 - i
+
+    def gen(self, i: int) -> Poly:
+        """The polynomial that is variable ``i``."""
+        return self.element(self._gens[self.size - 1 - i], (i,))
+
+    def var(self, name: str) -> Poly:
+        """The polynomial that is the variable called ``name``."""
+        return self.gen(self.index[name])
+
+    def constant(self, value: int) -> Poly:
+        """The constant polynomial ``value``."""
+        return self.element(self.ctx.constant(value))
+
+    def element(self, p: fmpz_mpoly, support: Iterable[int] | None = None) -> Poly:
+        """The polynomial with this value in FLINT; ``support``, where known, has all variables that occur."""
+        return Poly(self, p)
+
+    def from_terms(self, terms: Mapping[tuple[int, ...], int]) -> Poly:
+        """The polynomial with coefficient ``terms[e]`` at the exponent vector ``e`` (in ring order)."""
+        if any(k < 0 for e in terms for k in e):
+            raise InternalError("negative exponent")
+        if self.size == 0:
+            return self.constant(sum(terms.values()))
+        return Poly(self, self.ctx.from_dict({tuple(reversed(e)): int(c) for e, c in terms.items()}))
+
+    def from_sparse(self, terms: Iterable[SparseTerm]) -> Poly:
+        """The polynomial with these terms; see ``Poly.sparse_terms``."""
+        return self.from_terms({tuple(dict(powers).get(i, 0) for i in range(self.size)): c for powers, c in terms})
+
+    def hash_of(self, p: Poly) -> int:
+        """The hash of a polynomial of the ring: equal for equal values."""
+        return hash((self.size, int(p.p(*self._hash_point))))
+
+    def remember(self, key: object, value: object) -> None:
+        """Store in the ring's cache, which is emptied when it has grown past a bound."""
+        if len(self.cache) > 50_000:
+            self.cache.clear()
+        self.cache[key] = value
+
+    def __repr__(self) -> str:
+        return f"Ring({', '.join(self.names)})"
+
+    def __reduce__(self) -> tuple[object, tuple[tuple[str, ...]]]:
+        return Ring.of, (self.names,)
+
+
+@cache
+def _intern(names: tuple[str, ...]) -> Ring:
+    # FLINT contexts are immortal too, so nothing is lost by keeping the (small) rings.
+    kinds = [kind for least, kind in Ring.kinds if len(names) > least]
+    return (kinds or [Ring])[-1](names)
+
+
+class Poly:
+    """An element of a ring: immutable and hashable. The raw FLINT object never leaves ``qe.exact``."""
+
+    __slots__ = ("__dict__", "_hash", "p", "ring")
+
+    def __init__(self, ring: Ring, p: fmpz_mpoly) -> None:
+        self.ring, self.p = ring, p
+        self._hash: int | None = None
+
+    # --- value semantics -------------------------------------------------------------------
+    def __hash__(self) -> int:
+        if self._hash is None:
+            self._hash = self.ring.hash_of(self)
+        return self._hash
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Poly) and self.ring is other.ring and bool(self.p == other.p)
+
+    def __bool__(self) -> bool:
+        return bool(self.p)
+
+    def __reduce__(self) -> tuple[object, tuple[object, ...]]:
+        return _rebuild, (self.ring.names, tuple((e, int(c)) for e, c in self.terms()))
+
+    def __repr__(self) -> str:
+        return f"Poly({format_poly(self)})"
+
+    # --- arithmetic ------------------------------------------------------------------------
+    def _lift(self, other: Poly | int) -> fmpz_mpoly | int:
+        if isinstance(other, Poly):
+            if other.ring is not self.ring:
+                raise InternalError(f"polynomials of different rings: {self.ring} and {other.ring}")
+            return other.p
+        return other
+
+    def __add__(self, other: Poly | int) -> Poly:
+        return Poly(self.ring, self.p + self._lift(other))
+
+    __radd__ = __add__
+
+    def __sub__(self, other: Poly | int) -> Poly:
+        return Poly(self.ring, self.p - self._lift(other))
+
+    def __rsub__(self, other: int) -> Poly:
+        return Poly(self.ring, other - self.p)
+
+    def __mul__(self, other: Poly | int) -> Poly:
+        return Poly(self.ring, self.p * self._lift(other))
+
+    __rmul__ = __mul__
+
+    def __neg__(self) -> Poly:
+        return self._like(-self.p)
+
+    def __pow__(self, exponent: int) -> Poly:
+        return self._like(self.p**exponent)
+
+    def exact_divide(self, other: Poly | int) -> Poly:
+        """The quotient of a division known to leave no remainder."""
+        return self._like(self.p / self._lift(other))
+
+    def _like(self, p: fmpz_mpoly) -> Poly:
+        """A polynomial of the ring in which no other variables occur than here."""
+        return Poly(self.ring, p)
+
+    # --- structure -------------------------------------------------------------------------
+    @cached_property
+    def degrees(self) -> tuple[int, ...]:
+        """The degree in every variable of the ring, in ring order (0 for the zero polynomial)."""
+        if self.ring.size == 0 or not self.p:
+            return (0,) * self.ring.size
+        return tuple(int(d) for d in reversed(self.p.degrees()))
+
+    def degree(self, i: int) -> int:
+        """The degree in variable ``i``."""
+        return self.degrees[i]
+
+    @cached_property
+    def variables(self) -> tuple[int, ...]:
+        """The indices that occur, ascending."""
+        return tuple(i for i, d in enumerate(self.degrees) if d)
+
+    @property
+    def level(self) -> int:
+        """The index of the main variable, or -1 for a constant."""
+        return self.variables[-1] if self.variables else -1
+
+    @property
+    def is_constant(self) -> bool:
+        return not self.variables
+
+    def constant_value(self) -> int:
+        """The value of a constant polynomial."""
+        return int(self.p.leading_coefficient()) if self.p else 0
+
+    @cached_property
+    def total_degree(self) -> int:
+        return int(self.p.total_degree()) if self.p else 0
+
+    def term_count(self) -> int:
+        return len(self.p)
+
+    def height_bits(self) -> int:
+        """The number of bits of the largest coefficient."""
+        return max((int(abs(c)).bit_length() for c in self.p.coeffs()), default=0)
+
+    def terms(self) -> list[tuple[tuple[int, ...], int]]:
+        """(exponent vector in ring order, coefficient), highest first in the lexicographic order."""
+        if self.ring.size == 0:
+            return [((), self.constant_value())] if self.p else []
+        return [(tuple(int(k) for k in reversed(e)), int(c)) for e, c in self.p.terms()]
+
+    def sparse_terms(self) -> list[SparseTerm]:
+        """The terms without the variables that do not occur in them."""
+        return [(tuple((i, e[i]) for i in self.variables if e[i]), c) for e, c in self.terms()]
+
+    def coefficients(self, i: int) -> tuple[Poly, ...]:
+        """The coefficients with respect to variable ``i``, from degree 0 up; () for zero."""
+        memory: dict[Any, Any] = self.__dict__
+        key = ("coefficients", i)
+        stored: tuple[Poly, ...] | None = memory.get(key)
+        if stored is None:
+            slot, gen, rest, out = self.ring.slot(i), self.ring._gens[self.ring.slot(i)], self.p, []
+            while rest:
+                lowest = rest.subs({slot: _ZERO})
+                out.append(self._like(lowest))
+                rest = (rest - lowest) / gen
+            stored = memory[key] = tuple(out)
+        return stored
+
+    def collected(self, indices: Collection[int]) -> dict[tuple[int, ...], Poly]:
+        """The polynomial as one in the variables ``indices``: exponents there (in the order given) -> coefficient.
+
+        The coefficients are not zero and free of these variables; highest term first.
+        """
+        inside, found = tuple(indices), dict[tuple[int, ...], dict[tuple[int, ...], int]]()
+        for exponents, c in self.terms():
+            rest = tuple(0 if i in inside else k for i, k in enumerate(exponents))
+            found.setdefault(tuple(exponents[i] for i in inside), {})[rest] = c
+        return {key: self.ring.from_terms(terms) for key, terms in found.items()}
+
+    def coefficients_in(self, indices: Collection[int]) -> tuple[Poly, ...]:
+        """The distinct coefficients, none zero, of the polynomial as one in the variables ``indices``.
+
+        So it vanishes identically in these variables iff all of them are zero.
+        """
+        inside = [i for i in self.variables if i in indices]
+        if not inside:
+            return (self,) if self else ()
+        if len(inside) == 1:
+            return tuple(dict.fromkeys(c for c in reversed(self.coefficients(inside[0])) if c))
+        return tuple(dict.fromkeys(self.collected(inside).values()))
+
+    def leading(self, i: int) -> Poly:
+        """The leading coefficient with respect to variable ``i``."""
+        return self.coefficients(i)[-1]
+
+    def derivative(self, i: int) -> Poly:
+        return self._like(self.p.derivative(self.ring.slot(i)))
+
+    # --- algebra ---------------------------------------------------------------------------
+    def gcd(self, other: Poly) -> Poly:
+        return Poly(self.ring, self.p.gcd(self._lift(other)))
+
+    def resultant(self, other: Poly, i: int) -> Poly:
+        """The resultant with respect to variable ``i``; both need not contain it."""
+        m, n = self.degree(i), other.degree(i)
+        if m == 0 and n == 0:
+            return self.ring.constant(1)
+        if m == 0:
+            return self**n
+        if n == 0:
+            return other**m
+        return Poly(self.ring, self.p.resultant(self._lift(other), self.ring.slot(i)))
+
+    def discriminant(self, i: int) -> Poly:
+        """The discriminant with respect to variable ``i``, of degree at least 1 in it."""
+        return Poly(self.ring, self.p.discriminant(self.ring.slot(i)))
+
+    @cached_property
+    def _normal(self) -> tuple[int, Poly]:
+        if not self.p:
+            return 0, self
+        content, primitive = self.p.primitive()
+        unit = int(content)
+        if primitive.leading_coefficient() < 0:
+            unit, primitive = -unit, -primitive
+        return unit, (self if unit == 1 else self._like(primitive))
+
+    def normal(self) -> tuple[int, Poly]:
+        """(u, q) with self = u*q, q primitive with positive leading coefficient; (0, 0) for zero."""
+        return self._normal
+
+    def factors(self) -> tuple[int, tuple[tuple[Poly, int], ...]]:
+        """(unit, ((irreducible primitive factor, multiplicity), ...)), cached in the ring."""
+        stored = self.ring.cache.get(("factors", self))
+        if stored is None:
+            if self.is_constant:
+                stored = (self.constant_value(), ())
+            else:
+                unit, parts = guarded_factor(self.p)
+                value, listing = int(unit), []
+                for f, e in parts:
+                    u, q = Poly(self.ring, f).normal()
+                    value *= u**e
+                    listing.append((q, e))
+                stored = (value, tuple(listing))
+            self.ring.remember(("factors", self), stored)
+        return stored  # type: ignore[return-value]
+
+    # --- substitution ----------------------------------------------------------------------
+    def at_rational(self, i: int, value: Fraction | int) -> Poly:
+        """A positive multiple of the polynomial with variable ``i`` set to a rational number."""
+        slot = self.ring.slot(i)
+        number = Fraction(value)
+        if number.denominator == 1:
+            return Poly(self.ring, self.p.subs({slot: number.numerator}))
+        rational = fmpq_mpoly(self.p, self.ring.qctx).subs({slot: fmpq(number.numerator, number.denominator)})
+        return Poly(self.ring, self._clear(rational, number.denominator ** self.degree(i)))
+
+    def _clear(self, rational: fmpq_mpoly, scale: int) -> fmpz_mpoly:
+        context = self.ring.ctx
+        return context.from_dict({m: int((c * scale).p) for m, c in rational.terms()})
+
+    def evaluate(self, values: Iterable[Fraction | int]) -> Fraction:
+        """The value at a rational point (one value per ring variable)."""
+        if self.ring.size == 0:
+            return Fraction(self.constant_value())
+        point = [Fraction(v) for v in values]
+        value = fmpq_mpoly(self.p, self.ring.qctx)(*[fmpq(v.numerator, v.denominator) for v in reversed(point)])
+        return Fraction(int(value.p), int(value.q))
+
+    def at_quotient(self, i: int, top: Poly, bottom: Poly, *, most_terms: int | None = None) -> Poly:
+        """bottom^d * p(x_i = top/bottom), a polynomial, where d is the degree of p in x_i.
+
+        Raises ``BudgetExceeded`` where it, or a step on the way to it, has more than ``most_terms`` terms.
+        """
+        coefficients = self.coefficients(i)
+        if not coefficients:
+            return self
+        image, power = coefficients[-1], self.ring.constant(1)
+        for c in reversed(coefficients[:-1]):
+            power = power * bottom
+            image = image * top + c * power if c else image * top
+            if most_terms is not None and image.term_count() > most_terms:
+                raise BudgetExceeded("a substitution grows too large", limit="terms")
+        return image
+
+    def compose(self, substitution: Mapping[int, Poly]) -> Poly:
+        """Replace variables by polynomials of the same ring, simultaneously."""
+        ring = self.ring
+        images = [substitution[i].p if i in substitution else ring._gens[ring.slot(i)] for i in range(ring.size)]
+        return Poly(ring, self.p.compose(*reversed(images), ctx=ring.ctx)) if ring.size else self
+
+    def convert(self, ring: Ring) -> Poly:
+        """The same polynomial in another ring that has all variables occurring here (by name)."""
+        if ring is self.ring:
+            return self
+        names, index = self.ring.names, ring.index
+        if missing := [names[i] for i in self.variables if names[i] not in index]:
+            raise InternalError(f"{missing} not in {ring}")
+        if ring.is_wide or self.ring.is_wide:
+            moved = ((sorted((index[names[i]], k) for i, k in powers), c) for powers, c in self.sparse_terms())
+            return ring.from_sparse((tuple(powers), c) for powers, c in moved)
+        source = {index[names[i]]: i for i in self.variables}
+        places = [source.get(k) for k in range(ring.size)]
+        return ring.from_terms({tuple([0 if i is None else e[i] for i in places]): c for e, c in self.terms()})
+
+    def to_univariate(self, i: int) -> fmpz_poly:
+        """The polynomial as a FLINT univariate one; no other variable may occur."""
+        slot = self.ring.slot(i)
+        coefficients = [0] * (self.degree(i) + 1)
+        for exponents, c in self.p.terms():
+            coefficients[int(exponents[slot])] = c
+        return fmpz_poly(coefficients)
+
+
+def _rebuild(names: tuple[str, ...], terms: tuple[tuple[tuple[int, ...], int], ...]) -> Poly:
+    return Ring.of(names).from_terms(dict(terms))
+
+
+def format_poly(p: Poly, spelled: Callable[[str], str] = quoted) -> str:
+    """Text such as ``x^2 - 2*x*y + 1``, which the text reader reads back; ``spelled`` writes a name."""
+    return sparse_text(p.sparse_terms(), [spelled(name) for name in p.ring.names])

@@ -1,0 +1,83 @@
+"""Free cells of a table and the literals on them; whether an answer follows from the signs."""
+
+from __future__ import annotations
+
+import pytest
+
+from qe.cad.decompose import decompose
+from qe.cells.follows import follows, is_listed
+from qe.cells.sign_table import SignTable, free_cells
+from qe.exact.ring import Ring
+from qe.formula.build import convert
+from qe.formula.syntax import FALSE, TRUE, Relation
+from qe.io.text import read
+from qe.options import Budget
+from qe.proof.cells import CellTable, FreeCell
+
+RING = Ring.of(("x", "y"))
+X, Y = RING.gen(0), RING.gen(1)
+
+
+def table(text: str, order: str, quantifiers: tuple[str, ...]) -> CellTable:
+    ring = Ring.of(order.split())
+    return decompose(convert(read(text), ring), ring.names, quantifiers, budget=Budget()).table
+
+
+def test_free_cells_in_their_order() -> None:
+    found = list(free_cells(table("x^2 < 2", "x", ("",))))
+    assert [c.path for c in found] == [(k,) for k in range(5)]
+    assert [c.truth for c in found] == [False, False, True, False, False]
+    assert [c.signs[0][0] for c in found] == [1, 0, -1, 0, 1]
+
+
+def test_quantified_levels_are_not_walked() -> None:
+    found = list(free_cells(table("x^2 + b < 0", "b x", ("", "E"))))
+    assert [c.truth for c in found] == [True, False, False] and {len(c.path) for c in found} == {1}
+    assert [c.truth for c in free_cells(table("x^2 < 0", "x", ("E",)))] == [False]
+
+
+CELLS = [
+    FreeCell((0,), ({0: -1},), True),
+    FreeCell((1,), ({0: 0},), True),
+    FreeCell((2,), ({0: 1},), False),
+    FreeCell((3,), ({},), False),
+]
+
+
+def test_literals_by_their_cells() -> None:
+    found = {a.relation: a for a in SignTable([[X]], CELLS).literals}
+    assert set(found) == {Relation.LE, Relation.EQ, Relation.LT}  # the others exclude nothing, or cover nothing
+    assert (found[Relation.LE].holds, found[Relation.LE].keeps) == (0b11, 0b10)
+    assert (found[Relation.LT].holds, found[Relation.LT].keeps) == (0b01, 0b10)
+    assert (found[Relation.EQ].holds, found[Relation.EQ].keeps) == (0b10, 0b10)
+    assert found[Relation.LE].poly == X and found[Relation.LE].cost == 2
+
+
+def test_a_sign_that_is_not_known_covers_nothing_and_excludes_nothing() -> None:
+    cells = [FreeCell((0,), ({},), True), FreeCell((1,), ({0: 1},), True), FreeCell((2,), ({},), False)]
+    assert SignTable([[X]], cells).literals == []
+    deeper = SignTable([[X], [Y]], [FreeCell((0,), ({0: 1},), True), FreeCell((1,), ({0: -1}, {0: 1}), False)])
+    assert all(a.poly == X for a in deeper.literals)
+
+
+@pytest.mark.parametrize(
+    ("answer", "right"),
+    [
+        ("b < 0", True),
+        ("b < 0 and b /= 0", True),
+        ("b <= 0", False),
+        ("b > 0", False),
+        ("b < 1", False),
+        ("b^3 < 0", True),
+        ("b*(b^2) < 0 or b^2 < 0", True),
+    ],
+)
+def test_whether_an_answer_follows(answer: str, right: bool) -> None:
+    assert follows(read(answer), table("x^2 + b < 0", "b x", ("", "E"))) is right
+
+
+def test_answers_that_are_constants() -> None:
+    whole = table("x^2 + b < 0", "b x", ("", "E"))
+    assert not follows(TRUE, whole) and not follows(FALSE, whole)
+    assert follows(TRUE, table("x^2 >= 0", "x", ("A",))) and not follows(FALSE, table("x^2 >= 0", "x", ("A",)))
+    assert not is_listed(read("b + 1 < 0"), whole) and is_listed(read("b^2 > 0"), whole)
