@@ -136,8 +136,8 @@ def _best(
     poly, scale = read_polynomial(objective, "objective")
     conditions = read_constraints(constraints)
     given = arguments.names(parameters, "parameters")
-    if method not in ("auto", "convex", "elimination"):
-        raise InputError(f"method: auto, convex or elimination expected, {method!r:.40} found")
+    if not isinstance(method, str) or method not in ("auto", "convex", "elimination"):
+        raise arguments.wrong("method", "auto, convex or elimination", method)
     if given is not None and method == "convex":
         raise InputError("parameters: method auto or elimination expected with parameters, convex found")
 
