@@ -81,3 +81,13 @@ def test_answers_that_are_constants() -> None:
     assert not follows(TRUE, whole) and not follows(FALSE, whole)
     assert follows(TRUE, table("x^2 >= 0", "x", ("A",))) and not follows(FALSE, table("x^2 >= 0", "x", ("A",)))
     assert not is_listed(read("b + 1 < 0"), whole) and is_listed(read("b^2 > 0"), whole)
+
+
+def test_two_free_variables() -> None:
+    whole = table("x^2 + b + c < 0", "b c x", ("", "", "E"))
+    assert follows(read("b + c < 0"), whole) and not follows(read("b + c <= 0"), whole)
+
+
+def test_of_root_atoms_only_the_polynomials_are_looked_at() -> None:
+    whole = table("x^2 < 2", "x", ("",))
+    assert follows(read("x > root(1, x^2 - 2)"), whole) and not follows(read("x > root(1, x^2 - 3)"), whole)

@@ -77,3 +77,12 @@ def test_lists_are_checked() -> None:
     ):
         with pytest.raises(CertificateRejected, match=reason):
             check_lists(RING, wrong)
+
+
+@pytest.mark.parametrize("unit", [-1, 1])
+@pytest.mark.parametrize("exponents", [(1, 1), (1, 2), (2, 1), (3, 2), (2, 2)])
+def test_signs_of_two_known_factors(unit: int, exponents: tuple[int, int]) -> None:
+    found = Product(unit, ((0, 0, exponents[0]), (1, 0, exponents[1])))
+    for s, t in product((-1, 0, 1), repeat=2):
+        wanted = unit * s ** exponents[0] * t ** exponents[1]
+        assert sign(found, [[s], [t]]) == wanted and possible_signs(found, [[s], [t]]) == {wanted}
