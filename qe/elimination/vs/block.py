@@ -95,8 +95,8 @@ class _Run:
 
     def _solve(self, formula: Formula, block: frozenset[int]) -> Solved:
         if isinstance(formula, Or):
-            answer, tree, parts = self._any(self.solve(part, block) for part in formula.args)
-            return answer, tree, Alternatives(formula.args, parts)
+            answer, tree, traces = self._any(self.solve(part, block) for part in formula.args)
+            return answer, tree, Alternatives(formula.args, traces)
         context, groups = connected(conjuncts(formula), lambda part: occurring(part) & block)
         parts = [conj(members) for _, members in groups]
         if not context and len(parts) == 1:
