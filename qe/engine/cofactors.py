@@ -52,7 +52,7 @@ def _solved(columns: Sequence[Column], wanted: dict[Powers, int]) -> list[Fracti
         return None
     rows = [[Fraction(terms.get(e, 0)) for _, _, terms in columns] for e in monomials]
     solution = solve_linear(rows, [Fraction(wanted.get(e, 0)) for e in monomials], len(columns))
-    return None if solution is None else [Fraction(v) for v in solution.particular]  # type: ignore[arg-type]
+    return None if solution is None else [Fraction(v) for v in solution.particular]
 
 
 def _cleared(
@@ -69,7 +69,7 @@ def _cleared(
         if k < len(generators):
             found[k] = found[k] + ring.from_terms({powers: int(value * scale)})
         else:
-            numbers[k - len(generators) + 1] = -int(value * scale)
+            numbers[k - len(generators) + 1] = int(value * scale)
     return numbers, found
 
 
