@@ -40,6 +40,10 @@ CERTIFY_SHARE = 0.4
 """Where the caller limits the time, the share of what is left that it may take: the answer has to get home."""
 
 
+PROOF_SHARE = 0.55
+"""The share of the time left after the answer that finding evidence for its steps may take."""
+
+
 def solve(formula: Formula, options: Options, budget: Budget) -> Outcome:
     """A quantifier-free formula equivalent to ``formula`` over R, with what is known beside it.
 
@@ -153,7 +157,7 @@ class _Run:
 
         derivation = put_together(asked, self.log.steps(), answer)
         try:
-            return proved(derivation, answer, self.options, self.budget.share(CERTIFY_SHARE).part(CERTIFY_WORK))
+            return proved(derivation, answer, self.options, self.budget.share(PROOF_SHARE).part(CERTIFY_WORK))
         except Unable as error:
             return Proof(None, (f"all ({error})",))
 
