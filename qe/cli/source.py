@@ -33,6 +33,12 @@ class OutputFormat(Enum):
     JSON = "json"
 
 
+class ProofFormat(Enum):
+    """Proof assistants for which certificates are written."""
+
+    COQ = "coq"
+
+
 _BY_ENDING = {
     ".smt2": InputFormat.SMTLIB,
     ".smt": InputFormat.SMTLIB,
