@@ -12,13 +12,15 @@ from itertools import pairwise
 from math import lcm
 
 from qe.certify.boolean import Theory
+from qe.certify.negation import normal
 from qe.certify.signs import read_lemma
 from qe.certify.step import Limits
+from qe.engine.cofactors import cofactors
 from qe.exact.algebraic import real_roots
 from qe.exact.nearby import rational_between
 from qe.exact.ring import Poly, Ring
-from qe.formula.syntax import Atom, Exists, ForAll, Formula, Relation
-from qe.formula.traverse import children
+from qe.formula.syntax import FALSE, Atom, Exists, ForAll, Formula, Relation
+from qe.formula.traverse import children, conjuncts
 from qe.proof.entry import Entry, Json, poly_to_text
 from qe.simplify.facts import factor_list, key_of
 from qe.simplify.minima import minimum
@@ -26,7 +28,7 @@ from qe.simplify.minima import minimum
 Term = tuple[int, tuple[tuple[Poly, int], ...]]
 """A coefficient, and polynomials with exponents."""
 
-MOST_POLYNOMIALS, MOST_PAIRS, MOST_MONOMIALS, MOST_TRIED = 120, 400, 24, 16
+MOST_POLYNOMIALS, MOST_PAIRS, MOST_MONOMIALS, MOST_TRIED, MOST_TARGETS = 120, 400, 24, 16, 8
 
 
 @dataclass(slots=True)
@@ -123,7 +125,7 @@ def refuting(goals: Sequence[Sequence[Formula]], ring: Ring, limits: Limits) -> 
     if len(polys) > MOST_POLYNOMIALS:
         return None
     found = Lemmas(ring)
-    for stage in range(4):
+    for stage in range(5):
         count = len(found.lemmas)
         if stage == 1:
             _algebra(found, polys)
@@ -131,6 +133,8 @@ def refuting(goals: Sequence[Sequence[Formula]], ring: Ring, limits: Limits) -> 
             _lines(found, polys)
         elif stage == 3:
             _ranges(found, polys)
+        elif stage == 4:
+            _combinations(found, goals)
         if stage and count == len(found.lemmas):
             continue
         used = _used(found.theory(limits), goals)
@@ -275,3 +279,48 @@ def _ranges(found: Lemmas, polys: Iterable[Poly]) -> None:
     for poly in dict.fromkeys((*found.numbers, *polys)):
         if 1 < poly.term_count() <= MOST_MONOMIALS:
             found.identity([(-1, ((poly, 1),)), *_monomials(poly)])
+
+
+def _combinations(found: Lemmas, goals: Sequence[Sequence[Formula]]) -> None:
+    """What stands on one side of an equivalence as a combination of the equations on the other, up to a multiple of an
+    inequality there."""
+    if len(goals) != 2 or len(goals[0]) < 2:
+        return
+    sides = [conjuncts(normal(goal[-2])) for goal in goals]
+    for own, other in (sides, reversed(sides)):
+        equations = [a.poly for a in own if isinstance(a, Atom) and a.relation is Relation.EQ]
+        generators = list(dict.fromkeys(_squarefree(found, p) for p in equations))
+        if not generators:
+            continue
+        known = {a.poly for a in own if isinstance(a, Atom)}
+        wanted = [a for a in other if isinstance(a, Atom) and a.poly not in known]
+        if list(other) == [FALSE]:
+            _combined(found, [generators[0].ring.constant(1)], generators)
+        for target in wanted[:MOST_TARGETS]:
+            if target.relation is Relation.EQ:
+                _combined(found, [target.poly], generators)
+                continue
+            for beside in own:
+                if isinstance(beside, Atom) and beside.relation not in (Relation.EQ,):
+                    _combined(found, [target.poly, beside.poly], generators)
+
+
+def _combined(found: Lemmas, targets: Sequence[Poly], generators: Sequence[Poly]) -> None:
+    solved = cofactors(targets, generators)
+    if solved is None:
+        return
+    numbers, factors = solved
+    terms: list[Term] = [(n, ((t, 1),)) for n, t in zip(numbers, targets, strict=True) if n]
+    found.identity([*terms, *((-1, ((c, 1), (e, 1))) for c, e in zip(factors, generators, strict=True) if c)])
+
+
+def _squarefree(found: Lemmas, poly: Poly) -> Poly:
+    """The product of the distinct factors, with lemmas that say so."""
+    parts = _factored(found, poly)
+    product = poly.ring.constant(1)
+    for part in parts:
+        product = product * part
+    product = product.normal()[1]
+    if product != poly:
+        _factored(found, product)
+    return product

@@ -38,6 +38,10 @@ CERTIFY_SHARE = 0.4
 """The share of the time left after the answer that a decomposition may take for nothing but its certificate."""
 
 
+PROOF_SHARE = 0.55
+"""The share of the time left after the answer that finding evidence for its steps may take."""
+
+
 def solve(formula: Formula, options: Options, budget: Budget) -> Outcome:
     """A quantifier-free formula equivalent to ``formula`` over R, with what is known beside it.
 
@@ -150,7 +154,7 @@ class _Run:
 
         derivation = put_together(asked, self.log.steps(), answer)
         try:
-            return proved(derivation, answer, self.options, self.budget.share(CERTIFY_SHARE))
+            return proved(derivation, answer, self.options, self.budget.share(PROOF_SHARE))
         except Unable as error:
             return Proof(None, (f"all ({error})",))
 

@@ -74,7 +74,8 @@ STYLE = (
 
 def _row(number: int, step: Step) -> str:
     where = "" if step.context == TRUE else f"<p>where {_math(step.context)}</p>"
-    evidence = "".join(f"<li>{escape(str(k))}: {escape(str(v))}</li>" for k, v in step.evidence.items())
+    shown = {k: v for k, v in step.evidence.items() if k not in ("proof", "trace")}  # those are for checkers
+    evidence = "".join(f"<li>{escape(str(k))}: {escape(str(v))}</li>" for k, v in shown.items())
     folded = f"<details><summary>evidence</summary><ul>{evidence}</ul></details>" if evidence else ""
     return (
         f'<li id="step-{number}"><span class="rule">{escape(step.rule)}</span> '

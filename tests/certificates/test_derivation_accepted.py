@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import doctest
 import random
+from pathlib import Path
 
 import pytest
 from hypothesis import given, settings
@@ -106,3 +108,12 @@ def test_versions() -> None:
     assert verify(Certificate.from_json(Certificate.bundle([("one", made)]).to_json())).accepted
     with pytest.raises(qe.InputError, match="written in version 2"):
         Certificate.from_json(made.to_json().replace('"version":2', '"version":1'))
+
+
+def test_the_document() -> None:
+    text = (Path(__file__).parents[2] / "docs" / "certificates.md").read_text().replace("```", "")
+    test = doctest.DocTestParser().get_doctest(text, {}, "certificates", "docs/certificates.md", 0)
+    runner = doctest.DocTestRunner()
+    runner.run(test)
+    assert runner.tries > 3
+    assert runner.failures == 0

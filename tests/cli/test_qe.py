@@ -231,3 +231,24 @@ def test_no_worker_stays_behind() -> None:
 def test_help() -> None:
     out = run("--help").stdout
     assert all(name in out for name in ("eliminate", "decide", "region", "minimize", "check", "convert"))
+
+
+def test_check_says_what_is_claimed(tmp_path: Path) -> None:
+    path = tmp_path / "proof.json"
+    question = "all x, y, z, u, v. x^2 + y^2 + z^2 + u^2 + v^2 > -1"
+    assert run("eliminate", question, "--certificate", str(path)).stdout == "true\n"
+    lines = run("check", str(path)).stdout.splitlines()
+    assert lines[0].startswith("accepted")
+    assert lines[1].startswith("the sentence  all x, y, z, u, v.")
+    assert lines[2:] == ["is true", "by point or multipliers"]
+    asked = run("check", str(path), "--formula", question.replace("x^2 + y^2", "y^2 + x^2"))
+    assert asked.stdout.splitlines()[-1] == "this is the question that was given, or its negation"
+    refused(run("check", str(path), "--formula", "all x. x^2 > -1"), 4, "claim", "something else")
+
+
+def test_check_of_an_empty_bundle(tmp_path: Path) -> None:
+    import qe
+
+    path = tmp_path / "nothing.json"
+    path.write_text(qe.Certificate.bundle([]).to_json())
+    refused(run("check", str(path)), 4, "proves nothing")
