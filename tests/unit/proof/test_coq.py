@@ -118,7 +118,7 @@ def test_coq_refuses_what_is_wrong(tmp_path: Path) -> None:
         elif certificate.kind is Kind.SUBSTITUTION:
             wrong = {**payload, "answer": True}
         elif certificate.kind is Kind.OPTIMUM:
-            wrong = {**payload, "multipliers": [["7"] for _ in payload["multipliers"]]}
+            wrong = {**payload, "problem": {**payload["problem"], "constraints": []}, "multipliers": []}
         else:
             continue
         text = to_coq(replace(certificate, payload=wrong))
