@@ -1,4 +1,4 @@
-"""The command ``qe``: eliminate, decide, region, minimize, check, convert.
+"""The command ``qe``: eliminate, decide, region, minimize, check, export-proof, convert.
 
 Every command works in a child process under hard limits. Answers go to stdout and nothing else does;
 an error is one line on stderr. Exit status as in ``qe.cli.shell``.
@@ -16,7 +16,7 @@ import typer
 
 from qe import arguments
 from qe.cli.shell import check_writable, enter, limited, remaining, write_file
-from qe.cli.source import read_source
+from qe.cli.source import ProofFormat, read_source
 from qe.cli.work import Reply, Request
 from qe.errors import InputError
 from qe.io.formats import READABLE, Format
@@ -164,6 +164,29 @@ def check(
     seconds = VERIFY_SECONDS if timeout is None else timeout
     asked = None if formula is None else read_source(formula, None)
     work = partial(cli_work.check, text=source.text, asked=asked, seconds=remaining(seconds))
+    return deliver(limited(work, timeout=seconds, memory=memory, plain=True), {})
+
+
+@app.command("export-proof")
+def export_proof(
+    certificate: Annotated[str, typer.Argument(metavar="CERTIFICATE|-", show_default=False)],
+    to: Annotated[ProofFormat, typer.Option("--to", help="The proof assistant.")] = ProofFormat.COQ,
+    timeout: Timeout = None,
+    memory: Memory = None,
+) -> int:
+    """Verify a certificate and print it as lemmas with proofs for a proof assistant.
+
+    Exit status 4 when it is rejected, 3 where it is of a kind that cannot be written so.
+    """
+    from qe.cli import work as cli_work
+    from qe.options import VERIFY_SECONDS
+
+    check_limits(timeout, memory)
+    source = read_source(certificate, InputFormat.JSON)
+    if source.name == "<argument>":
+        raise InputError(f"{certificate}: no such file")
+    seconds = VERIFY_SECONDS if timeout is None else timeout
+    work = partial(cli_work.export_proof, text=source.text, seconds=remaining(seconds))
     return deliver(limited(work, timeout=seconds, memory=memory, plain=True), {})
 
 

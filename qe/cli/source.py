@@ -5,12 +5,19 @@ from __future__ import annotations
 import re
 import sys
 from dataclasses import dataclass
+from enum import Enum
 from pathlib import Path
 
 from qe.errors import InputError
 from qe.io.formats import BY_ENDING, Format
 
 _FILE_LIKE = re.compile(rf"[^\s<>=]+({'|'.join(map(re.escape, BY_ENDING))})")
+
+
+class ProofFormat(Enum):
+    """Proof assistants for which certificates are written."""
+
+    COQ = "coq"
 
 
 @dataclass(frozen=True, slots=True)

@@ -159,6 +159,23 @@ def check(channel: Channel, text: str, asked: Source | None, seconds: float) -> 
     return Reply("\n".join(lines))
 
 
+def export_proof(channel: Channel, text: str, seconds: float) -> Reply:
+    """``qe export-proof``: exit status 4 when the certificate is rejected, 3 where it cannot be checked or written."""
+    from qe.certify.verify import verify
+    from qe.errors import CertificateRejected
+    from qe.options import Budget
+    from qe.proof.certificate import Certificate
+    from qe.proof.coq import to_coq
+
+    certificate = Certificate.from_json(text)
+    verdict = verify(certificate, Budget(seconds, listener=channel.event))
+    if not verdict.decided:
+        raise Unable(f"not decided: {verdict.reason}")
+    if not verdict.accepted:
+        raise CertificateRejected(verdict.step, verdict.reason)
+    return Reply(to_coq(certificate).rstrip("\n"))
+
+
 def certificate_text(answer: object) -> str:
     """The JSON of an answer's certificate; ``Unable`` where there is none."""
     certificate = getattr(answer, "certificate", None)

@@ -1,0 +1,287 @@
+"""Certificates as files for the proof assistant Coq: each lemma is proved there again, by its own arithmetic.
+
+Written are: rational witnesses; optima (attained) and infeasibility of convex quadratic problems with rational data,
+multipliers and point, without faces; linear substitutions (Gauss); the polynomial identities of derivations. A lemma
+states the question and its answer over R; the proof gives the numbers and leaves the rest to ``lra`` and ``ring``.
+Nothing of this needs to be believed: what is wrong, ``coqc`` refuses. Raises ``Unable``, with the reason, for
+everything else.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Sequence
+from fractions import Fraction
+from typing import Any
+
+from qe.errors import Unable
+from qe.exact.ring import Poly, Ring
+from qe.formula.normal import nnf
+from qe.formula.relation import Relation
+from qe.formula.syntax import And, Atom, Constant, Formula, Or
+from qe.formula.traverse import conjuncts
+from qe.proof.certificate import Certificate, Kind
+from qe.proof.coq_squares import Form, read_form, squares
+from qe.proof.entry import Entry, formula_from_json, parse_poly
+
+_PLAIN = re.compile(r"[A-Za-z][A-Za-z0-9]*", re.ASCII)
+_RELATION = {
+    Relation.EQ: "=",
+    Relation.NE: "<>",
+    Relation.LT: "<",
+    Relation.LE: "<=",
+    Relation.GT: ">",
+    Relation.GE: ">=",
+}
+_HEADER = """\
+From Coq Require Import Reals Lra.
+Open Scope R_scope.
+
+Ltac close :=
+  solve [ exact I | contradiction | lra | match goal with h : _ <> _ |- _ => exfalso; apply h; lra end ].
+"""
+
+
+def to_coq(certificate: Certificate) -> str:
+    """A file that ``coqc`` accepts if the certificate is right. Raises ``Unable`` for what cannot be written."""
+    return "\n".join((_HEADER, *_lemmas(certificate, "main")))
+
+
+def _lemmas(certificate: Certificate, name: str) -> Iterator[str]:
+    payload = certificate.payload
+    if isinstance(payload, tuple):
+        if not payload:
+            raise Unable("an empty bundle: there is nothing to prove")
+        for k, member in enumerate(payload):
+            yield from _lemmas(member.certificate, f"{name}_{k + 1}")
+    elif isinstance(payload, dict) and certificate.kind in _WRITERS:
+        yield from _WRITERS[certificate.kind](payload, name)
+    else:
+        raise Unable(f"certificates of kind {certificate.kind.value} cannot be written for Coq")
+
+
+# --- terms and formulas --------------------------------------------------------------------------------------
+
+
+def _identifiers(names: Sequence[str]) -> list[str]:
+    return [f"v_{name}" if _PLAIN.fullmatch(name) else f"v{k}" for k, name in enumerate(names)]
+
+
+def _number(value: Fraction | int) -> str:
+    value = Fraction(value)
+    text = str(value.numerator) if value.denominator == 1 else f"{value.numerator} / {value.denominator}"
+    return f"({text})"
+
+
+def _terms(terms: Iterable[tuple[Sequence[int], Fraction | int]], names: Sequence[str]) -> str:
+    """A sum of coefficient times powers."""
+    parts = []
+    for exponents, c in terms:
+        powers = [n if k == 1 else f"{n} ^ {k}" for n, k in zip(names, exponents, strict=True) if k]
+        parts.append(" * ".join([_number(c), *powers]))
+    return " + ".join(parts) or "0"
+
+
+def _poly(poly: Poly, names: Sequence[str]) -> str:
+    return _terms(poly.terms(), names)
+
+
+def _formula(formula: Formula, names: Sequence[str]) -> str:
+    match formula:
+        case Constant(value):
+            return "True" if value else "False"
+        case Atom(poly, relation):
+            return f"{_poly(poly, names)} {_RELATION[relation]} 0"
+        case And(args) | Or(args):
+            sign = " /\\ " if isinstance(formula, And) else " \\/ "
+            return sign.join(f"({_formula(a, names)})" for a in args)
+    raise Unable("only and/or combinations of comparisons can be written for Coq")
+
+
+def _all(names: Sequence[str]) -> str:
+    return f"forall {' '.join(names)} : R, " if names else ""
+
+
+def _lemma(name: str, statement: str, *proof: str) -> str:
+    lines = "\n".join(f"  {line}" for line in proof)
+    return f"Lemma {name} :\n  {statement}.\nProof.\n{lines}\nQed.\n"
+
+
+# --- witnesses -----------------------------------------------------------------------------------------------
+
+
+def _witness(payload: dict[str, Any], name: str) -> Iterator[str]:
+    names = payload["order"]
+    body = nnf(formula_from_json(Entry(payload["matrix"], "payload.matrix"), Ring.of(names)))
+    if not all(isinstance(value, str) for value in payload["values"]):
+        raise Unable("an irrational witness cannot be written for Coq")
+    values = [Fraction(value) for value in payload["values"]]
+    bound = _identifiers(names)
+    statement = f"exists {' '.join(bound)} : R, {_formula(body, bound)}" if bound else _formula(body, bound)
+    yield _lemma(name, statement, *(f"exists {_number(v)}." for v in values), *_holds(body, values))
+
+
+def _holds(formula: Formula, values: Sequence[Fraction]) -> list[str]:
+    """The proof of a formula at rational numbers: a true disjunct is chosen at each disjunction."""
+    match formula:
+        case And(args):
+            return [line for k, a in enumerate(args) for line in (*_split(k, len(args)), *_holds(a, values))]
+        case Or(args):
+            k = next(k for k, a in enumerate(args) if _is_true(a, values))
+            return [*["right."] * k, *(["left."] if k < len(args) - 1 else []), *_holds(args[k], values)]
+        case Atom(poly, Relation.NE):
+            order = "Rlt" if poly.evaluate(values) < 0 else "Rgt"
+            return [f"apply {order}_not_eq; lra."]
+    return ["close."]
+
+
+def _split(k: int, count: int) -> list[str]:
+    """Before member k of a conjunction, which is bracketed to the right."""
+    return ["split."] if k < count - 1 else []
+
+
+def _is_true(formula: Formula, values: Sequence[Fraction]) -> bool:
+    match formula:
+        case And(args):
+            return all(_is_true(a, values) for a in args)
+        case Or(args):
+            return any(_is_true(a, values) for a in args)
+        case Atom(poly, relation):
+            value = poly.evaluate(values)
+            return relation.holds((value > 0) - (value < 0))
+    return formula == Constant(True)
+
+
+# --- linear substitutions ------------------------------------------------------------------------------------
+
+
+def _substitution(payload: dict[str, Any], name: str) -> Iterator[str]:
+    names, block = payload["order"], payload["variables"]
+    ring = Ring.of(names)
+    words = dict(zip(names, _identifiers(names), strict=True))
+    every = [words[n] for n in names]
+    matrix, answer = (nnf(formula_from_json(Entry(payload[k], f"payload.{k}"), ring)) for k in ("matrix", "answer"))
+    free = [words[n] for n in names if n not in block]
+    bound = [words[n] for n in block]
+    values = [_value(ring, variable, text, every) for variable, text in payload["solved"]]
+    left = f"exists {' '.join(bound)} : R, {_formula(matrix, every)}" if bound else _formula(matrix, every)
+    posed = [f"pose ({w} := {value})." for w, value in reversed(list(zip(bound, values, strict=True)))]
+    equations = [f"assert ({w} = {value}) by lra." for w, value in zip(bound, values, strict=True)]
+    yield _lemma(
+        name,
+        f"{_all(free)}({left}) <-> ({_formula(answer, every)})",
+        f"intros{''.join(' ' + f for f in free)}; split.",
+        f"- intros [{' ['.join(bound)} h{']' * len(bound)}." if bound else "- intros h.",
+        f"  {_pattern(matrix)}",
+        *(f"  {line}" for line in equations),
+        *(f"  subst {w}." for w in bound),
+        "  intuition close.",
+        "- intros h.",
+        *(f"  {line}" for line in posed),
+        *(f"  exists {w}." for w in bound),
+        *(f"  subst {w}." for w in bound),
+        "  intuition close.",
+    )
+
+
+def _pattern(matrix: Formula) -> str:
+    """The conjuncts as hypotheses."""
+    count = len(conjuncts(matrix))
+    return f"destruct h as ({' & '.join(f'h{k}' for k in range(count))})." if count > 1 else "idtac."
+
+
+def _value(ring: Ring, variable: str, text: str, names: Sequence[str]) -> str:
+    rest, lead = parse_poly(text, ring).coefficients(ring.index[variable])
+    constant = lead.constant_value()
+    return _terms([(e, Fraction(-c, constant)) for e, c in rest.terms()], names)
+
+
+# --- convex problems -----------------------------------------------------------------------------------------
+
+
+def _optimum(payload: dict[str, Any], name: str) -> Iterator[str]:
+    problem, status = payload["problem"], payload["status"]
+    if len(payload["field"]["minimal_polynomial"]) > 2 or payload["faces"] or payload.get("links"):
+        raise Unable("only optima with rational points, without faces and links, can be written for Coq")
+    if status == "unbounded" or (status == "optimal" and not payload["attained"]):
+        raise Unable(f"{'unbounded' if status == 'unbounded' else 'not attained'}: this cannot be written for Coq")
+    names = _identifiers(problem["variables"])
+    forms = [read_form(c["terms"], len(names)) for c in problem["constraints"]]
+    relations = [c["relation"] for c in problem["constraints"]]
+    weights = [Fraction(m[0]) for m in payload["multipliers"]]
+    point = [Fraction(v[0]) for v in payload["point"]]
+    objective = read_form(problem["minimise"], len(names))
+    given = [f"{_terms(f.terms(), names)} {r} 0" for f, r in zip(forms, relations, strict=True)]
+    parts = [(w, f) for w, f in zip(weights, forms, strict=True) if w]
+    value = Fraction(payload["value"][0]) if status == "optimal" else Fraction(0)
+    goal = f"{_number(value)} <= {_terms(objective.terms(), names)}" if status == "optimal" else "False"
+    if status == "optimal":
+        parts.append((Fraction(1), objective))
+    yield _lemma(
+        name,
+        _all(names) + "".join(f"({h}) -> " for h in given) + f"({goal})",
+        f"intros {' '.join([*names, *(f'h{k}' for k in range(len(given)))])}.",
+        *_positive(parts, point, names),
+        "lra.",
+    )
+    if status == "optimal":
+        body = [*given, f"{_terms(objective.terms(), names)} = {_number(value)}"]
+        together = " /\\ ".join(f"({b})" for b in body)
+        statement = f"exists {' '.join(names)} : R, {together}"
+        yield _lemma(f"{name}_attained", statement, *(f"exists {_number(v)}." for v in point), "repeat split; lra.")
+
+
+def _positive(parts: Sequence[tuple[Fraction, Form]], point: Sequence[Fraction], names: Sequence[str]) -> list[str]:
+    """The quadratic part of a weighted sum around the point as squares, each shown not to be negative."""
+    lines = []
+    for k, (factor, row) in enumerate(squares(parts)):
+        shifted = " + ".join(
+            f"{_number(a)} * ({n} - {_number(v)})" for a, n, v in zip(row, names, point, strict=True) if a
+        )
+        lines.append(f"assert (s{k} : 0 <= {_number(factor)} * ({shifted}) ^ 2).")
+        lines.append("{ apply Rmult_le_pos; [lra | apply pow2_ge_0]. }")
+    return lines
+
+
+# --- derivations ---------------------------------------------------------------------------------------------
+
+
+def _derivation(payload: dict[str, Any], name: str) -> Iterator[str]:
+    """The identities on which the steps rest, each once."""
+    ring = Ring.of(payload["order"])
+    names = _identifiers(payload["order"])
+    found = dict.fromkeys(_identities(payload["steps"], ring, names))
+    if not found:
+        raise Unable("a derivation without polynomial identities: nothing of it can be written for Coq")
+    yield "(* The polynomial identities on which a derivation rests; its steps themselves are not part of this. *)\n"
+    for k, statement in enumerate(found, start=1):
+        yield _lemma(f"{name}_identity_{k}", f"{_all(names)}{statement}", "intros; ring.")
+
+
+def _identities(node: Any, ring: Ring, names: Sequence[str]) -> Iterator[str]:
+    if isinstance(node, dict):
+        polys = node.get("polynomials")
+        for lemma in node.get("lemmas", ()) if isinstance(polys, list) else ():
+            if "identity" in lemma:
+                yield _identity(lemma["identity"], [parse_poly(p, ring) for p in polys or ()], names)
+        for value in node.values():
+            yield from _identities(value, ring, names)
+    elif isinstance(node, list):
+        for value in node:
+            yield from _identities(value, ring, names)
+
+
+def _identity(terms: Sequence[Any], polys: Sequence[Poly], names: Sequence[str]) -> str:
+    parts = []
+    for coefficient, powers in terms:
+        factors = [f"({_poly(polys[i], names)}) ^ {e}" for i, e in powers]
+        parts.append(" * ".join([_number(Fraction(coefficient)), *factors]))
+    return " + ".join(parts) + " = 0"
+
+
+_WRITERS = {
+    Kind.WITNESS: _witness,
+    Kind.SUBSTITUTION: _substitution,
+    Kind.OPTIMUM: _optimum,
+    Kind.DERIVATION: _derivation,
+}
