@@ -121,10 +121,9 @@ class _Conjunction:
 
     @staticmethod
     def of(parts: Sequence[Formula], ring: Ring, block: tuple[str, ...]) -> _Conjunction:
-        inside, outside = [], []
-        for a in parts:
-            if isinstance(a, Atom):
-                (inside if set(_names(a.poly)) & set(block) else outside).append(a)
+        atoms_of = [a for a in parts if isinstance(a, Atom)]
+        inside = [a for a in atoms_of if set(_names(a.poly)) & set(block)]
+        outside = [a for a in atoms_of if not set(_names(a.poly)) & set(block)]
         equations = tuple(a.poly for a in inside if a.relation is Relation.EQ)
         conditions = tuple(_upward(a) for a in inside if a.relation is not Relation.EQ)
         used = {name for p in (*equations, *(g for g, _ in conditions)) for name in _names(p)}
