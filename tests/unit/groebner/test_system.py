@@ -58,11 +58,11 @@ def test_dependent_irrational_numbers_at_a_point() -> None:
 
 
 def test_a_factor_that_vanishes_for_conjugates_only() -> None:
-    system = qe.comprehensive_groebner(["(a + w)*x"], "x", constants={"w": ROOT_2})
-    assert [str(p) for p in system.basis_at([ROOT_2])] == ["Poly(x)"]
-    assert [z.values["x"].sign() for z in system.solutions_at([ROOT_2])] == [0]
+    system = qe.comprehensive_groebner(["(a + w)*x + b"], "x", constants={"w": ROOT_2})
+    assert [str(p) for p in system.basis_at([ROOT_2, 0])] == ["Poly(x)"]
+    assert [z.values["x"].sign() for z in system.solutions_at([ROOT_2, 0])] == [0]
     with pytest.raises(PositiveDimensional):
-        system.solutions_at([-ROOT_2])
+        system.solutions_at([-ROOT_2, 0])
 
 
 def test_faithful_elements_are_in_the_ideal_and_agree_on_the_segment() -> None:
