@@ -12,9 +12,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import product
+from math import prod
 
 from qe.elimination.protocol import Context, Outcome, Problem
-from qe.errors import Unable
 from qe.exact.block_order import Block
 from qe.exact.number import Values, simplest
 from qe.exact.polynomial_system import solve_system
@@ -56,9 +56,9 @@ class ComprehensiveGroebner:
         dual = problem.dual
         free = free_variables(dual.formula)
         ring = Ring.of((*free, *dual.variables))
-        parts = list(_conjunctions(convert(dual.body, ring)))
-        if len(parts) > MOST_CONJUNCTIONS or not all(isinstance(a, Atom) for part in parts for a in part):
+        if _length(dual.body) > MOST_CONJUNCTIONS or not all(isinstance(a, Atom) for a in atoms(dual.body)):
             return None
+        parts = list(_conjunctions(convert(dual.body, ring)))
         read = [_Conjunction.of(part, ring, dual.variables) for part in parts]
         if not any(part.equations for part in read):
             return None
@@ -88,20 +88,25 @@ def _names(poly: Poly) -> list[str]:
     return [poly.ring.names[i] for i in poly.variables]
 
 
+def _length(formula: Formula) -> int:
+    """The number of conjunctions in its disjunctive normal form."""
+    match formula:
+        case Or(args):
+            return sum(map(_length, args))
+        case And(args):
+            return prod(map(_length, args))
+    return 1
+
+
 def _conjunctions(formula: Formula) -> Iterator[tuple[Formula, ...]]:
-    """The disjunctive normal form of a formula in negation normal form, as long as it is short."""
+    """The disjunctive normal form of a formula in negation normal form."""
     match formula:
         case Or(args):
             for arg in args:
                 yield from _conjunctions(arg)
         case And(args):
-            options = [list(_conjunctions(arg)) for arg in args]
-            size = 1
-            for option in options:
-                size *= len(option)
-            if size > MOST_CONJUNCTIONS:
-                raise Unable("the disjunctive normal form is too long for comprehensive Gröbner systems")
-            yield from (tuple(a for part in choice for a in part) for choice in product(*options))
+            for choice in product(*(list(_conjunctions(arg)) for arg in args)):
+                yield tuple(a for part in choice for a in part)
         case Constant(value):
             if value:
                 yield ()
@@ -121,10 +126,9 @@ class _Conjunction:
 
     @staticmethod
     def of(parts: Sequence[Formula], ring: Ring, block: tuple[str, ...]) -> _Conjunction:
-        inside, outside = [], []
-        for a in parts:
-            if isinstance(a, Atom):
-                (inside if set(_names(a.poly)) & set(block) else outside).append(a)
+        atoms_of = [a for a in parts if isinstance(a, Atom)]
+        inside = [a for a in atoms_of if set(_names(a.poly)) & set(block)]
+        outside = [a for a in atoms_of if not set(_names(a.poly)) & set(block)]
         equations = tuple(a.poly for a in inside if a.relation is Relation.EQ)
         conditions = tuple(_upward(a) for a in inside if a.relation is not Relation.EQ)
         used = {name for p in (*equations, *(g for g, _ in conditions)) for name in _names(p)}

@@ -120,8 +120,8 @@ class RealRootClassification:
         }
 
     def __str__(self) -> str:
-        names = {None: "infinitely many complex solutions"}
-        return "\n".join(f"{names.get(c.count, c.count)}: {c.condition}" for c in self.classes)
+        many = "infinitely many complex solutions"
+        return "\n".join(f"{many if c.count is None else c.count}: {c.condition}" for c in self.classes)
 
 
 def classified(question: ParametricSystem, positive: Sequence[Poly], budget: Budget) -> RealRootClassification:

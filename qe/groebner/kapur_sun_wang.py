@@ -11,7 +11,7 @@ segments are disjoint.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import prod
 
 from qe.exact.block_order import Block, Exponents, parametric_basis
@@ -56,6 +56,7 @@ def _step(task: _Task, block: Block) -> tuple[list[Segment], list[_Task]]:
     equal = _simpler(task.equal, task.nonzero, block)
     if not has_zeros(equal, task.nonzero):
         return [], []
+    task = replace(task, nonzero=_open(task.nonzero, equal, block))
     basis = parametric_basis([*task.polys, *equal], block)
     ring = (*task.polys, *equal)[0].ring
     one = (ring.constant(1),)
@@ -97,6 +98,14 @@ def _simpler(equal: Sequence[Poly], nonzero: Sequence[Poly], block: Block) -> tu
             break
         current = basis
     return current
+
+
+def _open(nonzero: Sequence[Poly], equal: Sequence[Poly], block: Block) -> tuple[Poly, ...]:
+    """Without those that are constants modulo the equations."""
+    if not equal or not nonzero:
+        return tuple(nonzero)
+    ideal = groebner_basis(equal, variables=(*block.variables, *block.parameters), limits=LIMITS)
+    return tuple(p for p in nonzero if ideal is None or not ideal.reduce(p)[1].is_constant)
 
 
 def _bare(poly: Poly, nonzero: Sequence[Poly]) -> Poly:

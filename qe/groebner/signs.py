@@ -29,6 +29,8 @@ from qe.formula.syntax import FALSE, TRUE, Formula, Relation
 from qe.formula.traverse import atoms
 
 MOST_ATOMS = 3000
+SMALL = 4
+"""Up to this size the two diagrams are woven into one, which simplifies better; for larger ones it would be long."""
 
 
 @dataclass(frozen=True)
@@ -61,14 +63,14 @@ class SignatureConditions:
     def is_in(self, wanted: Collection[int]) -> Formula:
         """That the signature is one of these numbers."""
 
-        if self.is_hankel:
-            return self._by_minors(wanted)
+        if self.is_hankel or self.size <= SMALL:
+            return self._by_minors(wanted, regular=False)
         last = self.minors[-1]
-        regular = conj([atom(last, Relation.NE), self._by_minors(wanted)])
+        regular = conj([atom(last, Relation.NE), self._by_minors(wanted, regular=True)])
         return disj([regular, conj([atom(last, Relation.EQ), self._by_descartes(wanted)])])
 
-    def _by_minors(self, wanted: Collection[int]) -> Formula:
-        """For a Hankel matrix; for others where the whole determinant is not 0."""
+    def _by_minors(self, wanted: Collection[int], *, regular: bool) -> Formula:
+        """By minors first; ``regular``: where the whole determinant is not 0."""
 
         def after(state: _State, sign: int) -> _State | None:
             gap = state.zeros + 1
@@ -80,9 +82,9 @@ class SignatureConditions:
             return _State(sign, 0, state.signature) if fits else None
 
         def end(state: _State) -> Formula | None:
-            if state.zeros and not self.is_hankel:
+            if state.zeros and regular:
                 return None
-            if state.signature is None:
+            if state.signature is None or (state.zeros and not self.is_hankel):
                 return self._by_descartes(wanted)
             return self._leaf(state.signature, wanted)
 

@@ -180,7 +180,7 @@ class ParametricQuotient:
                 total = sum((c * t for c, t in zip(v.tops, self.traces.tops, strict=True)), start=self.ring.constant(0))
                 tidy = self._tidy([total], _multiplied(v.bottom, self.traces.bottom))
                 entries[i, j] = tidy.tops[0], tidy.bottom
-        scales = _row_scales({place: bottom for place, (top, bottom) in entries.items() if top}, size)
+        scales = row_scales({place: bottom for place, (top, bottom) in entries.items() if top}, size)
         rows = {}
         for (i, j), (top, bottom) in entries.items():
             missing = _quotient(_multiplied(scales[i], scales[j]), bottom) if top else {}
@@ -278,7 +278,7 @@ def _over_square(poly: Poly, factor: Poly) -> Poly | None:
     return poly.exact_divide(square)
 
 
-def _row_scales(bottoms: Mapping[tuple[int, int], Powers], size: int) -> list[Powers]:
+def row_scales(bottoms: Mapping[tuple[int, int], Powers], size: int) -> list[Powers]:
     """For every row a polynomial such that scales[i]*scales[j] is a multiple of the denominator at (i, j)."""
     scales: list[Powers] = [{} for _ in range(size)]
     for factor in dict.fromkeys(f for powers in bottoms.values() for f in powers):

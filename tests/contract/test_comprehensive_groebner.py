@@ -78,12 +78,6 @@ def blocks(draw: st.DrawFn) -> str:
     return f"ex x, y. {first} and {second} and {condition}"
 
 
-@settings(max_examples=2)
-@given(blocks())
-def test_random_blocks(text: str) -> None:
-    agree(text)
-
-
 @pytest.mark.deep
 @settings(max_examples=120)
 @given(blocks())

@@ -14,6 +14,7 @@ from qe.exact.quotient import PositiveDimensional
 from qe.exact.ring import Poly, Ring
 from qe.formula.evaluate import truth_under
 from qe.groebner.signs import SignatureConditions
+from qe.groebner.trace_form import row_scales
 
 ROOT_2 = qe.RealAlgebraic.from_root([-2, 0, 1], 1, 2)
 
@@ -106,6 +107,14 @@ def _holds(condition: object, found: qe.RealRootClassification, point: tuple[Fra
 
     place = found.system.place(point)
     return bool(truth_under(convert(condition, place.ring), place.sign))  # type: ignore[arg-type]
+
+
+@given(st.dictionaries(st.tuples(st.integers(0, 3), st.integers(0, 3)), st.integers(0, 5), max_size=8))
+def test_rows_are_scaled_by_enough(powers: dict[tuple[int, int], int]) -> None:
+    factor = RING.var("a")
+    scales = row_scales({place: {factor: power} for place, power in powers.items()}, 4)
+    for (i, j), power in powers.items():
+        assert scales[i].get(factor, 0) + scales[j].get(factor, 0) >= power
 
 
 ENTRIES = Ring.of(("z",))

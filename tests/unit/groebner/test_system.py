@@ -14,6 +14,7 @@ import qe
 from qe.exact.block_order import Block, parametric_basis
 from qe.exact.groebner import MonomialOrder
 from qe.exact.ideals import in_ideal
+from qe.exact.quotient import PositiveDimensional
 from qe.exact.ring import Poly, Ring
 from tests.unit.groebner.support import Place, places
 
@@ -54,6 +55,14 @@ def test_dependent_irrational_numbers_at_a_point() -> None:
     assert system.at([ROOT_2]).is_unit and system.basis_at([ROOT_2])[0].is_constant
     (zero,) = system.solutions_at([-ROOT_2])
     assert float(zero.values["x"]) == pytest.approx(-1 / 8**0.5)
+
+
+def test_a_factor_that_vanishes_for_conjugates_only() -> None:
+    system = qe.comprehensive_groebner(["(a + w)*x + b"], "x", constants={"w": ROOT_2})
+    assert [str(p) for p in system.basis_at([ROOT_2, 0])] == ["Poly(x)"]
+    assert [z.values["x"].sign() for z in system.solutions_at([ROOT_2, 0])] == [0]
+    with pytest.raises(PositiveDimensional):
+        system.solutions_at([-ROOT_2, 0])
 
 
 def test_faithful_elements_are_in_the_ideal_and_agree_on_the_segment() -> None:
