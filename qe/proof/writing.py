@@ -20,6 +20,7 @@ RULES: Mapping[str, str] = {
     "linear equation solved": "A linear equation with a nonzero coefficient gives its variable (Gauss).",
     "linear equation solved under a guard": "The coefficient of a linear equation vanishes, or gives its variable.",
     "degree shift": "All exponents share a divisor: the power becomes the variable.",
+    "value that is taken": "A polynomial of odd degree takes every value, one of even degree has a sign far out.",
     "inequations that remove no interior": "A nonempty open set lies in no hypersurface.",
     "boundary apart": "A weak inequality is a strict one or an equation.",
     "translation of the origin": "All polynomials are constant along a direction: one coordinate may be zero.",

@@ -13,6 +13,7 @@ from qe.rules.generic import drop_inequations
 from qe.rules.scaling import fix_scale
 from qe.rules.step import StepKind
 from qe.rules.structural import guarded_linear_equation, independent_parts, linear_equation, solvable_disjuncts
+from qe.rules.takes_value import drop_what_can_be_met
 from qe.rules.translation import fix_origin
 from qe.rules.tree import NEVER, All, Any, Leaf, Lifted, Node, Pending, Perturbed, either
 from qe.simplify.simplify import simplify_under
@@ -20,6 +21,7 @@ from qe.simplify.simplify import simplify_under
 RULES: tuple[Rule, ...] = (
     independent_parts,
     linear_equation,
+    drop_what_can_be_met,
     fix_origin,
     drop_inequations,
     split_squares,

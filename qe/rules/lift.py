@@ -59,10 +59,10 @@ def _in_field(poly: Poly, name: str, values: Assignment) -> Value:
     """The value where a single variable has an irrational one: an element of the field that this one generates."""
     ring, theta = poly.ring, values[name]
     assert isinstance(theta, RealAlgebraic)
-    coefficients = []
-    for c in poly.coefficients(ring.index[name]):
-        at = [values.get(v, Fraction(0)) if c.degree(i) else Fraction(0) for i, v in enumerate(ring.names)]
-        coefficients.append(c.evaluate(at))
+    known = {v: value for v, value in values.items() if isinstance(value, Fraction)}
+    coefficients = [
+        c.evaluate([known.get(v, Fraction(0)) for v in ring.names]) for c in poly.coefficients(ring.index[name])
+    ]
     return simplest(NumberField(theta).element(coefficients).to_algebraic())
 
 

@@ -15,7 +15,7 @@ from qe.elimination.vs.points import Infinity
 from qe.elimination.vs.substitute import Substitution
 from qe.formula.build import atom, conj, disj, exists, neg
 from qe.formula.normal import nnf
-from qe.formula.syntax import FALSE, Formula, Relation
+from qe.formula.syntax import FALSE, TRUE, Formula, Relation
 from qe.formula.traverse import polynomials
 from qe.options import Budget, Options
 from qe.rules.preparation import prepare
@@ -57,9 +57,11 @@ def far_first(variable: str, body: Formula, *, budget: Budget) -> FarFirst | Non
         return None
     x = high[0].ring.index[variable]
     lead = max(high, key=lambda p: p.degree(x)).leading(x)
+    far = simplify(disj(Substitution(x, Infinity(side), NOTHING)(body) for side in (-1, 1)))
+    if far == TRUE:
+        return FarFirst(TRUE, FALSE)
     if lead.is_constant:
         return None
-    far = simplify(disj(Substitution(x, Infinity(side), NOTHING)(body) for side in (-1, 1)))
     near = conj((body, nnf(neg(far))))
     for relation in (Relation.GT, Relation.LT):
         if prepare(exists([variable], conj((near, atom(lead, relation)))), budget=budget).formula != FALSE:

@@ -10,7 +10,7 @@ import qe
 from qe.elimination.vs.infinity_first import far_first
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj, disj, exists, neg
-from qe.formula.syntax import Formula, Relation
+from qe.formula.syntax import FALSE, TRUE, Formula, Relation
 from qe.formula.traverse import polynomials as polynomials_of
 from qe.io.text import read
 from qe.options import Budget
@@ -32,7 +32,14 @@ def test_odd_degrees(text: str, solutions: str) -> None:
         assert "x" not in p.ring.index or p.degree(p.ring.index["x"]) <= 2
 
 
-@pytest.mark.parametrize("text", ["x^3 + a*x + b < 0", "a*x^4 + b*x + c < 0", "a*x^3 + b*x + c = 0", "a*x^2 + b < 0"])
+@pytest.mark.parametrize("text", ["x^3 + a*x + b < 0", "x^4 + a*x > b and x < c", "x^5 + a*x /= 0"])
+def test_what_holds_far_out_whatever_the_parameters_are(text: str) -> None:
+    far = far_first("x", read(text), budget=Budget())
+    assert far is not None
+    assert (far.solutions, far.rest) == (TRUE, FALSE)
+
+
+@pytest.mark.parametrize("text", ["x^3 + a*x + b = 0", "a*x^4 + b*x + c < 0", "a*x^3 + b*x + c = 0", "a*x^2 + b < 0"])
 def test_where_the_degree_does_not_fall(text: str) -> None:
     assert far_first("x", read(text), budget=Budget()) is None
 
