@@ -1,7 +1,7 @@
 """Planning: what every method's plan holds, the clock that its steps run by, and the choice of the method.
 
 A method asks the engine every question about existence and checks the exact numbers that come back by putting
-them into the conditions. ``bezier.methods`` lists the methods.
+them into the conditions. ``bezier.planner.table`` lists the methods.
 """
 
 from __future__ import annotations
@@ -13,18 +13,18 @@ from dataclasses import dataclass, field, replace
 from enum import Enum
 from typing import TYPE_CHECKING, Any
 
-from bezier.path import Path
+from bezier.paths.path import Path
 from bezier.problem import Problem
 from qe.errors import BudgetExceeded, Unable
 from qe.progress import Event, Listener, silent
 
 if TYPE_CHECKING:
     import qe
-    from bezier.heights import Heights
     from bezier.motion.motion import Quality
-    from bezier.obstacles.avoid import Attempt
     from bezier.obstacles.survey import Finding
-    from bezier.radius_rule import RadiusRule
+    from bezier.paths.heights import Heights
+    from bezier.planner.avoid import Attempt
+    from bezier.planner.radius_rule import RadiusRule
 
 Note = Callable[[str, object], None]
 
@@ -126,8 +126,8 @@ class Clock:
 
 def make_plan(problem: Problem, clock: Clock | None = None) -> Plan:
     """Plan a path. Raises ``Unable`` where no answer is reached, at limits with what is known by then."""
-    from bezier.methods import method_of
-    from bezier.obstacles.avoid import avoiding  # these need ``Plan``
+    from bezier.planner.avoid import avoiding  # these need ``Plan``
+    from bezier.planner.table import method_of
 
     watch = clock or Clock()
     try:
@@ -143,14 +143,14 @@ def make_plan(problem: Problem, clock: Clock | None = None) -> Plan:
 
 def _with_findings(plan: Plan, clock: Clock) -> Plan:
     """The plan with what the radius forces, the height condition, and a note where the path goes through the origin."""
-    from bezier import radius_rule
+    from bezier.planner import radius_rule
 
     return with_findings(plan, lambda solvable: radius_rule.radius_rule(plan.problem, solvable, clock.remaining))
 
 
 def with_findings(plan: Plan, rule: Callable[[bool], RadiusRule | None]) -> Plan:
     """The same, with what ``rule`` says of the radius, which is asked whether the problem has a solution."""
-    from bezier import heights, origin
+    from bezier.paths import heights, origin
 
     found, remarks = plan, []
     try:

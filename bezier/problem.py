@@ -13,12 +13,12 @@ from typing import Any
 from bezier.curves.scalar import Vector, dot, is_zero, same
 from bezier.curves.workspace import HalfSpace, Workspace, WorkspaceKind, root_text
 from bezier.input.numbers import NotANumber, describe, read_squared
+from bezier.input.single_table import SingleCurve, Via, read_single, stated_via
 from bezier.input.toml_table import POINT, Table
 from bezier.motion.motion import Timing, read_timing
 from bezier.obstacles.obstacle import Obstacle
 from bezier.obstacles.reader import read_obstacles
 from bezier.obstacles.via import via_over
-from bezier.single.reader import SingleCurve, Via, read_single, stated_via
 from qe.errors import InputError
 
 MAX_BYTES = 1_000_000

@@ -16,9 +16,9 @@ import qe
 from bezier.compare import whole_curve
 from bezier.compare.comparison import planar_formulas
 from bezier.compare.planar import Plane
-from bezier.cubic import formula as cubic
-from bezier.cubic.existence import sentence, trivial_witness
 from bezier.curves.workspace import WorkspaceKind
+from bezier.methods.cubic import formula as cubic
+from bezier.methods.cubic.existence import sentence, trivial_witness
 from bezier.problem import Problem, read_problem
 from experiments.bench import Row, median
 from experiments.limits import Ending, run_limited

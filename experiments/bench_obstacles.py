@@ -14,8 +14,8 @@ from fractions import Fraction
 
 import numpy as np
 
-from bezier.curves.along import Along
 from bezier.curves.curve import Bezier
+from bezier.obstacles.along import Along
 from bezier.obstacles.bodies import Body, Cylinder, HalfSpaceBody, Rounded
 from bezier.obstacles.clearance import Clear, Contact, examine
 from bezier.obstacles.obstacle import Obstacle, ObstacleKind, from_body

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from fractions import Fraction
 
-from bezier.control import AXES, number
+from bezier.methods.control.system import AXES, number
 
 Number = int | Fraction
 Point = Sequence[Number]

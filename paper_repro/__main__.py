@@ -13,7 +13,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 
 import qe
-from bezier.outputs import all_or_none
+from bezier.planner.outputs import all_or_none
 from paper_repro import markdown, page
 from paper_repro.claim import Asked, Claim, Entry, Picture, Verdict, examine_all
 from paper_repro.claims import CLAIMS

@@ -6,11 +6,11 @@ import json
 from dataclasses import dataclass
 from pathlib import Path as FilePath
 
-from bezier.command import Reply
 from bezier.compare.comparison import Comparison, compare
 from bezier.compare.output import table, to_json
-from bezier.outputs import COMPARISON
 from bezier.plan import Clock
+from bezier.planner.command import Reply
+from bezier.planner.outputs import COMPARISON
 from bezier.problem import Problem
 from qe.cli.shell import OK
 from qe.worker import Channel
@@ -47,7 +47,7 @@ def _write(found: Comparison, folder: FilePath, target: FilePath, *, plots: bool
     """All files into ``folder``; the places where they will be."""
     names, drawings = [PAGE, DATA], {}
     if plots:
-        from bezier.pictures import plot_compare
+        from bezier.compare import pictures as plot_compare
 
         names += plot_compare.save(found, folder)
         drawings = plot_compare.svg(found)

@@ -11,17 +11,17 @@ from typing import TypeVar, cast
 import qe
 from bezier.compare import whole_curve
 from bezier.compare.planar import Plane, plane_coordinates
-from bezier.cubic import formula as cubic
-from bezier.cubic.existence import Existence, existence, sentence
 from bezier.curves.area import convex_area
 from bezier.curves.enclosure import Enclosure
 from bezier.curves.quality import curvature_enclosure, length_enclosure
-from bezier.methods import method_of
-from bezier.obstacles import avoid
+from bezier.methods.cubic import formula as cubic
+from bezier.methods.cubic.existence import Existence, existence, sentence
+from bezier.methods.quadratic import formula as quadratic
+from bezier.methods.quadratic.plan import QuadraticPlan
 from bezier.plan import Clock, Plan
+from bezier.planner import avoid
+from bezier.planner.table import method_of
 from bezier.problem import PlanMethod, Problem
-from bezier.quadratic import formula as quadratic
-from bezier.quadratic.plan import QuadraticPlan
 from qe.errors import InputError, Unable
 from qe.worker import Channel, Known, run
 

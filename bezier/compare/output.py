@@ -7,12 +7,12 @@ from dataclasses import dataclass
 from typing import Any
 
 from bezier.compare.comparison import METHODS, PAPER, Comparison, PlanarRegion, Side
-from bezier.cubic.existence import trivial_witness
 from bezier.curves.enclosure import Enclosure
 from bezier.curves.scalar import brief
-from bezier.methods import method_of
-from bezier.outputs import summary
+from bezier.methods.cubic.existence import trivial_witness
 from bezier.plan import Outcome
+from bezier.planner.outputs import summary
+from bezier.planner.table import method_of
 from bezier.problem import PlanMethod
 
 TITLES = {PlanMethod.QUADRATIC: "quadratic, formula (8)", PlanMethod.CUBIC: "cubic, formula (7)"}

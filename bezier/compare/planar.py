@@ -14,9 +14,9 @@ from fractions import Fraction
 from math import gcd, lcm
 
 import qe
-from bezier.control import coordinates, number
 from bezier.curves.enclosure import Enclosure, root_enclosure
 from bezier.curves.scalar import Vector, dot, exactly, is_zero, scale, subtract
+from bezier.methods.control.system import coordinates, number
 from bezier.problem import Problem
 from qe.errors import InternalError
 from qe.worker import run

@@ -16,13 +16,13 @@ from typing import Any
 
 import qe
 from bezier.compare.planar import Plane, plane_coordinates, region_of
-from bezier.control import System, atom_text, number
 from bezier.curves import bernstein as bs
 from bezier.curves.curve import Bezier
 from bezier.curves.scalar import is_zero, rational, subtract
 from bezier.curves.workspace import Condition
+from bezier.methods.control.system import System, atom_text, number
+from bezier.methods.quadratic import formula as quadratic
 from bezier.problem import Problem
-from bezier.quadratic import formula as quadratic
 from qe.errors import InputError
 from qe.options import Budget
 

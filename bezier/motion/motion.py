@@ -24,7 +24,7 @@ from bezier.curves.scalar import Vector, add, decimal_text, is_zero, scale
 from bezier.input.numbers import describe
 from bezier.input.toml_table import Table
 from bezier.motion.timelaw import Extremes, Law, TimeLaw, extremes, least_duration
-from bezier.path import Path
+from bezier.paths.path import Path
 
 if TYPE_CHECKING:
     from bezier.plan import Plan

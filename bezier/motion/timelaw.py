@@ -22,7 +22,7 @@ from typing import Any
 from bezier.curves import bernstein as bs
 from bezier.curves.curve import Bezier
 from bezier.curves.enclosure import Enclosure, bounds, maximum, root_above, root_enclosure
-from bezier.path import Path
+from bezier.paths.path import Path
 from qe.errors import InputError
 
 REL = Fraction(1, 10**6)

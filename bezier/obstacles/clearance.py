@@ -17,12 +17,12 @@ from fractions import Fraction
 from itertools import pairwise
 
 from bezier.curves import bernstein as bs
-from bezier.curves.along import Along
 from bezier.curves.curve import Bezier
 from bezier.curves.enclosure import Enclosure, bounds
 from bezier.curves.halving import Numbers, exact, halves
 from bezier.curves.nonnegative import Interval, isolate, refine
 from bezier.curves.scalar import Vector, is_zero, sign
+from bezier.obstacles.along import Along
 from bezier.obstacles.obstacle import Box, Constraint, Obstacle, Piece
 
 SHORT = 8

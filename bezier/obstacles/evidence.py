@@ -5,11 +5,11 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import Any
 
-from bezier.curves.along import Along
 from bezier.curves.curve import Bezier
-from bezier.curves.evidence import curve_payload
+from bezier.obstacles.along import Along
 from bezier.obstacles.clearance import Contact, Search
 from bezier.obstacles.obstacle import Constraint, Obstacle, Piece
+from bezier.paths.evidence import curve_payload
 from qe.certify.arithmetic.bernstein import MAX_DEGREE
 from qe.errors import InputError
 from qe.proof.certificate import Certificate, Kind

@@ -6,9 +6,9 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from bezier.curves.along import Along
 from bezier.curves.curve import Bezier
 from bezier.curves.enclosure import Enclosure
+from bezier.obstacles.along import Along
 from bezier.obstacles.clearance import Clear, Contact, Outcome, examine
 from bezier.obstacles.distance import distance_enclosure
 from bezier.obstacles.evidence import clearance_certificate, contact_certificate

@@ -11,9 +11,9 @@ import numpy as np
 from bezier.curves.curve import Bezier
 from bezier.curves.scalar import same
 from bezier.curves.workspace import Condition, WorkspaceKind
-from bezier.obstacles.picture import ObstaclePicture, obstacle_pictures
-from bezier.path import Path
+from bezier.paths.path import Path
 from bezier.pictures.mesh import Array, RegionMesh, region_mesh, sampled
+from bezier.pictures.obstacles import ObstaclePicture, obstacle_pictures
 from bezier.problem import Problem
 
 COLOURS = {"P": "#2364aa", "Q": "#d1495b", "R": "#2e9e6b"}

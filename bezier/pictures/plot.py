@@ -9,8 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from bezier.obstacles.picture import ObstaclePicture
 from bezier.pictures.mesh import Array, best_view, direction, hull
+from bezier.pictures.obstacles import ObstaclePicture
 from bezier.pictures.picture import FLOOR, INK, PALE, PathPicture, RegionPicture
 
 CONTROL = {f"{curve}{i}" for curve in "PQR" for i in range(4)}

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from bezier.path import Path
+from bezier.paths.path import Path
 from bezier.pictures.mesh import Array, sampled
 from bezier.pictures.picture import COLOURS, INK
 from bezier.pictures.plot import new_figure, svg_text

@@ -7,10 +7,10 @@ from pathlib import Path as FilePath
 from typing import Any
 
 from bezier.curves.curve import Bezier
+from bezier.methods.single.program import Task
 from bezier.pictures.mesh import sampled
 from bezier.pictures.picture import COLOURS, INK, PALE, numbers
 from bezier.pictures.plot import new_figure, svg_text
-from bezier.single.program import Task
 
 COUNT = 241
 

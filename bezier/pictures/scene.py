@@ -11,8 +11,8 @@ from typing import Any
 
 import numpy as np
 
-from bezier.obstacles.picture import ObstaclePicture
 from bezier.pictures.mesh import Array, best_view, direction
+from bezier.pictures.obstacles import ObstaclePicture
 from bezier.pictures.picture import INK, PALE, PathPicture, RegionPicture
 
 Trace = dict[str, Any]

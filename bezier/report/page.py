@@ -10,11 +10,11 @@ from typing import TYPE_CHECKING, Any
 from jinja2 import Environment, PackageLoader, StrictUndefined, Template
 from markupsafe import Markup
 
-from bezier import heights
-from bezier.methods import method_of
-from bezier.obstacles import report as obstacle_report
+from bezier.paths import heights
 from bezier.plan import Plan
+from bezier.planner.table import method_of
 from bezier.report import mathml, parts
+from bezier.report import obstacles as obstacle_report
 
 if TYPE_CHECKING:
     from bezier.pictures.picture import Drawing, PathPicture

@@ -9,15 +9,15 @@ from typing import Any
 
 from markupsafe import Markup
 
-from bezier.control import Combination, OnPoint, System
 from bezier.curves.containment import Argument, Inside
 from bezier.curves.curve import Smoothness
 from bezier.curves.scalar import decimal_text, dot, exact_text, is_zero, rational
 from bezier.curves.workspace import Condition, HalfSpace, WorkspaceKind, root_text
-from bezier.path import Path, Proof, speed_at_joins
+from bezier.methods.control.system import Combination, OnPoint, System
+from bezier.methods.control.terms import named_multipliers
+from bezier.paths.path import Path, Proof, speed_at_joins
 from bezier.plan import Outcome, Plan
 from bezier.report import mathml, mathml_cells
-from bezier.terms import named_multipliers
 
 Row = dict[str, Any]
 LONG = 120

@@ -9,15 +9,15 @@ from dataclasses import replace
 from fractions import Fraction
 from math import comb
 
-from bezier.control import number
-from bezier.cubic import formula as cubic
 from bezier.curves.scalar import exactly
+from bezier.methods.control.system import number
+from bezier.methods.cubic import formula as cubic
+from bezier.methods.quadratic import formula as quadratic
+from bezier.methods.single import formula as single_formula
+from bezier.methods.single import program as single
+from bezier.methods.single.formula import Symbol
 from bezier.problem import Problem as PlanningProblem
 from bezier.problem import read_problem
-from bezier.quadratic import formula as quadratic
-from bezier.single import formula as single_formula
-from bezier.single import program as single
-from bezier.single.formula import Symbol
 from experiments import formulas
 from experiments.problem import Problem
 

@@ -11,9 +11,9 @@ from fractions import Fraction
 from typing import Any
 
 import qe
-from bezier.cubic import formula as cubic
+from bezier.methods.cubic import formula as cubic
+from bezier.methods.quadratic import formula as quadratic
 from bezier.problem import read_problem
-from bezier.quadratic import formula as quadratic
 from experiments.sweep.grid import Method, Task
 from qe.errors import Unable
 

@@ -9,8 +9,8 @@ from typing import Any
 import qe
 from bezier.curves.curve import Bezier
 from bezier.curves.workspace import Workspace, WorkspaceKind
-from bezier.heights import Below, heights_of
-from bezier.path import assemble
+from bezier.paths.heights import Below, heights_of
+from bezier.paths.path import assemble
 from bezier.problem import PlanMethod, Problem
 from paper_repro.ask import decided, optimised
 from paper_repro.claim import Evidence, Fact, Table, Verdict, claim

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from typing import Any
 
-from bezier.single import program as single
+from bezier.methods.single import program as single
 from paper_repro.ask import decided, eliminated, optimised
 from paper_repro.claim import Evidence, Fact, Picture, Table, Verdict, claim
 from paper_repro.figures.curves import heights
@@ -147,7 +147,7 @@ def equation_4() -> Iterator[Evidence]:
     chosen = single.choose(task, axes[0]).values
     assert chosen is not None
     yield Fact(
-        "for another instance ($n = 8$) `bezier.single.program` finds the sum 3, the least possible with "
+        "for another instance ($n = 8$) `bezier.methods.single.program` finds the sum 3, the least possible with "
         "$y_3, y_4, y_5 \\ge 1$",
         sum(chosen[i] for i in task.middle) == 3,
     )

@@ -8,8 +8,8 @@ from fractions import Fraction
 from bezier.curves.containment import Inside, Leaves, examine, examine_all
 from bezier.curves.curve import Bezier
 from bezier.curves.workspace import Ball, Workspace, WorkspaceKind
-from bezier.single import program as single
-from bezier.single.closed import ProvedCurve, close
+from bezier.methods.single import program as single
+from bezier.methods.single.closed import ProvedCurve, close
 from paper_repro.ask import decided, optimised, verified
 from paper_repro.claim import Evidence, Fact, Picture, Table, Verdict, claim
 from paper_repro.claims.method_one import STARTED, A, B, N, Y, four, placed

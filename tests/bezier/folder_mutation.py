@@ -14,7 +14,9 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from bezier import command, recheck, stored
+from bezier.check import recheck
+from bezier.methods.control import stored
+from bezier.planner import command
 from bezier.problem import load_problem, to_json
 from qe.errors import CertificateRejected, InputError
 from tests.certificates.mutation import leaves

@@ -7,7 +7,7 @@ from fractions import Fraction
 
 import pytest
 
-from bezier.quadratic import formula as quadratic
+from bezier.methods.quadratic import formula as quadratic
 from experiments import cli
 from experiments.sweep.atlas import atlas, boundary
 from experiments.sweep.cluster import sweep

@@ -10,10 +10,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import qe
-from bezier.control import Shape
-from bezier.cubic import formula as cubic
 from bezier.curves.curve import Bezier
-from bezier.quadratic import formula as quadratic
+from bezier.methods.control.system import Shape
+from bezier.methods.cubic import formula as cubic
+from bezier.methods.quadratic import formula as quadratic
 from paper_repro import ask, tex
 from paper_repro.written import EIGHT, SEVEN, Points, Printed, curve
 

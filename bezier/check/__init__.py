@@ -1,0 +1,1 @@
+"""``bezier check`` and ``bezier clearance``: folders and curves examined from their exact numbers alone."""

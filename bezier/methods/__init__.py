@@ -1,0 +1,1 @@
+"""The planning methods; none imports another one."""

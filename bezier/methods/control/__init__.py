@@ -1,0 +1,1 @@
+"""Control points that follow from free ones: the polynomials of formulas (7) and (8), each with its label."""

@@ -1,0 +1,144 @@
+"""Steps that the methods with a system of control points share: the optimum, the path through it, and the checks."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+import qe
+from bezier.curves.containment import Inside
+from bezier.curves.scalar import Vector
+from bezier.methods.control.stored import check_optimum_of, member, numbers, optimal_points
+from bezier.methods.control.system import System
+from bezier.paths.evidence import path_certificates
+from bezier.paths.path import Path, Proof, assemble, prove
+from bezier.plan import Clock, answered
+from bezier.problem import Problem
+from qe.errors import CertificateRejected, InternalError
+from qe.exact.ring import Ring
+from qe.formula.build import convert
+from qe.formula.syntax import FALSE, Atom, Exists, Formula
+from qe.io.formats import read
+from qe.proof.certificate import Kind
+
+ELIMINATION, OPTIMUM = "elimination", "optimum"
+"""The labels of the certificates that every method with a system of control points has."""
+
+
+def quantifier_free(text: str, clock: Clock) -> Any:
+    """The engine's answer to a formula. Raises ``Unable`` where it has none."""
+    with clock.step("elimination"):
+        answer = answered(qe.eliminate(text, timeout=clock.remaining()))
+    clock.learn("quantifier-free answer", str(answer.formula))
+    return answer
+
+
+def least(system: System, answer: Any, clock: Clock) -> Any:
+    """The engine's exact minimum of the objective under the quantifier-free answer, or its proof that there is none."""
+    # an answer "false" holds no conditions to combine to a contradiction: then the given ones are taken
+    conditions = system.conditions_text() if answer.formula == FALSE else answer.formula
+    return qe.minimize(system.objective(), conditions, timeout=clock.remaining())
+
+
+@dataclass(frozen=True, slots=True)
+class Certified:
+    """What the certificate of an optimum shows about a system: its point and the multipliers of its constraints.
+
+    ``points``: all control points, None when the conditions contradict each other.
+    """
+
+    certificate: qe.Certificate
+    points: Mapping[str, Vector] | None
+    multipliers: Vector
+
+    @staticmethod
+    def of(system: System, certificate: qe.Certificate) -> Certified:
+        """Read the certificate. Raises ``CertificateRejected`` when its point violates a condition of the system."""
+        payload: Any = certificate.payload
+        multipliers = numbers(payload["multipliers"], payload["field"], "optimum.multipliers")
+        return Certified(certificate, optimal_points(system, payload), multipliers)
+
+
+def found_optimum(system: System, certificate: qe.Certificate) -> Certified:
+    """The optimum that planning goes on with: read from its certificate, so that checking it meets the same numbers."""
+    try:
+        return Certified.of(system, certificate)
+    except CertificateRejected as error:
+        raise InternalError(f"the certificate of the optimum says something else: {error}") from None
+
+
+def restored_optimum(system: System, certificate: qe.Certificate) -> Certified:
+    """The optimum in the certificates of a folder. Raises ``CertificateRejected`` when it is not this system's."""
+    payload = member(certificate, OPTIMUM, Kind.OPTIMUM)
+    check_optimum_of(system, payload, OPTIMUM)
+    return Certified.of(system, qe.Certificate(Kind.OPTIMUM, payload))
+
+
+def chosen_path(problem: Problem, system: System, found: Certified) -> tuple[Path | None, tuple[str, ...], Any]:
+    """The path through the optimum, the labels of the active conditions, and the value of the objective.
+
+    (None, (), None) when there is no optimum.
+    """
+    if found.points is None:
+        return None, (), None
+    return path_through(problem, system, found.points), system.active(found.points), system.objective_at(found.points)
+
+
+def path_through(problem: Problem, system: System, points: Mapping[str, Vector]) -> Path:
+    """The curves with what is proved about them: workspace, joins, and the half-spaces that hold a whole curve."""
+    path = assemble(system.curves(points), points, problem.workspace, durations=durations(problem))
+    return path.with_proofs(_whole_curves(problem, system, path))
+
+
+def durations(problem: Problem) -> dict[str, Fraction]:
+    """The time that each curve takes, where it is not 1."""
+    return {"P": problem.ratio, "R": problem.ratio} if problem.ratio != 1 else {}
+
+
+def _whole_curves(problem: Problem, system: System, path: Path) -> tuple[Proof, ...]:
+    """A condition on all inner points of a curve holds on the whole curve if its ends satisfy it too."""
+    found: list[Proof] = []
+    for item in problem.point_conditions:
+        for name, listed in system.shape.curves.items():
+            if set(listed) & set(system.shape.inner) <= set(item.points):
+                found += prove({name: path.curves[name]}, (item.half_space,))
+    return tuple(proof for proof in found if isinstance(proof.outcome, Inside))
+
+
+def body_of(text: str, order: tuple[str, ...]) -> Formula:
+    """The formula behind an outermost existential block (or the whole formula), over the ring of these variables."""
+    formula = read(text)
+    return convert(formula.body if isinstance(formula, Exists) else formula, Ring.of(order))
+
+
+def elimination(system: System) -> tuple[str, qe.Certificate]:
+    """That the joins, which are linear equations, eliminate the dependent points: the printed formula is equivalent to
+    the conditions with those points put in."""
+    shape = system.shape
+    order = (*shape.variables, *shape.quantified)
+    equations = [body_of(text, order) for text in system.equations()]
+    solved = [
+        (name, equation.poly)
+        for name, equation in zip(shape.quantified, equations, strict=True)
+        if isinstance(equation, Atom)
+    ]
+    answer = body_of(system.conditions_text(), order)
+    return ELIMINATION, qe.Certificate.substitution(body_of(system.formula(), order), order, solved, answer)
+
+
+def verified(
+    members: list[tuple[str, qe.Certificate]], path: Path | None
+) -> tuple[qe.Certificate, dict[str, qe.Verdict]]:
+    """All certificates in one, those of the path included, and what the independent checker says of each part."""
+    checks = {label: qe.verify(certificate) for label, certificate in members}
+    of_path = path_certificates(path) if path else []
+    if of_path:
+        checks["path"] = qe.verify(qe.Certificate.bundle(of_path))
+    return qe.Certificate.bundle([*members, *of_path]), checks
+
+
+def bundled(members: list[tuple[str, qe.Certificate]], path: Path | None) -> qe.Certificate:
+    """All certificates in one, those of the path included."""
+    return qe.Certificate.bundle([*members, *(path_certificates(path) if path else [])])

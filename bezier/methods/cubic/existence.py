@@ -1,0 +1,54 @@
+"""The existence theorem of formula (7), asked of the engine, and what its witness means.
+
+THEOREM (found by the engine): for all Q0, R0 and r with |Q0| <= r and |R0| <= r, formula (7) has a solution (Q1, Q2).
+Its witness is Q1 = Q0, Q2 = R0, whose path stops and turns round at both joins (``cubic.formula.trivial_choice``): so
+a plan needs the objective or a least speed, and existence alone says nothing about a usable path.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import qe
+from bezier.methods.control.system import coordinates
+from bezier.methods.cubic import formula as cubic
+
+GIVEN = ("Q0", "R0")
+
+
+@dataclass(frozen=True, slots=True)
+class Existence:
+    """The sentence, the engine's verdict (None: not reached), and the witness it found: terms in the parameters."""
+
+    sentence: str
+    truth: bool | None
+    witness: str
+
+
+def sentence() -> str:
+    """For all Q0, R0, r with |Q0|, |R0| <= r there are Q1, Q2 that satisfy formula (7) as printed."""
+    shape = cubic.shape()
+    parameters = [name for point in GIVEN for name in coordinates(point)]
+    inside = [" + ".join(f"{c}^2" for c in coordinates(point)) + " <= r^2" for point in GIVEN]
+    return (
+        f"all {', '.join(parameters)}, r. {' and '.join(inside)} and r >= 0"
+        f" -> (ex {', '.join(shape.variables)}. {shape.symbolic_formula()})"
+    )
+
+
+def trivial_witness() -> dict[str, str]:
+    """Q1 = Q0 and Q2 = R0, by variables: what ``qe.check_witness`` accepts for ``sentence``."""
+    pairs = zip(cubic.shape().free, GIVEN, strict=True)
+    return {v: w for free, given in pairs for v, w in zip(coordinates(free), coordinates(given), strict=True)}
+
+
+def existence(*, timeout: float | None = None) -> Existence:
+    """Ask the engine."""
+    text = sentence()
+    answer = qe.eliminate(text, timeout=timeout)
+    told = next((line for line in answer.stats.get("plan", ()) if line.startswith(WITNESS)), "")
+    return Existence(text, answer.truth, told.removeprefix(WITNESS))
+
+
+WITNESS = "witness in the parameters: "
+"""How the engine's story begins the line with a witness."""

@@ -1,0 +1,159 @@
+"""Planning with three quadratic curves, step by step: formula (8), answer, region, optimum, curves, proofs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+import qe
+from bezier.curves.scalar import Vector, rational, sign
+from bezier.curves.workspace import Workspace, WorkspaceKind
+from bezier.methods.control.optimal_path import (
+    OPTIMUM,
+    body_of,
+    chosen_path,
+    elimination,
+    found_optimum,
+    least,
+    quantifier_free,
+    verified,
+)
+from bezier.methods.control.system import System
+from bezier.methods.quadratic import formula as quadratic
+from bezier.paths.path import Path, Proof, prove
+from bezier.plan import Clock, Outcome, Plan, answered
+from bezier.problem import Problem
+from qe.errors import InternalError
+
+REGION, BELOW = "region", "below the table"
+"""Labels of certificates."""
+EXAMPLE_ORDER = (*quadratic.SHAPE.free, *quadratic.SHAPE.follows)
+"""The control points in the order of the variables of the question about the table."""
+
+
+def above_label(point: str) -> str:
+    """The label of the certificate that the printed formula keeps a control point above the table."""
+    return f"{point} above the table"
+
+
+@dataclass(frozen=True, slots=True)
+class Gap:
+    """Whether control points that the printed formula (8) allows can lie below the table {z = 0}.
+
+    ``example``: control points that the formula allows, one of them below the table, or None when there are none.
+    ``region``: the region with z >= 0 added for all control points, where there is a gap. ``chosen``: what was
+    found out about z >= 0 along the curves of the chosen path. ``certificates``: of the example, or that the formula
+    keeps each control point above the table.
+    """
+
+    example: Mapping[str, Vector] | None
+    region: Any | None
+    chosen: tuple[Proof, ...]
+    certificates: tuple[tuple[str, qe.Certificate], ...] = ()
+
+    @property
+    def can_leave(self) -> bool:
+        """Whether some allowed control point lies below the table."""
+        return self.example is not None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class QuadraticPlan(Plan):
+    """``region``: of Q1. ``optimum``: what the engine's minimisation found, be it a point or a contradiction."""
+
+    system: System
+    region: Any
+    optimum: Any
+    balls: quadratic.ThreeBalls
+    gap: Gap
+
+
+def make(problem: Problem, clock: Clock) -> QuadraticPlan:
+    """Plan with formula (8)."""
+    system = quadratic.system(problem)
+    text = system.formula()
+    answer = quantifier_free(text, clock)
+    with clock.step("region"):
+        region = qe.region(answer.formula, order=quadratic.FREE, timeout=clock.remaining())
+    clock.learn("region", "empty" if region.is_empty else f"{len(region.cells)} cells")
+    with clock.step("optimum"):
+        optimum = least(system, answer, clock)
+    if region.is_empty == optimum.is_optimal:
+        raise InternalError("the region and the optimum disagree about the existence of a control point")
+    with clock.step("curves and proofs"):
+        path, active, objective = chosen_path(problem, system, found_optimum(system, optimum.certificate))
+    with clock.step("hemisphere question"):
+        gap = _gap(problem, region, path, clock)
+    with clock.step("verification"):
+        members = [elimination(system), (REGION, region.certificate), (OPTIMUM, optimum.certificate)]
+        certificate, checks = verified([*members, *gap.certificates], path)
+    return QuadraticPlan(
+        problem=problem,
+        outcome=Outcome.SOLVED if path else Outcome.INFEASIBLE,
+        formula=text,
+        answer=answer,
+        objective=objective,
+        path=path,
+        active=active,
+        certificate=certificate,
+        checks=checks,
+        seconds=clock.seconds,
+        system=system,
+        region=region,
+        optimum=optimum,
+        balls=quadratic.three_balls(problem),
+        gap=gap,
+    )
+
+
+def _gap(problem: Problem, region: Any, path: Path | None, clock: Clock) -> Gap:
+    """Ask the engine whether the printed formula lets a control point fall below the table.
+
+    ``region``: the problem's own region, which is the corrected one for a hemisphere.
+    """
+    asked = answered(qe.eliminate(quadratic.leaving_formula(problem), timeout=clock.remaining()))
+    floor = Workspace(WorkspaceKind.HEMISPHERE, problem.workspace.radius_squared).floor
+    chosen = prove(path.curves, (floor,)) if path else ()
+    if asked.truth is False:
+        return Gap(None, None, chosen, tuple(above_certificates(problem, clock)))
+    if asked.truth is not True or asked.witness is None:
+        raise InternalError("the hemisphere question got neither a witness nor a refutation")
+    printed = quadratic.printed(problem)
+    points = printed.points([tuple(asked.witness.get(name, Fraction(0)) for name in quadratic.FREE)])
+    example = {name: points[name] for name in quadratic.SHAPE.inner}
+    if printed.violated(points) or all(sign(point[2]) >= 0 for point in example.values()):
+        raise InternalError("the engine's example does not show what it should")
+    shown = ((BELOW, example_certificate(problem, example, asked.certificate)),)
+    if problem.workspace.kind is WorkspaceKind.HEMISPHERE:
+        return Gap(example, region, chosen, shown)
+    answer = answered(qe.eliminate(quadratic.corrected(problem).formula(), timeout=clock.remaining()))
+    smaller = qe.region(answer.formula, order=quadratic.FREE, timeout=clock.remaining())
+    return Gap(example, smaller, chosen, shown)
+
+
+def above_certificates(problem: Problem, clock: Clock) -> Iterator[tuple[str, qe.Certificate]]:
+    """For each inner control point the least height that the printed formula allows it, which is not negative."""
+    printed = quadratic.printed(problem)
+    for point in quadratic.SHAPE.inner:
+        least_height = qe.minimize(
+            printed.coordinate_text(point, 2), printed.conditions_text(), timeout=clock.remaining()
+        )
+        if least_height.is_optimal and sign(least_height.value) < 0:
+            raise InternalError(f"{point} can lie below the table although that was refuted")
+        yield above_label(point), least_height.certificate
+
+
+def example_certificate(
+    problem: Problem, example: Mapping[str, Vector], found: qe.Certificate | None
+) -> qe.Certificate:
+    """The witness that the printed formula allows the example. ``found``: the engine's own, for irrational examples."""
+    values = [rational(c) for name in EXAMPLE_ORDER for c in example[name]]
+    known = [v for v in values if v is not None]
+    if len(known) == len(values):
+        order = quadratic.FREE + quadratic.QUANTIFIED
+        return qe.Certificate.witness(body_of(quadratic.leaving_formula(problem), order), order, known)
+    if found is None:
+        raise InternalError("an irrational example without a certificate")
+    return found

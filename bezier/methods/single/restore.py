@@ -1,0 +1,225 @@
+"""The plan of Method 1 found again from a folder, without solving a linear program.
+
+The programs are built from the problem, those of Method 1* with the cuts that the summary lists: each is a consequence
+of the conditions for all t, whatever its parameter and plane (``cuts``). Their certificates hold the
+points and the multipliers. The control points are those of ``path.json``; everything about them is proved again.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+from bezier.curves.containment import Leaves
+from bezier.curves.curve import Bezier
+from bezier.methods.control import stored
+from bezier.methods.control.optimal_path import bundled
+from bezier.methods.control.stored import Stated
+from bezier.methods.single import formula as single_formula
+from bezier.methods.single.closed import NoCurve, ProvedCurve, plain_program
+from bezier.methods.single.cuts import Cut, CutKind, Model
+from bezier.methods.single.plan import (
+    CLOSED,
+    NAME,
+    PIECEWISE_DEGREE,
+    Printed,
+    SinglePlan,
+    active,
+    heights_proved,
+    labelled,
+    lowest_label,
+    of_axis,
+    path_of,
+    printed_of,
+    sum_of,
+    task_of,
+)
+from bezier.methods.single.program import Axis, Chosen, Task, Values, curve, dips, objective, program
+from bezier.methods.single.simplex import Contradiction, Duals, LinearOptimum, LinearProgram, certificate
+from bezier.paths.path import prove
+from bezier.plan import Outcome
+from bezier.problem import Problem
+from qe.errors import CertificateRejected
+from qe.proof.certificate import Certificate, Kind
+
+
+@dataclass(frozen=True, slots=True)
+class Told:
+    """A formula as the summary states it."""
+
+    least: str
+
+
+def restore(problem: Problem, found: Certificate, stated: Stated) -> SinglePlan:
+    """The plan that the files of a folder prove. Raises ``CertificateRejected``."""
+    given = task_of(problem)
+    chosen = tuple(_chosen(given, axis, of_axis(axis.name), found) for axis in given.raised)
+    printed = _printed(problem, given, chosen, found)
+    closed, attainable = _closed(problem, given, printed, found, stated)
+    values = closed.values if isinstance(closed, ProvedCurve) else None
+    if printed is not None and printed.holds:
+        values = dict(printed.values)
+    path = None if values is None else path_of(problem, given, values)
+    above = {} if path is None else heights_proved(given, path.curves[NAME])
+    return SinglePlan(
+        problem=problem,
+        outcome=Outcome.SOLVED if path else Outcome.INFEASIBLE,
+        formula=single_formula.attainable(given, given.raised[0]),
+        answer=None,
+        objective=None if values is None else sum_of(given, values),
+        path=path,
+        active=() if values is None else active(given, values),
+        certificate=bundled(labelled(given, chosen, printed, closed, path, above), path),
+        checks={},
+        seconds={},
+        task=given,
+        chosen=chosen,
+        printed=printed,
+        closed=closed,
+        pieces=_pieces(given, stated),
+        attainable=attainable,
+        above=above,
+    )
+
+
+# --- linear programs -----------------------------------------------------------------------------------------------
+
+
+def _chosen(given: Task, axis: Axis, label: str, found: Certificate) -> Chosen:
+    """Problem (4) of an axis with the answer in its certificate."""
+    base, cost = program(given, axis), objective(given)
+    return Chosen(axis, base, cost, _outcome(base, cost, label, found))
+
+
+def _outcome(base: LinearProgram, cost: Values, label: str, found: Certificate) -> LinearOptimum | Contradiction:
+    """The outcome in the certificate with this label, which has to be about this program."""
+    payload: Any = stored.member(found, label, Kind.OPTIMUM)
+    status = payload["status"]
+    if status not in ("optimal", "infeasible"):
+        raise CertificateRejected(f"{label}: status", "expected an optimum or a contradiction")
+    numbers = _numbers(payload["multipliers"], label)
+    duals = Duals(numbers[: len(base.rows)], numbers[len(base.rows) :])
+    outcome: LinearOptimum | Contradiction = Contradiction(duals)
+    if status == "optimal":
+        point = _numbers(payload["point"], label)
+        if len(point) != len(cost):
+            raise CertificateRejected(f"{label}: point", f"expected {len(cost)} numbers")
+        value = sum((c * x for c, x in zip(cost, point, strict=True)), Fraction(0))
+        outcome = LinearOptimum(value, point, duals, unique=False)
+    expected: Any = certificate(base, cost, outcome).payload
+    for key in expected:
+        if payload.get(key) != expected[key]:
+            raise CertificateRejected(f"{label}: {key}", "not the one of this problem")
+    return outcome
+
+
+def _numbers(rows: Any, label: str) -> Values:
+    """Rational numbers as an optimum's certificate writes them."""
+    if not all(len(row) == 1 for row in rows):
+        raise CertificateRejected(label, "expected rational numbers")
+    return tuple(stored.rational(row[0], label) for row in rows)
+
+
+def _printed(problem: Problem, given: Task, chosen: tuple[Chosen, ...], found: Certificate) -> Printed | None:
+    """The curve of (4), and the other curve with the same sums that the certificates hold."""
+    if any(isinstance(item.outcome, Contradiction) for item in chosen):
+        return None
+    others = [_chosen(given, item.axis, lowest_label(item.axis.name), found) for item in chosen]
+    lower = {item.axis.name: item.values for item in others if item.values is not None}
+    if len(lower) < len(others):
+        raise CertificateRejected(lowest_label(chosen[0].axis.name), "expected an optimum")
+    return printed_of(problem, given, chosen, lower)
+
+
+# --- Method 1* -----------------------------------------------------------------------------------------------------
+
+
+def _closed(
+    problem: Problem, given: Task, printed: Printed | None, found: Certificate, stated: Stated
+) -> tuple[ProvedCurve | NoCurve | None, str]:
+    """What Method 1* found, and its formula of all sums; (None, "") where it was not needed."""
+    if printed is None or printed.holds:
+        return None, ""
+    model = Model.of(given, problem.workspace)
+    cuts = tuple(_cut(model, item, f"summary.json: cuts[{i}]") for i, item in enumerate(_cuts(stated.summary)))
+    base, cost = plain_program(model, cuts)
+    try:
+        outcome = _outcome(base, cost, CLOSED, found)
+    except CertificateRejected as error:
+        raise CertificateRejected(f"certificate.json and summary.json, cuts: {error.step}", error.reason) from None
+    proof = certificate(base, cost, outcome)
+    if isinstance(outcome, Contradiction):
+        return NoCurve(cuts, proof, 0), ""
+    told = stored.entry(stated.summary, "closed", dict, "summary.json: ")
+    rounds, attainable = told.get("rounds"), told.get("attainable")
+    if type(rounds) is not int or rounds < 0 or not isinstance(attainable, str):
+        raise CertificateRejected("summary.json: closed", "expected rounds and the attainable sums")
+    drawn, values = certified_curve(problem, given, stated)
+    return ProvedCurve(values, drawn, sum_of(given, values), outcome.value, cuts, proof, rounds), attainable
+
+
+def _cuts(summary: Mapping[str, Any]) -> list[Any]:
+    found = stored.entry(summary, "cuts", list, "summary.json: ")
+    return list(found)
+
+
+def _cut(model: Model, stated: Any, place: str) -> Cut:
+    """A cut of the summary, where it may stand: then its row follows from the conditions for all t."""
+    if not isinstance(stated, dict) or stated.keys() != {"kind", "axis", "t", "plane"}:
+        raise CertificateRejected(place, "expected kind, axis, t and plane")
+    kind = next((kind for kind in CutKind if kind.value == stated["kind"]), None)
+    t, plane = stored.rational(stated["t"], f"{place}.t"), stated["plane"]
+    if kind is None or kind is CutKind.TANGENT or not isinstance(plane, list):
+        raise CertificateRejected(place, "not a kind of cut, or not a list of numbers")
+    cut = Cut(kind, t, stated["axis"], tuple(stored.rational(c, f"{place}.plane") for c in plane))
+    low, high = model.task.times
+    allowed = {
+        CutKind.HEIGHT: cut.axis in [axis.name for axis in model.task.raised] and low <= t <= high and not cut.plane,
+        CutKind.BALL: cut.axis == "" and 0 <= t <= 1 and len(cut.plane) == 1 + len(model.task.axes),
+        CutKind.START: cut.axis == "" and t == 0 and not cut.plane and model.touches[0],
+        CutKind.GOAL: cut.axis == "" and t == 1 and not cut.plane and model.touches[1],
+    }
+    if not allowed[kind]:
+        raise CertificateRejected(place, f"no cut of the kind {kind.value} can be there")
+    return cut
+
+
+def certified_curve(problem: Problem, given: Task, stated: Stated) -> tuple[Bezier, dict[str, Values]]:
+    """The curve of ``path.json``, which has to satisfy (4), to keep its heights and to stay in the workspace."""
+    if stated.path is None:
+        raise CertificateRejected("path.json", "missing, although a curve is claimed")
+    points = stored.control_points(stated.path)
+    if tuple(points) != tuple(f"{NAME}{i}" for i in range(given.degree + 1)):
+        raise CertificateRejected("path.json: points", f"expected {NAME}0 to {NAME}{given.degree}")
+    if any(not isinstance(c, Fraction) for point in points.values() for c in point):
+        raise CertificateRejected("path.json: points", "expected rational numbers")
+    drawn = Bezier(tuple(points.values()))
+    values: dict[str, Values] = {
+        axis.name: tuple(map(Fraction, drawn.coordinate(1 + k)))
+        for k, axis in enumerate(given.axes)
+        if axis in given.raised
+    }
+    if drawn != curve(given, values):
+        raise CertificateRejected("path.json: points", "x or a coordinate without a height is not equally spaced")
+    for axis in given.raised:
+        row = values[axis.name]
+        low = all(row[i] >= given.lower_bound(axis, i) for i in range(1, given.degree))
+        through = all(drawn.point(t)[1 + given.axes.index(axis)] == axis.height for t in given.times)
+        if not low or not through or (row[0], row[-1]) != (axis.start, axis.goal):
+            raise CertificateRejected("path.json: points", f"the {axis.name} coordinates do not satisfy (4)")
+    for dip in dips(given, drawn):
+        raise CertificateRejected("path.json: points", f"{dip.axis.name} is below the height at t = {dip.t}")
+    for proof in prove({NAME: drawn}, problem.workspace.conditions):
+        if isinstance(proof.outcome, Leaves):
+            raise CertificateRejected("path.json: points", f"the curve leaves the {proof.condition.name}")
+    return drawn, values
+
+
+def _pieces(given: Task, stated: Stated) -> dict[str, Any]:
+    """The formulas of the least sum for every height, as stated."""
+    if given.degree > PIECEWISE_DEGREE:
+        return {}
+    told = stored.entry(stated.summary, "piecewise", dict, "summary.json: ")
+    return {axis.name: Told(stored.entry(told, axis.name, str, "summary.json: piecewise.")) for axis in given.raised}

@@ -1,0 +1,143 @@
+"""Certificates for whole curves: what ``qe.verify`` multiplies out to see that a curve stays in a condition.
+
+The certificate holds the control points over one number field, the condition, and breaks of [0, 1] such that
+margin(P(t)) has nonnegative Bernstein coefficients between neighbouring breaks.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from fractions import Fraction
+from itertools import pairwise
+from math import floor
+from typing import Any
+
+from bezier.curves import bernstein as bs
+from bezier.curves.containment import Inside
+from bezier.curves.curve import Bezier
+from bezier.curves.scalar import rational, sign
+from bezier.curves.workspace import Ball, Condition, HalfSpace
+from bezier.paths.path import Path
+from qe.errors import InternalError
+from qe.proof.certificate import Certificate, Kind
+
+MAX_DEPTH = 14
+
+
+def path_certificates(path: Path) -> list[tuple[str, Certificate]]:
+    """A labelled certificate for each containment proof that has this form."""
+    found = []
+    for proof in path.proofs:
+        if isinstance(proof.outcome, Inside):
+            certificate = containment(path.curves[proof.curve], proof.outcome)
+            if certificate is not None:
+                found.append((f"{proof.curve} in {proof.condition.name}", certificate))
+    return found
+
+
+def containment(curve: Bezier, inside: Inside) -> Certificate | None:
+    """The certificate, or None where the curve touches the boundary at an irrational parameter.
+
+    There no breaks with nonnegative coefficients exist; the square-free decomposition is then the only proof.
+    """
+    breaks = _breaks(curve, inside)
+    if breaks is None:
+        return None
+    payload: dict[str, Any] = {
+        **curve_payload(curve),
+        "condition": _condition(inside.condition),
+        "breaks": [str(t) for t in breaks],
+    }
+    return Certificate(Kind.CONTAINMENT, payload)
+
+
+def curve_payload(curve: Bezier) -> dict[str, Any]:
+    """The control points of a curve over one number field, as every certificate about a curve holds them."""
+    values = [c for p in curve.points for c in p]
+    return {"field": _field(values), "points": [[_coefficients(c) for c in p] for p in curve.points]}
+
+
+def _breaks(curve: Bezier, inside: Inside) -> list[Fraction] | None:
+    if inside.proof is None:
+        return [Fraction(0), Fraction(1)]
+    if not inside.proof.is_factored:
+        return sorted({end for box in inside.proof.boxes for end in box})
+    margin = inside.condition.margin_along(curve)
+    touches = {low for low, high in inside.touches if low == high}
+    found = [Fraction(0)]
+    for low, high in pairwise(sorted({Fraction(0), Fraction(1), *touches})):
+        ends = _bisected(bs.restrict(margin, low, high), low, high, 0)
+        if ends is None:
+            return None
+        found += ends
+    return found
+
+
+def _bisected(b: bs.Coefficients, low: Fraction, high: Fraction, depth: int) -> list[Fraction] | None:
+    """Right ends of parts of [low, high] on each of which all coefficients are nonnegative."""
+    if all(sign(c) >= 0 for c in b):
+        return [high]
+    if depth == MAX_DEPTH:
+        return None
+    middle = (low + high) / 2
+    left, right = bs.split(b)
+    first = _bisected(left, low, middle, depth + 1)
+    second = None if first is None else _bisected(right, middle, high, depth + 1)
+    return None if first is None or second is None else first + second
+
+
+def _field(values: Iterable[Any]) -> dict[str, Any]:
+    theta = next((v.field.theta for v in values if rational(v) is None), None)
+    if theta is None:
+        return {"minimal_polynomial": ["0", "1"], "interval": ["0", "0"]}
+    return field_json(theta, 96)
+
+
+def field_json(theta: Any, bits: int) -> dict[str, Any]:
+    """An irrational theta by its minimal polynomial and an isolating interval of at least ``bits`` good bits.
+
+    The interval depends on theta alone, not on what was computed with it before: its ends are neighbouring multiples
+    of a power of 1/2. So whoever reads theta from a file and writes it again writes the same text.
+    """
+    # narrow enough for a checker to see at once that there is one root, and a simple one
+    height = max(abs(c) for c in theta.minimal_polynomial).bit_length()
+    low, high = dyadic_interval(theta, max(bits, 64 + height))
+    return {"minimal_polynomial": [str(c) for c in theta.minimal_polynomial], "interval": [str(low), str(high)]}
+
+
+def dyadic_interval(theta: Any, bits: int) -> tuple[Fraction, Fraction]:
+    """The neighbouring multiples of 2^(e - bits) around an irrational theta with 2^e < |theta| < 2^(e + 1)."""
+    working = bits + 32
+    while True:
+        ends = [Fraction(end) for end in theta.interval(working)]
+        if ends[0] * ends[1] > 0 and _size(ends[0]) == _size(ends[1]):
+            unit = Fraction(2) ** (_size(ends[0]) - bits)
+            first, last = (floor(end / unit) for end in ends)
+            if first == last:
+                return first * unit, (first + 1) * unit
+        working *= 2
+
+
+def _size(value: Fraction) -> int:
+    """The e with 2^e <= |value| < 2^(e + 1)."""
+    found = value.numerator.bit_length() - value.denominator.bit_length()
+    return found if abs(value) >= Fraction(2) ** found else found - 1
+
+
+def _coefficients(value: Any) -> list[str]:
+    number = rational(value)
+    if number is not None:
+        return [str(number)]
+    coefficients = list(value.coefficients)
+    while len(coefficients) > 1 and not coefficients[-1]:
+        coefficients.pop()
+    return [str(c) for c in coefficients]
+
+
+def _condition(condition: Condition) -> dict[str, Any]:
+    """The checker's form: |p - centre|^2 <= radius_squared, or normal . p <= offset."""
+    if isinstance(condition, Ball):
+        return {"centre": [str(c) for c in condition.centre], "radius_squared": [str(condition.radius_squared)]}
+    if isinstance(condition, HalfSpace):
+        return {"normal": [str(-c) for c in condition.normal], "offset": str(condition.offset)}
+    raise InternalError(f"no certificate for the condition {condition.name}")

@@ -1,0 +1,228 @@
+"""The height condition, decided for whole paths: wherever a <= x(t) <= b, y and z are not below their heights.
+
+The paper asks it of the curve of Method 1 between t_a and t_b, and of the middle curve of Method 2. The outer curves
+of Method 2 may come back into the strip a <= x <= b below the height, so it is decided for every curve. For Method 2
+a and b are the abscissae of the via points, and a height is their coordinate (the lower one where they differ), if it
+is positive, as the paper has it.
+
+Signs of x(t) - a, b - x(t) and h - y(t) change only at their roots in t, and these are isolated: the answer holds
+for all t, and a stretch below the height is given by the roots at its ends.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import pairwise
+from typing import Any
+
+from bezier.curves import bernstein as bs
+from bezier.curves.curve import Bezier
+from bezier.curves.enclosure import Enclosure
+from bezier.curves.events import Event, events_of
+from bezier.curves.halving import exact
+from bezier.curves.nonnegative import Interval
+from bezier.curves.scalar import decimal_text, exactly, sign
+from bezier.obstacles.along import Along
+from bezier.obstacles.obstacle import Constraint
+from bezier.paths.path import Path
+from bezier.problem import Problem
+
+AXES = {"x": 0, "y": 1, "z": 2}
+
+
+@dataclass(frozen=True, slots=True)
+class Strip:
+    """The condition: ``heights`` by axis, to be kept wherever low <= x <= high."""
+
+    low: Fraction
+    high: Fraction
+    heights: Mapping[str, Fraction]
+
+    def outline(self, axis: str) -> tuple[Constraint, ...]:
+        """Where the condition is violated: x - a >= 0, b - x >= 0 and h - y > 0."""
+        x, one = (1, 0, 0), (0, 0, 0)
+        raised = (0, 1, 0) if axis == "y" else (0, 0, 1)
+        return (
+            Constraint.of({x: 1, one: -self.low}),
+            Constraint.of({x: -1, one: self.high}),
+            Constraint.of({raised: -1, one: self.heights[axis]}, strict=True),
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class End:
+    """Where a stretch begins or ends: ``t`` isolates the parameter (equal ends: exactly), ``at`` says what is there."""
+
+    t: Interval
+    at: str
+    included: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Below:
+    """A whole stretch of parameters on which a curve is in the strip and below a height.
+
+    ``sample``: the curve's coordinate at a rational parameter of it; None when the stretch is a single irrational one.
+    """
+
+    curve: str
+    axis: str
+    begin: End
+    end: End
+    sample: tuple[Fraction, Any] | None
+
+
+@dataclass(frozen=True, slots=True)
+class Heights:
+    """What was decided about a path; ``strip``: None when the problem has no positive height."""
+
+    strip: Strip | None
+    below: tuple[Below, ...]
+
+    @property
+    def hold(self) -> bool:
+        """Whether the condition holds on the whole path."""
+        return not self.below
+
+
+def strip_of(problem: Problem) -> Strip | None:
+    """The condition of a problem, None without a positive height."""
+    if problem.single is not None:
+        task = problem.single.task
+        kept = {axis.name: Fraction(axis.height or 0) for axis in task.raised}
+        return Strip(*task.interval, kept)
+    first, second = problem.via
+    kept = {axis: min(exactly(first[i]), exactly(second[i])) for axis, i in AXES.items() if axis != "x"}
+    kept = {axis: height for axis, height in kept.items() if height > 0}
+    low, high = sorted((exactly(first[0]), exactly(second[0])))
+    return Strip(low, high, kept) if kept else None
+
+
+def heights_of(problem: Problem, path: Path) -> Heights:
+    """Decide the height condition on every curve of a path. Complete: it holds, or all stretches below are found."""
+    strip = strip_of(problem)
+    if strip is None:
+        return Heights(None, ())
+    found = []
+    for name, curve in path.curves.items():
+        along = Along(curve)
+        for axis in strip.heights:
+            found += _below(name, along, strip, axis)
+    return Heights(strip, tuple(found))
+
+
+def _below(name: str, along: Along, strip: Strip, axis: str) -> list[Below]:
+    outline = strip.outline(axis)
+    forms = [exact(along.form(c)) for c in outline]
+    events = events_of(forms)
+    at = [_violated(outline, event.signs) for event in events]
+    between = [
+        _violated(outline, [sign(bs.value(f, (one.t[1] + two.t[0]) / 2)) for f in forms])
+        for one, two in pairwise(events)
+    ]
+    return [
+        Below(
+            name,
+            axis,
+            _end(events[first], strip, axis, at[first]),
+            _end(events[last], strip, axis, at[last]),
+            _sample(along.curve, axis, events[first].t, events[last].t),
+        )
+        for first, last in _runs(at, between)
+    ]
+
+
+def _violated(outline: Sequence[Constraint], signs: Sequence[int]) -> bool:
+    return all(c.holds(s) for c, s in zip(outline, signs, strict=True))
+
+
+def _runs(at: Sequence[bool], between: Sequence[bool]) -> list[tuple[int, int]]:
+    """Maximal runs of truth over the critical values and the gaps after them, as indices of their first and last."""
+    runs: list[tuple[int, int]] = []
+    start: int | None = None
+    for i, here in enumerate(at):
+        after = between[i] if i < len(between) else False
+        if start is not None and not here:
+            runs.append((start, i))
+            start = None
+        if start is None and (here or after):
+            start = i
+        if start is not None and not after:
+            runs.append((start, i))
+            start = None
+    return runs
+
+
+def _end(event: Event, strip: Strip, axis: str, included: bool) -> End:
+    named = (f"x = {strip.low}", f"x = {strip.high}", f"{axis} = {strip.heights[axis]}")
+    zero = [name for name, here in zip(named, event.signs, strict=True) if here == 0]
+    return End(event.t, " and ".join(zero) or "end of the curve", included)
+
+
+def _sample(curve: Bezier, axis: str, first: Interval, last: Interval) -> tuple[Fraction, Any] | None:
+    """The coordinate in the middle of a stretch, or at its only parameter."""
+    if first == last and first[0] < first[1]:
+        return None
+    t = first[0] if first == last else (first[1] + last[0]) / 2
+    return t, bs.value(curve.coordinate(AXES[axis]), t)
+
+
+# --- for people and machines ----------------------------------------------------------------------------
+
+
+def words(found: Heights) -> list[str]:
+    """One line for the whole path, and one for each stretch below."""
+    if found.strip is None:
+        return []
+    strip = found.strip
+    asked = " and ".join(f"{axis} >= {height}" for axis, height in strip.heights.items())
+    where = f"{asked} wherever {strip.low} <= x <= {strip.high}"
+    if found.hold:
+        return [f"heights: {where}: holds on all curves, for all t"]
+    return [f"heights: {where}: DOES NOT HOLD", *(in_words(item) for item in found.below)]
+
+
+def in_words(item: Below) -> str:
+    """A stretch below a height."""
+    begin, end = (_parameter(side.t) for side in (item.begin, item.end))
+    span = f"at t = {begin}" if item.begin.t == item.end.t else f"for t from {begin} to {end}"
+    ends = item.begin.at if item.begin.t == item.end.t else f"{item.begin.at} to {item.end.at}"
+    least = f"; at t = {item.sample[0]} {item.axis} is {decimal_text(item.sample[1], 6)}" if item.sample else ""
+    return f"{item.curve} is below the height in {item.axis} {span} ({ends}){least}"
+
+
+def _parameter(t: Interval) -> str:
+    if t[0] == t[1]:
+        return str(t[0])
+    return f"about {float((t[0] + t[1]) / 2):.8g}"
+
+
+def entries(problem: Problem, path: Path) -> dict[str, Any]:
+    """The entry of ``summary.json``, from the problem and the path alone."""
+    return {"heights": to_json(heights_of(problem, path))}
+
+
+def to_json(found: Heights) -> dict[str, Any]:
+    """The condition, whether it holds, and every stretch below with the roots at its ends, enclosed."""
+    if found.strip is None:
+        return {"condition": None, "holds": True, "below": []}
+    strip = found.strip
+    return {
+        "condition": {
+            "from_x": str(strip.low),
+            "to_x": str(strip.high),
+            "at_least": {axis: str(height) for axis, height in strip.heights.items()},
+        },
+        "holds": found.hold,
+        "below": [
+            {"curve": item.curve, "axis": item.axis, "from": _stated(item.begin), "to": _stated(item.end)}
+            for item in found.below
+        ],
+    }
+
+
+def _stated(end: End) -> dict[str, Any]:
+    value = {"exact": str(end.t[0])} if end.t[0] == end.t[1] else Enclosure(*end.t).to_json()
+    return {"t": value, "where": end.at, "included": end.included}

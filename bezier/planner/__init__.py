@@ -1,0 +1,1 @@
+"""Planning as a whole: the table of methods, ways around obstacles, what is decided about every plan, its files."""

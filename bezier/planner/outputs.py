@@ -1,0 +1,242 @@
+"""Files: all of them or none. They are written into a folder beside the target and moved there at the end.
+
+What an earlier run left in the target under the same names is replaced, and what it listed as its own and this run
+does not write again is removed; other files stay.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import os
+import shutil
+import tempfile
+from collections.abc import Iterator
+from fractions import Fraction
+from pathlib import Path as FilePath
+from typing import Any
+
+from bezier.curves.scalar import decimal_text, described, rational, scale
+from bezier.motion import motion
+from bezier.paths import heights
+from bezier.paths.evidence import field_json
+from bezier.paths.path import Path
+from bezier.plan import Outcome, Plan
+from bezier.planner import avoid
+from bezier.planner.table import method_of
+from bezier.problem import Problem, to_json
+from qe.errors import InputError
+
+SAMPLES = 51
+"""Rows per curve in ``path.csv``."""
+FIELD_BITS = 64
+REPORT, SUMMARY, COMPARISON = "report.html", "summary.json", "compare.json"
+PROBLEM = "problem.json"
+DATA = ("certificate.json", PROBLEM, "path.json", "path.csv", "region.json", "motion.json", "motion.csv")
+PICTURES = ("region.png", "path.png", "motion.png", "profile.png", "clearance.png")
+LISTED_IN = {
+    SUMMARY: (*DATA, REPORT, SUMMARY, *PICTURES),
+    COMPARISON: ("compare.html", COMPARISON, "regions.png", "paths.png"),
+}
+"""All names that planning and comparing write, by the file in which a run lists those that it wrote."""
+
+
+@contextlib.contextmanager
+def all_or_none(target: FilePath) -> Iterator[FilePath]:
+    """A fresh folder whose files replace those of the same names in ``target`` when the block succeeds.
+
+    Raises ``InputError`` at once when ``target`` cannot be written, so that no work is done in vain. If the
+    block fails, ``target`` is as before.
+    """
+    parent = _existing_parent(target)
+    if target.exists() and not target.is_dir():
+        raise InputError(f"--out {target}: expected a folder, found a file")
+    if not parent.is_dir() or not os.access(parent, os.W_OK | os.X_OK):
+        raise InputError(f"--out {target}: expected a writable folder, found that {parent} is not writable")
+    if target.is_dir() and not os.access(target, os.W_OK | os.X_OK):
+        raise InputError(f"--out {target}: expected a writable folder, found one that is not")
+    try:
+        fresh = FilePath(tempfile.mkdtemp(prefix=f".{target.name}-", dir=parent))
+    except OSError as error:
+        raise InputError(f"--out {target}: expected a writable folder, found: {error.strerror}") from None
+    try:
+        yield fresh
+        _move(fresh, target)
+    finally:
+        shutil.rmtree(fresh, ignore_errors=True)
+
+
+def _existing_parent(target: FilePath) -> FilePath:
+    parent = target.absolute().parent
+    while not parent.exists() and parent != parent.parent:
+        parent = parent.parent
+    return parent
+
+
+def _move(fresh: FilePath, target: FilePath) -> None:
+    try:
+        os.chmod(fresh, 0o755)
+        if not target.exists():
+            target.parent.mkdir(parents=True, exist_ok=True)
+            os.replace(fresh, target)
+            return
+        stale = _stale(fresh, target)
+        for file in sorted(fresh.iterdir()):
+            os.replace(file, target / file.name)
+        for name in stale:
+            (target / name).unlink(missing_ok=True)
+    except OSError as error:
+        raise InputError(f"--out {target}: expected a writable folder, found: {error.strerror}") from None
+
+
+def _stale(fresh: FilePath, target: FilePath) -> list[str]:
+    """The files in ``target`` that an earlier run of the same command wrote, says so, and this one does not replace."""
+    found = []
+    for listing, names in LISTED_IN.items():
+        if (fresh / listing).is_file():
+            listed = _listed(target / listing)
+            found += [name for name in names if name in listed and not (fresh / name).exists()]
+    return found
+
+
+def _listed(listing: FilePath) -> set[str]:
+    """The names of the files that an earlier run says it wrote; none when it cannot be read."""
+    try:
+        files = json.loads(listing.read_bytes())["files"]
+        return {FilePath(file).name for file in files}
+    except (OSError, ValueError, KeyError, TypeError, RecursionError):
+        return set()
+
+
+def summary(plan: Plan, files: list[str], seconds: float) -> dict[str, Any]:
+    """The object that ``bezier plan --json`` prints: ``facts``, the files, and the time of each step."""
+    times = {**{name: round(s, 6) for name, s in plan.seconds.items()}, "total": round(seconds, 6)}
+    return {**facts(plan), "files": files, "seconds": times}
+
+
+def facts(plan: Plan) -> dict[str, Any]:
+    """What the summary says of a plan: all that ``bezier check`` finds again, but for what is named under
+    ``not_certified``."""
+    problem, method = plan.problem, method_of(plan.problem.method)
+    found: dict[str, Any] = {
+        "status": plan.outcome.value,
+        "method": problem.method.value,
+        "workspace": problem.workspace.kind.value,
+        "radius": {
+            "exact": problem.workspace.radius_text,
+            "decimal": f"{float(problem.workspace.radius_squared) ** 0.5:.12g}",
+        },
+        "objective": None if plan.objective is None else described(plan.objective),
+        "points": {name: [described(c) for c in p] for name, p in plan.path.points.items()} if plan.path else {},
+        "active": list(plan.active),
+        "certified": plan.certified,
+        **method.entries(plan),
+        **motion.entries(plan),
+        **avoid.entries(plan),
+        **_decided(plan),
+        "problem": to_json(problem),
+        "notes": [*problem.notes, *plan.remarks],
+        "not_certified": list(plan.not_certified),
+    }
+    if plan.outcome is Outcome.INFEASIBLE:
+        found["reason"] = method.reason(plan)
+    return found
+
+
+def problem_json(problem: Problem) -> str:
+    """``problem.json``: the problem in exact numbers; every other file has to be about it."""
+    return json.dumps(to_json(problem), indent=1, ensure_ascii=False) + "\n"
+
+
+def _decided(plan: Plan) -> dict[str, Any]:
+    """What was decided about the radius and the heights."""
+    found: dict[str, Any] = {}
+    if plan.radius_rule is not None:
+        found["radius_rule"] = plan.radius_rule.to_json()
+    if plan.heights is not None:
+        found["heights"] = heights.to_json(plan.heights)
+    return found
+
+
+def path_json(plan: Plan, path: Path) -> dict[str, Any]:
+    """``path.json``: the problem and the exact control points, enough to check the path again.
+
+    A coordinate is ``{"exact", "decimal"}``; an irrational one also has ``in_field``, its coefficients of
+    1, theta, theta^2, ... for the theta described under ``field``.
+    """
+    return {
+        "format": "bezier-qe path",
+        "version": 1,
+        "unit": "mm",
+        "problem": to_json(plan.problem),
+        "field": _field(path),
+        "points": {name: [_coordinate(c) for c in point] for name, point in path.points.items()},
+        "curves": {name: [_name(path, p) for p in curve.points] for name, curve in path.curves.items()},
+        "joins": [
+            {
+                "between": [item.first, item.second],
+                "smoothness": item.join.smoothness.name,
+                "same_direction": item.join.same_direction,
+            }
+            for item in path.joins
+        ],
+    }
+
+
+def _name(path: Path, point: Any) -> str:
+    return next(name for name, other in path.points.items() if other == point)
+
+
+def _coordinate(value: Any) -> dict[str, Any]:
+    found: dict[str, Any] = described(value)
+    if rational(value) is None and hasattr(value, "coefficients"):
+        found["in_field"] = [str(c) for c in value.coefficients]
+    return found
+
+
+def _field(path: Path) -> dict[str, Any] | None:
+    for point in path.points.values():
+        for value in point:
+            if rational(value) is None and hasattr(value, "field"):
+                return field_json(value.field.theta, FIELD_BITS)
+    return None
+
+
+HEADER = """\
+# Path of the end effector: three curves one after the other, positions in mm.
+# t: time, the middle curve taking one unit; u: parameter of the curve, 0 to 1; segment: the curve;
+# x, y, z: position in mm; vx, vy, vz: velocity, the derivative with respect to t, in mm per unit of time.
+t,x,y,z,vx,vy,vz,segment,u
+"""
+
+
+def path_csv(path: Path) -> str:
+    """``path.csv``: positions and velocities at equally spaced parameters, computed exactly and then rounded."""
+    rows, begin = [HEADER], Fraction(0)
+    for name, curve in path.curves.items():
+        slope, duration = curve.hodograph(), path.duration(name)
+        for k in range(SAMPLES):
+            u = Fraction(k, SAMPLES - 1)
+            values = [begin + duration * u, *curve.point(u), *scale(1 / duration, slope.point(u))]
+            numbers = ",".join(decimal_text(v, 10) for v in values)
+            rows.append(f"{numbers},{name},{decimal_text(u, 10)}\n")
+        begin += duration
+    return "".join(rows)
+
+
+def data_texts(plan: Plan) -> dict[str, str]:
+    """The files that carry exact data, by name."""
+    texts = {"certificate.json": plan.certificate.to_json(), PROBLEM: problem_json(plan.problem)}
+    texts |= method_of(plan.problem.method).files(plan)
+    if plan.path is not None:
+        texts["path.json"] = json.dumps(path_json(plan, plan.path), indent=1, ensure_ascii=False) + "\n"
+        texts["path.csv"] = path_csv(plan.path)
+    return {**texts, **motion.files(plan)}
+
+
+def write_data(plan: Plan, folder: FilePath) -> list[str]:
+    """Write the files that carry exact data; returns their names."""
+    texts = data_texts(plan)
+    for name, text in texts.items():
+        (folder / name).write_text(text, encoding="utf-8")
+    return list(texts)

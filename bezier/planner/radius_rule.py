@@ -1,0 +1,180 @@
+"""When a via point lies on the sphere |p| = r: what formulas (7) and (8) then force, and a radius that leaves room.
+
+The paper takes for r the largest norm of the given points, so this happens whenever a via point is the farthest one,
+as in its Figure 2. THEOREM (the engine decides it for the numbers of each problem): if |V| = r, |F| <= r and
+|(1 + k) V - k F| <= r with k > 0, then F = V, because V lies between F and (1 + k) V - k F and a sphere has no
+straight parts. With V = Q0, F = Q1 these are conditions of (7) and (8): every path of theirs stops at Q0. Likewise at
+R0, with F = Q2 in (7) and F = Q1 in (8), which therefore has no solution when both via points lie on the sphere.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from itertools import pairwise
+from math import ceil
+from typing import Any
+
+import qe
+from bezier.curves.enclosure import root_above, root_below
+from bezier.curves.scalar import Vector, dot, exactly, same
+from bezier.curves.workspace import Workspace
+from bezier.methods.control.system import System, coordinates, number
+from bezier.problem import PlanMethod, Problem
+from qe.errors import BudgetExceeded, InternalError, Unable
+
+Limit = Callable[[], float | None]
+
+
+def unlimited() -> float | None:
+    """No limit on time."""
+    return None
+
+
+NEXT = {PlanMethod.QUADRATIC: ("Q1", "Q1"), PlanMethod.CUBIC: ("Q1", "Q2")}
+"""The free control points next to Q0 and to R0."""
+SHARES = tuple(map(Fraction, ("21/20", "5/4", "3/2", "2", "3")))
+"""A larger radius is looked for between these multiples of the least one that can do."""
+
+
+@dataclass(frozen=True, slots=True)
+class RadiusRule:
+    """``forced``: the via points on the sphere with the free points that must equal them; ``sentences``: what the
+    engine decided to be true; ``solvable``: whether the problem has a solution all the same; ``larger``: a radius with
+    which the best path does not stop at a via point, None when none was found up to three times the radius.
+    """
+
+    method: PlanMethod
+    forced: Mapping[str, str]
+    sentences: tuple[str, ...]
+    solvable: bool
+    larger: Fraction | None
+
+    def in_words(self) -> str:
+        """What the rule forces, and the way out, as one sentence."""
+        points = " and ".join(f"|{via}| = r" for via in self.forced)
+        equal = " and ".join(f"{free} = {via}" for via, free in self.forced.items())
+        formula = "(8)" if self.method is PlanMethod.QUADRATIC else "(7)"
+        if self.solvable:
+            effect = f"every path of formula {formula} stops at {' and '.join(self.forced)}, whatever the objective"
+        elif len(set(self.forced.values())) < len(self.forced):
+            effect = f"formula {formula} has no solution"
+        else:
+            effect = "the other conditions cannot hold"
+        return f"{points}: this forces {equal} (proved), so {effect}; {self._way_out()}"
+
+    def _way_out(self) -> str:
+        if self.larger is None:
+            return "no radius up to 3 r was found that helps"
+        return f"with radius = {self.larger} there is a path that does not stop there (proved)"
+
+    def to_json(self) -> dict[str, Any]:
+        """The entry of ``summary.json``."""
+        return {
+            "forced": [f"{free} = {via}" for via, free in self.forced.items()],
+            "proved": list(self.sentences),
+            "larger_radius": None if self.larger is None else str(self.larger),
+        }
+
+
+def on_sphere(problem: Problem) -> dict[str, str]:
+    """The via points at distance r from O, with the free control point that each of them forces."""
+    if problem.method not in NEXT:
+        return {}
+    square = problem.workspace.radius_squared
+    pairs = zip(("Q0", "R0"), problem.via, NEXT[problem.method], strict=True)
+    return {name: free for name, via, free in pairs if exactly(dot(via, via)) == square}
+
+
+def sentence(problem: Problem, via: str, free: str) -> str:
+    """The theorem with this problem's numbers: the norm conditions beside a via point force the free point."""
+    at = dict(zip(("Q0", "R0"), problem.via, strict=True))[via]
+    square, k = number(problem.workspace.radius_squared), problem.ratio
+    names = coordinates(free)
+    other = [f"({number((1 + k) * exactly(v))} - {number(k)}*{name})" for v, name in zip(at, names, strict=True)]
+    norms = (" + ".join(f"{c}^2" for c in row) + f" <= {square}" for row in (names, other))
+    equal = " and ".join(f"{name} = {number(v)}" for name, v in zip(names, at, strict=True))
+    return f"all {', '.join(names)}. {' and '.join(norms)} -> {equal}"
+
+
+def radius_rule(problem: Problem, solvable: bool, remaining: Limit = unlimited) -> RadiusRule | None:
+    """What the radius forces, None when no via point lies on the sphere.
+
+    Raises ``Unable`` when the engine does not decide the sentences.
+    """
+    forced = on_sphere(problem)
+    if not forced:
+        return None
+    sentences = tuple(sentence(problem, via, free) for via, free in forced.items())
+    for text in sentences:
+        truth = qe.eliminate(text, timeout=remaining()).truth
+        if truth is False:
+            raise InternalError("the engine refutes that a via point on the sphere forces its neighbour")
+        if truth is None:
+            raise Unable("the engine did not decide what the radius forces")
+    return RadiusRule(problem.method, forced, sentences, solvable, larger_radius(problem, remaining))
+
+
+def stated_rule(problem: Problem, solvable: bool, larger: Fraction | None) -> RadiusRule | None:
+    """The rule with a larger radius that a summary states; the theorem says the rest."""
+    forced = on_sphere(problem)
+    if not forced:
+        return None
+    return RadiusRule(
+        problem.method, forced, tuple(sentence(problem, via, free) for via, free in forced.items()), solvable, larger
+    )
+
+
+def larger_radius(problem: Problem, remaining: Limit = unlimited) -> Fraction | None:
+    """A simple rational radius with which the best path does not stop at a via point, proved by its optimum."""
+    square = problem.workspace.radius_squared
+    if problem.method is PlanMethod.QUADRATIC:
+        from bezier.methods.quadratic.formula import three_balls
+
+        square = max(square, three_balls(problem).needed_squared)
+    for low, high in pairwise(SHARES):
+        candidate = _short_decimal(low * root_above(square), high * root_below(square))
+        try:
+            if helps(problem, candidate, remaining):
+                return candidate
+        except BudgetExceeded:
+            raise
+        except Unable:
+            continue
+    return None
+
+
+def _short_decimal(low: Fraction, high: Fraction) -> Fraction:
+    """The least number in [low, high], low > 0, with as few decimal places (or as many final zeros) as possible."""
+    power = Fraction(10) ** len(str(int(high)))
+    while True:
+        found = ceil(low / power) * power
+        if found <= high:
+            return found
+        power /= 10
+
+
+def helps(problem: Problem, radius: Fraction, remaining: Limit = unlimited) -> bool:
+    """Whether the optimum with this radius exists, has an accepted certificate and differs from both via points."""
+    changed = replace(problem, workspace=Workspace(problem.workspace.kind, radius * radius), radius_is_auto=False)
+    system = _system(changed)
+    optimum = qe.minimize(system.objective(), system.conditions_text(), timeout=remaining())
+    if not optimum.is_optimal or not qe.verify(optimum.certificate).accepted:
+        return False
+    values = iter([optimum.point[name] for name in system.shape.variables])
+    free: dict[str, Vector] = {name: (next(values), next(values), next(values)) for name in system.shape.free}
+    if system.violated(system.points(list(free.values()))):
+        raise InternalError("the optimum violates a condition")
+    pairs = zip(NEXT[problem.method], problem.via, strict=True)
+    return not any(same(free[name], via) for name, via in pairs)
+
+
+def _system(problem: Problem) -> System:
+    if problem.method is PlanMethod.CUBIC:
+        from bezier.methods.cubic import formula as cubic
+
+        return cubic.system(problem)
+    from bezier.methods.quadratic import formula as quadratic
+
+    return quadratic.system(problem)

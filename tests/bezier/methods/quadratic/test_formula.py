@@ -1,0 +1,128 @@
+"""Formula (8): what is written, what follows from Q1, and the three-ball condition."""
+
+from fractions import Fraction
+
+import pytest
+from hypothesis import assume, given
+from hypothesis import strategies as st
+
+from bezier.curves.curve import Smoothness
+from bezier.curves.scalar import dot, scale, sign, subtract
+from bezier.curves.workspace import Ball, Workspace, WorkspaceKind
+from bezier.methods.quadratic import formula as quadratic
+from bezier.paths.path import assemble
+from bezier.problem import PlanMethod, Problem
+from qe.io import text
+from tests.bezier.numbers import points, small
+
+
+def problem(q0, r0, r2, kind=WorkspaceKind.BALL):
+    q0, r0 = (tuple(map(Fraction, p)) for p in (q0, r0))
+    start, goal = (Fraction(1), Fraction(0), Fraction(0)), (Fraction(0), Fraction(1), Fraction(0))
+    return Problem(PlanMethod.QUADRATIC, Workspace(kind, Fraction(r2)), start, (q0, r0), goal, False)
+
+
+MAIN = problem((-1, 3, 3), (1, 3, 3), 27)
+
+
+def test_formula_8_as_printed():
+    formula = text.read(quadratic.printed(MAIN).formula())
+    assert formula.variables == quadratic.QUANTIFIED and len(formula.variables) == 6
+    relations = [part.relation.value for part in formula.body.args]
+    assert relations == ["="] * 6 + ["<="] * 3
+    names = {part.poly.ring.names[i] for part in formula.body.args for i in part.poly.variables}
+    assert names == set(quadratic.FREE + quadratic.QUANTIFIED)
+
+
+def test_the_hemisphere_adds_three_conditions():
+    upper = problem((-1, 3, 3), (1, 3, 3), 27, WorkspaceKind.HEMISPHERE)
+    above = " and p1z >= 0 and q1z >= 0 and r1z >= 0"
+    assert quadratic.system(upper).formula() == quadratic.printed(upper).formula() + above
+    assert quadratic.system(MAIN).formula() == quadratic.printed(MAIN).formula()
+    assert quadratic.corrected(MAIN).formula() == quadratic.system(upper).formula()
+
+
+def test_symbolic_formula_has_seven_parameters():
+    formula = text.read(quadratic.SHAPE.symbolic_formula())
+    used = {part.poly.ring.names[i] for part in formula.body.args for i in part.poly.variables}
+    assert used - set(quadratic.QUANTIFIED) - set(quadratic.FREE) == {f"{p}0{a}" for p in "qr" for a in "xyz"} | {"r"}
+
+
+def test_leaving_formula_is_a_sentence():
+    formula = text.read(quadratic.leaving_formula(MAIN))
+    assert set(formula.variables) == set(quadratic.FREE + quadratic.QUANTIFIED)
+
+
+@given(points(), points(), points(), st.sampled_from(list(WorkspaceKind)))
+def test_the_conditions_on_q1_are_those_on_the_control_points(q0, r0, q1, kind):
+    system = quadratic.system(problem(q0, r0, 5, kind))
+    control = system.points([q1])
+    moved = quadratic.as_conditions_on_q1(system)
+    for direct, on_q1 in zip(system.conditions, moved, strict=True):
+        assert direct.label == on_q1.name
+        assert direct.condition.margin(control[direct.point]) == on_q1.margin(q1)
+
+
+@given(points(), points(), points())
+def test_the_curves_are_c1_and_their_names_fit(q0, r0, q1):
+    system = quadratic.system(problem(q0, r0, 100))
+    control = system.points([q1])
+    path = assemble(system.curves(control), control, MAIN.workspace)
+    assert path.smoothness >= Smoothness.C1
+    assert path.points["P2"] == path.points["Q0"] == q0 and path.points["Q2"] == path.points["R0"] == r0
+
+
+@given(points(), points(), points(), small)
+def test_the_objective_is_least_at_the_midpoint(q0, r0, q1, shift):
+    system = quadratic.system(problem(q0, r0, 100))
+    middle = scale(Fraction(1, 2), tuple(a + b for a, b in zip(q0, r0, strict=True)))
+    away = subtract(q1, middle)
+    expected = system.objective_at(system.points([middle])) + 2 * dot(away, away)
+    assert system.objective_at(system.points([q1])) == expected
+
+
+def test_active_conditions_are_exact():
+    system = quadratic.system(problem((0, 1, 1), (0, 2, 1), 4, WorkspaceKind.HEMISPHERE))
+    assert system.active(system.points([(Fraction(0), Fraction(2), Fraction(0))])) == ("P1", "Q1", "Q1.z")
+    near = (Fraction(0), Fraction(2) - Fraction(1, 10**20), Fraction(0))
+    assert system.active(system.points([near])) == ("Q1.z",)
+
+
+def meet_numerically(q0, r0, r2):
+    """The largest violation at the best point of a fine search is <= 0: an independent look at the three balls."""
+    centres = [(0.0,) * 3, tuple(2 * float(c) for c in q0), tuple(2 * float(c) for c in r0)]
+    point, step = [sum(c[i] for c in centres) / 3 for i in range(3)], 2.0
+    for _ in range(4000):
+        far = max(centres, key=lambda c: sum((a - b) ** 2 for a, b in zip(c, point, strict=True)))
+        gap = sum((a - b) ** 2 for a, b in zip(far, point, strict=True)) ** 0.5 or 1.0
+        point = [p + (f - p) / gap * step for p, f in zip(point, far, strict=True)]
+        step *= 0.996
+    return max(sum((a - b) ** 2 for a, b in zip(c, point, strict=True)) for c in centres) - float(r2)
+
+
+@given(points(), points(), st.fractions(min_value=1, max_value=60, max_denominator=3))
+def test_three_ball_condition(q0, r0, r2):
+    found = quadratic.three_balls(problem(q0, r0, r2))
+    difference = float(found.needed_squared - found.radius_squared)
+    assume(abs(difference) > 0.05)
+    assert found.meet == (meet_numerically(q0, r0, r2) <= 0) == (difference < 0)
+
+
+@pytest.mark.parametrize(("d", "k", "r"), [(1, 3, Fraction(10, 3)), (1, 2, Fraction(5, 2)), (2, 3, Fraction(13, 3))])
+def test_symmetric_threshold(d, k, r):
+    # Q0 = (-d, k), R0 = (d, k) with k > d: feasible iff d^2 + k^2 <= r k
+    at = quadratic.three_balls(problem((-d, k, 0), (d, k, 0), r * r))
+    below = quadratic.three_balls(problem((-d, k, 0), (d, k, 0), r * r - Fraction(1, 10**12)))
+    assert at.meet and at.is_acute and not below.meet
+
+
+def test_a_flat_triangle_needs_its_longest_side():
+    found = quadratic.three_balls(problem((-3, 1, 1), (3, 1, 1), 14))
+    assert not found.meet and not found.is_acute and found.needed_text == "6"
+
+
+def test_conditions_can_be_told_apart():
+    labels = [item.name for item in quadratic.as_conditions_on_q1(quadratic.system(MAIN))]
+    assert labels == ["P1", "Q1", "R1"]
+    first = quadratic.as_conditions_on_q1(quadratic.system(MAIN))[0]
+    assert isinstance(first, Ball) and first.centre == (-2, 6, 6) and sign(first.margin((0, 3, 3))) > 0

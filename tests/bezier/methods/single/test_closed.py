@@ -1,0 +1,197 @@
+"""Method 1*: proved curves, proved bounds and proved absence, against elimination and against dense sampling."""
+
+import time
+from dataclasses import replace
+from fractions import Fraction
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import qe
+from bezier.curves.containment import all_inside, examine_all
+from bezier.curves.scalar import dot
+from bezier.curves.workspace import Workspace, WorkspaceKind
+from bezier.methods.single import formula as single_formula
+from bezier.methods.single.closed import TOLERANCE, NoCurve, ProvedCurve, close
+from bezier.methods.single.cuts import CutKind, Model, violated
+from bezier.methods.single.formula import VALUE
+from bezier.methods.single.program import Task, choose, curve, dips, task, weights_at
+from qe.errors import InputError, Unable
+from tests.bezier.singles import FLAT, axis, tasks, unit_task
+
+F = Fraction
+SPACE = st.sampled_from(WorkspaceKind)
+RATIO = st.sampled_from([F(1), F(101, 100), F(21, 20), F(6, 5), F(2)])
+
+
+def ball_for(given_task: Task, ratio, kind) -> Workspace:
+    """The paper's radius, its square times ``ratio``."""
+    model = Model.of(given_task, Workspace(kind, F(1)))
+    return Workspace(kind, ratio * max(dot(p, p) for p in (*model.ends, *model.via)))
+
+
+def check_curve(given_task, workspace, found):
+    """Everything that is claimed of a curve, at exact sample points and by the other tests of whole curves."""
+    low, high = given_task.times
+    for k in range(129):
+        point = found.curve.point(F(k, 128))
+        assert dot(point, point) <= workspace.radius_squared
+        between = found.curve.point(low + F(k, 128) * (high - low))
+        for of in given_task.raised:
+            assert between[1 + given_task.axes.index(of)] >= of.height
+    assert not dips(given_task, found.curve) and all_inside(examine_all(found.curve, workspace.conditions))
+    for of in given_task.raised:
+        row = found.curve.coordinate(1 + given_task.axes.index(of))
+        assert all(row[i] >= given_task.lower_bound(of, i) for i in range(1, given_task.degree))
+        assert all(found.curve.point(t)[1 + given_task.axes.index(of)] == of.height for t in given_task.times)
+    total = sum(row[i] for row in found.values.values() for i in given_task.middle)
+    assert found.bound <= found.value == total
+    assert found.value - found.bound <= 3 * TOLERANCE * max(abs(found.bound), F(1, 10))
+
+
+@settings(max_examples=40)
+@given(tasks(3, 7, both=True), RATIO, SPACE)
+def test_what_is_found_is_proved(given_task, ratio, kind):
+    workspace = ball_for(given_task, ratio, kind)
+    found = close(given_task, workspace)
+    assert qe.verify(found.certificate).accepted
+    if isinstance(found, ProvedCurve):
+        check_curve(given_task, workspace, found)
+
+
+@settings(max_examples=25)
+@given(tasks(3, 6), st.sampled_from([F(11, 10), F(6, 5), F(3, 2)]))
+def test_no_cut_excludes_a_curve(given_task, ratio):
+    """Every curve that satisfies the conditions satisfies the cuts found against other curves, in a smaller ball."""
+    workspace = ball_for(given_task, ratio, WorkspaceKind.BALL)
+    inner = close(given_task, replace(workspace, radius_squared=workspace.radius_squared * F(20, 21)))
+    outer = close(given_task, workspace)
+    if isinstance(inner, NoCurve):
+        return
+    assert isinstance(outer, ProvedCurve)
+    point = [v for of in given_task.raised for v in inner.values[of.name][1:-1]]
+    for row in Model.of(given_task, workspace).program(outer.cuts).rows:
+        assert row.at([*point, F(0)]) <= 0
+
+
+def check_against_elimination(given_task, ratio):
+    """The bound is a lower bound of all sums that exact elimination of t gives, and the sum found is one of them."""
+    workspace = ball_for(given_task, ratio, WorkspaceKind.BALL)
+    sums = qe.eliminate(single_formula.closed(given_task, workspace)).formula
+    found = close(given_task, workspace)
+    if isinstance(found, NoCurve):
+        assert qe.decide(f"ex {VALUE}. {sums}") is False
+        return
+    assert qe.decide(f"all {VALUE}. {VALUE} = {found.value} -> ({sums})")
+    assert qe.decide(f"all {VALUE}. ({sums}) -> {VALUE} >= {found.bound}")
+
+
+@pytest.mark.parametrize("squared", ["6/5", "3/2", "8/5"])
+def test_against_exact_elimination_of_t(squared):
+    """No curve, a curve that the ball bounds, and one that it does not."""
+    given_task = unit_task(4, "2/5", "7/10", axis("y", 0, "1/2", 1), FLAT)
+    model = Model.of(given_task, Workspace(WorkspaceKind.BALL, F(1)))
+    check_against_elimination(given_task, F(squared) / max(dot(p, p) for p in (*model.ends, *model.via)))
+
+
+@pytest.mark.deep
+@settings(max_examples=60)
+@given(tasks(3, 4), st.sampled_from([F(1), F(11, 10), F(5, 4)]))
+def test_many_against_exact_elimination_of_t(given_task, ratio):
+    check_against_elimination(given_task, ratio)
+
+
+def test_the_ball_moves_the_optimum():
+    """With the paper's radius all four given points are on the sphere; (4) as printed leaves, the repair touches."""
+    given_task = task(6, (F(-3), F(3)), (F(-1), F(1)), [axis("y", 0, 0, 2), axis("z", 0, 0, 2)])
+    workspace = Workspace(WorkspaceKind.HEMISPHERE, F(9))
+    printed = curve(given_task, {of.name: choose(given_task, of).values for of in given_task.raised})
+    assert not dips(given_task, printed) and not all_inside(examine_all(printed, workspace.conditions))
+    found = close(given_task, workspace)
+    check_curve(given_task, workspace, found)
+    assert found.is_optimal and found.value == F(2027, 160)
+    assert {cut.kind for cut in found.cuts} == {CutKind.HEIGHT, CutKind.START, CutKind.GOAL}
+
+
+def test_a_bound_close_to_the_sum():
+    axes = axis("y", "7/4", "1/4", "11/4"), axis("z", 0, "1/2", 3)
+    given_task = task(7, (F(-4), F(4)), (F(-2), F(1)), axes)
+    workspace = Workspace(WorkspaceKind.BALL, F(33229, 1600))
+    found = close(given_task, workspace)
+    check_curve(given_task, workspace, found)
+    assert not found.is_optimal and found.bound > sum(choose(given_task, of).outcome.value for of in axes)
+    assert all(v.denominator < 10**12 for row in found.values.values() for v in row)
+
+
+def test_a_dip_that_no_curve_of_the_degree_avoids():
+    given_task = unit_task(5, "7/10", "9/10", axis("y", "-3/2", 1, "3/4"), FLAT)
+    found = close(given_task, Workspace(WorkspaceKind.BALL, F(1000)))
+    assert isinstance(found, NoCurve) and qe.verify(found.certificate).accepted
+    assert {cut.kind for cut in found.cuts} <= {CutKind.HEIGHT}
+
+
+def test_heights_that_leave_no_slack():
+    """All y are forced to h = start = goal, so P_y = h for all t, and yet the ball has room."""
+    axes = axis("y", "3/2", "3/2", "3/2"), axis("z", 0, "1/2", 2)
+    given_task = task(5, (F(-3), F(3)), (F(-7, 4), F(1)), axes)
+    found = close(given_task, Workspace(WorkspaceKind.BALL, F(2323, 200)))
+    assert isinstance(found, ProvedCurve) and set(found.values["y"]) == {F(3, 2)}
+
+
+def test_altered_bounds_are_rejected():
+    given_task = task(6, (F(-3), F(3)), (F(-1), F(1)), [axis("y", 0, 0, 2), axis("z", 0, 0, 2)])
+    good = close(given_task, Workspace(WorkspaceKind.HEMISPHERE, F(9))).certificate
+    for key in ("multipliers", "point"):
+        changed = dict(good.payload)
+        changed[key] = [["1"], *changed[key][1:]]
+        assert not qe.verify(qe.Certificate(good.kind, changed)).accepted
+
+
+@given(st.lists(st.fractions(-2, 2, max_denominator=5), min_size=1, max_size=8))
+def test_violated_parameters_are_proved_and_complete(b):
+    found = violated(tuple(b))
+    drawn = [
+        sum(w * c for w, c in zip(row, b, strict=True)) for row in (weights_at(len(b) - 1, F(k, 50)) for k in range(51))
+    ]
+    assert all(0 <= t <= 1 for t in found) and (found or min(drawn) >= 0)
+    for t in found:
+        assert sum(w * c for w, c in zip(weights_at(len(b) - 1, t), b, strict=True)) < 0
+
+
+def test_the_limit_stops_the_work():
+    def stop():
+        raise Unable("stopped")
+
+    with pytest.raises(Unable, match="stopped"):
+        close(unit_task(6, "2/5", "3/5", axis("y", 0, 0, 1), FLAT), Workspace(WorkspaceKind.BALL, F(2)), check=stop)
+
+
+def test_ends_below_the_table_are_refused():
+    given_task = unit_task(6, "2/5", "3/5", axis("y", 0, 0, 1), axis("z", -1, 0))
+    with pytest.raises(InputError, match="z >= 0"):
+        close(given_task, Workspace(WorkspaceKind.HEMISPHERE, F(9)))
+    assert isinstance(close(given_task, Workspace(WorkspaceKind.BALL, F(9))), ProvedCurve)
+
+
+def test_given_points_outside_the_ball():
+    given_task = unit_task(6, "2/5", "3/5", axis("y", 0, 0, 1), FLAT)
+    for squared in (F(9, 10), F(11, 10)):  # P(1) and P(t_b), or only P(t_b), are outside
+        found = close(given_task, Workspace(WorkspaceKind.BALL, squared))
+        assert isinstance(found, NoCurve) and qe.verify(found.certificate).accepted
+
+
+def test_a_parameter_beside_a_point_on_the_sphere_stays_in_the_curve():
+    """P(t_b) is on the sphere and t_b close to 1: the condition is not asked for beyond t = 1."""
+    given_task = unit_task(40, "1/2", "99/100", axis("y", 0, 0, 1), FLAT)
+    model = Model.of(given_task, Workspace(WorkspaceKind.BALL, F(1) + F(99, 100) ** 2))
+    assert model.touches == (False, False, False, True)
+    wild = curve(given_task, {"y": (F(0), *[F(2)] * 39, F(0))})
+    assert 0 <= model.ball_cut(wild, F(99, 100)).t <= 1
+
+
+def test_speed():
+    axes = axis("y", 0, 0, 2), axis("z", 0, 0, 2)
+    begin = time.perf_counter()
+    close(task(6, (F(-3), F(3)), (F(-1), F(1)), axes), Workspace(WorkspaceKind.HEMISPHERE, F(9)))
+    assert time.perf_counter() - begin < 5  # 0.03 s on a quiet machine

@@ -1,0 +1,179 @@
+"""Time laws and motions: exact values, rigorous extremes against dense samples, limits, files and bad tables."""
+
+import csv
+import io
+from fractions import Fraction
+from itertools import pairwise
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from bezier.curves.curve import Bezier
+from bezier.curves.scalar import dot, same
+from bezier.curves.workspace import Workspace, WorkspaceKind
+from bezier.input.toml_table import Table
+from bezier.motion.motion import Timing, motion_csv, motion_of, quality_of, read_timing, state, words
+from bezier.motion.timelaw import PASSAGE_WIDTH, Law, TimeLaw, extremes, least_duration, stretches
+from bezier.paths.path import assemble
+from bezier.plan import make_plan
+from bezier.problem import read_problem
+from qe.errors import InputError
+from tests.bezier.numbers import control_points
+
+HALF, QUARTER = Fraction(1, 2), Fraction(1, 4)
+BALL = Workspace(WorkspaceKind.BALL, Fraction(10**6))
+LAWS = [TimeLaw.of(Law.CUBIC), TimeLaw.of(Law.QUINTIC), TimeLaw.of(Law.TRAPEZOID), TimeLaw.of(Law.TRAPEZOID, HALF)]
+
+
+def path_of(*rows, durations=None):
+    curves = dict(zip("PQR", map(Bezier.of, rows), strict=False))
+    return assemble(curves, {}, BALL, durations=durations)
+
+
+LINE = path_of([(0, 0, 0), (2, 0, 0)], [(2, 0, 0), (4, 0, 0)])
+
+
+@pytest.mark.parametrize("law", LAWS)
+def test_a_law_goes_from_start_to_goal_without_turning_back(law):
+    ends = [law.derivatives(Fraction(t)) for t in (0, 1)]
+    assert [e[:2] for e in ends] == [(0, 0), (1, 0)]
+    values = [law.derivatives(Fraction(k, 40))[0] for k in range(41)]
+    assert all(a < b for a, b in pairwise(values))
+    for before, after, at in zip(law.polynomials, law.polynomials[1:], law.breaks[1:], strict=False):
+        for order in (0, 1):
+            assert _derivative(before, order, at) == _derivative(after, order, at)
+
+
+def _derivative(polynomial, order, t):
+    for _ in range(order):
+        polynomial = [k * c for k, c in enumerate(polynomial)][1:]
+    return sum(c * t**k for k, c in enumerate(polynomial))
+
+
+@pytest.mark.parametrize(
+    ("law", "speed", "acceleration"),
+    [(Law.CUBIC, 1.5, 6.0), (Law.QUINTIC, 1.875, 10 / 3**0.5), (Law.TRAPEZOID, 4 / 3, 16 / 3)],
+)
+def test_extremes_on_a_straight_path_are_those_of_the_law(law, speed, acceleration):
+    found = extremes(LINE, TimeLaw.of(law))
+    for enclosure, value in ((found.speed, 4 * speed), (found.acceleration, 4 * acceleration)):
+        assert float(enclosure.low) <= value * (1 + 1e-12) and value * (1 - 1e-12) <= float(enclosure.high)
+        assert enclosure.high - enclosure.low < Fraction(1, 10**4)
+
+
+def test_passages_split_the_time_where_the_curves_meet():
+    found = list(stretches(LINE, TimeLaw.of(Law.QUINTIC)))
+    assert [(s.curve, s.low, s.high, s.certain) for s in found] == [("P", 0, HALF, True), ("Q", HALF, 1, True)]
+    three = path_of(*[[(k, 0, 0), (k + 1, 0, 0)] for k in range(3)], durations={"P": Fraction(2)})
+    found = list(stretches(three, TimeLaw.of(Law.TRAPEZOID)))
+    assert [s.curve for s in found if s.certain] == ["P", "P", "Q", "R", "R"]
+    assert all(s.high - s.low <= PASSAGE_WIDTH for s in found if not s.certain)
+    assert sum(s.high - s.low for s in found) >= 1
+
+
+@settings(max_examples=15, deadline=None)
+@given(control_points(3, 4), control_points(3, 4), st.sampled_from(LAWS[:3]))
+def test_no_sample_is_faster_than_the_extremes_say(first, second, law):
+    path = path_of(first, [first[-1], *second[1:]])
+    found = extremes(path, law, Fraction(1, 1000))
+    kinds = {3: Law.CUBIC, 5: Law.QUINTIC}
+    timing = Timing(kinds.get(len(law.polynomials[0]) - 1, Law.TRAPEZOID), QUARTER, Fraction(1))
+    motion = motion_of(path, timing)
+    for k in range(21):
+        _, _, (_, velocity, acceleration) = state(path, motion, Fraction(k, 20))
+        assert dot(velocity, velocity) <= found.speed.high**2
+        assert dot(acceleration, acceleration) <= found.acceleration.high**2
+
+
+def test_the_least_duration_keeps_the_limits_and_no_shorter_one_does():
+    limits = {"max_speed": Fraction(2), "max_acceleration": Fraction(1)}
+    unit = extremes(LINE, TimeLaw.of(Law.QUINTIC))
+    duration = least_duration(unit, limits)
+    assert abs(float(duration) - (40 / 3**0.5) ** 0.5) < 1e-5  # the acceleration limit decides
+    for share, kept in ((Fraction(1), True), (Fraction(99, 100), False)):
+        motion = motion_of(LINE, Timing(Law.QUINTIC, QUARTER, duration * share, limits))
+        assert motion.kept["max_acceleration"] is kept and motion.kept["max_speed"]
+
+
+def test_a_limit_within_the_enclosure_is_not_decided():
+    exact = Fraction(6)  # the largest speed for T = 1 with the cubic law
+    motion = motion_of(LINE, Timing(Law.CUBIC, QUARTER, Fraction(1), {"max_speed": exact}))
+    assert motion.kept["max_speed"] in (None, True)
+    assert motion_of(LINE, Timing(Law.CUBIC, QUARTER, Fraction(1), {"max_speed": exact - QUARTER})).kept == {
+        "max_speed": False
+    }
+
+
+def test_velocity_is_continuous_where_the_joins_are():
+    path = path_of([(-2, 0, 0), (-1, 1, 0), (0, 1, 0)], [(0, 1, 0), (1, 1, 0), (2, 0, 0)])
+    motion = motion_of(path, Timing(Law.QUINTIC, QUARTER, Fraction(10)))
+    name, u, (place, velocity, _) = state(path, motion, HALF)
+    assert (name, u) == ("P", 1) and same(place, (0, 1, 0))
+    assert same(velocity, (Fraction(3, 4), 0, 0))  # P'(1) = (2, 0, 0), sigma' = 2 * 15/8 / 10
+
+
+@pytest.mark.parametrize("law", list(Law))
+def test_velocity_and_acceleration_are_the_derivatives_of_the_position(law):
+    path = path_of(
+        [(-2, 0, 0), (-1, 3, 1), (0, 1, 0)], [(0, 1, 0), (1, -1, 0), (2, 0, 4)], durations={"P": Fraction(2)}
+    )
+    motion = motion_of(path, Timing(law, QUARTER, Fraction(3)))
+    step = Fraction(1, 10**4)
+    for tau in (Fraction(1, 5), Fraction(2, 5), Fraction(17, 20)):
+        before, here, after = (state(path, motion, t)[2] for t in (tau - step, tau, tau + step))
+        seconds = step * 3
+        for i in range(3):
+            velocity = (after[0][i] - before[0][i]) / (2 * seconds)
+            acceleration = (after[0][i] - 2 * here[0][i] + before[0][i]) / seconds**2
+            assert abs(velocity - here[1][i]) < Fraction(1, 1000)
+            assert abs(acceleration - here[2][i]) < Fraction(1, 100)
+
+
+def test_the_table_of_the_motion():
+    motion = motion_of(LINE, Timing(Law.QUINTIC, QUARTER, Fraction(10)))
+    lines = [line for line in motion_csv(LINE, motion).splitlines() if not line.startswith("#")]
+    rows = list(csv.DictReader(io.StringIO("\n".join(lines))))
+    assert len(rows) == 151 and rows[0]["time"] == "0" and rows[-1]["time"] == "10"
+    assert (rows[75]["x"], rows[75]["vx"], rows[75]["ax"]) == ("2", "0.75", "0")
+    assert rows[-1]["segment"] == "Q" and rows[-1]["u"] == "1"
+
+
+def test_quality_of_a_path():
+    quality = quality_of(LINE, None)
+    assert abs(float(quality.length) - 4) < 1e-5 and quality.motion is None
+    still = path_of([(1, 1, 1)] * 3)
+    assert quality_of(still, None).curvatures == {"P": None}
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("timing = 3", "timing: expected a table [timing], found 3"),
+        ('[timing]\nlaw = "jerky"\nduration = 1', 'timing.law: expected "cubic" or "quintic" or "trapezoid"'),
+        ("[timing]\nduration = 0", "timing.duration: expected a number above zero, found 0"),
+        ("[timing]\nmax_speed = -1", "timing.max_speed: expected a number above zero, found -1"),
+        ('[timing]\nlaw = "cubic"', "timing.duration: expected a duration, max_speed or max_acceleration"),
+        ('[timing]\nramp = "1/4"\nduration = 1', 'timing.ramp: expected this key with law = "trapezoid" only'),
+        ('[timing]\nlaw = "trapezoid"\nramp = 0.6\nduration = 1', "timing.ramp: expected at most 1/2, found 3/5"),
+        ("[timing]\nspeed = 1", "timing.speed: expected one of the keys law, ramp, duration"),
+    ],
+)
+def test_bad_tables_get_one_clear_line(text, said):
+    with pytest.raises(InputError) as error:
+        read_timing(Table.parse(text, "f.toml"))
+    assert said in str(error.value) and "\n" not in str(error.value)
+
+
+def test_a_timing_survives_json():
+    text = '[timing]\nlaw = "trapezoid"\nramp = "1/3"\nmax_speed = 0.5'
+    timing = read_timing(Table.parse(text, "f.toml"))
+    assert timing is not None
+    assert read_timing(Table({"timing": timing.to_json()})) == timing
+    assert read_timing(Table({})) is None
+
+
+def test_a_cusp_is_said_in_words():
+    text = 'method = "cubic"\nstart = [-1, 2, 0]\nvia = [[-3, 0, 0], [3, 0, 0]]\ngoal = [1, 2, 0]\nradius = 3\n'
+    plan = make_plan(read_problem(text))
+    assert words(plan) == ["length 17.0008 mm, largest curvature unbounded at a cusp (P)"]
