@@ -78,7 +78,7 @@ def read_angle(raw: object) -> Angle:
         factor = parse(match[2] or "1") / int(match[3] or 1)
         steps = (-factor if match[1] == "-" else factor) * STEP
         if steps.denominator == 1:
-            return Angle((int(steps) - STEP - 1) % (-2 * STEP) + STEP + 1 if steps else 0)
+            return Angle((int(steps) + STEP - 1) % (2 * STEP) - STEP + 1)
         raise NotANumber(f'"{raw}"')
     if read(raw) == 0:
         return Angle()

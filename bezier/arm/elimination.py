@@ -159,9 +159,10 @@ class Geometry:
         else:
             length = n1 * n1 + n2 * n2
             equation, along, (d1, d2) = b1, b2, (n1, n2)
-        u = ((along * d1 - m * d2) / length, (along * d2 + m * d1) / length)
         square = kappa * length - along * along
-        return equation, Ratio(square.top * square.bottom, square.bottom**2, square.field), u
+        m = m * square.scale  # the variable stands for a multiple, whose square has integer coefficients
+        u = ((along * d1 - m * d2) / length, (along * d2 + m * d1) / length)
+        return equation, Ratio(square.top * square.bottom, 1, square.field), u
 
 
 def _lift(t: Ratio, one: Ratio, turn: tuple[Fraction, Fraction]) -> Any:

@@ -13,6 +13,7 @@ import typer
 from bezier.cli.check import check
 from bezier.cli.clearance import clearance
 from bezier.cli.compare import compare
+from bezier.cli.ik import ik
 from bezier.cli.plan import plan
 from qe.cli.shell import enter
 
@@ -21,6 +22,7 @@ COMMANDS: Mapping[str, Callable[..., int]] = {
     "check": check,
     "clearance": clearance,
     "compare": compare,
+    "ik": ik,
 }
 """In the order in which the help lists them. A command reads its input here and leaves the work to a worker."""
 
