@@ -55,7 +55,8 @@ class Reduction:
 
     ``equation``: the polynomial in t that has to vanish; ``degree``: its degree where no angle is missed. ``square``: m² as a polynomial in t, None
     where there is no m. ``kappa``: |κ|² (1 + t²)²; where it vanishes θ2 is free. ``axis``: the square of the distance of
-    the point from axis 1; where it vanishes θ1 is free. ``pairs``: cosine and sine of each joint, valid where ``kappa`` and
+    the point from axis 1; where it vanishes θ1 is free. ``shoulder``: what vanishes where the point lies on the circle that the
+    origin of the second joint describes. ``pairs``: cosine and sine of each joint, valid where ``kappa`` and
     ``axis`` do not vanish.
     """
 
@@ -65,6 +66,7 @@ class Reduction:
     square: Poly | None
     kappa: Poly
     axis: Poly
+    shoulder: tuple[Poly, Poly]
     pairs: tuple[tuple[Quotient, Quotient], ...]
 
     @property
@@ -144,7 +146,9 @@ class Geometry:
             (_quotient(lifted(0, 1, 0), norm), _quotient(lifted(0, 0, 1), norm)),
         )
         degree, m_squared = (4, None) if square is None else (2, square.top)
-        return Reduction(ring, equation.top, degree, m_squared, kappa.top, axis.top, pairs)
+        shoulder = (axis - (dot(self.shift[:2], self.shift[:2])), target[2] - self.shift[2])
+        tops = (shoulder[0].top, shoulder[1].top)
+        return Reduction(ring, equation.top, degree, m_squared, kappa.top, axis.top, tops, pairs)
 
     def _planar(self, b1: Ratio, b2: Ratio, kappa: Ratio, m: Ratio) -> tuple[Ratio, Ratio | None, tuple[Ratio, Ratio]]:
         """(equation, m² where m is needed, u): γ·u = b1, ν·u = b2, |u|² = κ², all times 1 + t²."""

@@ -6,16 +6,16 @@ solved at the point by exact real root isolation over the field of its coefficie
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import lru_cache
+from functools import lru_cache, partial
 from typing import Any
 
 from bezier.arm.elimination import TURNS, Geometry, Quotient, Reduction
 from bezier.arm.limits import allowed
 from bezier.arm.model import Arm
-from bezier.arm.ratio import Ratio, constant, variable
+from bezier.arm.ratio import variable
 from bezier.arm.substitute_back import confirm
 from bezier.curves.scalar import rational
 from qe.errors import InputError, InternalError
@@ -25,6 +25,7 @@ from qe.exact.ring import Ring
 from qe.exact.sample import Point
 
 Ends = tuple[Fraction, Fraction]
+Reductions = Callable[[int], Reduction]
 
 BITS = 64
 NAMES = ("w", "x", "y", "z", "t", "m")
@@ -102,13 +103,19 @@ def solve(arm: Arm, point: Sequence[Any]) -> Inverse:
     return solve_at(arm, place(general(arm, 0).ring, arm, numbers), numbers)
 
 
-def solve_at(arm: Arm, here: Point, numbers: tuple[Any, ...]) -> Inverse:
-    """``solve`` where the point stands in the ring of ``general`` already."""
-    cases = tuple(_cases(arm, here))
-    on_axis = here.sign(general(arm, 0).axis) == 0
+def solve_at(arm: Arm, here: Point, numbers: tuple[Any, ...], reductions: Reductions | None = None) -> Inverse:
+    """``solve`` where the point stands in the ring of the ``reductions`` already (those for all points by default)."""
+    reductions = reductions or partial(general, arm)
+    first = reductions(0)
+    on_axis = here.sign(first.axis) == 0
+    cases = ((f"on the axis of {arm.joints[0].name}",) if on_axis else ()) + (
+        (f"on the circle of the shoulder, the centre of {arm.joints[1].name}",)
+        if all(here.sign(p) == 0 for p in first.shoulder)
+        else ()
+    )
     values = Evaluation(here)
     for k in range(len(TURNS)):
-        reduction = general(arm, k)
+        reduction = reductions(k)
         roots = roots_above(here, reduction.ring.index["t"], reduction.equation)
         if roots is None:
             return _family(arm, here, numbers, reduction, cases)
@@ -132,13 +139,14 @@ def general(arm: Arm, turn: int) -> Reduction:
     """The reduction for all points, with angles counted from ``TURNS[turn]``, confirmed."""
     ring = Ring.of(NAMES)
     point = [variable(ring, name, arm.field) for name in "xyz"]
-    reduction = _geometry(arm).reduce(ring, point, TURNS[turn])
+    reduction = geometry_of(arm).reduce(ring, point, TURNS[turn])
     confirm(arm, reduction, point)
     return reduction
 
 
 @lru_cache(maxsize=64)
-def _geometry(arm: Arm) -> Geometry:
+def geometry_of(arm: Arm) -> Geometry:
+    """The constants of the reduction."""
     return Geometry.of(arm)
 
 
@@ -159,19 +167,6 @@ def _exact(value: Any) -> Fraction | RealAlgebraic:
 
 def _names(arm: Arm) -> tuple[str, ...]:
     return tuple(joint.name for joint in arm.joints)
-
-
-def _cases(arm: Arm, here: Point) -> Iterator[str]:
-    """What is special about the point itself."""
-    reduction, geometry = general(arm, 0), _geometry(arm)
-    if here.sign(reduction.axis) == 0:
-        yield f"on the axis of {arm.joints[0].name}"
-    ring, field = reduction.ring, arm.field
-    o = geometry.shift
-    x, y, z = geometry.based([variable(ring, name, field) for name in "xyz"])
-    circle = (x * x + y * y - (o[0] * o[0] + o[1] * o[1]), z - o[2])
-    if all(here.sign(value.top) == 0 for value in circle):
-        yield f"on the circle of the shoulder, the centre of {arm.joints[1].name}"
 
 
 def _at_root(
@@ -218,9 +213,3 @@ def _family(arm: Arm, here: Point, numbers: tuple[Any, ...], reduction: Reductio
 
 def _middle(ends: Ends) -> float:
     return float((ends[0] + ends[1]) / 2)
-
-
-def exact_point(arm: Arm, numbers: Sequence[Any]) -> tuple[Ratio, ...]:
-    """Constant coordinates as polynomials of the ring of ``general``."""
-    ring = general(arm, 0).ring
-    return tuple(constant(ring, v, arm.field) for v in numbers)

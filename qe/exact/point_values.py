@@ -6,6 +6,7 @@ from fractions import Fraction
 
 from flint import arb, fmpq
 
+from qe.exact.algebraic import RealAlgebraic, irreducible_roots
 from qe.exact.balls import EXACT_FROM, lower_end, precision, upper_end
 from qe.exact.ring import Poly
 from qe.exact.sample import Fibre, FibreRoot, Point
@@ -41,6 +42,15 @@ def multiple_roots(roots: list[FibreRoot]) -> list[bool]:
             open_ones = [k for k in open_ones if places[k].enclose(slope, bits).contains(0)]
         bits *= 2
     return [k in open_ones and (lost == 1 or places[k].sign(slope) == 0) for k in range(len(roots))]
+
+
+def roots_between(f: Poly, var: int) -> list[Fraction | RealAlgebraic]:
+    """The real roots in [0, 1], ascending, of a nonzero polynomial in variable ``var`` alone."""
+    found = []
+    for factor, _ in f.factors()[1]:
+        p = factor.to_univariate(var)
+        found += [r for r in irreducible_roots(p) if r.compare_rational(fmpq(0)) >= 0 >= r.compare_rational(fmpq(1))]
+    return [r.as_fraction() if r.is_rational else r for r in sorted(found)]
 
 
 class Evaluation:
