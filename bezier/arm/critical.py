@@ -64,7 +64,7 @@ class AlongCurve:
         found = []
         for i in range(3):
             total = constant(ring, 0, field)
-            for c in reversed(_powers([Fraction(p[i]) for p in self.curve.points])):  # type: ignore[arg-type]
+            for c in reversed(powers([Fraction(p[i]) for p in self.curve.points])):  # type: ignore[arg-type]
                 total = total * s + c
             found.append(total)
         return tuple(found)
@@ -145,7 +145,7 @@ class AlongCurve:
         return [s for s in roots_between(norm, S) if self.place(s).sign(p) == 0]
 
 
-def _powers(b: list[Fraction]) -> list[Fraction]:
+def powers(b: list[Fraction]) -> list[Fraction]:
     """The coefficients of 1, s, s², … of a polynomial given by its Bernstein coefficients."""
     n = len(b) - 1
     differences, row = [b[0]], b

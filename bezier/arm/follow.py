@@ -1,0 +1,140 @@
+"""Branches: joint positions followed along a curve, each step proved (``qe.exact.motion_chain``).
+
+Every piece proves exactly one solution in a tube of boxes over an interval of s. Two pieces belong to one branch when at their common
+parameter the solution of the one, known to a smaller box, lies in the box of the other, which holds no second one. So a branch is
+a proof that along the curve a solution exists for every s, and that it depends smoothly on s.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import lru_cache
+
+from bezier.arm.critical import powers
+from bezier.arm.inverse import Solution
+from bezier.arm.model import Arm, Motion
+from bezier.curves.curve import Bezier
+from qe.exact.motion_chain import MotionChain, Piece
+from qe.exact.point_values import pi_ends
+
+FIRST, LEAST = Fraction(1, 16), Fraction(1, 1 << 24)
+ZERO, ONE = Fraction(0), Fraction(1)
+Box = tuple[tuple[Fraction, Fraction], ...]
+Note = Callable[[], None]
+
+
+@dataclass(frozen=True, slots=True)
+class Branch:
+    """Linked pieces over [low, high] within [0, 1], in ascending order."""
+
+    pieces: tuple[Piece, ...]
+
+    @property
+    def low(self) -> Fraction:
+        """The least parameter."""
+        return self.pieces[0].low
+
+    @property
+    def high(self) -> Fraction:
+        """The greatest parameter."""
+        return self.pieces[-1].high
+
+    def piece(self, s: Fraction) -> Piece:
+        """A piece that contains s."""
+        return next(p for p in self.pieces if p.low <= s <= p.high)
+
+    def at(self, s: Fraction) -> tuple[float, ...]:
+        """The joint values at s, to about the width of the boxes (rad or mm)."""
+        return tuple(map(float, self.piece(s).at(s)))
+
+    def contains(self, s: Fraction, solution: Solution) -> bool:
+        """Whether the branch takes this solution at s, exactly: its only solution in the box there is this one."""
+        return self.low <= s <= self.high and _inside(_turned(solution, self.at(s)), self.piece(s), s)
+
+
+@lru_cache(maxsize=64)
+def chain_of(arm: Arm) -> MotionChain:
+    """The arm in ball arithmetic."""
+    return MotionChain(arm.chain.constants, [j.motion is Motion.REVOLUTE for j in arm.joints])
+
+
+def curve_powers(curve: Bezier) -> list[list[Fraction]]:
+    """The coefficients of 1, s, s², … of each coordinate of a curve with rational control points."""
+    return [powers([Fraction(p[i]) for p in curve.points]) for i in range(curve.dimension)]  # type: ignore[arg-type]
+
+
+def follow(
+    arm: Arm, curve: Bezier, start: Sequence[float], at: Fraction, end: Fraction, note: Note = lambda: None
+) -> tuple[Piece, ...]:
+    """Pieces from ``at`` towards ``end`` as far as they can be proved, in ascending order of s.
+
+    ``start``: joint values near the solution at ``at``. They end before ``end`` where the arm becomes singular.
+    """
+    chain, coefficients = chain_of(arm), curve_powers(curve)
+    forwards = end > at
+    pieces: list[Piece] = []
+    here, near, step = at, list(start), FIRST
+    while here != end and step >= LEAST:
+        note()
+        far = min(here + step, end) if forwards else max(here - step, end)
+        low, high = (here, far) if forwards else (far, here)
+        piece = chain.piece(coefficients, low, high, near)
+        if piece is None or (pieces and not _linked(pieces[-1], piece, here)):
+            step /= 2
+            continue
+        pieces.append(piece)
+        here, near, step = far, [float(v) for v in piece.at(far)], min(2 * step, FIRST)
+    return tuple(pieces if forwards else reversed(pieces))
+
+
+def whole(arm: Arm, curve: Bezier, solution: Solution, at: Fraction, ends: tuple[Fraction, Fraction]) -> Branch | None:
+    """The branch through a solution at ``at``, followed both ways towards ``ends``; None where not even one step is proved."""
+    start = [angle for angle in solution.angles if angle is not None]
+    if len(start) != len(arm.joints):
+        return None
+    before = follow(arm, curve, start, at, ends[0]) if ends[0] < at else ()
+    after = follow(arm, curve, start, at, ends[1]) if at < ends[1] else ()
+    if before and after and not _linked(before[-1], after[0], at):
+        return None
+    pieces = before + after
+    return Branch(pieces) if pieces and Branch(pieces).contains(at, solution) else None
+
+
+def _linked(one: Piece, other: Piece, s: Fraction) -> bool:
+    """Whether both hold the same solution at s: that of ``one`` lies in the box of ``other``."""
+    return _within(one.at(s), one.inner, other, s) or _within(other.at(s), other.inner, one, s)
+
+
+def _within(centre: Sequence[Fraction], radius: Sequence[float], piece: Piece, s: Fraction) -> bool:
+    boxes = zip(centre, radius, piece.at(s), piece.radius, strict=True)
+    return all(abs(a - b) + Fraction(r) <= Fraction(size) for a, r, b, size in boxes)
+
+
+def joined(one: Piece, other: Piece) -> bool:
+    """Whether the solution at the end of one curve is the one at the beginning of the next (which begins where that ends)."""
+    a, b = one.at(ONE), other.at(ZERO)
+    return all(
+        abs(x - y) + Fraction(r) <= Fraction(size)
+        for x, y, r, size in zip(a, b, one.inner, other.radius, strict=True)
+    )
+
+
+def _inside(box: Box, piece: Piece, s: Fraction) -> bool:
+    middle = piece.at(s)
+    return all(
+        m - Fraction(r) <= low and high <= m + Fraction(r)
+        for (low, high), m, r in zip(box, middle, piece.radius, strict=True)
+    )
+
+
+def _turned(solution: Solution, near: Sequence[float]) -> Box:
+    """The box of the solution, by full turns next to these joint values."""
+    found = []
+    for value, other in zip(solution.values, near, strict=True):
+        assert value is not None, "a branch is followed where no angle is free"
+        turns = round((other - float(value)) / 6.283185307179586)
+        low, high = pi_ends(96) if turns >= 0 else pi_ends(96)[::-1]
+        found.append((value.angle[0] + 2 * turns * low, value.angle[1] + 2 * turns * high))
+    return tuple(found)
