@@ -43,7 +43,7 @@ test: $(DEV) ## all tests but the long ones
 deep: $(DEV) ## the long randomised tests
 	HYPOTHESIS_PROFILE=explore $(BIN)/python -m pytest -n $(WORKERS) -q -m deep
 
-lint: $(DEV) ## ruff, and mypy --strict on qe
+lint: $(DEV) ## ruff, and mypy --strict on qe and bezier
 	$(BIN)/ruff check .
 	$(BIN)/mypy
 

@@ -1,4 +1,4 @@
-"""Planning: what every method's plan holds, the clock that its steps run by, and the choice of the method.
+"""What planning is made of: a plan, the clock that its steps run by, and a method. Types only.
 
 A method asks the engine every question about existence and checks the exact numbers that come back by putting
 them into the conditions. ``bezier.planner.table`` lists the methods.
@@ -9,22 +9,24 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from enum import Enum
-from typing import TYPE_CHECKING, Any
+from fractions import Fraction
+from pathlib import Path as FilePath
+from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
+from bezier.motion.motion import Quality
+from bezier.obstacles.survey import Finding
+from bezier.paths.heights import Heights
 from bezier.paths.path import Path
-from bezier.problem import Problem
-from qe.errors import BudgetExceeded, Unable
+from bezier.problem import PlanMethod, Problem
+from qe.errors import BudgetExceeded
 from qe.progress import Event, Listener, silent
+from qe.proof.certificate import Certificate
 
 if TYPE_CHECKING:
     import qe
-    from bezier.motion.motion import Quality
-    from bezier.obstacles.survey import Finding
-    from bezier.paths.heights import Heights
-    from bezier.planner.avoid import Attempt
-    from bezier.planner.radius_rule import RadiusRule
+    from bezier.pictures.picture import Drawing
 
 Note = Callable[[str, object], None]
 
@@ -38,6 +40,55 @@ class Outcome(Enum):
     """There is a path, but an obstacle is in its way."""
     TOO_FAST = "limits_not_kept"
     """There is a path, but the motion asked for is not proved to keep the limits asked for."""
+
+
+@dataclass(frozen=True, slots=True)
+class Attempt:
+    """One problem that was tried. ``outcome``: None when planning was unable; ``detail``: how it ended, in words."""
+
+    what: str
+    outcome: Outcome | None
+    detail: str
+
+
+@dataclass(frozen=True, slots=True)
+class RadiusRule:
+    """``forced``: the via points on the sphere with the free points that must equal them; ``sentences``: what the
+    engine decided to be true; ``solvable``: whether the problem has a solution all the same; ``larger``: a radius with
+    which the best path does not stop at a via point, None when none was found up to three times the radius.
+    """
+
+    method: PlanMethod
+    forced: Mapping[str, str]
+    sentences: tuple[str, ...]
+    solvable: bool
+    larger: Fraction | None
+
+    def in_words(self) -> str:
+        """What the rule forces, and the way out, as one sentence."""
+        points = " and ".join(f"|{via}| = r" for via in self.forced)
+        equal = " and ".join(f"{free} = {via}" for via, free in self.forced.items())
+        formula = "(8)" if self.method is PlanMethod.QUADRATIC else "(7)"
+        if self.solvable:
+            effect = f"every path of formula {formula} stops at {' and '.join(self.forced)}, whatever the objective"
+        elif len(set(self.forced.values())) < len(self.forced):
+            effect = f"formula {formula} has no solution"
+        else:
+            effect = "the other conditions cannot hold"
+        return f"{points}: this forces {equal} (proved), so {effect}; {self._way_out()}"
+
+    def _way_out(self) -> str:
+        if self.larger is None:
+            return "no radius up to 3 r was found that helps"
+        return f"with radius = {self.larger} there is a path that does not stop there (proved)"
+
+    def to_json(self) -> dict[str, Any]:
+        """The entry of ``summary.json``."""
+        return {
+            "forced": [f"{free} = {via}" for via, free in self.forced.items()],
+            "proved": list(self.sentences),
+            "larger_radius": None if self.larger is None else str(self.larger),
+        }
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -124,73 +175,48 @@ class Clock:
         return left
 
 
-def make_plan(problem: Problem, clock: Clock | None = None) -> Plan:
-    """Plan a path. Raises ``Unable`` where no answer is reached, at limits with what is known by then."""
-    from bezier.planner.avoid import avoiding  # these need ``Plan``
-    from bezier.planner.table import method_of
+@dataclass(frozen=True, slots=True)
+class Stated:
+    """What a folder says besides its certificates: ``summary.json``, and ``path.json`` where there is one."""
 
-    watch = clock or Clock()
-    try:
-        plan: Plan = avoiding(problem, watch) if problem.obstacles else method_of(problem.method).make(problem, watch)
-        with watch.step("radius and heights"):
-            plan = _with_findings(plan, watch)
-        with watch.step("quality"):
-            return with_quality(plan)
-    except BudgetExceeded as error:
-        known = "; ".join(f"{name}: {value}" for name, value in watch.facts.items()) or "nothing yet"
-        raise BudgetExceeded(f"{error}; known so far: {known}", limit=error.limit) from None
+    summary: Mapping[str, Any]
+    path: Mapping[str, Any] | None
 
 
-def _with_findings(plan: Plan, clock: Clock) -> Plan:
-    """The plan with what the radius forces, the height condition, and a note where the path goes through the origin."""
-    from bezier.planner import radius_rule
-
-    return with_findings(plan, lambda solvable: radius_rule.radius_rule(plan.problem, solvable, clock.remaining))
+P = TypeVar("P", bound=Plan)
+Section = dict[str, Any]
 
 
-def with_findings(plan: Plan, rule: Callable[[bool], RadiusRule | None]) -> Plan:
-    """The same, with what ``rule`` says of the radius, which is asked whether the problem has a solution."""
-    from bezier.paths import heights, origin
+@dataclass(frozen=True, slots=True)
+class Restored(Generic[P]):
+    """A plan found again from a folder, before obstacles and quality, and a line about each thing that was checked.
 
-    found, remarks = plan, []
-    try:
-        solvable = plan.outcome is not Outcome.INFEASIBLE
-        forced = rule(solvable)
-        if forced is not None:
-            found = replace(found, radius_rule=forced)
-            remarks += [forced.in_words()] if solvable else []  # else it is part of the reason
-        if plan.path is not None:
-            found = replace(found, heights=heights.heights_of(plan.problem, plan.path))
-            remarks += origin.remarks(plan.path)
-    except Unable as error:
-        if isinstance(error, BudgetExceeded):
-            raise
-        remarks.append(f"what the radius forces and the heights are not all decided: {error}")
-    return replace(found, remarks=(*found.remarks, *remarks))
-
-
-def with_quality(plan: Plan) -> Plan:
-    """The plan with lengths, curvatures and the motion; it is not solved when the motion does not keep its limits.
-
-    Without them, and with a remark, if they were not found and not asked for.
+    ``plan``: its certificate is the one that the folder has to have; what only planning needs is left out.
     """
-    from bezier.motion.motion import quality_of
 
-    if plan.path is None:
-        return plan
-    try:
-        quality = quality_of(plan.path, plan.problem.timing)
-    except Unable as error:
-        if isinstance(error, BudgetExceeded) or plan.problem.timing is not None:
-            raise
-        return replace(plan, remarks=(*plan.remarks, f"lengths and curvatures are left out: {error}"))
-    kept = quality.motion is None or quality.motion.keeps_limits
-    solved = plan.outcome is Outcome.SOLVED
-    return replace(plan, quality=quality, outcome=Outcome.TOO_FAST if solved and not kept else plan.outcome)
+    plan: P
+    lines: tuple[str, ...]
 
 
-def answered(answer: Any) -> Any:
-    """The engine's answer, if it is one. Raises ``Unable`` otherwise."""
-    if answer.formula is None:
-        raise Unable(answer.reason or "no answer was reached")
-    return answer
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Method(Generic[P]):
+    """A planning method.
+
+    ``make``: the plan. ``reason``: why there is no path, in one sentence. ``words``: its lines in the summary for
+    people. ``entries``: its further entries in the summary as JSON. ``files``: its further data files, by name.
+    ``draw``: writes the pictures into a folder. ``hats``: whether the paper writes its points with hats. ``template``
+    and ``sections``: its page, and the values that the page shows beyond those of every method. ``restore``: the plan
+    that the certificates in a folder prove, without any search; ``CertificateRejected`` where they are not about the
+    problem.
+    """
+
+    make: Callable[[Problem, Clock], P]
+    reason: Callable[[P], str]
+    words: Callable[[P], list[str]]
+    entries: Callable[[P], dict[str, Any]]
+    files: Callable[[P], dict[str, str]]
+    draw: Callable[[P, FilePath], Drawing]
+    hats: bool
+    template: str
+    sections: Callable[[P], Section]
+    restore: Callable[[Problem, Certificate, Stated], Restored[P]]

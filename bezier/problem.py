@@ -10,7 +10,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
-from bezier.curves.scalar import Vector, dot, is_zero, same
+from bezier.curves.scalar import Vector, dot, exactly, is_zero, same
 from bezier.curves.workspace import HalfSpace, Workspace, WorkspaceKind, root_text
 from bezier.input.numbers import NotANumber, describe, read_squared
 from bezier.input.single_table import SingleCurve, Via, read_single, stated_via
@@ -19,6 +19,7 @@ from bezier.motion.motion import Timing, read_timing
 from bezier.obstacles.obstacle import Obstacle
 from bezier.obstacles.reader import read_obstacles
 from bezier.obstacles.via import via_over
+from bezier.paths.heights import AXES, Strip
 from qe.errors import InputError
 
 MAX_BYTES = 1_000_000
@@ -84,6 +85,18 @@ class Problem:
         """The four given points by their names in the file."""
         return {"start": self.start, "via[0]": self.via[0], "via[1]": self.via[1], "goal": self.goal}
 
+    @property
+    def strip(self) -> Strip | None:
+        """The height condition, None without a positive height (``bezier.paths.heights``)."""
+        if self.single is not None:
+            task = self.single.task
+            return Strip(*task.interval, {axis.name: Fraction(axis.height or 0) for axis in task.raised})
+        first, second = self.via
+        kept = {axis: min(exactly(first[i]), exactly(second[i])) for axis, i in AXES.items() if axis != "x"}
+        kept = {axis: height for axis, height in kept.items() if height > 0}
+        low, high = sorted((exactly(first[0]), exactly(second[0])))
+        return Strip(low, high, kept) if kept else None
+
 
 _POINTS = ("start", "via", "goal")
 _WISHES = ("half_space", "ratio", "join_speed", "obstacle", "timing", "single")
@@ -107,7 +120,7 @@ def problem_of(table: Table) -> Problem:
     points = {"start": start, "via[0]": via[0], "via[1]": via[1], "goal": goal}
     _check_distinct(table, points)
     for name, point in points.items():
-        if any(abs(Fraction(c)) > LARGEST for c in point):  # type: ignore[arg-type]
+        if any(abs(exactly(c)) > LARGEST for c in point):
             raise table.error(name, "coordinates of at most 10^50", "a larger one")
     squared = max(dot(p, p) for p in points.values()) if auto else _radius(table, raw_radius)
     workspace = Workspace(kind, squared)

@@ -9,15 +9,17 @@ from pathlib import Path as FilePath
 from typing import Any
 
 import qe
+from bezier.check.stated import stored_path
 from bezier.curves.curve import Bezier
+from bezier.input import stored
 from bezier.input.numbers import describe
 from bezier.input.toml_table import Table
-from bezier.methods.control import stored
 from bezier.obstacles import survey
 from bezier.obstacles.obstacle import Obstacle
 from bezier.obstacles.reader import read_obstacles
 from bezier.obstacles.survey import Finding
 from bezier.plan import Clock, Plan
+from bezier.planner.table import method_of
 from bezier.problem import problem_of, read_text
 from qe.errors import InputError, Unable
 from qe.worker import Channel
@@ -67,14 +69,12 @@ def _write(path: FilePath, text: str) -> None:
 
 def _read(source: FilePath, clock: Clock) -> tuple[Curves, Sequence[Obstacle]]:
     if source.is_dir():
-        problem, curves = stored.stored_path(stored.table(source / "path.json"))
+        problem, curves = stored_path(stored.table(source / "path.json"))
         return curves, problem.obstacles
     table = Table.parse(read_text(source), str(source))
     if "curve" in table.values:
         table.only(("curve", "obstacle"))
         return _curves(table), read_obstacles(table)
-    from bezier.planner.table import method_of
-
     problem = problem_of(table)
     plan: Plan = method_of(problem.method).make(problem, clock)
     if plan.path is None:

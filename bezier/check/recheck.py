@@ -17,12 +17,13 @@ from pathlib import Path as FilePath
 from typing import Any
 
 from bezier.check.agreement import same_data, same_rows
-from bezier.methods.control import stored
-from bezier.methods.control.stored import Stated
+from bezier.check.stated import stated_problem
+from bezier.input import stored
 from bezier.obstacles import survey
-from bezier.plan import Outcome, Plan, with_findings, with_quality
+from bezier.plan import Outcome, Plan, Stated
 from bezier.planner import avoid
 from bezier.planner.outputs import COMPARISON, DATA, LISTED_IN, PICTURES, PROBLEM, REPORT, SUMMARY, data_texts, facts
+from bezier.planner.planning import with_findings, with_quality
 from bezier.planner.radius_rule import stated_rule
 from bezier.planner.table import method_of
 from bezier.problem import Problem, to_json
@@ -121,7 +122,7 @@ def _stated(folder: FilePath) -> Stated:
 def _problem(folder: FilePath, stated: Stated) -> Problem:
     """The problem of ``problem.json``, which the summary repeats."""
     table = stored.table(folder / PROBLEM)
-    problem = stored.stated_problem(table, PROBLEM)
+    problem = stated_problem(table, PROBLEM)
     same_data(PROBLEM, table, _data(to_json(problem)))
     same_data(f"{SUMMARY} and {PROBLEM}", stated.summary.get("problem"), table, "problem")
     return problem

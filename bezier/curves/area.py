@@ -56,7 +56,7 @@ def _refined(
     heights = [_height(region, inner[0] + width * k / 8, budget) for k in range(1, 8)]
     while len(heights) < MOST:
         gaps = _gaps(heights, outer)
-        low, high = sum(g[0] for g in gaps), sum(g[1] for g in gaps)
+        low, high = (sum((g[side] for g in gaps), Fraction(0)) for side in (0, 1))
         if high - low <= rel * high:
             return Enclosure(low, high)
         if (left := budget.remaining()) is not None and left <= 0:

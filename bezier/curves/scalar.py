@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from fractions import Fraction
-from typing import Any, Protocol
+from typing import Any, Protocol, overload
 
 Vector = tuple["Scalar", ...]
 
@@ -51,6 +51,10 @@ def add(a: Sequence[Any], b: Sequence[Any]) -> Vector:
     return tuple(x + y for x, y in zip(a, b, strict=True))
 
 
+@overload
+def subtract(a: Sequence[Fraction], b: Sequence[Fraction]) -> tuple[Fraction, ...]: ...
+@overload
+def subtract(a: Sequence[Any], b: Sequence[Any]) -> Vector: ...
 def subtract(a: Sequence[Any], b: Sequence[Any]) -> Vector:
     """a - b, coordinate by coordinate."""
     return tuple(x - y for x, y in zip(a, b, strict=True))

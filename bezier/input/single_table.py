@@ -14,8 +14,8 @@ from fractions import Fraction
 from typing import Any
 
 from bezier.curves.scalar import Vector
+from bezier.input.task import MAX_DEGREE, Axis, Task, least_degree, task
 from bezier.input.toml_table import Table
-from bezier.methods.single.program import MAX_DEGREE, Axis, Task, least_degree, task
 from qe.errors import InputError
 
 KEYS = ("degree", "a", "b", "height_y", "height_z", "p", "q")

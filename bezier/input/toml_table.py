@@ -14,7 +14,6 @@ from enum import Enum
 from fractions import Fraction
 from typing import Any, TypeVar
 
-from bezier.curves.scalar import Vector
 from bezier.input.numbers import NUMBER, Literal, NotANumber, describe, read
 from qe.errors import InputError
 
@@ -86,11 +85,11 @@ class Table:
             raise self.error(key, "a number above zero", str(value))
         return value
 
-    def point(self, key: str) -> Vector:
+    def point(self, key: str) -> tuple[Fraction, ...]:
         """A required point of three exact numbers."""
         return self.as_point(key, self.required(key, POINT))
 
-    def as_point(self, key: str, raw: object) -> Vector:
+    def as_point(self, key: str, raw: object) -> tuple[Fraction, ...]:
         """A value as a point of three exact numbers."""
         if not isinstance(raw, list) or len(raw) != DIMENSION:
             raise self.error(key, POINT, describe(raw))

@@ -16,7 +16,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from decimal import Decimal
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from bezier.curves.enclosure import Enclosure
 from bezier.curves.quality import curvature_enclosure, length_enclosure
@@ -25,9 +25,6 @@ from bezier.input.numbers import describe
 from bezier.input.toml_table import Table
 from bezier.motion.timelaw import Extremes, Law, TimeLaw, extremes, least_duration
 from bezier.paths.path import Path
-
-if TYPE_CHECKING:
-    from bezier.plan import Plan
 
 REL = Fraction(1, 10**6)
 ROWS = 151
@@ -212,17 +209,15 @@ def motion_json(motion: Motion) -> str:
     return json.dumps(told, indent=1) + "\n"
 
 
-def files(plan: Plan) -> dict[str, str]:
+def files(path: Path | None, quality: Quality | None) -> dict[str, str]:
     """The data files about the motion."""
-    if plan.path is None or plan.quality is None or plan.quality.motion is None:
+    if path is None or quality is None or quality.motion is None:
         return {}
-    motion = plan.quality.motion
-    return {"motion.csv": motion_csv(plan.path, motion), "motion.json": motion_json(motion)}
+    return {"motion.csv": motion_csv(path, quality.motion), "motion.json": motion_json(quality.motion)}
 
 
-def words(plan: Plan) -> list[str]:
+def words(quality: Quality | None) -> list[str]:
     """The lines of the summary about quality and motion."""
-    quality = plan.quality
     if quality is None:
         return []
     bent = {name: value for name, value in quality.curvatures.items() if value is not None}
@@ -256,9 +251,8 @@ def _short(value: Enclosure) -> str:
     return high if high == "inf" else f"{Decimal(high).normalize():f}"
 
 
-def entries(plan: Plan) -> dict[str, Any]:
+def entries(quality: Quality | None) -> dict[str, Any]:
     """The entries of the JSON summary about quality and motion."""
-    quality = plan.quality
     if quality is None:
         return {}
     told: dict[str, Any] = {

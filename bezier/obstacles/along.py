@@ -30,8 +30,9 @@ class Along:
             raise InputError(f"obstacles are in space: expected a curve of dimension 3, found {curve.dimension}")
         self.curve = curve
         values = [c for p in curve.points for c in p]
-        rational = all(isinstance(c, Fraction) for c in values)
-        self.scale = lcm(*(c.denominator for c in values)) if rational else 1
+        known = [c for c in values if isinstance(c, Fraction)]
+        rational = len(known) == len(values)
+        self.scale = lcm(*(c.denominator for c in known)) if rational else 1
         n = curve.degree
         self.coordinates = tuple(
             tuple(_times(p[i], self.scale, rational) * comb(n, k) for k, p in enumerate(curve.points))

@@ -14,7 +14,7 @@ from fractions import Fraction
 
 from bezier.curves.curve import Bezier
 from bezier.curves.enclosure import Enclosure, bounds, root_above, root_below
-from bezier.curves.scalar import dot, subtract
+from bezier.curves.scalar import dot, exactly, subtract
 from bezier.obstacles.bodies import Body
 from bezier.obstacles.polyhedron import Point
 from qe.errors import Unable
@@ -62,7 +62,7 @@ def distance_enclosure(curve: Bezier, body: Body, rel: Fraction = REL) -> Enclos
 def _part(curve: Bezier, body: Body, known: Fraction) -> _Part:
     """Both bounds for a part; ``known``: a lower bound from a longer part."""
     middle = curve.point(Fraction(1, 2))
-    at: Point = tuple(Fraction(c) for c in middle)  # type: ignore[arg-type]
+    at: Point = tuple(exactly(c) for c in middle)
     away = subtract(at, body.nearest(at))
     square = Fraction(dot(away, away))
     return _Part(max(known, _apart(curve, body, away, square)), root_above(square, BITS), curve)
@@ -86,6 +86,6 @@ def _rational(curve: Bezier) -> tuple[Bezier, Fraction]:
 
 def distance_at(curve: Bezier, body: Body, t: Fraction) -> float:
     """The distance of one point of the curve from the body, rounded; for pictures."""
-    at: Point = tuple(sum(bounds(c, BITS)) / 2 for c in curve.point(t))
+    at: Point = tuple((low + high) / 2 for low, high in (bounds(c, BITS) for c in curve.point(t)))
     away = subtract(at, body.nearest(at))
     return max(float(root_below(Fraction(dot(away, away)), BITS)) - float(body.radius), 0.0)

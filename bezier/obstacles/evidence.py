@@ -6,10 +6,10 @@ from fractions import Fraction
 from typing import Any
 
 from bezier.curves.curve import Bezier
+from bezier.curves.evidence import curve_payload
 from bezier.obstacles.along import Along
 from bezier.obstacles.clearance import Contact, Search
 from bezier.obstacles.obstacle import Constraint, Obstacle, Piece
-from bezier.paths.evidence import curve_payload
 from qe.certify.arithmetic.bernstein import MAX_DEGREE
 from qe.errors import InputError
 from qe.proof.certificate import Certificate, Kind
@@ -45,7 +45,7 @@ def contact_certificate(curve: Bezier, obstacle: Obstacle, contact: Contact) -> 
     pieces = _pieces(curve, obstacle, after) if met else None
     if pieces is None:
         return None
-    where = {"after": str(after), "t": str(high), "piece": met[0]}
+    where: dict[str, Any] = {"after": str(after), "t": str(high), "piece": met[0]}
     return Certificate(Kind.CLEARANCE, {**curve_payload(curve), "pieces": pieces, "contact": where})
 
 

@@ -11,6 +11,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from math import gcd, lcm
+from typing import Any
 
 from bezier.curves.scalar import dot, subtract
 from qe.errors import InputError
@@ -182,7 +183,7 @@ def _walls(normal: Point, corners: Sequence[Point]) -> tuple[tuple[Point, Fracti
     return tuple(found)
 
 
-def cross(a: Sequence[Fraction], b: Sequence[Fraction]) -> Point:
+def cross(a: Sequence[Any], b: Sequence[Any]) -> tuple[Any, ...]:
     """The vector product."""
     return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
 

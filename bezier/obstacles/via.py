@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from fractions import Fraction
 
-from bezier.curves.scalar import Vector, add, scale, subtract
+from bezier.curves.scalar import Vector, add, exactly, scale, subtract
 from bezier.obstacles.obstacle import Box, Obstacle
 from qe.errors import InputError
 
@@ -40,7 +40,7 @@ def _shadow(start: Vector, along: Vector, box: Box) -> tuple[Fraction, Fraction]
     """The part [a, b] of [0, 1] in which start + s along, seen from above, lies in the box; None when it never does."""
     low, high = Fraction(0), Fraction(1)
     for i in range(2):
-        begin, step = Fraction(start[i]), Fraction(along[i])  # type: ignore[arg-type]
+        begin, step = exactly(start[i]), exactly(along[i])
         if not step:
             if not box[0][i] <= begin <= box[1][i]:
                 return None

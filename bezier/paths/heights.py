@@ -23,11 +23,10 @@ from bezier.curves.enclosure import Enclosure
 from bezier.curves.events import Event, events_of
 from bezier.curves.halving import exact
 from bezier.curves.nonnegative import Interval
-from bezier.curves.scalar import decimal_text, exactly, sign
+from bezier.curves.scalar import decimal_text, sign
 from bezier.obstacles.along import Along
 from bezier.obstacles.obstacle import Constraint
 from bezier.paths.path import Path
-from bezier.problem import Problem
 
 AXES = {"x": 0, "y": 1, "z": 2}
 
@@ -87,22 +86,8 @@ class Heights:
         return not self.below
 
 
-def strip_of(problem: Problem) -> Strip | None:
-    """The condition of a problem, None without a positive height."""
-    if problem.single is not None:
-        task = problem.single.task
-        kept = {axis.name: Fraction(axis.height or 0) for axis in task.raised}
-        return Strip(*task.interval, kept)
-    first, second = problem.via
-    kept = {axis: min(exactly(first[i]), exactly(second[i])) for axis, i in AXES.items() if axis != "x"}
-    kept = {axis: height for axis, height in kept.items() if height > 0}
-    low, high = sorted((exactly(first[0]), exactly(second[0])))
-    return Strip(low, high, kept) if kept else None
-
-
-def heights_of(problem: Problem, path: Path) -> Heights:
+def heights_of(strip: Strip | None, path: Path) -> Heights:
     """Decide the height condition on every curve of a path. Complete: it holds, or all stretches below are found."""
-    strip = strip_of(problem)
     if strip is None:
         return Heights(None, ())
     found = []
@@ -197,11 +182,6 @@ def _parameter(t: Interval) -> str:
     if t[0] == t[1]:
         return str(t[0])
     return f"about {float((t[0] + t[1]) / 2):.8g}"
-
-
-def entries(problem: Problem, path: Path) -> dict[str, Any]:
-    """The entry of ``summary.json``, from the problem and the path alone."""
-    return {"heights": to_json(heights_of(problem, path))}
 
 
 def to_json(found: Heights) -> dict[str, Any]:

@@ -10,8 +10,10 @@ from typing import Any
 
 from bezier.curves.containment import Inside, Leaves, Outcome, examine_all
 from bezier.curves.curve import Bezier, Join, Smoothness, join
+from bezier.curves.evidence import containment
 from bezier.curves.scalar import Vector, scale
 from bezier.curves.workspace import Condition, Workspace
+from qe.proof.certificate import Certificate
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,4 +102,15 @@ def speed_at_joins(path: Path) -> dict[str, Vector]:
         if item.join.smoothness >= Smoothness.C1:
             slope = path.curves[item.second].derivative(1, Fraction(0))
             found[f"{item.first}-{item.second}"] = scale(1 / path.duration(item.second), slope)
+    return found
+
+
+def path_certificates(path: Path) -> list[tuple[str, Certificate]]:
+    """A labelled certificate for each containment proof that has this form."""
+    found = []
+    for proof in path.proofs:
+        if isinstance(proof.outcome, Inside):
+            certificate = containment(path.curves[proof.curve], proof.outcome)
+            if certificate is not None:
+                found.append((f"{proof.curve} in {proof.condition.name}", certificate))
     return found

@@ -1,28 +1,20 @@
-"""Obstacles in pictures, and the chart of heights and clearances. Floating point, for the eye only."""
+"""Obstacles in pictures. Floating point, for the eye only."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from fractions import Fraction
-from pathlib import Path as FilePath
-from typing import Any
 
 import numpy as np
 
 from bezier.obstacles.bodies import Body, Cylinder, HalfSpaceBody, Rounded
-from bezier.obstacles.clearance import Contact
-from bezier.obstacles.distance import distance_at
 from bezier.obstacles.obstacle import Obstacle
-from bezier.obstacles.survey import Finding
-from bezier.pictures.mesh import Array, Indices, hull, hull_faces, icosphere, sampled
+from bezier.pictures.mesh import Array, Indices, hull, hull_faces, icosphere
 
 COLOURS = ("#c9772b", "#8a6fb0", "#5d8a3a", "#b5537c", "#4a8d97", "#a08a2e")
 """The colours of obstacles, in turn."""
 GRID = 21
 """Grid points per axis to show an obstacle given by a formula."""
-STEPS = 40
-"""Steps per curve in the chart of clearances."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,61 +98,3 @@ def _cloud(obstacle: Obstacle, reach: float) -> Array:
         inside |= held
     found: Array = grid[inside]
     return found
-
-
-def save_chart(findings: Sequence[Finding], pictures: Sequence[ObstaclePicture], file: FilePath) -> str:
-    """``clearance.png``, and the same as SVG text: heights over x, and the distance to each obstacle over t."""
-    from bezier.pictures.plot import new_figure, svg_text
-
-    figure = new_figure(12, 4.2)
-    curves = {finding.name: finding for finding in findings}
-    _heights(figure.add_axes((0.06, 0.13, 0.41, 0.76)), list(curves.values()), pictures)
-    _clearances(figure.add_axes((0.55, 0.13, 0.43, 0.76)), findings, list(curves), pictures)
-    figure.savefig(file, dpi=120, pil_kwargs={"compress_level": 4})
-    return svg_text(figure)
-
-
-def _heights(axis: Any, findings: Sequence[Finding], pictures: Sequence[ObstaclePicture]) -> None:
-    from bezier.pictures.picture import COLOURS as CURVES
-    from bezier.pictures.picture import INK
-
-    for picture in pictures:
-        outline = picture.outline(0, 2)
-        if outline is not None:
-            axis.fill(*outline.T, color=picture.colour, alpha=0.35)
-    for finding in findings:
-        points = sampled(finding.curve.points, 81)
-        axis.plot(points[:, 0], points[:, 2], color=CURVES.get(finding.name, INK), linewidth=2.2)
-    axis.set_aspect("equal", adjustable="datalim")
-    _labelled(axis, "height over x, with the silhouettes of the obstacles", "x", "z")
-
-
-def _clearances(
-    axis: Any, findings: Sequence[Finding], names: Sequence[str], pictures: Sequence[ObstaclePicture]
-) -> None:
-    colours, seen = {picture.name: picture.colour for picture in pictures}, set()
-    for finding in findings:
-        start, obstacle = names.index(finding.name), finding.obstacle
-        colour = colours.get(obstacle.name, COLOURS[0])
-        if obstacle.body is not None:
-            times = [Fraction(k, STEPS) for k in range(STEPS + 1)]
-            values = [distance_at(finding.curve, obstacle.body, t) for t in times]
-            label = None if obstacle.name in seen else obstacle.name
-            axis.plot([start + float(t) for t in times], values, color=colour, linewidth=1.8, label=label)
-            seen.add(obstacle.name)
-        if isinstance(finding.outcome, Contact):
-            axis.plot(start + float(finding.outcome.t[0]), 0, "x", color=colour, markersize=9)
-    for k in range(1, len(names)):
-        axis.axvline(k, color="#dfe5ea", linewidth=1)
-    axis.set_xticks([k + 0.5 for k in range(len(names))], list(names))
-    axis.set_ylim(bottom=0)
-    if seen:
-        axis.legend(frameon=False, fontsize=9)
-    _labelled(axis, "distance to each obstacle along the path", "curve", "distance")
-
-
-def _labelled(axis: Any, title: str, across: str, up: str) -> None:
-    axis.set_title(title, fontsize=10)
-    axis.set_xlabel(across)
-    axis.set_ylabel(up)
-    axis.grid(color="#e3e8ec", linewidth=0.6)

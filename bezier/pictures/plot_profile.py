@@ -7,7 +7,7 @@ from pathlib import Path as FilePath
 from typing import Any
 
 from bezier.curves.curve import Bezier
-from bezier.methods.single.program import Task
+from bezier.input.task import Task
 from bezier.pictures.mesh import sampled
 from bezier.pictures.picture import COLOURS, INK, PALE, numbers
 from bezier.pictures.plot import new_figure, svg_text

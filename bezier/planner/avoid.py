@@ -13,7 +13,7 @@ The objective knows nothing of the obstacles, so a path that is blocked does not
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
@@ -24,7 +24,8 @@ from bezier.input.toml_table import Table
 from bezier.obstacles import survey
 from bezier.obstacles.clearance import Argument, Clear
 from bezier.obstacles.survey import Finding
-from bezier.plan import Clock, Outcome, Plan
+from bezier.plan import Attempt, Clock, Outcome, Plan
+from bezier.planner.table import method_of
 from bezier.problem import INNER, PlanMethod, Problem, problem_of, to_json
 from qe.errors import BudgetExceeded, CertificateRejected, InputError, Unable
 
@@ -35,15 +36,6 @@ METHODS = (PlanMethod.QUADRATIC, PlanMethod.CUBIC, PlanMethod.SINGLE)
 
 AS_GIVEN = "as given"
 """The first attempt."""
-
-
-@dataclass(frozen=True, slots=True)
-class Attempt:
-    """One problem that was tried. ``outcome``: None when planning was unable; ``detail``: how it ended, in words."""
-
-    what: str
-    outcome: Outcome | None
-    detail: str
 
 
 def avoiding(problem: Problem, clock: Clock) -> Plan:
@@ -70,8 +62,6 @@ def avoiding(problem: Problem, clock: Clock) -> Plan:
 
 def _attempted(what: str, problem: Problem, clock: Clock) -> Plan:
     """The plan of one problem, proved clear of the obstacles or not."""
-    from bezier.planner.table import method_of  # the methods need ``Plan``
-
     plan: Plan = method_of(problem.method).make(problem, clock)
     with clock.step(f"clearance, {what}"):
         plan = examined(plan)

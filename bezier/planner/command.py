@@ -11,9 +11,10 @@ from typing import TYPE_CHECKING
 from bezier.curves.scalar import brief
 from bezier.motion import motion
 from bezier.paths import heights
-from bezier.plan import Clock, Outcome, Plan, make_plan
+from bezier.plan import Clock, Outcome, Plan
 from bezier.planner import avoid
 from bezier.planner.outputs import REPORT, SUMMARY, summary, write_data
+from bezier.planner.planning import make_plan
 from bezier.planner.table import method_of
 from bezier.problem import Problem
 from qe.cli.shell import OK, UNABLE
@@ -49,18 +50,19 @@ def plan(channel: Channel, request: Request) -> Reply:
     """``bezier plan``: all files into ``request.folder``, and what to print."""
     clock = Clock(limit=request.timeout, listener=channel.event, note=channel.fact)
     made = make_plan(request.problem, clock)
+    method = method_of(made.problem.method)
     files = write_data(made, request.folder)
     drawing = None
     if request.plots:
         with clock.step("pictures"):
-            drawing = method_of(made.problem.method).draw(made, request.folder)
+            drawing = method.draw(made, request.folder)
             if made.findings:
                 drawing = _with_clearances(drawing, made, request.folder)
         files += drawing.files
     with clock.step("report"):
         from bezier.report.page import render
 
-        page = render(made, drawing)
+        page = render(made, method, drawing)
         (request.folder / REPORT).write_text(page, encoding="utf-8")
     files = sorted([*files, REPORT, SUMMARY])
     total = time.perf_counter() - clock.start
@@ -73,7 +75,7 @@ def plan(channel: Channel, request: Request) -> Reply:
 
 def _with_clearances(drawing: Drawing, made: Plan, folder: FilePath) -> Drawing:
     """The drawing with the chart of heights and distances to the obstacles."""
-    from bezier.pictures.obstacles import save_chart
+    from bezier.pictures.plot_clearance import save_chart
 
     chart = save_chart(made.findings, drawing.picture.obstacles, folder / CLEARANCE)
     return replace(drawing, clearance=chart, files=(*drawing.files, CLEARANCE))
@@ -95,7 +97,7 @@ def in_words(made: Plan, target: FilePath, files: list[str], seconds: float) -> 
         lines.append(f"path: {joins}{inside}")
     if made.heights is not None:
         lines += heights.words(made.heights)
-    lines += motion.words(made)
+    lines += motion.words(made.quality)
     lines += avoid.words(made)
     accepted = all(verdict.accepted for verdict in made.checks.values())
     lines.append(f"certificates: {'accepted' if accepted else 'REJECTED'}")

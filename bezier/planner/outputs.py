@@ -16,10 +16,10 @@ from fractions import Fraction
 from pathlib import Path as FilePath
 from typing import Any
 
+from bezier.curves.evidence import field_json
 from bezier.curves.scalar import decimal_text, described, rational, scale
 from bezier.motion import motion
 from bezier.paths import heights
-from bezier.paths.evidence import field_json
 from bezier.paths.path import Path
 from bezier.plan import Outcome, Plan
 from bezier.planner import avoid
@@ -131,7 +131,7 @@ def facts(plan: Plan) -> dict[str, Any]:
         "active": list(plan.active),
         "certified": plan.certified,
         **method.entries(plan),
-        **motion.entries(plan),
+        **motion.entries(plan.quality),
         **avoid.entries(plan),
         **_decided(plan),
         "problem": to_json(problem),
@@ -231,7 +231,7 @@ def data_texts(plan: Plan) -> dict[str, str]:
     if plan.path is not None:
         texts["path.json"] = json.dumps(path_json(plan, plan.path), indent=1, ensure_ascii=False) + "\n"
         texts["path.csv"] = path_csv(plan.path)
-    return {**texts, **motion.files(plan)}
+    return {**texts, **motion.files(plan.path, plan.quality)}
 
 
 def write_data(plan: Plan, folder: FilePath) -> list[str]:

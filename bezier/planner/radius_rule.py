@@ -9,18 +9,20 @@ R0, with F = Q2 in (7) and F = Q1 in (8), which therefore has no solution when b
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Callable
+from dataclasses import replace
 from fractions import Fraction
 from itertools import pairwise
 from math import ceil
-from typing import Any
 
 import qe
 from bezier.curves.enclosure import root_above, root_below
 from bezier.curves.scalar import Vector, dot, exactly, same
 from bezier.curves.workspace import Workspace
 from bezier.methods.control.system import System, coordinates, number
+from bezier.methods.cubic import formula as cubic
+from bezier.methods.quadratic import formula as quadratic
+from bezier.plan import RadiusRule
 from bezier.problem import PlanMethod, Problem
 from qe.errors import BudgetExceeded, InternalError, Unable
 
@@ -36,46 +38,6 @@ NEXT = {PlanMethod.QUADRATIC: ("Q1", "Q1"), PlanMethod.CUBIC: ("Q1", "Q2")}
 """The free control points next to Q0 and to R0."""
 SHARES = tuple(map(Fraction, ("21/20", "5/4", "3/2", "2", "3")))
 """A larger radius is looked for between these multiples of the least one that can do."""
-
-
-@dataclass(frozen=True, slots=True)
-class RadiusRule:
-    """``forced``: the via points on the sphere with the free points that must equal them; ``sentences``: what the
-    engine decided to be true; ``solvable``: whether the problem has a solution all the same; ``larger``: a radius with
-    which the best path does not stop at a via point, None when none was found up to three times the radius.
-    """
-
-    method: PlanMethod
-    forced: Mapping[str, str]
-    sentences: tuple[str, ...]
-    solvable: bool
-    larger: Fraction | None
-
-    def in_words(self) -> str:
-        """What the rule forces, and the way out, as one sentence."""
-        points = " and ".join(f"|{via}| = r" for via in self.forced)
-        equal = " and ".join(f"{free} = {via}" for via, free in self.forced.items())
-        formula = "(8)" if self.method is PlanMethod.QUADRATIC else "(7)"
-        if self.solvable:
-            effect = f"every path of formula {formula} stops at {' and '.join(self.forced)}, whatever the objective"
-        elif len(set(self.forced.values())) < len(self.forced):
-            effect = f"formula {formula} has no solution"
-        else:
-            effect = "the other conditions cannot hold"
-        return f"{points}: this forces {equal} (proved), so {effect}; {self._way_out()}"
-
-    def _way_out(self) -> str:
-        if self.larger is None:
-            return "no radius up to 3 r was found that helps"
-        return f"with radius = {self.larger} there is a path that does not stop there (proved)"
-
-    def to_json(self) -> dict[str, Any]:
-        """The entry of ``summary.json``."""
-        return {
-            "forced": [f"{free} = {via}" for via, free in self.forced.items()],
-            "proved": list(self.sentences),
-            "larger_radius": None if self.larger is None else str(self.larger),
-        }
 
 
 def on_sphere(problem: Problem) -> dict[str, str]:
@@ -130,9 +92,7 @@ def larger_radius(problem: Problem, remaining: Limit = unlimited) -> Fraction | 
     """A simple rational radius with which the best path does not stop at a via point, proved by its optimum."""
     square = problem.workspace.radius_squared
     if problem.method is PlanMethod.QUADRATIC:
-        from bezier.methods.quadratic.formula import three_balls
-
-        square = max(square, three_balls(problem).needed_squared)
+        square = max(square, quadratic.three_balls(problem).needed_squared)
     for low, high in pairwise(SHARES):
         candidate = _short_decimal(low * root_above(square), high * root_below(square))
         try:
@@ -172,9 +132,5 @@ def helps(problem: Problem, radius: Fraction, remaining: Limit = unlimited) -> b
 
 def _system(problem: Problem) -> System:
     if problem.method is PlanMethod.CUBIC:
-        from bezier.methods.cubic import formula as cubic
-
         return cubic.system(problem)
-    from bezier.methods.quadratic import formula as quadratic
-
     return quadratic.system(problem)

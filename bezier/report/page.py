@@ -11,8 +11,7 @@ from jinja2 import Environment, PackageLoader, StrictUndefined, Template
 from markupsafe import Markup
 
 from bezier.paths import heights
-from bezier.plan import Plan
-from bezier.planner.table import method_of
+from bezier.plan import Method, Plan
 from bezier.report import mathml, parts
 from bezier.report import obstacles as obstacle_report
 
@@ -20,16 +19,15 @@ if TYPE_CHECKING:
     from bezier.pictures.picture import Drawing, PathPicture
 
 
-def render(plan: Plan, drawing: Drawing | None) -> str:
-    """The page. Without ``drawing`` there are no pictures and no script."""
-    method = method_of(plan.problem.method)
+def render(plan: Plan, method: Method[Any], drawing: Drawing | None) -> str:
+    """The page of a plan by this method. Without ``drawing`` there are no pictures and no script."""
     page = template(method.template).render(_common(plan, drawing) | method.sections(plan))
     return page if method.hats else mathml.without_hats(page)
 
 
 def template(name: str) -> Template:
     """A page's template."""
-    environment = Environment(loader=PackageLoader("bezier"), autoescape=True, undefined=StrictUndefined)
+    environment = Environment(loader=PackageLoader("bezier.report"), autoescape=True, undefined=StrictUndefined)
     environment.trim_blocks = True
     return environment.get_template(name)
 

@@ -10,6 +10,7 @@ from fractions import Fraction
 from math import comb
 
 from bezier.curves.scalar import exactly
+from bezier.input.task import Axis, task
 from bezier.methods.control.system import number
 from bezier.methods.cubic import formula as cubic
 from bezier.methods.quadratic import formula as quadratic
@@ -142,8 +143,8 @@ def in_plane(problem: PlanningProblem) -> str:
 def single_curve(degree: int, symbols: Collection[Symbol] = ()) -> str:
     """(4) for a curve from (0, 0) to (1, 0) that keeps the height 1, or h, from x = 2/5 to x = 3/5."""
     zero, one = Fraction(0), Fraction(1)
-    axis = single.Axis("y", zero, zero, one)
-    given = single.task(degree, (zero, one), (Fraction(2, 5), Fraction(3, 5)), [axis])
+    axis = Axis("y", zero, zero, one)
+    given = task(degree, (zero, one), (Fraction(2, 5), Fraction(3, 5)), [axis])
     conditions = " and ".join(single_formula.constraints(given, axis, symbols))
     return f"ex {', '.join(single.variables(given, axis))}. {conditions}"
 

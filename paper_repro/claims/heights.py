@@ -132,7 +132,7 @@ def method_2_outer() -> Iterator[Evidence]:
         False,
     )
     drawn = Bezier.of((START, p1, p2, OUTER["q0"]))
-    below = heights_of(problem, assemble({"P": drawn}, {}, problem.workspace)).below
+    below = heights_of(problem.strip, assemble({"P": drawn}, {}, problem.workspace)).below
     ends = [(item.axis, *(f"{float(side.t[0]):.6f}" for side in (item.begin, item.end))) for item in below]
     yield Table(("height in", "below from t", "to t"), ends)
     yield Fact("both heights are violated on one stretch of $P(t)$, between its two passages of $x = -1$", _same(below))

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from typing import Any
 
+from bezier.input.task import Axis, task
 from bezier.methods.single import program as single
 from paper_repro.ask import decided, eliminated, optimised
 from paper_repro.claim import Evidence, Fact, Picture, Table, Verdict, claim
@@ -142,18 +143,18 @@ def equation_4() -> Iterator[Evidence]:
         "the optimiser's": [found.point[v] for v in Y],
     }
     yield Table(("optimal tuple", *Y), [(name, *map(str, values)) for name, values in tuples.items()])
-    axes = (single.Axis("y", Fraction(0), Fraction(1, 2), Fraction(1)),)
-    task = single.task(8, (Fraction(0), Fraction(8)), (Fraction(5, 2), Fraction(11, 2)), axes)
-    chosen = single.choose(task, axes[0]).values
+    axes = (Axis("y", Fraction(0), Fraction(1, 2), Fraction(1)),)
+    given = task(8, (Fraction(0), Fraction(8)), (Fraction(5, 2), Fraction(11, 2)), axes)
+    chosen = single.choose(given, axes[0]).values
     assert chosen is not None
     yield Fact(
         "for another instance ($n = 8$) `bezier.methods.single.program` finds the sum 3, the least possible with "
         "$y_3, y_4, y_5 \\ge 1$",
-        sum(chosen[i] for i in task.middle) == 3,
+        sum(chosen[i] for i in given.middle) == 3,
     )
     yield Picture(
         "Figure 4, redrawn: the position of $(a, h_y)$ and $(b, h_y)$; here $n = 8$, $x_i = i$, $a = 5/2$, $b = 11/2$.",
-        heights(list(zip(task.abscissae, chosen)), task.interval, 1, task.p, task.q),
+        heights(list(zip(given.abscissae, chosen)), given.interval, 1, given.p, given.q),
     )
 
 

@@ -8,6 +8,7 @@ from fractions import Fraction
 from bezier.curves.containment import Inside, Leaves, examine, examine_all
 from bezier.curves.curve import Bezier
 from bezier.curves.workspace import Ball, Workspace, WorkspaceKind
+from bezier.input.task import Axis, task
 from bezier.methods.single import program as single
 from bezier.methods.single.closed import ProvedCurve, close
 from paper_repro.ask import decided, optimised, verified
@@ -137,10 +138,10 @@ def closed() -> Iterator[Evidence]:
     """The instance of the entry above, degree 6 and height 2. Cuts at finitely many $t$ are added to (4) until the
     curve is proved for all $t$; the exact linear program proves that no smaller sum is possible."""
     height = Fraction(2)
-    axes = [single.Axis(name, Fraction(0), Fraction(0), height) for name in "yz"]
-    task = single.task(N, (Fraction(-3), Fraction(3)), (Fraction(-3, 5), Fraction(3, 5)), axes)
+    axes = [Axis(name, Fraction(0), Fraction(0), height) for name in "yz"]
+    given = task(N, (Fraction(-3), Fraction(3)), (Fraction(-3, 5), Fraction(3, 5)), axes)
     work = Workspace(WorkspaceKind.HEMISPHERE, Fraction(9))
-    found = close(task, work)
+    found = close(given, work)
     assert isinstance(found, ProvedCurve)
     text = f"no curve has a smaller sum than {found.bound}"
     cuts = f"{len(found.cuts)} linear cuts (listed in the certificate)"
@@ -152,7 +153,7 @@ def closed() -> Iterator[Evidence]:
     )
     inside = all(isinstance(o, Inside) for o in examine_all(found.curve, work.conditions))
     yield Fact("it stays in the hemisphere of radius 3 for all $t$", inside)
-    yield Fact("it keeps the heights for all $t$ in $[t_a, t_b]$", not single.dips(task, found.curve))
+    yield Fact("it keeps the heights for all $t$ in $[t_a, t_b]$", not single.dips(given, found.curve))
 
 
 CLAIMS = (dips, bulge, leaves, closed)

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
-PACKAGES = ("qe",)
+PACKAGES = ("qe", "bezier", "experiments", "paper_repro")
 """The packages that have no circle of files."""
 
 

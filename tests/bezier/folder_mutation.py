@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from bezier.check import recheck
-from bezier.methods.control import stored
+from bezier.input import stored
 from bezier.planner import command
 from bezier.problem import load_problem, to_json
 from qe.errors import CertificateRejected, InputError

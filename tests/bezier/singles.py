@@ -7,7 +7,7 @@ from typing import Any
 
 from hypothesis import strategies as st
 
-from bezier.methods.single.program import Axis, Task, index_pair, task
+from bezier.input.task import Axis, Task, index_pair, task
 from qe.errors import InputError
 
 QUARTERS = st.integers(-8, 8).map(lambda k: Fraction(k, 4))

@@ -10,13 +10,13 @@ from typing import Any
 import qe
 from bezier.curves.containment import Inside
 from bezier.curves.scalar import Vector
-from bezier.methods.control.stored import check_optimum_of, member, numbers, optimal_points
+from bezier.input.stored import numbers
+from bezier.methods.control.claims import check_optimum_of, member, optimal_points
 from bezier.methods.control.system import System
-from bezier.paths.evidence import path_certificates
-from bezier.paths.path import Path, Proof, assemble, prove
-from bezier.plan import Clock, answered
+from bezier.paths.path import Path, Proof, assemble, path_certificates, prove
+from bezier.plan import Clock
 from bezier.problem import Problem
-from qe.errors import CertificateRejected, InternalError
+from qe.errors import CertificateRejected, InternalError, Unable
 from qe.exact.ring import Ring
 from qe.formula.build import convert
 from qe.formula.syntax import FALSE, Atom, Exists, Formula
@@ -25,6 +25,13 @@ from qe.proof.certificate import Kind
 
 ELIMINATION, OPTIMUM = "elimination", "optimum"
 """The labels of the certificates that every method with a system of control points has."""
+
+
+def answered(answer: Any) -> Any:
+    """The engine's answer, if it is one. Raises ``Unable`` otherwise."""
+    if answer.formula is None:
+        raise Unable(answer.reason or "no answer was reached")
+    return answer
 
 
 def quantifier_free(text: str, clock: Clock) -> Any:

@@ -6,12 +6,11 @@ from pathlib import Path as FilePath
 from typing import TYPE_CHECKING, Any
 
 from bezier.curves.scalar import brief, described
-from bezier.methods.control.stored import Stated
 from bezier.methods.control.terms import named_multipliers
 from bezier.methods.cubic import plan as cubic_plan
 from bezier.methods.cubic import report as cubic_report
 from bezier.methods.cubic.plan import CubicPlan
-from bezier.planner.table import Method, Restored
+from bezier.plan import Method, Restored, Stated
 from bezier.problem import Problem
 from qe.proof.certificate import Certificate
 

@@ -7,13 +7,12 @@ from typing import TYPE_CHECKING, Any
 
 from bezier.curves.containment import Leaves
 from bezier.curves.scalar import exact_text
-from bezier.methods.control.stored import Stated
 from bezier.methods.quadratic import formula as quadratic
 from bezier.methods.quadratic import plan as quadratic_plan
 from bezier.methods.quadratic import report as quadratic_report
 from bezier.methods.quadratic import restore as quadratic_restore
 from bezier.methods.quadratic.plan import QuadraticPlan
-from bezier.planner.table import Method, Restored
+from bezier.plan import Method, Restored, Stated
 from bezier.problem import Problem
 from qe.proof.certificate import Certificate
 

@@ -12,6 +12,7 @@ from bezier.curves.scalar import Vector, rational, sign
 from bezier.curves.workspace import Workspace, WorkspaceKind
 from bezier.methods.control.optimal_path import (
     OPTIMUM,
+    answered,
     body_of,
     chosen_path,
     elimination,
@@ -23,7 +24,7 @@ from bezier.methods.control.optimal_path import (
 from bezier.methods.control.system import System
 from bezier.methods.quadratic import formula as quadratic
 from bezier.paths.path import Path, Proof, prove
-from bezier.plan import Clock, Outcome, Plan, answered
+from bezier.plan import Clock, Outcome, Plan
 from bezier.problem import Problem
 from qe.errors import InternalError
 

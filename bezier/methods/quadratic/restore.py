@@ -7,8 +7,9 @@ from typing import Any
 import qe
 from bezier.curves.scalar import sign
 from bezier.curves.workspace import Workspace, WorkspaceKind
+from bezier.input.stored import numbers
+from bezier.methods.control.claims import check_optimum_of, foreign, member
 from bezier.methods.control.optimal_path import OPTIMUM, body_of, bundled, chosen_path, elimination, restored_optimum
-from bezier.methods.control.stored import check_optimum_of, foreign, member, numbers
 from bezier.methods.control.system import System
 from bezier.methods.control.terms import Terms, condition_terms, coordinate_terms, fixed_by, reduced
 from bezier.methods.quadratic import formula as quadratic

@@ -19,8 +19,9 @@ from math import ceil, floor, log10
 from bezier.curves.curve import Bezier
 from bezier.curves.scalar import sign
 from bezier.curves.workspace import Workspace, WorkspaceKind
+from bezier.input.task import Task, Values
 from bezier.methods.single.cuts import Cut, CutKind, Model
-from bezier.methods.single.program import Task, Values, curve, program
+from bezier.methods.single.program import curve, program
 from bezier.methods.single.simplex import (
     Check,
     Contradiction,

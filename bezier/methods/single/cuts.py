@@ -24,7 +24,8 @@ from bezier.curves.curve import Bezier
 from bezier.curves.nonnegative import Negative, decide
 from bezier.curves.scalar import Vector, dot, scale, sign
 from bezier.curves.workspace import Workspace
-from bezier.methods.single.program import Axis, Task, Values, curve, objective, program, weights_at
+from bezier.input.task import Axis, Task, Values
+from bezier.methods.single.program import curve, objective, program, weights_at
 from bezier.methods.single.simplex import LinearProgram, Row
 
 ZERO, ONE = Fraction(0), Fraction(1)

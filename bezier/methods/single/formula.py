@@ -12,7 +12,8 @@ from typing import Any
 
 import qe
 from bezier.curves.workspace import Workspace, WorkspaceKind
-from bezier.methods.single.program import Axis, Task, variables
+from bezier.input.task import Axis, Task
+from bezier.methods.single.program import variables
 from qe.errors import Unable
 
 VALUE = "v"

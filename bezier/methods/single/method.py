@@ -6,7 +6,6 @@ from pathlib import Path as FilePath
 from typing import TYPE_CHECKING, Any
 
 from bezier.curves.scalar import brief, described
-from bezier.methods.control.stored import Stated
 from bezier.methods.single import plan as single_plan
 from bezier.methods.single import report as single_report
 from bezier.methods.single import restore as single_restore
@@ -14,7 +13,7 @@ from bezier.methods.single.closed import ProvedCurve
 from bezier.methods.single.cuts import Cut
 from bezier.methods.single.plan import NAME, SinglePlan
 from bezier.methods.single.program import TIE_BREAK, Dip
-from bezier.planner.table import Method, Restored
+from bezier.plan import Method, Restored, Stated
 from bezier.problem import Problem
 from qe.proof.certificate import Certificate
 

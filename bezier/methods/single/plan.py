@@ -9,17 +9,18 @@ from fractions import Fraction
 import qe
 from bezier.curves.containment import Inside, Leaves, examine_closely
 from bezier.curves.curve import Bezier
+from bezier.curves.evidence import containment
 from bezier.curves.scalar import Vector
 from bezier.curves.workspace import HalfSpace
-from bezier.methods.control.optimal_path import verified
+from bezier.input.task import Task, Values
+from bezier.methods.control.optimal_path import answered, verified
 from bezier.methods.single import formula as single_formula
 from bezier.methods.single.closed import NoCurve, ProvedCurve, close
 from bezier.methods.single.formula import Piecewise, Symbol
-from bezier.methods.single.program import Chosen, Dip, Task, Values, choose, curve, dips, lowest
+from bezier.methods.single.program import Chosen, Dip, choose, curve, dips, lowest
 from bezier.methods.single.simplex import Contradiction, LinearOptimum, certificate
-from bezier.paths.evidence import containment
 from bezier.paths.path import Path, Proof, assemble, prove
-from bezier.plan import Clock, Outcome, Plan, answered
+from bezier.plan import Clock, Outcome, Plan
 from bezier.problem import Problem
 from qe.errors import InternalError
 

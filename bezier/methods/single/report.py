@@ -7,9 +7,10 @@ from typing import Any
 
 from bezier.curves.containment import Leaves
 from bezier.curves.scalar import brief, decimal_text
+from bezier.input.task import Axis, Task
 from bezier.methods.single.closed import ProvedCurve
 from bezier.methods.single.plan import CLOSED, SinglePlan, above_label, of_axis
-from bezier.methods.single.program import TIE_BREAK, Axis, Chosen, Dip, Task
+from bezier.methods.single.program import TIE_BREAK, Chosen, Dip
 from bezier.methods.single.simplex import Contradiction, LinearOptimum
 from bezier.report import mathml, parts
 from bezier.report.parts import Row, shown, tone

@@ -14,9 +14,10 @@ from typing import Any
 
 from bezier.curves.containment import Leaves
 from bezier.curves.curve import Bezier
-from bezier.methods.control import stored
+from bezier.input import stored
+from bezier.input.task import Axis, Task, Values
+from bezier.methods.control.claims import member
 from bezier.methods.control.optimal_path import bundled
-from bezier.methods.control.stored import Stated
 from bezier.methods.single import formula as single_formula
 from bezier.methods.single.closed import NoCurve, ProvedCurve, plain_program
 from bezier.methods.single.cuts import Cut, CutKind, Model
@@ -36,10 +37,10 @@ from bezier.methods.single.plan import (
     sum_of,
     task_of,
 )
-from bezier.methods.single.program import Axis, Chosen, Task, Values, curve, dips, objective, program
+from bezier.methods.single.program import Chosen, curve, dips, objective, program
 from bezier.methods.single.simplex import Contradiction, Duals, LinearOptimum, LinearProgram, certificate
 from bezier.paths.path import prove
-from bezier.plan import Outcome
+from bezier.plan import Outcome, Stated
 from bezier.problem import Problem
 from qe.errors import CertificateRejected
 from qe.proof.certificate import Certificate, Kind
@@ -95,7 +96,7 @@ def _chosen(given: Task, axis: Axis, label: str, found: Certificate) -> Chosen:
 
 def _outcome(base: LinearProgram, cost: Values, label: str, found: Certificate) -> LinearOptimum | Contradiction:
     """The outcome in the certificate with this label, which has to be about this program."""
-    payload: Any = stored.member(found, label, Kind.OPTIMUM)
+    payload: Any = member(found, label, Kind.OPTIMUM)
     status = payload["status"]
     if status not in ("optimal", "infeasible"):
         raise CertificateRejected(f"{label}: status", "expected an optimum or a contradiction")

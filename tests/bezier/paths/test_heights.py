@@ -12,7 +12,7 @@ from bezier.curves.workspace import Workspace, WorkspaceKind
 from bezier.obstacles.clearance import critical_values
 from bezier.paths import heights, origin
 from bezier.paths.path import Path, assemble
-from bezier.plan import make_plan
+from bezier.planner.planning import make_plan
 from bezier.problem import PlanMethod, Problem, read_problem
 from qe.exact.field import NumberField
 from tests.bezier.numbers import control_points, points
@@ -57,7 +57,7 @@ def test_outer_curves_of_the_best_path_dip_into_the_strip():
     assert float(plan.path.curves["P"].point(first.begin.t[0])[2]) == pytest.approx(0.0866, abs=1e-3)
     lines = heights.words(plan.heights)
     assert "DOES NOT HOLD" in lines[0] and len(lines) == 5 and "0.1024" in lines[1] and "0.2871" in lines[1]
-    assert heights.entries(plan.problem, plan.path) == {"heights": heights.to_json(plan.heights)}
+    assert heights.heights_of(plan.problem.strip, plan.path) == plan.heights
 
 
 @settings(max_examples=20)
@@ -65,8 +65,8 @@ def test_outer_curves_of_the_best_path_dip_into_the_strip():
 def test_stretches_agree_with_dense_sampling(control, first, second):
     curve = Bezier.of(control)
     problem = problem_of(first, second)
-    strip = heights.strip_of(problem)
-    found = heights.heights_of(problem, path_of(curve))
+    strip = problem.strip
+    found = heights.heights_of(problem.strip, path_of(curve))
     if strip is None:
         assert found.hold and all(min(a, b) <= 0 for a, b in zip(first[1:], second[1:], strict=True))
         return
@@ -81,18 +81,18 @@ def test_stretches_agree_with_dense_sampling(control, first, second):
 
 def test_every_end_says_what_happens_there():
     curve = Bezier.of([(0, 0, 0), (1, 0, 0), (2, 0, 0)])
-    found = heights.heights_of(problem_of((1, 1, 1), (Fraction(3, 2), 1, 1)), path_of(curve))
+    found = heights.heights_of(problem_of((1, 1, 1), (Fraction(3, 2), 1, 1)).strip, path_of(curve))
     assert [(i.axis, i.begin.t[0], i.begin.at, i.end.t[0], i.end.at) for i in found.below] == [
         (axis, Fraction(1, 2), "x = 1", Fraction(3, 4), "x = 3/2") for axis in "yz"
     ]
     assert all(i.begin.included and i.end.included for i in found.below)
-    line = heights.heights_of(problem_of((0, 1, 1), (9, 1, 1)), path_of(curve)).below[0]
+    line = heights.heights_of(problem_of((0, 1, 1), (9, 1, 1)).strip, path_of(curve)).below[0]
     assert (line.begin.at, line.end.at) == ("x = 0", "end of the curve")
 
 
 def test_only_positive_heights_count_and_the_lower_via_point_does():
-    assert heights.strip_of(problem_of((1, 0, -1), (2, 5, 5))) is None
-    strip = heights.strip_of(problem_of((3, 2, -1), (1, 5, 5)))
+    assert problem_of((1, 0, -1), (2, 5, 5)).strip is None
+    strip = problem_of((3, 2, -1), (1, 5, 5)).strip
     assert strip is not None and (strip.low, strip.high, dict(strip.heights)) == (1, 3, {"y": Fraction(2)})
 
 
@@ -100,7 +100,7 @@ def test_touching_the_strip_at_one_irrational_parameter():
     """x(t) = 2 - (8 t^2 - 1)^2 reaches the plane x = 2 at t = sqrt(2)/4 only."""
     power = (Fraction(1), Fraction(0), Fraction(16), Fraction(0), Fraction(-64))
     curve = Bezier(tuple((c, Fraction(0), Fraction(0)) for c in bs.from_power(power)))
-    found = heights.heights_of(problem_of((2, 1, 1), (3, 1, 1)), path_of(curve))
+    found = heights.heights_of(problem_of((2, 1, 1), (3, 1, 1)).strip, path_of(curve))
     (item,) = (i for i in found.below if i.axis == "y")
     assert item.begin.t == item.end.t and item.sample is None and item.begin.included
     assert "at t = about 0.35355" in heights.in_words(item)

@@ -8,11 +8,14 @@ import pytest
 
 from bezier.input.toml_table import Table
 from bezier.obstacles.reader import read_obstacles
-from bezier.pictures.obstacles import obstacle_pictures, save_chart
-from bezier.plan import Clock, Outcome, make_plan
+from bezier.pictures.obstacles import obstacle_pictures
+from bezier.pictures.plot_clearance import save_chart
+from bezier.plan import Clock, Outcome
 from bezier.planner import avoid
 from bezier.planner.command import in_words
 from bezier.planner.outputs import summary
+from bezier.planner.planning import make_plan
+from bezier.planner.table import method_of
 from bezier.problem import PlanMethod, read_problem
 from bezier.report.page import render
 from qe.errors import BudgetExceeded, CertificateRejected
@@ -72,7 +75,7 @@ def test_what_is_said_about_it(over_the_crate, tmp_path):
     assert "P: clear of crate for all t (Bernstein coefficients after subdivision)" in words and "length 8.66" in words
     told = summary(over_the_crate, [], 1.0)
     assert told["status"] == "solved" and len(told["clearance"]) == 3 and told["attempts"][0]["outcome"] == "solved"
-    page = render(over_the_crate, None)
+    page = render(over_the_crate, method_of(over_the_crate.problem.method), None)
     assert "<h2>Obstacles</h2>" in page and "clear for all t" in page and "Quality of the path" in page
 
 
@@ -127,7 +130,7 @@ def test_where_nothing_helps_the_path_is_blocked_and_all_methods_were_tried(tmp_
     assert all(a.outcome is not Outcome.SOLVED for a in plan.attempts)
     words = in_words(plan, tmp_path, [], 1.0)
     assert "the path MEETS an obstacle" in words and "tried: as given: P: enters wall" in words
-    assert "an obstacle is in the way" in render(plan, None)
+    assert "an obstacle is in the way" in render(plan, method_of(plan.problem.method), None)
 
 
 def test_points_above_an_obstacle_are_conditions_of_the_method():

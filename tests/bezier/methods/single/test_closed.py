@@ -12,11 +12,12 @@ import qe
 from bezier.curves.containment import all_inside, examine_all
 from bezier.curves.scalar import dot
 from bezier.curves.workspace import Workspace, WorkspaceKind
+from bezier.input.task import Task, task
 from bezier.methods.single import formula as single_formula
 from bezier.methods.single.closed import TOLERANCE, NoCurve, ProvedCurve, close
 from bezier.methods.single.cuts import CutKind, Model, violated
 from bezier.methods.single.formula import VALUE
-from bezier.methods.single.program import Task, choose, curve, dips, task, weights_at
+from bezier.methods.single.program import choose, curve, dips, weights_at
 from qe.errors import InputError, Unable
 from tests.bezier.singles import FLAT, axis, tasks, unit_task
 

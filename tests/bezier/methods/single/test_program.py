@@ -10,21 +10,10 @@ from hypothesis import strategies as st
 from scipy.optimize import linprog
 
 import qe
+from bezier.input.task import MAX_DEGREE, equally_spaced, least_degree, task
 from bezier.methods.single import formula as single_formula
 from bezier.methods.single.formula import VALUE, Symbol
-from bezier.methods.single.program import (
-    MAX_DEGREE,
-    choose,
-    curve,
-    dips,
-    equally_spaced,
-    least_degree,
-    lowest,
-    objective,
-    program,
-    task,
-    weights_at,
-)
+from bezier.methods.single.program import choose, curve, dips, lowest, objective, program, weights_at
 from bezier.methods.single.simplex import Contradiction, certificate
 from qe.errors import InputError
 from qe.formula.evaluate import holds_at

@@ -17,22 +17,10 @@ from bezier.curves.containment import Inside
 from bezier.curves.curve import Bezier
 from bezier.curves.scalar import rational, sign
 from bezier.curves.workspace import Ball, Condition, HalfSpace
-from bezier.paths.path import Path
 from qe.errors import InternalError
 from qe.proof.certificate import Certificate, Kind
 
 MAX_DEPTH = 14
-
-
-def path_certificates(path: Path) -> list[tuple[str, Certificate]]:
-    """A labelled certificate for each containment proof that has this form."""
-    found = []
-    for proof in path.proofs:
-        if isinstance(proof.outcome, Inside):
-            certificate = containment(path.curves[proof.curve], proof.outcome)
-            if certificate is not None:
-                found.append((f"{proof.curve} in {proof.condition.name}", certificate))
-    return found
 
 
 def containment(curve: Bezier, inside: Inside) -> Certificate | None:

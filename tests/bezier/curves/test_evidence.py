@@ -10,8 +10,8 @@ import qe
 from bezier.curves import bernstein as bs
 from bezier.curves.containment import Inside, Leaves, examine
 from bezier.curves.curve import Bezier
+from bezier.curves.evidence import containment
 from bezier.curves.workspace import Ball, HalfSpace
-from bezier.paths.evidence import containment
 from qe.exact.field import NumberField
 from tests.bezier.numbers import control_points
 

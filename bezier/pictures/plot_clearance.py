@@ -1,0 +1,73 @@
+"""The chart of heights and clearances: obstacles over x, and the distance to each of them along the path."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+from pathlib import Path as FilePath
+from typing import Any
+
+from bezier.obstacles.clearance import Contact
+from bezier.obstacles.distance import distance_at
+from bezier.obstacles.survey import Finding
+from bezier.pictures.mesh import sampled
+from bezier.pictures.obstacles import COLOURS as OBSTACLES
+from bezier.pictures.obstacles import ObstaclePicture
+from bezier.pictures.picture import COLOURS, INK
+from bezier.pictures.plot import new_figure, svg_text
+
+STEPS = 40
+"""Steps per curve."""
+
+
+def save_chart(findings: Sequence[Finding], pictures: Sequence[ObstaclePicture], file: FilePath) -> str:
+    """``clearance.png``, and the same as SVG text: heights over x, and the distance to each obstacle over t."""
+    figure = new_figure(12, 4.2)
+    curves = {finding.name: finding for finding in findings}
+    _heights(figure.add_axes((0.06, 0.13, 0.41, 0.76)), list(curves.values()), pictures)
+    _clearances(figure.add_axes((0.55, 0.13, 0.43, 0.76)), findings, list(curves), pictures)
+    figure.savefig(file, dpi=120, pil_kwargs={"compress_level": 4})
+    return svg_text(figure)
+
+
+def _heights(axis: Any, findings: Sequence[Finding], pictures: Sequence[ObstaclePicture]) -> None:
+    for picture in pictures:
+        outline = picture.outline(0, 2)
+        if outline is not None:
+            axis.fill(*outline.T, color=picture.colour, alpha=0.35)
+    for finding in findings:
+        points = sampled(finding.curve.points, 81)
+        axis.plot(points[:, 0], points[:, 2], color=COLOURS.get(finding.name, INK), linewidth=2.2)
+    axis.set_aspect("equal", adjustable="datalim")
+    _labelled(axis, "height over x, with the silhouettes of the obstacles", "x", "z")
+
+
+def _clearances(
+    axis: Any, findings: Sequence[Finding], names: Sequence[str], pictures: Sequence[ObstaclePicture]
+) -> None:
+    colours, seen = {picture.name: picture.colour for picture in pictures}, set()
+    for finding in findings:
+        start, obstacle = names.index(finding.name), finding.obstacle
+        colour = colours.get(obstacle.name, OBSTACLES[0])
+        if obstacle.body is not None:
+            times = [Fraction(k, STEPS) for k in range(STEPS + 1)]
+            values = [distance_at(finding.curve, obstacle.body, t) for t in times]
+            label = None if obstacle.name in seen else obstacle.name
+            axis.plot([start + float(t) for t in times], values, color=colour, linewidth=1.8, label=label)
+            seen.add(obstacle.name)
+        if isinstance(finding.outcome, Contact):
+            axis.plot(start + float(finding.outcome.t[0]), 0, "x", color=colour, markersize=9)
+    for k in range(1, len(names)):
+        axis.axvline(k, color="#dfe5ea", linewidth=1)
+    axis.set_xticks([k + 0.5 for k in range(len(names))], list(names))
+    axis.set_ylim(bottom=0)
+    if seen:
+        axis.legend(frameon=False, fontsize=9)
+    _labelled(axis, "distance to each obstacle along the path", "curve", "distance")
+
+
+def _labelled(axis: Any, title: str, across: str, up: str) -> None:
+    axis.set_title(title, fontsize=10)
+    axis.set_xlabel(across)
+    axis.set_ylabel(up)
+    axis.grid(color="#e3e8ec", linewidth=0.6)

@@ -1,0 +1,72 @@
+"""Planning: a method's path around the obstacles, and what is decided about every plan afterwards."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+from bezier.motion.motion import quality_of
+from bezier.paths import heights, origin
+from bezier.plan import Clock, Outcome, Plan, RadiusRule
+from bezier.planner import radius_rule
+from bezier.planner.avoid import avoiding
+from bezier.planner.table import method_of
+from bezier.problem import Problem
+from qe.errors import BudgetExceeded, Unable
+
+
+def make_plan(problem: Problem, clock: Clock | None = None) -> Plan:
+    """Plan a path. Raises ``Unable`` where no answer is reached, at limits with what is known by then."""
+
+    watch = clock or Clock()
+    try:
+        plan: Plan = avoiding(problem, watch) if problem.obstacles else method_of(problem.method).make(problem, watch)
+        with watch.step("radius and heights"):
+            plan = _with_findings(plan, watch)
+        with watch.step("quality"):
+            return with_quality(plan)
+    except BudgetExceeded as error:
+        known = "; ".join(f"{name}: {value}" for name, value in watch.facts.items()) or "nothing yet"
+        raise BudgetExceeded(f"{error}; known so far: {known}", limit=error.limit) from None
+
+
+def _with_findings(plan: Plan, clock: Clock) -> Plan:
+    """The plan with what the radius forces, the height condition, and a note where the path goes through the origin."""
+    return with_findings(plan, lambda solvable: radius_rule.radius_rule(plan.problem, solvable, clock.remaining))
+
+
+def with_findings(plan: Plan, rule: Callable[[bool], RadiusRule | None]) -> Plan:
+    """The same, with what ``rule`` says of the radius, which is asked whether the problem has a solution."""
+    found, remarks = plan, []
+    try:
+        solvable = plan.outcome is not Outcome.INFEASIBLE
+        forced = rule(solvable)
+        if forced is not None:
+            found = replace(found, radius_rule=forced)
+            remarks += [forced.in_words()] if solvable else []  # else it is part of the reason
+        if plan.path is not None:
+            found = replace(found, heights=heights.heights_of(plan.problem.strip, plan.path))
+            remarks += origin.remarks(plan.path)
+    except Unable as error:
+        if isinstance(error, BudgetExceeded):
+            raise
+        remarks.append(f"what the radius forces and the heights are not all decided: {error}")
+    return replace(found, remarks=(*found.remarks, *remarks))
+
+
+def with_quality(plan: Plan) -> Plan:
+    """The plan with lengths, curvatures and the motion; it is not solved when the motion does not keep its limits.
+
+    Without them, and with a remark, if they were not found and not asked for.
+    """
+    if plan.path is None:
+        return plan
+    try:
+        quality = quality_of(plan.path, plan.problem.timing)
+    except Unable as error:
+        if isinstance(error, BudgetExceeded) or plan.problem.timing is not None:
+            raise
+        return replace(plan, remarks=(*plan.remarks, f"lengths and curvatures are left out: {error}"))
+    kept = quality.motion is None or quality.motion.keeps_limits
+    solved = plan.outcome is Outcome.SOLVED
+    return replace(plan, quality=quality, outcome=Outcome.TOO_FAST if solved and not kept else plan.outcome)
