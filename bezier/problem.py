@@ -12,6 +12,7 @@ from typing import Any
 
 from bezier.curves.scalar import Vector, dot, exactly, is_zero, same
 from bezier.curves.workspace import HalfSpace, Workspace, WorkspaceKind, root_text
+from bezier.input.files import read_text
 from bezier.input.numbers import NotANumber, describe, read_squared
 from bezier.input.single_table import SingleCurve, Via, read_single, stated_via
 from bezier.input.toml_table import POINT, Table
@@ -22,7 +23,6 @@ from bezier.obstacles.via import via_over
 from bezier.paths.heights import AXES, Strip
 from qe.errors import InputError
 
-MAX_BYTES = 1_000_000
 LARGEST = Fraction(10) ** 50
 """Of coordinates and the radius, so that decimals of lengths, their squares and cubes fit into floating point."""
 
@@ -147,19 +147,6 @@ def problem_of(table: Table) -> Problem:
 def load_problem(path: Path) -> Problem:
     """Read a problem file. Raises ``InputError`` also when the file cannot be read."""
     return read_problem(read_text(path), str(path))
-
-
-def read_text(path: Path) -> str:
-    """The text of a file of at most ``MAX_BYTES``. Raises ``InputError`` when it cannot be read."""
-    try:
-        data = path.read_bytes()
-        if len(data) > MAX_BYTES:
-            raise InputError(f"{path}: expected a problem of at most {MAX_BYTES} bytes, found {len(data)}")
-        return data.decode("utf-8-sig")
-    except OSError as error:
-        raise InputError(f"{path}: expected a readable file, found: {error.strerror or error}") from None
-    except UnicodeDecodeError as error:
-        raise InputError(f"{path}: expected UTF-8 text, found byte {data[error.start]:#04x} at {error.start}") from None
 
 
 def _via(table: Table, start: Vector, goal: Vector, obstacles: tuple[Obstacle, ...]) -> tuple[Vector, Vector]:

@@ -1,1 +1,1 @@
-"""Robot arms: models from Denavit-Hartenberg rows, their exact forward and inverse kinematics, paths and joint sequences."""
+"""Robot arms: models from Denavit-Hartenberg rows, exact kinematics, certified paths and joint sequences."""

@@ -1,6 +1,7 @@
 """Exact angles: rational multiples of pi whose cosine and sine lie in Q(sqrt 2, sqrt 3), and angles given by these two.
 
-Only with such constants is the system of an arm polynomial with exact coefficients in the cosines and sines of its joints.
+Only with such constants is the system of an arm polynomial with exact coefficients in the cosines and sines of its
+joints.
 """
 
 from __future__ import annotations
@@ -28,7 +29,8 @@ EXPECTED = f'a multiple of pi/{STEP} such as "-pi/2", or {{cos = "3/5", sin = "4
 
 @dataclass(frozen=True, slots=True)
 class Angle:
-    """``twelfths`` of pi (in (-12, 12]), or, where that is None, the angle with the rational ``cosine`` and ``sine``."""
+    """``twelfths`` of pi (in (-12, 12]), or, where that is None, the angle with the rational ``cosine`` and
+    ``sine``."""
 
     twelfths: int | None = 0
     cosine: Fraction = Fraction(1)

@@ -3,14 +3,20 @@
 from __future__ import annotations
 
 import json as json_text
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from math import degrees
 from typing import Any
 
+from bezier.arm import path_report
+from bezier.arm.evidence import certificates
 from bezier.arm.inverse import Ends, Inverse, Solution, solve
+from bezier.arm.joint_path import joint_path
 from bezier.arm.model import Arm
+from bezier.curves.curve import Bezier
 from bezier.curves.scalar import brief, decimal_text, described
+from qe.certify.verify import verify
+from qe.proof.certificate import Certificate
 from qe.worker import Channel
 
 DIGITS = 15
@@ -22,12 +28,25 @@ def inverse(channel: Channel, arm: Arm, point: Sequence[Any], *, json: bool) -> 
     return json_text.dumps(to_json(found), indent=1, ensure_ascii=False) if json else "\n".join(in_words(found))
 
 
+def certify(channel: Channel, arm: Arm, curves: Mapping[str, Bezier], *, json: bool) -> tuple[str, str]:
+    """``bezier certify-path``: what to print, and the certificates of the continuous joint motions as text."""
+    found = joint_path(arm, curves)
+    bundle = Certificate.bundle(certificates(found))
+    verdict = verify(bundle)
+    if json:
+        data = {**path_report.to_json(found), "certified": verdict.accepted}
+        return json_text.dumps(data, indent=1, ensure_ascii=False), bundle.to_json()
+    told = "accepted" if verdict.accepted else f"REJECTED at {verdict.step}: {verdict.reason}"
+    lines = [*path_report.in_words(found), f"certificates of the joint motions: {told}"]
+    return "\n".join(lines), bundle.to_json()
+
+
 def to_json(found: Inverse) -> dict[str, Any]:
     """All solutions as JSON data.
 
     ``count``: of different solutions, null for infinitely many; then the joints in ``free`` can be chosen (null in the
-    solutions). Each joint of a solution has its ``angle`` (rad), ``cos`` and ``sin``, and a ``box`` that isolates the solution: exact
-    rational bounds of cosine and sine.
+    solutions). Each joint of a solution has its ``angle`` (rad), ``cos`` and ``sin``, and a ``box`` that isolates the
+    solution: exact rational bounds of cosine and sine.
     """
     return {
         "arm": found.arm.name,
@@ -77,6 +96,8 @@ def in_words(found: Inverse) -> list[str]:
             f"{name} = free" if angle is None else f"{name} = {angle:.12f} ({degrees(angle):.4f}°)"
             for name, angle in zip(names, solution.angles, strict=True)
         ]
-        notes = ["two solutions meet"] * solution.multiple + ["outside the limits of the joints"] * (not solution.allowed)
+        notes = ["two solutions meet"] * solution.multiple + ["outside the limits of the joints"] * (
+            not solution.allowed
+        )
         lines.append(f"  {k}. " + ", ".join(parts) + (f"  [{'; '.join(notes)}]" if notes else ""))
     return lines

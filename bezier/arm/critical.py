@@ -1,8 +1,9 @@
 """Where along a curve the number of solutions may change, and where else something is special: exact parameters.
 
-Substituting p(s) first leaves polynomials in t whose coefficients are polynomials in s over the field of the arm. Between
-neighbouring zeros of the polynomials below all real solutions t of the equation (with m where it is needed) are simple and
-no two meet, none passes an angle that is not determined: so their number is constant and each is an analytic function of s.
+Substituting p(s) first leaves polynomials in t whose coefficients are polynomials in s over the field of the arm.
+Between neighbouring zeros of the polynomials below all real solutions t of the equation (with m where it is needed) are
+simple and no two meet, none passes an angle that is not determined: so their number is constant and each is an analytic
+function of s.
 """
 
 from __future__ import annotations
@@ -12,6 +13,7 @@ from dataclasses import dataclass
 from enum import Enum
 from fractions import Fraction
 from functools import cached_property
+from itertools import pairwise
 from math import comb
 
 from bezier.arm.elimination import TURNS, Geometry, Reduction
@@ -116,7 +118,9 @@ class AlongCurve:
         found: dict[Number, list[Reason]] = {}
         for reason, p in self.polynomials():
             if not p:
-                raise Unable(f"everywhere along the curve: {reason.value}; the number of solutions is not followed there")
+                raise Unable(
+                    f"everywhere along the curve: {reason.value}; the number of solutions is not followed there"
+                )
             for s in self._zeros(p):
                 found.setdefault(s, []).append(reason)
         return [(s, tuple(dict.fromkeys(found[s]))) for s in sorted(found)]
@@ -150,6 +154,6 @@ def powers(b: list[Fraction]) -> list[Fraction]:
     n = len(b) - 1
     differences, row = [b[0]], b
     for _ in range(n):
-        row = [y - x for x, y in zip(row, row[1:], strict=False)]
+        row = [y - x for x, y in pairwise(row)]
         differences.append(row[0])
     return [comb(n, k) * d for k, d in enumerate(differences)]

@@ -7,11 +7,11 @@ g = R^T o = (γ, g3), n = R^T e_z = (ν, n3) and u = Rz(θ2) κ in the plane, q 
     p' = Rz(θ1) q  for some θ1    iff    |q|² = |p'|²  and  q_z = p'_z
                                    iff    2 γ·u = |p'|² - |o|² - |v|² - 2 g3 k3  and  ν·u = p'_z - o_z - n3 k3.
 
-|v|² and k3 are affine in cos θ3, sin θ3. If γ and ν are independent, u is affine in them too, and |u|² = |κ|² is one equation
-of degree 2 in cos θ3, sin θ3: of degree 4 in t, where θ3 = φ + 2 arctan t. Every real t that solves it gives
-a solution: θ2 is the angle from κ to u, unique unless κ = 0; θ1 the one from q to p', unique unless p' lies on axis 1. If
-γ and ν are dependent (axes 1 and 2 meet or are parallel), a combination of the two equations is free of u: of degree 2 in t; the other
-one gives a component of u, and |u|² = |κ|² the square of the other component, m.
+|v|² and k3 are affine in cos θ3, sin θ3. If γ and ν are independent, u is affine in them too, and |u|² = |κ|² is one
+equation of degree 2 in cos θ3, sin θ3: of degree 4 in t, where θ3 = φ + 2 arctan t. Every real t that solves it gives
+a solution: θ2 is the angle from κ to u, unique unless κ = 0; θ1 the one from q to p', unique unless p' lies on axis 1.
+If γ and ν are dependent (axes 1 and 2 meet or are parallel), a combination of the two equations is free of u: of degree
+2 in t; the other one gives a component of u, and |u|² = |κ|² the square of the other component, m.
 """
 
 from __future__ import annotations
@@ -53,11 +53,11 @@ class Quotient:
 class Reduction:
     """What is left of the position problem in a ring whose last two variables are t and m.
 
-    ``equation``: the polynomial in t that has to vanish; ``degree``: its degree where no angle is missed. ``square``: m² as a polynomial in t, None
-    where there is no m. ``kappa``: |κ|² (1 + t²)²; where it vanishes θ2 is free. ``axis``: the square of the distance of
-    the point from axis 1; where it vanishes θ1 is free. ``shoulder``: what vanishes where the point lies on the circle that the
-    origin of the second joint describes. ``pairs``: cosine and sine of each joint, valid where ``kappa`` and
-    ``axis`` do not vanish.
+    ``equation``: the polynomial in t that has to vanish; ``degree``: its degree where no angle is missed. ``square``:
+    m² as a polynomial in t, None where there is no m. ``kappa``: |κ|² (1 + t²)²; where it vanishes θ2 is free.
+    ``axis``: the square of the distance of the point from axis 1; where it vanishes θ1 is free. ``shoulder``: what
+    vanishes where the point lies on the circle that the origin of the second joint describes. ``pairs``: cosine and
+    sine of each joint, valid where ``kappa`` and ``axis`` do not vanish.
     """
 
     ring: Ring

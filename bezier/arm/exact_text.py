@@ -1,4 +1,4 @@
-"""Exact numbers with square roots from text: ``44*sqrt(2) + 8*sqrt(293) + 120``, besides what ``bezier.input.numbers`` reads."""
+"""Exact numbers from text, square roots included: ``44*sqrt(2) + 8*sqrt(293) + 120``."""
 
 from __future__ import annotations
 

@@ -1,8 +1,9 @@
 """Branches: joint positions followed along a curve, each step proved (``qe.exact.motion_chain``).
 
-Every piece proves exactly one solution in a tube of boxes over an interval of s. Two pieces belong to one branch when at their common
-parameter the solution of the one, known to a smaller box, lies in the box of the other, which holds no second one. So a branch is
-a proof that along the curve a solution exists for every s, and that it depends smoothly on s.
+Every piece proves exactly one solution in a tube of boxes over an interval of s. Two pieces belong to one branch when
+at their common parameter the solution of the one, known to a smaller box, lies in the box of the other, which holds no
+second one. So a branch is a proof that along the curve a solution exists for every s, and that it depends smoothly on
+s.
 """
 
 from __future__ import annotations
@@ -19,8 +20,11 @@ from bezier.curves.curve import Bezier
 from qe.exact.motion_chain import MotionChain, Piece
 from qe.exact.point_values import pi_ends
 
-FIRST, LEAST = Fraction(1, 16), Fraction(1, 1 << 24)
+FIRST, LEAST = Fraction(1, 16), Fraction(1, 1 << 13)
 ZERO, ONE = Fraction(0), Fraction(1)
+SPARE = Fraction(5, 4)
+"""What links leave to a checker that computes with other roundings."""
+
 Box = tuple[tuple[Fraction, Fraction], ...]
 Note = Callable[[], None]
 
@@ -66,11 +70,19 @@ def curve_powers(curve: Bezier) -> list[list[Fraction]]:
 
 
 def follow(
-    arm: Arm, curve: Bezier, start: Sequence[float], at: Fraction, end: Fraction, note: Note = lambda: None
+    arm: Arm,
+    curve: Bezier,
+    start: Sequence[float],
+    at: Fraction,
+    end: Fraction,
+    note: Note = lambda: None,
+    before: tuple[Piece, Fraction] | None = None,
 ) -> tuple[Piece, ...]:
     """Pieces from ``at`` towards ``end`` as far as they can be proved, in ascending order of s.
 
     ``start``: joint values near the solution at ``at``. They end before ``end`` where the arm becomes singular.
+    ``before``: a piece and a parameter at which its solution is that at ``at`` (of this curve, or of one that this one
+    goes on from): the first piece is linked to it.
     """
     chain, coefficients = chain_of(arm), curve_powers(curve)
     forwards = end > at
@@ -81,7 +93,8 @@ def follow(
         far = min(here + step, end) if forwards else max(here - step, end)
         low, high = (here, far) if forwards else (far, here)
         piece = chain.piece(coefficients, low, high, near)
-        if piece is None or (pieces and not _linked(pieces[-1], piece, here)):
+        last = (pieces[-1], here) if pieces else before
+        if piece is None or (last is not None and not _same(*last, piece, here)):
             step /= 2
             continue
         pieces.append(piece)
@@ -90,34 +103,29 @@ def follow(
 
 
 def whole(arm: Arm, curve: Bezier, solution: Solution, at: Fraction, ends: tuple[Fraction, Fraction]) -> Branch | None:
-    """The branch through a solution at ``at``, followed both ways towards ``ends``; None where not even one step is proved."""
+    """The branch through a solution at ``at``, followed both ways towards ``ends``; None where not even one step is
+    proved."""
     start = [angle for angle in solution.angles if angle is not None]
     if len(start) != len(arm.joints):
         return None
     before = follow(arm, curve, start, at, ends[0]) if ends[0] < at else ()
-    after = follow(arm, curve, start, at, ends[1]) if at < ends[1] else ()
-    if before and after and not _linked(before[-1], after[0], at):
-        return None
-    pieces = before + after
+    link = (before[-1], at) if before else None
+    pieces = before + (follow(arm, curve, start, at, ends[1], before=link) if at < ends[1] else ())
     return Branch(pieces) if pieces and Branch(pieces).contains(at, solution) else None
 
 
-def _linked(one: Piece, other: Piece, s: Fraction) -> bool:
-    """Whether both hold the same solution at s: that of ``one`` lies in the box of ``other``."""
-    return _within(one.at(s), one.inner, other, s) or _within(other.at(s), other.inner, one, s)
-
-
-def _within(centre: Sequence[Fraction], radius: Sequence[float], piece: Piece, s: Fraction) -> bool:
-    boxes = zip(centre, radius, piece.at(s), piece.radius, strict=True)
-    return all(abs(a - b) + Fraction(r) <= Fraction(size) for a, r, b, size in boxes)
-
-
 def joined(one: Piece, other: Piece) -> bool:
-    """Whether the solution at the end of one curve is the one at the beginning of the next (which begins where that ends)."""
-    a, b = one.at(ONE), other.at(ZERO)
-    return all(
-        abs(x - y) + Fraction(r) <= Fraction(size)
-        for x, y, r, size in zip(a, b, one.inner, other.radius, strict=True)
+    """Whether the solution at the end of one curve is the one at the beginning of the next (which begins where that
+    ends)."""
+    return _same(one, ONE, other, ZERO)
+
+
+def _same(one: Piece, s: Fraction, other: Piece, t: Fraction) -> bool:
+    """Whether the solutions at s and at t, over the same point, are one: the inner box of one lies in the other box."""
+    gaps = [abs(a - b) for a, b in zip(one.at(s), other.at(t), strict=True)]
+    return any(
+        all(gap + SPARE * Fraction(r) <= Fraction(size) for gap, r, size in zip(gaps, a.inner, b.radius, strict=True))
+        for a, b in ((one, other), (other, one))
     )
 
 

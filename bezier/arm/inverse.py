@@ -1,7 +1,8 @@
 """Inverse kinematics at a point: all real joint positions that put the end effector there, with a proved count.
 
-The equation of ``bezier.arm.elimination``, confirmed once per arm by putting the angles back into its forward kinematics, is
-solved at the point by exact real root isolation over the field of its coefficients; every real root is one solution.
+The equation of ``bezier.arm.elimination``, confirmed once per arm by putting the angles back into its forward
+kinematics, is solved at the point by exact real root isolation over the field of its coefficients; every real root is
+one solution.
 """
 
 from __future__ import annotations
@@ -46,7 +47,8 @@ class Value:
 
 @dataclass(frozen=True, eq=False)
 class Solution:
-    """One solution. ``values``: one for each joint, None where its angle is free; ``multiple``: two solutions meet here;
+    """One solution. ``values``: one for each joint, None where its angle is free; ``multiple``: two solutions meet
+    here;
     ``allowed``: whether it keeps the limits of the joints. ``place``: the exact point that it was read from.
     """
 
@@ -71,8 +73,8 @@ class Solution:
 class Inverse:
     """All solutions at a point (mm).
 
-    ``free``: the joints whose angle is not determined; then every solution stands for a family, and there are infinitely
-    many. ``cases``: the names of what is special about the point.
+    ``free``: the joints whose angle is not determined; then every solution stands for a family, and there are
+    infinitely many. ``cases``: the names of what is special about the point.
     """
 
     arm: Arm
@@ -169,9 +171,7 @@ def _names(arm: Arm) -> tuple[str, ...]:
     return tuple(joint.name for joint in arm.joints)
 
 
-def _at_root(
-    arm: Arm, here: Evaluation, reduction: Reduction, on_axis: bool, multiple: bool
-) -> Iterator[Solution]:
+def _at_root(arm: Arm, here: Evaluation, reduction: Reduction, on_axis: bool, multiple: bool) -> Iterator[Solution]:
     """The solutions that belong to one root of the equation in t: one, or two, one or none where m is needed."""
     if reduction.square is None:
         yield _solution(arm, here, reduction, on_axis, multiple)

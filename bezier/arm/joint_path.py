@@ -1,17 +1,17 @@
 """A path of several curves for an arm: what is proved about each curve, and the branches that run through all of it.
 
-A *run* is one continuous joint motion: branches of neighbouring curves that are proved to be joined. It begins at the start or where
-solutions come into being, and ends at the goal or where they meet and vanish or the arm is singular.
+A *run* is one continuous joint motion: branches of neighbouring curves that are proved to be joined. It begins at the
+start or where solutions come into being, and ends at the goal or where they meet and vanish or the arm is singular.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from fractions import Fraction
 from functools import cached_property
+from itertools import pairwise
 
-from bezier.arm.follow import ONE, ZERO, Branch, joined, whole
+from bezier.arm.follow import ONE, ZERO, Branch, follow, joined, whole
 from bezier.arm.inverse import solve
 from bezier.arm.model import Arm
 from bezier.arm.study import Study, study
@@ -61,24 +61,33 @@ class JointPath:
 
 
 def joint_path(arm: Arm, curves: Mapping[str, Bezier], note: Note = lambda: None) -> JointPath:
-    """Study a path (curves with rational control points in mm, each beginning where the last one ends) and follow its branches.
+    """Study a path (curves with rational control points in mm, each beginning where the last one ends) and follow its
+    branches.
 
     Raises ``InputError`` for curves that do not join.
     """
     listed = list(curves.items())
     if not listed:
         raise InputError("path: at least one curve expected")
-    for (first, a), (second, b) in zip(listed, listed[1:], strict=False):
+    for (first, a), (second, b) in pairwise(listed):
         if not same(a.points[-1], b.points[0]):
             raise InputError(f"path: {second} has to begin where {first} ends")
     studies = tuple(study(arm, curve, note) for curve in curves.values())
-    branches = tuple(tuple(_branches(found, note)) for found in studies)
-    return JointPath(arm, dict(curves), studies, branches, tuple(_runs(branches)))
+    branches: list[tuple[Branch, ...]] = []
+    for found in studies:
+        branches.append(tuple(_branches(found, branches[-1] if branches else (), note)))
+    return JointPath(arm, dict(curves), studies, tuple(branches), tuple(_runs(branches)))
 
 
-def _branches(found: Study, note: Note) -> list[Branch]:
-    """All branches of a curve: those through the solutions at one parameter of every stretch, each once."""
+def _branches(found: Study, before: Sequence[Branch], note: Note) -> list[Branch]:
+    """All branches of a curve, each once: those that go on from the curve before, with the same angles and not only the
+    same
+    directions, and those through the other solutions at one parameter of every stretch."""
     branches: list[Branch] = []
+    for last in before:
+        if last.high == ONE:
+            pieces = follow(found.arm, found.curve, last.at(ONE), ZERO, ONE, note, (last.pieces[-1], ONE))
+            branches += [Branch(pieces)] if pieces else []
     for stretch in found.stretches:
         for solution in solve(found.arm, found.curve.point(stretch.sample)).solutions:
             if not any(b.contains(stretch.sample, solution) for b in branches):
@@ -88,7 +97,7 @@ def _branches(found: Study, note: Note) -> list[Branch]:
     return branches
 
 
-def _runs(branches: tuple[tuple[Branch, ...], ...]) -> list[Run]:
+def _runs(branches: Sequence[tuple[Branch, ...]]) -> list[Run]:
     open_runs: list[list[tuple[int, Branch]]] = []
     closed: list[list[tuple[int, Branch]]] = []
     for k, level in enumerate(branches):

@@ -27,14 +27,19 @@ def allowed(joint: Joint, here: Evaluation, pair: Pair, value: Callable[[Evaluat
 
 
 def _between(
-    limits: tuple[Fraction, Fraction], turns: int, here: Evaluation, pair: Pair, value: Callable[[Evaluation, Pair, int], Any]
+    limits: tuple[Fraction, Fraction],
+    turns: int,
+    here: Evaluation,
+    pair: Pair,
+    value: Callable[[Evaluation, Pair, int], Any],
 ) -> bool:
     bits = 64
     while bits <= MOST_BITS:
         low, high = value(here, pair, bits).angle
         pi_low, pi_high = pi_ends(bits + 16)
-        low, high = low + 2 * turns * (pi_low if turns > 0 else pi_high), high + 2 * turns * (
-            pi_high if turns > 0 else pi_low
+        low, high = (
+            low + 2 * turns * (pi_low if turns > 0 else pi_high),
+            high + 2 * turns * (pi_high if turns > 0 else pi_low),
         )
         above, below = _compare(low, high, limits[0]), _compare(low, high, limits[1])
         if above is None and limits[0] == 0 and turns == 0 and _is_zero(here, pair):

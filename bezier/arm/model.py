@@ -1,8 +1,9 @@
 """Arms as chains of joints: Denavit-Hartenberg rows in the modified (Craig) and in the standard convention.
 
-A modified row is Rx(alpha) Tx(a) Rz(theta) Tz(d), a standard one Rz(theta) Tz(d) Tx(a) Rx(alpha) (J. J. Craig, Introduction
-to Robotics, section 3.5; J. Denavit, R. S. Hartenberg 1955). One of theta (revolute) and d (prismatic) of a row may vary.
-Lengths are in millimetres, angles in radians. All constants are exact, in one field of real algebraic numbers.
+A modified row is Rx(alpha) Tx(a) Rz(theta) Tz(d), a standard one Rz(theta) Tz(d) Tx(a) Rx(alpha) (J. J. Craig,
+Introduction to Robotics, section 3.5; J. Denavit, R. S. Hartenberg 1955). One of theta (revolute) and d (prismatic) of
+a row may vary. Lengths are in millimetres, angles in radians. All constants are exact, in one field of real algebraic
+numbers.
 """
 
 from __future__ import annotations
@@ -40,7 +41,8 @@ class Motion(Enum):
 
 @dataclass(frozen=True, slots=True)
 class Joint:
-    """A moving joint. ``limits``: the least and the greatest value, rad for a revolute joint and mm for a prismatic one."""
+    """A moving joint. ``limits``: the least and the greatest value, rad for a revolute joint and mm for a prismatic
+    one."""
 
     name: str
     motion: Motion
@@ -60,7 +62,8 @@ class Row:
 
 @dataclass(frozen=True, slots=True)
 class Chain:
-    """``constants[0] M(q_1) constants[1] ... M(q_n) constants[n]``, M the motion of a joint about or along its z axis."""
+    """``constants[0] M(q_1) constants[1] ... M(q_n) constants[n]``, M the motion of a joint about or along its z
+    axis."""
 
     constants: tuple[Matrix, ...]
     joints: tuple[Joint, ...]

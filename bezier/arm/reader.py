@@ -1,12 +1,12 @@
 """Arms from TOML: ``name``, ``convention``, ``[[row]]`` tables; and the arms that are shipped.
 
-    name = "EV3"
-    convention = "modified"          # or "standard"
-    [[row]]
-    joint = "theta1"                 # a moving row; "kind" is "revolute" unless it says "prismatic"
-    a = 0                            # mm; so is d
-    alpha = "pi/2"                   # a multiple of pi/12
-    limits = ["-3", "3"]             # rad or mm
+name = "EV3"
+convention = "modified"          # or "standard"
+[[row]]
+joint = "theta1"                 # a moving row; "kind" is "revolute" unless it says "prismatic"
+a = 0                            # mm; so is d
+alpha = "pi/2"                   # a multiple of pi/12
+limits = ["-3", "3"]             # rad or mm
 """
 
 from __future__ import annotations
@@ -18,9 +18,9 @@ from pathlib import Path
 
 from bezier.arm.angles import EXPECTED, Angle, read_angle
 from bezier.arm.model import Arm, Convention, Joint, Motion, Row
+from bezier.input.files import read_text
 from bezier.input.numbers import NotANumber, describe
 from bezier.input.toml_table import Table
-from bezier.problem import read_text
 from qe.errors import InputError
 
 MAX_ROWS = 24

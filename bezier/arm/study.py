@@ -1,7 +1,7 @@
 """A whole curve: whether every point of it can be reached, where not, and how many solutions there are in between.
 
-Exact: the number of solutions is constant between neighbouring critical parameters (``bezier.arm.critical``), so one rational
-parameter in each of these intervals and the critical ones themselves decide for all.
+Exact: the number of solutions is constant between neighbouring critical parameters (``bezier.arm.critical``), so one
+rational parameter in each of these intervals and the critical ones themselves decide for all.
 """
 
 from __future__ import annotations

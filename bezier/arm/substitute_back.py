@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from fractions import Fraction
 from typing import Any
 
-from bezier.arm.elimination import M, T, Quotient, Reduction
+from bezier.arm.elimination import M, Quotient, Reduction, T
 from bezier.arm.kinematics import position
 from bezier.arm.model import Arm
 from bezier.arm.ratio import Ratio, reduced
@@ -19,8 +19,8 @@ def confirm(arm: Arm, reduction: Reduction, point: Sequence[Ratio]) -> None:
     """Put cosines and sines back into the forward kinematics, for all points at once.
 
     Multiplied by their denominators, c² + s² - 1 of every joint and position minus point have to leave no remainder on
-    division by m² - square and then by the equation in t (pseudo-division: so they vanish at every root where the leading
-    coefficient does not). Raises ``InternalError`` otherwise.
+    division by m² - square and then by the equation in t (pseudo-division: so they vanish at every root where the
+    leading coefficient does not). Raises ``InternalError`` otherwise.
     """
     field, ring = arm.field, reduction.ring
     tops = [tuple(_top(q, field) for q in pair) for pair in reduction.pairs]
@@ -39,7 +39,9 @@ def confirm(arm: Arm, reduction: Reduction, point: Sequence[Ratio]) -> None:
             total = total + term
         zeros.append(total)
     for value in zeros:
-        if any(leaves_remainder(part, reduction.coefficients, field) for part in _without_m(value.top, reduction, field)):
+        if any(
+            leaves_remainder(part, reduction.coefficients, field) for part in _without_m(value.top, reduction, field)
+        ):
             raise InternalError("the reduction of an arm contradicts its forward kinematics")
 
 

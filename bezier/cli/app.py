@@ -10,6 +10,7 @@ from collections.abc import Callable, Mapping, Sequence
 
 import typer
 
+from bezier.cli.certify_path import certify_path
 from bezier.cli.check import check
 from bezier.cli.clearance import clearance
 from bezier.cli.compare import compare
@@ -23,6 +24,7 @@ COMMANDS: Mapping[str, Callable[..., int]] = {
     "clearance": clearance,
     "compare": compare,
     "ik": ik,
+    "certify-path": certify_path,
 }
 """In the order in which the help lists them. A command reads its input here and leaves the work to a worker."""
 

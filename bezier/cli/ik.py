@@ -11,7 +11,9 @@ from bezier.cli.options import Json, Memory, Timeout
 from qe.cli.app import check_limits
 from qe.cli.shell import OK, limited
 
-ArmName = Annotated[str, typer.Argument(metavar="ARM", help="ev3-112, ev3-120, … or a file ARM.toml.", show_default=False)]
+ArmName = Annotated[
+    str, typer.Argument(metavar="ARM", help="ev3-112, ev3-120, … or a file ARM.toml.", show_default=False)
+]
 
 
 def coordinate(name: str) -> object:

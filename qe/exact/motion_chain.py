@@ -1,9 +1,10 @@
-"""Chains of rigid motions in ball arithmetic: their end point with first and second derivatives, and proofs that a joint position
-exists, is unique in a box and depends smoothly on a parameter (Krawczyk's test; Neumaier, Interval Methods for Systems of
-Equations, 1990, sections 5.1 and 5.2).
+"""Chains of rigid motions in ball arithmetic: their end point with first and second derivatives, and proofs that a
+joint position
+exists, is unique in a box and depends smoothly on a parameter (Krawczyk's test; Neumaier, Interval Methods for Systems
+of Equations, 1990, sections 5.1 and 5.2).
 
-For s = m + σ in an interval of half width h a joint position is sought as q = c + vσ + r with r in a box R. With f(r, s) the
-end point at q minus p(s), C an approximate inverse of its Jacobian and Q a box around all these q,
+For s = m + σ in an interval of half width h a joint position is sought as q = c + vσ + r with r in a box R. With f(r,
+s) the end point at q minus p(s), C an approximate inverse of its Jacobian and Q a box around all these q,
 
     K = -C f(0, s) + (I - C J(Q)) R,    f(0, s) in f(0, m) + [-h, h] (J(c + v[-h, h]) v - p'(s)).
 
@@ -23,6 +24,9 @@ from qe.exact.balls import precision
 from qe.exact.field import FieldElement
 
 BITS = 80
+SPARE = 1.25
+"""How much smaller than the box its image has to be: more than the rounding of ``radius`` and ``inner`` to floats."""
+
 Range = tuple[float, float]
 
 
@@ -52,8 +56,8 @@ class Piece:
 class MotionChain:
     """constants[0] M(q_1) constants[1] … M(q_n) constants[n] applied to the origin, n = 3 for ``piece``.
 
-    ``constants``: rigid motions as three rows of four rational numbers or field elements; ``turning``: whether a joint turns
-    about (else slides along) its z axis.
+    ``constants``: rigid motions as three rows of four rational numbers or field elements; ``turning``: whether a joint
+    turns about (else slides along) its z axis.
     """
 
     __slots__ = ("_constants", "_turning")
@@ -138,16 +142,18 @@ class MotionChain:
         v = [arb(x) for x in slope]
         error = [a - b for a, b in zip(tip, _values(curve, middle), strict=True)]
         along = [a + b * sigma for a, b in zip(q, v, strict=True)]
-        drift = [a - b for a, b in zip(_times(self._jacobian(along)[0], v), _values(first, middle + sigma), strict=True)]
+        drift = [
+            a - b for a, b in zip(_times(self._jacobian(along)[0], v), _values(first, middle + sigma), strict=True)
+        ]
         newton = _times(inverse, [a + sigma * b for a, b in zip(error, drift, strict=True)])
-        size = [2 * x.abs_upper() + arb(2) ** -60 for x in newton]
+        size = [2 * x.abs_upper() + arb(2) ** -36 for x in newton]
         box = [arb(0, 1) * x for x in size]
         whole = [a + b for a, b in zip(along, box, strict=True)]
         jacobian, _, axes, columns = self._jacobian(whole)
         near = inverse * jacobian
         rest = [sum((((1 if i == j else 0) - near[i, j]) * box[j] for j in range(3)), arb(0)) for i in range(3)]
         image = [b - a for a, b in zip(newton, rest, strict=True)]
-        if not all(x.abs_upper() < r for x, r in zip(image, size, strict=True)):
+        if not all(SPARE * x.abs_upper() < r for x, r in zip(image, size, strict=True)):
             return None
         velocity = _solved(near, _times(inverse, _values(first, middle + sigma)))
         if velocity is None:
@@ -166,7 +172,7 @@ class MotionChain:
             tuple(_above(x.abs_upper()) for x in image),
             tuple(map(_range, velocity)),
             tuple(map(_range, acceleration)),
-        ) if all(_above(x.abs_upper()) < _below(r) for x, r in zip(image, size, strict=True)) else None
+        )
 
 
 def _motion(value: arb, turns: bool) -> arb_mat:

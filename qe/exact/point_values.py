@@ -1,4 +1,4 @@
-"""Quotients of polynomials at a sample point, and angles from their cosine and sine, as intervals with rational ends."""
+"""Real roots above a sample point, values there, and angles from cosine and sine, as rational intervals."""
 
 from __future__ import annotations
 
@@ -29,14 +29,19 @@ def roots_above(point: Point, var: int, f: Poly) -> list[FibreRoot] | None:
 def multiple_roots(roots: list[FibreRoot]) -> list[bool]:
     """Which of the real roots that ``roots_above`` found for one polynomial are multiple, exactly.
 
-    Balls that keep all complex roots apart prove all simple; else the degree of the squarefree part tells how many coincide.
+    Balls that keep all complex roots apart prove all simple; else the degree of the squarefree part tells how many
+    coincide.
     """
     if not roots or not roots[0].fibre.exact:
         return [False] * len(roots)
     fibre = roots[0].fibre
     lost, point = len(fibre.source) - len(fibre.coefficients), fibre.point
     slope = Fibre(point, fibre.var, fibre.source).polynomial().derivative(fibre.var)
-    places, open_ones, bits = [point.extend(root) for root in roots], list(range(len(roots))) if lost else [], EXACT_FROM
+    places, open_ones, bits = (
+        [point.extend(root) for root in roots],
+        list(range(len(roots))) if lost else [],
+        EXACT_FROM,
+    )
     while lost == 1 and len(open_ones) > 1:  # then one real root is double, and the others will show their slopes
         with precision(bits + 16):
             open_ones = [k for k in open_ones if places[k].enclose(slope, bits).contains(0)]
@@ -86,7 +91,8 @@ class Evaluation:
         return found
 
     def quotient(self, top: Poly, bottom: Poly, scale: Fraction, bits: int) -> Ends:
-        """An interval around ``scale * top / bottom``, at most 2^-bits wide; ``bottom`` does not vanish at the point."""
+        """An interval around ``scale * top / bottom``, at most 2^-bits wide; ``bottom`` does not vanish at the
+        point."""
         factor, working = fmpq(scale.numerator, scale.denominator), bits + 16
         while True:
             with precision(working + 16):

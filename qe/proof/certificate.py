@@ -32,7 +32,7 @@ class Kind(Enum):
     follows. OPTIMUM: an optimal point of a convex problem, or that there is none. WITNESS: that an assignment
     satisfies a quantifier-free formula. SUBSTITUTION: that linear equations eliminate an existential block.
     CONTAINMENT: that a Bezier curve stays in a ball or half-space. CLEARANCE: that one never meets an obstacle, or
-    where it first does. BUNDLE: several certificates with labels.
+    where it first does. BRANCH: that an arm follows curves continuously. BUNDLE: several certificates with labels.
     """
 
     CELLS = "cells"
@@ -41,6 +41,7 @@ class Kind(Enum):
     SUBSTITUTION = "substitution"
     CONTAINMENT = "containment"
     CLEARANCE = "clearance"
+    BRANCH = "branch"
     BUNDLE = "bundle"
 
 

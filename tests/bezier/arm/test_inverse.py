@@ -26,12 +26,24 @@ from qe.errors import InputError, InternalError, Unable
 from qe.exact.ring import Ring
 
 POINT = (Fraction(599, 66), Fraction(824, 33), Fraction(323, 10))
-SHOULDER = 'convention = "standard"\n[[row]]\njoint = "t1"\nd = 100\nalpha = "pi/2"\n[[row]]\njoint = "t2"\na = 80\n[[row]]\njoint = "t3"\na = 60\n'
-SCARA = 'convention = "standard"\n[[row]]\njoint = "t1"\na = 50\n[[row]]\njoint = "t2"\na = 40\nalpha = "pi/2"\n[[row]]\njoint = "t3"\na = 30\n'
-SKEW = 'convention = "modified"\n[[row]]\nalpha = "pi/6"\na = 5\njoint = "t1"\nd = 3\n[[row]]\njoint = "t2"\na = 20\nalpha = "pi/3"\nd = 7\ntheta = "pi/4"\n[[row]]\njoint = "t3"\na = 30\nalpha = {{cos = "3/5", sin = "4/5"}}\nd = {}\n[[row]]\na = 25\n'.replace(
-    "{{", "{"
-).replace("}}", "}")
-ARMS = [load_arm("ev3-120"), read_arm(SHOULDER), read_arm(SCARA), read_arm(SKEW.replace("d = {}", "d = 4"))]
+
+
+def rows(convention: str, *entries: str) -> str:
+    """The text of an arm; entries separate keys by semicolons."""
+    body = "".join("[[row]]\n" + entry.replace("; ", "\n") + "\n" for entry in entries)
+    return f'convention = "{convention}"\n{body}'
+
+
+SHOULDER = rows("standard", 'joint = "t1"; d = 100; alpha = "pi/2"', 'joint = "t2"; a = 80', 'joint = "t3"; a = 60')
+SCARA = rows("standard", 'joint = "t1"; a = 50', 'joint = "t2"; a = 40; alpha = "pi/2"', 'joint = "t3"; a = 30')
+SKEW = rows(
+    "modified",
+    'joint = "t1"; alpha = "pi/6"; a = 5; d = 3',
+    'joint = "t2"; a = 20; alpha = "pi/3"; d = 7; theta = "pi/4"',
+    'joint = "t3"; a = 30; alpha = {cos = "3/5", sin = "4/5"}; d = 4',
+    "a = 25",
+)
+ARMS = [load_arm("ev3-120"), read_arm(SHOULDER), read_arm(SCARA), read_arm(SKEW)]
 
 
 def closed_form(x: float, y: float, z: float, length: float) -> int:
@@ -64,7 +76,7 @@ def test_the_count_is_that_of_the_closed_form(point: tuple[Fraction, ...]) -> No
 @pytest.mark.parametrize("arm", ARMS, ids=["ev3", "shoulder", "scara", "skew"])
 @given(st.lists(st.integers(-7, 7), min_size=3, max_size=3))
 def test_the_joints_that_made_the_point_are_found(arm: Arm, halves: list[int]) -> None:
-    """Rational half-angle tangents give exact points; their joints have to be among the solutions, all of which reach them."""
+    """Rational half-angle tangents give exact points; their joints are among the solutions, all of which reach them."""
     from bezier.arm.kinematics import position
 
     tangents = [Fraction(k, 3) for k in halves]
@@ -119,7 +131,10 @@ def test_borders_and_circle(texts: tuple[str, ...], count: int, multiple: list[b
 
 
 def test_a_hair_beyond_the_border() -> None:
-    arm, edge = load_arm("ev3-120"), [read_exact(t) for t in ("44*sqrt(2) + 8*sqrt(293) + 120", "0", "104 + 44*sqrt(2)")]
+    arm, edge = (
+        load_arm("ev3-120"),
+        [read_exact(t) for t in ("44*sqrt(2) + 8*sqrt(293) + 120", "0", "104 + 44*sqrt(2)")],
+    )
     tiny = Fraction(1, 10**40)
     assert [solve(arm, (edge[0] + d, edge[1], edge[2])).count for d in (-tiny, tiny)] == [2, 0]
 
@@ -197,9 +212,11 @@ def test_a_wrong_reduction_does_not_pass() -> None:
 
 @pytest.mark.parametrize("length", [112, 120])
 def test_logged_queries(shared: Path, length: int) -> None:
-    rows = [json.loads(line) for line in open(shared / "corpora" / "ev3" / f"queries_L{length}.jsonl")]
+    logged = [
+        json.loads(line) for line in (shared / "corpora/ev3" / f"queries_L{length}.jsonl").read_text().splitlines()
+    ]
     arm = load_arm(f"ev3-{length}")
-    for row in rows[::8]:
+    for row in logged[::8]:
         point = [Fraction(row[c]) for c in "xyz"]
         found = solve(arm, point)
         assert found.count == row["real_solutions"], row["id"]
@@ -210,12 +227,15 @@ def test_logged_queries(shared: Path, length: int) -> None:
 @pytest.mark.parametrize("name", ["queries_L112", "queries_L120", "points_L120_without_log"])
 def test_every_logged_query(shared: Path, name: str) -> None:
     arm = load_arm("ev3-112" if "112" in name else "ev3-120")
-    for line in open(shared / "corpora" / "ev3" / f"{name}.jsonl"):
+    for line in (shared / "corpora" / "ev3" / f"{name}.jsonl").read_text().splitlines():
         row = json.loads(line)
         assert solve(arm, [Fraction(row[c]) for c in "xyz"]).count == row["real_solutions"], row["id"]
 
 
-@pytest.mark.parametrize("text", ["sqrt(-1)", "sqrt(2", "x", "sqrt(sqrt(2))", "1/(sqrt(4)-2)", "sqrt(2)**2", "__import__('os')", "sqrt(2)" * 9])
+@pytest.mark.parametrize(
+    "text",
+    ["sqrt(-1)", "sqrt(2", "x", "sqrt(sqrt(2))", "1/(sqrt(4)-2)", "sqrt(2)**2", "__import__('os')", "sqrt(2)" * 9],
+)
 def test_no_exact_number(text: str) -> None:
     with pytest.raises(InputError):
         read_exact(text)

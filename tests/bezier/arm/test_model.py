@@ -16,7 +16,19 @@ from qe.errors import InputError
 
 ANGLES = st.floats(-3.2, 3.2)
 PUBLISHED = [(0, 0, 80), (0, np.pi / 2, 0), (88, 0, 0), (24, 0, 0), (96, 0, 0), (16, 0, 0), (40, 0, 0), (120, 0, 0)]
-TWO = 'convention = "{}"\n[[row]]\njoint = "a1"\na = 3\nalpha = "pi/3"\nd = 2\ntheta = "pi/4"\n[[row]]\nkind = "prismatic"\njoint = "q"\na = 1\nd = 5\n'
+TWO = """convention = "{}"
+[[row]]
+joint = "a1"
+a = 3
+alpha = "pi/3"
+d = 2
+theta = "pi/4"
+[[row]]
+kind = "prismatic"
+joint = "q"
+a = 1
+d = 5
+"""
 
 
 def craig(a: float, alpha: float, d: float, theta: float) -> np.ndarray:
@@ -86,7 +98,10 @@ BAD = [
     ('convention = "modified"\n[[row]]\na = 1\n', "a row with a joint"),
     ('[[row]]\njoint = "t"\n', "convention"),
     ('convention = "craig"\n[[row]]\njoint = "t"\n', '"modified" or "standard"'),
-    ('convention = "modified"\n[[row]]\njoint = "t"\nalpha = "pi/7"\n', ":4: row[0].alpha: expected a multiple of pi/12"),
+    (
+        'convention = "modified"\n[[row]]\njoint = "t"\nalpha = "pi/7"\n',
+        ":4: row[0].alpha: expected a multiple of pi/12",
+    ),
     ('convention = "modified"\n[[row]]\njoint = "t"\nalpha = 1.5\n', "multiple of pi/12"),
     ('convention = "modified"\n[[row]]\njoint = "t"\n[[row]]\njoint = "t"\n', "different names"),
     ('convention = "modified"\n[[row]]\njoint = "t"\nlimits = [1, 1]\n', "below the greatest"),
