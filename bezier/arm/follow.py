@@ -8,13 +8,16 @@ s.
 
 from __future__ import annotations
 
+from bisect import bisect_left
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
+from operator import attrgetter
 
 from bezier.arm.critical import powers
 from bezier.arm.inverse import Solution
+from bezier.arm.kinematics import wrapped
 from bezier.arm.model import Arm, Motion
 from bezier.curves.curve import Bezier
 from qe.exact.motion_chain import MotionChain, Piece
@@ -47,7 +50,7 @@ class Branch:
 
     def piece(self, s: Fraction) -> Piece:
         """A piece that contains s."""
-        return next(p for p in self.pieces if p.low <= s <= p.high)
+        return self.pieces[bisect_left(self.pieces, s, key=attrgetter("high"))]
 
     def at(self, s: Fraction) -> tuple[float, ...]:
         """The joint values at s, to about the width of the boxes (rad or mm)."""
@@ -55,7 +58,14 @@ class Branch:
 
     def contains(self, s: Fraction, solution: Solution) -> bool:
         """Whether the branch takes this solution at s, exactly: its only solution in the box there is this one."""
-        return self.low <= s <= self.high and _inside(_turned(solution, self.at(s)), self.piece(s), s)
+        if not self.low <= s <= self.high:
+            return False
+        piece = self.piece(s)
+        near = [float(v) for v in piece.at(s)]
+        for value, other, size in zip(solution.values, near, piece.radius, strict=True):
+            if value is None or abs(wrapped(float(value) - other)) > 2 * size + 1e-6:
+                return False  # far away, as most are
+        return _inside(_turned(solution, near), piece, s)
 
 
 @lru_cache(maxsize=64)

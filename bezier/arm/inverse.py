@@ -34,15 +34,18 @@ NAMES = ("w", "x", "y", "z", "t", "m")
 
 @dataclass(frozen=True, slots=True)
 class Value:
-    """One joint of one solution: intervals around cosine, sine and angle (rad), each at most 2^-60 wide."""
+    """One joint of one solution: intervals around cosine, sine and angle (rad), each at most 2^-60 wide.
+
+    ``radians``: the angle in floating point, in (-pi, pi].
+    """
 
     cosine: Ends
     sine: Ends
     angle: Ends
+    radians: float
 
     def __float__(self) -> float:
-        """The angle in radians, in (-pi, pi]."""
-        return _middle(self.angle)
+        return self.radians
 
 
 @dataclass(frozen=True, eq=False)
@@ -198,7 +201,8 @@ def _solution(arm: Arm, here: Evaluation, reduction: Reduction, on_axis: bool, m
 
 def _value(here: Evaluation, pair: tuple[Quotient, Quotient], bits: int) -> Value:
     cosine, sine = (here.quotient(q.top, q.bottom, q.scale, bits) for q in pair)
-    return Value(cosine, sine, angle_ends(cosine, sine, bits))
+    angle = angle_ends(cosine, sine, bits)
+    return Value(cosine, sine, angle, float((angle[0] + angle[1]) / 2))
 
 
 def _family(arm: Arm, here: Point, numbers: tuple[Any, ...], reduction: Reduction, cases: tuple[str, ...]) -> Inverse:
@@ -209,7 +213,3 @@ def _family(arm: Arm, here: Point, numbers: tuple[Any, ...], reduction: Reductio
         if roots == [] and here.sign(reduction.square.coefficients(t)[0]) < 0:
             return Inverse(arm, numbers, (), (), cases)
     return Inverse(arm, numbers, (), _names(arm)[1:], (*cases, f"{arm.joints[2].name} can be chosen"))
-
-
-def _middle(ends: Ends) -> float:
-    return float((ends[0] + ends[1]) / 2)

@@ -47,6 +47,8 @@ class Joint:
     name: str
     motion: Motion
     limits: tuple[Fraction, Fraction] | None = None
+    max_velocity: Fraction | None = None
+    max_acceleration: Fraction | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -25,6 +25,7 @@ from qe.errors import InputError
 
 MAX_ROWS = 24
 SUFFIX = ".toml"
+_OF_JOINTS = ("kind", "limits", "max_velocity", "max_acceleration")
 
 
 def shipped() -> tuple[str, ...]:
@@ -65,10 +66,10 @@ def read_arm(text: str, source: str = "<arm>") -> Arm:
 
 
 def _row(entry: Table) -> Row:
-    entry.only(("a", "alpha", "d", "theta", "joint", "kind", "limits"))
+    entry.only(("a", "alpha", "d", "theta", "joint", *_OF_JOINTS))
 
     joint = _joint(entry) if "joint" in entry.values else None
-    for key in ("kind", "limits"):
+    for key in _OF_JOINTS:
         if joint is None and key in entry.values:
             raise entry.error(key, "this key in a row with a joint", "none there")
 
@@ -81,16 +82,17 @@ def _joint(entry: Table) -> Joint:
     name = entry.values["joint"]
     if not isinstance(name, str) or not name.isidentifier():
         raise entry.error("joint", "a name such as theta1", describe(name))
+    velocity, acceleration = (entry.positive(k) if k in entry.values else None for k in _OF_JOINTS[2:])
     raw = entry.values.get("limits")
     if raw is None:
-        return Joint(name, kind)
+        return Joint(name, kind, None, velocity, acceleration)
     if not isinstance(raw, list) or len(raw) != 2:
         raise entry.error("limits", "the least and the greatest value", describe(raw))
     inner = Table({f"limits[{i}]": value for i, value in enumerate(raw)}, entry.source, entry.lines, entry.prefix)
     low, high = (inner.number(f"limits[{i}]") for i in range(2))
     if low >= high:
         raise entry.error("limits", "a least value below the greatest", f"{low} and {high}")
-    return Joint(name, kind, (low, high))
+    return Joint(name, kind, (low, high), velocity, acceleration)
 
 
 def _angle(entry: Table, key: str) -> Angle:

@@ -15,6 +15,7 @@ from bezier.cli.check import check
 from bezier.cli.clearance import clearance
 from bezier.cli.compare import compare
 from bezier.cli.ik import ik
+from bezier.cli.joints import joints
 from bezier.cli.plan import plan
 from qe.cli.shell import enter
 
@@ -25,6 +26,7 @@ COMMANDS: Mapping[str, Callable[..., int]] = {
     "compare": compare,
     "ik": ik,
     "certify-path": certify_path,
+    "joints": joints,
 }
 """In the order in which the help lists them. A command reads its input here and leaves the work to a worker."""
 
