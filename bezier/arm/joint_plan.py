@@ -171,14 +171,12 @@ def in_words(plan: JointPlan) -> list[str]:
     lines = path_report.in_words(plan.path)
     if plan.sequence is not None:
         kept = f"motion {plan.sequence.run} kept throughout" if plan.sequence.run else "no single motion kept"
-        lines.append(f"sequence of {len(plan.sequence.angles)} joint positions: {plan.sequence.change:.6g} rad in all,
-        {kept}")
+        size, change = len(plan.sequence.angles), plan.sequence.change
+        lines.append(f"sequence of {size} joint positions: {change:.6g} rad in all, {kept}")
     if plan.motion is not None:
         for joint, v, a in zip(plan.motion.joints, plan.motion.speeds, plan.motion.accelerations, strict=True):
-            lines.append(
-                f"  {joint.name}: at most {float(v.high):.4g} rad/s and {float(a.high):.4g} rad/s^2 at all times
-                (proved)"
-            )
+            speed, push = f"{float(v.high):.4g} rad/s", f"{float(a.high):.4g} rad/s^2"
+            lines.append(f"  {joint.name}: at most {speed} and {push} at all times (proved)")
         words = {True: "kept (proved)", False: "EXCEEDED", None: "closer than the bounds can tell"}
         lines += [f"  limit of {name}: {words[kept]}" for name, kept in plan.motion.kept.items()]
     return lines + [f"note: {remark}" for remark in plan.remarks]

@@ -102,10 +102,11 @@ def joint_motion(found: JointPath, run: Run, law: TimeLaw, duration: Fraction) -
 
 def _timed(run: Run, law: TimeLaw, curves: int) -> Iterator[tuple[Piece, Range, Range]]:
     """Every piece with the ranges of ds/dτ and d²s/dτ² (s the parameter of its curve) while it is run through."""
+    known = (ZERO, ZERO)
     for k, branch in run.parts:
-        for piece in branch.pieces:
-            begin = law.passage((k + piece.low) / curves)[0]
-            end = law.passage((k + piece.high) / curves)[1]
+        for piece in branch.pieces:  # each begins where the one before ends
+            begin, known = known[0], law.passage((k + piece.high) / curves)
+            end = known[1]
             for (low, high), p in zip(pairwise(law.breaks), law.polynomials, strict=True):
                 a, b = max(begin, low), min(end, high)
                 if a < b or begin == end:

@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from math import pi
+from itertools import pairwise
 
 import networkx as nx
 
@@ -92,7 +92,7 @@ def joint_sequence(found: JointPath, samples: Sequence[Sample], note: Note = lam
     layers = list(_layers(found, samples, note))
     graph = nx.DiGraph()
     graph.add_edges_from((("start", (0, i)) for i in range(len(layers[0]))), weight=0.0)
-    for k, (near, far) in enumerate(zip(layers, layers[1:], strict=False)):
+    for k, (near, far) in enumerate(pairwise(layers)):
         graph.add_weighted_edges_from(
             ((k, i), (k + 1, j), _distance(a.angles, b.angles)) for i, a in enumerate(near) for j, b in enumerate(far)
         )
@@ -116,7 +116,8 @@ def _layers(found: JointPath, samples: Sequence[Sample], note: Note) -> Iterator
             for angles in _offered(solution, around or [0.0])
         ]
         if not stands:
-            raise Unable(f"no joint position at s = {float(sample.s):.6g} of curve {sample.curve + 1} within the limits")
+            where = f"s = {float(sample.s):.6g} of curve {sample.curve + 1}"
+            raise Unable(f"no joint position within the limits at {where}")
         yield stands
 
 
@@ -148,8 +149,7 @@ def _unrolled(stands: Sequence[Stand]) -> tuple[tuple[float, ...], ...]:
     found = [stands[0].angles]
     for stand in stands[1:]:
         found.append(tuple(x + wrapped(y - x) for x, y in zip(found[-1], stand.angles, strict=True)))
-    assert all(abs(x - y) <= pi + 1e-9 for a, b in zip(found, found[1:], strict=False) for x, y in zip(a, b,
-    strict=True)) return tuple(found)
+    return tuple(found)
 
 
 def _kept(stands: Sequence[Stand], samples: Sequence[Sample]) -> tuple[int | None, tuple[Switch, ...]]:
