@@ -12,8 +12,9 @@ PYTHON ?= $(shell for p in python3 python3.14 python3.13 python3.12 python3.11; 
 
 CORE := $(VENV)/.core-installed
 DEV := $(VENV)/.dev-installed
+DOCS := $(VENV)/.docs-installed
 
-.PHONY: help setup plan paper test deep lint bench clean
+.PHONY: help setup plan paper test docs deep lint bench clean
 .DEFAULT_GOAL := help
 
 help: ## list the targets
@@ -22,11 +23,16 @@ help: ## list the targets
 $(CORE): pyproject.toml constraints.txt
 	@test -n "$(PYTHON)" || { echo "Python 3.11 or newer with venv and pip is needed" >&2; exit 1; }
 	@test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
-	$(PIP) install --editable .
+	$(PIP) install --editable '.[plan]'
 	@touch $@
 
 $(DEV): $(CORE)
 	$(PIP) install --editable '.[dev,solvers,sweep,sat]'
+	@printf '#!/bin/sh\nexec "$$(dirname "$$0")/python" -m experiments "$$@"\n' > $(BIN)/experiments && chmod +x $(BIN)/experiments
+	@touch $@
+
+$(DOCS): $(DEV)
+	$(PIP) install --editable '.[docs]'
 	@touch $@
 
 setup: $(DEV) ## create .venv with every dependency
@@ -39,6 +45,9 @@ paper: $(CORE) ## check every claim of the paper; the page is out/paper/index.ht
 
 test: $(DEV) ## all tests but the long ones
 	$(BIN)/python -m pytest -n $(WORKERS) -q
+
+docs: $(DOCS) ## build the documentation site: open build/site/index.html
+	MPLBACKEND=Agg $(BIN)/python -m sphinx -W -q -b html docs build/site
 
 deep: $(DEV) ## the long randomised tests
 	HYPOTHESIS_PROFILE=explore $(BIN)/python -m pytest -n $(WORKERS) -q -m deep

@@ -202,21 +202,21 @@ class Restored(Generic[P]):
 class Method(Generic[P]):
     """A planning method.
 
-    ``make``: the plan. ``reason``: why there is no path, in one sentence. ``words``: its lines in the summary for
-    people. ``entries``: its further entries in the summary as JSON. ``files``: its further data files, by name.
-    ``draw``: writes the pictures into a folder. ``hats``: whether the paper writes its points with hats. ``template``
-    and ``sections``: its page, and the values that the page shows beyond those of every method. ``restore``: the plan
-    that the certificates in a folder prove, without any search; ``CertificateRejected`` where they are not about the
-    problem.
+    ``make``: the plan. ``reason``: why there is no path, in one sentence. ``summary_lines``: its lines in the summary
+    for people. ``json_entries``: its further entries in the summary as JSON. ``files``: its further data files, by
+    name. ``draw``: writes the pictures into a folder. ``hatted_names``: whether the paper writes its points with hats.
+    ``template`` and ``sections``: its page, and the values that the page shows beyond those of every method.
+    ``restore``: the plan that the certificates in a folder prove, without any search; ``CertificateRejected`` where
+    they are not about the problem.
     """
 
     make: Callable[[Problem, Clock], P]
     reason: Callable[[P], str]
-    words: Callable[[P], list[str]]
-    entries: Callable[[P], dict[str, Any]]
+    summary_lines: Callable[[P], list[str]]
+    json_entries: Callable[[P], dict[str, Any]]
     files: Callable[[P], dict[str, str]]
     draw: Callable[[P, FilePath], Drawing]
-    hats: bool
+    hatted_names: bool
     template: str
     sections: Callable[[P], Section]
     restore: Callable[[Problem, Certificate, Stated], Restored[P]]

@@ -14,7 +14,7 @@ from itertools import pairwise
 
 import qe
 from bezier.compare import whole_curve
-from bezier.compare.comparison import planar_formulas
+from bezier.compare.comparison import planar_statements
 from bezier.compare.planar import Plane
 from bezier.curves.workspace import WorkspaceKind
 from bezier.methods.cubic import formula as cubic
@@ -50,8 +50,8 @@ def planar_conditions() -> str:
     """The six norms of (7) for the second instance with both points in the plane: four variables."""
     given = read_problem(TWO_ACTIVE)
     plane = Plane.through(given)
-    section = plane.section(cubic.system(given).conditions_text(), ("Q1", "Q2"))
-    return str(qe.eliminate(section).formula)
+    section = plane.section(cubic.system(given).in_free_points(), ("Q1", "Q2"))
+    return str(qe.eliminate(section.formula).formula)
 
 
 def planar_objective() -> str:
@@ -68,8 +68,8 @@ def spatial_hemisphere() -> Problem:
 
 def elimination_rows() -> Iterator[Row]:
     """(7) as printed, and its existence theorem."""
-    printed = cubic.system(read_problem(PRINTED)).formula()
-    symbolic = cubic.shape().symbolic_formula()
+    printed = str(cubic.system(read_problem(PRINTED)).statement())
+    symbolic = str(cubic.shape().symbolic())
     yield Row("(7) as printed", 0.050, median(lambda: qe.eliminate(printed)))
     yield Row("(7) with symbolic points", 0.200, median(lambda: qe.eliminate(symbolic)))
     planar = _in_the_plane(sentence())
@@ -94,7 +94,7 @@ def optimum_rows() -> Iterator[Row]:
     yield Row("optimum with certificate, planar", 0.3, median(lambda: qe.minimize(objective, conditions).certificate))
     yield Row("  its verification", 0.2, median(lambda: qe.verify(found.certificate)))
     system = cubic.system(spatial_hemisphere())
-    spatial, aim = system.conditions_text(), system.objective()
+    spatial, aim = system.in_free_points().formula, system.objective().polynomial
     above = qe.minimize(aim, spatial)
     yield Row("optimum, spatial, hemisphere", 1.0, median(lambda: qe.minimize(aim, spatial).certificate))
     yield Row("  its verification", 0.2, median(lambda: qe.verify(above.certificate)))
@@ -104,12 +104,12 @@ def region_rows() -> Iterator[Row]:
     """Membership of a Q1, and the planar regions."""
     given = read_problem(TWO_ACTIVE)
     plane = Plane.through(given)
-    formulas = planar_formulas(given, plane)
+    formulas = {name: asked.formula for name, asked in planar_statements(given, plane).items()}
     places = [{"q1u": Fraction(u, 2), "q1v": Fraction(v, 2)} for u, v in ((-3, 4), (-3, 8), (1, 5), (-5, 5))]
     planar = qe.region(formulas["(7)"])
     yield Row("membership of a Q1, planar", 0.050, median(lambda: [planar.contains(p) for p in places]) / len(places))
     names = ", ".join(f"q2{axis}" for axis in "xyz")
-    spatial = qe.region(f"ex {names}. {cubic.system(given).conditions_text()}")
+    spatial = qe.region(f"ex {names}. {cubic.system(given).in_free_points()}")
     points = [dict(zip(("q1x", "q1y", "q1z"), plane.point(*p.values()), strict=True)) for p in places]
     yield Row("membership of a Q1, spatial", 0.5, median(lambda: [spatial.contains(p) for p in points]) / len(points))
     yield Row("planar region of (7), Q2 quantified", 10.0, median(lambda: qe.region(formulas["(7)"]).cells))
@@ -119,7 +119,7 @@ def region_rows() -> Iterator[Row]:
 def peer_lines() -> Iterator[str]:
     """What each solver says of (7) as an existential sentence in six variables, and after how long."""
     system = cubic.system(read_problem(PRINTED))
-    text = f"ex {', '.join(system.shape.variables)}. {system.conditions_text()}"
+    text = f"ex {', '.join(system.shape.variables)}. {system.in_free_points()}"
     task = json.dumps({"formula": text, "limit": PEER_SECONDS, "memory": PEER_MEMORY})
     for name in PEERS:
         run = run_limited(solver(name).command, task, seconds=PEER_SECONDS, memory=PEER_MEMORY, start_up=PEER_START_UP)

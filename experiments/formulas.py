@@ -8,7 +8,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from fractions import Fraction
 
-from bezier.methods.control.system import AXES, number
+from bezier.methods.control.statements import number
+from bezier.methods.control.system import AXES
 
 Number = int | Fraction
 Point = Sequence[Number]

@@ -292,8 +292,9 @@ def minimize(
 ) -> Optimum:
     """The exact minimum of a convex quadratic (or linear) polynomial under convex quadratic or linear constraints.
 
-    ``objective``: text, ``Poly``, or a SymPy expression; ``constraints``: a formula, or a list of formulas to be
-    conjoined. Raises ``Unable`` outside that class, ``BudgetExceeded`` at a limit; see ``eliminate`` for the limits.
+    ``objective``: text, ``Poly``, a pair of p and a rational s for s p, or a SymPy expression; ``constraints``: a
+    formula, or a list of formulas to be conjoined. Raises ``Unable`` outside that class, ``BudgetExceeded`` at a
+    limit; see ``eliminate`` for the limits.
     """
     from qe.convex.optimum import minimize as solve
 

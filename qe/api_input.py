@@ -76,13 +76,15 @@ def read_constraints(given: AnyFormula) -> Formula:
 
 
 def read_polynomial(given: AnyFormula, what: str, *, known: Container[str] = ()) -> tuple[Poly, Fraction]:
-    """The given term as a polynomial p and a rational s: it is s*p.
+    """The given term as a polynomial p and a rational s: it is s*p. Both may be given as they are, as a pair.
 
     ``known``: names that are variables whatever else they may mean (``pi``). Raises ``InputError`` for text and objects
     that are no polynomial over Q.
     """
     if isinstance(given, Poly):
         return given, Fraction(1)
+    if isinstance(given, tuple) and len(given) == 2 and isinstance(given[0], Poly) and isinstance(given[1], Fraction):
+        return given
     if isinstance(given, bool):
         raise arguments.wrong(what, "a polynomial", given)
     try:

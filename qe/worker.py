@@ -14,20 +14,19 @@ import faulthandler
 import math
 import os
 import pickle
-import resource
 import select
 import signal
 import struct
 import sys
 import time
-import traceback
 import warnings
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from types import TracebackType
 from typing import Generic, NoReturn, TypeVar
 
-from qe.errors import BudgetExceeded, InternalError, QEError, Unable
+from qe.errors import BudgetExceeded, Unable
+from qe.portable import portable, rebuilt
 from qe.progress import Event, Listener, silent
 from qe.surroundings import MARK, surrounding_deadline
 
@@ -51,6 +50,17 @@ class Known:
         """Note an event; phases keep the order in which they were last active."""
         self.phases.pop(event.phase, None)
         self.phases[event.phase] = event
+
+    def take(self, kind: str, value: object, progress: Listener) -> bool:
+        """Note a message of the worker; whether it was news on the way, not the outcome."""
+        if kind == "event" and isinstance(value, Event):
+            self.add(value)
+            progress(value)
+        elif kind == "fact" and isinstance(value, tuple):
+            self.facts[value[0]] = value[1]
+        else:
+            return False
+        return True
 
     def __str__(self) -> str:
         """One line for people."""
@@ -122,6 +132,16 @@ class Channel:
             data = data[os.write(self._descriptor, data) :]
 
 
+class _Here(Channel):
+    """The channel of work that is done in this process, on systems without ``fork``."""
+
+    def __init__(self, known: Known, progress: Listener) -> None:
+        self._known, self._progress = known, progress
+
+    def _send(self, message: tuple[str, object]) -> None:
+        self._known.take(*message, self._progress)
+
+
 def _framed(data: bytes) -> tuple[bytes, bytes]:
     return _HEADER.pack(len(data)), data
 
@@ -144,7 +164,7 @@ class _Delivery(Generic[T]):
         status = 0
         try:
             if error is not None:
-                self._channel._send(("error", _portable(error)))
+                self._channel._send(("error", portable(error)))
         except BrokenPipeError:  # the parent is gone: nobody is left to tell
             status = 1
         finally:
@@ -153,41 +173,6 @@ class _Delivery(Generic[T]):
     def done(self, value: T) -> None:
         """Hand over the result."""
         self._channel._send(("result", value))
-
-
-_Parts = tuple[type[QEError], tuple[object, ...], dict[str, object]]
-
-
-def _portable(error: BaseException) -> _Parts:
-    """An error as class, arguments and attributes; a foreign exception becomes an ``InternalError``.
-
-    Pickling an exception calls its constructor again, which formats some of our messages twice.
-    """
-    if isinstance(error, MemoryError):
-        return BudgetExceeded, ("memory limit reached",), {"limit": "memory"}
-    if isinstance(error, RecursionError):
-        return Unable, ("the formula is nested too deeply",), {}
-    if not isinstance(error, QEError):
-        frames = traceback.extract_tb(error.__traceback__)
-        place = f" at {'/'.join(frames[-1].filename.split('/')[-2:])}:{frames[-1].lineno}" if frames else ""
-        text = f"{type(error).__name__}{place}: {error}".splitlines()[0]
-        return InternalError, (text,), {"trace": "".join(traceback.format_exception(error))}
-    return type(error), (str(error),), {k: v for k, v in vars(error).items() if _picklable(v)}
-
-
-def _rebuilt(parts: _Parts) -> QEError:
-    kind, arguments, attributes = parts
-    error = kind.__new__(kind, *arguments)
-    vars(error).update(attributes)
-    return error
-
-
-def _picklable(value: object) -> bool:
-    try:
-        pickle.dumps(value)
-    except (TypeError, AttributeError, pickle.PicklingError):
-        return False
-    return True
 
 
 def run(
@@ -208,12 +193,25 @@ def run(
     picklable. No process is left behind, whatever happens.
 
     Raises ``WorkerStopped`` at a limit, ``WorkerDied`` when a signal ended the worker otherwise, and every
-    ``QEError`` that the work itself raised; any other exception there arrives as ``InternalError``.
+    ``QEError`` that the work itself raised; any other exception there arrives as ``InternalError``. Systems without
+    ``fork`` do the work here: only the limits that it checks by itself hold.
     """
+    if not hasattr(os, "fork"):
+        return _done_here(work, progress, Known() if known is None else known)
     side = forked(time.monotonic() if start is None else start, timeout, memory, grace)
     if isinstance(side, Channel):
         side.deliver(lambda: work(side))
     return side.outcome(progress, known)  # type: ignore[return-value]
+
+
+def _done_here(work: Callable[[Channel], T], progress: Listener, known: Known) -> T:
+    start = time.monotonic()
+    try:
+        return work(_Here(known, progress))
+    except BudgetExceeded as error:
+        raise WorkerStopped(str(error), limit=error.limit, known=known) from error
+    finally:
+        known.seconds = time.monotonic() - start
 
 
 def forked(start: float, timeout: float | None, memory: int | None, grace: float = GRACE) -> Channel | Worker:
@@ -290,7 +288,7 @@ class Worker:
         kind, value = outcome
         if kind == "result":
             return value
-        error = _rebuilt(value)  # type: ignore[arg-type]
+        error = rebuilt(value)  # type: ignore[arg-type]
         if type(error) is BudgetExceeded:  # a soft limit: the same story, told with what is known
             raise WorkerStopped(str(error), limit=error.limit, known=known)
         raise error
@@ -298,6 +296,8 @@ class Worker:
 
 def _confine(start: float, timeout: float | None, memory: int | None, grace: float, outer: float) -> None:
     """In the worker: set the limits, die with the parent, keep the abort messages of C libraries to itself."""
+    import resource  # Unix only, as is fork
+
     deadline = math.inf if timeout is None else start + timeout
     os.environ[MARK] = f"{os.getpid()}:{min(deadline, outer)}"
     left = max(0.0, deadline - time.monotonic())
@@ -317,6 +317,8 @@ def _confine(start: float, timeout: float | None, memory: int | None, grace: flo
 
 
 def _lower(which: int, value: int) -> None:
+    import resource
+
     soft, hard = resource.getrlimit(which)
     bounds = [v for v in (value, soft, hard) if v != resource.RLIM_INFINITY]
     resource.setrlimit(which, (min(bounds), hard))
@@ -365,12 +367,7 @@ def _follow(inbox: _Inbox, known: Known, progress: Listener, deadline: float | N
             return None
         inbox.wait(left)
         for kind, value in inbox.messages():
-            if kind == "event" and isinstance(value, Event):
-                known.add(value)
-                progress(value)
-            elif kind == "fact" and isinstance(value, tuple):
-                known.facts[value[0]] = value[1]
-            else:
+            if not known.take(kind, value, progress):
                 return kind, value
     return None
 

@@ -14,6 +14,7 @@ from bezier.compare.planar import Plane, plane_coordinates
 from bezier.curves.area import convex_area
 from bezier.curves.enclosure import Enclosure
 from bezier.curves.quality import curvature_enclosure, length_enclosure
+from bezier.methods.control.statements import Statement, exists
 from bezier.methods.cubic import formula as cubic
 from bezier.methods.cubic.existence import Existence, existence, sentence
 from bezier.methods.quadratic import formula as quadratic
@@ -23,6 +24,7 @@ from bezier.planner import avoid
 from bezier.planner.table import method_of
 from bezier.problem import PlanMethod, Problem
 from qe.errors import InputError, Unable
+from qe.formula.syntax import Formula
 from qe.worker import Channel, Known, run
 
 Found = TypeVar("Found")
@@ -180,10 +182,10 @@ def _side(problem: Problem, method: PlanMethod, clock: Clock) -> Side:
 def _planar(problem: Problem, parts: _Parts) -> Planar:
     plane = Plane.through(problem)
     regions = {}
-    for share, (name, formula) in zip(SHARES, planar_formulas(problem, plane).items(), strict=True):
+    for share, (name, asked) in zip(SHARES, planar_statements(problem, plane).items(), strict=True):
         step = f"planar region of {name}"
-        found = parts.take(step, share, partial(_region, formula, plane, parts.clock))
-        regions[name] = found or PlanarRegion(formula, reason=parts.unfinished[step])
+        found = parts.take(step, share, partial(_region, asked, plane, parts.clock))
+        regions[name] = found or PlanarRegion(str(asked), reason=parts.unfinished[step])
     contained = parts.take("(8) lies in (8*)", 3, lambda seconds: _contained(problem, plane, seconds))
     return Planar(plane, regions["(8)"], regions["(8*)"], regions["(7)"], contained)
 
@@ -192,34 +194,33 @@ def _contained(problem: Problem, plane: Plane, seconds: float) -> bool:
     return whole_curve.polygon_implies_curve(for_method(problem, METHODS[0]), plane, timeout=seconds)
 
 
-def planar_formulas(problem: Problem, plane: Plane) -> dict[str, str]:
-    """The conditions on Q1 in the plane, for the engine: free variables q1u, q1v."""
+def planar_statements(problem: Problem, plane: Plane) -> dict[str, Statement]:
+    """The conditions on Q1 in the plane: free variables q1u, q1v."""
     first, second = (for_method(problem, method) for method in METHODS)
-    cubic_conditions = cubic.system(second).conditions_text()
-    u, v = plane_coordinates("Q2")
+    in_plane = plane.section(cubic.system(second).in_free_points(), ("Q1", "Q2"))
     return {
-        "(8)": plane.section(quadratic.system(first).conditions_text(), ("Q1",)),
-        "(8*)": whole_curve.formula(first, plane),
-        "(7)": f"ex {u}, {v}. {plane.section(cubic_conditions, ('Q1', 'Q2'))}",
+        "(8)": plane.section(quadratic.system(first).in_free_points(), ("Q1",)),
+        "(8*)": whole_curve.statement(first, plane),
+        "(7)": exists(plane_coordinates("Q2"), in_plane),
     }
 
 
-def _region(formula: str, plane: Plane, clock: Clock, seconds: float) -> PlanarRegion:
+def _region(asked: Statement, plane: Plane, clock: Clock, seconds: float) -> PlanarRegion:
     """The region, which is convex: its conditions are convex in Q1 and Q2, for every t; its area if time allows."""
     known = Known()
     try:
-        region, area = run(partial(_measured, formula), timeout=seconds, known=known, progress=clock.listener)
+        region, area = run(partial(_measured, asked.formula), timeout=seconds, known=known, progress=clock.listener)
     except Unable as error:
         found = known.facts.get("region")
         if found is None:
             raise
-        return PlanarRegion(formula, cast("qe.Region", found), reason=f"area not found: {error}")
+        return PlanarRegion(str(asked), cast("qe.Region", found), reason=f"area not found: {error}")
     unit = plane.unit_area
     assert area.high is not None and unit.high is not None
-    return PlanarRegion(formula, region, Enclosure(area.low * unit.low, area.high * unit.high))
+    return PlanarRegion(str(asked), region, Enclosure(area.low * unit.low, area.high * unit.high))
 
 
-def _measured(formula: str, channel: Channel) -> tuple[qe.Region, Enclosure]:
+def _measured(formula: Formula, channel: Channel) -> tuple[qe.Region, Enclosure]:
     """The region with all that is shown of it, which is told as soon as it is known, and its area."""
     region = qe.Region.from_json(qe.region(formula, progress=channel.event).to_json())
     if region.cells and not region.is_empty:

@@ -37,7 +37,7 @@ def svg(found: Comparison) -> dict[str, str]:
 
 def _regions(found: Comparison) -> Any:
     """Axes in mm along and across R0 - Q0."""
-    from qe.regions.picture import bands
+    from qe.regions.sketch import bands
 
     figure = new_figure(9, 6.4)
     axis = figure.add_axes((0.08, 0.09, 0.6, 0.85))

@@ -18,9 +18,24 @@ import qe
 from bezier.compare.planar import Plane, plane_coordinates, region_of
 from bezier.curves import bernstein as bs
 from bezier.curves.curve import Bezier
-from bezier.curves.scalar import is_zero, rational, subtract
+from bezier.curves.scalar import exactly, is_zero, rational, subtract
 from bezier.curves.workspace import Condition
-from bezier.methods.control.system import System, atom_text, number
+from bezier.methods.control.statements import (
+    Bracketed,
+    Every,
+    Implies,
+    Name,
+    Power,
+    Product,
+    Statement,
+    Sum,
+    Term,
+    between,
+    every,
+    for_all,
+    number,
+)
+from bezier.methods.control.system import System, stated
 from bezier.methods.quadratic import formula as quadratic
 from bezier.problem import Problem
 from qe.errors import InputError
@@ -44,37 +59,46 @@ class Family:
         if any(rational(c) is None for curve in curves for point in curve.points for c in point):
             raise InputError("a family of curves needs rational coordinates")
 
-    def at(self) -> list[str]:
-        """The coordinates of the point at the parameter t, as text."""
+    def at(self) -> list[Term]:
+        """The coordinates of the point at the parameter t."""
         parts = {"": self.base, **self.moves}
         return [_sum((bs.to_power(c.coordinate(i)), name) for name, c in parts.items()) for i in range(3)]
 
-    def control_point(self, k: int) -> list[str]:
-        """The coordinates of a control point, as text."""
+    def control_point(self, k: int) -> list[Term]:
+        """The coordinates of a control point."""
         parts = {"": self.base, **self.moves}
         return [_sum(((c.points[k][i],), name) for name, c in parts.items()) for i in range(3)]
 
-    def inside(self, conditions: Iterable[Condition]) -> str:
+    def inside(self, conditions: Iterable[Condition]) -> Statement:
         """The whole curve satisfies the conditions: a formula in the parameters, or a sentence without any."""
-        return f"all t. 0 <= t and t <= 1 -> {_all(conditions, [self.at()])}"
+        return _for_all_t(_all(conditions, [self.at()]))
 
-    def polygon_inside(self, conditions: Iterable[Condition]) -> str:
+    def polygon_inside(self, conditions: Iterable[Condition]) -> Statement:
         """All control points satisfy the conditions."""
         return _all(conditions, [self.control_point(k) for k in range(self.base.degree + 1)])
 
 
-def _all(conditions: Iterable[Condition], points: Sequence[Sequence[str]]) -> str:
-    return "(" + " and ".join(atom_text(c, point) for c in conditions for point in points) + ")"
+TIME = Name("t")
+WHOLE = between(number(0), TIME, number(1))
 
 
-def _sum(parts: Iterable[tuple[Sequence[Any], str]]) -> str:
+def _for_all_t(body: Statement) -> Statement:
+    return for_all(["t"], Implies(WHOLE, body))
+
+
+def _all(conditions: Iterable[Condition], points: Sequence[Sequence[Term]]) -> Statement:
+    return Every(tuple(stated(c, point) for c in conditions for point in points), bracketed=True)
+
+
+def _sum(parts: Iterable[tuple[Sequence[Any], str]]) -> Term:
     """sum over the parts of (sum_k coefficient_k t^k) * name."""
-    terms = []
+    terms: list[Term] = []
     for coefficients, name in parts:
         for k, c in enumerate(coefficients):
             if not is_zero(c):
-                terms.append("*".join([number(c), *([f"t^{k}"] if k else []), *([name] if name else [])]))
-    return f"({' + '.join(terms) or '0'})"
+                factors = (number(exactly(c)), *([Power(TIME, k)] if k else []), *([Name(name)] if name else []))
+                terms.append(Product(factors))
+    return Bracketed(Sum(tuple(terms or [number(0)])))
 
 
 def families(problem: Problem, plane: Plane) -> dict[str, Family]:
@@ -96,16 +120,15 @@ def _difference(a: Bezier, b: Bezier) -> Bezier:
     return Bezier(tuple(subtract(p, q) for p, q in zip(a.points, b.points, strict=True)))
 
 
-def formula(problem: Problem, plane: Plane) -> str:
+def statement(problem: Problem, plane: Plane) -> Statement:
     """(8*) with Q1 in the plane: the variables ``q1u, q1v`` are free."""
-    conditions = problem.workspace.conditions
     points = [family.at() for family in families(problem, plane).values()]
-    return f"all t. 0 <= t and t <= 1 -> {_all(conditions, points)}"
+    return _for_all_t(_all(problem.workspace.conditions, points))
 
 
 def region(problem: Problem, plane: Plane, *, timeout: float | None = None) -> qe.Region:
     """The set of Q1 in the plane for which the whole curves stay in the workspace."""
-    return region_of(formula(problem, plane), timeout=timeout)
+    return region_of(statement(problem, plane), timeout=timeout)
 
 
 def polygon_implies_curve(problem: Problem, plane: Plane, *, timeout: float | None = None) -> bool:
@@ -114,13 +137,13 @@ def polygon_implies_curve(problem: Problem, plane: Plane, *, timeout: float | No
     ``timeout``: seconds for all of them together. Raises ``BudgetExceeded`` at the limit.
     """
     budget = Budget(timeout)
-    names = ", ".join(plane_coordinates(POINT))
+    order = ("t", *plane_coordinates(POINT))
     conditions = problem.workspace.conditions
     return all(
         qe.decide(
-            f"all t, {names}. 0 <= t and t <= 1 and {family.polygon_inside([c])} -> {_all([c], [family.at()])}",
+            for_all(order, Implies(every(WHOLE, family.polygon_inside([c])), _all([c], [family.at()]))).formula,
             timeout=budget.remaining(),
-            order=("t", *plane_coordinates(POINT)),
+            order=order,
         )
         for family in families(problem, plane).values()
         for c in conditions
@@ -130,4 +153,4 @@ def polygon_implies_curve(problem: Problem, plane: Plane, *, timeout: float | No
 def curve_inside(curve: Bezier, conditions: Sequence[Condition], *, timeout: float | None = None) -> bool:
     """Whether the whole curve satisfies the conditions, decided by the engine. Raises ``InputError`` for irrational
     control points; ``bezier.curves.containment`` decides the same without quantifier elimination, for those too."""
-    return qe.decide(Family(curve).inside(conditions), timeout=timeout)
+    return qe.decide(Family(curve).inside(conditions).formula, timeout=timeout)

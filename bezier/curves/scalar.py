@@ -52,9 +52,15 @@ def add(a: Sequence[Any], b: Sequence[Any]) -> Vector:
 
 
 @overload
-def subtract(a: Sequence[Fraction], b: Sequence[Fraction]) -> tuple[Fraction, ...]: ...
+def subtract(a: Sequence[Fraction], b: Sequence[Fraction]) -> tuple[Fraction, ...]:
+    """Of rational vectors."""
+
+
 @overload
-def subtract(a: Sequence[Any], b: Sequence[Any]) -> Vector: ...
+def subtract(a: Sequence[Any], b: Sequence[Any]) -> Vector:
+    """Of vectors in general."""
+
+
 def subtract(a: Sequence[Any], b: Sequence[Any]) -> Vector:
     """a - b, coordinate by coordinate."""
     return tuple(x - y for x, y in zip(a, b, strict=True))

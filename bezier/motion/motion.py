@@ -216,7 +216,7 @@ def files(path: Path | None, quality: Quality | None) -> dict[str, str]:
     return {"motion.csv": motion_csv(path, quality.motion), "motion.json": motion_json(quality.motion)}
 
 
-def words(quality: Quality | None) -> list[str]:
+def summary_lines(quality: Quality | None) -> list[str]:
     """The lines of the summary about quality and motion."""
     if quality is None:
         return []
@@ -251,7 +251,7 @@ def _short(value: Enclosure) -> str:
     return high if high == "inf" else f"{Decimal(high).normalize():f}"
 
 
-def entries(quality: Quality | None) -> dict[str, Any]:
+def json_entries(quality: Quality | None) -> dict[str, Any]:
     """The entries of the JSON summary about quality and motion."""
     if quality is None:
         return {}

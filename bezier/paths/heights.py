@@ -157,7 +157,7 @@ def _sample(curve: Bezier, axis: str, first: Interval, last: Interval) -> tuple[
 # --- for people and machines ----------------------------------------------------------------------------
 
 
-def words(found: Heights) -> list[str]:
+def summary_lines(found: Heights) -> list[str]:
     """One line for the whole path, and one for each stretch below."""
     if found.strip is None:
         return []

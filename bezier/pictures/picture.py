@@ -55,7 +55,7 @@ class RegionPicture:
 
 @dataclass(frozen=True, slots=True)
 class PathPicture:
-    """The path in its workspace. ``marks``: named points; ``hats``: whether their names get hats."""
+    """The path in its workspace. ``marks``: named points; ``hatted_names``: whether their names get hats."""
 
     radius: float
     has_floor: bool
@@ -63,7 +63,7 @@ class PathPicture:
     marks: Mapping[str, Array]
     region: RegionPicture | None = None
     extra: Mapping[str, RegionPicture] = field(default_factory=dict)
-    hats: bool = True
+    hatted_names: bool = True
     obstacles: tuple[ObstaclePicture, ...] = ()
 
 
@@ -89,7 +89,7 @@ def path_picture(
     *,
     region: RegionPicture | None,
     extra: Mapping[str, RegionPicture] | None = None,
-    hats: bool = True,
+    hatted_names: bool = True,
 ) -> PathPicture:
     """The picture of a path, or of the given points alone; a place with two names is marked by one."""
     points: dict[str, Sequence[Any]] = dict(given)
@@ -103,7 +103,7 @@ def path_picture(
         marks={name: numbers([point])[0] for name, point in points.items()},
         region=region,
         extra=extra or {},
-        hats=hats,
+        hatted_names=hatted_names,
         obstacles=obstacle_pictures(problem.obstacles, reach),
     )
 

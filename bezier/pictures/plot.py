@@ -40,7 +40,7 @@ def save_region(picture: PathPicture, path: Path, title: str) -> None:
                 axis.text2D(0.5, 0.93, "from the other side", transform=axis.transAxes, ha="center", fontsize=9)
         for column, (title, a, b) in enumerate(VIEWS):
             _region_view(figure.add_axes((0.055 + 0.325 * column, 0.06, 0.27, 0.23)), region, title, a, b)
-    _save(figure, path, picture.hats)
+    _save(figure, path, picture.hatted_names)
 
 
 def save_path(picture: PathPicture, path: Path) -> None:
@@ -64,7 +64,7 @@ def save_path(picture: PathPicture, path: Path) -> None:
     _frame(axis, np.array([[-reach, -reach, low], [reach, reach, reach]]), pad=0.0)
     for column, (title, i, j) in enumerate(VIEWS):
         _path_view(figure.add_axes((0.055 + 0.325 * column, 0.05, 0.27, 0.26)), picture, title, i, j)
-    _save(figure, path, picture.hats)
+    _save(figure, path, picture.hatted_names)
 
 
 def views_svg(picture: PathPicture) -> str:
@@ -72,7 +72,7 @@ def views_svg(picture: PathPicture) -> str:
     figure = new_figure(12, 4.2)
     for column, (title, i, j) in enumerate(VIEWS):
         _path_view(figure.add_axes((0.045 + 0.33 * column, 0.12, 0.275, 0.78)), picture, title, i, j)
-    _letter(figure, picture.hats)
+    _letter(figure, picture.hatted_names)
     return svg_text(figure)
 
 
@@ -105,16 +105,16 @@ def new_figure(width: float, height: float) -> Any:
     return figure
 
 
-def _save(figure: Any, path: Path, hats: bool) -> None:
-    _letter(figure, hats)
+def _save(figure: Any, path: Path, hatted_names: bool) -> None:
+    _letter(figure, hatted_names)
     figure.savefig(path, dpi=120, pil_kwargs={"compress_level": 4})
 
 
-def _letter(figure: Any, hats: bool) -> None:
+def _letter(figure: Any, hatted_names: bool) -> None:
     """Take the hats off the names of points if they are not wanted."""
     from matplotlib.text import Text
 
-    for item in [] if hats else figure.findobj(Text):
+    for item in [] if hatted_names else figure.findobj(Text):
         item.set_text(re.sub(r"\\hat\{(.)\}", r"\1", item.get_text()))
 
 

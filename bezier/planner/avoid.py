@@ -175,7 +175,7 @@ def with_stated_attempts(plan: Plan, stated: Any) -> Plan:
 
 
 def _attempt(stated: Any, place: str) -> Attempt:
-    """An attempt as ``entries`` writes it."""
+    """An attempt as ``json_entries`` writes it."""
     if not isinstance(stated, dict) or not all(isinstance(text, str) for text in stated.values()):
         raise CertificateRejected(place, "expected an object of texts")
     known = {"unable": None, **{o.value: o for o in (Outcome.SOLVED, Outcome.BLOCKED, Outcome.INFEASIBLE)}}
@@ -187,7 +187,7 @@ def _attempt(stated: Any, place: str) -> Attempt:
 # --- for people ---------------------------------------------------------------------------------------
 
 
-def words(plan: Plan) -> list[str]:
+def summary_lines(plan: Plan) -> list[str]:
     """The lines of the summary about obstacles."""
     if not plan.problem.obstacles:
         return []
@@ -199,7 +199,7 @@ def words(plan: Plan) -> list[str]:
     return lines
 
 
-def entries(plan: Plan) -> dict[str, Any]:
+def json_entries(plan: Plan) -> dict[str, Any]:
     """The entries of the JSON summary about obstacles."""
     if not plan.problem.obstacles:
         return {}

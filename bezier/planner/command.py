@@ -88,7 +88,7 @@ def in_words(made: Plan, target: FilePath, files: list[str], seconds: float) -> 
     lines += [f"note: {note}" for note in (*problem.notes, *made.remarks)]
     if made.outcome is Outcome.INFEASIBLE:
         lines.append(method.reason(made))
-    lines += method.words(made)
+    lines += method.summary_lines(made)
     if made.objective is not None:
         lines.append(f"objective {brief(made.objective)}, active: {', '.join(made.active) or 'nothing'}")
     if made.path is not None:
@@ -96,9 +96,9 @@ def in_words(made: Plan, target: FilePath, files: list[str], seconds: float) -> 
         joins = f"{made.path.smoothness.name} at both joins, " if made.path.joins else ""
         lines.append(f"path: {joins}{inside}")
     if made.heights is not None:
-        lines += heights.words(made.heights)
-    lines += motion.words(made.quality)
-    lines += avoid.words(made)
+        lines += heights.summary_lines(made.heights)
+    lines += motion.summary_lines(made.quality)
+    lines += avoid.summary_lines(made)
     accepted = all(verdict.accepted for verdict in made.checks.values())
     lines.append(f"certificates: {'accepted' if accepted else 'REJECTED'}")
     lines.append(f"{len(files)} files in {target} ({seconds:.2f} s): open {target / REPORT}")

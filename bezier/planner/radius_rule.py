@@ -19,7 +19,20 @@ import qe
 from bezier.curves.enclosure import root_above, root_below
 from bezier.curves.scalar import Vector, dot, exactly, same
 from bezier.curves.workspace import Workspace
-from bezier.methods.control.system import System, coordinates, number
+from bezier.methods.control.statements import (
+    Implies,
+    Product,
+    Statement,
+    at_most,
+    difference,
+    equal,
+    every,
+    for_all,
+    names,
+    number,
+    squares,
+)
+from bezier.methods.control.system import System, coordinates
 from bezier.methods.cubic import formula as cubic
 from bezier.methods.quadratic import formula as quadratic
 from bezier.plan import RadiusRule
@@ -49,15 +62,16 @@ def on_sphere(problem: Problem) -> dict[str, str]:
     return {name: free for name, via, free in pairs if exactly(dot(via, via)) == square}
 
 
-def sentence(problem: Problem, via: str, free: str) -> str:
+def sentence(problem: Problem, via: str, free: str) -> Statement:
     """The theorem with this problem's numbers: the norm conditions beside a via point force the free point."""
-    at = dict(zip(("Q0", "R0"), problem.via, strict=True))[via]
+    at = [exactly(c) for c in dict(zip(("Q0", "R0"), problem.via, strict=True))[via]]
     square, k = number(problem.workspace.radius_squared), problem.ratio
-    names = coordinates(free)
-    other = [f"({number((1 + k) * exactly(v))} - {number(k)}*{name})" for v, name in zip(at, names, strict=True)]
-    norms = (" + ".join(f"{c}^2" for c in row) + f" <= {square}" for row in (names, other))
-    equal = " and ".join(f"{name} = {number(v)}" for name, v in zip(names, at, strict=True))
-    return f"all {', '.join(names)}. {' and '.join(norms)} -> {equal}"
+    listed = coordinates(free)
+    point = names(listed)
+    other = [difference(number((1 + k) * v), Product((number(k), c))) for v, c in zip(at, point, strict=True)]
+    norms = (at_most(squares(row), square) for row in (point, other))
+    same_place = (equal(c, number(v)) for c, v in zip(point, at, strict=True))
+    return for_all(listed, Implies(every(*norms), every(*same_place)))
 
 
 def radius_rule(problem: Problem, solvable: bool, remaining: Limit = unlimited) -> RadiusRule | None:
@@ -69,13 +83,13 @@ def radius_rule(problem: Problem, solvable: bool, remaining: Limit = unlimited) 
     if not forced:
         return None
     sentences = tuple(sentence(problem, via, free) for via, free in forced.items())
-    for text in sentences:
-        truth = qe.eliminate(text, timeout=remaining()).truth
+    for asked in sentences:
+        truth = qe.eliminate(asked.formula, timeout=remaining()).truth
         if truth is False:
             raise InternalError("the engine refutes that a via point on the sphere forces its neighbour")
         if truth is None:
             raise Unable("the engine did not decide what the radius forces")
-    return RadiusRule(problem.method, forced, sentences, solvable, larger_radius(problem, remaining))
+    return RadiusRule(problem.method, forced, tuple(map(str, sentences)), solvable, larger_radius(problem, remaining))
 
 
 def stated_rule(problem: Problem, solvable: bool, larger: Fraction | None) -> RadiusRule | None:
@@ -83,9 +97,8 @@ def stated_rule(problem: Problem, solvable: bool, larger: Fraction | None) -> Ra
     forced = on_sphere(problem)
     if not forced:
         return None
-    return RadiusRule(
-        problem.method, forced, tuple(sentence(problem, via, free) for via, free in forced.items()), solvable, larger
-    )
+    sentences = tuple(str(sentence(problem, via, free)) for via, free in forced.items())
+    return RadiusRule(problem.method, forced, sentences, solvable, larger)
 
 
 def larger_radius(problem: Problem, remaining: Limit = unlimited) -> Fraction | None:
@@ -119,7 +132,7 @@ def helps(problem: Problem, radius: Fraction, remaining: Limit = unlimited) -> b
     """Whether the optimum with this radius exists, has an accepted certificate and differs from both via points."""
     changed = replace(problem, workspace=Workspace(problem.workspace.kind, radius * radius), radius_is_auto=False)
     system = _system(changed)
-    optimum = qe.minimize(system.objective(), system.conditions_text(), timeout=remaining())
+    optimum = qe.minimize(system.objective().polynomial, system.in_free_points().formula, timeout=remaining())
     if not optimum.is_optimal or not qe.verify(optimum.certificate).accepted:
         return False
     values = iter([optimum.point[name] for name in system.shape.variables])

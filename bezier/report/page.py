@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 def render(plan: Plan, method: Method[Any], drawing: Drawing | None) -> str:
     """The page of a plan by this method. Without ``drawing`` there are no pictures and no script."""
     page = template(method.template).render(_common(plan, drawing) | method.sections(plan))
-    return page if method.hats else mathml.without_hats(page)
+    return page if method.hatted_names else mathml.without_hats(page)
 
 
 def template(name: str) -> Template:
@@ -52,7 +52,7 @@ def _common(plan: Plan, drawing: Drawing | None) -> dict[str, Any]:
         "charts": Markup(drawing.charts if drawing else ""),
         "clearance_chart": Markup(drawing.clearance if drawing else ""),
         **obstacle_report.sections(plan),
-        "heights": heights.words(plan.heights) if plan.heights else [],
+        "heights": heights.summary_lines(plan.heights) if plan.heights else [],
         "heights_tone": parts.tone(plan.heights is None or plan.heights.hold),
         "figures": figures(drawing.picture if drawing else None),
         "plotly_script": _script(drawing),

@@ -11,7 +11,7 @@ from math import comb
 
 from bezier.curves.scalar import exactly
 from bezier.input.task import Axis, task
-from bezier.methods.control.system import number
+from bezier.methods.control.statements import number
 from bezier.methods.cubic import formula as cubic
 from bezier.methods.quadratic import formula as quadratic
 from bezier.methods.single import formula as single_formula
@@ -76,7 +76,7 @@ def _symbolic() -> Problem:
     q1, q0, r0 = (formulas.coordinates(name) for name in ("q1", "q0", "r0"))
     points = (q1, *([f"2*{v} - {u}" for u, v in zip(q1, via, strict=True)] for via in (q0, r0)))
     balls = " and ".join(formulas.within(point, "r^2") for point in points)
-    return Problem("paper/formula-8", "formula-8-symbolic", quadratic.SHAPE.symbolic_formula(), f"r >= 0 and {balls}")
+    return Problem("paper/formula-8", "formula-8-symbolic", str(quadratic.SHAPE.symbolic()), f"r >= 0 and {balls}")
 
 
 def _identities() -> Iterator[Problem]:
@@ -86,8 +86,8 @@ def _identities() -> Iterator[Problem]:
     control points lie, and that is a statement about one coordinate.
     """
     for i, degree in enumerate((2, 3, 4)):
-        yield _problem("formula-2", i, single_formula.linearity(degree), "true")
-    yield _problem("formula-3", 0, single_formula.INVERSE, "true")
+        yield _problem("formula-2", i, str(single_formula.linearity(degree)), "true")
+    yield _problem("formula-3", 0, str(single_formula.inverse()), "true")
     names = "q0, q1, q2, r0, p1, p2, r1, r2"
     smooth = "2*q0 = p2 + q1 and 2*r0 = q2 + r1 and 2*(q1 - p2) = q2 - p1 and 2*(r1 - q2) = r2 - q1"
     six = "p1 = 4*q0 - 4*q1 + q2 and p2 = 2*q0 - q1 and r1 = 2*r0 - q2 and r2 = q1 - 4*q2 + 4*r0"
@@ -102,17 +102,17 @@ def _identities() -> Iterator[Problem]:
 
 def _quadratic(i: int, problem: PlanningProblem) -> Iterator[Problem]:
     """Formula (8), with z >= 0, its feasibility, its shadow on an axis, and the whole-curve condition."""
-    conditions = quadratic.system(problem).conditions_text()
+    conditions = str(quadratic.system(problem).in_free_points())
     above = " and ".join(f"{a} >= 0" for a in ("q1z", *(f"2*{number(p[2])} - q1z" for p in problem.via)))
     x, y, z = quadratic.FREE
-    yield _problem("formula-8", i, quadratic.printed(problem).formula(), conditions)
-    corrected = quadratic.corrected(problem).formula()
+    yield _problem("formula-8", i, str(quadratic.printed(problem).statement()), conditions)
+    corrected = str(quadratic.corrected(problem).statement())
     yield _problem("formula-8-above", i, corrected, f"{conditions} and {above}")
     meet = str(quadratic.three_balls(problem).meet).lower()
     yield _problem("formula-8-feasible", i, f"ex {x}, {y}, {z}. {conditions}", meet)
     yield _problem("formula-8-shadow", i, f"ex {y}, {z}. {conditions}")
     q0, r0 = (tuple(map(exactly, p)) for p in problem.via)
-    middle = [number((a + b) / 2) for a, b in zip(q0[:2], r0[:2], strict=True)]
+    middle = [str(number((a + b) / 2)) for a, b in zip(q0[:2], r0[:2], strict=True)]
     height = formulas.whole_curve(q0, [*middle, "h"], r0, problem.workspace.radius_squared)
     yield _problem("whole-curve", i, height)
 
@@ -120,8 +120,8 @@ def _quadratic(i: int, problem: PlanningProblem) -> Iterator[Problem]:
 def _cubic(i: int, problem: PlanningProblem) -> Iterator[Problem]:
     """Formula (7): as printed, its truth (true: Q1 = Q0, Q2 = R0), in the plane, Q1 fixed, and the region of Q1."""
     system = cubic.system(problem)
-    conditions = system.conditions_text()
-    yield _problem("formula-7", i, system.formula(), conditions)
+    conditions = str(system.in_free_points())
+    yield _problem("formula-7", i, str(system.statement()), conditions)
     block = ", ".join(system.shape.variables)
     yield _problem("formula-7-feasible", i, f"ex {block}. {conditions}", "true")
     flat = in_plane(problem)
@@ -136,7 +136,7 @@ def _cubic(i: int, problem: PlanningProblem) -> Iterator[Problem]:
 def in_plane(problem: PlanningProblem) -> str:
     """What (7) says of Q1 and Q2 when all points lie in the plane z = 0 (the first two coordinates are kept)."""
     q0, r0 = ((p[0], p[1], Fraction(0)) for p in problem.via)
-    text = cubic.system(replace(problem, via=(q0, r0))).conditions_text()
+    text = str(cubic.system(replace(problem, via=(q0, r0))).in_free_points())
     return re.sub(r"\bq[12]z\b", "0", text)
 
 
@@ -145,7 +145,7 @@ def single_curve(degree: int, symbols: Collection[Symbol] = ()) -> str:
     zero, one = Fraction(0), Fraction(1)
     axis = Axis("y", zero, zero, one)
     given = task(degree, (zero, one), (Fraction(2, 5), Fraction(3, 5)), [axis])
-    conditions = " and ".join(single_formula.constraints(given, axis, symbols))
+    conditions = " and ".join(map(str, single_formula.constraints(given, axis, symbols)))
     return f"ex {', '.join(single.variables(given, axis))}. {conditions}"
 
 

@@ -75,7 +75,7 @@ def _problem(task: Task) -> Any:
 
 def _quadratic(task: Task, timeout: float | None) -> Mapping[str, Any]:
     """Is there a Q1, and how much room has it?"""
-    conditions = quadratic.system(_problem(task)).conditions_text()
+    conditions = quadratic.system(_problem(task)).in_free_points().formula
     region = qe.region(conditions, order=quadratic.FREE, timeout=timeout)
     if region.is_empty:
         return {"feasible": False, "volume_low": 0.0, "volume_high": 0.0}
@@ -86,7 +86,7 @@ def _quadratic(task: Task, timeout: float | None) -> Mapping[str, Any]:
 def _cubic(task: Task, timeout: float | None) -> Mapping[str, Any]:
     """The least |Q1 - Q0|^2 + |Q2 - Q1|^2 + |R0 - Q2|^2 under the conditions of (7), which can always be met."""
     system = cubic.system(_problem(task))
-    optimum = qe.minimize(system.objective(), system.conditions_text(), timeout=timeout)
+    optimum = qe.minimize(system.objective().polynomial, system.in_free_points().formula, timeout=timeout)
     if not optimum.is_optimal:
         return {"feasible": False}
     value: Fraction | Any = optimum.value

@@ -38,7 +38,9 @@ Order = Annotated[str | None, typer.Option("--order", help="Variable order, as i
 Timeout = Annotated[float | None, typer.Option("--timeout", help="Seconds; enforced.")]
 Memory = Annotated[int | None, typer.Option("--memory", help="MiB of address space; enforced.")]
 CertificateFile = Annotated[Path | None, typer.Option("--certificate", help="Write the certificate to this file.")]
-PictureFile = Annotated[Path | None, typer.Option("--plot", help="Draw the region to this file (.png, .pdf, .svg).")]
+PictureFile = Annotated[
+    Path | None, typer.Option("--plot", help="Draw the region to this file (.png, .pdf, .svg; .html: turnable).")
+]
 Plain = Annotated[bool, typer.Option("--plain", help="No progress display and no notes.")]
 Json = Annotated[bool, typer.Option("--json", help="One JSON object on stdout.")]
 Explain = Annotated[bool, typer.Option("--explain", help="Tell on stderr how the answer was found.")]

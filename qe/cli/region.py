@@ -17,7 +17,7 @@ from qe.worker import Channel
 if TYPE_CHECKING:
     from qe.regions.region import Region
 
-PICTURES = (".png", ".pdf", ".svg")
+PICTURES = (".png", ".pdf", ".svg", ".html")
 LONGEST = 200
 """Characters of an exact number in texts for people."""
 DIGITS = 10

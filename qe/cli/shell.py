@@ -20,6 +20,7 @@ from typer.main import get_command
 
 from qe.cli.values import take_plain_values
 from qe.errors import CertificateRejected, InputError, InternalError, Unable
+from qe.extras import lacking
 from qe.progress import Event
 from qe.worker import GRACE, Channel, Known, WorkerDied, WorkerStopped, run
 
@@ -56,6 +57,11 @@ def enter(app: typer.Typer, argv: Sequence[str] | None, *, name: str) -> int:
         return fail(name, f"internal error, please report: {error}", BUG)
     except (KeyboardInterrupt, typer.Abort):
         return fail(name, "interrupted", INTERRUPTED)
+    except ImportError as error:
+        told = lacking(error)
+        if told is None:
+            raise
+        return fail(name, f"unable: {told}", UNABLE)
     except OSError as error:
         if error.filename is not None:
             raise

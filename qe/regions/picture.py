@@ -1,121 +1,111 @@
-"""Pictures of regions in one, two and three variables, drawn from the cylindrical description. For looking only."""
+"""Pictures of regions in one, two and three variables, painted from a sketch. For looking only."""
 
 from __future__ import annotations
 
-from collections import Counter
 from pathlib import Path
 from typing import Any
 
-from qe.cells.pieces import Piece
 from qe.errors import InputError
-from qe.regions.described import Described as Region
-from qe.regions.ends import ends
+from qe.regions.sketch import Sketch
 from qe.regions.space import draw_space
 
 FILL, EDGE = "#4c78a8", "#1f3b5c"
-SAMPLES_2D = 400
-MARGIN = 0.06
-UNBOUNDED = 4.0
-INSIDE = 1e-7
-"""The share of a range left out at its ends, where the roots above may coincide or vanish."""
+FLAT, TURNABLE = (".png", ".svg", ".pdf"), ".html"
 
 
-def draw(region: Region, path: Path) -> None:
-    """Write a picture of the region; the format follows the file name. ``InputError`` above three variables."""
-    if len(region.order) > 3:
-        raise InputError(f"a picture needs 1 to 3 variables, the region has {len(region.order)}")
-    if path.suffix.lower() not in (".png", ".svg", ".pdf"):
-        raise InputError(f"a picture needs a file name ending in .png, .svg or .pdf, {path.name} found")
-    import matplotlib
+def check_ending(path: Path) -> None:
+    """``InputError`` for a file name that no picture has."""
+    if path.suffix.lower() not in (*FLAT, TURNABLE):
+        raise InputError(f"a picture needs a file name ending in .png, .svg, .pdf or .html, {path.name} found")
 
-    matplotlib.use("Agg")
-    from matplotlib import pyplot
 
-    figure = pyplot.figure(figsize=(6.4, 5.2), dpi=150)
-    axes = figure.add_subplot(projection="3d" if len(region.order) == 3 else None)
-    (_line, _plane, draw_space)[len(region.order) - 1](region, axes)
-    if region.is_empty:
-        axes.set_title("empty region")
+def write(sketch: Sketch, path: Path) -> Any:
+    """Write a picture, a page with a turnable one for .html; the axes of the former. No window is opened.
+
+    Raises ``InputError`` for a turnable picture of a region that is not in space.
+    """
+    if path.suffix.lower() == TURNABLE:
+        from qe.regions.turnable import page
+
+        path.write_text(page(sketch), encoding="utf-8")
+        return None
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(6.4, 5.2), dpi=150)
+    FigureCanvasAgg(figure)
+    axes = paint(sketch, figure.add_subplot(projection=_projection(sketch)))
     figure.tight_layout()
     figure.savefig(path)
-    pyplot.close(figure)
+    return axes
 
 
-def _span(region: Region, variable: str) -> tuple[float, float]:
-    """Drawing limits of a variable; unbounded directions are cut off."""
-    if region.is_empty:
-        return -1.0, 1.0
-    lower, upper = region.bounds(variable)
-    lo = float(lower) if lower is not None else (float(upper) if upper is not None else 0.0) - UNBOUNDED
-    hi = float(upper) if upper is not None else (float(lower) if lower is not None else 0.0) + UNBOUNDED
-    pad = MARGIN * (hi - lo) or 1.0
-    return lo - pad, hi + pad
+def show(sketch: Sketch, axes: Any) -> Any:
+    """Paint on the caller's axes, or on new ones of pyplot's, and return them. The backend stays as it is.
+
+    Raises ``InputError`` for axes of another dimension, or for things that are none.
+    """
+    if axes is None:
+        from matplotlib import pyplot
+
+        axes = pyplot.figure().add_subplot(projection=_projection(sketch))
+    elif not hasattr(axes, "fill_between"):
+        raise InputError(f"ax: matplotlib's axes expected, {type(axes).__name__} found")
+    elif (getattr(axes, "name", "") == "3d") != (len(sketch.order) == 3):
+        needed = "axes with projection='3d'" if len(sketch.order) == 3 else "plane axes"
+        raise InputError(f"ax: {needed} expected for a region in {', '.join(sketch.order)}")
+    return paint(sketch, axes)
 
 
-def _inner_grid(count: int) -> Any:
-    """Shares of a range from end to end, dense towards the ends but not on them."""
-    import numpy
+def _projection(sketch: Sketch) -> str | None:
+    if len(sketch.order) < 3:
+        return None
+    import mpl_toolkits.mplot3d  # noqa: F401  (registers the projection)
 
-    return INSIDE + (1 - 2 * INSIDE) * (1 - numpy.cos(numpy.linspace(0, numpy.pi, count))) / 2
-
-
-def _seams(pieces: list[Piece]) -> frozenset[Any]:
-    """The values of the first variable where several pieces meet: inner lines, not the region's outline."""
-    met: Counter[Any] = Counter()
-    for piece in pieces:
-        met.update({end.value for end in (piece.ranges[0].lower, piece.ranges[0].upper) if end is not None})
-    return frozenset(value for value, count in met.items() if count > 1)
+    return "3d"
 
 
-def _line(region: Region, axes: Any) -> None:
-    span = _span(region, region.order[0])
-    for piece in region.cells:
-        lo, hi = ends(piece, 0, {}, span)
-        axes.plot([lo, hi], [0, 0], color=FILL, linewidth=6, solid_capstyle="butt")
-        for end, closed in ((lo, piece.ranges[0].lower_closed), (hi, piece.ranges[0].upper_closed)):
+def paint(sketch: Sketch, axes: Any) -> Any:
+    """Paint on axes of the right dimension; the axes."""
+    if len(sketch.order) == 3:
+        draw_space(sketch.solid, sketch.frame or {}, sketch.order, axes)
+    else:
+        (_line, _plane)[len(sketch.order) - 1](sketch, axes)
+    if sketch.is_empty:
+        axes.set_title("empty region")
+    return axes
+
+
+def _line(sketch: Sketch, axes: Any) -> None:
+    for part in sketch.segments:
+        axes.plot([part.low, part.high], [0, 0], color=FILL, linewidth=6, solid_capstyle="butt")
+        for end, closed in ((part.low, part.lower), (part.high, part.upper)):
             axes.plot([end], [0], "o", markersize=9, markerfacecolor=FILL if closed else "white", markeredgecolor=EDGE)
-    axes.set_xlim(*span)
+    axes.set_xlim(*sketch.spans[0])
     axes.set_ylim(-1, 1)
     axes.set_yticks([])
     axes.axhline(0, color="0.7", linewidth=0.8, zorder=0)
-    axes.set_xlabel(region.order[0])
+    axes.set_xlabel(sketch.order[0])
 
 
-def bands(region: Region) -> list[tuple[list[float], list[float], list[float]]]:
-    """A bounded region in two variables as areas between curves: values of the first variable, both ends over them."""
-    nowhere = (0.0, 0.0)  # every piece has ends of its own
-    return [_band(piece, nowhere, nowhere) for piece in region.cells if not piece.ranges[0].is_point]
-
-
-def _band(
-    piece: Piece, x_span: tuple[float, float], y_span: tuple[float, float]
-) -> tuple[list[float], list[float], list[float]]:
-    lo, hi = ends(piece, 0, {}, x_span)
-    xs = [lo] if piece.ranges[0].is_point else list(lo + (hi - lo) * _inner_grid(SAMPLES_2D))
-    found = [ends(piece, 1, {0: x}, y_span) for x in xs]
-    return xs, [low for low, _ in found], [high for _, high in found]
-
-
-def _plane(region: Region, axes: Any) -> None:
-    seams = _seams(region.cells)
-    x_span, y_span = _span(region, region.order[0]), _span(region, region.order[1])
-    for piece in region.cells:
-        xs, low, high = _band(piece, x_span, y_span)
-        if len(xs) == 1:
-            first = piece.ranges[0].lower
-            width = 0.4 if first is not None and first.value in seams else 1.2
-            marker = "o" if piece.ranges[1].is_point and width > 1 else None
-            axes.plot([xs[0], xs[0]], [low[0], high[0]], color=EDGE, marker=marker, markersize=5, linewidth=width)
+def _plane(sketch: Sketch, axes: Any) -> None:
+    for band in sketch.bands:
+        if len(band.xs) == 1:
+            isolated = band.low == band.high and not band.seam
+            width = 0.4 if band.seam else 1.2
+            ends = [band.low[0], band.high[0]]
+            axes.plot(
+                [band.xs[0]] * 2, ends, color=EDGE, marker="o" if isolated else None, markersize=5, linewidth=width
+            )
             continue
-        axes.fill_between(xs, low, high, color=FILL, alpha=0.55, linewidth=0)
-        up = piece.ranges[1]
-        for side, closed, curve in ((up.lower, up.lower_closed, low), (up.upper, up.upper_closed, high)):
-            if side is not None:
-                axes.plot(xs, curve, color=EDGE, linewidth=1.2, linestyle="-" if closed else "--")
-    axes.set_xlim(*x_span)
-    axes.set_ylim(*y_span)
+        axes.fill_between(band.xs, band.low, band.high, color=FILL, alpha=0.55, linewidth=0)
+        for closed, curve in ((band.lower, band.low), (band.upper, band.high)):
+            if closed is not None:
+                axes.plot(band.xs, curve, color=EDGE, linewidth=1.2, linestyle="-" if closed else "--")
+    axes.set_xlim(*sketch.spans[0])
+    axes.set_ylim(*sketch.spans[1])
     axes.set_aspect("equal", adjustable="box")
     axes.grid(color="0.9")
     axes.set_axisbelow(True)
-    axes.set_xlabel(region.order[0])
-    axes.set_ylabel(region.order[1])
+    axes.set_xlabel(sketch.order[0])
+    axes.set_ylabel(sketch.order[1])

@@ -20,6 +20,7 @@ from qe.exact.algebraic import RealAlgebraic
 from qe.exact.ring import Poly, Ring
 from qe.exact.sample import Point
 from qe.execution import Budgets, Limits, perform
+from qe.extras import lacking
 from qe.formula.build import conj, convert
 from qe.formula.evaluate import truth_under
 from qe.formula.normal import nnf
@@ -259,22 +260,29 @@ class Region:
         both = conj((convert(self.formula, ring), convert(condition, ring)))
         return Region.of(both, self.order, budget=self._budget, limits=self.limits)
 
-    def plot(self, path: str | Path, *, timeout: float | None = None) -> None:
-        """Write a picture (PNG, SVG or PDF by the ending) of a region in one to three variables.
+    def plot(self, path: str | Path | None = None, *, ax: Any = None, timeout: float | None = None) -> Any:
+        """A picture of a region in one to three variables; the matplotlib axes.
 
-        Raises ``InputError`` in more variables, and for a file that cannot be written.
+        ``path``: written there, by its ending as PNG, SVG or PDF, or as a page with a turnable picture (.html, in three
+        variables; returns None). ``ax``: painted on these axes (of projection "3d" in three variables). With neither,
+        on new ones of pyplot's. ``timeout`` (seconds) limits the exact part, not the painting. Raises ``InputError`` in
+        more variables and for a file that cannot be written, ``Unable`` where matplotlib or plotly is not installed.
         """
-        from qe.regions.picture import draw
+        from qe.regions.picture import check_ending, show, write
+        from qe.regions.sketch import sketch
 
-        target = name_of_file(path)
-
-        def drawn() -> None:  # perhaps in another process, from which errors of this package come back as they are
-            try:
-                draw(self, target)
-            except OSError as error:
-                raise InputError(f"{target}: cannot be written: {error.strerror}") from None
-
-        self._asked(drawn, seconds(timeout), at_once=True)
+        target = None if path is None else name_of_file(path)
+        if target is not None:
+            if ax is not None:
+                raise InputError("ax: a file or axes expected, both found")
+            check_ending(target)
+        drawn = self._asked(lambda: sketch(self), seconds(timeout), at_once=True)
+        try:
+            return show(drawn, ax) if target is None else write(drawn, target)
+        except OSError as error:
+            raise InputError(f"{target}: cannot be written: {error.strerror}") from None
+        except ImportError as error:
+            raise lacking(error) or error from None
 
     def __repr__(self) -> str:
         return f"Region({', '.join(self.order)}: {self.formula})"

@@ -57,12 +57,8 @@ def framed(region: Region) -> tuple[Region, Frame]:
     return region.within(conj(conditions)), frame
 
 
-def surface_of(region: Region) -> Solid:
-    """The surface of a region in three variables, cut by the frame where it goes on for ever."""
-    return _shape(region)[0]
-
-
-def _shape(region: Region) -> tuple[Solid, Frame]:
+def shape_of(region: Region) -> tuple[Solid, Frame]:
+    """The surface of a region in three variables, cut by the frame where it goes on for ever, and the frame."""
     if region.is_empty:
         return Solid((), ()), {}
     inside, frame = framed(region)
@@ -71,12 +67,11 @@ def _shape(region: Region) -> tuple[Solid, Frame]:
     return solid(inside.cells, [(-1.0, 1.0)] * 3), frame
 
 
-def draw_space(region: Region, axes: Any) -> None:
-    """Draw a region in three variables on matplotlib's three-dimensional axes."""
+def draw_space(shape: Solid, frame: Frame, order: tuple[str, ...], axes: Any) -> None:
+    """Draw the surface of a region in three variables on matplotlib's three-dimensional axes."""
     from matplotlib.ticker import MaxNLocator
     from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
-    shape, frame = _shape(region)
     low, high = shape.corners()
     size = np.where(high > low, high - low, max(1.0, float((high - low).max())))
     low, high = (low + high - size * (1 + 2 * MARGIN)) / 2, (low + high + size * (1 + 2 * MARGIN)) / 2
@@ -84,7 +79,7 @@ def draw_space(region: Region, axes: Any) -> None:
     towards = _direction(VIEW)
     drawn = _Drawn(low, size / box, towards)
     for surface in shape.surfaces:
-        drawn.add(surface, _cut_faces(surface, region.order, frame, size))
+        drawn.add(surface, _cut_faces(surface, order, frame, size))
     for line in shape.lines:
         if len(line) > 1:
             drawn.strokes(line[:-1], line[1:], width=2.0)
@@ -95,14 +90,14 @@ def draw_space(region: Region, axes: Any) -> None:
         axes.add_collection3d(
             Poly3DCollection(drawn.polygons, facecolors=colours, edgecolors=colours, linewidths=drawn.widths)
         )
-    for axis, start, end, side, name in zip("xyz", low, high, box, region.order, strict=True):
+    for axis, start, end, side, name in zip("xyz", low, high, box, order, strict=True):
         getattr(axes, f"set_{axis}lim")(start, end)
         getattr(axes, f"{axis}axis").set_major_locator(MaxNLocator(5 if side > 0.5 else 3))
         getattr(axes, f"set_{axis}label")(name)
     axes.set_box_aspect(box)
     axes.set_proj_type("ortho")
     axes.view_init(*VIEW)
-    if frame and not region.is_empty:
+    if frame and (shape.surfaces or shape.lines):
         axes.set_title("pale: cut by the frame, the region goes on", fontsize=9, color="0.35")
 
 

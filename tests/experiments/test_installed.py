@@ -1,4 +1,4 @@
-"""The command without the repository: what a wheel holds, any current folder, nothing written beside the packages."""
+"""The command without the repository: any current folder, nothing written beside the packages; what a wheel holds."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ import shutil
 import subprocess
 import sys
 import tomllib
+import zipfile
 from pathlib import Path
 
 import pytest
@@ -19,10 +20,10 @@ PROJECT = Path(__file__).resolve().parents[2]
 
 
 def install(folder: Path) -> None:
-    """Copy what the packaging configuration names: modules and package data of the packages that it finds."""
+    """Copy modules and package data of the packages."""
     tool = tomllib.loads((PROJECT / "pyproject.toml").read_text())["tool"]["setuptools"]
     patterns = ["*.py", *tool["package-data"]["*"]]
-    for pattern in tool["packages"]["find"]["include"]:
+    for pattern in (*tool["packages"]["find"]["include"], "experiments*"):
         for top in PROJECT.glob(pattern):
             for path in top.rglob("*") if top.is_dir() else ():
                 if path.is_file() and any(path.match(p) for p in patterns):
@@ -107,3 +108,26 @@ def test_no_problem_is_an_error(tmp_path, monkeypatch, capsys):
 def test_the_corpus_lies_in_the_package() -> None:
     folder = Path(experiments.__file__).parent / "corpus"
     assert {p.stem for p in folder.glob("*.toml")} >= {"timing", "shapes", "wrong_answers"}
+
+
+@pytest.mark.deep
+def test_the_wheel_and_the_source_distribution(tmp_path: Path) -> None:
+    """The wheel installs the two packages and nothing of a common name; the source distribution holds the tests."""
+    copy = tmp_path / "copy"
+    subprocess.run(["git", "clone", "-q", str(PROJECT), str(copy)], check=True)
+    pip = [sys.executable, "-m", "pip", "--disable-pip-version-check", "-q"]
+    subprocess.run([*pip, "wheel", "--no-deps", "-w", str(tmp_path), str(copy)], check=True)
+    (wheel,) = tmp_path.glob("*.whl")
+    with zipfile.ZipFile(wheel) as archive:
+        tops = {name.split("/")[0] for name in archive.namelist()}
+        archive.extractall(tmp_path / "installed")
+    assert {top for top in tops if not top.endswith(".dist-info")} == {"qe", "bezier"}
+    done = subprocess.run(
+        [sys.executable, "-m", "qe", "eliminate", "ex x. x^2 = b"],
+        cwd=tmp_path,
+        env={**os.environ, "PYTHONPATH": str(tmp_path / "installed"), "PYTHONSAFEPATH": "1"},
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    assert done.stdout == "b >= 0\n"

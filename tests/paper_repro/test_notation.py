@@ -42,7 +42,7 @@ def test_substitution_is_what_elimination_gives(printed: Printed, above: bool) -
 def test_the_planner_solves_the_same_formulas(printed: Printed, shape: Shape) -> None:
     letters = {point: [f"{point}{axis}" for axis in "xyz"] for point in ("q0", "r0")}
     text = printed.text("xyz", letters, "r^2")
-    assert qe.equivalent(qe.eliminate(f"r >= 0 and ({text})").formula, qe.eliminate(shape.symbolic_formula()).formula)
+    assert qe.equivalent(qe.eliminate(f"r >= 0 and ({text})").formula, qe.eliminate(shape.symbolic().formula).formula)
 
 
 def test_objective_of_the_paper() -> None:

@@ -76,7 +76,7 @@ CASES: dict[str, tuple[str, Callable[[], Call]]] = {
         lambda: lambda found=qe.region(DISC): found.volume(timeout=LIMIT),
     ),
     "Region.plot": (
-        "qe.regions.picture.draw",
+        "qe.regions.sketch.sketch",
         lambda: lambda found=qe.region(DISC): found.plot("nowhere.png", timeout=LIMIT),
     ),
     "Region.formula": (

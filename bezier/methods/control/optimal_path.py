@@ -12,19 +12,21 @@ from bezier.curves.containment import Inside
 from bezier.curves.scalar import Vector
 from bezier.input.stored import numbers
 from bezier.methods.control.claims import check_optimum_of, member, optimal_points
+from bezier.methods.control.statements import Statement
 from bezier.methods.control.system import System
 from bezier.paths.path import Path, Proof, assemble, path_certificates, prove
-from bezier.plan import Clock
+from bezier.plan import Clock, Outcome, Plan
 from bezier.problem import Problem
 from qe.errors import CertificateRejected, InternalError, Unable
 from qe.exact.ring import Ring
 from qe.formula.build import convert
 from qe.formula.syntax import FALSE, Atom, Exists, Formula
-from qe.io.formats import read
-from qe.proof.certificate import Kind
+from qe.proof.certificate import Certificate, Kind
 
 ELIMINATION, OPTIMUM = "elimination", "optimum"
 """The labels of the certificates that every method with a system of control points has."""
+Members = list[tuple[str, Certificate]]
+"""Certificates with their labels."""
 
 
 def answered(answer: Any) -> Any:
@@ -34,10 +36,10 @@ def answered(answer: Any) -> Any:
     return answer
 
 
-def quantifier_free(text: str, clock: Clock) -> Any:
+def quantifier_free(question: Statement, clock: Clock) -> Any:
     """The engine's answer to a formula. Raises ``Unable`` where it has none."""
     with clock.step("elimination"):
-        answer = answered(qe.eliminate(text, timeout=clock.remaining()))
+        answer = answered(qe.eliminate(question.formula, timeout=clock.remaining()))
     clock.learn("quantifier-free answer", str(answer.formula))
     return answer
 
@@ -45,8 +47,8 @@ def quantifier_free(text: str, clock: Clock) -> Any:
 def least(system: System, answer: Any, clock: Clock) -> Any:
     """The engine's exact minimum of the objective under the quantifier-free answer, or its proof that there is none."""
     # an answer "false" holds no conditions to combine to a contradiction: then the given ones are taken
-    conditions = system.conditions_text() if answer.formula == FALSE else answer.formula
-    return qe.minimize(system.objective(), conditions, timeout=clock.remaining())
+    conditions = system.in_free_points().formula if answer.formula == FALSE else answer.formula
+    return qe.minimize(system.objective().polynomial, conditions, timeout=clock.remaining())
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,14 +85,36 @@ def restored_optimum(system: System, certificate: qe.Certificate) -> Certified:
     return Certified.of(system, qe.Certificate(Kind.OPTIMUM, payload))
 
 
-def chosen_path(problem: Problem, system: System, found: Certified) -> tuple[Path | None, tuple[str, ...], Any]:
-    """The path through the optimum, the labels of the active conditions, and the value of the objective.
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SystemPlan(Plan):
+    """The plan of a method with a system of control points.
 
-    (None, (), None) when there is no optimum.
+    ``optimum``: what the engine's minimisation found, or its certificate shows: a point or a contradiction.
     """
-    if found.points is None:
-        return None, (), None
-    return path_through(problem, system, found.points), system.active(found.points), system.objective_at(found.points)
+
+    system: System
+    optimum: Any
+
+
+def drawn(problem: Problem, system: System, found: Certified) -> dict[str, Any]:
+    """What follows from the optimum of a system, as fields of its plan: the path through it, if there is one, the
+    labels of the active conditions and the value of the objective."""
+    points = found.points
+    return {
+        "problem": problem,
+        "system": system,
+        "formula": str(system.statement()),
+        "outcome": Outcome.INFEASIBLE if points is None else Outcome.SOLVED,
+        "path": None if points is None else path_through(problem, system, points),
+        "active": () if points is None else system.active(points),
+        "objective": None if points is None else system.objective_at(points),
+    }
+
+
+def restored(fields: Mapping[str, Any], found: Certified, members: Members) -> dict[str, Any]:
+    """All fields of the plan that certificates prove: nothing was asked of the engine, and the time is not known."""
+    certificate = bundled(members, fields["path"])
+    return {**fields, "optimum": found, "certificate": certificate, "answer": None, "checks": {}, "seconds": {}}
 
 
 def path_through(problem: Problem, system: System, points: Mapping[str, Vector]) -> Path:
@@ -114,9 +138,9 @@ def _whole_curves(problem: Problem, system: System, path: Path) -> tuple[Proof, 
     return tuple(proof for proof in found if isinstance(proof.outcome, Inside))
 
 
-def body_of(text: str, order: tuple[str, ...]) -> Formula:
+def body_of(statement: Statement, order: tuple[str, ...]) -> Formula:
     """The formula behind an outermost existential block (or the whole formula), over the ring of these variables."""
-    formula = read(text)
+    formula = statement.formula
     return convert(formula.body if isinstance(formula, Exists) else formula, Ring.of(order))
 
 
@@ -125,19 +149,17 @@ def elimination(system: System) -> tuple[str, qe.Certificate]:
     the conditions with those points put in."""
     shape = system.shape
     order = (*shape.variables, *shape.quantified)
-    equations = [body_of(text, order) for text in system.equations()]
+    equations = [body_of(join, order) for join in system.joins()]
     solved = [
         (name, equation.poly)
         for name, equation in zip(shape.quantified, equations, strict=True)
         if isinstance(equation, Atom)
     ]
-    answer = body_of(system.conditions_text(), order)
-    return ELIMINATION, qe.Certificate.substitution(body_of(system.formula(), order), order, solved, answer)
+    answer = body_of(system.in_free_points(), order)
+    return ELIMINATION, qe.Certificate.substitution(body_of(system.statement(), order), order, solved, answer)
 
 
-def verified(
-    members: list[tuple[str, qe.Certificate]], path: Path | None
-) -> tuple[qe.Certificate, dict[str, qe.Verdict]]:
+def verified(members: Members, path: Path | None) -> tuple[qe.Certificate, dict[str, qe.Verdict]]:
     """All certificates in one, those of the path included, and what the independent checker says of each part."""
     checks = {label: qe.verify(certificate) for label, certificate in members}
     of_path = path_certificates(path) if path else []
@@ -146,6 +168,6 @@ def verified(
     return qe.Certificate.bundle([*members, *of_path]), checks
 
 
-def bundled(members: list[tuple[str, qe.Certificate]], path: Path | None) -> qe.Certificate:
+def bundled(members: Members, path: Path | None) -> qe.Certificate:
     """All certificates in one, those of the path included."""
     return qe.Certificate.bundle([*members, *(path_certificates(path) if path else [])])

@@ -16,13 +16,34 @@ from itertools import pairwise
 from typing import Any
 
 from bezier.curves.curve import Bezier
-from bezier.curves.scalar import Vector, add, dot, scale, sign, subtract
+from bezier.curves.scalar import Vector, add, dot, exactly, scale, sign, subtract
 from bezier.curves.workspace import Ball, Condition, HalfSpace
+from bezier.methods.control.statements import (
+    Bracketed,
+    Name,
+    Power,
+    Product,
+    Statement,
+    Sum,
+    Term,
+    at_least,
+    at_most,
+    combined,
+    difference,
+    equal,
+    every,
+    exists,
+    names,
+    number,
+    squares,
+)
 from qe.errors import InternalError
 
 AXES = "xyz"
 Combination = tuple[tuple[Fraction, str], ...]
 """sum of coefficient * point."""
+At = Callable[[str, int], Term]
+"""Coordinate i of a point."""
 
 
 def coordinates(point: str) -> tuple[str, ...]:
@@ -80,23 +101,24 @@ class Shape:
         """Any control point in terms of the given and the free ones."""
         return self.follows.get(point, ((Fraction(1), point),))
 
-    def symbolic_formula(self) -> str:
+    def symbolic(self) -> Statement:
         """The formula with the given points and r left as parameters ``q0x``, ..., ``r``."""
-        equations = self.equations(lambda point, i: coordinates(point)[i])
-        norms = [f"{_norm(coordinates(point))} <= r^2" for point in self.inner]
-        return self.closed(["r >= 0", *equations, *norms])
+        radius = Name("r")
+        norms = [at_most(squares(names(coordinates(point))), Power(radius, 2)) for point in self.inner]
+        joins = self.joins(lambda point, i: Name(coordinates(point)[i]))
+        return self.closed([at_least(radius, number(0)), *joins, *norms])
 
-    def equations(self, text: Callable[[str, int], str]) -> list[str]:
-        """The joins: each coordinate of each dependent point; ``text`` writes a coordinate of another point."""
+    def joins(self, at: At) -> list[Statement]:
+        """The joins: each coordinate of each dependent point; ``at`` gives a coordinate of another point."""
         return [
-            f"{variable} = {_sum(terms, i, text)}"
+            equal(Name(variable), _combination(terms, i, at))
             for point, terms in self.follows.items()
             for i, variable in enumerate(coordinates(point))
         ]
 
-    def closed(self, parts: Sequence[str]) -> str:
+    def closed(self, parts: Sequence[Statement]) -> Statement:
         """The conjunction of the parts with the dependent points existentially quantified."""
-        return f"ex {', '.join(self.quantified)}. {' and '.join(parts)}"
+        return exists(self.quantified, every(*parts))
 
 
 @dataclass(frozen=True, slots=True)
@@ -107,38 +129,41 @@ class System:
     given: Mapping[str, Vector]
     conditions: tuple[OnPoint, ...]
 
-    # --- text for the engine ---------------------------------------------------------------------
+    # --- formulas ----------------------------------------------------------------------------------
 
-    def formula(self) -> str:
+    def statement(self) -> Statement:
         """The problem's formula: joins and conditions, the dependent points quantified."""
-        atoms = [atom_text(item.condition, coordinates(item.point)) for item in self.conditions]
-        return self.shape.closed([*self.equations(), *atoms])
+        return self.shape.closed([*self.joins(), *(statement for _, statement in self.labelled())])
 
-    def conditions_text(self) -> str:
+    def labelled(self) -> list[tuple[str, Statement]]:
+        """Each condition on its control point, under its label."""
+        return [(item.label, stated(item.condition, names(coordinates(item.point)))) for item in self.conditions]
+
+    def in_free_points(self) -> Statement:
         """The conditions with the dependent points put in terms of the free ones."""
-        return " and ".join(atom_text(item.condition, self._in_free(item.point)) for item in self.conditions)
+        return every(*(stated(item.condition, self._in_free(item.point)) for item in self.conditions))
 
-    def equations(self) -> list[str]:
-        """The joins, one equation for each coordinate of each dependent point, in the order of ``Shape.quantified``."""
-        return self.shape.equations(self._text)
+    def joins(self) -> list[Statement]:
+        """One equation for each coordinate of each dependent point, in the order of ``Shape.quantified``."""
+        return self.shape.joins(self._at)
 
-    def coordinate_text(self, point: str, i: int) -> str:
+    def coordinate(self, point: str, i: int) -> Term:
         """Coordinate ``i`` of an inner control point in the free coordinates."""
         return self._in_free(point)[i]
 
-    def objective(self) -> str:
-        """The paper's objective as text in the free coordinates."""
+    def objective(self) -> Term:
+        """The paper's objective in the free coordinates."""
         pairs = pairwise(self.shape.route)
-        return " + ".join(f"({self._text(b, i)} - {self._text(a, i)})^2" for a, b in pairs for i in range(3))
+        return squares(difference(self._at(b, i), self._at(a, i)) for a, b in pairs for i in range(3))
 
-    def _text(self, point: str, i: int) -> str:
+    def _at(self, point: str, i: int) -> Term:
         """A coordinate: a number for a given point, a variable otherwise."""
-        return number(self.given[point][i]) if point in self.given else coordinates(point)[i]
+        return number(exactly(self.given[point][i])) if point in self.given else Name(coordinates(point)[i])
 
-    def _in_free(self, point: str) -> list[str]:
+    def _in_free(self, point: str) -> list[Term]:
         terms = self.shape.combination(point)
-        found = [_sum(terms, i, self._text) for i in range(3)]
-        return found if point in self.shape.free else [f"({text})" for text in found]
+        found = [_combination(terms, i, self._at) for i in range(3)]
+        return found if point in self.shape.free else [Bracketed(term) for term in found]
 
     # --- exact numbers ---------------------------------------------------------------------------
 
@@ -188,37 +213,21 @@ class System:
         return tuple(found)
 
 
-def number(value: Any) -> str:
-    """A rational number as text that can stand in any product or sum."""
-    rational = Fraction(value)
-    text = str(rational)
-    return text if rational.denominator == 1 and rational >= 0 else f"({text})"
-
-
-def _sum(terms: Combination, i: int, text: Callable[[str, int], str]) -> str:
+def _combination(terms: Combination, i: int, at: At) -> Term:
     """Coordinate i of a combination."""
-    pieces = ""
-    for coefficient, point in terms:
-        size = abs(coefficient)
-        factor = "" if size == 1 else f"{number(size)}*"
-        side = "-" if coefficient < 0 else "+"
-        lead = f" {side} " if pieces else side.strip("+")
-        pieces += f"{lead}{factor}{text(point, i)}"
-    return pieces
+    return combined((coefficient, at(point, i)) for coefficient, point in terms)
 
 
-def _norm(point: Sequence[str]) -> str:
-    return " + ".join(f"{c}^2" for c in point)
-
-
-def atom_text(condition: Condition, point: Sequence[str]) -> str:
-    """The condition about a point whose coordinates are given as text."""
+def stated(condition: Condition, point: Sequence[Term]) -> Statement:
+    """The condition about a point with these coordinates."""
     if isinstance(condition, Ball):
-        away = [c if not o else f"({c} - {number(o)})" for c, o in zip(point, condition.centre, strict=True)]
-        return f"{_norm(away)} <= {number(condition.radius_squared)}"
+        away = [difference(c, number(exactly(o))) if o else c for c, o in zip(point, condition.centre, strict=True)]
+        return at_most(squares(away), number(exactly(condition.radius_squared)))
     if isinstance(condition, HalfSpace):
-        parts = [c if n == 1 else f"{number(n)}*{c}" for n, c in zip(condition.normal, point, strict=True) if n]
-        return f"{' + '.join(parts)} >= {number(-condition.offset)}"
+        parts = [
+            c if n == 1 else Product((number(exactly(n)), c)) for n, c in zip(condition.normal, point, strict=True) if n
+        ]
+        return at_least(parts[0] if len(parts) == 1 else Sum(tuple(parts)), number(exactly(-condition.offset)))
     raise InternalError(f"no atom for the condition {condition.name}")
 
 

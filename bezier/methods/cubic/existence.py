@@ -10,6 +10,20 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import qe
+from bezier.methods.control.statements import (
+    Implies,
+    Name,
+    Power,
+    Statement,
+    at_least,
+    at_most,
+    every,
+    exists,
+    for_all,
+    names,
+    number,
+    squares,
+)
 from bezier.methods.control.system import coordinates
 from bezier.methods.cubic import formula as cubic
 
@@ -25,15 +39,18 @@ class Existence:
     witness: str
 
 
-def sentence() -> str:
+def question() -> Statement:
     """For all Q0, R0, r with |Q0|, |R0| <= r there are Q1, Q2 that satisfy formula (7) as printed."""
-    shape = cubic.shape()
+    shape, radius = cubic.shape(), Name("r")
     parameters = [name for point in GIVEN for name in coordinates(point)]
-    inside = [" + ".join(f"{c}^2" for c in coordinates(point)) + " <= r^2" for point in GIVEN]
-    return (
-        f"all {', '.join(parameters)}, r. {' and '.join(inside)} and r >= 0"
-        f" -> (ex {', '.join(shape.variables)}. {shape.symbolic_formula()})"
-    )
+    inside = [at_most(squares(names(coordinates(point))), Power(radius, 2)) for point in GIVEN]
+    given = every(*inside, at_least(radius, number(0)))
+    return for_all([*parameters, "r"], Implies(given, exists(shape.variables, shape.symbolic())))
+
+
+def sentence() -> str:
+    """The same as text."""
+    return str(question())
 
 
 def trivial_witness() -> dict[str, str]:
@@ -44,10 +61,10 @@ def trivial_witness() -> dict[str, str]:
 
 def existence(*, timeout: float | None = None) -> Existence:
     """Ask the engine."""
-    text = sentence()
-    answer = qe.eliminate(text, timeout=timeout)
+    asked = question()
+    answer = qe.eliminate(asked.formula, timeout=timeout)
     told = next((line for line in answer.stats.get("plan", ()) if line.startswith(WITNESS)), "")
-    return Existence(text, answer.truth, told.removeprefix(WITNESS))
+    return Existence(str(asked), answer.truth, told.removeprefix(WITNESS))
 
 
 WITNESS = "witness in the parameters: "

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from bezier.pictures.picture import Drawing
 
 
-def words(plan: CubicPlan) -> list[str]:
+def summary_lines(plan: CubicPlan) -> list[str]:
     """The lines of the summary that only this method has."""
     if plan.path is None:
         return []
@@ -26,7 +26,7 @@ def words(plan: CubicPlan) -> list[str]:
     return [*best, *(f"{name}: {cubic_report.speed_text(slow)}" for name, slow in plan.slowest.items())]
 
 
-def entries(plan: CubicPlan) -> dict[str, Any]:
+def json_entries(plan: CubicPlan) -> dict[str, Any]:
     """The entries of the JSON summary that only this method has."""
     multipliers = named_multipliers(plan.system, plan.optimum)
     return {
@@ -51,7 +51,7 @@ def draw(plan: CubicPlan, folder: FilePath) -> Drawing:
     if plan.path is not None:
         conditions = plan.system.seen_by("Q1", plan.path.points)
         region = region_picture(conditions, conditions, plan.path.points["Q1"])
-    picture = path_picture(plan.problem, plan.path, plan.system.given, region=region, hats=False)
+    picture = path_picture(plan.problem, plan.path, plan.system.given, region=region, hatted_names=False)
     title = r"Where $Q_1$ may be while $Q_2$ stays at its optimum: a slice of the region of formula (7)"
     plot.save_region(picture, folder / "region.png", title)
     plot.save_path(picture, folder / "path.png")
@@ -79,11 +79,11 @@ def restore(problem: Problem, certificate: Certificate, stated: Stated) -> Resto
 CUBIC: Method[CubicPlan] = Method(
     make=cubic_plan.make,
     reason=cubic_report.reason,
-    words=words,
-    entries=entries,
+    summary_lines=summary_lines,
+    json_entries=json_entries,
     files=files,
     draw=draw,
-    hats=False,
+    hatted_names=False,
     template="cubic.html.j2",
     sections=cubic_report.sections,
     restore=restore,

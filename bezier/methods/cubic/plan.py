@@ -8,13 +8,14 @@ from typing import Any
 
 from bezier.methods.control.optimal_path import (
     OPTIMUM,
-    bundled,
-    chosen_path,
+    SystemPlan,
+    drawn,
     elimination,
     found_optimum,
     least,
     path_through,
     quantifier_free,
+    restored,
     restored_optimum,
     verified,
 )
@@ -22,7 +23,7 @@ from bezier.methods.control.system import System
 from bezier.methods.cubic import formula as cubic
 from bezier.paths.path import Path
 from bezier.paths.speed import Slowest, slowest_of
-from bezier.plan import Clock, Outcome, Plan
+from bezier.plan import Clock
 from bezier.problem import Problem
 from qe.proof.certificate import Certificate
 
@@ -41,12 +42,9 @@ class Trivial:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class CubicPlan(Plan):
-    """``optimum``: what the engine's minimisation found, be it a point or a contradiction; ``slowest``: of each
-    curve of the path (empty without a path)."""
+class CubicPlan(SystemPlan):
+    """``slowest``: of each curve of the path (empty without a path)."""
 
-    system: System
-    optimum: Any
     slowest: Mapping[str, Slowest]
     trivial: Trivial
 
@@ -54,34 +52,18 @@ class CubicPlan(Plan):
 def make(problem: Problem, clock: Clock) -> CubicPlan:
     """Plan with formula (7)."""
     system = cubic.system(problem)
-    text = system.formula()
-    answer = quantifier_free(text, clock)
+    answer = quantifier_free(system.statement(), clock)
     with clock.step("optimum"):
         optimum = least(system, answer, clock)
     clock.learn("optimum", optimum.status.value)
     with clock.step("curves and proofs"):
-        path, active, objective = chosen_path(problem, system, found_optimum(system, optimum.certificate))
+        fields = drawn(problem, system, found_optimum(system, optimum.certificate))
     with clock.step("speed"):
-        slowest = slowest_of(path) if path else {}
-        trivial = _trivial(problem, system)
+        fields |= _speeds(problem, system, fields["path"])
     with clock.step("verification"):
-        certificate, checks = verified([elimination(system), (OPTIMUM, optimum.certificate)], path)
+        certificate, checks = verified([elimination(system), (OPTIMUM, optimum.certificate)], fields["path"])
     return CubicPlan(
-        problem=problem,
-        outcome=Outcome.SOLVED if path else Outcome.INFEASIBLE,
-        formula=text,
-        answer=answer,
-        objective=objective,
-        path=path,
-        active=active,
-        certificate=certificate,
-        checks=checks,
-        seconds=clock.seconds,
-        remarks=_remarks(problem),
-        system=system,
-        optimum=optimum,
-        slowest=slowest,
-        trivial=trivial,
+        **fields, answer=answer, optimum=optimum, certificate=certificate, checks=checks, seconds=clock.seconds
     )
 
 
@@ -89,24 +71,15 @@ def restore(problem: Problem, certificate: Certificate) -> CubicPlan:
     """The plan that the certificates of a folder prove. Raises ``CertificateRejected``."""
     system = cubic.system(problem)
     optimum = restored_optimum(system, certificate)
-    path, active, objective = chosen_path(problem, system, optimum)
-    return CubicPlan(
-        problem=problem,
-        outcome=Outcome.SOLVED if path else Outcome.INFEASIBLE,
-        formula=system.formula(),
-        answer=None,
-        objective=objective,
-        path=path,
-        active=active,
-        certificate=bundled([elimination(system), (OPTIMUM, optimum.certificate)], path),
-        checks={},
-        seconds={},
-        remarks=_remarks(problem),
-        system=system,
-        optimum=optimum,
-        slowest=slowest_of(path) if path else {},
-        trivial=_trivial(problem, system),
-    )
+    fields = drawn(problem, system, optimum)
+    fields |= _speeds(problem, system, fields["path"])
+    return CubicPlan(**restored(fields, optimum, [elimination(system), (OPTIMUM, optimum.certificate)]))
+
+
+def _speeds(problem: Problem, system: System, path: Path | None) -> dict[str, Any]:
+    """What only the plan of this method has."""
+    slowest = slowest_of(path) if path else {}
+    return {"slowest": slowest, "trivial": _trivial(problem, system), "remarks": _remarks(problem)}
 
 
 def _remarks(problem: Problem) -> tuple[str, ...]:

@@ -10,7 +10,8 @@ from fractions import Fraction
 
 from bezier.curves.scalar import dot, subtract
 from bezier.curves.workspace import Condition, Workspace, WorkspaceKind, root_text
-from bezier.methods.control.system import OnPoint, Shape, System, combination
+from bezier.methods.control.statements import Name, Some, Statement, below, every, exists, number
+from bezier.methods.control.system import OnPoint, Shape, System, combination, coordinates
 from bezier.problem import Problem
 
 SHAPE = Shape(
@@ -48,11 +49,12 @@ def corrected(problem: Problem) -> System:
     return system(replace(problem, workspace=replace(problem.workspace, kind=WorkspaceKind.HEMISPHERE)))
 
 
-def leaving_formula(problem: Problem) -> str:
+def leaving(problem: Problem) -> Statement:
     """The sentence: some control points allowed by the printed formula (8) lie below the table."""
-    below = " or ".join(f"{point}z < 0" for point in ("p1", "q1", "r1"))
-    body = printed(problem).formula().split(". ", 1)[1]
-    return f"ex {', '.join(FREE + QUANTIFIED)}. {body} and ({below})"
+    allowed = printed(problem)
+    heights = Some(tuple(below(Name(coordinates(point)[2]), number(0)) for point in SHAPE.inner))
+    parts = [*allowed.joins(), *(statement for _, statement in allowed.labelled()), heights]
+    return exists((*FREE, *QUANTIFIED), every(*parts))
 
 
 def as_conditions_on_q1(system: System) -> tuple[Condition, ...]:

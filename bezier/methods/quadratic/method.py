@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from bezier.pictures.picture import Drawing
 
 
-def words(plan: QuadraticPlan) -> list[str]:
+def summary_lines(plan: QuadraticPlan) -> list[str]:
     """The lines of the summary that only this method has."""
     gap = "control points" if plan.gap.can_leave else "no control point"
     more = " (example in the report)" if plan.gap.can_leave else ""
@@ -35,7 +35,7 @@ def words(plan: QuadraticPlan) -> list[str]:
     ]
 
 
-def entries(plan: QuadraticPlan) -> dict[str, Any]:
+def json_entries(plan: QuadraticPlan) -> dict[str, Any]:
     """The entries of the JSON summary that only this method has."""
     dips = any(isinstance(proof.outcome, Leaves) for proof in plan.gap.chosen)
     found: dict[str, Any] = {"leaves_hemisphere": {"allowed": plan.gap.can_leave, "chosen": dips}}
@@ -82,11 +82,11 @@ def restore(problem: Problem, certificate: Certificate, stated: Stated) -> Resto
 QUADRATIC: Method[QuadraticPlan] = Method(
     make=quadratic_plan.make,
     reason=quadratic_report.reason,
-    words=words,
-    entries=entries,
+    summary_lines=summary_lines,
+    json_entries=json_entries,
     files=files,
     draw=draw,
-    hats=True,
+    hatted_names=True,
     template="quadratic.html.j2",
     sections=quadratic_report.sections,
     restore=restore,

@@ -12,9 +12,11 @@ from bezier.curves.scalar import Vector, rational, sign
 from bezier.curves.workspace import Workspace, WorkspaceKind
 from bezier.methods.control.optimal_path import (
     OPTIMUM,
+    Members,
+    SystemPlan,
     answered,
     body_of,
-    chosen_path,
+    drawn,
     elimination,
     found_optimum,
     least,
@@ -24,7 +26,7 @@ from bezier.methods.control.optimal_path import (
 from bezier.methods.control.system import System
 from bezier.methods.quadratic import formula as quadratic
 from bezier.paths.path import Path, Proof, prove
-from bezier.plan import Clock, Outcome, Plan
+from bezier.plan import Clock
 from bezier.problem import Problem
 from qe.errors import InternalError
 
@@ -61,12 +63,10 @@ class Gap:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class QuadraticPlan(Plan):
-    """``region``: of Q1. ``optimum``: what the engine's minimisation found, be it a point or a contradiction."""
+class QuadraticPlan(SystemPlan):
+    """``region``: of Q1. ``gap``: what the printed formula leaves open about the table."""
 
-    system: System
     region: Any
-    optimum: Any
     balls: quadratic.ThreeBalls
     gap: Gap
 
@@ -74,8 +74,7 @@ class QuadraticPlan(Plan):
 def make(problem: Problem, clock: Clock) -> QuadraticPlan:
     """Plan with formula (8)."""
     system = quadratic.system(problem)
-    text = system.formula()
-    answer = quantifier_free(text, clock)
+    answer = quantifier_free(system.statement(), clock)
     with clock.step("region"):
         region = qe.region(answer.formula, order=quadratic.FREE, timeout=clock.remaining())
     clock.learn("region", "empty" if region.is_empty else f"{len(region.cells)} cells")
@@ -84,29 +83,22 @@ def make(problem: Problem, clock: Clock) -> QuadraticPlan:
     if region.is_empty == optimum.is_optimal:
         raise InternalError("the region and the optimum disagree about the existence of a control point")
     with clock.step("curves and proofs"):
-        path, active, objective = chosen_path(problem, system, found_optimum(system, optimum.certificate))
+        fields = drawn(problem, system, found_optimum(system, optimum.certificate))
     with clock.step("hemisphere question"):
-        gap = _gap(problem, region, path, clock)
+        gap = _gap(problem, region, fields["path"], clock)
+    fields |= {"region": region, "gap": gap, "balls": quadratic.three_balls(problem)}
     with clock.step("verification"):
-        members = [elimination(system), (REGION, region.certificate), (OPTIMUM, optimum.certificate)]
-        certificate, checks = verified([*members, *gap.certificates], path)
+        members = certificates(system, region, optimum, gap)
+        certificate, checks = verified(members, fields["path"])
     return QuadraticPlan(
-        problem=problem,
-        outcome=Outcome.SOLVED if path else Outcome.INFEASIBLE,
-        formula=text,
-        answer=answer,
-        objective=objective,
-        path=path,
-        active=active,
-        certificate=certificate,
-        checks=checks,
-        seconds=clock.seconds,
-        system=system,
-        region=region,
-        optimum=optimum,
-        balls=quadratic.three_balls(problem),
-        gap=gap,
+        **fields, answer=answer, optimum=optimum, certificate=certificate, checks=checks, seconds=clock.seconds
     )
+
+
+def certificates(system: System, region: qe.Region, optimum: Any, gap: Gap) -> Members:
+    """The labelled certificates of a plan, those of its path left out."""
+    found = [elimination(system), (REGION, region.certificate), (OPTIMUM, optimum.certificate)]
+    return [*found, *gap.certificates]
 
 
 def _gap(problem: Problem, region: Any, path: Path | None, clock: Clock) -> Gap:
@@ -114,7 +106,7 @@ def _gap(problem: Problem, region: Any, path: Path | None, clock: Clock) -> Gap:
 
     ``region``: the problem's own region, which is the corrected one for a hemisphere.
     """
-    asked = answered(qe.eliminate(quadratic.leaving_formula(problem), timeout=clock.remaining()))
+    asked = answered(qe.eliminate(quadratic.leaving(problem).formula, timeout=clock.remaining()))
     floor = Workspace(WorkspaceKind.HEMISPHERE, problem.workspace.radius_squared).floor
     chosen = prove(path.curves, (floor,)) if path else ()
     if asked.truth is False:
@@ -129,7 +121,7 @@ def _gap(problem: Problem, region: Any, path: Path | None, clock: Clock) -> Gap:
     shown = ((BELOW, example_certificate(problem, example, asked.certificate)),)
     if problem.workspace.kind is WorkspaceKind.HEMISPHERE:
         return Gap(example, region, chosen, shown)
-    answer = answered(qe.eliminate(quadratic.corrected(problem).formula(), timeout=clock.remaining()))
+    answer = answered(qe.eliminate(quadratic.corrected(problem).statement().formula, timeout=clock.remaining()))
     smaller = qe.region(answer.formula, order=quadratic.FREE, timeout=clock.remaining())
     return Gap(example, smaller, chosen, shown)
 
@@ -139,7 +131,7 @@ def above_certificates(problem: Problem, clock: Clock) -> Iterator[tuple[str, qe
     printed = quadratic.printed(problem)
     for point in quadratic.SHAPE.inner:
         least_height = qe.minimize(
-            printed.coordinate_text(point, 2), printed.conditions_text(), timeout=clock.remaining()
+            printed.coordinate(point, 2).polynomial, printed.in_free_points().formula, timeout=clock.remaining()
         )
         if least_height.is_optimal and sign(least_height.value) < 0:
             raise InternalError(f"{point} can lie below the table although that was refuted")
@@ -154,7 +146,7 @@ def example_certificate(
     known = [v for v in values if v is not None]
     if len(known) == len(values):
         order = quadratic.FREE + quadratic.QUANTIFIED
-        return qe.Certificate.witness(body_of(quadratic.leaving_formula(problem), order), order, known)
+        return qe.Certificate.witness(body_of(quadratic.leaving(problem), order), order, known)
     if found is None:
         raise InternalError("an irrational example without a certificate")
     return found

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from typing import Any
 
 import qe
@@ -9,13 +10,12 @@ from bezier.curves.scalar import sign
 from bezier.curves.workspace import Workspace, WorkspaceKind
 from bezier.input.stored import numbers
 from bezier.methods.control.claims import check_optimum_of, foreign, member
-from bezier.methods.control.optimal_path import OPTIMUM, body_of, bundled, chosen_path, elimination, restored_optimum
+from bezier.methods.control.optimal_path import body_of, drawn, restored, restored_optimum
 from bezier.methods.control.system import System
 from bezier.methods.control.terms import Terms, condition_terms, coordinate_terms, fixed_by, reduced
 from bezier.methods.quadratic import formula as quadratic
-from bezier.methods.quadratic.plan import BELOW, REGION, Gap, QuadraticPlan, above_label
+from bezier.methods.quadratic.plan import BELOW, REGION, Gap, QuadraticPlan, above_label, certificates
 from bezier.paths.path import Path, prove
-from bezier.plan import Outcome
 from bezier.problem import Problem
 from qe.errors import CertificateRejected
 from qe.exact.ring import Ring
@@ -30,27 +30,11 @@ def restore(problem: Problem, certificate: Certificate) -> QuadraticPlan:
     """The plan that the certificates of a folder prove. Raises ``CertificateRejected``."""
     system = quadratic.system(problem)
     optimum = restored_optimum(system, certificate)
-    path, active, objective = chosen_path(problem, system, optimum)
-    region = _region(system, certificate, infeasible=path is None)
-    gap = _gap(problem, certificate, path)
-    members = [elimination(system), (REGION, region.certificate), (OPTIMUM, optimum.certificate), *gap.certificates]
-    return QuadraticPlan(
-        problem=problem,
-        outcome=Outcome.SOLVED if path else Outcome.INFEASIBLE,
-        formula=system.formula(),
-        answer=None,
-        objective=objective,
-        path=path,
-        active=active,
-        certificate=bundled(members, path),
-        checks={},
-        seconds={},
-        system=system,
-        region=region,
-        optimum=optimum,
-        balls=quadratic.three_balls(problem),
-        gap=gap,
-    )
+    fields = drawn(problem, system, optimum)
+    region = _region(system, certificate, infeasible=fields["path"] is None)
+    gap = _gap(problem, certificate, fields["path"])
+    fields |= {"region": region, "gap": gap, "balls": quadratic.three_balls(problem)}
+    return QuadraticPlan(**restored(fields, optimum, certificates(system, region, optimum, gap)))
 
 
 def _region(system: System, certificate: Certificate, *, infeasible: bool) -> qe.Region:
@@ -83,7 +67,7 @@ def _says_the_same(system: System, matrix: Formula, *, infeasible: bool) -> bool
         return ours or matrix == FALSE
     if ours and all(_follows(condition_terms(system, item), known, fixed) for item in system.conditions):
         return True
-    return qe.equivalent(system.conditions_text(), str(matrix))
+    return qe.equivalent(system.in_free_points().formula, matrix)
 
 
 def _at_most_zero(part: Formula) -> tuple[Terms, str] | None:
@@ -91,7 +75,7 @@ def _at_most_zero(part: Formula) -> tuple[Terms, str] | None:
     if not isinstance(part, Atom) or part.relation not in (Relation.LE, Relation.GE, Relation.EQ):
         return None
     side = -1 if part.relation is Relation.GE else 1
-    terms: Terms = {exponents: side * numbers([str(c)], None, REGION)[0] for exponents, c in part.poly.terms()}
+    terms: Terms = {exponents: Fraction(side * c) for exponents, c in part.poly.terms()}
     return terms, "=" if part.relation is Relation.EQ else "<="
 
 
@@ -150,7 +134,7 @@ def _check_example(problem: Problem, payload: dict[str, Any]) -> None:
     if tuple(payload["order"]) != order:
         raise CertificateRejected(f"{BELOW}: order", f"expected {', '.join(order)}")
     stated = formula_from_json(Entry(payload["matrix"], f"{BELOW}: matrix"), Ring.of(order))
-    if _parts(stated) != _parts(body_of(quadratic.leaving_formula(problem), order)):
+    if _parts(stated) != _parts(body_of(quadratic.leaving(problem), order)):
         raise CertificateRejected(f"{BELOW}: matrix", "not the question of this problem")
 
 

@@ -2,22 +2,51 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from enum import Enum
 from fractions import Fraction
 from math import comb
-from typing import Any
 
 import qe
 from bezier.curves.workspace import Workspace, WorkspaceKind
 from bezier.input.task import Axis, Task
+from bezier.methods.control.statements import (
+    Bracketed,
+    Comparison,
+    Every,
+    Implies,
+    Name,
+    Power,
+    Product,
+    Statement,
+    Sum,
+    Term,
+    at_least,
+    at_most,
+    below,
+    between,
+    difference,
+    equal,
+    every,
+    exists,
+    for_all,
+    names,
+    number,
+    squares,
+)
 from bezier.methods.single.program import variables
 from qe.errors import Unable
+from qe.exact.ring import Ring
+from qe.formula.build import atom, conj, convert, forall, implies
+from qe.formula.normal import rename
+from qe.formula.syntax import Formula, Relation
+from qe.formula.traverse import free_variables
 
 VALUE = "v"
 """The variable that stands for the sum of (4)."""
+OTHER = "w"
+"""Another such sum."""
 
 
 class Symbol(Enum):
@@ -30,75 +59,90 @@ class Symbol(Enum):
     GOAL = "n"
 
 
-def linearity(degree: int) -> str:
+def linearity(degree: int) -> Statement:
     """(2) as a sentence: with equally spaced x_i, P_x(t) = (1-t) x_0 + t x_n for all x_0, x_n and t."""
-    terms = [
-        f"{comb(degree, i)}*t^{i}*(1 - t)^{degree - i}*({degree - i}*x0 + {i}*xn)/{degree}" for i in range(degree + 1)
+    first, last, t = names(("x0", "xn", "t"))
+    spaced = [
+        Product((number(Fraction(1, degree)), Sum((Product((number(degree - i), first)), Product((number(i), last))))))
+        for i in range(degree + 1)
     ]
-    return f"all x0, xn, t. {' + '.join(terms)} = (1 - t)*x0 + t*xn"
+    return for_all(("x0", "xn", "t"), equal(_at(spaced, t), _between(first, last, t)))
 
 
-INVERSE = "all x0, xn, x, t. x0 /= xn -> (x = (1 - t)*x0 + t*xn <-> (xn - x0)*t = x - x0)"
-"""(3) as a sentence: t = (x - x_0) / (x_n - x_0) is the one solution of (2) for t."""
+def inverse() -> Statement:
+    """(3) as a sentence: t = (x - x_0) / (x_n - x_0) is the one solution of (2) for t."""
+    first, last, x, t = names(("x0", "xn", "x", "t"))
+    here = equal(x, _between(first, last, t))
+    solved = equal(Product((difference(last, first), t)), difference(x, first))
+    same = Every((Implies(here, solved), Implies(solved, here)), bracketed=True)
+    return for_all(("x0", "xn", "x", "t"), Implies(Comparison(first, Relation.NE, last), same))
+
+
+def _between(first: Term, last: Term, t: Term) -> Term:
+    return Sum((Product((difference(number(1), t), first)), Product((t, last))))
 
 
 def identities_hold(degree: int) -> bool:
     """Whether the engine proves (2) for this degree and (3)."""
-    return qe.decide(linearity(degree)) and qe.decide(INVERSE)
+    return qe.decide(linearity(degree).formula) and qe.decide(inverse().formula)
 
 
-def constraints(given: Task, axis: Axis, symbols: Collection[Symbol] = ()) -> list[str]:
-    """The conditions of (4), as text; with a or b symbolic also the index condition that p and q stand for."""
-    height = "h" if Symbol.HEIGHT in symbols else _number(axis.height or Fraction(0))
-    start = f"{axis.name}0" if Symbol.START in symbols else _number(axis.start)
-    goal = f"{axis.name}n" if Symbol.GOAL in symbols else _number(axis.goal)
-    points = [start, *variables(given, axis), goal]
+def constraints(given: Task, axis: Axis, symbols: Collection[Symbol] = ()) -> list[Statement]:
+    """The conditions of (4); with a or b symbolic also the index condition that p and q stand for."""
+    height: Term = Name("h") if Symbol.HEIGHT in symbols else _number(axis.height or Fraction(0))
+    start: Term = Name(f"{axis.name}0") if Symbol.START in symbols else _number(axis.start)
+    goal: Term = Name(f"{axis.name}n") if Symbol.GOAL in symbols else _number(axis.goal)
+    points = [start, *names(variables(given, axis)), goal]
     times = [
         _time(given, symbol.value) if symbol in symbols else _number(t)
         for symbol, t in zip((Symbol.A, Symbol.B), given.times, strict=True)
     ]
-    found = [f"{_at(points, t)} = {height}" for t in times]
+    found: list[Statement] = [equal(_at(points, t), height) for t in times]
     bounds = [start] * given.p + [height] * (given.q - given.p) + [goal] * (given.degree - 1 - given.q)
-    found += [f"{name} >= {bound}" for name, bound in zip(points[1:-1], bounds, strict=True)]
+    found += [at_least(point, bound) for point, bound in zip(points[1:-1], bounds, strict=True)]
     xs = [_number(x) for x in given.abscissae]
+    a, b = names((Symbol.A.value, Symbol.B.value))
     if Symbol.A in symbols:
-        found += [f"{xs[given.p]} < a", f"a <= {xs[given.p + 1]}"]
+        found += [below(xs[given.p], a), at_most(a, xs[given.p + 1])]
     if Symbol.B in symbols:
-        found += [f"{xs[given.q]} <= b", f"b < {xs[given.q + 1]}"]
+        found += [at_most(xs[given.q], b), below(b, xs[given.q + 1])]
     return found
 
 
-def _number(value: Fraction) -> str:
-    return f"({value})"
+def _number(value: Fraction) -> Term:
+    return Bracketed(number(value))
 
 
-def _time(given: Task, name: str) -> str:
+def _time(given: Task, name: str) -> Term:
     low, high = given.x_ends
-    return f"({_number(1 / (high - low))}*({name} - {_number(low)}))"
+    return Bracketed(Product((_number(1 / (high - low)), difference(Name(name), _number(low)))))
 
 
-def _at(points: list[str], t: str) -> str:
-    n = len(points) - 1
-    return " + ".join(f"{comb(n, i)}*{t}^{i}*(1 - {t})^{n - i}*{point}" for i, point in enumerate(points))
+def _at(points: Sequence[Term], t: Term) -> Term:
+    """The value at t of the polynomial with these Bernstein coefficients."""
+    n, rest = len(points) - 1, difference(number(1), t)
+    return Sum(
+        tuple(Product((number(comb(n, i)), Power(t, i), Power(rest, n - i), point)) for i, point in enumerate(points))
+    )
 
 
-def total(given: Task, axis: Axis) -> str:
-    """The sum of (4) as text."""
-    return " + ".join(f"{axis.name}{i}" for i in given.middle)
+def total(given: Task, axis: Axis) -> Term:
+    """The sum of (4)."""
+    return Sum(names(f"{axis.name}{i}" for i in given.middle))
 
 
-def attainable(given: Task, axis: Axis, symbols: Collection[Symbol] = ()) -> str:
+def attainable(given: Task, axis: Axis, symbols: Collection[Symbol] = ()) -> Statement:
     """The formula whose free variables are v and the symbols: some solution of (4) has the sum v."""
-    matrix = " and ".join([f"{VALUE} = {total(given, axis)}", *constraints(given, axis, symbols)])
-    return f"ex {', '.join(variables(given, axis))}. {matrix}"
+    matrix = every(equal(Name(VALUE), total(given, axis)), *constraints(given, axis, symbols))
+    return exists(variables(given, axis), matrix)
 
 
 @dataclass(frozen=True, slots=True)
 class Piecewise:
     """``values``: which sums v are attainable; ``least``: v is the least of them. Quantifier-free, in v and symbols."""
 
-    values: Any
-    least: Any
+    values: Formula
+    least: Formula
 
 
 def eliminate(given: Task, axis: Axis, symbols: Collection[Symbol] = (), *, timeout: float | None = None) -> Piecewise:
@@ -106,37 +150,37 @@ def eliminate(given: Task, axis: Axis, symbols: Collection[Symbol] = (), *, time
 
     Raises ``Unable`` at a limit.
     """
-    values = answered(attainable(given, axis, symbols), timeout)
-    other = re.sub(rf"\b{VALUE}\b", "w", str(values))
-    least = answered(f"({values}) and all w. (({other}) -> w >= {VALUE})", timeout)
-    return Piecewise(values, least)
+    values = answered(attainable(given, axis, symbols).formula, timeout)
+    other = rename(values, {VALUE: OTHER})
+    ring = Ring.of(dict.fromkeys((VALUE, *free_variables(values), OTHER)))
+    no_less = atom(ring.var(OTHER) - ring.var(VALUE), Relation.GE)
+    smallest = forall((OTHER,), implies(convert(other, ring), no_less))
+    return Piecewise(values, answered(conj((convert(values, ring), smallest)), timeout))
 
 
-def answered(text: str, timeout: float | None) -> Any:
+def answered(question: Formula, timeout: float | None) -> Formula:
     """The quantifier-free equivalent. Raises ``Unable`` when none is reached."""
-    answer = qe.eliminate(text, timeout=timeout)
+    answer = qe.eliminate(question, timeout=timeout)
     if answer.formula is None:
         raise Unable(answer.reason or "no answer was reached")
     return answer.formula
 
 
-def closed(given: Task, workspace: Workspace) -> str:
+def closed(given: Task, workspace: Workspace) -> Statement:
     """Method 1* for one raised axis as one formula in v: (4), and for all t the height, the ball and z >= 0."""
     (axis,) = given.raised
-    names = variables(given, axis)
-    columns = [[_number(x) for x in given.abscissae]]
+    columns: list[list[Term]] = [[_number(x) for x in given.abscissae]]
     for other in given.axes:
-        ends = _number(other.start), _number(other.goal)
-        inner = list(names) if other == axis else []
-        columns.append([ends[0], *inner, ends[1]])
-    at = [_at(column, "t") for column in columns]
-    low, high = (_number(t) for t in given.times)
-    height = at[1 + given.axes.index(axis)]
-    norm = " + ".join(f"({coordinate})^2" for coordinate in at)
-    inside = f"{norm} <= {_number(workspace.radius_squared)}"
+        inner = names(variables(given, axis)) if other == axis else ()
+        columns.append([_number(other.start), *inner, _number(other.goal)])
+    t, zero = Name("t"), number(0)
+    at = [_at(column, t) for column in columns]
+    low, high = (_number(time) for time in given.times)
+    kept = at_least(at[1 + given.axes.index(axis)], _number(axis.height or Fraction(0)))
+    inside: Statement = at_most(squares(at), _number(workspace.radius_squared))
     if workspace.kind is WorkspaceKind.HEMISPHERE:
-        inside = f"({inside} and {at[-1]} >= 0)"
-    parts = [f"{VALUE} = {total(given, axis)}", *constraints(given, axis)]
-    parts.append(f"(all t. ({low} <= t and t <= {high}) -> {height} >= {_number(axis.height or Fraction(0))})")
-    parts.append(f"(all t. (0 <= t and t <= 1) -> {inside})")
-    return f"ex {', '.join(names)}. {' and '.join(parts)}"
+        inside = Every((inside, at_least(at[-1], zero)), bracketed=True)
+    parts = [equal(Name(VALUE), total(given, axis)), *constraints(given, axis)]
+    parts.append(for_all(["t"], Implies(between(low, t, high, bracketed=True), kept)))
+    parts.append(for_all(["t"], Implies(between(zero, t, number(1), bracketed=True), inside)))
+    return exists(variables(given, axis), every(*parts))

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from bezier.pictures.picture import Drawing
 
 
-def words(plan: SinglePlan) -> list[str]:
+def summary_lines(plan: SinglePlan) -> list[str]:
     """The lines of the summary that only this method has."""
     given = plan.task
     lines = [f"degree {given.degree}, p = {given.p}, q = {given.q}; identities (2) and (3) proved"]
@@ -32,7 +32,7 @@ def words(plan: SinglePlan) -> list[str]:
     return lines
 
 
-def entries(plan: SinglePlan) -> dict[str, Any]:
+def json_entries(plan: SinglePlan) -> dict[str, Any]:
     """The entries of the JSON summary that only this method has."""
     given, closed = plan.task, plan.closed
     found: dict[str, Any] = {
@@ -83,7 +83,7 @@ def draw(plan: SinglePlan, folder: FilePath) -> Drawing:
     from bezier.pictures.picture import Drawing, path_picture
 
     ends = {f"{NAME}0": plan.problem.start, f"{NAME}{plan.task.degree}": plan.problem.goal}
-    picture = path_picture(plan.problem, plan.path, ends, region=None, hats=False)
+    picture = path_picture(plan.problem, plan.path, ends, region=None, hatted_names=False)
     plot.save_path(picture, folder / "path.png")
     curves = {"chosen": plan.path.curves[NAME]} if plan.path else {}
     if plan.printed is not None and not plan.printed.holds:
@@ -109,11 +109,11 @@ def restore(problem: Problem, certificate: Certificate, stated: Stated) -> Resto
 SINGLE: Method[SinglePlan] = Method(
     make=single_plan.make,
     reason=single_report.reason,
-    words=words,
-    entries=entries,
+    summary_lines=summary_lines,
+    json_entries=json_entries,
     files=files,
     draw=draw,
-    hats=False,
+    hatted_names=False,
     template="single.html.j2",
     sections=single_report.sections,
     restore=restore,

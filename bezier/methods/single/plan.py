@@ -96,12 +96,12 @@ class SinglePlan(Plan):
 def make(problem: Problem, clock: Clock) -> SinglePlan:
     """Plan with Method 1, and with Method 1* where the curve of (4) dips or leaves."""
     given = task_of(problem)
-    text = single_formula.attainable(given, given.raised[0])
+    question = single_formula.attainable(given, given.raised[0])
     with clock.step("identities"):
         if not single_formula.identities_hold(given.degree):
             raise InternalError("identity (2) or (3) was refuted")
     with clock.step("elimination"):
-        answer = answered(qe.eliminate(text, timeout=clock.remaining()))
+        answer = answered(qe.eliminate(question.formula, timeout=clock.remaining()))
         pieces = _pieces(given, clock)
     clock.learn(f"attainable sums of {given.raised[0].name}", str(answer.formula))
     with clock.step("linear problem (4)"):
@@ -124,7 +124,7 @@ def make(problem: Problem, clock: Clock) -> SinglePlan:
     return SinglePlan(
         problem=problem,
         outcome=Outcome.SOLVED if path else Outcome.INFEASIBLE,
-        formula=text,
+        formula=str(question),
         answer=answer,
         objective=None if found is None else sum_of(given, found),
         path=path,
@@ -161,7 +161,7 @@ def _pieces(given: Task, clock: Clock) -> dict[str, Piecewise]:
 def _attainable(problem: Problem, given: Task, clock: Clock) -> str:
     if len(given.raised) > 1 or given.degree > ELIMINATION_DEGREE:
         return ""
-    return str(single_formula.answered(single_formula.closed(given, problem.workspace), clock.remaining()))
+    return str(single_formula.answered(single_formula.closed(given, problem.workspace).formula, clock.remaining()))
 
 
 def _printed(problem: Problem, given: Task, chosen: tuple[Chosen, ...]) -> Printed | None:

@@ -67,7 +67,7 @@ def restore(problem: Problem, found: Certificate, stated: Stated) -> SinglePlan:
     return SinglePlan(
         problem=problem,
         outcome=Outcome.SOLVED if path else Outcome.INFEASIBLE,
-        formula=single_formula.attainable(given, given.raised[0]),
+        formula=str(single_formula.attainable(given, given.raised[0])),
         answer=None,
         objective=None if values is None else sum_of(given, values),
         path=path,

@@ -13,7 +13,7 @@ from bezier.curves.curve import Bezier
 from bezier.curves.scalar import dot, same
 from bezier.curves.workspace import Workspace, WorkspaceKind
 from bezier.input.toml_table import Table
-from bezier.motion.motion import Timing, motion_csv, motion_of, quality_of, read_timing, state, words
+from bezier.motion.motion import Timing, motion_csv, motion_of, quality_of, read_timing, state, summary_lines
 from bezier.motion.timelaw import PASSAGE_WIDTH, Law, TimeLaw, extremes, least_duration, stretches
 from bezier.paths.path import assemble
 from bezier.planner.planning import make_plan
@@ -176,4 +176,4 @@ def test_a_timing_survives_json():
 def test_a_cusp_is_said_in_words():
     text = 'method = "cubic"\nstart = [-1, 2, 0]\nvia = [[-3, 0, 0], [3, 0, 0]]\ngoal = [1, 2, 0]\nradius = 3\n'
     plan = make_plan(read_problem(text))
-    assert words(plan.quality) == ["length 17.0008 mm, largest curvature unbounded at a cusp (P)"]
+    assert summary_lines(plan.quality) == ["length 17.0008 mm, largest curvature unbounded at a cusp (P)"]

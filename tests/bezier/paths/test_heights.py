@@ -55,7 +55,7 @@ def test_outer_curves_of_the_best_path_dip_into_the_strip():
     assert first.begin.t[0] < first.begin.t[1] < Fraction(103, 1000) and first.begin.at == first.end.at == "x = -1"
     assert Fraction(287, 1000) < first.end.t[0] < first.end.t[1] < Fraction(288, 1000)
     assert float(plan.path.curves["P"].point(first.begin.t[0])[2]) == pytest.approx(0.0866, abs=1e-3)
-    lines = heights.words(plan.heights)
+    lines = heights.summary_lines(plan.heights)
     assert "DOES NOT HOLD" in lines[0] and len(lines) == 5 and "0.1024" in lines[1] and "0.2871" in lines[1]
     assert heights.heights_of(plan.problem.strip, plan.path) == plan.heights
 

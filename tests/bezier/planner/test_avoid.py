@@ -100,7 +100,7 @@ def test_a_blocked_path_is_raised_and_every_attempt_is_listed():
 
 def stated_attempts_are_read_with_care(plan):
     """The last attempt, which is the plan, is found again; the others are read, and have to lead to this plan."""
-    told = avoid.entries(plan)["attempts"]
+    told = avoid.json_entries(plan)["attempts"]
     assert "attempts" in plan.not_certified
     assert avoid.with_stated_attempts(plan, told).attempts == plan.attempts
     lied = [*told[:-1], {**told[-1], "detail": "far from everything"}]

@@ -102,7 +102,7 @@ def test_many_plans(q0, r0, more, kind, tight):
 
 
 def test_symbolic_points_leave_no_quantifier():
-    answer = qe.eliminate(quadratic.SHAPE.symbolic_formula()).formula
+    answer = qe.eliminate(quadratic.SHAPE.symbolic().formula).formula
     numbers = dict(zip([f"q0{a}" for a in "xyz"] + [f"r0{a}" for a in "xyz"], (-1, 3, 3, 1, 3, 3), strict=True))
     for r, q1, expected in ((6, (0, 3, 3), True), (6, (0, 0, 0), False), (3, (0, 3, 3), False), (-6, (0, 3, 3), False)):
         place = {**numbers, "r": r, **dict(zip(quadratic.FREE, q1, strict=True))}
@@ -127,7 +127,7 @@ def test_the_hemisphere_gap_is_the_one_of_the_paper(root):
     assert plan.gap.can_leave and plan.gap.region is plan.region
     below = [name for name, point in plan.gap.example.items() if sign(point[2]) < 0]
     assert below and all(sign(plan.problem.workspace.ball.margin(p)) >= 0 for p in plan.gap.example.values())
-    printed = qe.region(qe.eliminate(quadratic.printed(plan.problem).formula()).formula)
+    printed = qe.region(qe.eliminate(quadratic.printed(plan.problem).statement().formula).formula)
     paper = dict(zip(quadratic.FREE, (0, 1, 1), strict=True))
     assert printed.contains(paper) and not plan.region.contains(paper)
 

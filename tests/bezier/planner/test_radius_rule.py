@@ -92,7 +92,7 @@ def test_what_is_forced_holds_at_the_optimum(q0, r0, method, ratio):
     rule = radius_rule.radius_rule(problem, solvable=True)
     assert rule is not None and set(rule.forced) == {n for n, v in zip(("Q0", "R0"), (q0, r0)) if dot(v, v) == square}
     system = radius_rule._system(problem)
-    found = qe.minimize(system.objective(), system.conditions_text())
+    found = qe.minimize(system.objective().polynomial, system.in_free_points().formula)
     if found.is_optimal:
         for via, free in rule.forced.items():
             at = dict(zip(("Q0", "R0"), (q0, r0), strict=True))[via]
@@ -104,9 +104,9 @@ def test_what_is_forced_holds_at_the_optimum(q0, r0, method, ratio):
 def test_nothing_is_forced_inside():
     problem = problem_of((Fraction(1),) * 3, (Fraction(2), Fraction(0), Fraction(1)), 6)
     assert radius_rule.radius_rule(problem, solvable=True) is None
-    text = radius_rule.sentence(problem, "Q0", "Q1")
-    assert qe.decide(text) is False, "the sentence is not true by itself"
-    assert qe.decide(radius_rule.sentence(problem_of(problem.via[0], problem.via[1], 3), "Q0", "Q1")) is True
+    asked = radius_rule.sentence(problem, "Q0", "Q1")
+    assert qe.decide(asked.formula) is False, "the sentence is not true by itself"
+    assert qe.decide(radius_rule.sentence(problem_of(problem.via[0], problem.via[1], 3), "Q0", "Q1").formula) is True
 
 
 @pytest.mark.parametrize(

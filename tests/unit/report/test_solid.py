@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 import qe
 from qe.regions.solid import Solid, Surface
-from qe.regions.space import framed, surface_of
+from qe.regions.space import framed, shape_of
 
 ORDER = ("x", "y", "z")
 BOX = "0 <= x and x <= 2 and 0 <= y and y <= 1 and -1 <= z and z <= 2"
@@ -51,14 +51,14 @@ def volume(shape: Solid) -> float:
 
 @pytest.mark.parametrize(("text", "exact"), VOLUMES)
 def test_bounded_solids_are_closed_and_have_their_volume(text: str, exact: float) -> None:
-    shape = surface_of(qe.region(text, order=ORDER))
+    shape = shape_of(qe.region(text, order=ORDER))[0]
     assert_closed(shape)
     assert volume(shape) == pytest.approx(exact, rel=0.03)
 
 
 def test_a_box_had_no_walls() -> None:
     """A box was two squares: now each of its six sides is covered by triangles, to its whole area."""
-    (block,) = surface_of(qe.region(BOX, order=ORDER)).blocks
+    (block,) = shape_of(qe.region(BOX, order=ORDER))[0].blocks
     corners = block.vertices[block.faces]
     areas = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1) / 2
     for axis, value, area in ((0, 0, 3), (0, 2, 3), (1, 0, 6), (1, 1, 6), (2, -1, 2), (2, 2, 2)):
@@ -67,7 +67,7 @@ def test_a_box_had_no_walls() -> None:
 
 
 def test_a_cylinder_had_no_mantle() -> None:
-    (block,) = surface_of(qe.region("x^2 + y^2 <= 1 and 0 <= z and z <= 2", order=ORDER)).blocks
+    (block,) = shape_of(qe.region("x^2 + y^2 <= 1 and 0 <= z and z <= 2", order=ORDER))[0].blocks
     corners = block.vertices[block.faces]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     mantle = abs(normals[:, 2]) < 1e-12
@@ -82,7 +82,7 @@ def test_what_goes_on_for_ever_is_cut_by_the_frame(text: str, exact: float | Non
     region = qe.region(text, order=ORDER)
     inside, frame = framed(region)
     assert frame and all(end is not None for v in ORDER for end in inside.bounds(v))
-    shape = surface_of(region)
+    shape = shape_of(region)[0]
     assert_closed(shape)
     assert volume(shape) > 10
     if exact is not None:
@@ -96,14 +96,14 @@ def test_a_bounded_region_is_not_cut() -> None:
 
 def test_sheets_curves_and_points_stay_open() -> None:
     text = "z = x*y and x^2 + y^2 <= 1 or x = 3 and y = 1 and z^2 <= 1 or x = 5 and y = 0 and z = 0"
-    shape = surface_of(qe.region(text, order=ORDER))
+    shape = shape_of(qe.region(text, order=ORDER))[0]
     assert not shape.blocks and len(shape.surfaces) == 1 and sorted(map(len, shape.lines))[0] == 1
     assert len(shape.lines) == 2
 
 
 def test_walls_between_blocks_are_marked() -> None:
     """In an L the wall between its halves is inner where both have it, and the step above is seen."""
-    shape = surface_of(qe.region("0<=y and y<=1 and 0<=z and z<=2 and 0<=x and x<=2 and (x<=1 or z<=1)", order=ORDER))
+    shape = shape_of(qe.region("0<=y and y<=1 and 0<=z and z<=2 and 0<=x and x<=2 and (x<=1 or z<=1)", order=ORDER))[0]
     centres = [b.vertices[b.faces[b.inner]].mean(axis=1) for b in shape.blocks]
     inner = np.concatenate(centres)
     assert len(inner) and abs(inner[:, 0] - 1).max() < 1e-5 and inner[:, 2].max() <= 1.1
@@ -120,7 +120,7 @@ def test_two_boxes(a: int, b: int, p: int, q: int, r: int, s: int) -> None:
     first = f"0 <= x and x <= {p} and 0 <= y and y <= {q} and 0 <= z and z <= {r}"
     second = f"{a} <= x and x <= {a + s} and {b} < y and y < {b + p} and 1/2 < z and z < {q}"
     shared = max(0, min(p, a + s) - max(0, a)) * max(0, min(q, b + p) - max(0, b)) * max(0, min(r, q) - 0.5)
-    shape = surface_of(qe.region(f"({first}) or ({second})", order=ORDER))
+    shape = shape_of(qe.region(f"({first}) or ({second})", order=ORDER))[0]
     assert_closed(shape)
     assert volume(shape) == pytest.approx(p * q * r + s * p * (q - 0.5) - shared, rel=1e-3)
 
@@ -132,7 +132,7 @@ def test_caps_of_balls(u: int, v: int, w: int, radius: int, cut: int) -> None:
     distance = cut / sqrt(u * u + v * v + w * w)
     height = radius - distance
     text = f"(x - 1)^2 + y^2 + (z + 2)^2 <= {radius**2} and {u}*(x - 1) + {v}*y + {w}*(z + 2) >= {cut}"
-    shape = surface_of(qe.region(text, order=ORDER))
+    shape = shape_of(qe.region(text, order=ORDER))[0]
     if height <= 0:
         assert not shape.blocks
         return

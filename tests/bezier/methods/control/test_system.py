@@ -72,9 +72,9 @@ def test_polynomials_are_the_margins(system, choice):
 def test_the_text_says_the_same(system, choice):
     control, coordinates = at(system, choice)
     place = dict(zip(system.shape.variables, coordinates, strict=True))
-    assert holds_at(text.read(system.conditions_text()), place) == (not system.violated(control))
+    assert holds_at(text.read(str(system.in_free_points())), place) == (not system.violated(control))
     dependent = {f"{p.lower()}{a}": c for p in system.shape.follows for a, c in zip("xyz", control[p], strict=True)}
-    assert holds_at(text.read(system.formula()).body, place | dependent) == (not system.violated(control))
+    assert holds_at(text.read(str(system.statement())).body, place | dependent) == (not system.violated(control))
 
 
 @given(systems(), CHOICE)

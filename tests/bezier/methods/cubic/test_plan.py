@@ -52,7 +52,7 @@ def floor_at(height, *names):
 
 
 def test_formula_7_as_printed():
-    formula = text.read(cubic.system(problem((-1, 3, 3), (1, 3, 3), 27)).formula())
+    formula = cubic.system(problem((-1, 3, 3), (1, 3, 3), 27)).statement().formula
     assert formula.variables == tuple(f"{p}{a}" for p in ("p1", "p2", "r1", "r2") for a in "xyz")
     assert [part.relation.value for part in formula.body.args] == ["="] * 12 + ["<="] * 6
     assert len({part.poly.ring.names[i] for part in formula.body.args for i in part.poly.variables}) == 18
@@ -80,7 +80,7 @@ def test_joins_are_c2_in_time_for_any_choice(q0, r0, q1, q2, ratio):
 
 
 def test_symbolic_formula_has_seven_parameters():
-    formula = text.read(cubic.shape().symbolic_formula())
+    formula = text.read(str(cubic.shape().symbolic()))
     used = {part.poly.ring.names[i] for part in formula.body.args for i in part.poly.variables}
     bound = set(cubic.shape().variables + cubic.shape().quantified)
     assert used - bound == {f"{p}0{a}" for p in "qr" for a in "xyz"} | {"r"}

@@ -26,7 +26,7 @@ MAIN = problem((-1, 3, 3), (1, 3, 3), 27)
 
 
 def test_formula_8_as_printed():
-    formula = text.read(quadratic.printed(MAIN).formula())
+    formula = text.read(str(quadratic.printed(MAIN).statement()))
     assert formula.variables == quadratic.QUANTIFIED and len(formula.variables) == 6
     relations = [part.relation.value for part in formula.body.args]
     assert relations == ["="] * 6 + ["<="] * 3
@@ -37,19 +37,19 @@ def test_formula_8_as_printed():
 def test_the_hemisphere_adds_three_conditions():
     upper = problem((-1, 3, 3), (1, 3, 3), 27, WorkspaceKind.HEMISPHERE)
     above = " and p1z >= 0 and q1z >= 0 and r1z >= 0"
-    assert quadratic.system(upper).formula() == quadratic.printed(upper).formula() + above
-    assert quadratic.system(MAIN).formula() == quadratic.printed(MAIN).formula()
-    assert quadratic.corrected(MAIN).formula() == quadratic.system(upper).formula()
+    assert str(quadratic.system(upper).statement()) == str(quadratic.printed(upper).statement()) + above
+    assert str(quadratic.system(MAIN).statement()) == str(quadratic.printed(MAIN).statement())
+    assert str(quadratic.corrected(MAIN).statement()) == str(quadratic.system(upper).statement())
 
 
 def test_symbolic_formula_has_seven_parameters():
-    formula = text.read(quadratic.SHAPE.symbolic_formula())
+    formula = text.read(str(quadratic.SHAPE.symbolic()))
     used = {part.poly.ring.names[i] for part in formula.body.args for i in part.poly.variables}
     assert used - set(quadratic.QUANTIFIED) - set(quadratic.FREE) == {f"{p}0{a}" for p in "qr" for a in "xyz"} | {"r"}
 
 
 def test_leaving_formula_is_a_sentence():
-    formula = text.read(quadratic.leaving_formula(MAIN))
+    formula = text.read(str(quadratic.leaving(MAIN)))
     assert set(formula.variables) == set(quadratic.FREE + quadratic.QUANTIFIED)
 
 

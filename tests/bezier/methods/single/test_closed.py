@@ -79,7 +79,7 @@ def test_no_cut_excludes_a_curve(given_task, ratio):
 def check_against_elimination(given_task, ratio):
     """The bound is a lower bound of all sums that exact elimination of t gives, and the sum found is one of them."""
     workspace = ball_for(given_task, ratio, WorkspaceKind.BALL)
-    sums = qe.eliminate(single_formula.closed(given_task, workspace)).formula
+    sums = qe.eliminate(single_formula.closed(given_task, workspace).formula).formula
     found = close(given_task, workspace)
     if isinstance(found, NoCurve):
         assert qe.decide(f"ex {VALUE}. {sums}") is False

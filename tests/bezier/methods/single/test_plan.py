@@ -62,7 +62,7 @@ def test_the_printed_curve_that_leaves(plans):
     plan = plans["single_leaves"]
     assert [proof.condition.name for proof in plan.printed.leaving] == ["ball"] and not plan.printed.dips
     assert plan.objective == plan.closed.bound == F(2027, 160) and plan.gap == 0
-    words = "\n".join(SINGLE.words(plan))
+    words = "\n".join(SINGLE.summary_lines(plan))
     assert "LEAVES the ball" in words and "least possible sum, 2027/160" in words
 
 

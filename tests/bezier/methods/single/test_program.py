@@ -77,8 +77,9 @@ def test_the_identities_are_proved(degree):
 
 
 def test_another_spacing_is_refuted():
-    wrong = single_formula.linearity(4).replace("(2*x0 + 2*xn)/4", "(3*x0 + 1*xn)/4")
-    assert wrong != single_formula.linearity(4) and qe.decide(wrong) is False
+    stated = str(single_formula.linearity(4))
+    wrong = stated.replace("(2*x0 + 2*xn)", "(3*x0 + 1*xn)")
+    assert wrong != stated and qe.decide(stated) is True and qe.decide(wrong) is False
 
 
 # --- problem (4) -------------------------------------------------------------------------------------

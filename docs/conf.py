@@ -1,0 +1,66 @@
+"""The documentation site: `make docs` builds it into build/site."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+import qe
+
+HERE = Path(__file__).resolve().parent
+
+project = "bezier-qe"
+author = "the bezier-qe team"
+release = qe.__version__
+extensions = [
+    "myst_nb",
+    "sphinx.ext.autodoc",
+    "sphinx.ext.viewcode",
+    "sphinx_copybutton",
+    "sphinx_gallery.gen_gallery",
+]
+exclude_patterns = ["gallery/*.ipynb", "gallery/*.py", "gallery/*.json", "gallery/*.zip", "sg_execution_times.rst"]
+suppress_warnings = ["config.cache"]
+
+html_theme = "furo"
+html_title = "bezier-qe"
+myst_enable_extensions = ["dollarmath", "colon_fence"]
+myst_heading_anchors = 3
+nb_execution_mode = "auto"
+nb_execution_timeout = 120
+nb_execution_in_temp = True
+autodoc_member_order = "bysource"
+autodoc_typehints = "signature"
+copybutton_prompt_text = r">>> |\.\.\. |\$ "
+copybutton_prompt_is_regexp = True
+
+
+def written_pictures(
+    block: tuple[str, str, int], block_vars: Mapping[str, Any], gallery_conf: Mapping[str, Any], **keywords: Any
+) -> str:
+    """The PNG files that a script of the gallery has written beside itself, moved into the page."""
+    from sphinx_gallery.scrapers import figure_rst
+
+    script = Path(block_vars["src_file"])
+    places: Iterator[str] = block_vars["image_path_iterator"]
+    moved: list[str] = []
+    for picture in sorted(script.parent.glob("*.png")):
+        moved.append(next(places))
+        shutil.move(picture, moved[-1])
+    return str(figure_rst(moved, gallery_conf["src_dir"]))
+
+
+sphinx_gallery_conf = {
+    "examples_dirs": [str(HERE.parent / "examples" / "gallery")],
+    "gallery_dirs": ["gallery"],
+    "filename_pattern": r"\.py$",
+    "within_subsection_order": "FileNameSortKey",
+    "default_thumb_file": str(HERE / "_static" / "formula.svg"),
+    "image_scrapers": (written_pictures,),
+    "download_all_examples": False,
+    "remove_config_comments": True,
+    "show_memory": False,
+    "min_reported_time": 10,
+}

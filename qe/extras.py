@@ -1,0 +1,30 @@
+"""Libraries that only some uses need: which extra of the package brings which, said in one line where one is absent."""
+
+from __future__ import annotations
+
+from qe.errors import Unable
+
+_EXTRAS = {
+    "clarabel": "dev",
+    "dask": "sweep",
+    "distributed": "sweep",
+    "jinja2": "plan",
+    "markupsafe": "plan",
+    "matplotlib": "pictures",
+    "mpl_toolkits": "pictures",
+    "networkx": "plan",
+    "plotly": "plan",
+    "pyarrow": "sweep",
+    "pysat": "sat",
+    "scipy": "plan",
+    "z3": "solvers",
+}
+"""Module to extra, as ``pyproject.toml`` lists them."""
+
+
+def lacking(error: ImportError) -> Unable | None:
+    """What to tell the user where the absent module belongs to an extra, None where it does not."""
+    module = (error.name or "").split(".")[0]
+    if module not in _EXTRAS:
+        return None
+    return Unable(f"{module} is not installed; it comes with: pip install 'bezier-qe[{_EXTRAS[module]}]'")

@@ -1,0 +1,47 @@
+"""Errors on their way from one process to another."""
+
+from __future__ import annotations
+
+import pickle
+import traceback
+
+from qe.errors import BudgetExceeded, InternalError, QEError, Unable
+from qe.extras import lacking
+
+Parts = tuple[type[QEError], tuple[object, ...], dict[str, object]]
+"""Class, arguments and attributes of an error."""
+
+
+def portable(error: BaseException) -> Parts:
+    """An error as class, arguments and attributes; a foreign exception becomes an ``InternalError``.
+
+    Pickling an exception calls its constructor again, which formats some of our messages twice.
+    """
+    if isinstance(error, MemoryError):
+        return BudgetExceeded, ("memory limit reached",), {"limit": "memory"}
+    if isinstance(error, RecursionError):
+        return Unable, ("the formula is nested too deeply",), {}
+    if isinstance(error, ImportError):
+        error = lacking(error) or error
+    if not isinstance(error, QEError):
+        frames = traceback.extract_tb(error.__traceback__)
+        place = f" at {'/'.join(frames[-1].filename.split('/')[-2:])}:{frames[-1].lineno}" if frames else ""
+        text = f"{type(error).__name__}{place}: {error}".splitlines()[0]
+        return InternalError, (text,), {"trace": "".join(traceback.format_exception(error))}
+    return type(error), (str(error),), {k: v for k, v in vars(error).items() if _picklable(v)}
+
+
+def rebuilt(parts: Parts) -> QEError:
+    """The error that ``portable`` took apart."""
+    kind, arguments, attributes = parts
+    error = kind.__new__(kind, *arguments)
+    vars(error).update(attributes)
+    return error
+
+
+def _picklable(value: object) -> bool:
+    try:
+        pickle.dumps(value)
+    except (TypeError, AttributeError, pickle.PicklingError):
+        return False
+    return True

@@ -1,0 +1,68 @@
+"""Without the libraries of an extra everything else works, and where one is wanted one line names it."""
+
+from __future__ import annotations
+
+import re
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+
+import pytest
+
+from qe.errors import Unable
+from qe.extras import _EXTRAS, lacking
+
+ROOT = Path(__file__).resolve().parents[2]
+EXTRAS = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["optional-dependencies"]
+PACKAGES = {
+    "z3": "z3-solver",
+    "pysat": "python-sat",
+    "jinja2": "Jinja2",
+    "mpl_toolkits": "matplotlib",
+    "markupsafe": "Jinja2",
+}
+BARE = f"import sys\nfor name in {sorted(_EXTRAS)!r}: sys.modules[name] = None\n"
+
+
+def run(code: str, folder: Path) -> subprocess.CompletedProcess[str]:
+    return subprocess.run([sys.executable, "-c", BARE + code], cwd=folder, capture_output=True, text=True, timeout=60)
+
+
+@pytest.mark.parametrize(("module", "extra"), _EXTRAS.items())
+def test_the_extra_brings_the_module(module: str, extra: str) -> None:
+    names = [re.split(r"[\[>=]", requirement)[0] for requirement in EXTRAS[extra]]
+    assert PACKAGES.get(module, module) in names
+
+
+def test_an_unknown_module_is_a_bug() -> None:
+    assert lacking(ImportError("no", name="qe.nothing")) is None
+    assert isinstance(lacking(ImportError("no", name="scipy.spatial")), Unable)
+
+
+def test_the_core_works(tmp_path: Path) -> None:
+    code = "import qe; print(qe.eliminate('ex x. x^2 = b').formula, qe.region('x^2 <= 2').bounds('x').upper)"
+    assert run(code, tmp_path).stdout.strip() == "b >= 0 sqrt(2)"
+
+
+@pytest.mark.parametrize("process", ["on", "off"])
+def test_a_picture_without_its_library(process: str, tmp_path: Path) -> None:
+    code = f"import os; os.environ['QE_PROCESS'] = {process!r}\nimport qe\nqe.region('x^2 <= 2').plot('a.png')"
+    last = run(code, tmp_path).stderr.splitlines()[-1]
+    assert last == "qe.errors.Unable: matplotlib is not installed; it comes with: pip install 'bezier-qe[pictures]'"
+
+
+def test_the_command_without_its_library(tmp_path: Path) -> None:
+    code = "from qe.cli.app import main; sys.exit(main(['region', 'x^2 <= 2', '--plot', 'a.png']))"
+    done = run(code, tmp_path)
+    assert done.returncode == 3
+    assert "pip install 'bezier-qe[pictures]'" in done.stderr
+    assert len(done.stderr.splitlines()) == 1
+
+
+def test_a_plan_without_its_libraries(tmp_path: Path) -> None:
+    problem = str(ROOT / "examples" / "three_balls.toml")
+    done = run(f"from bezier.cli import main; sys.exit(main(['plan', {problem!r}, '--out', 'out']))", tmp_path)
+    assert done.returncode == 3
+    assert "pip install 'bezier-qe[p" in done.stderr
+    assert len(done.stderr.splitlines()) == 1

@@ -1,0 +1,27 @@
+"""What the tables for newcomers from other systems promise is run."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+import sympy
+
+import qe
+
+TEXT = (Path(__file__).resolve().parents[2] / "docs" / "coming-from.md").read_text()
+ROWS = [line.split(" | ") for line in TEXT.splitlines() if line.startswith(("| `", "| reading"))]
+CALL = re.compile(r"`(qe\.[a-z_]+\(.*?\)(?:\.\w+(?:\(\))?)?)`")
+CALLS = [call for row in ROWS for call in CALL.findall(row[1]) if "…" not in call]
+
+
+def test_the_calls_are_found() -> None:
+    assert len(CALLS) >= 12
+
+
+@pytest.mark.parametrize("call", CALLS)
+def test_call(call: str) -> None:
+    x, b = sympy.symbols("x b")
+    formula = qe.eliminate("ex z. x^2 + y^2 + z^2 < 1").formula
+    assert eval(call, {"qe": qe, "sympy": sympy, "x": x, "b": b, "formula": formula}) is not None

@@ -1,0 +1,96 @@
+"""Pictures: on the caller's axes, on new ones, in files and pages; the backend stays as it is."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import matplotlib
+import pytest
+from matplotlib.figure import Figure
+
+import qe
+
+BALL = "x^2 + y^2 + z^2 <= 4 and x >= 0"
+
+
+def axes(projection: str | None = None):
+    return Figure().add_subplot(projection=projection)
+
+
+def test_the_caller_s_axes_are_painted_and_returned():
+    mine = axes()
+    mine.set_title("mine")
+    assert qe.region("x^2 + y^2 <= 4").plot(ax=mine) is mine
+    assert mine.get_title() == "mine"
+    assert (mine.get_xlabel(), mine.get_ylabel()) == ("x", "y")
+    assert len(mine.collections) == 1
+
+
+@pytest.mark.parametrize(("text", "styles"), [("x^2 + y^2 < 4", {"--"}), ("x^2 + y^2 <= 4", {"-"})])
+def test_open_and_closed_borders_are_told_apart(text, styles):
+    borders = [line for line in qe.region(text).plot(ax=axes()).lines if len(line.get_xdata()) > 2]
+    assert {line.get_linestyle() for line in borders} == styles
+
+
+def test_isolated_points_and_curves_are_seen():
+    painted = qe.region("x^2 + y^2 = 0 or y = x^2 and x >= 1 and x <= 2").plot(ax=axes())
+    dots = [line for line in painted.lines if line.get_marker() == "o" and len(set(line.get_ydata())) == 1]
+    assert [0.0, 0.0] in [list(line.get_xdata()) for line in dots]
+    curves = [line for line in painted.lines if len(line.get_xdata()) > 2]
+    assert max(max(line.get_ydata()) for line in curves) == pytest.approx(4, abs=1e-3)
+
+
+def test_ends_on_a_line():
+    painted = qe.region("x > 0 and x <= 1").plot(ax=axes())
+    faces = {
+        float(line.get_xdata()[0]): line.get_markerfacecolor() for line in painted.lines if len(line.get_xdata()) == 1
+    }
+    assert faces[0.0] == "white" and faces[1.0] != "white"
+
+
+def test_space():
+    painted = qe.region(BALL).plot(ax=axes("3d"))
+    assert painted.name == "3d" and len(painted.collections) == 1
+
+
+@pytest.mark.parametrize(("text", "given"), [(BALL, None), ("x^2 + y^2 < 1", "3d"), ("x < 1", "no axes")])
+def test_other_axes_are_refused(text, given):
+    mine = "axes" if given == "no axes" else axes(given)
+    with pytest.raises(qe.InputError, match="ax: "):
+        qe.region(text).plot(ax=mine)
+
+
+def test_a_file_and_axes_are_refused(tmp_path):
+    with pytest.raises(qe.InputError, match="both found"):
+        qe.region("x < 1").plot(tmp_path / "a.png", ax=axes())
+
+
+@pytest.mark.parametrize("ending", ["png", "svg", "pdf"])
+def test_files(ending, tmp_path):
+    qe.region("x^2 + y^2 <= 1").plot(tmp_path / f"a.{ending}")
+    assert (tmp_path / f"a.{ending}").stat().st_size > 1000
+
+
+def test_a_page_that_turns(tmp_path):
+    target = tmp_path / "ball.html"
+    assert qe.region(BALL).plot(target) is None
+    text = target.read_text()
+    assert "mesh3d" in text and "plotly" in text
+    assert "<script src=" not in text  # needs no network
+    with pytest.raises(qe.InputError, match="3 variables"):
+        qe.region("x^2 + y^2 < 1").plot(target)
+
+
+def test_the_backend_stays(tmp_path: Path):
+    code = (
+        "import matplotlib; matplotlib.use('svg')\n"
+        "import qe\nfrom matplotlib import pyplot\n"
+        "region = qe.region('x^2 + y^2 <= 1')\n"
+        "region.plot('a.png'); print(len(pyplot.get_fignums()))\n"
+        "region.plot(); print(matplotlib.get_backend(), len(pyplot.get_fignums()))"
+    )
+    done = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, timeout=60)
+    assert done.stdout.split() == ["0", "svg", "1"], done.stderr
+    assert matplotlib.get_backend()
