@@ -9,6 +9,7 @@ import json
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
+from itertools import accumulate
 from typing import Any
 
 from bezier.arm import path_report
@@ -27,10 +28,11 @@ DECIMALS = 9
 
 @dataclass(frozen=True, eq=False)
 class JointPlan:
-    """``sequence`` and ``motion`` are None where there is none; ``remarks`` say why, in words."""
+    """``ends``: the share of the law's path at which each curve ends. ``sequence`` and ``motion`` are None where there is none; ``remarks`` say why, in words."""
 
     path: JointPath
     law: TimeLaw
+    ends: tuple[Fraction, ...]
     duration: Fraction
     sequence: JointSequence | None
     motion: JointMotion | None
@@ -49,24 +51,30 @@ def joint_plan(
     duration: Fraction,
     samples: int,
     note: Note = lambda: None,
+    parts: Mapping[str, Fraction] | None = None,
 ) -> JointPlan:
-    """Plan the joints for a path (curves with rational control points, mm) run through in ``duration`` seconds."""
+    """Plan the joints for a path (curves with rational control points, mm) run through in ``duration`` seconds.
+
+    ``parts``: what each curve takes of the path's parameter; all the same by default.
+    """
+    sizes = [Fraction(1) if parts is None else parts[name] for name in curves]
+    ends = tuple(total / sum(sizes) for total in accumulate(sizes))
     path = joint_path(arm, curves, note)
     remarks: list[str] = []
     if not path.is_reachable:
-        return JointPlan(path, law, duration, None, None, ("the path leaves what the arm can reach",))
+        return JointPlan(path, law, ends, duration, None, None, ("the path leaves what the arm can reach",))
     sequence = motion = None
     try:
-        sequence = joint_sequence(path, samples_of(len(curves), law, samples), note)
+        sequence = joint_sequence(path, samples_of(ends, law, samples), note)
         remarks += [_switch(s.before.tau, s.after.tau, s.change) for s in sequence.switches]
         run = next((run for run in path.runs if run.number == sequence.run), None)
         if run is not None:
-            motion = joint_motion(path, run, law, duration)
+            motion = joint_motion(path, run, law, duration, ends)
             if not motion.keeps_limits:
                 remarks.append(f"limits of the joints are not proved to be kept; {motion.enough} s are enough")
     except Unable as error:
         remarks.append(str(error))
-    return JointPlan(path, law, duration, sequence, motion, tuple(remarks))
+    return JointPlan(path, law, ends, duration, sequence, motion, tuple(remarks))
 
 
 def _switch(before: Fraction, after: Fraction, change: float) -> str:
@@ -90,7 +98,8 @@ def table(plan: JointPlan) -> tuple[list[str], list[list[float]]]:
     rows = []
     for k, (sample, angles) in enumerate(zip(plan.sequence.samples, plan.sequence.angles, strict=True)):
         tangent = np.array([float(c) for c in curves[sample.curve].derivative(1, sample.s)])
-        rate = float(plan.law.derivatives(sample.tau)[1]) * len(curves) / total
+        share = plan.ends[sample.curve] - (plan.ends[sample.curve - 1] if sample.curve else 0)
+        rate = float(plan.law.derivatives(sample.tau)[1] / share) / total
         singular = abs(np.linalg.det(matrices[k])) < 1e-6
         speed = np.full(len(names), np.nan) if singular else np.linalg.solve(matrices[k], tangent * rate)
         rows.append([float(sample.tau) * total, *angles, *map(float, speed), *map(float, reached[k])])

@@ -22,6 +22,7 @@ from qe.exact.motion_chain import Piece
 
 Range = tuple[Fraction, Fraction]
 ZERO = Fraction(0)
+UNIT = 1 << 30
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,14 +82,16 @@ class JointMotion:
         return ceil(self.duration * max(factors) / TICK) * TICK
 
 
-def joint_motion(found: JointPath, run: Run, law: TimeLaw, duration: Fraction) -> JointMotion:
+def joint_motion(
+    found: JointPath, run: Run, law: TimeLaw, duration: Fraction, ends: Sequence[Fraction]
+) -> JointMotion:
     """The motion along a run from start to goal. Raises ``Unable`` for a run that ends before: its velocities may be
     unbounded."""
     if not run.covers(len(found.curves)):
         raise Unable(f"motion {run.number} does not go from start to goal; near its end the joints move ever faster")
     count = len(found.arm.joints)
     low, high = ([[ZERO, ZERO] for _ in range(count)] for _ in range(2))
-    for piece, first, second in _timed(run, law, len(found.curves)):
+    for piece, first, second in _timed(run, law, ends):
         for j in range(count):
             v, a = (_exact(bounds[j]) for bounds in (piece.velocity, piece.acceleration))
             speed, push = _times(v, first), _plus(_times(a, _square(first)), _times(v, second))
@@ -100,22 +103,41 @@ def joint_motion(found: JointPath, run: Run, law: TimeLaw, duration: Fraction) -
     return JointMotion(found.arm.joints, duration, speeds, pushes)
 
 
-def _timed(run: Run, law: TimeLaw, curves: int) -> Iterator[tuple[Piece, Range, Range]]:
+def _timed(run: Run, law: TimeLaw, ends: Sequence[Fraction]) -> Iterator[tuple[Piece, Range, Range]]:
     """Every piece with the ranges of ds/dτ and d²s/dτ² (s the parameter of its curve) while it is run through."""
     known = (ZERO, ZERO)
     for k, branch in run.parts:
+        first = ends[k - 1] if k else ZERO
+        length = ends[k] - first
         for piece in branch.pieces:  # each begins where the one before ends
-            begin, known = known[0], law.passage((k + piece.high) / curves)
+            begin, known = known[0], moment(law, first + piece.high * length)
             end = known[1]
             for (low, high), p in zip(pairwise(law.breaks), law.polynomials, strict=True):
                 a, b = max(begin, low), min(end, high)
                 if a < b or begin == end:
                     slope = bs.power_derivative(p)
                     bend = bs.power_derivative(slope)
-                    yield piece, _range(slope, a, b, curves), _range(bend, a, b, curves)
+                    yield piece, _range(slope, a, b, 1 / length), _range(bend, a, b, 1 / length)
 
 
-def _range(p: Sequence[Fraction], low: Fraction, high: Fraction, factor: int) -> Range:
+def moment(law: TimeLaw, share: Fraction) -> Range:
+    """Rational numbers around the τ with s(τ) = share, found in floating point and confirmed exactly."""
+    if share in (0, 1):
+        return share, share
+    low, high = 0.0, 1.0
+    pieces = [(float(end), [float(c) for c in p]) for end, p in zip(law.breaks[1:], law.polynomials, strict=True)]
+    for _ in range(45):
+        middle = (low + high) / 2
+        p = next(p for end, p in pieces if middle <= end)
+        value = sum(c * middle**k for k, c in enumerate(p))
+        low, high = (middle, high) if value < share else (low, middle)
+    begin, end = Fraction(max(0, round(low * UNIT) - 1), UNIT), Fraction(min(UNIT, round(high * UNIT) + 1), UNIT)
+    if law.derivatives(begin)[0] <= share <= law.derivatives(end)[0]:
+        return begin, end
+    return law.passage(share)
+
+
+def _range(p: Sequence[Fraction], low: Fraction, high: Fraction, factor: Fraction) -> Range:
     """An interval around factor * p on [low, high]: its Bernstein coefficients there."""
     if not p:
         return ZERO, ZERO

@@ -69,8 +69,8 @@ class JointSequence:
     switches: tuple[Switch, ...]
 
 
-def samples_of(curves: int, law: TimeLaw, count: int) -> list[Sample]:
-    """``count`` moments at equal steps of time; every curve takes the same share of the law's path.
+def samples_of(ends: Sequence[Fraction], law: TimeLaw, count: int) -> list[Sample]:
+    """``count`` moments at equal steps of time. ``ends``: the share of the law's path at which each curve ends, the last 1.
 
     The parameters are the law's to within 2^-33: short numbers, which the points of the path are exact for.
     """
@@ -79,9 +79,10 @@ def samples_of(curves: int, law: TimeLaw, count: int) -> list[Sample]:
     found = []
     for k in range(count):
         tau = Fraction(k, count - 1)
-        share = law.derivatives(tau)[0] * curves
-        curve = min(int(share), curves - 1)
-        found.append(Sample(tau, curve, Fraction(round((share - curve) * UNIT), UNIT)))
+        share = law.derivatives(tau)[0]
+        curve = next(i for i, end in enumerate(ends) if share <= end)
+        begin = ends[curve - 1] if curve else 0
+        found.append(Sample(tau, curve, Fraction(round((share - begin) / (ends[curve] - begin) * UNIT), UNIT)))
     return found
 
 

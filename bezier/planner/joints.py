@@ -41,8 +41,6 @@ def joints(channel: Channel, request: Request) -> tuple[str, int]:
     """Plan the joints, write the files; what to print, and the exit status."""
     plan = plans.joint_plan(request.arm, request.curves, request.law, request.duration, request.samples)
     accepted = write(plan, request.folder)
-    from bezier.report.joints import render
-
     (request.folder / PAGE).write_text(render(plan, request.file), encoding="utf-8")
     data = {**plans.to_json(plan), "certified": accepted}
     code = OK if plan.path.is_reachable and plan.sequence is not None else UNABLE
@@ -51,6 +49,16 @@ def joints(channel: Channel, request: Request) -> tuple[str, int]:
     lines = plans.in_words(plan)
     lines.append(f"certificates: {'accepted' if accepted else 'REJECTED'}; open {request.target / PAGE}")
     return "\n".join(lines), code
+
+
+def render(plan: JointPlan, file: str) -> str:
+    """The page of ``bezier joints``: one file that needs nothing from elsewhere."""
+    from bezier.report.joints import sections
+    from bezier.report.page import package_version, template
+
+    verdict = "every point is reached, proved" if plan.path.is_reachable else "the path leaves what the arm can reach"
+    told = {"file": file, "verdict": verdict, "version": package_version()}
+    return template("joints.html.j2").render(told | sections(plan))
 
 
 def write(plan: JointPlan, folder: Path) -> bool:

@@ -9,16 +9,8 @@ from markupsafe import Markup
 from bezier.arm import joint_plan as plans
 from bezier.arm.joint_plan import JointPlan
 from bezier.arm.motion import JointMotion
-from bezier.report.page import package_version, template
 
 WORDS = {True: "kept", False: "EXCEEDED", None: "not proved"}
-
-
-def render(plan: JointPlan, file: str) -> str:
-    """The page of ``bezier joints``: one file that needs nothing from elsewhere."""
-    verdict = "every point is reached, proved" if plan.path.is_reachable else "the path leaves what the arm can reach"
-    told = {"file": file, "verdict": verdict, "version": package_version()}
-    return template("joints.html.j2").render(told | sections(plan))
 
 
 def sections(plan: JointPlan | None) -> dict[str, Any]:

@@ -19,11 +19,12 @@ from bezier.arm.sequence import joint_sequence, samples_of
 from bezier.cli.app import main
 from bezier.curves.curve import Bezier
 from bezier.motion.timelaw import Law, TimeLaw
-from bezier.report.joints import render
+from bezier.planner.joints import render
 from qe.errors import InputError, Unable
 
 ARM = load_arm("ev3-120")
 QUINTIC = TimeLaw.of(Law.QUINTIC)
+WHOLE = (Fraction(1),)
 LINE = Bezier.of([(10, 40, 80), (40, 100, 20)])
 EV3 = Path(__file__).parents[3] / "bezier" / "arm" / "data" / "ev3-120.toml"
 
@@ -72,14 +73,14 @@ def test_bounds_hold_at_all_times(plan: JointPlan) -> None:
 
 def test_half_the_time_doubles_the_speed(plan: JointPlan) -> None:
     run = plan.path.whole_runs[0]
-    slow, fast = (joint_motion(plan.path, run, QUINTIC, Fraction(t)) for t in (50, 25))
+    slow, fast = (joint_motion(plan.path, run, QUINTIC, Fraction(t), WHOLE) for t in (50, 25))
     assert [b.high / a.high for a, b in zip(slow.speeds, fast.speeds)] == [2, 2, 2]
     assert [b.high / a.high for a, b in zip(slow.accelerations, fast.accelerations)] == [4, 4, 4]
 
 
 @pytest.mark.parametrize("law", list(Law))
 def test_every_law_is_bounded(plan: JointPlan, law: Law) -> None:
-    motion = joint_motion(plan.path, plan.path.whole_runs[0], TimeLaw.of(law), Fraction(10))
+    motion = joint_motion(plan.path, plan.path.whole_runs[0], TimeLaw.of(law), Fraction(10), WHOLE)
     assert all(0 < v.low <= v.high for v in motion.speeds)
 
 
@@ -94,7 +95,7 @@ def test_limits_of_velocity() -> None:
     assert not broken.is_proved and broken.motion is not None
     assert broken.motion.kept == {"theta7 velocity": False}
     run = next(r for r in broken.path.runs if broken.sequence is not None and r.number == broken.sequence.run)
-    again = joint_motion(broken.path, run, QUINTIC, broken.motion.enough)
+    again = joint_motion(broken.path, run, QUINTIC, broken.motion.enough, WHOLE)
     assert again.keeps_limits and any(str(broken.motion.enough) in r for r in broken.remarks)
 
 
@@ -102,7 +103,7 @@ def test_limits_of_acceleration() -> None:
     broken = limited("max_acceleration", '"1/100000"')
     assert broken.motion is not None and broken.motion.kept == {"theta7 acceleration": False}
     run = next(r for r in broken.path.runs if broken.sequence is not None and r.number == broken.sequence.run)
-    assert joint_motion(broken.path, run, QUINTIC, broken.motion.enough).keeps_limits
+    assert joint_motion(broken.path, run, QUINTIC, broken.motion.enough, WHOLE).keeps_limits
 
 
 def test_a_limit_between_the_bounds_is_not_decided() -> None:
@@ -118,7 +119,7 @@ def test_limits_of_angles_choose_the_branch() -> None:
 
 def test_across_the_axis_the_free_angle_goes_on() -> None:
     path = joint_path(ARM, {"line": Bezier.of([(-50, 0, 100), (50, 0, 100)])})
-    found = joint_sequence(path, samples_of(1, QUINTIC, 21))
+    found = joint_sequence(path, samples_of(WHOLE, QUINTIC, 21))
     assert found.run is None and len(found.switches) == 1
     assert np.abs(np.diff(np.array(found.angles), axis=0)).max() < 0.3
 
@@ -129,13 +130,13 @@ def test_a_path_that_leaves() -> None:
     assert "leaves" in render(plan, "line.toml")
     with pytest.raises(Unable, match="does not go from start to goal"):
         hole = joint_path(ARM, {"line": Bezier.of([(20, 0, 166), (60, 0, 166)])})
-        joint_motion(hole, next(r for r in hole.runs if not r.covers(1)), QUINTIC, Fraction(1))
+        joint_motion(hole, next(r for r in hole.runs if not r.covers(1)), QUINTIC, Fraction(1), WHOLE)
 
 
 @pytest.mark.parametrize("count", [1, 0, 10**6])
 def test_numbers_of_samples(count: int) -> None:
     with pytest.raises(InputError, match="samples"):
-        samples_of(1, QUINTIC, count)
+        samples_of(WHOLE, QUINTIC, count)
 
 
 def test_the_page_is_whole(plan: JointPlan) -> None:
