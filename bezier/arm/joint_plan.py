@@ -28,7 +28,9 @@ DECIMALS = 9
 
 @dataclass(frozen=True, eq=False)
 class JointPlan:
-    """``ends``: the share of the law's path at which each curve ends. ``sequence`` and ``motion`` are None where there is none; ``remarks`` say why, in words."""
+    """``ends``: the share of the law's path at which each curve ends.
+
+    ``sequence`` and ``motion`` are None where there is none; ``remarks`` say why, in words."""
 
     path: JointPath
     law: TimeLaw

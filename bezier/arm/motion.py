@@ -82,9 +82,7 @@ class JointMotion:
         return ceil(self.duration * max(factors) / TICK) * TICK
 
 
-def joint_motion(
-    found: JointPath, run: Run, law: TimeLaw, duration: Fraction, ends: Sequence[Fraction]
-) -> JointMotion:
+def joint_motion(found: JointPath, run: Run, law: TimeLaw, duration: Fraction, ends: Sequence[Fraction]) -> JointMotion:
     """The motion along a run from start to goal. Raises ``Unable`` for a run that ends before: its velocities may be
     unbounded."""
     if not run.covers(len(found.curves)):

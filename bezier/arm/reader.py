@@ -25,6 +25,7 @@ from qe.errors import InputError
 
 MAX_ROWS = 24
 SUFFIX = ".toml"
+ALIASES = {"ev3": "ev3-120"}
 _OF_JOINTS = ("kind", "limits", "max_velocity", "max_acceleration")
 
 
@@ -36,6 +37,7 @@ def shipped() -> tuple[str, ...]:
 
 def load_arm(name: str) -> Arm:
     """The arm of a shipped name or of a TOML file. Raises ``InputError``."""
+    name = ALIASES.get(name, name)
     if name in shipped():
         return _shipped(name)
     if name.endswith(SUFFIX):

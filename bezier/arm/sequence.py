@@ -70,7 +70,7 @@ class JointSequence:
 
 
 def samples_of(ends: Sequence[Fraction], law: TimeLaw, count: int) -> list[Sample]:
-    """``count`` moments at equal steps of time. ``ends``: the share of the law's path at which each curve ends, the last 1.
+    """``count`` moments at equal steps of time. ``ends``: the share of the law's path at which each curve ends.
 
     The parameters are the law's to within 2^-33: short numbers, which the points of the path are exact for.
     """

@@ -22,6 +22,7 @@ from bezier.input import stored
 from bezier.obstacles import survey
 from bezier.plan import Outcome, Plan, Stated
 from bezier.planner import avoid
+from bezier.planner.arm import with_joints
 from bezier.planner.outputs import COMPARISON, DATA, LISTED_IN, PICTURES, PROBLEM, REPORT, SUMMARY, data_texts, facts
 from bezier.planner.planning import with_findings, with_quality
 from bezier.planner.radius_rule import stated_rule
@@ -69,7 +70,7 @@ def restored(problem: Problem, certificate: Certificate, stated: Stated) -> tupl
         plan = avoid.with_stated_attempts(avoid.examined(plan), stated.summary.get("attempts"))
     larger = stated_radius(stated.summary)
     plan = with_findings(plan, lambda solvable: stated_rule(problem, solvable, larger))
-    return with_quality(plan), found.lines
+    return with_joints(with_quality(plan)), found.lines
 
 
 def stated_radius(summary: Mapping[str, Any]) -> Fraction | None:
