@@ -23,7 +23,10 @@ from bezier.curves.curve import Bezier
 from qe.exact.motion_chain import MotionChain, Piece
 from qe.exact.point_values import pi_ends
 
-FIRST, LEAST = Fraction(1, 16), Fraction(1, 1 << 13)
+FIRST, LEAST = Fraction(1, 16), Fraction(1, 1 << 24)
+NEAR = Fraction(1, 1 << 12)
+"""How near to a place where solutions meet branches are followed."""
+
 ZERO, ONE = Fraction(0), Fraction(1)
 SPARE = Fraction(5, 4)
 """What links leave to a checker that computes with other roundings."""
@@ -87,12 +90,13 @@ def follow(
     end: Fraction,
     note: Note = lambda: None,
     before: tuple[Piece, Fraction] | None = None,
+    stops: Sequence[Fraction] = (),
 ) -> tuple[Piece, ...]:
     """Pieces from ``at`` towards ``end`` as far as they can be proved, in ascending order of s.
 
     ``start``: joint values near the solution at ``at``. They end before ``end`` where the arm becomes singular.
     ``before``: a piece and a parameter at which its solution is that at ``at`` (of this curve, or of one that this one
-    goes on from): the first piece is linked to it.
+    goes on from): the first piece is linked to it. ``stops``: about where solutions meet, where small steps are in vain.
     """
     chain, coefficients = chain_of(arm), curve_powers(curve)
     forwards = end > at
@@ -102,6 +106,8 @@ def follow(
         note()
         far = min(here + step, end) if forwards else max(here - step, end)
         low, high = (here, far) if forwards else (far, here)
+        if step < NEAR and any(abs(here - stop) < 2 * NEAR for stop in stops):
+            break
         piece = chain.piece(coefficients, low, high, near)
         last = (pieces[-1], here) if pieces else before
         if piece is None or (last is not None and not _same(*last, piece, here)):
@@ -112,15 +118,22 @@ def follow(
     return tuple(pieces if forwards else reversed(pieces))
 
 
-def whole(arm: Arm, curve: Bezier, solution: Solution, at: Fraction, ends: tuple[Fraction, Fraction]) -> Branch | None:
+def whole(
+    arm: Arm,
+    curve: Bezier,
+    solution: Solution,
+    at: Fraction,
+    ends: tuple[Fraction, Fraction],
+    stops: Sequence[Fraction] = (),
+) -> Branch | None:
     """The branch through a solution at ``at``, followed both ways towards ``ends``; None where not even one step is
     proved."""
     start = [angle for angle in solution.angles if angle is not None]
     if len(start) != len(arm.joints):
         return None
-    before = follow(arm, curve, start, at, ends[0]) if ends[0] < at else ()
+    before = follow(arm, curve, start, at, ends[0], stops=stops) if ends[0] < at else ()
     link = (before[-1], at) if before else None
-    pieces = before + (follow(arm, curve, start, at, ends[1], before=link) if at < ends[1] else ())
+    pieces = before + (follow(arm, curve, start, at, ends[1], before=link, stops=stops) if at < ends[1] else ())
     return Branch(pieces) if pieces and Branch(pieces).contains(at, solution) else None
 
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from fractions import Fraction
 from functools import cached_property
 from itertools import pairwise
 
@@ -84,14 +85,15 @@ def _branches(found: Study, before: Sequence[Branch], note: Note) -> list[Branch
     same
     directions, and those through the other solutions at one parameter of every stretch."""
     branches: list[Branch] = []
+    stops = [p.s if isinstance(p.s, Fraction) else p.s.interval(40)[0] for p in found.specials if p.reasons]
     for last in before:
         if last.high == ONE:
-            pieces = follow(found.arm, found.curve, last.at(ONE), ZERO, ONE, note, (last.pieces[-1], ONE))
+            pieces = follow(found.arm, found.curve, last.at(ONE), ZERO, ONE, note, (last.pieces[-1], ONE), stops)
             branches += [Branch(pieces)] if pieces else []
     for stretch in found.stretches:
         for solution in solve(found.arm, found.curve.point(stretch.sample)).solutions:
             if not any(b.contains(stretch.sample, solution) for b in branches):
-                branch = whole(found.arm, found.curve, solution, stretch.sample, (ZERO, ONE))
+                branch = whole(found.arm, found.curve, solution, stretch.sample, (ZERO, ONE), stops)
                 branches += [branch] if branch is not None else []
             note()
     return branches

@@ -73,6 +73,8 @@ class _Rows:
         joints = [joint for *_, joint in self.rows if joint]
         if len(self.rows) > MOST_ROWS or len(joints) != 3:
             raise rows.fail(f"expected at most {MOST_ROWS} rows, three of them with a joint")
+        with precision(duals.BITS):
+            self.chain = self._chain()
 
     @staticmethod
     def _row(entry: Entry) -> tuple[Fraction, tuple[Dual, Dual], Fraction, tuple[Dual, Dual], str]:
@@ -82,23 +84,30 @@ class _Rows:
             raise joint.fail("expected null, revolute or prismatic")
         return a.rational(), _angle(alpha), d.rational(), _angle(theta), kind
 
-    def end_point(self, q: Vector) -> Vector:
-        """The end point for these joint values: motions between two joints are put together first, while they are
-        exact."""
-        values, motions, fixed = iter(q), list[Part](), list[Part]()
+    def _chain(self) -> list[Part | str]:
+        """Motions between two joints as one, and the kinds of the joints between them."""
+        chain, fixed = list[Part | str](), list[Part]()
         for a, alpha, d, theta, kind in self.rows:
             across: list[Part] = [duals.turn("x", alpha), duals.shift("x", duals.number(a, DIRECTIONS))]
             along: list[Part] = [duals.turn("z", theta), duals.shift("z", duals.number(d, DIRECTIONS))]
-            if self.modified:
-                fixed += across
+            fixed += across if self.modified else []
             if kind:
-                value = next(values)
-                turns = kind == "revolute"
-                moving = duals.turn("z", value.sine_cosine()) if turns else duals.shift("z", value)
-                motions += [duals.together(fixed, DIRECTIONS), moving]
+                chain += [duals.together(fixed, DIRECTIONS), kind]
                 fixed = []
             fixed += along if self.modified else along + across[::-1]
-        return duals.image([*motions, duals.together(fixed, DIRECTIONS)], duals.origin(DIRECTIONS))
+        return [*chain, duals.together(fixed, DIRECTIONS)]
+
+    def end_point(self, q: Vector) -> Vector:
+        """The end point for these joint values."""
+        values, motions = iter(q), list[Part]()
+        for part in self.chain:
+            if part == "revolute":
+                motions.append(duals.turn("z", next(values).sine_cosine()))
+            elif isinstance(part, str):
+                motions.append(duals.shift("z", next(values)))
+            else:
+                motions.append(part)
+        return duals.image(motions, duals.origin(DIRECTIONS))
 
 
 def _angle(entry: Entry) -> tuple[Dual, Dual]:

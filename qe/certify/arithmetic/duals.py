@@ -83,13 +83,19 @@ def image(motions: Sequence[Callable[[Vector], Vector]], point: Vector) -> Vecto
 
 
 def together(motions: Sequence[Callable[[Vector], Vector]], directions: int) -> Callable[[Vector], Vector]:
-    """Several motions as one, from the images of the origin and of the unit points."""
+    """Several constant motions as one, from the images of the origin and of the unit points."""
     start = image(motions, origin(directions))
     units = [[number(Fraction(int(i == k)), directions) for i in range(3)] for k in range(3)]
     columns = [[a - b for a, b in zip(image(motions, unit), start, strict=True)] for unit in units]
 
     def moved(p: Vector) -> Vector:
-        return [start[i] + columns[0][i] * p[0] + columns[1][i] * p[1] + columns[2][i] * p[2] for i in range(3)]
+        found = []
+        for i in range(3):  # what the columns hold are constants
+            c = [column[i].value for column in columns]
+            value = start[i].value + c[0] * p[0].value + c[1] * p[1].value + c[2] * p[2].value
+            parts = zip(p[0].slope, p[1].slope, p[2].slope, strict=True)
+            found.append(Dual(value, tuple(c[0] * x + c[1] * y + c[2] * z for x, y, z in parts)))
+        return found
 
     return moved
 
