@@ -21,7 +21,7 @@ from bezier.arm.inverse import geometry_of
 from bezier.arm.model import Arm
 from bezier.arm.ratio import Ratio, constant, reduced
 from bezier.curves.curve import Bezier
-from bezier.curves.scalar import rational
+from bezier.curves.scalar import exactly, rational
 from qe.errors import InputError, Unable
 from qe.exact.algebraic import RealAlgebraic
 from qe.exact.point_values import roots_between
@@ -66,7 +66,7 @@ class AlongCurve:
         found = []
         for i in range(3):
             total = constant(ring, 0, field)
-            for c in reversed(powers([Fraction(p[i]) for p in self.curve.points])):  # type: ignore[arg-type]
+            for c in reversed(powers([exactly(p[i]) for p in self.curve.points])):
                 total = total * s + c
             found.append(total)
         return tuple(found)

@@ -176,7 +176,8 @@ def _lift(t: Ratio, one: Ratio, turn: tuple[Fraction, Fraction]) -> Any:
     cosine, sine = minus * c - double * s, minus * s + double * c
 
     def lifted(f0: Any, f1: Any, f2: Any) -> Ratio:
-        return (one + t * t) * f0 + cosine * f1 + sine * f2
+        found: Ratio = (one + t * t) * f0 + cosine * f1 + sine * f2
+        return found
 
     return lifted
 

@@ -20,6 +20,7 @@ from bezier.arm.inverse import Solution
 from bezier.arm.kinematics import wrapped
 from bezier.arm.model import Arm, Motion
 from bezier.curves.curve import Bezier
+from bezier.curves.scalar import exactly
 from qe.exact.motion_chain import MotionChain, Piece
 from qe.exact.point_values import pi_ends
 
@@ -79,7 +80,7 @@ def chain_of(arm: Arm) -> MotionChain:
 
 def curve_powers(curve: Bezier) -> list[list[Fraction]]:
     """The coefficients of 1, s, s², … of each coordinate of a curve with rational control points."""
-    return [powers([Fraction(p[i]) for p in curve.points]) for i in range(curve.dimension)]  # type: ignore[arg-type]
+    return [powers([exactly(p[i]) for p in curve.points]) for i in range(curve.dimension)]
 
 
 def follow(
@@ -96,7 +97,7 @@ def follow(
 
     ``start``: joint values near the solution at ``at``. They end before ``end`` where the arm becomes singular.
     ``before``: a piece and a parameter at which its solution is that at ``at`` (of this curve, or of one that this one
-    goes on from): the first piece is linked to it. ``stops``: about where solutions meet, where small steps are in vain.
+    goes on from): the first piece is linked to it. ``stops``: about where solutions meet, where steps get small.
     """
     chain, coefficients = chain_of(arm), curve_powers(curve)
     forwards = end > at

@@ -41,10 +41,12 @@ class Ratio:
         return Ratio(-self.top, self.bottom, self.field)
 
     def __sub__(self, other: Any) -> Ratio:
-        return self + -self._coerce(other)
+        negated: Ratio = -self._coerce(other)
+        return self + negated
 
     def __rsub__(self, other: Any) -> Ratio:
-        return -self + other
+        found: Ratio = -self + other
+        return found
 
     def __mul__(self, other: Any) -> Ratio:
         if isinstance(other, int | Fraction):
@@ -57,7 +59,8 @@ class Ratio:
 
     def __truediv__(self, other: Any) -> Ratio:
         """By a nonzero number."""
-        return self * (1 / (Fraction(other) if isinstance(other, int) else other))
+        found: Ratio = self * (1 / (Fraction(other) if isinstance(other, int) else other))
+        return found
 
     @property
     def scale(self) -> Fraction:

@@ -12,6 +12,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
+from typing import Any
 
 import networkx as nx
 
@@ -91,16 +92,17 @@ def joint_sequence(found: JointPath, samples: Sequence[Sample], note: Note = lam
     if any(j.motion is not Motion.REVOLUTE for j in found.arm.joints):
         raise Unable("joint sequences are for arms whose joints all turn")
     layers = list(_layers(found, samples, note))
-    graph = nx.DiGraph()
+    graph: nx.DiGraph[Any] = nx.DiGraph()
     graph.add_edges_from((("start", (0, i)) for i in range(len(layers[0]))), weight=0.0)
     for k, (near, far) in enumerate(pairwise(layers)):
         graph.add_weighted_edges_from(
             ((k, i), (k + 1, j), _distance(a.angles, b.angles)) for i, a in enumerate(near) for j, b in enumerate(far)
         )
     graph.add_edges_from((((len(layers) - 1, i), "goal") for i in range(len(layers[-1]))), weight=0.0)
-    change, path = nx.single_source_dijkstra(graph, "start", "goal")
+    path: Any = nx.dijkstra_path(graph, "start", "goal")
     stands = [layers[k][i] for k, i in path[1:-1]]
-    return JointSequence(tuple(samples), _unrolled(stands), float(change), *_kept(stands, samples))
+    change = sum(_distance(a.angles, b.angles) for a, b in pairwise(stands))
+    return JointSequence(tuple(samples), _unrolled(stands), change, *_kept(stands, samples))
 
 
 def _layers(found: JointPath, samples: Sequence[Sample], note: Note) -> Iterator[list[Stand]]:

@@ -9,6 +9,7 @@ from __future__ import annotations
 import json
 from dataclasses import replace
 from fractions import Fraction
+from functools import lru_cache
 from typing import Any
 
 from bezier.arm import joint_plan as plans
@@ -36,12 +37,12 @@ FILES = ("joints.csv", "joints.json", "joints_certificate.json")
 def check_arm(problem: Problem) -> None:
     """Raises ``InputError`` for an arm that is not known: before any work is done."""
     if problem.arm is not None:
+        if problem.arm.endswith(".toml"):
+            raise InputError(f"{problem.source}: arm: expected one of {', '.join(shipped())}, found a file")
         try:
             load_arm(problem.arm)
         except InputError as error:
             raise InputError(f"{problem.source}: {error}") from None
-        if problem.arm.endswith(".toml"):
-            raise InputError(f"{problem.source}: arm: expected one of {', '.join(shipped())}, found a file")
 
 
 def with_joints(plan: Plan) -> Plan:
@@ -50,7 +51,7 @@ def with_joints(plan: Plan) -> Plan:
         return plan
     curves = {name: rounded(curve) for name, curve in plan.path.curves.items()}
     parts = {name: plan.path.duration(name) for name in curves}
-    motion, timing = plan.quality and plan.quality.motion, plan.problem.timing
+    motion, timing = None if plan.quality is None else plan.quality.motion, plan.problem.timing
     law = TimeLaw.of(Law.QUINTIC) if timing is None else TimeLaw.of(timing.law, timing.ramp)
     duration = USUAL_DURATION if motion is None else motion.duration
     try:
@@ -89,18 +90,21 @@ def bundle(found: JointPlan) -> Certificate:
 
 def files(plan: Plan) -> dict[str, str]:
     """The files about the joints, by name. Raises ``CertificateRejected`` where a certificate is not accepted."""
-    if plan.joints is None:
-        return {}
+    return {} if plan.joints is None else dict(_texts(plan.joints, is_rounded(plan)))
+
+
+@lru_cache(maxsize=2)
+def _texts(found: JointPlan, is_rounded: bool) -> tuple[tuple[str, str], ...]:
     table, data, evidence = FILES
-    certificate = bundle(plan.joints)
+    certificate = bundle(found)
     verdict = verify(certificate)
     if not verdict.accepted:
         raise CertificateRejected(f"{evidence}: {verdict.step}", verdict.reason)
-    told = {**plans.to_json(plan.joints), "rounded": is_rounded(plan)}
+    told = {**plans.to_json(found), "rounded": is_rounded}
     texts = {data: json.dumps(told, indent=1, ensure_ascii=False) + "\n", evidence: certificate.to_json()}
-    if plan.joints.sequence is not None:
-        texts[table] = plans.to_csv(plan.joints)
-    return texts
+    if found.sequence is not None:
+        texts[table] = plans.to_csv(found)
+    return tuple(texts.items())
 
 
 def json_entries(plan: Plan) -> dict[str, Any]:

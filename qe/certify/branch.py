@@ -133,16 +133,16 @@ def _curve(entry: Entry) -> list[tuple[Fraction, ...]]:
 
 def _piece(entry: Entry, curves: int) -> _Piece:
     curve, low, high, centre, slope, radius = entry.fields("curve", "low", "high", "centre", "slope", "radius")
-    triples = [tuple(v.rational() for v in part.items()) for part in (centre, slope, radius)]
-    if any(len(t) != 3 for t in triples):
-        raise entry.fail("expected three values for each joint")
+    middle, slopes, radii = (tuple(v.rational() for v in part.items()) for part in (centre, slope, radius))
+    if not len(middle) == len(slopes) == len(radii) == 3:
+        raise entry.fail("expected one value for each of three joints")
     if curve.integer() >= curves:
         raise curve.fail(f"expected one of {curves} curves")
     if not 0 <= low.rational() < high.rational() <= 1:
         raise entry.fail("expected 0 <= low < high <= 1")
-    if any(r <= 0 for r in triples[2]):
+    if any(r <= 0 for r in radii):
         raise radius.fail("expected radii above 0")
-    return _Piece(curve.integer(), low.rational(), high.rational(), *triples, entry)
+    return _Piece(curve.integer(), low.rational(), high.rational(), middle, slopes, radii, entry)
 
 
 def _image(rows: _Rows, points: list[tuple[Fraction, ...]], piece: _Piece) -> list[Fraction]:

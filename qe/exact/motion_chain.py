@@ -17,6 +17,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from math import inf, nextafter
+from typing import Any
 
 from flint import arb, arb_mat, fmpq
 
@@ -222,10 +223,10 @@ def _derived(coefficients: Sequence[Fraction]) -> list[Fraction]:
     return [k * c for k, c in enumerate(coefficients)][1:]
 
 
-def _ball(value: object) -> arb:
+def _ball(value: Any) -> arb:
     if isinstance(value, FieldElement):
         return value.ball(BITS)
-    number = Fraction(value)  # type: ignore[arg-type]
+    number = Fraction(value)
     return arb(fmpq(number.numerator, number.denominator))
 
 
