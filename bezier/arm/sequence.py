@@ -16,6 +16,7 @@ from typing import Any
 
 import networkx as nx
 
+from bezier.arm.follow import Branch
 from bezier.arm.inverse import Solution, solve
 from bezier.arm.joint_path import JointPath
 from bezier.arm.kinematics import wrapped
@@ -26,6 +27,8 @@ from qe.errors import InputError, Unable
 Note = Callable[[], None]
 MOST_SAMPLES = 5_000
 UNIT = 1 << 32
+FAR = 1.0
+"""Solutions further from the middle of a box than this (rad, sum of the joints) do not lie in it: boxes are small."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -112,9 +115,10 @@ def _layers(found: JointPath, samples: Sequence[Sample], note: Note) -> Iterator
         note()
         solved.append([s for s in solve(found.arm, curves[sample.curve].point(sample.s)).solutions if s.allowed])
     for k, (sample, solutions) in enumerate(zip(samples, solved, strict=True)):
+        places = _places(found, sample)
         around = [a for other in solved[max(k - 1, 0) : k + 2] for s in other if (a := s.angles[0]) is not None]
         stands = [
-            Stand(angles, _runs(found, sample, solution))
+            Stand(angles, _runs(found, places, sample.s, solution))
             for solution in solutions
             for angles in _offered(solution, around or [0.0])
         ]
@@ -133,13 +137,20 @@ def _offered(solution: Solution, around: list[float]) -> Iterator[tuple[float, .
         yield (angle, *others)
 
 
-def _runs(found: JointPath, sample: Sample, solution: Solution) -> frozenset[int]:
-    if any(v is None for v in solution.values):
+def _places(found: JointPath, sample: Sample) -> list[tuple[int, Branch, tuple[float, ...]]]:
+    """Every motion that is under way at the sample: its number, its branch, and about where it is."""
+    under_way = ((run.number, run.branch(sample.curve)) for run in found.runs)
+    return [(n, b, b.at(sample.s)) for n, b in under_way if b is not None and b.low <= sample.s <= b.high]
+
+
+def _runs(
+    found: JointPath, places: Sequence[tuple[int, Branch, tuple[float, ...]]], s: Fraction, solution: Solution
+) -> frozenset[int]:
+    angles = [a for a in solution.angles if a is not None]
+    if len(angles) < len(solution.angles):
         return frozenset(run.number for run in found.runs)  # the axis: every motion passes there, or stops
     return frozenset(
-        run.number
-        for run in found.runs
-        if (branch := run.branch(sample.curve)) is not None and branch.contains(sample.s, solution)
+        number for number, branch, near in places if _distance(angles, near) < FAR and branch.contains(s, solution)
     )
 
 

@@ -208,5 +208,8 @@ def _told(plan: Plan) -> list[str]:
         lines.append(f"motion.json: {' and '.join(kept) or 'no limit'} proved to be kept at all times")
     if motion is not None and motion.reason:
         lines.append(f"motion.json: {motion.reason}")
+    if plan.joints is not None:
+        count = len(plan.joints.path.whole_runs)
+        lines.append(f"joints_certificate.json: {count} continuous motions of the joints from start to goal")
     joins = f"{plan.path.smoothness.name} at every join, " if plan.path.joins else ""
     return [*lines, f"{PATH}: {joins}every curve proved to lie in the workspace", f"{SUMMARY}: every entry but times"]

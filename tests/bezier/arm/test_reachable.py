@@ -15,10 +15,13 @@ from bezier.arm.robot import Robot
 from bezier.check.recheck import recheck
 from bezier.curves.curve import Bezier
 from bezier.plan import Outcome
+from bezier.planner import arm as planner_arm
 from bezier.planner.arm import rounded
 from bezier.planner.outputs import facts, write_data
 from bezier.planner.planning import make_plan
+from bezier.planner.table import method_of
 from bezier.problem import from_json, read_problem, to_json
+from bezier.report.page import render
 from qe.errors import CertificateRejected, InputError, Unable
 from qe.exact.field import NumberField
 
@@ -69,7 +72,8 @@ radius = {}
 """
 
 
-def test_a_plan_with_an_arm_is_written_and_checked(tmp_path: Path) -> None:
+def test_a_plan_with_an_arm_is_written_and_checked(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(planner_arm, "SAMPLES", 21)
     made = make_plan(read_problem(PROBLEM.format("ev3", 250)))
     assert made.outcome is Outcome.SOLVED and made.joints is not None and made.joints.is_proved
     files = write_data(made, tmp_path)
@@ -95,6 +99,8 @@ def test_a_path_beyond_the_arm() -> None:
     made = make_plan(read_problem(text))
     assert made.outcome is Outcome.OUT_OF_REACH and not made.certified
     assert made.path is not None and made.path.is_inside
+    page = render(made, method_of(made.problem.method), None)
+    assert "the arm cannot follow the path" in page and "The joints of EV3" in page
 
 
 @pytest.mark.parametrize("name", ["ev4", "../ev3.toml", ""])
