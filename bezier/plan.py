@@ -170,6 +170,11 @@ class Clock:
         yield
         self.seconds[name] = time.perf_counter() - begin
 
+    @property
+    def is_over(self) -> bool:
+        """Whether the limit has passed."""
+        return self.limit is not None and time.perf_counter() - self.start >= self.limit
+
     def remaining(self, name: str = "planning") -> float | None:
         """Seconds left, or None without a limit."""
         if self.limit is None:

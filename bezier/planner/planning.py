@@ -30,9 +30,12 @@ def make_plan(problem: Problem, clock: Clock | None = None) -> Plan:
             with watch.step("joints"):
                 plan = with_joints(plan)
         return plan
-    except BudgetExceeded as error:
+    except Unable as error:
+        limit = error.limit if isinstance(error, BudgetExceeded) else "time" if watch.is_over else None
+        if limit is None:
+            raise
         known = "; ".join(f"{name}: {value}" for name, value in watch.facts.items()) or "nothing yet"
-        raise BudgetExceeded(f"{error}; known so far: {known}", limit=error.limit) from None
+        raise BudgetExceeded(f"{error}; known so far: {known}", limit=limit) from None
 
 
 def _with_findings(plan: Plan, clock: Clock) -> Plan:

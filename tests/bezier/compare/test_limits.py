@@ -80,7 +80,7 @@ def test_a_region_is_shown_without_its_area(monkeypatch):
     monkeypatch.setattr(comparison, "convex_area", no_area)
     problem = read_problem(PROBLEM)
     plane = comparison.Plane.through(problem)
-    formula = comparison.planar_formulas(problem, plane)["(8)"]
+    formula = comparison.planar_statements(problem, plane)["(8)"]
     part = comparison._region(formula, plane, Clock(), 20.0)
     assert part.region is not None and part.region._pieces and part.area is None
     assert part.reason == "area not found: too curved"

@@ -3,6 +3,7 @@
 import json
 from dataclasses import replace
 from fractions import Fraction
+from types import SimpleNamespace
 
 import pytest
 from hypothesis import given, settings
@@ -18,7 +19,7 @@ from bezier.plan import Clock, Outcome, Stated
 from bezier.planner.outputs import facts
 from bezier.planner.planning import make_plan
 from bezier.problem import PlanMethod, Problem, load_problem
-from qe.errors import BudgetExceeded, CertificateRejected
+from qe.errors import BudgetExceeded, CertificateRejected, Unable
 from qe.formula.evaluate import holds_at
 from qe.proof.certificate import Certificate
 from tests.bezier.numbers import points
@@ -36,7 +37,7 @@ def problem_of(q0, r0, r2, kind=WorkspaceKind.BALL, method=PlanMethod.QUADRATIC)
 @given(POINT, POINT, st.integers(1, 24), st.lists(points(), min_size=8, max_size=8), st.sampled_from(WorkspaceKind))
 def test_the_answer_is_the_conditions(q0, r0, r2, candidates, kind):
     problem = problem_of(q0, r0, r2, kind)
-    answer = qe.eliminate(quadratic.system(problem).formula()).formula
+    answer = qe.eliminate(quadratic.system(problem).statement().formula).formula
     conditions = quadratic.as_conditions_on_q1(quadratic.system(problem))
     for q1 in [*candidates, q0, r0]:
         expected = all(condition.margin(q1) >= 0 for condition in conditions)
@@ -150,3 +151,21 @@ def test_steps_are_told_and_timed(root):
     clock = Clock(listener=lambda event: told.append(event.phase), note=noted.__setitem__)
     plan = make_plan(load_problem(root / "examples" / "three_balls.toml"), clock)
     assert told == list(plan.seconds) and "q1x" in noted["quantifier-free answer"]
+
+
+def test_an_engine_that_stops_at_the_limit_says_what_was_known(monkeypatch):
+    """However the end of the time is met: by the clock, or as an answer that the engine could not reach in it."""
+    from bezier.planner import planning
+
+    def out_of_time(problem, clock):
+        clock.learn("region", "empty")
+        clock.start -= 10
+        raise Unable("time limit reached")
+
+    plain = problem_of((Fraction(1),) * 3, (Fraction(2),) * 3, 20)
+    monkeypatch.setattr(planning, "method_of", lambda choice: SimpleNamespace(make=out_of_time))
+    with pytest.raises(BudgetExceeded, match="time limit reached; known so far: region: empty"):
+        make_plan(plain, Clock(limit=5))
+    with pytest.raises(Unable) as found:
+        make_plan(plain, Clock())
+    assert not isinstance(found.value, BudgetExceeded)

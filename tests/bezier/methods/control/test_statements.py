@@ -107,3 +107,16 @@ def test_the_least_value_of_a_polynomial_with_a_factor(place: Fraction, below: i
     found = qe.minimize(aim.polynomial, at_most(x, number(place - 1)).formula)
     assert found.value == Fraction(1, below) == qe.minimize(str(aim), str(at_most(x, number(place - 1)))).value
     assert qe.verify(found.certificate).accepted
+
+
+def test_a_sum_is_taken_away_as_a_whole() -> None:
+    x, y, t = names(("x", "y", "t"))
+    away = Sum((x, Minus(Sum((y, t))), Sum((t, y))))
+    assert str(away) == "x - (y + t) + (t + y)" and str(Product((Sum((x, y)), Minus(t)))) == "(x + y)*(-t)"
+    assert away.polynomial == (x.polynomial[0].convert(away.polynomial[0].ring), Fraction(1))
+
+
+def test_bound_names_come_after_the_free_ones() -> None:
+    x, r = names(("x", "r"))
+    asked = Quantified(False, ("x",), every(at_most(x, number(1)), at_most(r, x)))
+    assert asked.formula.ring.names == ("r", "x") == read(str(asked)).ring.names
