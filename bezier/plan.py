@@ -26,6 +26,7 @@ from qe.proof.certificate import Certificate
 
 if TYPE_CHECKING:
     import qe
+    from bezier.arm.joint_plan import JointPlan
     from bezier.pictures.picture import Drawing
 
 Note = Callable[[str, object], None]
@@ -40,6 +41,8 @@ class Outcome(Enum):
     """There is a path, but an obstacle is in its way."""
     TOO_FAST = "limits_not_kept"
     """There is a path, but the motion asked for is not proved to keep the limits asked for."""
+    OUT_OF_REACH = "out_of_reach"
+    """There is a path, but the arm cannot follow it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,7 +103,7 @@ class Plan:
     independent checker says of them; ``seconds``: the time of each step; ``remarks``: for the reader;
     ``findings``: each curve and each obstacle; ``attempts``: what was tried to get around the obstacles;
     ``quality``: lengths, curvatures and the motion in time. ``heights``: the height condition, decided for all curves.
-    ``radius_rule``: what the radius forces where a via point lies on the sphere.
+    ``radius_rule``: what the radius forces where a via point lies on the sphere. ``joints``: of the arm.
     """
 
     problem: Problem
@@ -119,6 +122,7 @@ class Plan:
     quality: Quality | None = None
     heights: Heights | None = None
     radius_rule: RadiusRule | None = None
+    joints: JointPlan | None = None
 
     @property
     def unit(self) -> str:
@@ -137,7 +141,8 @@ class Plan:
         """Whether the checker accepted every certificate and the whole path is proved inside and clear of obstacles."""
         accepted = all(verdict.accepted for verdict in self.checks.values())
         clear = all(finding.is_clear for finding in self.findings)
-        return accepted and clear and (self.path is None or self.path.is_inside)
+        follows = self.joints is None or self.joints.path.is_reachable
+        return accepted and clear and follows and (self.path is None or self.path.is_inside)
 
 
 @dataclass(slots=True)

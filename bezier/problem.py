@@ -12,6 +12,7 @@ from typing import Any
 
 from bezier.curves.scalar import Vector, dot, exactly, is_zero, same
 from bezier.curves.workspace import HalfSpace, Workspace, WorkspaceKind, root_text
+from bezier.input.files import read_text
 from bezier.input.numbers import NotANumber, describe, read_squared
 from bezier.input.single_table import SingleCurve, Via, read_single, stated_via
 from bezier.input.toml_table import POINT, Table
@@ -22,7 +23,6 @@ from bezier.obstacles.via import via_over
 from bezier.paths.heights import AXES, Strip
 from qe.errors import InputError
 
-MAX_BYTES = 1_000_000
 LARGEST = Fraction(10) ** 50
 """Of coordinates and the radius, so that decimals of lengths, their squares and cubes fit into floating point."""
 
@@ -56,7 +56,7 @@ class Problem:
     duration of the outer spans, the middle one taking 1. ``join_speed``: the least speed at the joins that is
     asked for, 0 for none. ``obstacles``: what the whole path has to stay clear of; ``above``: what follows from them
     for control points. ``timing``: what is asked of the motion in time. ``single``: what Method 1 is given, None for
-    the other methods. ``notes``: remarks for the reader about the input.
+    the other methods. ``arm``: the arm that has to follow the path. ``notes``: remarks for the reader about the input.
     """
 
     method: PlanMethod
@@ -74,6 +74,7 @@ class Problem:
     above: tuple[PointCondition, ...] = ()
     timing: Timing | None = None
     single: SingleCurve | None = None
+    arm: str | None = None
 
     @property
     def point_conditions(self) -> tuple[PointCondition, ...]:
@@ -99,7 +100,7 @@ class Problem:
 
 
 _POINTS = ("start", "via", "goal")
-_WISHES = ("half_space", "ratio", "join_speed", "obstacle", "timing", "single")
+_WISHES = ("half_space", "ratio", "join_speed", "obstacle", "timing", "single", "arm")
 _KEYS = ("method", "workspace", *_POINTS, "radius", *_WISHES)
 
 
@@ -141,25 +142,13 @@ def problem_of(table: Table) -> Problem:
         above=_above(table, method, obstacles),
         timing=read_timing(table),
         single=_single(table, method, start, via, goal),
+        arm=_arm(table),
     )
 
 
 def load_problem(path: Path) -> Problem:
     """Read a problem file. Raises ``InputError`` also when the file cannot be read."""
     return read_problem(read_text(path), str(path))
-
-
-def read_text(path: Path) -> str:
-    """The text of a file of at most ``MAX_BYTES``. Raises ``InputError`` when it cannot be read."""
-    try:
-        data = path.read_bytes()
-        if len(data) > MAX_BYTES:
-            raise InputError(f"{path}: expected a problem of at most {MAX_BYTES} bytes, found {len(data)}")
-        return data.decode("utf-8-sig")
-    except OSError as error:
-        raise InputError(f"{path}: expected a readable file, found: {error.strerror or error}") from None
-    except UnicodeDecodeError as error:
-        raise InputError(f"{path}: expected UTF-8 text, found byte {data[error.start]:#04x} at {error.start}") from None
 
 
 def _via(table: Table, start: Vector, goal: Vector, obstacles: tuple[Obstacle, ...]) -> tuple[Vector, Vector]:
@@ -233,6 +222,14 @@ def _single(table: Table, method: PlanMethod, start: Vector, via: Via, goal: Vec
     return None
 
 
+def _arm(table: Table) -> str | None:
+    """The name of an arm, which the planner knows."""
+    name = table.values.get("arm")
+    if name is not None and (not isinstance(name, str) or not name):
+        raise table.error("arm", "the name of an arm", describe(name))
+    return name
+
+
 def _check_distinct(table: Table, points: Mapping[str, Vector]) -> None:
     for first, second in itertools.pairwise(points):
         if same(points[first], points[second]):
@@ -286,6 +283,8 @@ def to_json(problem: Problem) -> dict[str, Any]:
         found["obstacle"] = [dict(item.stated) for item in problem.obstacles]
     if problem.timing is not None:
         found["timing"] = problem.timing.to_json()
+    if problem.arm is not None:
+        found["arm"] = problem.arm
     if problem.ratio != 1:
         found["ratio"] = str(problem.ratio)
     if problem.join_speed:

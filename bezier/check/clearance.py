@@ -12,6 +12,7 @@ import qe
 from bezier.check.stated import stored_path
 from bezier.curves.curve import Bezier
 from bezier.input import stored
+from bezier.input.files import read_text
 from bezier.input.numbers import describe
 from bezier.input.toml_table import Table
 from bezier.obstacles import survey
@@ -20,7 +21,7 @@ from bezier.obstacles.reader import read_obstacles
 from bezier.obstacles.survey import Finding
 from bezier.plan import Clock, Plan
 from bezier.planner.table import method_of
-from bezier.problem import problem_of, read_text
+from bezier.problem import problem_of
 from qe.errors import InputError, Unable
 from qe.worker import Channel
 

@@ -22,6 +22,7 @@ from bezier.input import stored
 from bezier.obstacles import survey
 from bezier.plan import Outcome, Plan, Stated
 from bezier.planner import avoid
+from bezier.planner.arm import with_joints
 from bezier.planner.outputs import COMPARISON, DATA, LISTED_IN, PICTURES, PROBLEM, REPORT, SUMMARY, data_texts, facts
 from bezier.planner.planning import with_findings, with_quality
 from bezier.planner.radius_rule import stated_rule
@@ -69,7 +70,7 @@ def restored(problem: Problem, certificate: Certificate, stated: Stated) -> tupl
         plan = avoid.with_stated_attempts(avoid.examined(plan), stated.summary.get("attempts"))
     larger = stated_radius(stated.summary)
     plan = with_findings(plan, lambda solvable: stated_rule(problem, solvable, larger))
-    return with_quality(plan), found.lines
+    return with_joints(with_quality(plan)), found.lines
 
 
 def stated_radius(summary: Mapping[str, Any]) -> Fraction | None:
@@ -207,5 +208,8 @@ def _told(plan: Plan) -> list[str]:
         lines.append(f"motion.json: {' and '.join(kept) or 'no limit'} proved to be kept at all times")
     if motion is not None and motion.reason:
         lines.append(f"motion.json: {motion.reason}")
+    if plan.joints is not None:
+        count = len(plan.joints.path.whole_runs)
+        lines.append(f"joints_certificate.json: {count} continuous motions of the joints from start to goal")
     joins = f"{plan.path.smoothness.name} at every join, " if plan.path.joins else ""
     return [*lines, f"{PATH}: {joins}every curve proved to lie in the workspace", f"{SUMMARY}: every entry but times"]

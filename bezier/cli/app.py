@@ -10,9 +10,12 @@ from collections.abc import Callable, Mapping, Sequence
 
 import typer
 
+from bezier.cli.certify_path import certify_path
 from bezier.cli.check import check
 from bezier.cli.clearance import clearance
 from bezier.cli.compare import compare
+from bezier.cli.ik import ik
+from bezier.cli.joints import joints
 from bezier.cli.plan import plan
 from qe.cli.shell import enter
 
@@ -21,6 +24,9 @@ COMMANDS: Mapping[str, Callable[..., int]] = {
     "check": check,
     "clearance": clearance,
     "compare": compare,
+    "ik": ik,
+    "certify-path": certify_path,
+    "joints": joints,
 }
 """In the order in which the help lists them. A command reads its input here and leaves the work to a worker."""
 

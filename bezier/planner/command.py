@@ -12,7 +12,7 @@ from bezier.curves.scalar import brief
 from bezier.motion import motion
 from bezier.paths import heights
 from bezier.plan import Clock, Outcome, Plan
-from bezier.planner import avoid
+from bezier.planner import arm, avoid
 from bezier.planner.outputs import REPORT, SUMMARY, summary, write_data
 from bezier.planner.planning import make_plan
 from bezier.planner.table import method_of
@@ -99,6 +99,7 @@ def in_words(made: Plan, target: FilePath, files: list[str], seconds: float) -> 
         lines += heights.summary_lines(made.heights)
     lines += motion.summary_lines(made.quality)
     lines += avoid.summary_lines(made)
+    lines += arm.summary_lines(made)
     accepted = all(verdict.accepted for verdict in made.checks.values())
     lines.append(f"certificates: {'accepted' if accepted else 'REJECTED'}")
     lines.append(f"{len(files)} files in {target} ({seconds:.2f} s): open {target / REPORT}")

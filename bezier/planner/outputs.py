@@ -22,7 +22,7 @@ from bezier.motion import motion
 from bezier.paths import heights
 from bezier.paths.path import Path
 from bezier.plan import Outcome, Plan
-from bezier.planner import avoid
+from bezier.planner import arm, avoid
 from bezier.planner.table import method_of
 from bezier.problem import Problem, to_json
 from qe.errors import InputError
@@ -32,7 +32,7 @@ SAMPLES = 51
 FIELD_BITS = 64
 REPORT, SUMMARY, COMPARISON = "report.html", "summary.json", "compare.json"
 PROBLEM = "problem.json"
-DATA = ("certificate.json", PROBLEM, "path.json", "path.csv", "region.json", "motion.json", "motion.csv")
+DATA = ("certificate.json", PROBLEM, "path.json", "path.csv", "region.json", "motion.json", "motion.csv", *arm.FILES)
 PICTURES = ("region.png", "path.png", "motion.png", "profile.png", "clearance.png")
 LISTED_IN = {
     SUMMARY: (*DATA, REPORT, SUMMARY, *PICTURES),
@@ -133,6 +133,7 @@ def facts(plan: Plan) -> dict[str, Any]:
         **method.json_entries(plan),
         **motion.json_entries(plan.quality),
         **avoid.json_entries(plan),
+        **arm.json_entries(plan),
         **_decided(plan),
         "problem": to_json(problem),
         "notes": [*problem.notes, *plan.remarks],
@@ -231,7 +232,7 @@ def data_texts(plan: Plan) -> dict[str, str]:
     if plan.path is not None:
         texts["path.json"] = json.dumps(path_json(plan, plan.path), indent=1, ensure_ascii=False) + "\n"
         texts["path.csv"] = path_csv(plan.path)
-    return {**texts, **motion.files(plan.path, plan.quality)}
+    return {**texts, **motion.files(plan.path, plan.quality), **arm.files(plan)}
 
 
 def write_data(plan: Plan, folder: FilePath) -> list[str]:

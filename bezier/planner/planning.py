@@ -9,6 +9,7 @@ from bezier.motion.motion import quality_of
 from bezier.paths import heights, origin
 from bezier.plan import Clock, Outcome, Plan, RadiusRule
 from bezier.planner import radius_rule
+from bezier.planner.arm import check_arm, with_joints
 from bezier.planner.avoid import avoiding
 from bezier.planner.table import method_of
 from bezier.problem import Problem
@@ -17,13 +18,18 @@ from qe.errors import BudgetExceeded, Unable
 
 def make_plan(problem: Problem, clock: Clock | None = None) -> Plan:
     """Plan a path. Raises ``Unable`` where no answer is reached, at limits with what is known by then."""
+    check_arm(problem)
     watch = clock or Clock()
     try:
         plan: Plan = avoiding(problem, watch) if problem.obstacles else method_of(problem.method).make(problem, watch)
         with watch.step("radius and heights"):
             plan = _with_findings(plan, watch)
         with watch.step("quality"):
-            return with_quality(plan)
+            plan = with_quality(plan)
+        if problem.arm is not None:
+            with watch.step("joints"):
+                plan = with_joints(plan)
+        return plan
     except Unable as error:
         limit = error.limit if isinstance(error, BudgetExceeded) else "time" if watch.is_over else None
         if limit is None:

@@ -12,7 +12,7 @@ from markupsafe import Markup
 
 from bezier.paths import heights
 from bezier.plan import Method, Plan
-from bezier.report import mathml, parts
+from bezier.report import joints, mathml, parts
 from bezier.report import obstacles as obstacle_report
 
 if TYPE_CHECKING:
@@ -52,6 +52,7 @@ def _common(plan: Plan, drawing: Drawing | None) -> dict[str, Any]:
         "charts": Markup(drawing.charts if drawing else ""),
         "clearance_chart": Markup(drawing.clearance if drawing else ""),
         **obstacle_report.sections(plan),
+        **joints.sections(plan.joints),
         "heights": heights.summary_lines(plan.heights) if plan.heights else [],
         "heights_tone": parts.tone(plan.heights is None or plan.heights.hold),
         "figures": figures(drawing.picture if drawing else None),

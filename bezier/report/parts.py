@@ -32,6 +32,7 @@ RESULTS = {
     Outcome.INFEASIBLE: "no control point exists",
     Outcome.BLOCKED: "an obstacle is in the way",
     Outcome.TOO_FAST: "a limit of the motion is not kept",
+    Outcome.OUT_OF_REACH: "the arm cannot follow the path",
 }
 SMOOTHNESS = {
     Smoothness.C2: "C² (value, first, second derivative)",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from qe.arguments import shown
+from qe.certify.branch import check_branch
 from qe.certify.cells import check_cells
 from qe.certify.clearance import check_clearance
 from qe.certify.containment import check_containment
@@ -23,6 +24,7 @@ _CHECKERS = {
     Kind.SUBSTITUTION: check_substitution,
     Kind.CONTAINMENT: check_containment,
     Kind.CLEARANCE: check_clearance,
+    Kind.BRANCH: check_branch,
 }
 
 

@@ -34,8 +34,8 @@ class Kind(Enum):
     follows. OPTIMUM: an optimal point of a convex problem, or that there is none. WITNESS: that an assignment
     satisfies a quantifier-free formula. SUBSTITUTION: that linear equations eliminate an existential block.
     CONTAINMENT: that a Bezier curve stays in a ball or half-space. CLEARANCE: that one never meets an obstacle, or
-    where it first does. DERIVATION: that a formula is equivalent to another, step by step. BUNDLE: several certificates
-    with labels.
+    where it first does. DERIVATION: that a formula is equivalent to another, step by step. BRANCH: that an arm follows
+    curves continuously. BUNDLE: several certificates with labels.
     """
 
     CELLS = "cells"
@@ -45,6 +45,7 @@ class Kind(Enum):
     CONTAINMENT = "containment"
     CLEARANCE = "clearance"
     DERIVATION = "derivation"
+    BRANCH = "branch"
     BUNDLE = "bundle"
 
 

@@ -55,6 +55,7 @@ ROWS = {
     "bezier.obstacles": 13,
     "bezier.paths": 14,
     "bezier.motion": 15,
+    "bezier.arm": 16,
     "bezier.problem": 16,
     "bezier.pictures": 17,
     "bezier.plan": 18,

@@ -1,0 +1,1 @@
+"""Robot arms: models from Denavit-Hartenberg rows, exact kinematics, certified paths and joint sequences."""

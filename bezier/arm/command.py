@@ -1,0 +1,103 @@
+"""What the commands about arms print: in words, or as one JSON object."""
+
+from __future__ import annotations
+
+import json as json_text
+from collections.abc import Mapping, Sequence
+from fractions import Fraction
+from math import degrees
+from typing import Any
+
+from bezier.arm import path_report
+from bezier.arm.evidence import certificates
+from bezier.arm.inverse import Ends, Inverse, Solution, solve
+from bezier.arm.joint_path import joint_path
+from bezier.arm.model import Arm
+from bezier.curves.curve import Bezier
+from bezier.curves.scalar import brief, decimal_text, described
+from qe.certify.verify import verify
+from qe.proof.certificate import Certificate
+from qe.worker import Channel
+
+DIGITS = 15
+
+
+def inverse(channel: Channel, arm: Arm, point: Sequence[Any], *, json: bool) -> str:
+    """``bezier ik``."""
+    found = solve(arm, point)
+    return json_text.dumps(to_json(found), indent=1, ensure_ascii=False) if json else "\n".join(in_words(found))
+
+
+def certify(channel: Channel, arm: Arm, curves: Mapping[str, Bezier], *, json: bool) -> tuple[str, str]:
+    """``bezier certify-path``: what to print, and the certificates of the continuous joint motions as text."""
+    found = joint_path(arm, curves)
+    bundle = Certificate.bundle(certificates(found))
+    verdict = verify(bundle)
+    if json:
+        data = {**path_report.to_json(found), "certified": verdict.accepted}
+        return json_text.dumps(data, indent=1, ensure_ascii=False), bundle.to_json()
+    told = "accepted" if verdict.accepted else f"REJECTED at {verdict.step}: {verdict.reason}"
+    lines = [*path_report.in_words(found), f"certificates of the joint motions: {told}"]
+    return "\n".join(lines), bundle.to_json()
+
+
+def to_json(found: Inverse) -> dict[str, Any]:
+    """All solutions as JSON data.
+
+    ``count``: of different solutions, null for infinitely many; then the joints in ``free`` can be chosen (null in the
+    solutions). Each joint of a solution has its ``angle`` (rad), ``cos`` and ``sin``, and a ``box`` that isolates the
+    solution: exact rational bounds of cosine and sine.
+    """
+    return {
+        "arm": found.arm.name,
+        "point": [described(c) for c in found.point],
+        "count": found.count,
+        "count_within_limits": None if found.free else sum(s.allowed for s in found.solutions),
+        "reachable": found.is_reachable,
+        "free": list(found.free),
+        "special": list(found.cases),
+        "solutions": [_solution(found.arm, s) for s in found.solutions],
+    }
+
+
+def _solution(arm: Arm, solution: Solution) -> dict[str, Any]:
+    joints: dict[str, Any] = {}
+    for joint, value in zip(arm.joints, solution.values, strict=True):
+        joints[joint.name] = None
+        if value is not None:
+            box = {"cos": [str(e) for e in value.cosine], "sin": [str(e) for e in value.sine]}
+            joints[joint.name] = {
+                "angle": float(value),
+                "cos": _decimal(value.cosine),
+                "sin": _decimal(value.sine),
+                "box": box,
+            }
+    return {"joints": joints, "multiple": solution.multiple, "within_limits": solution.allowed}
+
+
+def _decimal(ends: Ends) -> str:
+    return decimal_text(Fraction(ends[0] + ends[1]) / 2, DIGITS)
+
+
+def in_words(found: Inverse) -> list[str]:
+    """The same for people."""
+    where = ", ".join(brief(c) for c in found.point)
+    lines = [f"{found.arm.name} at ({where}) mm"]
+    lines += [f"special: {case}" for case in found.cases]
+    names = [joint.name for joint in found.arm.joints]
+    if not found.is_reachable:
+        return [*lines, "no joint position reaches the point (proved: the equation of the last joint has no real root)"]
+    if found.free:
+        lines.append(f"infinitely many solutions, {', '.join(found.free)} free; {len(found.solutions)} families")
+    else:
+        lines.append(f"{len(found.solutions)} solution{'s' if len(found.solutions) != 1 else ''} (proved), in rad:")
+    for k, solution in enumerate(found.solutions, start=1):
+        parts = [
+            f"{name} = free" if angle is None else f"{name} = {angle:.12f} ({degrees(angle):.4f}°)"
+            for name, angle in zip(names, solution.angles, strict=True)
+        ]
+        notes = ["two solutions meet"] * solution.multiple + ["outside the limits of the joints"] * (
+            not solution.allowed
+        )
+        lines.append(f"  {k}. " + ", ".join(parts) + (f"  [{'; '.join(notes)}]" if notes else ""))
+    return lines

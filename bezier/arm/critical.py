@@ -1,0 +1,159 @@
+"""Where along a curve the number of solutions may change, and where else something is special: exact parameters.
+
+Substituting p(s) first leaves polynomials in t whose coefficients are polynomials in s over the field of the arm.
+Between neighbouring zeros of the polynomials below all real solutions t of the equation (with m where it is needed) are
+simple and no two meet, none passes an angle that is not determined: so their number is constant and each is an analytic
+function of s.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from enum import Enum
+from fractions import Fraction
+from functools import cached_property
+from itertools import pairwise
+from math import comb
+
+from bezier.arm.elimination import TURNS, Geometry, Reduction
+from bezier.arm.inverse import geometry_of
+from bezier.arm.model import Arm
+from bezier.arm.ratio import Ratio, constant, reduced
+from bezier.curves.curve import Bezier
+from bezier.curves.scalar import exactly, rational
+from qe.errors import InputError, Unable
+from qe.exact.algebraic import RealAlgebraic
+from qe.exact.point_values import roots_between
+from qe.exact.ring import Poly, Ring
+from qe.exact.sample import Point
+
+NAMES = ("w", "s", "t", "m")
+S = 1
+LIFTED = 4
+"""The degree in t of |κ|² (1 + t²)² and of m², where they do not vanish at the angle that t misses."""
+
+Number = Fraction | RealAlgebraic
+
+
+class Reason(Enum):
+    """Why a parameter is special."""
+
+    MERGE = "solutions meet"
+    AXIS = "on the axis of the first joint"
+    FREE = "the second joint does not move the end effector"
+    SINE = "two solutions share the sine of the last joint"
+
+
+@dataclass(frozen=True, eq=False)
+class AlongCurve:
+    """The reductions along one curve, whose control points (mm) are rational."""
+
+    arm: Arm
+    curve: Bezier
+
+    def __post_init__(self) -> None:
+        if self.curve.dimension != 3:
+            raise InputError(f"a path of the arm is in space: dimension 3 expected, {self.curve.dimension} found")
+        if any(rational(c) is None for p in self.curve.points for c in p):
+            raise InputError("a path of the arm needs rational control points")
+
+    @cached_property
+    def point(self) -> tuple[Ratio, ...]:
+        """p(s), coordinates as polynomials of the ring ``NAMES``."""
+        ring, field = Ring.of(NAMES), self.arm.field
+        s = Ratio(ring.gen(S), 1, field)
+        found = []
+        for i in range(3):
+            total = constant(ring, 0, field)
+            for c in reversed(powers([exactly(p[i]) for p in self.curve.points])):
+                total = total * s + c
+            found.append(total)
+        return tuple(found)
+
+    @cached_property
+    def _reductions(self) -> dict[int, Reduction]:
+        return {}
+
+    def reduction(self, turn: int) -> Reduction:
+        """The reduction with angles counted from ``TURNS[turn]``."""
+        known = self._reductions
+        if turn not in known:
+            known[turn] = self.geometry.reduce(Ring.of(NAMES), self.point, TURNS[turn])
+        return known[turn]
+
+    @property
+    def geometry(self) -> Geometry:
+        """The constants of the arm."""
+        return geometry_of(self.arm)
+
+    def place(self, s: Number) -> Point:
+        """The point of the ring at which the reductions are to be read."""
+        return Point.of(Ring.of(NAMES), [self.arm.field.theta, s])
+
+    # --- what may vanish ---------------------------------------------------------------------
+    @cached_property
+    def regular(self) -> Reduction:
+        """A reduction whose equation has its full degree for almost all s."""
+        for k in range(len(TURNS)):
+            found = self.reduction(k)
+            if len(found.coefficients) > found.degree:
+                return found
+        raise Unable(f"along the curve the equation of {self.arm.name} has a solution at every angle that was tried")
+
+    def polynomials(self) -> Iterator[tuple[Reason, Poly]]:
+        """Polynomials in w and s whose zeros contain all places where the number of solutions may change."""
+        r, field = self.regular, self.arm.field
+        t = r.ring.index["t"]
+        yield Reason.MERGE, reduced(r.equation.discriminant(t), field)
+        yield Reason.AXIS, r.axis
+        for reason, other in ((Reason.MERGE, r.square), (Reason.FREE, r.kappa)):
+            if other is not None:
+                yield reason, reduced(r.equation.resultant(other, t), field)
+                if other.degree(t) < LIFTED:  # it vanishes at the angle that t misses: so may the equation for some s
+                    yield reason, r.coefficients[-1]
+
+    def critical(self) -> list[tuple[Number, tuple[Reason, ...]]]:
+        """All such parameters in [0, 1], ascending. Raises ``Unable`` where the whole curve is special."""
+        found: dict[Number, list[Reason]] = {}
+        for reason, p in self.polynomials():
+            if not p:
+                raise Unable(
+                    f"everywhere along the curve: {reason.value}; the number of solutions is not followed there"
+                )
+            for s in self._zeros(p):
+                found.setdefault(s, []).append(reason)
+        return [(s, tuple(dict.fromkeys(found[s]))) for s in sorted(found)]
+
+    def shared_sines(self) -> list[Number]:
+        """The parameters in [0, 1] where two real solutions have the sine, not the cosine of the last joint in common.
+
+        With S, C the sine and cosine the equation is A(S) + C B(S), A of degree 2 and B of degree 1: both vanish.
+        """
+        r = self.reduction(0)
+        if r.degree != 4:
+            return []
+        zero = r.ring.constant(0)
+        q0, q1, q2, q3, q4 = (*r.coefficients, zero, zero, zero, zero, zero)[:5]
+        b0, b1 = 2 * (q0 - q4), q1 - q3  # all times 4
+        a0, a1, a2 = 2 * (q0 + q4), q1 + q3, q2 - q0 - q4
+        both = reduced(a0 * b1 * b1 - a1 * b0 * b1 + a2 * b0 * b0, self.arm.field)
+        inside = b1 * b1 - b0 * b0
+        return [s for s in self._zeros(both) if self.place(s).sign(inside) > 0] if both else []
+
+    def _zeros(self, p: Poly) -> list[Number]:
+        """The zeros in [0, 1] of a polynomial in w and s, at the true value of w."""
+        field = self.arm.field
+        minimal = p.ring.from_terms({(k, 0, 0, 0): c for k, c in enumerate(field.minimal_polynomial) if c})
+        norm = p if field.degree == 1 else minimal.resultant(p, 0)
+        return [s for s in roots_between(norm, S) if self.place(s).sign(p) == 0]
+
+
+def powers(b: list[Fraction]) -> list[Fraction]:
+    """The coefficients of 1, s, s², … of a polynomial given by its Bernstein coefficients."""
+    n = len(b) - 1
+    differences, row = [b[0]], b
+    for _ in range(n):
+        row = [y - x for x, y in pairwise(row)]
+        differences.append(row[0])
+    return [comb(n, k) * d for k, d in enumerate(differences)]

@@ -1,0 +1,172 @@
+"""Branches: joint positions followed along a curve, each step proved (``qe.exact.motion_chain``).
+
+Every piece proves exactly one solution in a tube of boxes over an interval of s. Two pieces belong to one branch when
+at their common parameter the solution of the one, known to a smaller box, lies in the box of the other, which holds no
+second one. So a branch is a proof that along the curve a solution exists for every s, and that it depends smoothly on
+s.
+"""
+
+from __future__ import annotations
+
+from bisect import bisect_left
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import lru_cache
+from operator import attrgetter
+
+from bezier.arm.critical import powers
+from bezier.arm.inverse import Solution
+from bezier.arm.kinematics import wrapped
+from bezier.arm.model import Arm, Motion
+from bezier.curves.curve import Bezier
+from bezier.curves.scalar import exactly
+from qe.exact.motion_chain import MotionChain, Piece
+from qe.exact.point_values import pi_ends
+
+FIRST, LEAST = Fraction(1, 16), Fraction(1, 1 << 24)
+NEAR = Fraction(1, 1 << 12)
+"""How near to a place where solutions meet branches are followed."""
+
+ZERO, ONE = Fraction(0), Fraction(1)
+SPARE = Fraction(5, 4)
+"""What links leave to a checker that computes with other roundings."""
+
+Box = tuple[tuple[Fraction, Fraction], ...]
+Note = Callable[[], None]
+
+
+@dataclass(frozen=True, slots=True)
+class Branch:
+    """Linked pieces over [low, high] within [0, 1], in ascending order."""
+
+    pieces: tuple[Piece, ...]
+
+    @property
+    def low(self) -> Fraction:
+        """The least parameter."""
+        return self.pieces[0].low
+
+    @property
+    def high(self) -> Fraction:
+        """The greatest parameter."""
+        return self.pieces[-1].high
+
+    def piece(self, s: Fraction) -> Piece:
+        """A piece that contains s."""
+        return self.pieces[bisect_left(self.pieces, s, key=attrgetter("high"))]
+
+    def at(self, s: Fraction) -> tuple[float, ...]:
+        """The joint values at s, to about the width of the boxes (rad or mm)."""
+        return tuple(map(float, self.piece(s).at(s)))
+
+    def contains(self, s: Fraction, solution: Solution) -> bool:
+        """Whether the branch takes this solution at s, exactly: its only solution in the box there is this one."""
+        if not self.low <= s <= self.high:
+            return False
+        piece = self.piece(s)
+        near = [float(v) for v in piece.at(s)]
+        for value, other, size in zip(solution.values, near, piece.radius, strict=True):
+            if value is None or abs(wrapped(float(value) - other)) > 2 * size + 1e-6:
+                return False  # far away, as most are
+        return _inside(_turned(solution, near), piece, s)
+
+
+@lru_cache(maxsize=64)
+def chain_of(arm: Arm) -> MotionChain:
+    """The arm in ball arithmetic."""
+    return MotionChain(arm.chain.constants, [j.motion is Motion.REVOLUTE for j in arm.joints])
+
+
+def curve_powers(curve: Bezier) -> list[list[Fraction]]:
+    """The coefficients of 1, s, s², … of each coordinate of a curve with rational control points."""
+    return [powers([exactly(p[i]) for p in curve.points]) for i in range(curve.dimension)]
+
+
+def follow(
+    arm: Arm,
+    curve: Bezier,
+    start: Sequence[float],
+    at: Fraction,
+    end: Fraction,
+    note: Note = lambda: None,
+    before: tuple[Piece, Fraction] | None = None,
+    stops: Sequence[Fraction] = (),
+) -> tuple[Piece, ...]:
+    """Pieces from ``at`` towards ``end`` as far as they can be proved, in ascending order of s.
+
+    ``start``: joint values near the solution at ``at``. They end before ``end`` where the arm becomes singular.
+    ``before``: a piece and a parameter at which its solution is that at ``at`` (of this curve, or of one that this one
+    goes on from): the first piece is linked to it. ``stops``: about where solutions meet, where steps get small.
+    """
+    chain, coefficients = chain_of(arm), curve_powers(curve)
+    forwards = end > at
+    pieces: list[Piece] = []
+    here, near, step = at, list(start), FIRST
+    while here != end and step >= LEAST:
+        note()
+        far = min(here + step, end) if forwards else max(here - step, end)
+        low, high = (here, far) if forwards else (far, here)
+        if step < NEAR and any(abs(here - stop) < 2 * NEAR for stop in stops):
+            break
+        piece = chain.piece(coefficients, low, high, near)
+        last = (pieces[-1], here) if pieces else before
+        if piece is None or (last is not None and not _same(*last, piece, here)):
+            step /= 2
+            continue
+        pieces.append(piece)
+        here, near, step = far, [float(v) for v in piece.at(far)], min(2 * step, FIRST)
+    return tuple(pieces if forwards else reversed(pieces))
+
+
+def whole(
+    arm: Arm,
+    curve: Bezier,
+    solution: Solution,
+    at: Fraction,
+    ends: tuple[Fraction, Fraction],
+    stops: Sequence[Fraction] = (),
+) -> Branch | None:
+    """The branch through a solution at ``at``, followed both ways towards ``ends``; None where not even one step is
+    proved."""
+    start = [angle for angle in solution.angles if angle is not None]
+    if len(start) != len(arm.joints):
+        return None
+    before = follow(arm, curve, start, at, ends[0], stops=stops) if ends[0] < at else ()
+    link = (before[-1], at) if before else None
+    pieces = before + (follow(arm, curve, start, at, ends[1], before=link, stops=stops) if at < ends[1] else ())
+    return Branch(pieces) if pieces and Branch(pieces).contains(at, solution) else None
+
+
+def joined(one: Piece, other: Piece) -> bool:
+    """Whether the solution at the end of one curve is the one at the beginning of the next (which begins where that
+    ends)."""
+    return _same(one, ONE, other, ZERO)
+
+
+def _same(one: Piece, s: Fraction, other: Piece, t: Fraction) -> bool:
+    """Whether the solutions at s and at t, over the same point, are one: the inner box of one lies in the other box."""
+    gaps = [abs(a - b) for a, b in zip(one.at(s), other.at(t), strict=True)]
+    return any(
+        all(gap + SPARE * Fraction(r) <= Fraction(size) for gap, r, size in zip(gaps, a.inner, b.radius, strict=True))
+        for a, b in ((one, other), (other, one))
+    )
+
+
+def _inside(box: Box, piece: Piece, s: Fraction) -> bool:
+    middle = piece.at(s)
+    return all(
+        m - Fraction(r) <= low and high <= m + Fraction(r)
+        for (low, high), m, r in zip(box, middle, piece.radius, strict=True)
+    )
+
+
+def _turned(solution: Solution, near: Sequence[float]) -> Box:
+    """The box of the solution, by full turns next to these joint values."""
+    found = []
+    for value, other in zip(solution.values, near, strict=True):
+        assert value is not None, "a branch is followed where no angle is free"
+        turns = round((other - float(value)) / 6.283185307179586)
+        low, high = pi_ends(96) if turns >= 0 else pi_ends(96)[::-1]
+        found.append((value.angle[0] + 2 * turns * low, value.angle[1] + 2 * turns * high))
+    return tuple(found)

@@ -1,0 +1,215 @@
+"""Inverse kinematics at a point: all real joint positions that put the end effector there, with a proved count.
+
+The equation of ``bezier.arm.elimination``, confirmed once per arm by putting the angles back into its forward
+kinematics, is solved at the point by exact real root isolation over the field of its coefficients; every real root is
+one solution.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import lru_cache, partial
+from typing import Any
+
+from bezier.arm.elimination import TURNS, Geometry, Quotient, Reduction
+from bezier.arm.limits import allowed
+from bezier.arm.model import Arm
+from bezier.arm.ratio import variable
+from bezier.arm.substitute_back import confirm
+from bezier.curves.scalar import rational
+from qe.errors import InputError, InternalError
+from qe.exact.algebraic import RealAlgebraic
+from qe.exact.point_values import Evaluation, angle_ends, multiple_roots, roots_above
+from qe.exact.ring import Ring
+from qe.exact.sample import Point
+
+Ends = tuple[Fraction, Fraction]
+Reductions = Callable[[int], Reduction]
+
+BITS = 64
+NAMES = ("w", "x", "y", "z", "t", "m")
+
+
+@dataclass(frozen=True, slots=True)
+class Value:
+    """One joint of one solution: intervals around cosine, sine and angle (rad), each at most 2^-60 wide.
+
+    ``radians``: the angle in floating point, in (-pi, pi].
+    """
+
+    cosine: Ends
+    sine: Ends
+    angle: Ends
+    radians: float
+
+    def __float__(self) -> float:
+        return self.radians
+
+
+@dataclass(frozen=True, eq=False)
+class Solution:
+    """One solution. ``values``: one for each joint, None where its angle is free; ``multiple``: two solutions meet
+    here;
+    ``allowed``: whether it keeps the limits of the joints. ``place``: the exact point that it was read from.
+    """
+
+    values: tuple[Value | None, ...]
+    multiple: bool
+    allowed: bool
+    place: Evaluation
+    quotients: tuple[tuple[Quotient, Quotient] | None, ...]
+
+    @property
+    def angles(self) -> tuple[float | None, ...]:
+        """The angles (rad)."""
+        return tuple(None if value is None else float(value) for value in self.values)
+
+    def refined(self, joint: int, bits: int) -> Value | None:
+        """The value of a joint with intervals at most about 2^-bits wide."""
+        pair = self.quotients[joint]
+        return None if pair is None else _value(self.place, pair, bits)
+
+
+@dataclass(frozen=True, eq=False)
+class Inverse:
+    """All solutions at a point (mm).
+
+    ``free``: the joints whose angle is not determined; then every solution stands for a family, and there are
+    infinitely many. ``cases``: the names of what is special about the point.
+    """
+
+    arm: Arm
+    point: tuple[Any, ...]
+    solutions: tuple[Solution, ...]
+    free: tuple[str, ...] = ()
+    cases: tuple[str, ...] = ()
+
+    @property
+    def count(self) -> int | None:
+        """The number of different solutions; None for infinitely many."""
+        return None if self.free else len(self.solutions)
+
+    @property
+    def is_reachable(self) -> bool:
+        """Whether there is a solution."""
+        return bool(self.solutions or self.free)
+
+
+def solve(arm: Arm, point: Sequence[Any]) -> Inverse:
+    """All solutions at a point: coordinates (mm) are rational numbers, field elements or ``RealAlgebraic``.
+
+    Raises ``Unable`` for an arm that the reduction does not fit, ``InputError`` for anything but three exact numbers.
+    """
+    numbers = tuple(_exact(v) for v in point)
+    if len(numbers) != 3:
+        raise InputError(f"point: three coordinates expected, {len(numbers)} found")
+    return solve_at(arm, place(general(arm, 0).ring, arm, numbers), numbers)
+
+
+def solve_at(arm: Arm, here: Point, numbers: tuple[Any, ...], reductions: Reductions | None = None) -> Inverse:
+    """``solve`` where the point stands in the ring of the ``reductions`` already (those for all points by default)."""
+    reductions = reductions or partial(general, arm)
+    first = reductions(0)
+    on_axis = here.sign(first.axis) == 0
+    cases = ((f"on the axis of {arm.joints[0].name}",) if on_axis else ()) + (
+        (f"on the circle of the shoulder, the centre of {arm.joints[1].name}",)
+        if all(here.sign(p) == 0 for p in first.shoulder)
+        else ()
+    )
+    values = Evaluation(here)
+    for k in range(len(TURNS)):
+        reduction = reductions(k)
+        roots = roots_above(here, reduction.ring.index["t"], reduction.equation)
+        if roots is None:
+            return _family(arm, here, numbers, reduction, cases)
+        if len(reduction.coefficients) <= reduction.degree or here.sign(reduction.coefficients[-1]) == 0:
+            continue  # the angle that t misses may be a solution: another φ tells
+        found = [
+            solution
+            for root, multiple in zip(roots, multiple_roots(roots), strict=True)
+            for solution in _at_root(arm, values.extend(root), reduction, on_axis, multiple)
+        ]
+        found.sort(key=lambda s: [v for v in s.angles if v is not None])
+        undetermined = {name for s in found for name, v in zip(_names(arm), s.values, strict=True) if v is None}
+        if any(s.multiple for s in found) and not on_axis:
+            cases = (*cases, "two solutions meet: the arm is singular here")
+        return Inverse(arm, numbers, tuple(found), tuple(n for n in _names(arm) if n in undetermined), cases)
+    raise InternalError("an equation of degree four has more than four roots")
+
+
+@lru_cache(maxsize=256)
+def general(arm: Arm, turn: int) -> Reduction:
+    """The reduction for all points, with angles counted from ``TURNS[turn]``, confirmed."""
+    ring = Ring.of(NAMES)
+    point = [variable(ring, name, arm.field) for name in "xyz"]
+    reduction = geometry_of(arm).reduce(ring, point, TURNS[turn])
+    confirm(arm, reduction, point)
+    return reduction
+
+
+@lru_cache(maxsize=64)
+def geometry_of(arm: Arm) -> Geometry:
+    """The constants of the reduction."""
+    return Geometry.of(arm)
+
+
+def place(ring: Ring, arm: Arm, numbers: Sequence[Any]) -> Point:
+    """The point of the ring with the generator of the arm's field and these coordinates."""
+    return Point.of(ring, [arm.field.theta, *numbers])
+
+
+def _exact(value: Any) -> Fraction | RealAlgebraic:
+    if isinstance(value, bool) or not (isinstance(value, int | Fraction | RealAlgebraic) or hasattr(value, "field")):
+        raise InputError(f"point: exact numbers expected (int, Fraction, RealAlgebraic), {type(value).__name__} found")
+    number = rational(value)
+    if number is not None:
+        return number
+    algebraic: RealAlgebraic = value if isinstance(value, RealAlgebraic) else value.to_algebraic()
+    return algebraic
+
+
+def _names(arm: Arm) -> tuple[str, ...]:
+    return tuple(joint.name for joint in arm.joints)
+
+
+def _at_root(arm: Arm, here: Evaluation, reduction: Reduction, on_axis: bool, multiple: bool) -> Iterator[Solution]:
+    """The solutions that belong to one root of the equation in t: one, or two, one or none where m is needed."""
+    if reduction.square is None:
+        yield _solution(arm, here, reduction, on_axis, multiple)
+        return
+    side = here.point.sign(reduction.square)
+    if side < 0:
+        return
+    m = reduction.ring.var("m")
+    roots = roots_above(here.point, reduction.ring.index["m"], m * m - reduction.square)
+    for root in roots or ():
+        yield _solution(arm, here.extend(root), reduction, on_axis, multiple or side == 0)
+
+
+def _solution(arm: Arm, here: Evaluation, reduction: Reduction, on_axis: bool, multiple: bool) -> Solution:
+    first, second, last = reduction.pairs
+    turns = here.point.sign(reduction.kappa) == 0
+    known = (None if on_axis else first, None if turns else second, last)
+    values = tuple(None if pair is None else _value(here, pair, BITS) for pair in known)
+    keeps = all(
+        pair is None or allowed(joint, here, pair, _value) for joint, pair in zip(arm.joints, known, strict=True)
+    )
+    return Solution(values, multiple, keeps, here, known)
+
+
+def _value(here: Evaluation, pair: tuple[Quotient, Quotient], bits: int) -> Value:
+    cosine, sine = (here.quotient(q.top, q.bottom, q.scale, bits) for q in pair)
+    angle = angle_ends(cosine, sine, bits)
+    return Value(cosine, sine, angle, float((angle[0] + angle[1]) / 2))
+
+
+def _family(arm: Arm, here: Point, numbers: tuple[Any, ...], reduction: Reduction, cases: tuple[str, ...]) -> Inverse:
+    """The equation holds for all t: a family of solutions, or none where m² is negative for all t."""
+    if reduction.square is not None:
+        t = reduction.ring.index["t"]
+        roots = roots_above(here, t, reduction.square)
+        if roots == [] and here.sign(reduction.square.coefficients(t)[0]) < 0:
+            return Inverse(arm, numbers, (), (), cases)
+    return Inverse(arm, numbers, (), _names(arm)[1:], (*cases, f"{arm.joints[2].name} can be chosen"))

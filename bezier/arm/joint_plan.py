@@ -1,0 +1,193 @@
+"""From a path to a motion of the joints: the study, the sequence of least change, the time law with its proved limits,
+the files."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import accumulate
+from typing import Any
+
+from bezier.arm import path_report
+from bezier.arm.joint_path import JointPath, joint_path
+from bezier.arm.kinematics import jacobians, positions, skeleton
+from bezier.arm.model import Arm
+from bezier.arm.motion import Extreme, JointMotion, joint_motion
+from bezier.arm.sequence import JointSequence, joint_sequence, samples_of
+from bezier.curves.curve import Bezier
+from bezier.motion.timelaw import TimeLaw
+from qe.errors import Unable
+
+Note = Callable[[], None]
+DECIMALS = 9
+
+
+@dataclass(frozen=True, eq=False)
+class JointPlan:
+    """``ends``: the share of the law's path at which each curve ends.
+
+    ``sequence`` and ``motion`` are None where there is none; ``remarks`` say why, in words."""
+
+    path: JointPath
+    law: TimeLaw
+    ends: tuple[Fraction, ...]
+    duration: Fraction
+    sequence: JointSequence | None
+    motion: JointMotion | None
+    remarks: tuple[str, ...]
+
+    @property
+    def is_proved(self) -> bool:
+        """Whether one continuous motion reaches the whole path and keeps all limits at all times."""
+        return self.path.is_reachable and self.motion is not None and self.motion.keeps_limits
+
+
+def joint_plan(
+    arm: Arm,
+    curves: Mapping[str, Bezier],
+    law: TimeLaw,
+    duration: Fraction,
+    samples: int,
+    note: Note = lambda: None,
+    parts: Mapping[str, Fraction] | None = None,
+) -> JointPlan:
+    """Plan the joints for a path (curves with rational control points, mm) run through in ``duration`` seconds.
+
+    ``parts``: what each curve takes of the path's parameter; all the same by default.
+    """
+    sizes = [Fraction(1) if parts is None else parts[name] for name in curves]
+    ends = tuple(total / sum(sizes) for total in accumulate(sizes))
+    path = joint_path(arm, curves, note)
+    remarks: list[str] = []
+    if not path.is_reachable:
+        return JointPlan(path, law, ends, duration, None, None, ("the path leaves what the arm can reach",))
+    sequence = motion = None
+    try:
+        sequence = joint_sequence(path, samples_of(ends, law, samples), note)
+        remarks += [_switch(s.before.tau, s.after.tau, s.change) for s in sequence.switches]
+        run = next((run for run in path.runs if run.number == sequence.run), None)
+        if run is not None:
+            motion = joint_motion(path, run, law, duration, ends)
+            if not motion.keeps_limits:
+                remarks.append(f"limits of the joints are not proved to be kept; {motion.enough} s are enough")
+    except Unable as error:
+        remarks.append(str(error))
+    return JointPlan(path, law, ends, duration, sequence, motion, tuple(remarks))
+
+
+def _switch(before: Fraction, after: Fraction, change: float) -> str:
+    where = f"between {float(before):.4g} and {float(after):.4g} of the time"
+    return f"{where} no proved motion goes on: the sequence changes by {change:.4g} rad there"
+
+
+def table(plan: JointPlan) -> tuple[list[str], list[list[float]]]:
+    """The sequence as a table: time (s), angles (rad), velocities (rad/s), position (mm).
+
+    Velocities are those of the path's solution, J^-1 p' in floating point; NaN where the arm is singular.
+    """
+    import numpy as np
+
+    assert plan.sequence is not None, "only plans with a sequence have a table"
+    names = [joint.name for joint in plan.path.arm.joints]
+    header = ["time", *names, *(f"{name}_velocity" for name in names), "x", "y", "z"]
+    curves, arm, total = list(plan.path.curves.values()), plan.path.arm, float(plan.duration)
+    matrices = jacobians(arm, plan.sequence.angles)
+    reached = positions(arm, plan.sequence.angles)
+    rows = []
+    for k, (sample, angles) in enumerate(zip(plan.sequence.samples, plan.sequence.angles, strict=True)):
+        tangent = np.array([float(c) for c in curves[sample.curve].derivative(1, sample.s)])
+        share = plan.ends[sample.curve] - (plan.ends[sample.curve - 1] if sample.curve else 0)
+        rate = float(plan.law.derivatives(sample.tau)[1] / share) / total
+        singular = abs(np.linalg.det(matrices[k])) < 1e-6
+        speed = np.full(len(names), np.nan) if singular else np.linalg.solve(matrices[k], tangent * rate)
+        rows.append([float(sample.tau) * total, *angles, *map(float, speed), *map(float, reached[k])])
+    return header, rows
+
+
+def to_csv(plan: JointPlan) -> str:
+    """``joints.csv``."""
+    header, rows = table(plan)
+    out = io.StringIO()
+    writer = csv.writer(out, lineterminator="\n")
+    writer.writerow(header)
+    writer.writerows([[f"{value:.{DECIMALS}f}" for value in row] for row in rows])
+    return out.getvalue()
+
+
+def to_json(plan: JointPlan) -> dict[str, Any]:
+    """``joints.json``: the study of the path, the sequence, and what is proved about the motion."""
+    found: dict[str, Any] = {
+        **path_report.to_json(plan.path),
+        "duration": str(plan.duration),
+        "proved": plan.is_proved,
+        "remarks": list(plan.remarks),
+        "run": None if plan.sequence is None else plan.sequence.run,
+        "total_change": None if plan.sequence is None else round(plan.sequence.change, DECIMALS),
+        "limits": {} if plan.motion is None else plan.motion.kept,
+        "extremes": {} if plan.motion is None else _extremes(plan.motion),
+        "columns": [],
+        "rows": [],
+    }
+    if plan.sequence is not None:
+        header, rows = table(plan)
+        found["columns"] = header
+        found["rows"] = [[None if v != v else round(v, DECIMALS) for v in row] for row in rows]
+    return found
+
+
+def _extremes(motion: JointMotion) -> dict[str, Any]:
+    """The largest absolute velocity (rad/s) and acceleration (rad/s²) of each joint: bounds that are proved."""
+    parts = zip(motion.joints, motion.speeds, motion.accelerations, strict=True)
+    return {j.name: {"velocity": _bounds(v), "acceleration": _bounds(a)} for j, v, a in parts}
+
+
+def _bounds(value: Extreme) -> list[float]:
+    return [float(f"{float(value.low):.6g}"), float(f"{float(value.high) * (1 + 1e-5):.6g}")]
+
+
+def animation(plan: JointPlan, frames: int = 150) -> str:
+    """What the moving picture needs, as JSON text: frames with the points of the arm (mm) and its angles, and the
+    path."""
+    assert plan.sequence is not None, "only plans with a sequence move"
+    arm, sequence = plan.path.arm, plan.sequence
+    step = max(1, len(sequence.angles) // frames)
+    chosen = sorted({*range(0, len(sequence.angles), step), len(sequence.angles) - 1})
+    curves = plan.path.curves.values()
+    trace = [[round(float(c), 2) for c in curve.point(Fraction(k, 40))] for curve in curves for k in range(41)]
+    return json.dumps(
+        {
+            "names": [joint.name for joint in arm.joints],
+            "moving": [row.joint is not None for row in arm.rows],
+            "path": trace,
+            "duration": float(plan.duration),
+            "frames": [
+                {
+                    "t": round(float(sequence.samples[k].tau * plan.duration), 4),
+                    "q": [round(a, 5) for a in sequence.angles[k]],
+                    "p": [[round(c, 2) for c in point] for point in skeleton(arm, sequence.angles[k])],
+                }
+                for k in chosen
+            ],
+        },
+        separators=(",", ":"),
+    )
+
+
+def in_words(plan: JointPlan) -> list[str]:
+    """The plan of the joints for people."""
+    lines = path_report.in_words(plan.path)
+    if plan.sequence is not None:
+        kept = f"motion {plan.sequence.run} kept throughout" if plan.sequence.run else "no single motion kept"
+        size, change = len(plan.sequence.angles), plan.sequence.change
+        lines.append(f"sequence of {size} joint positions: {change:.6g} rad in all, {kept}")
+    if plan.motion is not None:
+        for joint, v, a in zip(plan.motion.joints, plan.motion.speeds, plan.motion.accelerations, strict=True):
+            speed, push = f"{float(v.high):.4g} rad/s", f"{float(a.high):.4g} rad/s^2"
+            lines.append(f"  {joint.name}: at most {speed} and {push} at all times (proved)")
+        words = {True: "kept (proved)", False: "EXCEEDED", None: "closer than the bounds can tell"}
+        lines += [f"  limit of {name}: {words[kept]}" for name, kept in plan.motion.kept.items()]
+    return lines + [f"note: {remark}" for remark in plan.remarks]

@@ -1,0 +1,134 @@
+"""Forward kinematics: exact for exact values of the joints, with numpy for angles in floating point."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from fractions import Fraction
+from functools import lru_cache
+from math import pi
+from typing import TYPE_CHECKING, Any
+
+from bezier.arm.model import Arm, Matrix, Motion, apply, motion, product
+from qe.errors import InputError
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    Floats = NDArray[np.float64]
+
+ORIGIN = (Fraction(0),) * 3
+
+
+def pose(arm: Arm, values: Mapping[str, Any]) -> Matrix:
+    """The frame of the end effector (mm), exactly.
+
+    ``values``: for a revolute joint (cosine, sine), for a prismatic one its length in mm; rational numbers, elements of
+    ``arm.field``, polynomials: whatever adds and multiplies. Raises ``InputError`` for a missing joint, or cosine and
+    sine (as exact numbers) whose squares do not add up to 1.
+    """
+    chain = arm.chain
+    whole = chain.constants[0]
+    for joint, constant in zip(chain.joints, chain.constants[1:], strict=True):
+        if joint.name not in values:
+            raise InputError(f"values: a value for the joint {joint.name} expected")
+        value = values[joint.name]
+        if joint.motion is Motion.REVOLUTE:
+            c, s = value
+            if isinstance(c, int | Fraction) and isinstance(s, int | Fraction) and c * c + s * s != 1:
+                raise InputError(f"{joint.name}: cosine {c} and sine {s} have squares that do not add up to 1")
+        whole = product(product(whole, motion(joint, value)), constant)
+    return whole
+
+
+def position(arm: Arm, values: Mapping[str, Any]) -> tuple[Any, Any, Any]:
+    """The point of the end effector (mm), exactly; see ``pose``."""
+    x, y, z = apply(pose(arm, values), ORIGIN)
+    return x, y, z
+
+
+@lru_cache(maxsize=64)
+def _constants(arm: Arm) -> tuple[Floats, ...]:
+    return tuple(map(_floats, arm.chain.constants))
+
+
+def _floats(m: Matrix) -> Floats:
+    import numpy as np
+
+    return np.array([*([float(v) for v in row] for row in m), [0.0, 0.0, 0.0, 1.0]])
+
+
+def _motions(arm: Arm, q: Floats) -> list[Floats]:
+    """One 4 x 4 matrix for each joint and each row of ``q``; shape of each (N, 4, 4)."""
+    import numpy as np
+
+    found = []
+    for k, joint in enumerate(arm.joints):
+        m = np.zeros((len(q), 4, 4))
+        m[:, range(4), range(4)] = 1.0
+        if joint.motion is Motion.REVOLUTE:
+            c, s = np.cos(q[:, k]), np.sin(q[:, k])
+            m[:, 0, 0], m[:, 0, 1], m[:, 1, 0], m[:, 1, 1] = c, -s, s, c
+        else:
+            m[:, 2, 3] = q[:, k]
+        found.append(m)
+    return found
+
+
+def positions(arm: Arm, q: Sequence[Sequence[float]] | Floats) -> Floats:
+    """The points (mm) for many joint positions: ``q`` of shape (N, joints), rad or mm; the result has shape (N, 3)."""
+    import numpy as np
+
+    angles = np.atleast_2d(np.asarray(q, dtype=float))
+    whole, constants = np.broadcast_to(_constants(arm)[0], (len(angles), 4, 4)), _constants(arm)
+    for m, constant in zip(_motions(arm, angles), constants[1:], strict=True):
+        whole = whole @ m @ constant
+    result: Floats = whole[:, :3, 3]
+    return result
+
+
+def jacobians(arm: Arm, q: Sequence[Sequence[float]] | Floats) -> Floats:
+    """The derivatives of the points by the joints, shape (N, 3, joints): mm per rad, or mm per mm.
+
+    The column of a revolute joint is z x (p - o) with its axis through o along z; that of a prismatic one is z.
+    """
+    import numpy as np
+
+    angles = np.atleast_2d(np.asarray(q, dtype=float))
+    whole, constants = np.broadcast_to(_constants(arm)[0], (len(angles), 4, 4)), _constants(arm)
+    axes = []
+    for m, constant in zip(_motions(arm, angles), constants[1:], strict=True):
+        axes.append((whole[:, :3, 2], whole[:, :3, 3]))
+        whole = whole @ m @ constant
+    tip = whole[:, :3, 3]
+    columns = [
+        np.cross(z, tip - o) if joint.motion is Motion.REVOLUTE else z
+        for (z, o), joint in zip(axes, arm.joints, strict=True)
+    ]
+    return np.stack(columns, axis=2)
+
+
+def skeleton(arm: Arm, q: Sequence[float]) -> list[list[float]]:
+    """The points of the base and of every frame (mm) for one joint position (rad or mm), for pictures."""
+    import numpy as np
+
+    motions = iter(_motions(arm, np.atleast_2d(np.asarray(q, dtype=float))))
+    whole, found = np.eye(4), [[0.0, 0.0, 0.0]]
+    for row, (before, after) in zip(arm.rows, _row_constants(arm), strict=True):
+        whole = whole @ before
+        if row.joint is not None:
+            whole = whole @ next(motions)[0]
+        whole = whole @ after
+        found.append([float(v) for v in whole[:3, 3]])
+    return found
+
+
+@lru_cache(maxsize=64)
+def _row_constants(arm: Arm) -> tuple[tuple[Floats, Floats], ...]:
+    return tuple((_floats(before), _floats(after)) for before, after in map(arm.parts, arm.rows))
+
+
+def wrapped(angle: float) -> float:
+    """The same angle in (-pi, pi]."""
+    rest = (angle + pi) % (2 * pi) - pi
+    return pi if rest == -pi else rest

@@ -1,0 +1,161 @@
+"""The motion of the joints in time: bounds of their velocities and accelerations that hold at all times.
+
+With q(s) the joint values along the path and σ = s(τ), τ = t/T: q' = q_s σ' / T and q'' = (q_ss σ'² + q_s σ'') / T².
+The pieces of a branch come with bounds of q_s and q_ss; those of σ' and σ'' follow from their Bernstein coefficients
+over the times in which the piece is run through.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import pairwise
+from math import ceil, isqrt
+
+from bezier.arm.joint_path import JointPath, Run
+from bezier.arm.model import Joint
+from bezier.curves import bernstein as bs
+from bezier.motion.timelaw import TICK, TimeLaw
+from qe.errors import Unable
+from qe.exact.motion_chain import Piece
+
+Range = tuple[Fraction, Fraction]
+ZERO = Fraction(0)
+UNIT = 1 << 30
+
+
+@dataclass(frozen=True, slots=True)
+class Extreme:
+    """The largest absolute value of something over the whole time lies between ``low`` and ``high``."""
+
+    low: Fraction
+    high: Fraction
+
+    def over(self, divisor: Fraction) -> Extreme:
+        """Divided by a positive number."""
+        return Extreme(self.low / divisor, self.high / divisor)
+
+    def keeps(self, limit: Fraction | None) -> bool | None:
+        """Whether a limit is kept at all times: proved, refuted, or (None) closer than the bounds."""
+        if limit is None or self.high <= limit:
+            return True
+        return False if self.low > limit else None
+
+
+@dataclass(frozen=True, slots=True)
+class JointMotion:
+    """``speeds`` and ``accelerations``: one extreme for each joint (rad/s, rad/s²), for a motion that takes
+    ``duration`` s."""
+
+    joints: tuple[Joint, ...]
+    duration: Fraction
+    speeds: tuple[Extreme, ...]
+    accelerations: tuple[Extreme, ...]
+
+    @property
+    def kept(self) -> dict[str, bool | None]:
+        """For each limit, by joint and kind, whether it is kept at all times."""
+        found = {}
+        for joint, v, a in zip(self.joints, self.speeds, self.accelerations, strict=True):
+            if joint.max_velocity is not None:
+                found[f"{joint.name} velocity"] = v.keeps(joint.max_velocity)
+            if joint.max_acceleration is not None:
+                found[f"{joint.name} acceleration"] = a.keeps(joint.max_acceleration)
+        return found
+
+    @property
+    def keeps_limits(self) -> bool:
+        """Whether every limit is proved to be kept."""
+        return all(kept is True for kept in self.kept.values())
+
+    @property
+    def enough(self) -> Fraction:
+        """A duration (s) with which the same motion is proved to keep all limits, rounded up to ``TICK``."""
+        factors = [Fraction(0)]
+        for joint, v, a in zip(self.joints, self.speeds, self.accelerations, strict=True):
+            if joint.max_velocity is not None:
+                factors.append(v.high / joint.max_velocity)
+            if joint.max_acceleration is not None:
+                ratio = a.high / joint.max_acceleration
+                factors.append(Fraction(isqrt(ceil(ratio * 10**12)) + 1, 10**6))
+        return ceil(self.duration * max(factors) / TICK) * TICK
+
+
+def joint_motion(found: JointPath, run: Run, law: TimeLaw, duration: Fraction, ends: Sequence[Fraction]) -> JointMotion:
+    """The motion along a run from start to goal. Raises ``Unable`` for a run that ends before: its velocities may be
+    unbounded."""
+    if not run.covers(len(found.curves)):
+        raise Unable(f"motion {run.number} does not go from start to goal; near its end the joints move ever faster")
+    count = len(found.arm.joints)
+    low, high = ([[ZERO, ZERO] for _ in range(count)] for _ in range(2))
+    for piece, first, second in _timed(run, law, ends):
+        for j in range(count):
+            v, a = (_exact(bounds[j]) for bounds in (piece.velocity, piece.acceleration))
+            speed, push = _times(v, first), _plus(_times(a, _square(first)), _times(v, second))
+            for k, value in enumerate((speed, push)):
+                high[j][k] = max(high[j][k], *map(abs, value))
+                low[j][k] = max(low[j][k], value[0], -value[1])
+    speeds = tuple(Extreme(low[j][0], high[j][0]).over(duration) for j in range(count))
+    pushes = tuple(Extreme(low[j][1], high[j][1]).over(duration**2) for j in range(count))
+    return JointMotion(found.arm.joints, duration, speeds, pushes)
+
+
+def _timed(run: Run, law: TimeLaw, ends: Sequence[Fraction]) -> Iterator[tuple[Piece, Range, Range]]:
+    """Every piece with the ranges of ds/dτ and d²s/dτ² (s the parameter of its curve) while it is run through."""
+    known = (ZERO, ZERO)
+    for k, branch in run.parts:
+        first = ends[k - 1] if k else ZERO
+        length = ends[k] - first
+        for piece in branch.pieces:  # each begins where the one before ends
+            begin, known = known[0], moment(law, first + piece.high * length)
+            end = known[1]
+            for (low, high), p in zip(pairwise(law.breaks), law.polynomials, strict=True):
+                a, b = max(begin, low), min(end, high)
+                if a < b or begin == end:
+                    slope = bs.power_derivative(p)
+                    bend = bs.power_derivative(slope)
+                    yield piece, _range(slope, a, b, 1 / length), _range(bend, a, b, 1 / length)
+
+
+def moment(law: TimeLaw, share: Fraction) -> Range:
+    """Rational numbers around the τ with s(τ) = share, found in floating point and confirmed exactly."""
+    if share in (0, 1):
+        return share, share
+    low, high = 0.0, 1.0
+    pieces = [(float(end), [float(c) for c in p]) for end, p in zip(law.breaks[1:], law.polynomials, strict=True)]
+    for _ in range(45):
+        middle = (low + high) / 2
+        p = next(p for end, p in pieces if middle <= end)
+        value = sum(c * middle**k for k, c in enumerate(p))
+        low, high = (middle, high) if value < share else (low, middle)
+    begin, end = Fraction(max(0, round(low * UNIT) - 1), UNIT), Fraction(min(UNIT, round(high * UNIT) + 1), UNIT)
+    if law.derivatives(begin)[0] <= share <= law.derivatives(end)[0]:
+        return begin, end
+    return law.passage(share)
+
+
+def _range(p: Sequence[Fraction], low: Fraction, high: Fraction, factor: Fraction) -> Range:
+    """An interval around factor * p on [low, high]: its Bernstein coefficients there."""
+    if not p:
+        return ZERO, ZERO
+    values = [factor * c for c in bs.restrict(bs.from_power(tuple(p)), low, high)]
+    return min(values), max(values)
+
+
+def _exact(bounds: tuple[float, float]) -> Range:
+    return Fraction(bounds[0]), Fraction(bounds[1])
+
+
+def _times(a: Range, b: Range) -> Range:
+    products = [x * y for x in a for y in b]
+    return min(products), max(products)
+
+
+def _plus(a: Range, b: Range) -> Range:
+    return a[0] + b[0], a[1] + b[1]
+
+
+def _square(a: Range) -> Range:
+    ends = sorted(x * x for x in a)
+    return (ZERO if a[0] <= 0 <= a[1] else ends[0]), ends[1]

@@ -1,0 +1,95 @@
+"""What ``bezier certify-path`` says about a path: in words, and as JSON data."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import Any
+
+from bezier.arm.critical import Number, Reason
+from bezier.arm.joint_path import JointPath, Run
+from bezier.arm.study import Special, Study
+from bezier.curves.scalar import brief, described
+
+
+def to_json(found: JointPath) -> dict[str, Any]:
+    """The path as JSON data: parameters exactly and as decimals, one entry for each curve, and the runs."""
+    return {
+        "arm": found.arm.name,
+        "reachable": found.is_reachable,
+        "curves": [
+            {"name": name, **_study(studied)} for name, studied in zip(found.curves, found.studies, strict=True)
+        ],
+        "runs": [_run(found, run) for run in found.runs],
+    }
+
+
+def _study(found: Study) -> dict[str, Any]:
+    return {
+        "reachable": found.is_reachable,
+        "intervals": [
+            {"from": described(p.low), "to": described(p.high), "solutions": p.count} for p in found.stretches
+        ],
+        "special": [
+            {
+                "s": described(p.s),
+                "solutions": p.inverse.count,
+                "free": list(p.inverse.free),
+                "what": [reason.value for reason in p.reasons],
+            }
+            for p in found.specials
+            if p.reasons or p.s in (0, 1)
+        ],
+        "shared_sine": [described(s) for s in found.shared],
+        "stops": [described(p.low) for p in found.gaps],
+    }
+
+
+def _run(found: JointPath, run: Run) -> dict[str, Any]:
+    names = list(found.curves)
+    return {
+        "number": run.number,
+        "whole": run.covers(len(names)),
+        "parts": [
+            {"curve": names[k], "from": str(b.low), "to": str(b.high), "boxes": len(b.pieces)} for k, b in run.parts
+        ],
+    }
+
+
+def in_words(found: JointPath) -> list[str]:
+    """The same for people."""
+    lines = [found.arm.name]
+    for name, studied in zip(found.curves, found.studies, strict=True):
+        lines.append(f"{name}: " + _verdict(studied))
+        lines += [
+            f"  {p.count} solution{'s' * (p.count != 1)} for every s in ({_short(p.low)}, {_short(p.high)})"
+            for p in studied.stretches
+        ]
+        lines += [f"  at s = {_short(p.s)}: {_special(p)}" for p in studied.specials if p.reasons]
+        lines += [f"  at s = {_short(s)}: {Reason.SINE.value} (nothing happens to the arm)" for s in studied.shared]
+    complete = len(found.whole_runs)
+    lines.append(f"{complete} continuous joint motion{'s' * (complete != 1)} from start to goal, proved by boxes")
+    for run in found.runs:
+        if run not in found.whole_runs:
+            first, last = run.parts[0], run.parts[-1]
+            names = list(found.curves)
+            begin, end = (
+                f"{names[k]} s = {float(s):.9g}" for k, s in ((first[0], first[1].low), (last[0], last[1].high))
+            )
+            lines.append(f"  motion {run.number} from {begin} to {end} only")
+    return lines
+
+
+def _verdict(found: Study) -> str:
+    if found.is_reachable:
+        return "every point can be reached (proved for all s in [0, 1])"
+    first = found.gaps[0] if found.gaps else None
+    return "NOT reachable" + ("" if first is None else f" from s = {_short(first.low)} on")
+
+
+def _special(p: Special) -> str:
+    count = "infinitely many solutions" if p.inverse.count is None else f"{p.inverse.count} different solutions"
+    return f"{' and '.join(r.value for r in p.reasons)}; {count}"
+
+
+def _short(s: Number) -> str:
+    return brief(s) if isinstance(s, Fraction) else f"{float(s):.12g}"

@@ -1,0 +1,104 @@
+"""Polynomials with rational coefficients over the constants of an arm: an integer polynomial over an integer.
+
+The first variable of the ring stands for the generator of the field of constants and is kept below its degree.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+from math import lcm
+from typing import Any
+
+from bezier.curves.scalar import rational
+from qe.exact.field import NumberField
+from qe.exact.ring import Poly, Ring
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Ratio:
+    """``top / bottom`` with bottom > 0. Mixed arithmetic with rational numbers and field elements is exact."""
+
+    top: Poly
+    bottom: int
+    field: NumberField
+
+    def _with(self, top: Poly, bottom: int) -> Ratio:
+        return Ratio(reduced(top, self.field), bottom, self.field)
+
+    def _coerce(self, other: Any) -> Ratio:
+        return other if isinstance(other, Ratio) else constant(self.top.ring, other, self.field)
+
+    def __add__(self, other: Any) -> Ratio:
+        second = self._coerce(other)
+        common = lcm(self.bottom, second.bottom)
+        top = self.top * (common // self.bottom) + second.top * (common // second.bottom)
+        return Ratio(top, common, self.field)
+
+    __radd__ = __add__
+
+    def __neg__(self) -> Ratio:
+        return Ratio(-self.top, self.bottom, self.field)
+
+    def __sub__(self, other: Any) -> Ratio:
+        negated: Ratio = -self._coerce(other)
+        return self + negated
+
+    def __rsub__(self, other: Any) -> Ratio:
+        found: Ratio = -self + other
+        return found
+
+    def __mul__(self, other: Any) -> Ratio:
+        if isinstance(other, int | Fraction):
+            number = Fraction(other)
+            return Ratio(self.top * number.numerator, self.bottom * number.denominator, self.field)
+        second = self._coerce(other)
+        return self._with(self.top * second.top, self.bottom * second.bottom)
+
+    __rmul__ = __mul__
+
+    def __truediv__(self, other: Any) -> Ratio:
+        """By a nonzero number."""
+        found: Ratio = self * (1 / (Fraction(other) if isinstance(other, int) else other))
+        return found
+
+    @property
+    def scale(self) -> Fraction:
+        """1 / bottom."""
+        return Fraction(1, self.bottom)
+
+
+def constant(ring: Ring, value: Any, field: NumberField) -> Ratio:
+    """A rational number or an element of the field."""
+    number = rational(value)
+    coefficients = (number,) if number is not None else value.coefficients
+    bottom = lcm(*(c.denominator for c in coefficients))
+    top, power = ring.constant(0), ring.constant(1)
+    for k, c in enumerate(coefficients):
+        power = power * ring.gen(0) if k else power
+        if c:
+            top = top + power * int(c * bottom)
+    return Ratio(top, bottom, field)
+
+
+def variable(ring: Ring, name: str, field: NumberField) -> Ratio:
+    """A variable of the ring."""
+    return Ratio(ring.var(name), 1, field)
+
+
+def reduced(p: Poly, field: NumberField) -> Poly:
+    """p with the powers of the generator from its degree on replaced: its minimal polynomial is monic."""
+    n = field.degree
+    if p.degree(0) < n:
+        return p
+    minimal, w = field.minimal_polynomial, p.ring.gen(0)
+    found = list(p.coefficients(0))
+    while len(found) > n:
+        lead = found.pop()
+        for k in range(n):
+            if minimal[k]:
+                found[len(found) - n + k] = found[len(found) - n + k] - lead * minimal[k]
+    total = p.ring.constant(0)
+    for c in reversed(found):
+        total = total * w + c
+    return total

@@ -1,0 +1,111 @@
+"""Arms from TOML: ``name``, ``convention``, ``[[row]]`` tables; and the arms that are shipped.
+
+name = "EV3"
+convention = "modified"          # or "standard"
+[[row]]
+joint = "theta1"                 # a moving row; "kind" is "revolute" unless it says "prismatic"
+a = 0                            # mm; so is d
+alpha = "pi/2"                   # a multiple of pi/12
+limits = ["-3", "3"]             # rad or mm
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from functools import cache
+from importlib.resources import files
+from pathlib import Path
+
+from bezier.arm.angles import EXPECTED, Angle, read_angle
+from bezier.arm.model import Arm, Convention, Joint, Motion, Row
+from bezier.input.files import read_text
+from bezier.input.numbers import NotANumber, describe
+from bezier.input.toml_table import Table
+from qe.errors import InputError
+
+MAX_ROWS = 24
+SUFFIX = ".toml"
+ALIASES = {"ev3": "ev3-120"}
+_OF_JOINTS = ("kind", "limits", "max_velocity", "max_acceleration")
+
+
+def shipped() -> tuple[str, ...]:
+    """The names of the arms that come with the package."""
+    folder = files("bezier.arm").joinpath("data")
+    return tuple(sorted(item.name.removesuffix(SUFFIX) for item in folder.iterdir() if item.name.endswith(SUFFIX)))
+
+
+def load_arm(name: str) -> Arm:
+    """The arm of a shipped name or of a TOML file. Raises ``InputError``."""
+    name = ALIASES.get(name, name)
+    if name in shipped():
+        return _shipped(name)
+    if name.endswith(SUFFIX):
+        return read_arm(read_text(Path(name)), name)
+    raise InputError(f"arm: expected a file {SUFFIX} or one of {', '.join(shipped())}, found {name!r}")
+
+
+@cache
+def _shipped(name: str) -> Arm:
+    text = files("bezier.arm").joinpath("data", name + SUFFIX).read_text(encoding="utf-8")
+    return read_arm(text, name + SUFFIX)
+
+
+def read_arm(text: str, source: str = "<arm>") -> Arm:
+    """The arm that TOML text describes. Raises ``InputError`` with file, line, key, what was expected and found."""
+    table = Table.parse(text, source)
+    table.only(("name", "convention", "reference", "row"))
+    rows = tuple(_row(entry) for entry in table.tables("row"))
+    if not 1 <= len(rows) <= MAX_ROWS:
+        raise table.error("row", f"1 to {MAX_ROWS} tables [[row]]", str(len(rows)))
+    names = [row.joint.name for row in rows if row.joint is not None]
+    if not names:
+        raise table.error("row", "a row with a joint", "none")
+    if len(set(names)) != len(names):
+        raise table.error("row", "different names of joints", ", ".join(names))
+    convention = table.choice("convention", Convention)
+    return Arm(_text(table, "name", source), convention, rows, _text(table, "reference", ""))
+
+
+def _row(entry: Table) -> Row:
+    entry.only(("a", "alpha", "d", "theta", "joint", *_OF_JOINTS))
+
+    joint = _joint(entry) if "joint" in entry.values else None
+    for key in _OF_JOINTS:
+        if joint is None and key in entry.values:
+            raise entry.error(key, "this key in a row with a joint", "none there")
+
+    lengths = {key: entry.number(key, Fraction(0)) for key in ("a", "d")}
+    return Row(lengths["a"], _angle(entry, "alpha"), lengths["d"], _angle(entry, "theta"), joint)
+
+
+def _joint(entry: Table) -> Joint:
+    kind = entry.choice("kind", Motion, Motion.REVOLUTE)
+    name = entry.values["joint"]
+    if not isinstance(name, str) or not name.isidentifier():
+        raise entry.error("joint", "a name such as theta1", describe(name))
+    velocity, acceleration = (entry.positive(k) if k in entry.values else None for k in _OF_JOINTS[2:])
+    raw = entry.values.get("limits")
+    if raw is None:
+        return Joint(name, kind, None, velocity, acceleration)
+    if not isinstance(raw, list) or len(raw) != 2:
+        raise entry.error("limits", "the least and the greatest value", describe(raw))
+    inner = Table({f"limits[{i}]": value for i, value in enumerate(raw)}, entry.source, entry.lines, entry.prefix)
+    low, high = (inner.number(f"limits[{i}]") for i in range(2))
+    if low >= high:
+        raise entry.error("limits", "a least value below the greatest", f"{low} and {high}")
+    return Joint(name, kind, (low, high), velocity, acceleration)
+
+
+def _angle(entry: Table, key: str) -> Angle:
+    try:
+        return read_angle(entry.values.get(key, 0))
+    except NotANumber as error:
+        raise entry.error(key, EXPECTED, str(error)) from None
+
+
+def _text(table: Table, key: str, default: str) -> str:
+    value = table.values.get(key, default)
+    if not isinstance(value, str):
+        raise table.error(key, "a text", describe(value))
+    return value

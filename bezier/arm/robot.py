@@ -1,0 +1,59 @@
+"""An arm as one object for scripts and notebooks: ``Robot.load("ev3-120").inverse((10, 40, 80))``."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any
+
+from bezier.arm import kinematics
+from bezier.arm.inverse import Inverse, solve
+from bezier.arm.joint_path import JointPath, joint_path
+from bezier.arm.joint_plan import JointPlan, joint_plan
+from bezier.arm.model import Arm
+from bezier.arm.reachable import Torus, reachable_set
+from bezier.arm.reader import load_arm
+from bezier.curves.curve import Bezier
+from bezier.motion.timelaw import Law, TimeLaw
+
+if TYPE_CHECKING:
+    from bezier.arm.kinematics import Floats
+
+
+@dataclass(frozen=True, slots=True)
+class Robot:
+    """An arm with its questions as methods. Lengths in mm, angles in rad, times in s."""
+
+    arm: Arm
+
+    @staticmethod
+    def load(name: str) -> Robot:
+        """The arm of a shipped name (``ev3-112``, ``ev3-120``, …) or of a TOML file. Raises ``InputError``."""
+        return Robot(load_arm(name))
+
+    def forward(self, values: Mapping[str, Any]) -> tuple[Any, Any, Any]:
+        """The point of the end effector, exactly: see ``bezier.arm.kinematics.position``."""
+        return kinematics.position(self.arm, values)
+
+    def positions(self, q: Sequence[Sequence[float]]) -> Floats:
+        """Points for many joint positions in floating point, shape (N, 3)."""
+        return kinematics.positions(self.arm, q)
+
+    def inverse(self, point: Sequence[Any]) -> Inverse:
+        """All real joint positions at a point with exact coordinates. Raises ``InputError`` and ``Unable``."""
+        return solve(self.arm, point)
+
+    def reachable(self) -> Torus:
+        """The reachable set in closed form. Raises ``Unable`` for arms of another shape than the EV3's."""
+        return reachable_set(self.arm)
+
+    def path(self, curves: Mapping[str, Bezier]) -> JointPath:
+        """What is proved about a path whose curves have rational control points."""
+        return joint_path(self.arm, curves)
+
+    def plan(
+        self, curves: Mapping[str, Bezier], duration: int | Fraction = 50, law: Law = Law.QUINTIC, samples: int = 200
+    ) -> JointPlan:
+        """The joint sequence of least change along the path, and the proved bounds of its motion."""
+        return joint_plan(self.arm, curves, TimeLaw.of(law), Fraction(duration), samples)

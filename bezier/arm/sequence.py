@@ -1,0 +1,178 @@
+"""Joint sequences: one joint position for each sample of a path, with the least total joint change.
+
+A layered graph: one layer for each sample, one node for each solution within the limits of the joints, edges between
+neighbouring layers weighted by the sum of the angle differences on the circle (arXiv 2412.18294, section 4); a shortest
+path through it. On the axis of the first joint its angle is free: there the angles of the neighbouring layers are
+offered.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import pairwise
+from typing import Any
+
+import networkx as nx
+
+from bezier.arm.follow import Branch
+from bezier.arm.inverse import Solution, solve
+from bezier.arm.joint_path import JointPath
+from bezier.arm.kinematics import wrapped
+from bezier.arm.model import Motion
+from bezier.motion.timelaw import TimeLaw
+from qe.errors import InputError, Unable
+
+Note = Callable[[], None]
+MOST_SAMPLES = 5_000
+UNIT = 1 << 32
+FAR = 1.0
+"""Solutions further from the middle of a box than this (rad, sum of the joints) do not lie in it: boxes are small."""
+
+
+@dataclass(frozen=True, slots=True)
+class Sample:
+    """A moment: the share ``tau`` of the time, the curve by its index, and the parameter on it."""
+
+    tau: Fraction
+    curve: int
+    s: Fraction
+
+
+@dataclass(frozen=True, slots=True)
+class Stand:
+    """A joint position offered for a sample (rad): ``runs``, the numbers of the continuous motions that it belongs
+    to."""
+
+    angles: tuple[float, ...]
+    runs: frozenset[int]
+
+
+@dataclass(frozen=True, slots=True)
+class Switch:
+    """Between these samples the sequence leaves one continuous motion for another: the arm would have to jump."""
+
+    before: Sample
+    after: Sample
+    change: float
+
+
+@dataclass(frozen=True, slots=True)
+class JointSequence:
+    """The joint angles (rad, without jumps by full turns) at every sample; ``change``: the sum of all angle
+    differences.
+
+    ``run``: the number of the continuous motion kept throughout, None where there are ``switches``.
+    """
+
+    samples: tuple[Sample, ...]
+    angles: tuple[tuple[float, ...], ...]
+    change: float
+    run: int | None
+    switches: tuple[Switch, ...]
+
+
+def samples_of(ends: Sequence[Fraction], law: TimeLaw, count: int) -> list[Sample]:
+    """``count`` moments at equal steps of time. ``ends``: the share of the law's path at which each curve ends.
+
+    The parameters are the law's to within 2^-33: short numbers, which the points of the path are exact for.
+    """
+    if not 2 <= count <= MOST_SAMPLES:
+        raise InputError(f"samples: 2 to {MOST_SAMPLES} expected, {count} found")
+    found = []
+    for k in range(count):
+        tau = Fraction(k, count - 1)
+        share = law.derivatives(tau)[0]
+        curve = next(i for i, end in enumerate(ends) if share <= end)
+        begin = ends[curve - 1] if curve else 0
+        found.append(Sample(tau, curve, Fraction(round((share - begin) / (ends[curve] - begin) * UNIT), UNIT)))
+    return found
+
+
+def joint_sequence(found: JointPath, samples: Sequence[Sample], note: Note = lambda: None) -> JointSequence:
+    """The sequence of least total change. Raises ``Unable`` where a sample has no joint position within the limits."""
+    if any(j.motion is not Motion.REVOLUTE for j in found.arm.joints):
+        raise Unable("joint sequences are for arms whose joints all turn")
+    layers = list(_layers(found, samples, note))
+    graph: nx.DiGraph[Any] = nx.DiGraph()
+    graph.add_edges_from((("start", (0, i)) for i in range(len(layers[0]))), weight=0.0)
+    for k, (near, far) in enumerate(pairwise(layers)):
+        graph.add_weighted_edges_from(
+            ((k, i), (k + 1, j), _distance(a.angles, b.angles)) for i, a in enumerate(near) for j, b in enumerate(far)
+        )
+    graph.add_edges_from((((len(layers) - 1, i), "goal") for i in range(len(layers[-1]))), weight=0.0)
+    path: Any = nx.dijkstra_path(graph, "start", "goal")
+    stands = [layers[k][i] for k, i in path[1:-1]]
+    change = sum(_distance(a.angles, b.angles) for a, b in pairwise(stands))
+    return JointSequence(tuple(samples), _unrolled(stands), change, *_kept(stands, samples))
+
+
+def _layers(found: JointPath, samples: Sequence[Sample], note: Note) -> Iterator[list[Stand]]:
+    curves = list(found.curves.values())
+    solved = []
+    for sample in samples:
+        note()
+        solved.append([s for s in solve(found.arm, curves[sample.curve].point(sample.s)).solutions if s.allowed])
+    for k, (sample, solutions) in enumerate(zip(samples, solved, strict=True)):
+        places = _places(found, sample)
+        around = [a for other in solved[max(k - 1, 0) : k + 2] for s in other if (a := s.angles[0]) is not None]
+        stands = [
+            Stand(angles, _runs(found, places, sample.s, solution))
+            for solution in solutions
+            for angles in _offered(solution, around or [0.0])
+        ]
+        if not stands:
+            where = f"s = {float(sample.s):.6g} of curve {sample.curve + 1}"
+            raise Unable(f"no joint position within the limits at {where}")
+        yield stands
+
+
+def _offered(solution: Solution, around: list[float]) -> Iterator[tuple[float, ...]]:
+    """The angles of a solution, with those of the neighbours where the first joint is free (0 for any other free
+    one)."""
+    first, *rest = solution.angles
+    others = tuple(0.0 if a is None else a for a in rest)
+    for angle in dict.fromkeys(around) if first is None else [first]:
+        yield (angle, *others)
+
+
+def _places(found: JointPath, sample: Sample) -> list[tuple[int, Branch, tuple[float, ...]]]:
+    """Every motion that is under way at the sample: its number, its branch, and about where it is."""
+    under_way = ((run.number, run.branch(sample.curve)) for run in found.runs)
+    return [(n, b, b.at(sample.s)) for n, b in under_way if b is not None and b.low <= sample.s <= b.high]
+
+
+def _runs(
+    found: JointPath, places: Sequence[tuple[int, Branch, tuple[float, ...]]], s: Fraction, solution: Solution
+) -> frozenset[int]:
+    angles = [a for a in solution.angles if a is not None]
+    if len(angles) < len(solution.angles):
+        return frozenset(run.number for run in found.runs)  # the axis: every motion passes there, or stops
+    return frozenset(
+        number for number, branch, near in places if _distance(angles, near) < FAR and branch.contains(s, solution)
+    )
+
+
+def _distance(a: Sequence[float], b: Sequence[float]) -> float:
+    return sum(abs(wrapped(x - y)) for x, y in zip(a, b, strict=True))
+
+
+def _unrolled(stands: Sequence[Stand]) -> tuple[tuple[float, ...], ...]:
+    """The angles with full turns added, so that no angle moves by more than half a turn between two samples."""
+    found = [stands[0].angles]
+    for stand in stands[1:]:
+        found.append(tuple(x + wrapped(y - x) for x, y in zip(found[-1], stand.angles, strict=True)))
+    return tuple(found)
+
+
+def _kept(stands: Sequence[Stand], samples: Sequence[Sample]) -> tuple[int | None, tuple[Switch, ...]]:
+    """The motion kept from start to end, or the places where one has to be left for another."""
+    switches, now = [], stands[0].runs
+    for k in range(1, len(stands)):
+        both = now & stands[k].runs
+        if not both:
+            change = _distance(stands[k - 1].angles, stands[k].angles)
+            switches.append(Switch(samples[k - 1], samples[k], change))
+        now = both or stands[k].runs
+    return (min(now, default=None) if not switches else None), tuple(switches)

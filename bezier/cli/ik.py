@@ -1,0 +1,41 @@
+"""``bezier ik``: all joint positions of an arm that reach a point."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import Annotated
+
+import typer
+
+from bezier.cli.options import Json, Memory, Timeout
+from qe.cli.app import check_limits
+from qe.cli.shell import OK, limited
+
+ArmName = Annotated[
+    str, typer.Argument(metavar="ARM", help="ev3-112, ev3-120, … or a file ARM.toml.", show_default=False)
+]
+
+
+def coordinate(name: str) -> object:
+    """The type of an argument that is a coordinate."""
+    return typer.Argument(metavar=name, help='Exact, in mm: 3/4, 0.75, "44*sqrt(2)".', show_default=False)
+
+
+def ik(
+    arm: ArmName,
+    x: Annotated[str, coordinate("X")],
+    y: Annotated[str, coordinate("Y")],
+    z: Annotated[str, coordinate("Z")],
+    json: Json = False,
+    timeout: Timeout = None,
+    memory: Memory = None,
+) -> int:
+    """All real joint positions that put the end effector of ARM at the point (X, Y, Z); -- before negative numbers."""
+    from bezier.arm.command import inverse
+    from bezier.arm.exact_text import read_exact
+    from bezier.arm.reader import load_arm
+
+    check_limits(timeout, memory)
+    model, point = load_arm(arm), tuple(read_exact(text) for text in (x, y, z))
+    print(limited(partial(inverse, arm=model, point=point, json=json), timeout=timeout, memory=memory, plain=json))
+    return OK

@@ -1,0 +1,134 @@
+"""The arm of a planning problem: whether and how it follows the path that was found, and the files about that.
+
+Control points of a planned path may be irrational. The joints are planned for the same curves with control points
+rounded to multiples of ``GRAIN``; a Bézier curve moves by no more than its control points do: by at most ``AWAY`` mm.
+"""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from fractions import Fraction
+from functools import lru_cache
+from typing import Any
+
+from bezier.arm import joint_plan as plans
+from bezier.arm.evidence import certificates
+from bezier.arm.joint_plan import JointPlan, joint_plan
+from bezier.arm.reader import load_arm, shipped
+from bezier.curves.curve import Bezier
+from bezier.curves.enclosure import bounds
+from bezier.curves.scalar import rational
+from bezier.motion.timelaw import Law, TimeLaw
+from bezier.plan import Outcome, Plan
+from bezier.problem import Problem
+from qe.certify.verify import verify
+from qe.errors import BudgetExceeded, CertificateRejected, InputError, Unable
+from qe.proof.certificate import Certificate
+
+GRAIN = Fraction(1, 1 << 34)
+AWAY = "1e-10"
+SAMPLES = 200
+USUAL_DURATION = Fraction(50)
+"""Seconds, where the problem does not say: that of arXiv 2305.12451."""
+FILES = ("joints.csv", "joints.json", "joints_certificate.json")
+
+
+def check_arm(problem: Problem) -> None:
+    """Raises ``InputError`` for an arm that is not known: before any work is done."""
+    if problem.arm is not None:
+        if problem.arm.endswith(".toml"):
+            raise InputError(f"{problem.source}: arm: expected one of {', '.join(shipped())}, found a file")
+        try:
+            load_arm(problem.arm)
+        except InputError as error:
+            raise InputError(f"{problem.source}: {error}") from None
+
+
+def with_joints(plan: Plan) -> Plan:
+    """The plan with that of the joints, if the problem names an arm."""
+    if plan.problem.arm is None or plan.path is None:
+        return plan
+    curves = {name: rounded(curve) for name, curve in plan.path.curves.items()}
+    parts = {name: plan.path.duration(name) for name in curves}
+    motion, timing = None if plan.quality is None else plan.quality.motion, plan.problem.timing
+    law = TimeLaw.of(Law.QUINTIC) if timing is None else TimeLaw.of(timing.law, timing.ramp)
+    duration = USUAL_DURATION if motion is None else motion.duration
+    try:
+        found = joint_plan(load_arm(plan.problem.arm), curves, law, duration, SAMPLES, parts=parts)
+    except Unable as error:
+        if isinstance(error, BudgetExceeded):
+            raise
+        return replace(plan, remarks=(*plan.remarks, f"the joints are not planned: {error}"))
+    outcome = plan.outcome
+    if outcome is Outcome.SOLVED and (not found.path.is_reachable or found.sequence is None):
+        outcome = Outcome.OUT_OF_REACH
+    elif outcome is Outcome.SOLVED and found.motion is not None and not found.motion.keeps_limits:
+        outcome = Outcome.TOO_FAST
+    return replace(plan, joints=found, outcome=outcome)
+
+
+def rounded(curve: Bezier) -> Bezier:
+    """The curve with irrational control points rounded to multiples of ``GRAIN``."""
+    return Bezier(tuple(tuple(_near(c) for c in point) for point in curve.points))
+
+
+def _near(value: Any) -> Fraction:
+    number = rational(value)
+    return number if number is not None else round(sum(bounds(value), Fraction(0)) / 2 / GRAIN) * GRAIN
+
+
+def is_rounded(plan: Plan) -> bool:
+    """Whether the joints are planned for a rounded path."""
+    return plan.path is not None and any(rational(c) is None for p in plan.path.points.values() for c in p)
+
+
+def bundle(found: JointPlan) -> Certificate:
+    """The certificates of the continuous joint motions."""
+    return Certificate.bundle(certificates(found.path))
+
+
+def files(plan: Plan) -> dict[str, str]:
+    """The files about the joints, by name. Raises ``CertificateRejected`` where a certificate is not accepted."""
+    return {} if plan.joints is None else dict(_texts(plan.joints, is_rounded(plan)))
+
+
+@lru_cache(maxsize=2)
+def _texts(found: JointPlan, is_rounded: bool) -> tuple[tuple[str, str], ...]:
+    table, data, evidence = FILES
+    certificate = bundle(found)
+    verdict = verify(certificate)
+    if not verdict.accepted:
+        raise CertificateRejected(f"{evidence}: {verdict.step}", verdict.reason)
+    told = {**plans.to_json(found), "rounded": is_rounded}
+    texts = {data: json.dumps(told, indent=1, ensure_ascii=False) + "\n", evidence: certificate.to_json()}
+    if found.sequence is not None:
+        texts[table] = plans.to_csv(found)
+    return tuple(texts.items())
+
+
+def json_entries(plan: Plan) -> dict[str, Any]:
+    """What the summary says of the joints."""
+    if plan.joints is None:
+        return {}
+    found = plan.joints
+    return {
+        "joints": {
+            "arm": found.path.arm.name,
+            "reachable": found.path.is_reachable,
+            "continuous_motions": len(found.path.whole_runs),
+            "run": None if found.sequence is None else found.sequence.run,
+            "limits": {} if found.motion is None else found.motion.kept,
+            "rounded": is_rounded(plan),
+        }
+    }
+
+
+def summary_lines(plan: Plan) -> list[str]:
+    """The same for people."""
+    if plan.joints is None:
+        return []
+    lines = [f"arm: {line}" for line in plans.in_words(plan.joints)]
+    if is_rounded(plan):
+        lines.append(f"arm: the joints follow the path with control points rounded: within {AWAY} mm of it")
+    return lines

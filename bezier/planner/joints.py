@@ -1,0 +1,73 @@
+"""``bezier joints``: a joint sequence for a path, with its time law, certificates and page."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from pathlib import Path
+
+from bezier.arm import joint_plan as plans
+from bezier.arm.evidence import certificates
+from bezier.arm.joint_plan import JointPlan
+from bezier.arm.model import Arm
+from bezier.curves.curve import Bezier
+from bezier.motion.timelaw import TimeLaw
+from qe.certify.verify import verify
+from qe.cli.shell import OK, UNABLE
+from qe.proof.certificate import Certificate
+from qe.worker import Channel
+
+TABLE, DATA, EVIDENCE, PAGE = "joints.csv", "joints.json", "joints_certificate.json", "joints.html"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Request:
+    """What the command line asked for; ``folder`` is where the files are written first."""
+
+    arm: Arm
+    curves: Mapping[str, Bezier]
+    file: str
+    folder: Path
+    target: Path
+    law: TimeLaw
+    duration: Fraction
+    samples: int
+    json: bool = False
+
+
+def joints(channel: Channel, request: Request) -> tuple[str, int]:
+    """Plan the joints, write the files; what to print, and the exit status."""
+    plan = plans.joint_plan(request.arm, request.curves, request.law, request.duration, request.samples)
+    accepted = write(plan, request.folder)
+    (request.folder / PAGE).write_text(render(plan, request.file), encoding="utf-8")
+    data = {**plans.to_json(plan), "certified": accepted}
+    code = OK if plan.path.is_reachable and plan.sequence is not None else UNABLE
+    if request.json:
+        return json.dumps(data, indent=1, ensure_ascii=False), code
+    lines = plans.in_words(plan)
+    lines.append(f"certificates: {'accepted' if accepted else 'REJECTED'}; open {request.target / PAGE}")
+    return "\n".join(lines), code
+
+
+def render(plan: JointPlan, file: str) -> str:
+    """The page of ``bezier joints``: one file that needs nothing from elsewhere."""
+    from bezier.report.joints import sections
+    from bezier.report.page import package_version, template
+
+    verdict = "every point is reached, proved" if plan.path.is_reachable else "the path leaves what the arm can reach"
+    told = {"file": file, "verdict": verdict, "version": package_version()}
+    return template("joints.html.j2").render(told | sections(plan))
+
+
+def write(plan: JointPlan, folder: Path) -> bool:
+    """Write data and certificates of the joints; whether the certificates are accepted."""
+    bundle = Certificate.bundle(certificates(plan.path))
+    accepted = verify(bundle).accepted
+    data = {**plans.to_json(plan), "certified": accepted}
+    (folder / DATA).write_text(json.dumps(data, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
+    (folder / EVIDENCE).write_text(bundle.to_json() + "\n", encoding="utf-8")
+    if plan.sequence is not None:
+        (folder / TABLE).write_text(plans.to_csv(plan), encoding="utf-8")
+    return accepted

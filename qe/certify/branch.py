@@ -1,0 +1,198 @@
+"""Checker for certificates of kind "branch": an arm with three joints follows curves continuously.
+
+``pieces``: on [low, high] of a curve, joint values within ``radius`` of centre + slope (s - middle). THEOREM (Krawczyk
+1969; Neumaier, Interval Methods for Systems of Equations, section 5.1, with a parameter): with f(σ, r) the end point at
+centre + slope σ + r minus the curve at middle + σ, and any matrix C, if -C f(σ, 0) + (I - C ∂f/∂r(σ, R)) R lies in the
+interior of the box R for all σ, there is exactly one r in R with f = 0, for every σ; it lies in that image and depends
+continuously on σ. Neighbouring pieces belong together when the image of the one lies in the box of the other at their
+common parameter: then both have the same solution there.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import pairwise
+from math import comb
+from typing import Any
+
+from qe.certify.arithmetic import duals
+from qe.certify.arithmetic.duals import Dual, Vector
+from qe.exact.balls import precision
+from qe.options import Budget
+from qe.proof.entry import Entry, Json
+
+MOST_ROWS, MOST_POINTS = 40, 60
+SIGMA, DIRECTIONS = 0, 4
+Part = Callable[[Vector], Vector]
+
+
+@dataclass(frozen=True, slots=True)
+class _Piece:
+    curve: int
+    low: Fraction
+    high: Fraction
+    centre: tuple[Fraction, ...]
+    slope: tuple[Fraction, ...]
+    radius: tuple[Fraction, ...]
+    entry: Entry
+
+    def at(self, s: Fraction) -> list[Fraction]:
+        step = s - (self.low + self.high) / 2
+        return [c + v * step for c, v in zip(self.centre, self.slope, strict=True)]
+
+
+def check_branch(payload: dict[str, Json], budget: Budget | None = None) -> None:
+    """Accept silently, or raise ``CertificateRejected`` naming the entry that fails."""
+    arm, curves_entry, pieces_entry = Entry(payload, "payload").fields("arm", "curves", "pieces")
+    rows = _Rows(arm)
+    curves = [_curve(entry) for entry in curves_entry.items()]
+    pieces = [_piece(entry, len(curves)) for entry in pieces_entry.items()]
+    if not pieces:
+        raise pieces_entry.fail("expected at least one piece")
+    images = []
+    for piece in pieces:
+        if budget is not None:
+            budget.check()
+        with precision(duals.BITS):
+            images.append(_image(rows, curves[piece.curve], piece))
+    for (one, first), (other, second) in pairwise(zip(pieces, images, strict=True)):
+        _check_link(one, first, other, second, curves)
+
+
+class _Rows:
+    """The motions of the arm, with the joint values to be put in."""
+
+    def __init__(self, entry: Entry) -> None:
+        convention, rows = entry.fields("convention", "rows")
+        self.modified = convention.text() == "modified"
+        if not self.modified and convention.text() != "standard":
+            raise convention.fail("expected modified or standard")
+        self.rows = [self._row(row) for row in rows.items()]
+        joints = [joint for *_, joint in self.rows if joint]
+        if len(self.rows) > MOST_ROWS or len(joints) != 3:
+            raise rows.fail(f"expected at most {MOST_ROWS} rows, three of them with a joint")
+        with precision(duals.BITS):
+            self.chain = self._chain()
+
+    @staticmethod
+    def _row(entry: Entry) -> tuple[Fraction, tuple[Dual, Dual], Fraction, tuple[Dual, Dual], str]:
+        a, alpha, d, theta, joint = entry.fields("a", "alpha", "d", "theta", "joint")
+        kind = "" if joint.value is None else joint.text()
+        if kind not in ("", "revolute", "prismatic"):
+            raise joint.fail("expected null, revolute or prismatic")
+        return a.rational(), _angle(alpha), d.rational(), _angle(theta), kind
+
+    def _chain(self) -> list[Part | str]:
+        """Motions between two joints as one, and the kinds of the joints between them."""
+        chain, fixed = list[Part | str](), list[Part]()
+        for a, alpha, d, theta, kind in self.rows:
+            across: list[Part] = [duals.turn("x", alpha), duals.shift("x", duals.number(a, DIRECTIONS))]
+            along: list[Part] = [duals.turn("z", theta), duals.shift("z", duals.number(d, DIRECTIONS))]
+            fixed += across if self.modified else []
+            if kind:
+                chain += [duals.together(fixed, DIRECTIONS), kind]
+                fixed = []
+            fixed += along if self.modified else along + across[::-1]
+        return [*chain, duals.together(fixed, DIRECTIONS)]
+
+    def end_point(self, q: Vector) -> Vector:
+        """The end point for these joint values."""
+        values, motions = iter(q), list[Part]()
+        for part in self.chain:
+            if part == "revolute":
+                motions.append(duals.turn("z", next(values).sine_cosine()))
+            elif isinstance(part, str):
+                motions.append(duals.shift("z", next(values)))
+            else:
+                motions.append(part)
+        return duals.image(motions, duals.origin(DIRECTIONS))
+
+
+def _angle(entry: Entry) -> tuple[Dual, Dual]:
+    """An integer k for k pi / 12, or [cosine, sine]; its sine and cosine."""
+    if isinstance(entry.value, int) and not isinstance(entry.value, bool):
+        if abs(entry.value) > 24:
+            raise entry.fail("expected at most 24 twelfths of pi")
+        with precision(duals.BITS):
+            return duals.multiple_of_pi(entry.value, DIRECTIONS)
+    values = [item.rational() for item in entry.items()]
+    if len(values) != 2 or values[0] ** 2 + values[1] ** 2 != 1:
+        raise entry.fail("expected cosine and sine")
+    with precision(duals.BITS):
+        return duals.number(values[1], DIRECTIONS), duals.number(values[0], DIRECTIONS)
+
+
+def _curve(entry: Entry) -> list[tuple[Fraction, ...]]:
+    points = [tuple(c.rational() for c in point.items()) for point in entry.items()]
+    if not 1 <= len(points) <= MOST_POINTS or any(len(p) != 3 for p in points):
+        raise entry.fail(f"expected 1 to {MOST_POINTS} points of three coordinates")
+    return points
+
+
+def _piece(entry: Entry, curves: int) -> _Piece:
+    curve, low, high, centre, slope, radius = entry.fields("curve", "low", "high", "centre", "slope", "radius")
+    middle, slopes, radii = (tuple(v.rational() for v in part.items()) for part in (centre, slope, radius))
+    if not len(middle) == len(slopes) == len(radii) == 3:
+        raise entry.fail("expected one value for each of three joints")
+    if curve.integer() >= curves:
+        raise curve.fail(f"expected one of {curves} curves")
+    if not 0 <= low.rational() < high.rational() <= 1:
+        raise entry.fail("expected 0 <= low < high <= 1")
+    if any(r <= 0 for r in radii):
+        raise radius.fail("expected radii above 0")
+    return _Piece(curve.integer(), low.rational(), high.rational(), middle, slopes, radii, entry)
+
+
+def _image(rows: _Rows, points: list[tuple[Fraction, ...]], piece: _Piece) -> list[Fraction]:
+    """Radii of a box around 0 that holds the image; the image is proved to lie inside the piece's box."""
+    half = duals.around((piece.high - piece.low) / 2)
+    box = [duals.around(r) for r in piece.radius]
+    nothing = [duals.ball(Fraction(0))] * 4
+    middle = (piece.low + piece.high) / 2
+    coefficients = [_powers([p[i] for p in points]) for i in range(3)]
+
+    def f(sigma: Any, r: list[Any]) -> list[Dual]:
+        step = duals.seed(sigma, SIGMA, DIRECTIONS)
+        joints = [
+            duals.number(c, DIRECTIONS) + duals.number(v, DIRECTIONS) * step + duals.seed(x, j + 1, DIRECTIONS)
+            for j, (c, v, x) in enumerate(zip(piece.centre, piece.slope, r, strict=True))
+        ]
+        s = duals.number(middle, DIRECTIONS) + step
+        return [a - _horner(c, s) for a, c in zip(rows.end_point(joints), coefficients, strict=True)]
+
+    image = duals.krawczyk(f(nothing[0], nothing[1:]), f(half, nothing[1:]), f(half, box), half, box)
+    if image is None or not duals.strictly_within(image, piece.radius):
+        raise piece.entry.fail("the box is not proved to hold exactly one solution")
+    return [duals.radius_above(x) for x in image]
+
+
+def _powers(values: list[Fraction]) -> list[Fraction]:
+    """Coefficients of 1, s, s², … from Bernstein coefficients: c_k = C(n,k) Σ_j (-1)^(k-j) C(k,j) b_j."""
+    n = len(values) - 1
+    return [comb(n, k) * sum((-1) ** (k - j) * comb(k, j) * values[j] for j in range(k + 1)) for k in range(n + 1)]
+
+
+def _horner(coefficients: list[Fraction], s: Dual) -> Dual:
+    total = duals.number(Fraction(0), DIRECTIONS)
+    for c in reversed(coefficients):
+        total = total * s + duals.number(c, DIRECTIONS)
+    return total
+
+
+def _check_link(
+    one: _Piece, first: list[Fraction], other: _Piece, second: list[Fraction], curves: list[list[tuple[Fraction, ...]]]
+) -> None:
+    same = one.curve == other.curve and one.high == other.low
+    if not same:
+        joined = other.curve == one.curve + 1 and one.high == 1 and other.low == 0
+        if not joined or curves[one.curve][-1] != curves[other.curve][0]:
+            raise other.entry.fail("the piece does not begin where the one before ends")
+    a, b = one.at(one.high), other.at(other.low)
+    gaps = [abs(x - y) for x, y in zip(a, b, strict=True)]
+    if not any(
+        all(gap + r <= size for gap, r, size in zip(gaps, inner, outer, strict=True))
+        for inner, outer in ((first, other.radius), (second, one.radius))
+    ):
+        raise other.entry.fail("its solution is not proved to be that of the piece before at their common parameter")

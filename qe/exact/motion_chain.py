@@ -1,0 +1,242 @@
+"""Chains of rigid motions in ball arithmetic: their end point with first and second derivatives, and proofs that a
+joint position
+exists, is unique in a box and depends smoothly on a parameter (Krawczyk's test; Neumaier, Interval Methods for Systems
+of Equations, 1990, sections 5.1 and 5.2).
+
+For s = m + σ in an interval of half width h a joint position is sought as q = c + vσ + r with r in a box R. With f(r,
+s) the end point at q minus p(s), C an approximate inverse of its Jacobian and Q a box around all these q,
+
+    K = -C f(0, s) + (I - C J(Q)) R,    f(0, s) in f(0, m) + [-h, h] (J(c + v[-h, h]) v - p'(s)).
+
+K inside the interior of R proves for every such s exactly one solution with r in R; r lies in K. J(Q) is regular then.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from math import inf, nextafter
+from typing import Any
+
+from flint import arb, arb_mat, fmpq
+
+from qe.exact.balls import precision
+from qe.exact.field import FieldElement
+
+BITS = 80
+SPARE = 1.25
+"""How much smaller than the box its image has to be: more than the rounding of ``radius`` and ``inner`` to floats."""
+
+Range = tuple[float, float]
+
+
+@dataclass(frozen=True, slots=True)
+class Piece:
+    """For every s in [low, high] there is exactly one joint position within ``radius`` of centre + slope (s - middle).
+
+    It lies within ``inner`` of it. ``velocity`` and ``acceleration``: bounds of its first and second derivative by s.
+    Joint values in rad or mm, one entry for each joint; the numbers are meant exactly.
+    """
+
+    low: Fraction
+    high: Fraction
+    centre: tuple[float, ...]
+    slope: tuple[float, ...]
+    radius: tuple[float, ...]
+    inner: tuple[float, ...]
+    velocity: tuple[Range, ...]
+    acceleration: tuple[Range, ...]
+
+    def at(self, s: Fraction) -> tuple[Fraction, ...]:
+        """The middle of the boxes at s."""
+        step = s - (self.low + self.high) / 2
+        return tuple(Fraction(c) + Fraction(v) * step for c, v in zip(self.centre, self.slope, strict=True))
+
+
+class MotionChain:
+    """constants[0] M(q_1) constants[1] … M(q_n) constants[n] applied to the origin, n = 3 for ``piece``.
+
+    ``constants``: rigid motions as three rows of four rational numbers or field elements; ``turning``: whether a joint
+    turns about (else slides along) its z axis.
+    """
+
+    __slots__ = ("_constants", "_turning")
+
+    def __init__(self, constants: Sequence[Sequence[Sequence[object]]], turning: Sequence[bool]) -> None:
+        with precision(BITS + 16):
+            self._constants = [
+                arb_mat([*([_ball(v) for v in row] for row in m), [arb(0), arb(0), arb(0), arb(1)]]) for m in constants
+            ]
+        self._turning = tuple(turning)
+
+    def _frames(self, q: Sequence[arb]) -> tuple[list[tuple[list[arb], list[arb]]], list[arb]]:
+        """Axis and origin of every joint, and the end point."""
+        whole, axes = self._constants[0], []
+        for value, turns, constant in zip(q, self._turning, self._constants[1:], strict=True):
+            axes.append(([whole[i, 2] for i in range(3)], [whole[i, 3] for i in range(3)]))
+            whole = whole * _motion(value, turns) * constant
+        return axes, [whole[i, 3] for i in range(3)]
+
+    def _jacobian(self, q: Sequence[arb]) -> tuple[arb_mat, list[arb], list[list[arb]], list[list[arb]]]:
+        """(J, end point, axes, columns of J)."""
+        axes, tip = self._frames(q)
+        columns = [
+            _cross(z, [a - b for a, b in zip(tip, o, strict=True)]) if turns else z
+            for (z, o), turns in zip(axes, self._turning, strict=True)
+        ]
+        rows = [[column[i] for column in columns] for i in range(3)]
+        return arb_mat(rows), tip, [z for z, _ in axes], columns
+
+    def _bend(self, axes: list[list[arb]], columns: list[list[arb]], rate: Sequence[arb]) -> list[arb]:
+        """Σ_ij ∂²(end point)/∂q_i∂q_j rate_i rate_j: the second derivative is z_i x column_j for i <= j, i turning."""
+        total = [arb(0)] * 3
+        for j, column in enumerate(columns):
+            for i in range(j + 1):
+                if self._turning[i]:
+                    weight = rate[i] * rate[j] * (1 if i == j else 2)
+                    total = [t + weight * c for t, c in zip(total, _cross(axes[i], column), strict=True)]
+        return total
+
+    def solve(self, curve: Sequence[Sequence[Fraction]], s: Fraction, start: Sequence[float]) -> list[float] | None:
+        """Newton's method from ``start``: joint values near a solution, in floating point, or None."""
+        with precision(BITS):
+            x, target = _ball(s), _values(curve, _ball(s))
+            q = [arb(v) for v in start]
+            for _ in range(30):
+                matrix, tip, _, _ = self._jacobian([v.mid() for v in q])
+                step = _solved(matrix, [a - b for a, b in zip(tip, target, strict=True)])
+                if step is None:
+                    return None
+                q = [(a.mid() - b.mid()) for a, b in zip(q, step, strict=True)]
+                if all(abs(b.mid()) < 1e-13 for b in step):
+                    return [float(v.mid()) for v in q]
+            del x
+            return None
+
+    def piece(
+        self, curve: Sequence[Sequence[Fraction]], low: Fraction, high: Fraction, start: Sequence[float]
+    ) -> Piece | None:
+        """A proved piece over [low, high] near ``start`` (a solution about the middle), or None where the test fails.
+
+        ``curve``: the coefficients of 1, s, s², … of each coordinate of p(s) (mm).
+        """
+        middle = (low + high) / 2
+        centre = self.solve(curve, middle, start)
+        if centre is None:
+            return None
+        with precision(BITS):
+            return self._tested(curve, low, high, centre)
+
+    def _tested(
+        self, curve: Sequence[Sequence[Fraction]], low: Fraction, high: Fraction, centre: list[float]
+    ) -> Piece | None:
+        middle, half = _ball((low + high) / 2), _ball((high - low) / 2)
+        sigma = arb(0, 1) * half
+        first = [_derived(c) for c in curve]
+        q = [arb(v) for v in centre]
+        matrix, tip, _, _ = self._jacobian(q)
+        inverse = _inverse(matrix)
+        if inverse is None:
+            return None
+        slope = [float(v.mid()) for v in _times(inverse, _values(first, middle))]
+        v = [arb(x) for x in slope]
+        error = [a - b for a, b in zip(tip, _values(curve, middle), strict=True)]
+        along = [a + b * sigma for a, b in zip(q, v, strict=True)]
+        drift = [
+            a - b for a, b in zip(_times(self._jacobian(along)[0], v), _values(first, middle + sigma), strict=True)
+        ]
+        newton = _times(inverse, [a + sigma * b for a, b in zip(error, drift, strict=True)])
+        size = [2 * x.abs_upper() + arb(2) ** -36 for x in newton]
+        box = [arb(0, 1) * x for x in size]
+        whole = [a + b for a, b in zip(along, box, strict=True)]
+        jacobian, _, axes, columns = self._jacobian(whole)
+        near = inverse * jacobian
+        rest = [sum((((1 if i == j else 0) - near[i, j]) * box[j] for j in range(3)), arb(0)) for i in range(3)]
+        image = [b - a for a, b in zip(newton, rest, strict=True)]
+        if not all(SPARE * x.abs_upper() < r for x, r in zip(image, size, strict=True)):
+            return None
+        velocity = _solved(near, _times(inverse, _values(first, middle + sigma)))
+        if velocity is None:
+            return None
+        second = _values([_derived(c) for c in first], middle + sigma)
+        push = [a - b for a, b in zip(second, self._bend(axes, columns, velocity), strict=True)]
+        acceleration = _solved(near, _times(inverse, push))
+        if acceleration is None:
+            return None
+        return Piece(
+            low,
+            high,
+            tuple(centre),
+            tuple(slope),
+            tuple(_below(r) for r in size),
+            tuple(_above(x.abs_upper()) for x in image),
+            tuple(map(_range, velocity)),
+            tuple(map(_range, acceleration)),
+        )
+
+
+def _motion(value: arb, turns: bool) -> arb_mat:
+    if not turns:
+        return arb_mat([[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, value], [0, 0, 0, 1]])
+    s, c = value.sin(), value.cos()
+    return arb_mat([[c, -s, 0, 0], [s, c, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]])
+
+
+def _cross(a: Sequence[arb], b: Sequence[arb]) -> list[arb]:
+    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+
+
+def _times(m: arb_mat, v: Sequence[arb]) -> list[arb]:
+    return [sum((m[i, j] * v[j] for j in range(3)), arb(0)) for i in range(3)]
+
+
+def _inverse(m: arb_mat) -> arb_mat | None:
+    """The middle of an inverse: any matrix will do for the test."""
+    try:
+        found = m.inv()
+    except ZeroDivisionError:
+        return None
+    return arb_mat([[found[i, j].mid() for j in range(3)] for i in range(3)])
+
+
+def _solved(m: arb_mat, v: Sequence[arb]) -> list[arb] | None:
+    try:
+        found = m.solve(arb_mat([[x] for x in v]))
+    except ZeroDivisionError:
+        return None
+    return [found[i, 0] for i in range(3)]
+
+
+def _values(curve: Sequence[Sequence[Fraction]], s: arb) -> list[arb]:
+    """The polynomials at a ball, by Horner's rule around its middle (second order in its radius)."""
+    found = []
+    for coefficients in curve:
+        total = arb(0)
+        for c in reversed(coefficients):
+            total = total * s + _ball(c)
+        found.append(total)
+    return found
+
+
+def _derived(coefficients: Sequence[Fraction]) -> list[Fraction]:
+    return [k * c for k, c in enumerate(coefficients)][1:]
+
+
+def _ball(value: Any) -> arb:
+    if isinstance(value, FieldElement):
+        return value.ball(BITS)
+    number = Fraction(value)
+    return arb(fmpq(number.numerator, number.denominator))
+
+
+def _range(x: arb) -> Range:
+    return -_above(-x), _above(x)
+
+
+def _above(x: arb) -> float:
+    return nextafter(float(x.upper()), inf)
+
+
+def _below(x: arb) -> float:
+    return nextafter(float(x.lower()), -inf)

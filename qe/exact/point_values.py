@@ -1,0 +1,132 @@
+"""Real roots above a sample point, values there, and angles from cosine and sine, as rational intervals."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+from flint import arb, fmpq
+
+from qe.exact.algebraic import RealAlgebraic, irreducible_roots
+from qe.exact.balls import EXACT_FROM, lower_end, precision, upper_end
+from qe.exact.ring import Poly
+from qe.exact.sample import Fibre, FibreRoot, Point
+
+Ends = tuple[Fraction, Fraction]
+
+
+def roots_above(point: Point, var: int, f: Poly) -> list[FibreRoot] | None:
+    """The distinct real roots, ascending, of a polynomial in variable ``var``, the next one after the point's.
+
+    None if it vanishes identically at the point.
+    """
+    fibre = Fibre(point, var, point.reduce(f).coefficients(var))
+    if not fibre.strip():
+        return None
+    fibre = Fibre(point, var, fibre.coefficients)
+    return [FibreRoot(fibre, k) for k in range(len(fibre.roots()))]
+
+
+def multiple_roots(roots: list[FibreRoot]) -> list[bool]:
+    """Which of the real roots that ``roots_above`` found for one polynomial are multiple, exactly.
+
+    Balls that keep all complex roots apart prove all simple; else the degree of the squarefree part tells how many
+    coincide.
+    """
+    if not roots or not roots[0].fibre.exact:
+        return [False] * len(roots)
+    fibre = roots[0].fibre
+    lost, point = len(fibre.source) - len(fibre.coefficients), fibre.point
+    slope = Fibre(point, fibre.var, fibre.source).polynomial().derivative(fibre.var)
+    places, open_ones, bits = (
+        [point.extend(root) for root in roots],
+        list(range(len(roots))) if lost else [],
+        EXACT_FROM,
+    )
+    while lost == 1 and len(open_ones) > 1:  # then one real root is double, and the others will show their slopes
+        with precision(bits + 16):
+            open_ones = [k for k in open_ones if places[k].enclose(slope, bits).contains(0)]
+        bits *= 2
+    return [k in open_ones and (lost == 1 or places[k].sign(slope) == 0) for k in range(len(roots))]
+
+
+def roots_between(f: Poly, var: int) -> list[Fraction | RealAlgebraic]:
+    """The real roots in [0, 1], ascending, of a nonzero polynomial in variable ``var`` alone."""
+    found = []
+    for factor, _ in f.factors()[1]:
+        p = factor.to_univariate(var)
+        found += [r for r in irreducible_roots(p) if r.compare_rational(fmpq(0)) >= 0 >= r.compare_rational(fmpq(1))]
+    return [r.as_fraction() if r.is_rational else r for r in sorted(found)]
+
+
+class Evaluation:
+    """Balls around polynomials at a point, rational coordinates included (``Point.reduce`` keeps signs, not values).
+
+    What the coordinates below have given is remembered, so that many points over one share it.
+    """
+
+    __slots__ = ("_known", "_parent", "point")
+
+    def __init__(self, point: Point, parent: Evaluation | None = None) -> None:
+        self.point, self._known = point, dict[tuple[Poly, int], arb]()
+        self._parent = Evaluation(point.parent) if parent is None and point.parent is not None else parent
+
+    def extend(self, value: FibreRoot) -> Evaluation:
+        """The same at the point one coordinate longer."""
+        return Evaluation(self.point.extend(value), self)
+
+    def enclose(self, f: Poly, bits: int) -> arb:
+        """A ball around f, at FLINT's working precision."""
+        i = f.level
+        if i < 0:
+            return arb(f.constant_value())
+        if i < self.point.depth - 1 and self._parent is not None:
+            return self._parent.enclose(f, bits)
+        found = self._known.get((f, bits))
+        if found is None:
+            value, found = self.point.value, arb(0)
+            x = arb(value) if isinstance(value, fmpq) else self.point.ball(i, bits)
+            for c in reversed(f.coefficients(i)):
+                found = found * x + self.enclose(c, bits)
+            self._known[f, bits] = found
+        return found
+
+    def quotient(self, top: Poly, bottom: Poly, scale: Fraction, bits: int) -> Ends:
+        """An interval around ``scale * top / bottom``, at most 2^-bits wide; ``bottom`` does not vanish at the
+        point."""
+        factor, working = fmpq(scale.numerator, scale.denominator), bits + 16
+        while True:
+            with precision(working + 16):
+                below = self.enclose(bottom, working)
+                if not below.contains(0):
+                    value = self.enclose(top, working) / below * factor
+                    if 2 * value.rad() < arb(2) ** -bits:
+                        return _ends(value)
+            working *= 2
+
+
+def angle_ends(cosine: Ends, sine: Ends, bits: int) -> Ends:
+    """An interval around the angle in (-pi, pi] with cosine and sine in these intervals, not both of which contain 0.
+
+    Where the angle pi cannot be told from -pi the interval is around pi.
+    """
+    with precision(bits + 16):
+        c, s = _hull(cosine), _hull(sine)
+        if c > 0 or s > 0 or s < 0:
+            return _ends(arb.atan2(s, c))
+        return _ends(arb.pi() - (s / -c).atan())
+
+
+def pi_ends(bits: int) -> Ends:
+    """An interval around pi."""
+    with precision(bits):
+        return _ends(arb.pi())
+
+
+def _hull(ends: Ends) -> arb:
+    low, high = (arb(fmpq(e.numerator, e.denominator)) for e in ends)
+    return low.union(high)
+
+
+def _ends(x: arb) -> Ends:
+    low, high = lower_end(x), upper_end(x)
+    return Fraction(int(low.p), int(low.q)), Fraction(int(high.p), int(high.q))

@@ -1,0 +1,247 @@
+"""Inverse kinematics at a point: published solutions, the closed form, what is special, other arms."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from fractions import Fraction
+from math import hypot, pi, sqrt
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from bezier.arm import inverse
+from bezier.arm.elimination import TURNS, Geometry
+from bezier.arm.exact_text import read_exact
+from bezier.arm.inverse import solve
+from bezier.arm.kinematics import positions
+from bezier.arm.model import Arm
+from bezier.arm.ratio import variable
+from bezier.arm.reader import load_arm, read_arm
+from bezier.arm.substitute_back import confirm
+from qe.errors import InputError, InternalError, Unable
+from qe.exact.ring import Ring
+
+POINT = (Fraction(599, 66), Fraction(824, 33), Fraction(323, 10))
+
+
+def rows(convention: str, *entries: str) -> str:
+    """The text of an arm; entries separate keys by semicolons."""
+    body = "".join("[[row]]\n" + entry.replace("; ", "\n") + "\n" for entry in entries)
+    return f'convention = "{convention}"\n{body}'
+
+
+SHOULDER = rows("standard", 'joint = "t1"; d = 100; alpha = "pi/2"', 'joint = "t2"; a = 80', 'joint = "t3"; a = 60')
+SCARA = rows("standard", 'joint = "t1"; a = 50', 'joint = "t2"; a = 40; alpha = "pi/2"', 'joint = "t3"; a = 30')
+SKEW = rows(
+    "modified",
+    'joint = "t1"; alpha = "pi/6"; a = 5; d = 3',
+    'joint = "t2"; a = 20; alpha = "pi/3"; d = 7; theta = "pi/4"',
+    'joint = "t3"; a = 30; alpha = {cos = "3/5", sin = "4/5"}; d = 4',
+    "a = 25",
+)
+ARMS = [load_arm("ev3-120"), read_arm(SHOULDER), read_arm(SCARA), read_arm(SKEW)]
+
+
+def closed_form(x: float, y: float, z: float, length: float) -> int:
+    """MATHS: two solutions for each sign of rho inside the annulus."""
+    a, top = 44 * sqrt(2), sqrt(18752)
+    distances = [hypot(sign * hypot(x, y) - a, z - 104 - a) for sign in (1, -1)]
+    return sum(2 for d in distances if abs(top - length) < d < top + length)
+
+
+def test_the_published_point() -> None:
+    found = solve(load_arm("ev3-120"), POINT)
+    assert found.count == 4
+    cosines = sorted(round(float(sum(s.values[1].cosine) / 2), 12) for s in found.solutions if s.values[1])
+    assert cosines == [-0.940394772358, -0.726166272114, -0.50252984126, -0.283151812542]
+
+
+@given(st.tuples(*[st.fractions(-400, 400, max_denominator=60)] * 3))
+def test_the_count_is_that_of_the_closed_form(point: tuple[Fraction, ...]) -> None:
+    arm = load_arm("ev3-112")
+    x, y, z = point
+    if x == y == 0:
+        return
+    found = solve(arm, point)
+    assert found.count == closed_form(float(x), float(y), float(z), 112)
+    if found.solutions:
+        reached = positions(arm, [s.angles for s in found.solutions])
+        assert np.allclose(reached, [float(c) for c in point], atol=1e-9)
+
+
+@pytest.mark.parametrize("arm", ARMS, ids=["ev3", "shoulder", "scara", "skew"])
+@given(st.lists(st.integers(-7, 7), min_size=3, max_size=3))
+def test_the_joints_that_made_the_point_are_found(arm: Arm, halves: list[int]) -> None:
+    """Rational half-angle tangents give exact points; their joints are among the solutions, all of which reach them."""
+    from bezier.arm.kinematics import position
+
+    tangents = [Fraction(k, 3) for k in halves]
+    pairs = [((1 - t * t) / (1 + t * t), 2 * t / (1 + t * t)) for t in tangents]
+    point = position(arm, dict(zip((j.name for j in arm.joints), pairs)))
+    found = solve(arm, point)
+    assert found.is_reachable
+    if found.free:
+        return
+    assert np.allclose(positions(arm, [s.angles for s in found.solutions]), [float(c) for c in point], atol=1e-9)
+    boxes = [[v for v in s.values if v is not None] for s in found.solutions]
+    assert any(
+        all(v.cosine[0] <= c <= v.cosine[1] and v.sine[0] <= s <= v.sine[1] for v, (c, s) in zip(box, pairs))
+        for box in boxes
+    )
+
+
+@given(st.lists(st.floats(-3, 3), min_size=3, max_size=3), st.integers(1, 3))
+def test_no_solution_is_missed_by_newton(start: list[float], which: int) -> None:
+    """Newton's method from anywhere ends, if it ends, in one of the solutions."""
+    arm = ARMS[which]
+    point = [Fraction(v) for v in positions(arm, [[0.4, -1.1, 0.7]])[0]]
+    found = np.array([s.angles for s in solve(arm, point).solutions])
+    q = np.array(start)
+    from bezier.arm.kinematics import jacobians
+
+    for _ in range(40):
+        j = jacobians(arm, [q])[0]
+        q = q - np.linalg.lstsq(j, positions(arm, [q])[0] - [float(c) for c in point], rcond=None)[0]
+    if np.allclose(positions(arm, [q])[0], [float(c) for c in point], atol=1e-10):
+        gaps = np.abs((found - q + pi) % (2 * pi) - pi).max(axis=1)
+        assert gaps.min() < 1e-4
+
+
+SPECIAL = [
+    (("44*sqrt(2) + 8*sqrt(293) + 120", "0", "104 + 44*sqrt(2)"), 1, [True]),
+    (("44*sqrt(2) + 8*sqrt(293) - 120", "0", "104 + 44*sqrt(2)"), 3, [True, False, False]),
+    (("0", "44*sqrt(2)", "104 + 44*sqrt(2) + 8*sqrt(293) + 120"), 1, [True]),
+    (("44*sqrt(2)", "0", "104 + 44*sqrt(2)"), 2, [False, False]),
+    (("100", "50", "104 + 44*sqrt(2)"), 4, [False] * 4),
+    (("0", "0", "500"), 0, []),
+]
+
+
+@pytest.mark.parametrize(("texts", "count", "multiple"), SPECIAL)
+def test_borders_and_circle(texts: tuple[str, ...], count: int, multiple: list[bool]) -> None:
+    found = solve(load_arm("ev3-120"), [read_exact(t) for t in texts])
+    assert found.count == count
+    assert sorted(s.multiple for s in found.solutions) == sorted(multiple)
+    assert any("singular" in c for c in found.cases) == any(multiple)
+    assert any("shoulder" in c for c in found.cases) == (texts[0] == "44*sqrt(2)")
+
+
+def test_a_hair_beyond_the_border() -> None:
+    arm, edge = (
+        load_arm("ev3-120"),
+        [read_exact(t) for t in ("44*sqrt(2) + 8*sqrt(293) + 120", "0", "104 + 44*sqrt(2)")],
+    )
+    tiny = Fraction(1, 10**40)
+    assert [solve(arm, (edge[0] + d, edge[1], edge[2])).count for d in (-tiny, tiny)] == [2, 0]
+
+
+def test_on_the_axis_the_first_joint_is_free() -> None:
+    found = solve(load_arm("ev3-112"), (0, 0, 200))
+    assert found.count is None
+    assert found.free == ("theta1",)
+    assert [s.values[0] for s in found.solutions] == [None, None]
+    assert [round(s.angles[1] or 0, 9) for s in found.solutions] == [0.236922525, 2.14432378]
+
+
+def test_the_angle_that_the_tangent_misses() -> None:
+    """θ7 = pi: t is infinite for the first φ."""
+    from bezier.arm.kinematics import position
+
+    arm = load_arm("ev3-120")
+    point = position(arm, {"theta1": (1, 0), "theta4": (Fraction(3, 5), Fraction(4, 5)), "theta7": (-1, 0)})
+    assert any(abs(abs(s.angles[2] or 0) - pi) < 1e-15 for s in solve(arm, point).solutions)
+    assert solve(arm, point).count == 4
+
+
+def test_limits_of_joints() -> None:
+    text = SHOULDER.replace('joint = "t2"', 'joint = "t2"\nlimits = [0, 1.5]')
+    arm = read_arm(text)
+    found = solve(arm, (80, 60, 120))
+    kept = [s.angles[1] for s in found.solutions if s.allowed]
+    assert found.count == 4
+    assert kept and all(a is not None and 0 <= a <= 1.5 for a in kept)
+    assert all(not (0 <= (s.angles[1] or 0) <= 1.5) for s in found.solutions if not s.allowed)
+
+
+def test_an_angle_on_the_limit_zero_and_one_beyond_half_a_turn() -> None:
+    arm = read_arm(SHOULDER.replace('joint = "t1"', 'joint = "t1"\nlimits = [0, 3.5]'))
+    by_angle = {round(s.angles[0] or 0, 3): s.allowed for s in solve(arm, (90, 0, 120)).solutions}
+    assert by_angle == {0.0: True, 3.142: True}
+    beyond = {round(s.angles[0] or 0, 3): s.allowed for s in solve(arm, (-90, -10, 120)).solutions}
+    assert sorted(beyond.items()) == [(-3.031, True), (0.111, True)]
+
+
+def test_a_planar_arm_has_a_family() -> None:
+    flat = 'convention = "standard"\n' + "".join(f'[[row]]\njoint = "t{k}"\na = {a}\n' for k, a in enumerate((5, 4, 3)))
+    found = solve(read_arm(flat), (6, 2, 0))
+    assert found.count is None and found.is_reachable
+    assert solve(read_arm(flat), (6, 2, 1)).count == 0
+    assert solve(read_arm(flat), (600, 2, 0)).count == 0
+
+
+def test_arms_that_do_not_fit() -> None:
+    with pytest.raises(Unable, match="three revolute"):
+        solve(read_arm(SHOULDER + '[[row]]\njoint = "t4"\na = 3\n'), POINT)
+    same = 'convention = "standard"\n' + "".join(f'[[row]]\njoint = "t{k}"\n' for k in range(3))
+    with pytest.raises(Unable, match="one axis"):
+        solve(read_arm(same), POINT)
+
+
+@pytest.mark.parametrize("point", [(1, 2), (1, 2, 3.0), (1, 2, "3"), (True, 0, 0)])
+def test_points_are_exact(point: tuple[object, ...]) -> None:
+    with pytest.raises(InputError):
+        solve(load_arm("ev3-120"), point)
+
+
+def test_a_wrong_reduction_does_not_pass() -> None:
+    arm = load_arm("ev3-120")
+    ring = Ring.of(inverse.NAMES)
+    point = [variable(ring, name, arm.field) for name in "xyz"]
+    right = Geometry.of(arm).reduce(ring, point, TURNS[0])
+    confirm(arm, right, point)
+    swapped = replace(right, pairs=(right.pairs[1], right.pairs[0], right.pairs[2]))
+    other = Geometry.of(load_arm("ev3-112")).reduce(ring, point, TURNS[0])
+    for wrong in (swapped, other, replace(right, equation=right.equation + 1)):
+        with pytest.raises(InternalError):
+            confirm(arm, wrong, point)
+
+
+@pytest.mark.parametrize("length", [112, 120])
+def test_logged_queries(shared: Path, length: int) -> None:
+    logged = [
+        json.loads(line) for line in (shared / "corpora/ev3" / f"queries_L{length}.jsonl").read_text().splitlines()
+    ]
+    arm = load_arm(f"ev3-{length}")
+    for row in logged[::8]:
+        point = [Fraction(row[c]) for c in "xyz"]
+        found = solve(arm, point)
+        assert found.count == row["real_solutions"], row["id"]
+        assert np.allclose(positions(arm, [s.angles for s in found.solutions]), [float(c) for c in point], atol=1e-5)
+
+
+@pytest.mark.deep
+@pytest.mark.parametrize("name", ["queries_L112", "queries_L120", "points_L120_without_log"])
+def test_every_logged_query(shared: Path, name: str) -> None:
+    arm = load_arm("ev3-112" if "112" in name else "ev3-120")
+    for line in (shared / "corpora" / "ev3" / f"{name}.jsonl").read_text().splitlines():
+        row = json.loads(line)
+        assert solve(arm, [Fraction(row[c]) for c in "xyz"]).count == row["real_solutions"], row["id"]
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["sqrt(-1)", "sqrt(2", "x", "sqrt(sqrt(2))", "1/(sqrt(4)-2)", "sqrt(2)**2", "__import__('os')", "sqrt(2)" * 9],
+)
+def test_no_exact_number(text: str) -> None:
+    with pytest.raises(InputError):
+        read_exact(text)
+
+
+def test_exact_numbers() -> None:
+    assert read_exact("1/3") == Fraction(1, 3)
+    assert read_exact("0.1*sqrt(4)") == Fraction(1, 5)
+    assert float(read_exact("44*sqrt(2) - 8*sqrt(293)/2")) == pytest.approx(44 * sqrt(2) - 4 * sqrt(293))
