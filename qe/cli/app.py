@@ -168,6 +168,32 @@ def convert(
     return deliver(limited(work, timeout=None, memory=None, plain=True), {})
 
 
+@app.command()
+def smt(
+    script: Annotated[str, typer.Argument(metavar="FILE|-", show_default=False)] = "-",
+    timeout: Annotated[
+        float | None, typer.Option("--timeout", help="Seconds for all checks together; with -i for each of them.")
+    ] = None,
+    memory: Memory = None,
+    interactive: Annotated[
+        bool, typer.Option("--interactive", "-i", help="Then read commands from standard input, as they come.")
+    ] = False,
+) -> int:
+    """Run an SMT-LIB script over the reals as solvers do: one answer for every command.
+
+    Exit status 2 when a command was not understood; all others were answered.
+    """
+    from qe.cli import smt as cli_smt
+
+    check_limits(timeout, memory)
+    source = None if script == "-" else read_source(script, InputFormat.SMTLIB)
+    if source is not None and source.name == "<argument>":
+        raise InputError(f"{script}: no such file")
+    text, name = (None, "<stdin>") if source is None else (source.text, source.name)
+    limit = timeout if timeout is None or interactive else remaining(timeout)
+    return cli_smt.run(text, name, timeout=limit, memory=memory, interactive=interactive)
+
+
 def request(
     source: str,
     format: InputFormat | None,

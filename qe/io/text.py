@@ -16,7 +16,8 @@ from typing import cast
 from qe.exact.ring import Poly
 from qe.formula.syntax import Formula
 from qe.io.grammar import Failing, parse
-from qe.io.surface import Meet, Quantification, Term, lower, lower_term
+from qe.io.lowering import lower, lower_term
+from qe.io.surface import Meet, Quantification, Term
 from qe.io.text_parser import text_parser
 from qe.spelling import CONSTANTS as CONSTANTS
 
@@ -35,7 +36,7 @@ def read(text: str, *, source: str = "<text>", known: Container[str] = ()) -> Fo
 def read_polynomial(text: str, *, source: str = "<text>", known: Container[str] = ()) -> tuple[Poly, Fraction]:
     """A polynomial p and a rational s: ``text`` means s*p. Names and errors as for ``read``."""
     fail = Failing(text, source)
-    term = parse(text_parser("sum"), text, fail)
+    term = parse(text_parser("term"), text, fail)
     value = lower_term(cast(Term, term), fail, meet=_no_constants(fail, known))
     return value.poly, Fraction(1, value.den)
 
