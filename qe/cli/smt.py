@@ -247,7 +247,7 @@ class Solver:
         """Whether the nodes can hold together."""
         found = self.attempt(nodes, Total(fill=Fill.ANY))
         if found.answer == "sat" and found.total is not None and found.total.weakened:
-            for fill in (Fill.ZERO, Fill.ARGUMENT):
+            for fill in (Fill.CONSTANT, Fill.ARGUMENT):
                 other = self.attempt(nodes, Total(fill=fill))
                 if other.answer == "sat":
                     return other
@@ -305,14 +305,17 @@ class Solver:
         result = self.last("sat")
         if result.point is None or result.total is None:
             raise InputError("the formula is satisfiable, but no model was found")
-        total, outside = result.total, result.total.at(result.point)
+        point, total = result.point, result.total
+        outside = total.at(point)
 
         def value(function: str, argument: Number) -> Number:
             if total.fill is Fill.ARGUMENT:
                 return argument
+            if total.fill is Fill.CONSTANT:
+                return next((point[name] for name, (f, _) in total.values.items() if f == function), 0)
             return next((v for f, a, v in outside if f == function and a == argument), 0)
 
-        return Evaluation(result.point, value)
+        return Evaluation(point, value)
 
     def model(self) -> str:
         values = self.evaluation()

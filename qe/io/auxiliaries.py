@@ -74,10 +74,12 @@ class Auxiliaries:
     def outside(self, function: str, argument: Case) -> Cases:
         """The value of a function at an argument outside its domain, where functions are total."""
         assert self.total is not None
-        if self.total.fill is Fill.ZERO:
-            return cases.guarded(argument.guards, Case((), terms.number(self.ring, 0)))
         if self.total.fill is Fill.ARGUMENT:
             return (argument,)
+        if self.total.fill is Fill.CONSTANT:
+            name = self.named(("outside", function), lambda _: None)
+            self.total.values[name] = (function, ())
+            return cases.guarded(argument.guards, Case((), terms.variable(self.ring, name)))
         bare = argument._replace(guards=())
         loose = not self.total.bound.isdisjoint(self.names_in(bare))
 

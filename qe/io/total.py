@@ -3,7 +3,7 @@
 ``x/0`` is f(x) for a function f that nothing is known of. A value f(t) whose argument has no bound variables is a new
 unknown, and equal arguments give equal unknowns (W. Ackermann's reduction). Where the argument has bound variables f
 cannot be written down; then the formula is either weakened (every use has a value of its own: if that cannot be
-satisfied, nor can what was written), or f is fixed (what is satisfied then is satisfiable).
+satisfied, nor can what was written), or f is a constant or the identity (what is satisfied then is satisfiable).
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ class Fill(Enum):
     """What is known of the values outside the domains."""
 
     ANY = "any"
-    ZERO = "zero"
+    CONSTANT = "constant"
     ARGUMENT = "argument"
 
 
