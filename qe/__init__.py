@@ -45,6 +45,7 @@ if TYPE_CHECKING:
     from qe.convex.optimum import Optimum
     from qe.elimination.vs.parametric import ParametricWitness
     from qe.exact.algebraic import RealAlgebraic
+    from qe.io.expressions import Expression, Statement, exists, forall, variables
     from qe.io.sympy import Exists, ForAll
     from qe.regions.region import Region
 
@@ -69,6 +70,7 @@ _API = (
 )
 _LATER = {
     **dict.fromkeys(_API, "qe.api"),
+    **dict.fromkeys(("Expression", "Statement", "exists", "forall", "variables"), "qe.io.expressions"),
     "Exists": "qe.io.sympy",
     "ForAll": "qe.io.sympy",
     "Optimum": "qe.convex.optimum",
@@ -101,6 +103,7 @@ __all__ = [
     "CertificateRejected",
     "DegreeTooHigh",
     "Exists",
+    "Expression",
     "ForAll",
     "Guarantee",
     "InputError",
@@ -115,6 +118,7 @@ __all__ = [
     "RealAlgebraic",
     "Region",
     "Stage",
+    "Statement",
     "Status",
     "Unable",
     "Verdict",
@@ -122,10 +126,13 @@ __all__ = [
     "decide",
     "eliminate",
     "equivalent",
+    "exists",
     "find_instance",
+    "forall",
     "maximize",
     "minimize",
     "parametric_witnesses",
     "region",
+    "variables",
     "verify",
 ]

@@ -15,7 +15,9 @@ import qe
 from qe import api
 from qe.cli.smt_values import Evaluation, Number, written
 from qe.errors import InputError, ParseError, Unable
+from qe.execution import Limits, perform
 from qe.formula.build import exists
+from qe.formula.syntax import Formula
 from qe.formula.traverse import free_variables
 from qe.io import smtlib
 from qe.io import surface as s
@@ -26,6 +28,9 @@ from qe.io.smtlib_terms import is_real
 from qe.io.total import Fill, Total
 
 MOST_LEVELS = 10_000
+MOST_PARTS = 300
+"""Parts of a script up to which it is read at once, in this process."""
+
 _INFO = {
     ":name": '"bezier-qe"',
     ":version": f'"{qe.__version__}"',
@@ -257,18 +262,32 @@ class Solver:
         return found
 
     def attempt(self, nodes: Sequence[s.Node], total: Total) -> Result:
-        left = self.left()
+        start, left = time.monotonic(), self.left()
         if left is not None and left <= 0:
             return Result("unknown", "timeout")
-        formula = self.script.formula_of(nodes, total)
+        try:
+            formula, total = self.formula(nodes, total, left)
+        except Unable:
+            return Result("unknown", "timeout")
         closed = exists(free_variables(formula), formula)
-        answer = api.eliminate(closed, timeout=None if left is None else max(left, 0.01), memory=self.memory)
+        rest = None if left is None else max(left - (time.monotonic() - start), 0.01)
+        answer = api.eliminate(closed, timeout=rest, memory=self.memory)
         if answer.truth is None:
             return Result("unknown", "timeout" if "time" in answer.reason else "incomplete")
         if not answer.truth:
             return Result("unsat", total=total)
         point = dict(answer.witness) if answer.witness is not None else ({} if not free_variables(formula) else None)
         return Result("sat", point=point, total=total)
+
+    def formula(self, nodes: Sequence[s.Node], total: Total, seconds: float | None) -> tuple[Formula, Total]:
+        """What the nodes mean together; a large script is read in a process of its own, which a limit ends."""
+
+        def read(_: object = None) -> tuple[Formula, Total]:
+            return self.script.formula_of(nodes, total), total
+
+        if len(self.script.shared) <= MOST_PARTS:
+            return read()
+        return perform(read, Limits(seconds, self.memory), at_once=True)
 
     def last(self, answer: str) -> Result:
         """The last check, which must have had this answer."""

@@ -201,6 +201,13 @@ def _parts(expression: object) -> tuple[Formula, Mapping[str, Formula]]:
         raise InputError("the expression is nested too deeply") from None
 
 
+def term_from_sympy(expression: object) -> s.Term:
+    """The surface tree of a SymPy expression."""
+    import sympy
+
+    return Reader(sympy).real(_basic(expression, "a SymPy expression"))
+
+
 def polynomial_from_sympy(expression: object) -> tuple[Poly, Fraction]:
     """A polynomial p and a rational s: the expression is s*p.
 

@@ -41,6 +41,11 @@ def read_polynomial(text: str, *, source: str = "<text>", known: Container[str] 
     return value.poly, Fraction(1, value.den)
 
 
+def read_term(text: str, *, source: str = "<text>") -> Term:
+    """The term that ``text`` is, as a surface tree. Names and errors as for ``read``."""
+    return cast(Term, parse(text_parser("term"), text, Failing(text, source)))
+
+
 def outermost(text: str) -> tuple[bool, tuple[str, ...]] | None:
     """Whether the outermost quantifier of a text that can be read is universal, and its names; None without one."""
     node = parse(text_parser(), text, Failing(text, "<text>"))
