@@ -42,6 +42,9 @@ PictureFile = Annotated[Path | None, typer.Option("--plot", help="Draw the regio
 Plain = Annotated[bool, typer.Option("--plain", help="No progress display and no notes.")]
 Json = Annotated[bool, typer.Option("--json", help="One JSON object on stdout.")]
 Explain = Annotated[bool, typer.Option("--explain", help="Tell on stderr how the answer was found.")]
+TotalDivision = Annotated[
+    bool, typer.Option("--total-division", help="x/0 is some number, as in SMT-LIB, instead of nothing.")
+]
 RootAtoms = Annotated[bool, typer.Option("--root-atoms", help="Allow x < root(k, p) in the answer.")]
 
 
@@ -56,6 +59,7 @@ def eliminate(
     memory: Memory = None,
     certificate: CertificateFile = None,
     root_atoms: RootAtoms = False,
+    total_division: TotalDivision = False,
     explain: Explain = False,
     json: Json = False,
     plain: Plain = False,
@@ -63,7 +67,7 @@ def eliminate(
     """Print a quantifier-free formula equivalent to FORMULA over the real numbers."""
     from qe.cli import work as cli_work
 
-    asked = request(formula, format, timeout, memory, certificate, json)
+    asked = request(formula, format, timeout, memory, certificate, json, total_division)
     asked = replace(asked, method=method.value, order=names(order), root_atoms=root_atoms)
     work = partial(cli_work.eliminate, request=asked, output=output)
     reply = limited(work, timeout=timeout, memory=memory, plain=plain)
@@ -78,6 +82,7 @@ def decide(
     timeout: Timeout = None,
     memory: Memory = None,
     certificate: CertificateFile = None,
+    total_division: TotalDivision = False,
     explain: Explain = False,
     json: Json = False,
     plain: Plain = False,
@@ -85,7 +90,7 @@ def decide(
     """Print true or false for a sentence, sat or unsat for an SMT-LIB script."""
     from qe.cli import work as cli_work
 
-    asked = replace(request(formula, format, timeout, memory, certificate, json), method=method.value)
+    asked = replace(request(formula, format, timeout, memory, certificate, json, total_division), method=method.value)
     reply = limited(partial(cli_work.decide, request=asked), timeout=timeout, memory=memory, plain=plain)
     return deliver(reply, {"certificate": certificate}, explain=explain)
 
@@ -201,13 +206,13 @@ def request(
     memory: int | None,
     certificate: Path | None,
     json: bool,
+    total_division: bool = False,
 ) -> Request:
     """What all answering commands are asked; limits and files are checked before anything is read."""
     check_limits(timeout, memory)
     check_writable(certificate)
-    return Request(
-        source=read_source(source, format), timeout=soft(timeout), certificate=certificate is not None, json=json
-    )
+    given = replace(read_source(source, format), total_division=total_division)
+    return Request(source=given, timeout=soft(timeout), certificate=certificate is not None, json=json)
 
 
 def names(order: str | None) -> tuple[str, ...] | None:

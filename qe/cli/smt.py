@@ -365,9 +365,7 @@ class Solver:
         self.script.arity(command, 1)
         total = Total(fill=Fill.ANY)
         formula = self.script.formula_of([self.script.formula(command.items[1], self.script.globals)], total)
-        if total.weakened:
-            raise InputError("x/0 is any function of x, which no formula says where x is bound")
-        answer = api.eliminate(formula, timeout=self.left(), memory=self.memory)
+        answer = api.eliminate(total.checked(formula), timeout=self.left(), memory=self.memory)
         if answer.formula is None:
             raise Unable(answer.reason or "no answer")
         symbols = {name: symbol for symbol, (_, name) in self.script.constants.items()}

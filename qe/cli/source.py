@@ -52,6 +52,7 @@ class Source:
     text: str
     format: InputFormat
     name: str
+    total_division: bool = False
 
 
 def read_source(argument: str, wanted: InputFormat | None) -> Source:

@@ -68,6 +68,8 @@ def lower(
     found = Names(fail, meet)
     if not shared:
         found.node(node, frozenset(), 0)
+    if total is not None and names is None:
+        total.bound = frozenset(found.bound)
     listed = found.all() if names is None else list(dict.fromkeys(names))
     reserve = found.special if names is None else 0
     while True:

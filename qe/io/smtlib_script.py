@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import NamedTuple, cast
 
-from qe.errors import InputError
-from qe.formula.build import conj
 from qe.formula.syntax import Formula
 from qe.io import surface as s
 from qe.io.lowering import lower
@@ -130,10 +128,7 @@ class Script(Terms):
     def whole(self) -> Formula:
         """The conjunction of all assertions. Raises where a value outside a domain cannot be written down."""
         total = Total(fill=Fill.ANY)
-        found = self.formula_of([a.node for a in self.assertions], total)
-        if total.weakened:
-            raise InputError("x/0 is any function of x, which no formula says where x is bound; qe smt runs the script")
-        return conj((found,))
+        return total.checked(self.formula_of([a.node for a in self.assertions], total))
 
 
 def _label(written: Expression) -> str | None:

@@ -19,18 +19,22 @@ from qe.io.grammar import Failing, parse
 from qe.io.lowering import lower, lower_term
 from qe.io.surface import Meet, Quantification, Term
 from qe.io.text_parser import text_parser
+from qe.io.total import Total
 from qe.spelling import CONSTANTS as CONSTANTS
 
 
-def read(text: str, *, source: str = "<text>", known: Container[str] = ()) -> Formula:
+def read(text: str, *, source: str = "<text>", known: Container[str] = (), total_division: bool = False) -> Formula:
     """The formula that ``text`` means. ``source`` names the text in messages.
 
-    ``pi``, ``e`` and ``i`` are no numbers here: as free variables they are refused unless they stand between backquotes
-    or are ``known`` to be variables (for texts that programs wrote). Raises ``ParseError``, one line with line, column
-    and what was expected.
+    ``pi`` and ``e`` are no numbers here: as free variables they are refused unless they stand between backquotes
+    or are ``known`` to be variables (for texts that programs wrote). A quotient has no value where its denominator is
+    zero; with ``total_division`` it has one there that nothing is known of, as in SMT-LIB, and the formula holds if it
+    holds for some choice of these values. Raises ``ParseError``, one line with line, column and what was expected.
     """
     fail = Failing(text, source)
-    return lower(parse(text_parser(), text, fail), fail, meet=_no_constants(fail, known))
+    total = Total() if total_division else None
+    formula = lower(parse(text_parser(), text, fail), fail, meet=_no_constants(fail, known), total=total)
+    return formula if total is None else total.checked(formula)
 
 
 def read_polynomial(text: str, *, source: str = "<text>", known: Container[str] = ()) -> tuple[Poly, Fraction]:

@@ -15,7 +15,9 @@ from fractions import Fraction
 from math import prod
 from typing import Any
 
+from qe.errors import InputError
 from qe.exact.ring import Poly
+from qe.formula.syntax import Formula
 from qe.io.cases import Case
 
 
@@ -41,6 +43,12 @@ class Total:
     values: dict[str, tuple[str, tuple[Case, ...]]] = field(default_factory=dict)
     weakened: bool = False
     unclear: bool = False
+
+    def checked(self, formula: Formula) -> Formula:
+        """The formula, if it says what was written. Raises ``InputError`` where no formula does."""
+        if self.weakened:
+            raise InputError("x/0 is any function of x, which no formula says where x is bound; qe smt runs scripts")
+        return formula
 
     def at(self, point: Mapping[str, Any]) -> list[tuple[str, Any, Any]]:
         """Function, argument and value of the unknowns at a point; not those whose argument is no quotient there."""
