@@ -47,6 +47,7 @@ if TYPE_CHECKING:
     from qe.exact.algebraic import RealAlgebraic
     from qe.io.expressions import Expression, Statement, exists, forall, variables
     from qe.io.sympy import Exists, ForAll
+    from qe.io.z3_door import from_z3
     from qe.regions.region import Region
 
 __version__ = "0.1.0"
@@ -73,6 +74,7 @@ _LATER = {
     **dict.fromkeys(("Expression", "Statement", "exists", "forall", "variables"), "qe.io.expressions"),
     "Exists": "qe.io.sympy",
     "ForAll": "qe.io.sympy",
+    "from_z3": "qe.io.z3_door",
     "Optimum": "qe.convex.optimum",
     "ParametricWitness": "qe.elimination.vs.parametric",
     "RealAlgebraic": "qe.exact.algebraic",
@@ -84,8 +86,8 @@ _LATER = {
 
 def __getattr__(name: str) -> Any:
     """A public name from a module that is loaded at its first use (PEP 562)."""
-    if name == "api":
-        return import_module("qe.api")
+    if name in ("api", "sympy"):
+        return import_module(f"qe.{name}")
     if name not in _LATER:
         raise AttributeError(f"module 'qe' has no attribute {name!r}")
     found = globals()[name] = getattr(import_module(_LATER[name]), name)
@@ -129,6 +131,7 @@ __all__ = [
     "exists",
     "find_instance",
     "forall",
+    "from_z3",
     "maximize",
     "minimize",
     "parametric_witnesses",

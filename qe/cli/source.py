@@ -18,6 +18,7 @@ class InputFormat(Enum):
     SMTLIB = "smtlib"
     QEPCAD = "qepcad"
     REDLOG = "redlog"
+    LATEX = "latex"
     JSON = "json"
 
 
@@ -39,10 +40,11 @@ _BY_ENDING = {
     ".json": InputFormat.JSON,
     ".qepcad": InputFormat.QEPCAD,
     ".red": InputFormat.REDLOG,
+    ".tex": InputFormat.LATEX,
     ".qe": InputFormat.TEXT,
     ".txt": InputFormat.TEXT,
 }
-_FILE_LIKE = re.compile(r"[^\s<>=]+\.(smt2|smt|json|qepcad|red|qe|txt)")
+_FILE_LIKE = re.compile(r"[^\s<>=]+\.(smt2|smt|json|qepcad|red|tex|qe|txt)")
 
 
 @dataclass(frozen=True, slots=True)

@@ -25,7 +25,7 @@ class Format(Enum):
     @property
     def readable(self) -> bool:
         """Whether there is a reader; a writer there is for all."""
-        return self not in (Format.LATEX, Format.MATHML)
+        return self is not Format.MATHML
 
 
 READABLE = tuple(f.value for f in Format if f.readable)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from functools import cache
 from typing import Any
 
@@ -9,9 +10,9 @@ from qe.formula.relation import Relation
 from qe.io import surface as s
 from qe.io.building import RELATIONS, Builder
 from qe.io.grammar import parser
-from qe.io.lalr import Parser
+from qe.io.lalr import Parser, Token
 from qe.io.text_errors import SyntaxFailure
-from qe.io.text_lexer import tokens
+from qe.io.text_lexer import Make, tokens
 
 _UNIVERSAL = frozenset(("all", "forall", "All", "A", "∀", "ForAll", "Forall", "FORALL", "\\[ForAll]"))
 # "c" ends with a closed formula, "o" with a quantifier whose body runs on: nothing can follow an "o" inside
@@ -88,7 +89,25 @@ GRAMMAR = _FORMULAS + _TERMS
 @cache
 def text_parser(start: str = "start") -> Parser:
     """The parser of the text syntax; of its terms with ``start`` "term"."""
-    return parser("text" if start == "start" else f"text_{start}", GRAMMAR, tokens, TextBuilder(), start=start)
+    return parser("text" if start == "start" else f"text_{start}", GRAMMAR, _tokens, TextBuilder(), start=start)
+
+
+def _tokens(text: str, token: Make) -> Iterator[Token]:
+    """The tokens of a text, which may be LaTeX."""
+    if "\\" in text:
+        from qe.io import latex_lexer
+
+        if latex_lexer.is_latex(text):
+            return latex_lexer.tokens(text, token)
+    return tokens(text, token)
+
+
+@cache
+def latex_parser() -> Parser:
+    """The parser of the same syntax in LaTeX."""
+    from qe.io.latex_lexer import tokens as latex_tokens
+
+    return parser("text", GRAMMAR, latex_tokens, TextBuilder())
 
 
 class TextBuilder(Builder):
