@@ -1,4 +1,4 @@
-"""The command ``qe``: eliminate, decide, region, minimize, check, convert.
+"""The command ``qe``: eliminate, decide, region, minimize, check, convert, smt.
 
 Every command works in a child process under hard limits. Answers go to stdout and nothing else does;
 an error is one line on stderr. Exit status as in ``qe.cli.shell``.
@@ -6,6 +6,7 @@ an error is one line on stderr. Exit status as in ``qe.cli.shell``.
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
@@ -14,7 +15,7 @@ from typing import Annotated
 
 import typer
 
-from qe import arguments
+from qe import __version__, arguments
 from qe.cli.shell import check_writable, enter, limited, remaining, write_file
 from qe.cli.source import InputFormat, OutputFormat, read_source
 from qe.cli.work import Reply, Request
@@ -46,6 +47,21 @@ TotalDivision = Annotated[
     bool, typer.Option("--total-division", help="x/0 is some number, as in SMT-LIB, instead of nothing.")
 ]
 RootAtoms = Annotated[bool, typer.Option("--root-atoms", help="Allow x < root(k, p) in the answer.")]
+
+
+def _version(wanted: bool) -> None:
+    if wanted:
+        typer.echo(f"qe {__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def whole(
+    version: Annotated[
+        bool, typer.Option("--version", callback=_version, is_eager=True, help="Print the version and stop.")
+    ] = False,
+) -> None:
+    """Exact real quantifier elimination. FORMULA is text ('ex x. x^2 + b*x + c = 0'), a file, or - for stdin."""
 
 
 @app.command(context_settings=_LENIENT)
@@ -250,4 +266,5 @@ def deliver(reply: Reply, paths: dict[str, Path | None], *, explain: bool = Fals
 
 def main(argv: Sequence[str] | None = None) -> int:
     """The entry point of the command ``qe``; returns the exit status."""
-    return enter(app, argv, name="qe")
+    words = sys.argv[1:] if argv is None else argv
+    return enter(app, words or ["--help"], name="qe")

@@ -169,8 +169,7 @@ class Lowering:
     def link(self, left: Term, relation: Relation, right: Term, place: Place) -> Formula:
         """``left relation right``."""
         for side, other, seen in ((right, left, relation), (left, right, relation.flipped)):
-            own = isinstance(other, Name) and isinstance(side, Root) and side.variable == other.name
-            if isinstance(side, Root) and (own or side.variable is None):
+            if isinstance(side, Root) and isinstance(other, Name) and side.variable in (None, other.name):
                 return self.root_comparison(other, seen, side)
             if (sign := _infinite(side)) is not None:
                 return self.bounded(other, seen, sign, place)
@@ -179,9 +178,7 @@ class Lowering:
             return terms.compare(a, relation, b)
         return self.values.compared(cases_of(a), relation, cases_of(b), place)
 
-    def root_comparison(self, side: Term, relation: Relation, root: Root) -> Formula:
-        if not isinstance(side, Name):
-            raise self.fail("root(…) without its variable can only be compared with a variable", root.at)
+    def root_comparison(self, side: Name, relation: Relation, root: Root) -> Formula:
         k = self.values.constant(root.number, "the first argument of root must be an integer", root.at)
         poly = self.values.polynomial(root.poly, root.at)
         index = self.ring.index[side.name]
