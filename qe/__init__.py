@@ -44,7 +44,9 @@ if TYPE_CHECKING:
     from qe.exact.algebraic import RealAlgebraic
     from qe.groebner.counting import RealRootClassification
     from qe.groebner.system import ComprehensiveGroebnerSystem
+    from qe.io.expressions import Expression, Statement, exists, forall, variables
     from qe.io.sympy import Exists, ForAll
+    from qe.io.z3_door import from_z3
     from qe.optimization.global_optimum import GlobalOptimum
     from qe.optimization.parametric_optimum import ParametricOptimum
     from qe.proof.answer import Answer, Guarantee, Status
@@ -65,6 +67,8 @@ _ELSEWHERE = {
     "Exists": "qe.io.sympy",
     "ForAll": "qe.io.sympy",
     "GlobalOptimum": "qe.optimization.global_optimum",
+    **dict.fromkeys(("Expression", "Statement", "exists", "forall", "variables"), "qe.io.expressions"),
+    "from_z3": "qe.io.z3_door",
     "Optimum": "qe.convex.optimum",
     "ParametricOptimum": "qe.optimization.parametric_optimum",
     "ParametricWitness": "qe.elimination.vs.parametric",
@@ -80,8 +84,8 @@ All are loaded at first use: ``import qe`` alone loads neither FLINT nor the eng
 
 def __getattr__(name: str) -> Any:
     """A public name from a module that is loaded at its first use (PEP 562)."""
-    if name == "api":
-        return import_module("qe.api")
+    if name in ("api", "sympy"):
+        return import_module(f"qe.{name}")
     if name not in __all__:
         raise AttributeError(f"module 'qe' has no attribute {name!r}")
     found = globals()[name] = getattr(import_module(_ELSEWHERE.get(name, "qe.api")), name)
@@ -103,6 +107,7 @@ __all__ = [
     "ComprehensiveGroebnerSystem",
     "DegreeTooHigh",
     "Exists",
+    "Expression",
     "ForAll",
     "GlobalOptimum",
     "Guarantee",
@@ -120,6 +125,7 @@ __all__ = [
     "RealRootClassification",
     "Region",
     "Stage",
+    "Statement",
     "Status",
     "Unable",
     "Verdict",
@@ -128,11 +134,15 @@ __all__ = [
     "decide",
     "eliminate",
     "equivalent",
+    "exists",
     "find_instance",
+    "forall",
+    "from_z3",
     "maximize",
     "minimize",
     "parametric_witnesses",
     "real_root_classification",
     "region",
+    "variables",
     "verify",
 ]

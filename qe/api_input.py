@@ -92,8 +92,12 @@ def read_polynomial(given: AnyFormula, what: str, *, known: Container[str] = ())
             from qe.io.text import read_polynomial as read
 
             return read(given, known=known)
+        from qe.io.expressions import Expression
         from qe.io.sympy import polynomial_from_sympy
 
+        if isinstance(given, Expression):
+            value = given.polynomial()
+            return value.poly, Fraction(1, value.den)
         return polynomial_from_sympy(given)
     except InputError as error:
         raise InputError(f"{what}: a polynomial expected: {error}") from None

@@ -15,10 +15,16 @@ WORD = r"[^\W\d⁰¹²³⁴-⁹][^\W⁰¹²³⁴-⁹]*'*"
 QUOTED = r"`(?:[^`\\\n]|\\.)+`"
 """A name between backquotes."""
 
-KEYWORDS = frozenset(("ex", "exists", "Ex", "all", "forall", "All", "and", "or", "not", "true", "false"))
+KEYWORDS = frozenset(
+    (
+        *("ex", "exists", "Ex", "Exists", "EXISTS", "all", "forall", "All", "ForAll", "Forall", "FORALL"),
+        *("and", "AND", "or", "OR", "not", "NOT", "implies", "iff", "in", "if", "then", "else", "Reals", "ℝ"),
+        *("true", "True", "TRUE", "false", "False", "FALSE", "oo", "infinity", "Infinity"),
+    )
+)
 """Words that mean something else in the text syntax."""
 
-CONSTANTS = frozenset(("pi", "π", "e", "i"))
+CONSTANTS = frozenset(("pi", "π", "e"))
 """Words that mathematics reads as numbers: the text syntax takes them as free variables only between backquotes."""
 
 _PLAIN = re.compile(WORD)

@@ -1,4 +1,4 @@
-"""The command ``qe``: eliminate, decide, region, minimize, check, export-proof, convert.
+"""The command ``qe``: eliminate, decide, region, minimize, check, export-proof, convert, smt.
 
 Every command works in a child process under hard limits. Answers go to stdout and nothing else does;
 an error is one line on stderr. Exit status as in ``qe.cli.shell``.
@@ -6,6 +6,7 @@ an error is one line on stderr. Exit status as in ``qe.cli.shell``.
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
@@ -14,7 +15,7 @@ from typing import Annotated
 
 import typer
 
-from qe import arguments
+from qe import __version__, arguments
 from qe.cli.shell import check_writable, enter, limited, remaining, write_file
 from qe.cli.source import ProofFormat, read_source
 from qe.cli.work import Reply, Request
@@ -48,7 +49,25 @@ PictureFile = Annotated[
 Plain = Annotated[bool, typer.Option("--plain", help="No progress display and no notes.")]
 Json = Annotated[bool, typer.Option("--json", help="One JSON object on stdout.")]
 Explain = Annotated[bool, typer.Option("--explain", help="Tell on stderr how the answer was found.")]
+TotalDivision = Annotated[
+    bool, typer.Option("--total-division", help="x/0 is some number, as in SMT-LIB, instead of nothing.")
+]
 RootAtoms = Annotated[bool, typer.Option("--root-atoms", help="Allow x < root(k, p) in the answer.")]
+
+
+def _version(wanted: bool) -> None:
+    if wanted:
+        typer.echo(f"qe {__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def whole(
+    version: Annotated[
+        bool, typer.Option("--version", callback=_version, is_eager=True, help="Print the version and stop.")
+    ] = False,
+) -> None:
+    """Exact real quantifier elimination. FORMULA is text ('ex x. x^2 + b*x + c = 0'), a file, or - for stdin."""
 
 
 @app.command(context_settings=_LENIENT)
@@ -62,6 +81,7 @@ def eliminate(
     memory: Memory = None,
     certificate: CertificateFile = None,
     root_atoms: RootAtoms = False,
+    total_division: TotalDivision = False,
     explain: Explain = False,
     json: Json = False,
     plain: Plain = False,
@@ -69,7 +89,7 @@ def eliminate(
     """Print a quantifier-free formula equivalent to FORMULA over the real numbers."""
     from qe.cli import work as cli_work
 
-    asked = request(formula, format, timeout, memory, certificate, json)
+    asked = request(formula, format, timeout, memory, certificate, json, total_division)
     asked = replace(asked, method=method.value, order=names(order), root_atoms=root_atoms)
     work = partial(cli_work.eliminate, request=asked, output=output)
     reply = limited(work, timeout=timeout, memory=memory, plain=plain)
@@ -84,6 +104,7 @@ def decide(
     timeout: Timeout = None,
     memory: Memory = None,
     certificate: CertificateFile = None,
+    total_division: TotalDivision = False,
     explain: Explain = False,
     json: Json = False,
     plain: Plain = False,
@@ -91,7 +112,7 @@ def decide(
     """Print true or false for a sentence, sat or unsat for an SMT-LIB script."""
     from qe.cli import work as cli_work
 
-    asked = replace(request(formula, format, timeout, memory, certificate, json), method=method.value)
+    asked = replace(request(formula, format, timeout, memory, certificate, json, total_division), method=method.value)
     reply = limited(partial(cli_work.decide, request=asked), timeout=timeout, memory=memory, plain=plain)
     return deliver(reply, {"certificate": certificate}, explain=explain)
 
@@ -182,7 +203,7 @@ def export_proof(
     from qe.options import VERIFY_SECONDS
 
     check_limits(timeout, memory)
-    source = read_source(certificate, InputFormat.JSON)
+    source = read_source(certificate, Format.JSON)
     if source.name == "<argument>":
         raise InputError(f"{certificate}: no such file")
     seconds = VERIFY_SECONDS if timeout is None else timeout
@@ -203,6 +224,32 @@ def convert(
     return deliver(limited(work, timeout=None, memory=None, plain=True), {})
 
 
+@app.command()
+def smt(
+    script: Annotated[str, typer.Argument(metavar="FILE|-", show_default=False)] = "-",
+    timeout: Annotated[
+        float | None, typer.Option("--timeout", help="Seconds for all checks together; with -i for each of them.")
+    ] = None,
+    memory: Memory = None,
+    interactive: Annotated[
+        bool, typer.Option("--interactive", "-i", help="Then read commands from standard input, as they come.")
+    ] = False,
+) -> int:
+    """Run an SMT-LIB script over the reals as solvers do: one answer for every command.
+
+    Exit status 2 when a command was not understood; all others were answered.
+    """
+    from qe.cli import smt as cli_smt
+
+    check_limits(timeout, memory)
+    source = None if script == "-" else read_source(script, Format.SMTLIB)
+    if source is not None and source.name == "<argument>":
+        raise InputError(f"{script}: no such file")
+    text, name = (None, "<stdin>") if source is None else (source.text, source.name)
+    limit = timeout if timeout is None or interactive else remaining(timeout)
+    return cli_smt.run(text, name, timeout=limit, memory=memory, interactive=interactive)
+
+
 def request(
     source: str,
     format: Format | None,
@@ -210,13 +257,13 @@ def request(
     memory: int | None,
     certificate: Path | None,
     json: bool,
+    total_division: bool = False,
 ) -> Request:
     """What all answering commands are asked; limits and files are checked before anything is read."""
     check_limits(timeout, memory)
     check_writable(certificate)
-    return Request(
-        source=read_source(source, format), timeout=soft(timeout), certificate=certificate is not None, json=json
-    )
+    given = replace(read_source(source, format), total_division=total_division)
+    return Request(source=given, timeout=soft(timeout), certificate=certificate is not None, json=json)
 
 
 def names(order: str | None) -> tuple[str, ...] | None:
@@ -254,4 +301,5 @@ def deliver(reply: Reply, paths: dict[str, Path | None], *, explain: bool = Fals
 
 def main(argv: Sequence[str] | None = None) -> int:
     """The entry point of the command ``qe``; returns the exit status."""
-    return enter(app, argv, name="qe")
+    words = sys.argv[1:] if argv is None else argv
+    return enter(app, words or ["--help"], name="qe")

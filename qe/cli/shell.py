@@ -44,9 +44,12 @@ def enter(app: typer.Typer, argv: Sequence[str] | None, *, name: str) -> int:
         return int(code or OK)
     except typer.TyperException as error:
         message = error.format_message().replace("Value error, ", "").rstrip(".")
+        message = _misspelt(command, sys.argv[1:] if argv is None else argv) or message
         return fail(name, f"{message} (see {name} --help)", BAD_INPUT)
     except InputError as error:
-        return fail(name, str(error), BAD_INPUT)
+        unknown = str(error).startswith("no such option")
+        message = _misspelt(command, sys.argv[1:] if argv is None else argv) if unknown else ""
+        return fail(name, message or str(error), BAD_INPUT)
     except (WorkerStopped, WorkerDied) as error:
         return fail(name, f"unable: {error}; known {error.known}", UNABLE)
     except Unable as error:
@@ -70,6 +73,20 @@ def enter(app: typer.Typer, argv: Sequence[str] | None, *, name: str) -> int:
         if not isinstance(stop.__context__, OSError):
             raise
         return _unheard(name, stop.__context__)
+
+
+def _misspelt(command: Any, words: Sequence[str]) -> str:
+    """The first word that looks like an option and is none, with the nearest one that there is; "" without one."""
+    from difflib import get_close_matches
+
+    commands = [command, *getattr(command, "commands", {}).values()]
+    known = {option for one in commands for parameter in one.params for option in parameter.opts} | {"--help"}
+    for word in words:
+        option = word.split("=")[0]
+        if option.startswith("--") and len(option) > 2 and option not in known and " " not in option:
+            near = get_close_matches(option, sorted(known), 1)
+            return f"no such option: {option}" + (f"; did you mean {near[0]}?" if near else "")
+    return ""
 
 
 def _open_streams() -> None:

@@ -27,6 +27,7 @@ class Source:
     text: str
     format: Format
     name: str
+    total_division: bool = False
 
 
 def read_source(argument: str, wanted: Format | None) -> Source:

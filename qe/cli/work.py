@@ -62,7 +62,7 @@ def read_formula(channel: Channel, source: Source) -> Formula:
     from qe.formula.features import features
     from qe.io import formats
 
-    formula = formats.read(source.text, source.format.value, source=source.name)
+    formula = formats.read(source.text, source.format.value, source=source.name, total_division=source.total_division)
     size = features(formula)
     channel.fact(
         "formula",

@@ -46,8 +46,8 @@ def nnf(formula: Formula, *, negate: bool = False) -> Formula:
     return neg(formula) if negate else formula
 
 
-def rename_apart(formula: Formula) -> Formula:
-    """An equivalent formula in which every quantifier binds a name of its own, none of them free.
+def rename_apart(formula: Formula, avoid: Iterable[str] = ()) -> Formula:
+    """An equivalent formula in which every quantifier binds a name of its own, none of them free or one to ``avoid``.
 
     The first quantifier of a name keeps it, later ones get ``x_1``, ``x_2``, …, which enlarge the ring (at the
     end, so free variables keep their places). A quantified variable that does not occur in its body is dropped,
@@ -56,7 +56,7 @@ def rename_apart(formula: Formula) -> Formula:
     ring = ring_of(formula)
     if ring is None:
         return _strip(formula)
-    renaming = _Renaming(ring, free_variables(formula))
+    renaming = _Renaming(ring, (*free_variables(formula), *avoid))
     names = renaming.plan(formula)
     return renaming.apply(formula, names, {})
 
@@ -81,7 +81,7 @@ class _Renaming:
     def __init__(self, ring: Ring, free: Iterable[str]) -> None:
         self.ring = ring
         self.used = set(free)
-        self.reserved = set(ring.names)
+        self.reserved = self.used.union(ring.names)
         self.fresh: list[str] = []
         self.target = ring
         self.polys: dict[tuple[Poly, tuple[str, ...]], Poly] = {}

@@ -1,71 +1,157 @@
-"""Real terms with case distinctions (``ite``, absolute values, minima): exclusive, exhaustive guarded terms.
+"""Terms that are no polynomials: quotients of polynomials, each where its guards hold.
 
-A comparison of such terms is the disjunction over all combinations of cases of (guards and comparison). As exactly one
-combination of guards holds at every point, the disjunction is equivalent to the comparison under either polarity.
+A term is a list of cases whose guards exclude each other; where no case holds it has no value. So a comparison of terms
+is the disjunction over all combinations of their cases of (guards and comparison), false where a side has no value.
+The guards of a case make sure that its denominators are not zero.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from itertools import product
-from math import prod
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
-from qe.formula.syntax import Relation
-from qe.io import surface as s
-from qe.io.terms import TermError
+from qe.exact.ring import Poly
+from qe.formula.build import atom, conj, disj, neg
+from qe.formula.syntax import FALSE, TRUE, Atom, Formula, Relation
+from qe.io import terms
+from qe.io.terms import Value
 
-MAX_CASES = 512
+Factors: TypeAlias = tuple[tuple[Poly, int], ...]
+
+
+MOST_FACTORED = 60
+"""Monomials of a denominator or radicand up to which it is factored, which makes later polynomials smaller."""
 
 
 class Case(NamedTuple):
-    """``term`` where all ``guards`` hold."""
+    """``value`` over the product of the powers of ``below``, where all ``guards`` hold."""
 
-    guards: tuple[s.Node, ...]
-    term: s.Term
-
-
-Cases = tuple[Case, ...]
+    guards: tuple[Formula, ...]
+    value: Value
+    below: Factors = ()
 
 
-def plain(term: s.Term) -> Cases:
-    """A term without a case distinction."""
-    return (Case((), term),)
+Cases: TypeAlias = tuple[Case, ...]
 
 
-def choose(condition: s.Node, then: Cases, other: Cases) -> Cases:
-    """``then`` where the condition holds, ``other`` elsewhere."""
-    negated = s.Negation(condition)
-    yes = tuple(Case((condition, *case.guards), case.term) for case in then)
-    return _limited(yes + tuple(Case((negated, *case.guards), case.term) for case in other))
+def plain(value: Value) -> Cases:
+    """A polynomial."""
+    return (Case((), value),)
 
 
-def combine(operands: Sequence[Cases], build: Callable[[list[s.Term]], s.Term]) -> Cases:
+def guarded(guards: Sequence[Formula], case: Case) -> Cases:
+    """The case under further guards: one case, or none where they contradict each other."""
+    joined = _joined(guards, case.guards)
+    return () if joined is None else (Case(joined, case.value, case.below),)
+
+
+def combinations(operands: Sequence[Cases]) -> Iterator[tuple[tuple[Formula, ...], tuple[Case, ...]]]:
+    """One case of each operand, with all their guards, in every way that is not contradictory at sight."""
+    for choice in product(*operands):
+        guards: tuple[Formula, ...] = ()
+        for case in choice:
+            joined = _joined(guards, case.guards)
+            if joined is None:
+                break
+            guards = joined
+        else:
+            yield guards, choice
+
+
+def _joined(left: Sequence[Formula], right: Sequence[Formula]) -> tuple[Formula, ...] | None:
+    """The guards of both together; None where one is false or the negation of another."""
+    found = dict.fromkeys(left)
+    for guard in right:
+        if guard == FALSE or neg(guard) in found:
+            return None
+        if guard != TRUE:
+            found[guard] = None
+    return None if FALSE in found else tuple(found)
+
+
+def combine(operands: Sequence[Cases], build: Callable[[Sequence[Case]], Case]) -> Cases:
     """``build`` applied to the operands, in every combination of their cases."""
-    if all(len(operand) == 1 for operand in operands):
-        guards = tuple(guard for operand in operands for guard in operand[0].guards)
-        return (Case(guards, build([operand[0].term for operand in operands])),)
-    if prod(map(len, operands)) > MAX_CASES:
-        raise TermError(f"more than {MAX_CASES} cases in one term")
-    return tuple(
-        Case(tuple(guard for case in choice for guard in case.guards), build([case.term for case in choice]))
-        for choice in product(*operands)
-    )
+    return tuple(case for guards, choice in combinations(operands) for case in guarded(guards, build(choice)))
 
 
-def compare(left: Cases, relation: Relation, right: Cases, at: int) -> s.Node:
-    """``left relation right``."""
-    links: list[s.Node] = []
-    if len(left) * len(right) > MAX_CASES:
-        raise TermError(f"more than {MAX_CASES} cases in one comparison")
-    for a, b in product(left, right):
-        link = s.Comparison([a.term, b.term], [relation], at)
-        guards = (*a.guards, *b.guards)
-        links.append(s.Every([*guards, link]) if guards else link)
-    return links[0] if len(links) == 1 else s.Some(links)
+def negative(case: Case) -> Case:
+    """``-case``."""
+    return case._replace(value=terms.negative(case.value))
 
 
-def _limited(cases: Cases) -> Cases:
-    if len(cases) > MAX_CASES:
-        raise TermError(f"more than {MAX_CASES} cases in one term")
-    return cases
+def total(parts: Sequence[Case]) -> Case:
+    """The sum, over the least denominator that the parts show."""
+    below: dict[Poly, int] = {}
+    for part in parts:
+        for factor, k in part.below:
+            below[factor] = max(below.get(factor, 0), k)
+    values = []
+    for part in parts:
+        own, value = dict(part.below), part.value
+        for factor, k in below.items():
+            if missing := k - own.get(factor, 0):
+                value = terms.product(value, terms.power(_value(factor), missing))
+        values.append(value)
+    return Case((), terms.total(values), tuple(below.items()))
+
+
+def times(left: Case, right: Case) -> Case:
+    """The product."""
+    return Case((), terms.product(left.value, right.value), _multiplied(left.below, right.below))
+
+
+def inverse(case: Case) -> Case:
+    """``1/case`` where it is not zero, which the guards of the result say."""
+    top = _value(case.value.poly.ring.constant(case.value.den))
+    for factor, k in case.below:
+        top = terms.product(top, terms.power(_value(factor), k))
+    bottom = case.value.poly
+    if bottom.is_constant:
+        return Case((), terms.quotient(top, case.value._replace(den=1)))
+    unit, below = split(bottom)
+    top = terms.quotient(top, _value(bottom.ring.constant(unit)))
+    return Case(tuple(atom(factor, Relation.NE) for factor, _ in below), top, below)
+
+
+def split(poly: Poly) -> tuple[int, Factors]:
+    """An integer and primitive polynomials with exponents whose product is the polynomial: factors, if it is short."""
+    if poly.term_count() <= MOST_FACTORED:
+        return poly.factors()
+    unit, primitive = poly.normal()
+    return unit, ((primitive, 1),)
+
+
+def power(case: Case, exponent: int) -> Case:
+    """``case ** exponent`` for a natural exponent."""
+    return Case((), terms.power(case.value, exponent), tuple((f, k * exponent) for f, k in case.below if exponent))
+
+
+def holds(case: Case, relation: Relation) -> Formula:
+    """``guards and case relation 0``."""
+    odd = None
+    for factor, k in case.below:
+        if k % 2:
+            odd = factor if odd is None else odd * factor
+    if odd is None or relation in (Relation.EQ, Relation.NE):
+        return conj((*case.guards, atom(case.value.poly, relation)))
+    implied = {Atom(factor, Relation.NE) for factor, k in case.below if k % 2}
+    above = conj((atom(odd, Relation.GT), atom(case.value.poly, relation)))
+    under = conj((atom(odd, Relation.LT), atom(case.value.poly, relation.flipped)))
+    return conj((*(guard for guard in case.guards if guard not in implied), disj((above, under))))
+
+
+def difference(left: Cases, right: Cases) -> Cases:
+    """``left - right``: a comparison of the two compares it with zero."""
+    return combine((left, right), lambda pair: total((pair[0], negative(pair[1]))))
+
+
+def _multiplied(left: Factors, right: Factors) -> Factors:
+    below = dict(left)
+    for factor, k in right:
+        below[factor] = below.get(factor, 0) + k
+    return tuple(below.items())
+
+
+def _value(poly: Poly) -> Value:
+    return Value(poly, 1, poly.height_bits())

@@ -27,7 +27,7 @@ class Format(Enum):
     QEPCAD = "qepcad", (".qepcad",)
     REDLOG = "redlog", (".red",)
     JSON = "json", (".json",)
-    LATEX = "latex", (), False
+    LATEX = "latex", (".tex",)
     MATHML = "mathml", (), False
 
     endings: tuple[str, ...]
@@ -45,13 +45,21 @@ WRITABLE = tuple(f.value for f in Format)
 BY_ENDING = {ending: f for f in Format for ending in f.endings}
 
 
-def read(text: str, format: str | Format = Format.TEXT, *, source: str = "<text>") -> Formula:
-    """The formula that ``text`` means. Raises ``InputError`` (with line and column where the text is wrong)."""
+def read(
+    text: str, format: str | Format = Format.TEXT, *, source: str = "<text>", total_division: bool = False
+) -> Formula:
+    """The formula that ``text`` means; ``total_division`` as ``qe.io.text.read`` has it.
+
+    Raises ``InputError`` (with line and column where the text is wrong).
+    """
     chosen = checked(format)
     if not isinstance(text, str):
         raise InputError(f"text expected, {type(text).__name__} found")
     if not chosen.readable:
         raise InputError(f"the format {chosen.value} can only be written; readable: {', '.join(READABLE)}")
+    if total_division and chosen is Format.TEXT:
+        whole: Formula = _module(chosen).read(text, source=source, total_division=True)
+        return whole
     formula: Formula = _module(chosen).read(text, source=source)
     return formula
 

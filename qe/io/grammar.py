@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from qe.errors import ParseError
 from qe.io import surface as s
 from qe.io.lalr import Parser, Tokens, UnexpectedToken, tables
-from qe.io.text_errors import SyntaxFailure, unexpected_token
+from qe.io.text_errors import SyntaxFailure, UnknownFunction, unexpected_token
 
 
 def parser(name: str, grammar: str, tokens: Tokens, builder: object, *, start: str = "start") -> Parser:
@@ -34,6 +34,8 @@ def parse(made: Parser, text: str, fail: Failing) -> s.Node:
     except UnexpectedToken as error:
         token = error.token
         failed = unexpected_token(text, token.type, str(token), token.start_pos, error.accepts)
+    except UnknownFunction as error:
+        failed = SyntaxFailure(error.about(text), error.at)
     except SyntaxFailure as error:
         failed = error
     raise fail(failed.message, failed.at, failed.expected) from None

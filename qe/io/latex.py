@@ -24,6 +24,16 @@ _ESCAPES = {"_": r"\_", "#": r"\#", "$": r"\$", "%": r"\%", "&": r"\&", "{": r"\
 _RELATIONS = {Relation.NE: r"\neq", Relation.LE: r"\leq", Relation.GE: r"\geq"}
 
 
+def read(text: str, *, source: str = "<text>") -> Formula:
+    """The formula that a source means; see ``qe.io.latex_lexer``. Raises ``ParseError`` with line and column."""
+    from qe.io.grammar import Failing, parse
+    from qe.io.lowering import lower
+    from qe.io.text_parser import latex_parser
+
+    fail = Failing(text, source)
+    return lower(parse(latex_parser(), text, fail), fail)
+
+
 def write(formula: Formula) -> str:
     """Source for math mode, without dollar signs."""
     text = formula.written(_NOTATION)

@@ -19,12 +19,12 @@ from qe.formula.notation import Notation, polynomial, positive
 from qe.formula.syntax import Formula, Relation
 from qe.formula.traverse import free_variables
 from qe.io import surface as s
+from qe.io.building import TERMS, Builder
 from qe.io.grammar import Failing, parse, parser
 from qe.io.lalr import Parser, Token
+from qe.io.lowering import lower
 from qe.io.names import Renaming
-from qe.io.surface import lower
 from qe.io.text_errors import SyntaxFailure, unknown_character
-from qe.io.text_parser import TERMS, Builder
 
 _SESSION = re.compile(
     r"\s*\[[^\]]*\]\s*\((?P<names>[^()]*)\)\s*(?P<free>[0-9]+)\s*(?P<formula>[^.]*)\.(?P<rest>.*)", re.DOTALL

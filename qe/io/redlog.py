@@ -17,12 +17,12 @@ from qe.exact.ring import Poly
 from qe.formula.notation import Notation
 from qe.formula.syntax import Formula, Relation
 from qe.io import surface as s
+from qe.io.building import TERMS, Builder
 from qe.io.grammar import Failing, parse, parser
 from qe.io.lalr import Parser, Token
+from qe.io.lowering import lower
 from qe.io.names import Renaming, check_name
-from qe.io.surface import lower
 from qe.io.text_errors import SyntaxFailure, unknown_character
-from qe.io.text_parser import TERMS, Builder
 
 _TOKEN = re.compile(
     r"(?P<SPACE>\s+|%[^\n]*)"

@@ -13,16 +13,18 @@ Writing: a whole script with ``set-logic``, one declaration per free variable, a
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
+from typing import TypeAlias, cast
 
 from qe.errors import InputError
 from qe.formula.notation import Monomial, digits, oriented
 from qe.formula.syntax import And, Atom, Constant, Exists, ForAll, Formula, Not, Or, Relation
 from qe.formula.traverse import children, free_variables, is_quantifier_free
 from qe.io.grammar import Failing
-from qe.io.names import Renaming
-from qe.io.smtlib_parser import parse
+from qe.io.names import Renaming, names_in
+from qe.io.smtlib_parser import Expression, Listing, parse
 from qe.io.smtlib_script import Script
-from qe.io.surface import MAX_DEPTH, lower
+from qe.io.surface import MAX_DEPTH
 
 _SIMPLE = re.compile(r"[A-Za-z~!@$%^&*_+=<>.?/-][A-Za-z0-9~!@$%^&*_+=<>.?/-]*")
 _RESERVED = re.compile(
@@ -34,7 +36,14 @@ _RESERVED = re.compile(
 _UNWRITABLE = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\x7f|\\]")
 """What a quoted symbol cannot hold (SMT-LIB 2.6, section 3.1): control characters, bars, backslashes."""
 
+Names: TypeAlias = Renaming | Mapping[str, str]
+
 _OPERATORS = {Relation.EQ: "=", Relation.LT: "<", Relation.LE: "<=", Relation.GT: ">", Relation.GE: ">="}
+
+
+_ANSWERED = re.compile(
+    r"set-(logic|info|option)|get-(info|option|model|value|assertions|assignment|proof|unsat-core|unsat-assumptions)|echo"
+)
 
 
 def read(text: str, *, source: str = "<text>") -> Formula:
@@ -42,15 +51,37 @@ def read(text: str, *, source: str = "<text>") -> Formula:
 
     fail = Failing(text, source)
     try:
-        script = Script(fail)
-        node = script.run(parse(text, fail))
-        formula = lower(node, fail, names=script.names, shared=script.shared)
+        formula = _asserted(parse(text, fail), fail)
         depth = _depth(formula)
     except RecursionError:
         raise fail("the script is nested too deeply", -1) from None
     if depth > MAX_DEPTH:
         raise fail(f"the formula is nested more than {MAX_DEPTH} levels deep", -1)
     return formula
+
+
+def _asserted(commands: list[Expression], fail: Failing) -> Formula:
+    script, checked = Script(fail), False
+    for command in commands:
+        if script.head(command).text == "exit":
+            break
+        if script.head(command).text in ("declare-const", "declare-fun"):
+            script.reserve(command)
+    for command in commands:
+        head = script.head(command)
+        if head.text == "exit":
+            break
+        if checked and head.text == "assert":
+            script.error("an assert after check-sat: one question per script (qe smt runs it)", command.at)
+        if script.change(cast(Listing, command)) or _ANSWERED.fullmatch(head.text):
+            continue
+        if head.text in ("check-sat", "check-sat-using"):
+            checked = True
+        elif head.text in ("push", "pop", "reset", "reset-assertions", "check-sat-assuming"):
+            script.error(f"{head.text} is not supported: one question per script (qe smt runs it)", head.at)
+        else:
+            script.error(f"the command {head.text} is not supported", head.at)
+    return script.whole()
 
 
 def _depth(formula: Formula) -> int:
@@ -65,7 +96,7 @@ def write(formula: Formula) -> str:
     """
     names = Renaming(formula, keeps=_allowed, spell=lambda name: f"v_{_UNWRITABLE.sub('_', name)}")
     lines = [f"(set-logic {'QF_NRA' if is_quantifier_free(formula) else 'NRA'})"]
-    lines += [f"(declare-const {_symbol(names[name])} Real)" for name in free_variables(formula)]
+    lines += [f"(declare-const {symbol(names[name])} Real)" for name in free_variables(formula)]
     lines.append(f"(assert {_term(formula, names)})")
     return "\n".join(lines) + "\n"
 
@@ -74,11 +105,18 @@ def _allowed(name: str) -> bool:
     return not _RESERVED.fullmatch(name) and not _UNWRITABLE.search(name)
 
 
-def _symbol(name: str) -> str:
+def symbol(name: str) -> str:
+    """A name as a symbol of SMT-LIB."""
     return name if _SIMPLE.fullmatch(name) else f"|{name}|"
 
 
-def _term(formula: Formula, names: Renaming) -> str:
+def term(formula: Formula, symbols: Mapping[str, str]) -> str:
+    """The formula as a term; ``symbols`` gives the symbols of its free names."""
+    names = Renaming(formula, keeps=_allowed, spell=lambda name: f"v_{_UNWRITABLE.sub('_', name)}")
+    return _term(formula, {name: symbols.get(name) or names[name] for name in names_in(formula)})
+
+
+def _term(formula: Formula, names: Names) -> str:
     match formula:
         case Constant(value):
             return "true" if value else "false"
@@ -94,18 +132,18 @@ def _term(formula: Formula, names: Renaming) -> str:
         case Not(arg):
             return f"(not {_term(arg, names)})"
         case Exists(variables, body) | ForAll(variables, body):
-            bound = " ".join(f"({_symbol(names[name])} Real)" for name in variables)
+            bound = " ".join(f"({symbol(names[name])} Real)" for name in variables)
             return f"({'exists' if isinstance(formula, Exists) else 'forall'} ({bound}) {_term(body, names)})"
     raise InputError("root(…) cannot be written in SMT-LIB")
 
 
-def _polynomial(parts: list[Monomial], names: Renaming) -> str:
+def _polynomial(parts: list[Monomial], names: Names) -> str:
     texts = [_monomial(coefficient, powers, names) for coefficient, powers in parts]
     return texts[0] if len(texts) == 1 else f"(+ {' '.join(texts)})"
 
 
-def _monomial(coefficient: int, powers: tuple[tuple[str, int], ...], names: Renaming) -> str:
-    factors = [symbol for name, k in powers for symbol in [_symbol(names[name])] * k]
+def _monomial(coefficient: int, powers: tuple[tuple[str, int], ...], names: Names) -> str:
+    factors = [written for name, k in powers for written in [symbol(names[name])] * k]
     if coefficient != 1 or not factors:
         factors.insert(0, digits(coefficient) if coefficient >= 0 else f"(- {digits(-coefficient)})")
     return factors[0] if len(factors) == 1 else f"(* {' '.join(factors)})"

@@ -21,6 +21,7 @@ _TOKEN = re.compile(
     r'|(?P<STRING>"(?:[^"]|"")*")'
     r"|(?P<BITS>\#x[0-9a-fA-F]+|\#b[01]+)"
 )
+_SYMBOL = re.compile(r"[A-Za-z~!@$%^&*_+=<>.?/-][A-Za-z0-9~!@$%^&*_+=<>.?/-]*")
 GRAMMAR = """
 %declare OPEN CLOSE NUMBER SYMBOL QUOTED KEYWORD STRING BITS
 start: expression*
@@ -65,6 +66,30 @@ def parse(text: str, fail: Fail) -> list[Expression]:
         raise fail("unbalanced brackets: this ')' has no partner", error.token.start_pos) from None
     except _Bad as error:
         raise fail(error.message, error.at) from None
+
+
+def complete(text: str) -> int:
+    """The offset behind the last whole expression of a text that may go on."""
+    at, depth, end = 0, 0, 0
+    while at < len(text) and (found := _TOKEN.match(text, at)) is not None:
+        kind, at = found.lastgroup, found.end()
+        if kind == "SPACE" or (at == len(text) and kind not in ("CLOSE", "OPEN")):
+            continue
+        depth += {"OPEN": 1, "CLOSE": -1}.get(str(kind), 0)
+        if depth < 0:
+            return len(text)
+        if depth == 0:
+            end = at
+    return end
+
+
+def show(expression: Expression) -> str:
+    """The text of an expression."""
+    if isinstance(expression, Listing):
+        return f"({' '.join(map(show, expression.items))})"
+    if expression.kind == "SYMBOL" and not _SYMBOL.fullmatch(expression.text):
+        return f"|{expression.text}|"
+    return expression.text
 
 
 @cache

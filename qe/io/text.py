@@ -16,28 +16,38 @@ from typing import cast
 from qe.exact.ring import Poly
 from qe.formula.syntax import Formula
 from qe.io.grammar import Failing, parse
-from qe.io.surface import Meet, Quantification, Term, lower, lower_term
+from qe.io.lowering import lower, lower_term
+from qe.io.surface import Meet, Quantification, Term
 from qe.io.text_parser import text_parser
+from qe.io.total import Total
 from qe.spelling import CONSTANTS as CONSTANTS
 
 
-def read(text: str, *, source: str = "<text>", known: Container[str] = ()) -> Formula:
+def read(text: str, *, source: str = "<text>", known: Container[str] = (), total_division: bool = False) -> Formula:
     """The formula that ``text`` means. ``source`` names the text in messages.
 
-    ``pi``, ``e`` and ``i`` are no numbers here: as free variables they are refused unless they stand between backquotes
-    or are ``known`` to be variables (for texts that programs wrote). Raises ``ParseError``, one line with line, column
-    and what was expected.
+    ``pi`` and ``e`` are no numbers here: as free variables they are refused unless they stand between backquotes
+    or are ``known`` to be variables (for texts that programs wrote). A quotient has no value where its denominator is
+    zero; with ``total_division`` it has one there that nothing is known of, as in SMT-LIB, and the formula holds if it
+    holds for some choice of these values. Raises ``ParseError``, one line with line, column and what was expected.
     """
     fail = Failing(text, source)
-    return lower(parse(text_parser(), text, fail), fail, meet=_no_constants(fail, known))
+    total = Total() if total_division else None
+    formula = lower(parse(text_parser(), text, fail), fail, meet=_no_constants(fail, known), total=total)
+    return formula if total is None else total.checked(formula)
 
 
 def read_polynomial(text: str, *, source: str = "<text>", known: Container[str] = ()) -> tuple[Poly, Fraction]:
     """A polynomial p and a rational s: ``text`` means s*p. Names and errors as for ``read``."""
     fail = Failing(text, source)
-    term = parse(text_parser("sum"), text, fail)
+    term = parse(text_parser("term"), text, fail)
     value = lower_term(cast(Term, term), fail, meet=_no_constants(fail, known))
     return value.poly, Fraction(1, value.den)
+
+
+def read_term(text: str, *, source: str = "<text>") -> Term:
+    """The term that ``text`` is, as a surface tree. Names and errors as for ``read``."""
+    return cast(Term, parse(text_parser("term"), text, Failing(text, source)))
 
 
 def outermost(text: str) -> tuple[bool, tuple[str, ...]] | None:

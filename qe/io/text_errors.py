@@ -9,22 +9,9 @@ from qe.spelling import QUOTED
 
 _QUOTED = re.compile(QUOTED)
 
-_BARS = (
-    "bars are not read: 'or' is written or, an absolute value by its cases, "
-    "and a name with other characters between backquotes, as in `a b`"
-)
 _CHARACTERS = {
     "`": "a name between backquotes needs both of them, on one line, and is not empty",
-    "&": "'and' is written and",
-    "|": _BARS,
-    "!": "'not' is written not",
-    "[": "only round brackets are used",
-    "]": "only round brackets are used",
-    "{": "only round brackets are used",
-    "}": "only round brackets are used",
-    ":": "the variables of a quantifier end with a dot",
     ";": "no end mark is needed",
-    "√": "only polynomials are allowed",
     "$": "formulas are plain text",
     "\\": "'or' is written or, 'and' is written and",
 }
@@ -43,11 +30,25 @@ class SyntaxFailure(Exception):
         self.message, self.at, self.expected = message, at, expected
 
 
+class UnknownFunction(SyntaxFailure):
+    """A function that terms do not have, applied at this offset; the reader adds what it is applied to."""
+
+    def __init__(self, name: str, at: int) -> None:
+        super().__init__(way_out(name), at)
+
+    def about(self, text: str) -> str:
+        """The message, with the whole application that cannot be read."""
+        depth = 0
+        for end in range(self.at, min(len(text), self.at + 60)):
+            depth += {"(": 1, "[": 1, ")": -1, "]": -1}.get(text[end], 0)
+            if text[end] in ")]" and depth == 0:
+                return f"{text[self.at : end + 1]}: {self.message}"
+        return self.message
+
+
 def unknown_character(text: str, at: int) -> SyntaxFailure:
     """No token starts at ``at``."""
     character = text[at]
-    if character in "⁰¹²³⁴⁵⁶⁷⁸⁹":
-        return SyntaxFailure(f"unknown character '{character}'; a power is written x^2", at)
     hint = _CHARACTERS.get(character)
     shown = f"'{character}'" if character.isprintable() else f"U+{ord(character):04X}"
     return SyntaxFailure(f"unknown character {shown}" + (f"; {hint}" if hint else ""), at)
@@ -75,23 +76,40 @@ def unexpected_token(text: str, kind: str, value: str, at: int, expected: Collec
 def _hint(text: str, before: str, kind: str, value: str, at: int, expected: Collection[str]) -> str:
     """The known misunderstandings, by what stands left and right of the offset."""
     previous = before[-1:]
-    if value == "*" and previous == "*":
-        return "'**' is not used here; a power is written x^2"
     if value in ("=", "==>", "==") and previous == "=":
-        return "'==' is not used here; an equation is written with one ="
+        return "'===' is not used here; an equation is written with one ="
+    if value in ("|", "||") or (previous == "|" and kind != "$END"):
+        return f"the bars near '{value}' are ambiguous; write abs(x) for an absolute value, or for 'or'"
+    if kind == "NOT" and value == "!":
+        return "'!' stands before the formula that it negates; it is no factorial"
     if value == ">" and previous == "=":
         return "'=>' is not used here; write >= for a comparison or -> for an implication"
     if value == "=" and previous in "<>" and previous:
         return f"write {previous}= without a space"
-    if kind == "POWER":
+    if kind == "POWER" and previous not in "*^":
         return "a^b^c is ambiguous; use brackets"
-    if kind in ("NAME", "NUMBER", "OPEN") and "TIMES" in expected:
+    if kind in ("NAME", "NUMBER", "OPEN", "OPENBAR", "RADICAL") and "TIMES" in expected:
         left = _last_word(before)
         right = "(…)" if kind == "OPEN" else value
         return f"an operator is missing; a product is written {left}*{right}"
     if kind == "RELATION" and previous == ")" and "AND" in expected:
         return f"'{value}' compares terms, but a formula stands left of it; two formulas are compared with <->"
     return ""
+
+
+_TRANSCENDENTAL = re.compile(r"a?(?:sin|cos|tan|cot|sec|csc|arc\w+)h?|exp|log|ln|log10|log2|erf|gamma", re.IGNORECASE)
+_ANGLES = re.compile(r"sin|cos|tan|cot|sec|csc", re.IGNORECASE)
+
+
+def way_out(name: str) -> str:
+    """Why a function cannot be used, and what to do instead."""
+    if _ANGLES.fullmatch(name):
+        return f"{name} is not algebraic; put c and s with c^2 + s^2 = 1 in the place of cos(t) and sin(t)"
+    if _TRANSCENDENTAL.fullmatch(name):
+        return f"{name} is not algebraic; put a new variable in the place of its value"
+    if name.lower() in ("floor", "ceil", "ceiling", "round", "mod", "frac"):
+        return f"{name} needs integers, and all variables are real"
+    return f"unknown function {name}; known: abs, sqrt, cbrt, min, max, sign, root; a product is written {name}*(…)"
 
 
 def _last_word(before: str) -> str:
@@ -106,7 +124,7 @@ def _last_word(before: str) -> str:
 def _expected(kinds: Collection[str]) -> str:
     """Readable description of the terminals that could have followed."""
     if "QUANTIFIER" in kinds:
-        return "a formula"
+        return "'.' or ','" if "DOT" in kinds else "a formula"
     if "NUMBER" in kinds:
         return "a number, a variable or '('"
     if "NAME" in kinds:

@@ -1,71 +1,26 @@
-"""Lexer, grammar and error messages of the text syntax: text to surface tree."""
+"""Grammar of the text syntax: tokens to surface trees. Error messages are made in ``qe.io.text_errors``."""
 
 from __future__ import annotations
 
-import re
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from functools import cache
 from typing import Any
 
-from qe.errors import InputError
-from qe.formula.syntax import Relation
+from qe.formula.relation import Relation
 from qe.io import surface as s
+from qe.io.building import RELATIONS, Builder
 from qe.io.grammar import parser
 from qe.io.lalr import Parser, Token
-from qe.io.names import check_name
-from qe.io.terms import TermError, decimal
-from qe.io.text_errors import SyntaxFailure, unknown_character
-from qe.spelling import QUOTED, WORD, unquoted
+from qe.io.text_errors import SyntaxFailure
+from qe.io.text_lexer import Make, tokens
 
-_LIST = rf"(?:{WORD}|{QUOTED})"
-_TOKEN = re.compile(
-    rf"(?P<SPACE>\s+|\#[^\n]*)"
-    rf"|(?P<QUANTIFIER>[EA](?=\s+{_LIST}\s*(?:,\s*{_LIST}\s*)*\.))\b"
-    rf"|(?P<NAME>{WORD})"
-    r"|(?P<NUMBER>[0-9]+(?:\.[0-9]+)?(?:[eE][+-]?[0-9]+)?)"
-    rf"|(?P<QUOTED>{QUOTED})"
-    r"|(?P<OPERATOR><==>|<->|==>|->|<=|>=|/=|!=|/\\|\\/|[-+*/^()=<>~,.∃∀∧∨¬→↔⇒⇔≤≥≠−·])"
-)
-KEYWORDS = {
-    **dict.fromkeys(("ex", "exists", "Ex", "all", "forall", "All"), "QUANTIFIER"),
-    "and": "AND",
-    "or": "OR",
-    "not": "NOT",
-    "true": "TRUE",
-    "false": "FALSE",
-}
-_OPERATORS = {
-    **dict.fromkeys(("∃", "∀"), "QUANTIFIER"),
-    **dict.fromkeys(("=", "/=", "!=", "≠", "<", "<=", "≤", ">", ">=", "≥"), "RELATION"),
-    "+": "PLUS",
-    **dict.fromkeys(("-", "−"), "MINUS"),
-    **dict.fromkeys(("*", "·"), "TIMES"),
-    "/": "OVER",
-    "^": "POWER",
-    "(": "OPEN",
-    ")": "CLOSE",
-    ",": "COMMA",
-    ".": "DOT",
-    **dict.fromkeys(("/\\", "∧"), "AND"),
-    **dict.fromkeys(("\\/", "∨"), "OR"),
-    **dict.fromkeys(("~", "¬"), "NOT"),
-    **dict.fromkeys(("->", "==>", "→", "⇒"), "IMPLIES"),
-    **dict.fromkeys(("<->", "<==>", "↔", "⇔"), "IFF"),
-}
-_UNIVERSAL = frozenset(("all", "forall", "All", "A", "∀"))
-_RELATIONS = {
-    **{relation.value: relation for relation in Relation},
-    "!=": Relation.NE,
-    "≠": Relation.NE,
-    "≤": Relation.LE,
-    "≥": Relation.GE,
-}
-
+_UNIVERSAL = frozenset(("all", "forall", "All", "A", "∀", "ForAll", "Forall", "FORALL", "\\[ForAll]"))
 # "c" ends with a closed formula, "o" with a quantifier whose body runs on: nothing can follow an "o" inside
 # its brackets, which makes the grammar unambiguous. Formulas and terms share the round brackets.
 _FORMULAS = """
 %declare QUANTIFIER NAME NUMBER RELATION PLUS MINUS TIMES OVER POWER OPEN CLOSE COMMA DOT
-%declare AND OR NOT IMPLIES IFF TRUE FALSE
+%declare AND OR NOT IMPLIES IFF TRUE FALSE LEFT RIGHT BEGIN END OPENBAR CLOSEBAR IN REALS INFINITY RADICAL
+%declare IF THEN ELSE CONNECTIVE COMPARE CHOICE ELEMENT
 ?start: c4 | o4
 ?c4: c3 | c4 IFF c3             -> iff
 ?o4: o3 | c4 IFF o3             -> iff
@@ -77,14 +32,37 @@ _FORMULAS = """
 ?o1: o0 | c1 AND o0             -> every
 ?c0: base | NOT c0              -> negation
 ?o0: quantified | NOT o0        -> negation
-quantified: QUANTIFIER names DOT start
-names: NAME | names COMMA NAME
+     | IF start THEN start ELSE start -> either
+quantified: QUANTIFIER bound DOT start | QUANTIFIER bound quantified -> quantified_again
+?bound: names | names IN set    -> bounded
+names: NAME | names COMMA NAME | names NAME -> names_side_by_side
 ?base: comparison | TRUE        -> true
      | FALSE                    -> false
      | OPEN start CLOSE         -> brackets
+     | LEFT start RIGHT         -> brackets
+     | BEGIN formulas END       -> listed
+     | sum IN set               -> member
+     | ELEMENT OPEN term COMMA set CLOSE -> element
+     | ELEMENT LEFT term COMMA set RIGHT -> element
+     | CONNECTIVE OPEN formulas CLOSE -> connective
+     | CONNECTIVE LEFT formulas RIGHT -> connective
+     | COMPARE OPEN arguments CLOSE -> compared
+     | COMPARE LEFT arguments RIGHT -> compared
+     | QUANTIFIER bound OPEN start CLOSE -> quantified_closed
+     | QUANTIFIER OPEN group COMMA formulas CLOSE -> quantified_call
+     | QUANTIFIER LEFT group COMMA formulas RIGHT -> quantified_call
+?group: NAME                    -> names
+     | OPEN names CLOSE         -> brackets
+     | LEFT names RIGHT         -> brackets
+     | BEGIN names END          -> brackets
+formulas: start | formulas COMMA start -> more
+set: (OPEN | LEFT) term COMMA term (CLOSE | RIGHT) -> interval
+     | BEGIN arguments END      -> finite
+     | REALS                    -> reals
 """
-TERMS = """
-comparison: sum RELATION sum | comparison RELATION sum
+_TERMS = """
+comparison: term RELATION term | comparison RELATION term
+?term: sum | IF start THEN term ELSE term -> choice
 ?sum: product | sum PLUS product -> plus
      | sum MINUS product        -> minus
 ?product: factor | product TIMES factor -> times
@@ -95,142 +73,150 @@ comparison: sum RELATION sum | comparison RELATION sum
 ?exponent: primary | MINUS primary -> negative
 ?primary: NUMBER                -> number
      | NAME                     -> name
+     | INFINITY                 -> infinity
      | NAME OPEN arguments CLOSE -> call
-     | OPEN sum CLOSE           -> brackets
-arguments: sum | arguments COMMA sum
+     | NAME LEFT arguments RIGHT -> call
+     | CHOICE OPEN start COMMA term COMMA term CLOSE -> choice_call
+     | CHOICE LEFT start COMMA term COMMA term RIGHT -> choice_call
+     | OPEN term CLOSE          -> brackets
+     | OPENBAR term CLOSEBAR    -> absolute
+     | RADICAL primary          -> radical
+arguments: term | arguments COMMA term
 """
-GRAMMAR = _FORMULAS + TERMS
+GRAMMAR = _FORMULAS + _TERMS
 
 
 @cache
 def text_parser(start: str = "start") -> Parser:
-    """The parser of the text syntax; of its terms with ``start`` "sum"."""
-    return parser("text" if start == "start" else f"text_{start}", GRAMMAR, _tokens, Builder(), start=start)
+    """The parser of the text syntax; of its terms with ``start`` "term"."""
+    return parser("text" if start == "start" else f"text_{start}", GRAMMAR, _tokens, TextBuilder(), start=start)
 
 
-def _tokens(text: str, token: Callable[..., Token]) -> Iterator[Token]:
-    at, end, match = 0, len(text), _TOKEN.match
-    while at < end:
-        found = match(text, at)
-        if found is None:
-            raise unknown_character(text, at)
-        kind, value = found.lastgroup, found.group()
-        if kind == "NAME":
-            yield token(KEYWORDS.get(value, "NAME"), value, at)
-        elif kind == "OPERATOR":
-            yield token(_OPERATORS[value], value, at)
-        elif kind == "QUOTED":
-            yield token("NAME", _name(value, at), at)
-        elif kind != "SPACE":
-            yield token(kind, value, at)
-        at = found.end()
+def _tokens(text: str, token: Make) -> Iterator[Token]:
+    """The tokens of a text, which may be LaTeX."""
+    if "\\" in text:
+        from qe.io import latex_lexer
+
+        if latex_lexer.is_latex(text):
+            return latex_lexer.tokens(text, token)
+    return tokens(text, token)
 
 
-def _name(text: str, at: int) -> str:
-    """The name between backquotes."""
-    try:
-        return check_name(unquoted(text))
-    except ValueError as error:
-        raise SyntaxFailure(f"the name {text} cannot be read: {error}", at) from None
-    except InputError as error:
-        raise SyntaxFailure(str(error), at) from None
+@cache
+def latex_parser() -> Parser:
+    """The parser of the same syntax in LaTeX."""
+    from qe.io.latex_lexer import tokens as latex_tokens
+
+    return parser("text", GRAMMAR, latex_tokens, TextBuilder())
 
 
-class Builder:
-    """The actions of the grammar; other formats share them."""
+class TextBuilder(Builder):
+    """The actions of the text syntax alone."""
 
     def quantified(self, c: list[Any]) -> s.Node:
-        return s.Quantification(str(c[0]) in _UNIVERSAL, c[1], c[3])
+        return self.quantify(c[0], c[1], c[3])
 
-    def names(self, c: list[Any]) -> list[str]:
-        if len(c) == 1:
-            return [str(c[0])]
-        return [*c[0], str(c[2])]
+    quantified_closed = quantified
 
-    def iff(self, c: list[Any]) -> s.Node:
-        return s.Equivalence(c[0], c[2])
+    def quantified_again(self, c: list[Any]) -> s.Node:
+        return self.quantify(c[0], c[1], c[2])
 
-    def implies(self, c: list[Any]) -> s.Node:
-        return s.Implication(c[0], c[2])
+    def quantified_call(self, c: list[Any]) -> s.Node:
+        universal, formulas = str(c[0]) in _UNIVERSAL, c[4]
+        if len(formulas) > 2:
+            usage = "a quantifier takes variables, perhaps a condition, and a formula: ForAll[{x, y}, x > y, x^3 > y^3]"
+            raise SyntaxFailure(usage, c[0].start_pos)
+        *conditions, body = formulas
+        for condition in conditions:
+            body = s.Implication(condition, body) if universal else s.Every([condition, body])
+        return s.Quantification(universal, c[2], body)
 
-    def some(self, c: list[Any]) -> s.Node:
-        if isinstance(c[0], s.Some):
-            c[0].parts.append(c[2])
-            return c[0]
-        return s.Some([c[0], c[2]])
+    def quantify(self, quantifier: Any, bound: Any, body: s.Node) -> s.Node:
+        """A quantifier over names, which may be bounded by a set."""
+        universal = str(quantifier) in _UNIVERSAL
+        if isinstance(bound, list):
+            return s.Quantification(universal, bound, body)
+        names, within = bound
+        inside = [within(s.Name(name, quantifier.start_pos), quantifier.start_pos) for name in names]
+        condition = inside[0] if len(inside) == 1 else s.Every(inside)
+        return s.Quantification(
+            universal, names, s.Implication(condition, body) if universal else s.Every([condition, body])
+        )
 
-    def every(self, c: list[Any]) -> s.Node:
-        if isinstance(c[0], s.Every):
-            c[0].parts.append(c[2])
-            return c[0]
-        return s.Every([c[0], c[2]])
+    def bounded(self, c: list[Any]) -> Any:
+        return c[0], c[2]
 
-    def negation(self, c: list[Any]) -> s.Node:
-        return c[1].part if isinstance(c[1], s.Negation) else s.Negation(c[1])
+    def names_side_by_side(self, c: list[Any]) -> list[str]:
+        return [*c[0], str(c[1])]
 
-    def true(self, c: list[Any]) -> s.Node:
-        return s.Truth(True)
+    def either(self, c: list[Any]) -> s.Node:
+        return s.Every([s.Implication(c[1], c[3]), s.Some([c[1], c[5]])])
 
-    def false(self, c: list[Any]) -> s.Node:
-        return s.Truth(False)
+    def formulas(self, c: list[Any]) -> list[s.Node]:
+        return [c[0]]
 
-    def brackets(self, c: list[Any]) -> Any:
-        return c[1]
-
-    def comparison(self, c: list[Any]) -> s.Comparison:
-        relation = _RELATIONS[c[1]]
-        if isinstance(c[0], s.Comparison):
-            c[0].relations.append(relation)
-            c[0].sides.append(c[2])
-            return c[0]
-        return s.Comparison([c[0], c[2]], [relation], c[1].start_pos)
-
-    def plus(self, c: list[Any]) -> s.Term:
-        if isinstance(c[0], s.Sum):
-            c[0].parts.append(c[2])
-            return c[0]
-        return s.Sum([c[0], c[2]])
-
-    def minus(self, c: list[Any]) -> s.Term:
-        return self.plus([c[0], c[1], s.Minus(c[2])])
-
-    def times(self, c: list[Any]) -> s.Term:
-        return s.Product(c[0], c[2], c[1].start_pos)
-
-    def over(self, c: list[Any]) -> s.Term:
-        return s.Quotient(c[0], c[2], c[1].start_pos)
-
-    def negative(self, c: list[Any]) -> s.Term:
-        return c[1].part if isinstance(c[1], s.Minus) else s.Minus(c[1])
-
-    def positive(self, c: list[Any]) -> Any:
-        return c[1]
-
-    def to_power(self, c: list[Any]) -> s.Term:
-        return s.Power(c[0], c[2], c[1].start_pos)
-
-    def number(self, c: list[Any]) -> s.Term:
-        try:
-            value = decimal(c[0])
-        except TermError as error:
-            raise SyntaxFailure(str(error), c[0].start_pos) from None
-        return s.Number(value)
-
-    def name(self, c: list[Any]) -> s.Term:
-        return s.Name(str(c[0]), c[0].start_pos)
-
-    def arguments(self, c: list[Any]) -> list[s.Term]:
-        if len(c) == 1:
-            return [c[0]]
+    def more(self, c: list[Any]) -> list[s.Node]:
         return [*c[0], c[2]]
 
-    def call(self, c: list[Any]) -> s.Term:
-        name, arguments = c[0], c[2]
-        if name != "root":
-            hint = f"only polynomials are allowed, and a product is written {name}*(…)"
-            raise SyntaxFailure(f"unknown function {name}; {hint}", name.start_pos)
-        variable = arguments[2] if len(arguments) == 3 else None
-        if len(arguments) not in (2, 3) or not (variable is None or isinstance(variable, s.Name)):
-            usage = "root takes a number, a polynomial and perhaps a variable: root(2, x^2 - y, x)"
-            raise SyntaxFailure(usage, name.start_pos)
-        return s.Root(arguments[0], arguments[1], variable.name if variable else None, name.start_pos)
+    def listed(self, c: list[Any]) -> s.Node:
+        return s.Every(c[1])
+
+    def connective(self, c: list[Any]) -> s.Node:
+        name, parts = str(c[0]), c[2]
+        if name == "Not" and len(parts) == 1:
+            return s.Negation(parts[0])
+        if name == "And":
+            return s.Every(parts)
+        if name == "Or":
+            return s.Some(parts)
+        if name == "Implies" and len(parts) == 2:
+            return s.Implication(*parts)
+        if name == "Equivalent":
+            return s.Every([s.Equivalence(parts[0], part) for part in parts[1:]])
+        if name == "Xor":
+            return s.odd(parts)
+        raise SyntaxFailure(f"{name} takes {'one formula' if name == 'Not' else 'two formulas'}", c[0].start_pos)
+
+    def compared(self, c: list[Any]) -> s.Node:
+        at, sides = c[0].start_pos, c[2]
+        if len(sides) < 2:
+            raise SyntaxFailure(f"{c[0]} compares two terms", at)
+        return s.Comparison(sides, [RELATIONS[c[0]]] * (len(sides) - 1), at)
+
+    # --- sets: functions from a term and a place to a formula ------------------------------------------------
+    def interval(self, c: list[Any]) -> Any:
+        low = Relation.LE if c[0].type == "LEFT" else Relation.LT
+        high = Relation.LE if c[4].type == "RIGHT" else Relation.LT
+        left, right = c[1], c[3]
+        ends = (left.part if isinstance(left, s.Minus) else left), right
+        low = Relation.LT if isinstance(ends[0], s.Infinity) else low
+        high = Relation.LT if isinstance(ends[1], s.Infinity) else high
+        return lambda term, at: s.Comparison([left, term, right], [low, high], at)
+
+    def finite(self, c: list[Any]) -> Any:
+        return lambda term, at: s.Some([s.Comparison([term, value], [Relation.EQ], at) for value in c[1]])
+
+    def reals(self, c: list[Any]) -> Any:
+        return lambda term, at: s.Comparison([term, term], [Relation.EQ], at)
+
+    def member(self, c: list[Any]) -> s.Node:
+        return c[2](c[0], c[1].start_pos)  # type: ignore[no-any-return]
+
+    def element(self, c: list[Any]) -> s.Node:
+        return c[4](c[2], c[0].start_pos)  # type: ignore[no-any-return]
+
+    # --- terms -----------------------------------------------------------------------------------------------
+    def infinity(self, c: list[Any]) -> s.Term:
+        return s.Infinity(c[0].start_pos)
+
+    def choice(self, c: list[Any]) -> s.Term:
+        return s.Choice(c[1], c[3], c[5], c[0].start_pos)
+
+    def choice_call(self, c: list[Any]) -> s.Term:
+        return s.Choice(c[2], c[4], c[6], c[0].start_pos)
+
+    def absolute(self, c: list[Any]) -> s.Term:
+        return s.Apply("abs", [c[1]], c[0].start_pos)
+
+    def radical(self, c: list[Any]) -> s.Term:
+        return s.Apply("sqrt", [c[1]], c[0].start_pos)

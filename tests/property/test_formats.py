@@ -19,6 +19,7 @@ from qe.formula.syntax import Formula
 from qe.formula.traverse import free_variables, is_quantifier_free, ring_of
 from qe.io import formats, qepcad, redlog, smtlib, text
 from qe.io import json as json_format
+from qe.io.latex_lexer import is_latex
 from qe.io.sympy import Exists, ForAll, from_sympy, to_sympy
 from tests.strategies import formulas, points
 from tests.universe import UNIVERSE, holds, same
@@ -74,6 +75,14 @@ def test_json_is_exact(formula: Formula) -> None:
 @given(formulas(names=PLAIN, max_quantifiers=3))
 def test_redlog(formula: Formula) -> None:
     assert same(redlog.read(redlog.write(formula)), formula)
+
+
+@given(formulas(names=PLAIN, max_quantifiers=3))
+def test_latex(formula: Formula) -> None:
+    written = formats.write(formula, "latex")
+    assert same(formats.read(written, "latex"), formula)
+    if is_latex(written):
+        assert same(text.read(written), formula)
 
 
 @given(formulas(names=PLAIN, max_quantifiers=3), places)

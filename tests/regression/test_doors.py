@@ -23,21 +23,28 @@ root2 = qe.RealAlgebraic.from_root([-2, 0, 1], 1, 2)
 
 
 # --- text ---------------------------------------------------------------------------------------------------
-@pytest.mark.parametrize("given", ["all x. |x| >= 0", "ex x. |x| < 0", "|x - 1| < 2", "x > 0 | y > 0", "||x| - 1| > 0"])
-def test_bars_are_not_read_as_a_name(given: str) -> None:
-    with pytest.raises(qe.ParseError, match="absolute value") as caught:
-        qe.eliminate(given)
-    assert caught.value.column == given.index("|") + 1 and "backquotes" in str(caught.value)
+@pytest.mark.parametrize(
+    ("given", "meant"),
+    [
+        ("all x. |x| >= 0", "true"),
+        ("ex x. |x| < 0", "false"),
+        ("|x - 1| < 2", "-1 < x < 3"),
+        ("x > 0 | y > 0", "x > 0 or y > 0"),
+        ("||x| - 1| > 0", "x /= 1 and x /= -1"),
+    ],
+)
+def test_bars_are_not_read_as_a_name(given: str, meant: str) -> None:
+    assert qe.equivalent(given, meant)
 
 
-@pytest.mark.parametrize("given", ["x > pi", "ex x. x^2 = e", "i^2 = -1", "x < 2*π", "(all e. e > 0) or e = 1"])
+@pytest.mark.parametrize("given", ["x > pi", "ex x. x^2 = e", "x < 2*π", "(all e. e > 0) or e = 1"])
 def test_constants_of_mathematics_are_not_taken_for_variables(given: str) -> None:
     with pytest.raises(qe.ParseError, match="no number here"):
         qe.eliminate(given)
 
 
 def test_constants_may_be_names_where_that_is_meant() -> None:
-    assert free_variables(formats.read("`pi` > `e` and `e` = `i`")) == ("pi", "e", "i")
+    assert free_variables(formats.read("`pi` > `e` and `e` = i")) == ("pi", "e", "i")
     assert qe.decide("all e. e > 0 -> ex d. d > 0 and d < e")
     answer = qe.eliminate(formats.read("(declare-const e Real)(assert (> (* e e) 2))", "smtlib"))
     assert qe.equivalent(str(answer), answer.formula)

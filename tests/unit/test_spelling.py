@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import pytest
 
-from qe.io import text_parser
+from qe.io import text_lexer
 from qe.io.text import read, write
 from qe.spelling import KEYWORDS, quoted_if_needed
 
 
 def test_printer_and_reader_know_the_same_words() -> None:
-    assert set(text_parser.KEYWORDS) == KEYWORDS
+    assert set(text_lexer.KEYWORDS) == KEYWORDS
 
 
 @pytest.mark.parametrize("name", [*sorted(KEYWORDS), "two words", "9", "x", "y''", "x_1"])

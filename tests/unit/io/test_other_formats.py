@@ -152,9 +152,9 @@ def test_mathml() -> None:
 
 
 def test_the_door() -> None:
-    assert set(formats.READABLE) == {"text", "smtlib", "qepcad", "redlog", "json"}
+    assert set(formats.READABLE) == {"text", "smtlib", "qepcad", "redlog", "latex", "json"}
     assert str(formats.read("x > 0")) == "x > 0"
     with pytest.raises(InputError, match="only be written"):
-        formats.read("x", "latex")
+        formats.read("x", "mathml")
     with pytest.raises(InputError, match="unknown format"):
         formats.write(text("x > 0"), "word")

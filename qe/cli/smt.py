@@ -1,0 +1,400 @@
+"""``qe smt``: an SMT-LIB solver for the reals, one answer per command (SMT-LIB 2.6, chapter 4).
+
+Every command is answered before the next one is read, so that programs can drive it through pipes. An error is answered
+``(error "...")`` and the next command is read; after an assertion that was not understood the answer is never ``sat``.
+"""
+
+from __future__ import annotations
+
+import sys
+import time
+from collections.abc import Callable, Iterable, Sequence
+from typing import NamedTuple, cast
+
+import qe
+from qe import api
+from qe.cli.smt_values import Evaluation, Number, written
+from qe.errors import InputError, ParseError, Unable
+from qe.execution import Limits, perform
+from qe.formula.build import exists
+from qe.formula.syntax import Formula
+from qe.formula.traverse import free_variables
+from qe.io import smtlib
+from qe.io import surface as s
+from qe.io.grammar import Failing
+from qe.io.smtlib_parser import Expression, Listing, Word, complete, parse, show
+from qe.io.smtlib_script import Script
+from qe.io.smtlib_terms import is_real
+from qe.io.total import Fill, Total
+
+MOST_LEVELS = 10_000
+MOST_PARTS = 300
+"""Parts of a script up to which it is read at once, in this process."""
+
+_INFO = {
+    ":name": '"bezier-qe"',
+    ":version": f'"{qe.__version__}"',
+    ":authors": '"the bezier-qe authors"',
+    ":error-behavior": "continued-execution",
+}
+
+
+class Result(NamedTuple):
+    """The answer of a check: ``reason`` for unknown, ``point`` (by name in formulas) and ``total`` for sat."""
+
+    answer: str
+    reason: str = ""
+    point: dict[str, Number] | None = None
+    total: Total | None = None
+    asked: tuple[Expression, ...] = ()
+
+
+class Solver:
+    """The state of a solver. ``put`` takes the answers, ``warn`` what is only for people.
+
+    ``timeout``: seconds for the whole run, or (``each``) for every check.
+    """
+
+    def __init__(
+        self,
+        put: Callable[[str], None],
+        warn: Callable[[str], None],
+        *,
+        timeout: float | None = None,
+        memory: int | None = None,
+        each: bool = False,
+    ) -> None:
+        self.put, self.warn, self.timeout, self.memory = put, warn, timeout, memory
+        self.until = None if timeout is None or each else time.monotonic() + timeout
+        self.failed, self.done = False, False
+        self.options: dict[str, str] = {}
+        self.restart()
+
+    def restart(self) -> None:
+        """Forget everything but the options."""
+        self.script = Script(Failing("", "<smt>"))
+        self.lost: list[bool] = [False]
+        self.result: Result | None = None
+
+    # --- input -----------------------------------------------------------------------------------------------
+    def run(self, lines: Iterable[str], source: str) -> None:
+        """Answer the commands as they come in."""
+        text, line = "", 0
+        for piece in lines:
+            text += piece
+            if end := complete(text):
+                self.execute(text[:end], source, line)
+                line += text.count("\n", 0, end)
+                text = text[end:]
+            if self.done:
+                return
+        if text.strip():
+            self.execute(text, source, line)
+
+    def execute(self, text: str, source: str, line: int = 0) -> None:
+        """Answer the commands of a text whose first line has this number (from 0) in ``source``."""
+        place = Failing(text, source)
+
+        def fail(message: str, at: int) -> ParseError:
+            error = place(message, at)
+            error.line = (error.line or 1) + line
+            return error
+
+        self.script.fail = fail
+        try:
+            commands = parse(text, fail)
+        except InputError as error:
+            self.error(error)
+            return
+        for command in commands:
+            self.answer(command, fail)
+            if self.done:
+                return
+
+    def error(self, error: Exception) -> None:
+        self.failed = True
+        place = f"line {error.line} column {error.column}: " if isinstance(error, ParseError) and error.line else ""
+        message = error.message if isinstance(error, ParseError) else str(error)
+        self.put(f'(error "{place}{message}")'.replace("\n", " "))
+
+    def answer(self, command: Expression, fail: s.Fail) -> None:
+        """Carry out one command and print its answer."""
+        try:
+            self.script.fail = fail
+            head = self.script.head(command).text
+            reply = self.reply(head, cast(Listing, command))
+        except InputError as error:
+            self.lost[-1] = self.lost[-1] or command_name(command) == "assert"
+            self.error(error)
+        except Unable as error:
+            self.error(InputError(f"unable: {error}"))
+        except RecursionError:
+            self.lost[-1] = self.lost[-1] or command_name(command) == "assert"
+            self.error(InputError("the command is nested too deeply"))
+        else:
+            if reply is not None:
+                self.put(reply)
+            elif self.options.get(":print-success") == "true":
+                self.put("success")
+
+    # --- commands --------------------------------------------------------------------------------------------
+    def reply(self, head: str, command: Listing) -> str | None:
+        rest = command.items[1:]
+        match head:
+            case "check-sat":
+                return self.check()
+            case "check-sat-assuming":
+                return self.assuming(command)
+            case "check-sat-using":
+                self.warn("check-sat-using: tactics are not used, the answer is that of check-sat")
+                return self.check()
+            case "push" | "pop":
+                self.move(head, command)
+                return None
+            case "reset":
+                self.options.clear()
+                self.restart()
+                return None
+            case "reset-assertions":
+                self.reset_assertions()
+                return None
+            case "set-logic" | "set-info":
+                return None
+            case "set-option":
+                self.options[_word(rest, 0)] = show(rest[1]) if len(rest) > 1 else "true"
+                return None
+            case "get-option":
+                return self.options.get(_word(rest, 0), "unsupported")
+            case "get-info":
+                return self.info(_word(rest, 0))
+            case "echo":
+                return show(rest[0]) if rest else '""'
+            case "exit":
+                self.done = True
+                return None
+        return self.question(head, command)
+
+    def question(self, head: str, command: Listing) -> str | None:
+        match head:
+            case "get-model":
+                return self.model()
+            case "get-value":
+                return self.values(command)
+            case "get-assertions":
+                return f"({' '.join(show(a.written) for a in self.script.assertions)})"
+            case "get-unsat-core":
+                return self.core()
+            case "get-unsat-assumptions":
+                return f"({' '.join(map(show, self.refuted(self.last('unsat').asked)))})"
+            case "get-qe":
+                return self.eliminated(command)
+            case "get-proof" | "get-assignment" | "get-objectives" | "get-qe-disjunct" | "simplify" | "apply":
+                return "unsupported"
+        if self.script.change(command):
+            self.result = None
+            return None
+        raise InputError(f"the command {head} is not supported")
+
+    def move(self, head: str, command: Listing) -> None:
+        """``push`` and ``pop``."""
+        number = command.items[1] if len(command.items) > 1 else Word("NUMBER", "1", command.at)
+        if not isinstance(number, Word) or not number.text.isdigit() or int(number.text[:9]) > MOST_LEVELS:
+            self.script.error("a number of levels expected", number.at)
+        count = int(number.text)
+        self.result = None
+        if head == "push":
+            self.script.push(count)
+            self.lost += [False] * count
+        else:
+            self.script.pop(count, command.at)
+            del self.lost[len(self.lost) - count :]
+
+    def reset_assertions(self) -> None:
+        """Drop all levels and assertions; declarations stay only where they are global."""
+        options = self.options.get(":global-declarations") == "true"
+        kept = self.script
+        self.restart()
+        if options:
+            kept.levels.clear()
+            kept.assertions.clear()
+            self.script = kept
+
+    def info(self, key: str) -> str:
+        if key == ":reason-unknown":
+            reason = self.result.reason if self.result is not None else ""
+            return f"(:reason-unknown {reason or 'incomplete'})"
+        if key == ":assertion-stack-levels":
+            return f"(:assertion-stack-levels {len(self.script.levels)})"
+        return f"({key} {_INFO[key]})" if key in _INFO else "unsupported"
+
+    # --- checks ----------------------------------------------------------------------------------------------
+    def check(self, extra: Sequence[s.Node] = (), asked: tuple[Expression, ...] = ()) -> str:
+        nodes = [assertion.node for assertion in self.script.assertions]
+        found = self.solved([*nodes, *extra])
+        if found.answer == "sat" and any(self.lost):
+            found = Result("unknown", "(an assertion was not understood)")
+        self.result = found._replace(asked=asked)
+        return found.answer
+
+    def assuming(self, command: Listing) -> str:
+        self.script.arity(command, 1)
+        literals = command.items[1]
+        if not isinstance(literals, Listing):
+            self.script.error("a list of assumptions expected", literals.at)
+        nodes = [self.script.formula(item, self.script.globals) for item in literals.items]
+        return self.check(nodes, tuple(literals.items))
+
+    def left(self) -> float | None:
+        """Seconds that a check may still take."""
+        return self.timeout if self.until is None else self.until - time.monotonic()
+
+    def solved(self, nodes: Sequence[s.Node]) -> Result:
+        """Whether the nodes can hold together."""
+        found = self.attempt(nodes, Total(fill=Fill.ANY))
+        if found.answer == "sat" and found.total is not None and found.total.weakened:
+            for fill in (Fill.CONSTANT, Fill.ARGUMENT):
+                other = self.attempt(nodes, Total(fill=fill))
+                if other.answer == "sat":
+                    return other
+            return Result("unknown", "incomplete")
+        if found.answer == "unsat" and found.total is not None and found.total.unclear:
+            return Result("unknown", "incomplete")
+        return found
+
+    def attempt(self, nodes: Sequence[s.Node], total: Total) -> Result:
+        start, left = time.monotonic(), self.left()
+        if left is not None and left <= 0:
+            return Result("unknown", "timeout")
+        try:
+            formula, total = self.formula(nodes, total, left)
+        except Unable:
+            return Result("unknown", "timeout")
+        closed = exists(free_variables(formula), formula)
+        rest = None if left is None else max(left - (time.monotonic() - start), 0.01)
+        answer = api.eliminate(closed, timeout=rest, memory=self.memory)
+        if answer.truth is None:
+            return Result("unknown", "timeout" if "time" in answer.reason else "incomplete")
+        if not answer.truth:
+            return Result("unsat", total=total)
+        point = dict(answer.witness) if answer.witness is not None else ({} if not free_variables(formula) else None)
+        return Result("sat", point=point, total=total)
+
+    def formula(self, nodes: Sequence[s.Node], total: Total, seconds: float | None) -> tuple[Formula, Total]:
+        """What the nodes mean together; a large script is read in a process of its own, which a limit ends."""
+
+        def read(_: object = None) -> tuple[Formula, Total]:
+            return self.script.formula_of(nodes, total), total
+
+        if len(self.script.shared) <= MOST_PARTS:
+            return read()
+        return perform(read, Limits(seconds, self.memory), at_once=True)
+
+    def last(self, answer: str) -> Result:
+        """The last check, which must have had this answer."""
+        if self.result is None or self.result.answer != answer:
+            raise InputError("no model is at hand" if answer == "sat" else "no refutation is at hand")
+        return self.result
+
+    def core(self) -> str:
+        """Named assertions that cannot hold together with the others; none of them can be left out."""
+        self.last("unsat")
+        named = [a for a in self.script.assertions if a.name is not None]
+        others = [a.node for a in self.script.assertions if a.name is None]
+        kept = list(named)
+        for assertion in named:
+            rest = [a for a in kept if a is not assertion]
+            if self.solved([*others, *(a.node for a in rest)]).answer == "unsat":
+                kept = rest
+        return f"({' '.join(smtlib.symbol(str(a.name)) for a in kept)})"
+
+    def refuted(self, asked: Sequence[Expression]) -> list[Expression]:
+        """Assumptions that cannot hold together with the assertions; none of them can be left out."""
+        nodes = [a.node for a in self.script.assertions]
+        kept = list(asked)
+        for item in asked:
+            rest = [other for other in kept if other is not item]
+            assumed = [self.script.formula(other, self.script.globals) for other in rest]
+            if self.solved([*nodes, *assumed]).answer == "unsat":
+                kept = rest
+        return kept
+
+    # --- models ----------------------------------------------------------------------------------------------
+    def evaluation(self) -> Evaluation:
+        """Terms at the point of the last check."""
+        result = self.last("sat")
+        if result.point is None or result.total is None:
+            raise InputError("the formula is satisfiable, but no model was found")
+        point, total = result.point, result.total
+        outside = total.at(point)
+
+        def value(function: str, argument: Number) -> Number:
+            if total.fill is Fill.ARGUMENT:
+                return argument
+            if total.fill is Fill.CONSTANT:
+                return next((point[name] for name, (f, _) in total.values.items() if f == function), 0)
+            return next((v for f, a, v in outside if f == function and a == argument), 0)
+
+        return Evaluation(point, value)
+
+    def model(self) -> str:
+        values = self.evaluation()
+        lines = []
+        for symbol, (sort, name) in self.script.constants.items():
+            number = values.point.get(name, 0)
+            shown = written(number) if sort == "Real" else ("true" if number > 0 else "false")
+            lines.append(f"  (define-fun {smtlib.symbol(symbol)} () {sort} {shown})")
+        return "\n".join(["(", *lines, ")"])
+
+    def values(self, command: Listing) -> str:
+        self.script.arity(command, 1)
+        terms, values = command.items[1], self.evaluation()
+        if not isinstance(terms, Listing) or not terms.items:
+            self.script.error("a list of terms expected", terms.at)
+        pairs = []
+        for item in terms.items:
+            meaning = self.script.meaning(item, self.script.globals)
+            if is_real(meaning):
+                shown = written(values.term(cast(s.Term, meaning)))
+            else:
+                shown = "true" if values.truth(cast(s.Node, meaning)) else "false"
+            pairs.append(f"({show(item)} {shown})")
+        return f"({' '.join(pairs)})"
+
+    def eliminated(self, command: Listing) -> str:
+        """``get-qe``: an equivalent formula without quantifiers."""
+        self.script.arity(command, 1)
+        total = Total(fill=Fill.ANY)
+        formula = self.script.formula_of([self.script.formula(command.items[1], self.script.globals)], total)
+        answer = api.eliminate(total.checked(formula), timeout=self.left(), memory=self.memory)
+        if answer.formula is None:
+            raise Unable(answer.reason or "no answer")
+        symbols = {name: symbol for symbol, (_, name) in self.script.constants.items()}
+        return smtlib.term(answer.formula, symbols)
+
+
+def command_name(command: Expression) -> str:
+    """The first word of a command."""
+    head = command.items[0] if isinstance(command, Listing) and command.items else None
+    return head.text if isinstance(head, Word) else ""
+
+
+def _word(items: Sequence[Expression], k: int) -> str:
+    if len(items) <= k or not isinstance(items[k], Word):
+        raise InputError("a keyword expected")
+    return cast(Word, items[k]).text
+
+
+def run(text: str | None, source: str, *, timeout: float | None, memory: int | None, interactive: bool) -> int:
+    """``qe smt``: the commands of a text, then (without one, or ``interactive``) of standard input; the status."""
+    solver = Solver(
+        lambda reply: print(reply, flush=True),
+        lambda note: print(f"qe: {note}", file=sys.stderr, flush=True),
+        timeout=timeout,
+        memory=memory,
+        each=interactive,
+    )
+    if text is not None:
+        solver.run([text], source)
+    if (text is None or interactive) and not solver.done:
+        solver.run(sys.stdin, "<stdin>")
+    return 2 if solver.failed else 0

@@ -1,0 +1,284 @@
+"""Formulas in Python without text: ``x, y = qe.variables("x y")``, ``(x**2 + y <= 1) & (y > x)``, ``qe.exists(x, f)``.
+
+An ``Expression`` is a term, made of variables and exact numbers by ``+ - * / **`` and ``abs``; comparing two makes a
+``Statement``, which is connected by ``& | ~ >>`` and accepted wherever a formula is. The meaning is that of the text.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from fractions import Fraction
+from typing import Any, NoReturn
+
+from qe import arguments
+from qe.errors import InputError, NoTruthValue
+from qe.exact.algebraic import RealAlgebraic
+from qe.formula import build
+from qe.formula.syntax import Formula, Relation
+from qe.formula.traverse import atoms
+from qe.io import surface as s
+from qe.io.lowering import lower, lower_term
+from qe.io.names import check_name
+from qe.io.substitution import over_one_ring, substitute
+from qe.io.terms import Value
+
+
+def _fail(message: str, _: int) -> InputError:
+    return InputError(message)
+
+
+class Expression:
+    """A term; ``str`` shows it as text."""
+
+    __slots__ = ("term",)
+
+    def __init__(self, term: s.Term) -> None:
+        self.term = term
+
+    @property
+    def is_Symbol(self) -> bool:
+        """Whether it is a variable, which may be given where a name is asked for (as SymPy's symbols may)."""
+        return isinstance(self.term, s.Name)
+
+    @property
+    def name(self) -> str:
+        """The name of a variable."""
+        if not isinstance(self.term, s.Name):
+            raise InputError(f"a variable expected, {self} found")
+        return self.term.name
+
+    def polynomial(self) -> Value:
+        """The polynomial that it is. Raises ``InputError`` where it is none."""
+        return lower_term(self.term, _fail)
+
+    def __add__(self, other: object) -> Expression:
+        return _joined(lambda a, b: s.Sum([a, b]), self, other)
+
+    def __radd__(self, other: object) -> Expression:
+        return _joined(lambda a, b: s.Sum([a, b]), other, self)
+
+    def __sub__(self, other: object) -> Expression:
+        return _joined(lambda a, b: s.Sum([a, s.Minus(b)]), self, other)
+
+    def __rsub__(self, other: object) -> Expression:
+        return _joined(lambda a, b: s.Sum([a, s.Minus(b)]), other, self)
+
+    def __mul__(self, other: object) -> Expression:
+        return _joined(lambda a, b: s.Product(a, b, -1), self, other)
+
+    def __rmul__(self, other: object) -> Expression:
+        return _joined(lambda a, b: s.Product(a, b, -1), other, self)
+
+    def __truediv__(self, other: object) -> Expression:
+        return _joined(lambda a, b: s.Quotient(a, b, -1), self, other)
+
+    def __rtruediv__(self, other: object) -> Expression:
+        return _joined(lambda a, b: s.Quotient(a, b, -1), other, self)
+
+    def __pow__(self, other: object) -> Expression:
+        return _joined(lambda a, b: s.Power(a, b, -1), self, other)
+
+    def __neg__(self) -> Expression:
+        return Expression(s.Minus(self.term))
+
+    def __pos__(self) -> Expression:
+        return self
+
+    def __abs__(self) -> Expression:
+        return Expression(s.Apply("abs", [self.term], -1))
+
+    def __lt__(self, other: object) -> Statement:
+        return _compared(self, Relation.LT, other)
+
+    def __le__(self, other: object) -> Statement:
+        return _compared(self, Relation.LE, other)
+
+    def __gt__(self, other: object) -> Statement:
+        return _compared(self, Relation.GT, other)
+
+    def __ge__(self, other: object) -> Statement:
+        return _compared(self, Relation.GE, other)
+
+    def equals(self, other: object) -> Statement:
+        """The equation ``self = other``."""
+        return _compared(self, Relation.EQ, other)
+
+    def differs(self, other: object) -> Statement:
+        """``self /= other``."""
+        return _compared(self, Relation.NE, other)
+
+    def __eq__(self, other: object) -> NoReturn:
+        raise InputError("== and != compare objects; an equation is written x.equals(y), its negation x.differs(y)")
+
+    __hash__ = object.__hash__
+
+    def __bool__(self) -> NoReturn:
+        raise NoTruthValue("a term has no truth value")
+
+    def __repr__(self) -> str:
+        return _shown(self.term)
+
+
+class Statement:
+    """A formula that Python's operators connect: ``f & g``, ``f | g``, ``~f``, ``f >> g`` (implication)."""
+
+    __slots__ = ("formula",)
+
+    def __init__(self, formula: Formula) -> None:
+        self.formula = formula
+
+    @property
+    def free(self) -> tuple[str, ...]:
+        """The names of the free variables."""
+        return self.formula.free
+
+    @property
+    def atoms(self) -> tuple[Statement, ...]:
+        """The distinct atoms, from left to right."""
+        return tuple(Statement(a) for a in dict.fromkeys(atoms(self.formula)))
+
+    def substitute(self, values: Mapping[Any, object]) -> Statement:
+        """The statement with numbers or terms in the place of free variables, all at once."""
+        given = arguments.by_name(values, "values")
+        return Statement(substitute(self.formula, {name: _term(value) for name, value in given.items()}))
+
+    def __and__(self, other: object) -> Statement:
+        return _connected(build.conj, self, other)
+
+    def __rand__(self, other: object) -> Statement:
+        return _connected(build.conj, other, self)
+
+    def __or__(self, other: object) -> Statement:
+        return _connected(build.disj, self, other)
+
+    def __ror__(self, other: object) -> Statement:
+        return _connected(build.disj, other, self)
+
+    def __rshift__(self, other: object) -> Statement:
+        return _connected(lambda parts: build.implies(*parts), self, other)
+
+    def __rrshift__(self, other: object) -> Statement:
+        return _connected(lambda parts: build.implies(*parts), other, self)
+
+    def __invert__(self) -> Statement:
+        return Statement(build.neg(self.formula))
+
+    def __eq__(self, other: object) -> bool:
+        if isinstance(other, bool):
+            raise InputError("== compares formulas as they are written; their truth is asked with qe.decide")
+        return isinstance(other, Statement) and self.formula == other.formula
+
+    def __hash__(self) -> int:
+        return hash(self.formula)
+
+    def __bool__(self) -> NoReturn:
+        """Python's ``and``, ``or``, ``not`` and chains ask for it and would drop a part without a word."""
+        raise NoTruthValue(
+            "a formula has no truth value here: connect formulas with & | ~ >> (and x < y < z as (x < y) & (y < z)), "
+            "decide them with qe.decide"
+        )
+
+    def __str__(self) -> str:
+        return str(self.formula)
+
+    def __repr__(self) -> str:
+        return f"Statement({self.formula})"
+
+    def _sympy_(self) -> Any:
+        return self.formula._sympy_()
+
+
+def variables(names: object) -> tuple[Expression, ...] | Expression:
+    """Variables with these names (``"x y"``, ``"x, y"`` or a list); one alone comes without a tuple."""
+    found = arguments.names(names, "variables")
+    if not found:
+        raise InputError("variables: at least one name expected")
+    made = tuple(Expression(s.Name(check_name(name), -1)) for name in found)
+    return made[0] if len(made) == 1 and isinstance(names, str) and "," not in names else made
+
+
+def exists(variables: object, body: object) -> Statement:
+    """There are real values of the variables such that ``body``."""
+    return Statement(build.exists(_bound(variables), _formula(body)))
+
+
+def forall(variables: object, body: object) -> Statement:
+    """``body`` holds for all real values of the variables."""
+    return Statement(build.forall(_bound(variables), _formula(body)))
+
+
+def _bound(variables: object) -> tuple[str, ...]:
+    names = arguments.names(variables, "variables")
+    if not names:
+        raise InputError("a quantifier needs at least one variable")
+    return tuple(check_name(name) for name in names)
+
+
+def _formula(given: object) -> Formula:
+    if isinstance(given, Formula):
+        return given
+    if isinstance(given, str):
+        from qe.io.text import read
+
+        return read(given)
+    from qe.io.sympy import from_sympy
+
+    return from_sympy(given)
+
+
+def _connected(join: Callable[[Iterable[Formula]], Formula], left: object, right: object) -> Statement:
+    return Statement(join(over_one_ring(_formula(left), _formula(right))))
+
+
+def _joined(build_term: Callable[[s.Term, s.Term], s.Term], left: object, right: object) -> Expression:
+    return Expression(build_term(_term(left), _term(right)))
+
+
+def _compared(left: object, relation: Relation, right: object) -> Statement:
+    return Statement(lower(s.Comparison([_term(left), _term(right)], [relation], -1), _fail))
+
+
+def _term(given: object) -> s.Term:
+    """A number, an expression, text, or a SymPy expression as a term."""
+    if isinstance(given, Expression):
+        return given.term
+    if isinstance(given, RealAlgebraic):
+        return s.Algebraic(given, -1)
+    if isinstance(given, bool):
+        raise arguments.wrong("term", "a number or an expression", given)
+    if isinstance(given, str):
+        from qe.io.text import read_term
+
+        return read_term(given)
+    if hasattr(given, "free_symbols"):  # SymPy's own
+        from qe.io.sympy import term_from_sympy
+
+        return term_from_sympy(given)
+    return s.Number(arguments.rational(given, "term", "a number or an expression"))
+
+
+def _shown(term: s.Term) -> str:
+    """The term as text."""
+    match term:
+        case s.Name(name):
+            from qe.spelling import quoted
+
+            return quoted(name)
+        case s.Number(value):
+            shown = str(Fraction(value))
+            return shown if shown.isdigit() else f"({shown})"
+        case s.Algebraic(number):
+            return f"({number})"
+        case s.Sum(parts):
+            return f"({' + '.join(map(_shown, parts))})".replace("+ -", "- ")
+        case s.Product(left, right):
+            return f"{_shown(left)}*{_shown(right)}"
+        case s.Quotient(left, right):
+            return f"{_shown(left)}/({_shown(right)})"
+        case s.Power(base, exponent):
+            return f"({_shown(base)})^{_shown(exponent)}"
+        case s.Minus(part):
+            return f"-{_shown(part)}"
+        case s.Apply(function, parts):
+            return f"{function}({', '.join(map(_shown, parts))})"
+    return "…"

@@ -1,0 +1,212 @@
+"""What surface trees mean: formulas over polynomials.
+
+``lower`` collects the names (free ones in order of appearance, then bound ones in order of quantification) into one
+ring, does the exact arithmetic, and moves every relation to the form ``poly relation 0``. Scoping stays where it was
+written: a name may be bound twice or be free and bound; ``qe.formula.normal.rename_apart`` resolves that where needed.
+
+A comparison is true only where both sides have a value; connectives and quantifiers are the classical ones. So
+``1/x > 0`` says x > 0, and its negation x <= 0, which is true at 0. This is the usual logic of partial functions (W. M.
+Farmer, A partial functions version of Church's simple theory of types, J. Symbolic Logic 55, 1990). ``Total`` gives the
+values of functions outside their domains as SMT-LIB has them instead.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from itertools import pairwise
+
+from qe.exact.ring import Ring
+from qe.formula.build import conj, convert, disj, exists, forall, iff, implies, neg, root_atom
+from qe.formula.syntax import FALSE, TRUE, Formula, Relation
+from qe.io import cases, terms
+from qe.io.auxiliaries import Exhausted
+from qe.io.cases import Cases
+from qe.io.collecting import Names
+from qe.io.radicals import Place
+from qe.io.surface import (
+    Comparison,
+    Equivalence,
+    Every,
+    Fail,
+    Implication,
+    Infinity,
+    Meet,
+    Minus,
+    Name,
+    Negation,
+    Node,
+    Part,
+    Quantification,
+    Root,
+    Some,
+    Term,
+    Truth,
+)
+from qe.io.terms import TermError, Value
+from qe.io.total import Total
+from qe.io.valuation import Valuation
+
+MOST_RESERVED = 4096
+"""Names of auxiliary values in one formula."""
+
+
+def lower(
+    node: Node,
+    fail: Fail,
+    *,
+    names: Iterable[str] | None = None,
+    shared: Sequence[Part] = (),
+    meet: Meet = lambda name, at: None,
+    total: Total | None = None,
+) -> Formula:
+    """The formula that ``node`` means; ``fail(message, at)`` makes the error for a position.
+
+    With ``names`` (all names, for the ring) the tree may be a graph whose parts are shared; ``shared`` lists parts
+    in an order in which each comes after those it uses, so that chains of definitions of any length are fine. With
+    ``total`` functions have values outside their domains too, of which it is told.
+    """
+    found = Names(fail, meet)
+    if not shared:
+        found.node(node, frozenset(), 0)
+    if total is not None and names is None:
+        total.bound = frozenset(found.bound)
+    listed = found.all() if names is None else list(dict.fromkeys(names))
+    reserve = found.special if names is None else 0
+    while True:
+        try:
+            return _lowered(node, fail, listed, reserve, shared, total)
+        except Exhausted:
+            reserve = 2 * reserve + 8
+            if reserve > MOST_RESERVED:
+                raise fail(f"more than {MOST_RESERVED} roots and case distinctions", -1) from None
+
+
+def _lowered(
+    node: Node, fail: Fail, names: list[str], reserve: int, shared: Sequence[Part], total: Total | None
+) -> Formula:
+    taken = set(names)
+    extra = [f"s{k}" for k in range(1, reserve + len(names) + 1) if f"s{k}" not in taken][:reserve]
+    lowering = Lowering(Ring.of([*names, *extra]), fail, extra, total)
+    for part in shared:
+        lowering.remember(part)
+    formula = lowering.node(node, Place())
+    if total is not None:
+        formula = exists(total.values, conj((formula, *lowering.values.agreements())))
+    if not extra:
+        return formula
+    used = set(lowering.values.made)
+    return convert(formula, Ring.of([*names, *(name for name in extra if name in used)]))
+
+
+def lower_term(term: Term, fail: Fail, *, meet: Meet = lambda name, at: None) -> Value:
+    """The polynomial over Q that ``term`` means, in the ring of its names."""
+    found = Names(fail, meet)
+    found.term(term, frozenset(), 0)
+    names = found.all()
+    try:
+        value = Lowering(Ring.of(names), fail, [], None).values.term(term)
+    except Exhausted:
+        value = ()
+    if not isinstance(value, Value):
+        raise fail("a polynomial expected, without divisions by variables, roots and cases", -1)
+    return value
+
+
+class Lowering:
+    """Formulas and comparisons over one ring; ``extra`` are the names of it that auxiliary values may take."""
+
+    def __init__(self, ring: Ring, fail: Fail, extra: Sequence[str], total: Total | None) -> None:
+        self.ring, self.fail = ring, fail
+        self.values = Valuation(ring, fail, extra, total, self.node)
+        self.nodes: dict[int, Formula] = {}
+
+    def remember(self, part: Part) -> None:
+        """Lower a part that others share; the caller keeps it alive, so its identity is a key."""
+        if isinstance(part, Node):
+            self.nodes[id(part)] = self.node(part, Place())
+        elif not isinstance(part, Root | Infinity):
+            self.values.remember(part)
+
+    def node(self, node: Node, place: Place) -> Formula:
+        """The formula that the node means at this place."""
+        known = self.nodes.get(id(node))
+        if known is not None and (place.asserted or not self.values.loose):
+            return known
+        match node:
+            case Comparison():
+                return self.comparison(node, place)
+            case Every(parts):
+                return conj([self.node(part, place) for part in parts])
+            case Some(parts):
+                return disj([self.node(part, place) for part in parts])
+            case Negation(part):
+                return neg(self.node(part, place.denied))
+            case Implication(left, right):
+                return implies(self.node(left, place.denied), self.node(right, place))
+            case Equivalence(left, right):
+                return self.equivalence(left, right, place)
+            case Quantification(universal, names, body):
+                return (forall if universal else exists)(names, self.node(body, place.inside(universal)))
+            case Truth(value):
+                return TRUE if value else FALSE
+
+    def equivalence(self, left: Node, right: Node, place: Place) -> Formula:
+        sides = self.node(left, place), self.node(right, place)
+        if not self.values.loose:
+            return iff(*sides)
+        denied = self.node(left, place.denied), self.node(right, place.denied)
+        return conj((implies(denied[0], sides[1]), implies(denied[1], sides[0])))
+
+    def comparison(self, node: Comparison, place: Place) -> Formula:
+        links: list[Formula] = []
+        for (left, right), relation in zip(pairwise(node.sides), node.relations, strict=True):
+            try:
+                links.append(self.link(left, relation, right, place))
+            except TermError as error:
+                raise self.fail(str(error), node.at) from None
+        return conj(links)
+
+    def link(self, left: Term, relation: Relation, right: Term, place: Place) -> Formula:
+        """``left relation right``."""
+        for side, other, seen in ((right, left, relation), (left, right, relation.flipped)):
+            if isinstance(side, Root) and isinstance(other, Name) and side.variable in (None, other.name):
+                return self.root_comparison(other, seen, side)
+            if (sign := _infinite(side)) is not None:
+                return self.bounded(other, seen, sign, place)
+        a, b = self.values.term(left), self.values.term(right)
+        if isinstance(a, Value) and isinstance(b, Value):
+            return terms.compare(a, relation, b)
+        return self.values.compared(cases_of(a), relation, cases_of(b), place)
+
+    def root_comparison(self, side: Name, relation: Relation, root: Root) -> Formula:
+        k = self.values.constant(root.number, "the first argument of root must be an integer", root.at)
+        poly = self.values.polynomial(root.poly, root.at)
+        index = self.ring.index[side.name]
+        if k and not poly.degree(index) and len(poly.variables) == 1:
+            return self.link(side, relation, root._replace(variable=self.ring.names[poly.level]), Place())
+        if k == 0 or not poly.degree(index):
+            reason = "roots are counted from 1 or -1" if k == 0 else f"the polynomial does not contain {side.name}"
+            raise self.fail(f"no such root: {reason}", root.at)
+        return root_atom(side.name, relation, poly, k)
+
+    def bounded(self, side: Term, relation: Relation, sign: int, place: Place) -> Formula:
+        """``side relation sign*infinity``: only whether the side has a value matters."""
+        if _infinite(side) is not None:
+            raise self.fail("infinity is compared with terms only", -1)
+        if not relation.holds(-sign):
+            return FALSE
+        value = self.values.term(side)
+        return TRUE if isinstance(value, Value) else self.values.defined(value, place)
+
+
+def cases_of(value: Value | Cases) -> Cases:
+    """A polynomial is one case."""
+    return cases.plain(value) if isinstance(value, Value) else value
+
+
+def _infinite(term: Term) -> int | None:
+    """The sign of an infinite side; None for any other."""
+    if isinstance(term, Minus):
+        sign = _infinite(term.part)
+        return None if sign is None else -sign
+    return 1 if isinstance(term, Infinity) else None

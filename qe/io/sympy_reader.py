@@ -1,0 +1,185 @@
+"""SymPy trees to surface trees. SymPy is imported when a function of this module is called, never before."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from fractions import Fraction
+from typing import Any
+
+from qe.errors import InputError
+from qe.formula.relation import Relation
+from qe.io import surface as s
+from qe.io.names import check_name
+from qe.io.sympy_numbers import decimal_of, number_from_sympy
+from qe.io.text_errors import way_out
+
+_RELATIONS = {**{relation.value: relation for relation in Relation}, "==": Relation.EQ, "!=": Relation.NE}
+_ASSUMED = {
+    "zero": Relation.EQ,
+    "positive": Relation.GT,
+    "negative": Relation.LT,
+    "nonzero": Relation.NE,
+    "nonnegative": Relation.GE,
+    "nonpositive": Relation.LE,
+}
+"""What a symbol may be assumed to be besides real; the first that is true says all."""
+
+
+def symbol_name(symbol: Any) -> str:
+    """The name of a symbol. Raises ``InputError`` for one that no real variable can stand for."""
+    import sympy
+
+    if isinstance(symbol, sympy.Dummy | sympy.Wild):
+        raise InputError(f"{symbol} is a {type(symbol).__name__}, which is no variable with a name; use a Symbol")
+    known = sympy.Symbol("x", real=True).assumptions0
+    extra = [key for key, value in symbol.assumptions0.items() if known.get(key) is not value]
+    refused = [key for key in extra if key.removeprefix("extended_") not in _ASSUMED]
+    if refused and symbol.is_zero is not True:
+        refused.sort(key=lambda key: (key not in ("integer", "rational"), not symbol.assumptions0[key], key))
+        hint = "all variables are real here; only signs can be assumed of them"
+        raise InputError(f"the symbol {symbol} is assumed to be more than real ({refused[0]}): {hint}")
+    return check_name(symbol.name)
+
+
+def assumption(symbol: Any) -> s.Node | None:
+    """What the assumptions of a symbol say about its sign; None where that is nothing."""
+    name = symbol_name(symbol)
+    for key, relation in _ASSUMED.items():
+        if getattr(symbol, f"is_{key}") is True:
+            return s.Comparison([s.Name(name, -1), s.Number(0)], [relation], -1)
+    return None
+
+
+def shown(expression: object) -> str:
+    """An expression in a message."""
+    try:
+        text = str(expression)
+    except ValueError:  # SymPy prints numbers by str, which Python bounds
+        return "an expression with a long number"
+    return text if len(text) <= 60 else f"{text[:57]}…"
+
+
+class Reader:
+    """SymPy trees to surface trees."""
+
+    def __init__(self, module: Any) -> None:
+        self.sympy = module
+
+    # --- formulas --------------------------------------------------------------------------------------------
+    def boolean(self, e: Any) -> s.Node:
+        sp = self.sympy
+        if e in (sp.true, sp.false):
+            return s.Truth(e is sp.true)
+        if isinstance(e, sp.core.relational.Relational):
+            return s.Comparison([self.real(e.lhs), self.real(e.rhs)], [_RELATIONS[e.rel_op]], -1)
+        if isinstance(e, sp.And):
+            return s.Every([self.boolean(a) for a in e.args])
+        if isinstance(e, sp.Or):
+            return s.Some([self.boolean(a) for a in e.args])
+        if isinstance(e, sp.Not):
+            return s.Negation(self.boolean(e.args[0]))
+        if isinstance(e, sp.Implies):
+            return s.Implication(self.boolean(e.args[0]), self.boolean(e.args[1]))
+        if isinstance(e, sp.Equivalent):
+            parts = [self.boolean(a) for a in e.args]
+            return s.Every([s.Equivalence(parts[0], part) for part in parts[1:]])
+        if isinstance(e, sp.Xor):
+            return s.odd([self.boolean(a) for a in e.args])
+        if isinstance(e, sp.ITE):
+            condition, then, other = (self.boolean(a) for a in e.args)
+            return s.Every([s.Implication(condition, then), s.Some([condition, other])])
+        if isinstance(e, sp.Contains):
+            return self.member(self.real(e.args[0]), e.args[1])
+        raise InputError(f"a Boolean combination of relations expected, {shown(e)} found")
+
+    def member(self, term: s.Term, e: Any) -> s.Node:
+        """``term in e`` for a set of real numbers."""
+        sp = self.sympy
+        if isinstance(e, sp.Interval):
+            low = Relation.LT if e.left_open or e.start is sp.S.NegativeInfinity else Relation.LE
+            high = Relation.LT if e.right_open or e.end is sp.S.Infinity else Relation.LE
+            return s.Comparison([self.real(e.start), term, self.real(e.end)], [low, high], -1)
+        if isinstance(e, sp.FiniteSet):
+            return s.Some([s.Comparison([term, self.real(a)], [Relation.EQ], -1) for a in e.args])
+        if isinstance(e, sp.Union):
+            return s.Some([self.member(term, a) for a in e.args])
+        if isinstance(e, sp.Intersection):
+            return s.Every([self.member(term, a) for a in e.args])
+        if isinstance(e, sp.Complement):
+            return s.Every([self.member(term, e.args[0]), s.Negation(self.member(term, e.args[1]))])
+        if e is sp.S.EmptySet:
+            return s.Truth(False)
+        if e is sp.S.Reals:
+            return s.Comparison([term, term], [Relation.EQ], -1)
+        if isinstance(e, sp.ConditionSet) and isinstance(e.sym, sp.Symbol) and isinstance(term, s.Name):
+            condition = e.condition.subs(e.sym, sp.Symbol(term.name, real=True))
+            return s.Every([self.member(term, e.base_set), self.boolean(condition)])
+        raise InputError(f"a set of real numbers made of intervals and points expected, {shown(e)} found")
+
+    # --- terms -----------------------------------------------------------------------------------------------
+    def real(self, e: Any) -> s.Term:
+        sp = self.sympy
+        if isinstance(e, sp.Symbol):
+            return s.Name(symbol_name(e), -1)
+        if isinstance(e, sp.Rational):
+            return s.Number(Fraction(int(e.p), int(e.q)))
+        if isinstance(e, sp.Float):
+            return s.Number(self.exact_float(e))
+        if e in (sp.S.Infinity, sp.S.NegativeInfinity):
+            return s.Infinity(-1) if e is sp.S.Infinity else s.Minus(s.Infinity(-1))
+        if isinstance(e, sp.Add):
+            return s.Sum([self.real(a) for a in e.args])
+        if isinstance(e, sp.Mul):
+            return _product([self.real(a) for a in e.args])
+        if isinstance(e, sp.Pow) and isinstance(e.exp, sp.Rational):
+            return s.Power(self.real(e.base), s.Number(Fraction(int(e.exp.p), int(e.exp.q))), -1)
+        if isinstance(e, sp.Abs | sp.sign | sp.Max | sp.Min):
+            return s.Apply(type(e).__name__.lower(), [self.real(a) for a in e.args], -1)
+        if isinstance(e, sp.Piecewise):
+            return self.piecewise(e)
+        if e.is_number and (number := number_from_sympy(e)) is not None:
+            return s.Algebraic(number, -1)
+        raise InputError(self.refusal(e))
+
+    def refusal(self, e: Any) -> str:
+        """Why an expression is no term, and what to write instead where that is known."""
+        sp = self.sympy
+        if e in (sp.pi, sp.E):
+            hint = "put a rational number in its place, or a symbol and bounds for it"
+            return f"{e} is no algebraic number, coefficients are rational or algebraic; {hint}"
+        if isinstance(e, sp.Pow):
+            return f"powers whose exponents are no rational numbers are not algebraic: {shown(e)}"
+        message = way_out(type(e).__name__)
+        if "algebraic" in message or "integers" in message:
+            return f"{shown(e)}: {message}"
+        hint = "terms are made of + - * /, rational powers, Abs, Min, Max, sign and Piecewise"
+        return f"{shown(e)} cannot be read: {hint}"
+
+    def exact_float(self, e: Any) -> Fraction:
+        if not e.is_finite:
+            raise InputError(f"a finite number expected, {e} found")
+        return decimal_of(e)
+
+    def piecewise(self, e: Any) -> s.Term:
+        """The first case whose condition holds; no value where none does."""
+        result: s.Term | None = None
+        for value, condition in reversed(e.args):
+            if condition == self.sympy.true:
+                result = self.real(value)
+            else:
+                result = s.Choice(self.boolean(condition), self.real(value), result, -1)
+        assert result is not None
+        return result
+
+
+def _product(factors: list[s.Term]) -> s.Term:
+    result = factors[0]
+    for factor in factors[1:]:
+        result = s.Product(result, factor, -1)
+    return result
+
+
+def signs(symbols: Iterable[Any]) -> dict[str, s.Node]:
+    """What the assumptions of symbols say, by name."""
+    found = {symbol.name: assumption(symbol) for symbol in symbols}
+    return {name: node for name, node in found.items() if node is not None}

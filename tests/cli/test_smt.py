@@ -1,0 +1,146 @@
+"""``qe smt`` as a solver: what it answers to every command, and pySMT driving it through pipes."""
+# ruff: noqa: E501
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from fractions import Fraction
+from pathlib import Path
+
+import pytest
+
+from qe.cli.smt import Solver
+
+QE = Path(sys.executable).with_name("qe")
+XY = "(declare-fun x () Real)(declare-const y Real)(declare-const p Bool)"
+
+
+def answers(script: str, *, timeout: float | None = None) -> list[str]:
+    lines: list[str] = []
+    Solver(lines.append, lines.append, timeout=timeout).run([script], "<test>")
+    return lines
+
+
+@pytest.mark.parametrize(
+    ("script", "expected"),
+    [
+        ("(assert (> x 0))(check-sat)(assert (< x 0))(check-sat)", ["sat", "unsat"]),
+        ("(push)(assert (= (* x x) (- 1)))(check-sat)(pop)(check-sat)", ["unsat", "sat"]),
+        ("(push 2)(assert false)(pop)(check-sat)(pop)(check-sat)", ["sat", "sat"]),
+        ("(assert (= x 1))(check-sat-assuming ((= x 2)))(check-sat)", ["unsat", "sat"]),
+        ("(assert (> x 0))(reset-assertions)(declare-const x Real)(assert (< x 0))(check-sat)", ["sat"]),
+        ("(assert false)(reset)(check-sat)", ["sat"]),
+        ("(assert (= (* 2 x) 1))(check-sat)(get-value (x (+ x y) p (> x 0)))", ["sat", "((x (/ 1.0 2.0)) ((+ x y) (/ 1.0 2.0)) (p false) ((> x 0) true))"]),
+        ("(assert p)(assert (= x (- 3)))(check-sat)(get-model)", ["sat", "(\n  (define-fun x () Real (- 3.0))\n  (define-fun y () Real 0.0)\n  (define-fun p () Bool true)\n)"]),
+        ("(assert (and (= (* x x) 2) (< x 0)))(check-sat)(get-value (x (* x x)))", ["sat", "((x (root-obj (+ (^ x 2) (- 2)) 1)) ((* x x) 2.0))"]),
+        ("(assert (= x (root-obj (+ (^ x 2) (- 2)) 1)))(assert (= (* x x) y))(check-sat)(get-value (y))", ["sat", "((y 2.0))"]),
+        ("(assert (! (> x 0) :named a))(assert (! (> y 0) :named b))(assert (! (< x 0) :named |c d|))(check-sat)(get-unsat-core)", ["unsat", "(a |c d|)"]),
+        ("(check-sat-assuming (p (> x 0) (not p)))(get-unsat-assumptions)", ["unsat", "(p (not p))"]),
+        ("(get-qe (exists ((z Real)) (= (* z z) x)))", ["(>= x 0)"]),
+        ("(assert (> x 0))(get-assertions)", ["((> x 0))"]),
+        ('(echo "a b")(get-info :name)(get-info :assertion-stack-levels)', ['"a b"', '(:name "bezier-qe")', "(:assertion-stack-levels 0)"]),
+        ("(set-option :print-success true)(set-logic QF_NRA)(push)", ["success", "success", "success"]),
+        ("(check-sat-using qfnra)", ["check-sat-using: tactics are not used, the answer is that of check-sat", "sat"]),
+        ("(declare-const || Real)(assert (= || 1))(check-sat)(get-value (||))", ["sat", "((|| 1.0))"]),
+        ("(declare-const d.g Real)(declare-const x!0 Real)(assert (< d.g x!0))(check-sat)", ["sat"]),
+        ("(exit)(check-sat)", []),
+        ("(assert (= (/ x 0) 1))(assert (= (/ y 0) 2))(assert (= x y))(check-sat)", ["unsat"]),
+        ("(assert (= (/ x 0) 1))(assert (= (/ y 0) 2))(check-sat)", ["sat"]),
+        ("(assert (= (/ 1 y) 3))(assert (= y 0))(check-sat)(get-value ((/ 1 y) (/ 1 0)))", ["sat", "(((/ 1 y) 3.0) ((/ 1 0) 3.0))"]),
+        ("(assert (distinct (/ 1 (- x x)) (/ 1 0)))(check-sat)", ["unsat"]),
+        ("(assert (forall ((z Real)) (= z (/ 0 0))))(check-sat)", ["unsat"]),
+        ("(assert (forall ((z Real)) (= z (/ z 0))))(check-sat)", ["sat"]),
+        ("(assert (exists ((z Real)) (distinct (/ z 0) (/ z 0))))(check-sat)", ["unsat"]),
+        ("(assert (forall ((z Real)) (> (/ z z) 0)))(check-sat)", ["sat"]),
+        ("(assert (forall ((z Real)) (= (/ z 0) (* z z))))(check-sat)", ["unknown"]),
+        ("(assert (forall ((z Real)) (= (/ z 0) y)))(check-sat)(get-value ((/ 1 0)))", ["sat", "(((/ 1 0) 0.0))"]),
+        ("(assert (= (sqrt x) 2))(assert (> x 0))(check-sat)(get-value (x (sqrt x)))", ["sat", "((x 4.0) ((sqrt x) 2.0))"]),
+    ],
+)  # fmt: skip
+def test_answers(script: str, expected: list[str]) -> None:
+    assert answers(XY + script) == expected
+
+
+@pytest.mark.parametrize(
+    ("script", "part"),
+    [
+        ("(declare-const n Int)", "Real or Bool expected, Int found; all numbers are real here"),
+        ("(declare-fun f (Real) Real)", "only functions without arguments"),
+        ("(assert (> (tanh 1) 0))", "not algebraic"),
+        ("(assert (> x (mod 5 2)))", "needs integers"),
+        ("(get-model)", "no model"),
+        ("(get-unsat-core)", "no refutation"),
+        ("(pop)", "only 0 levels"),
+        ("(push x)", "a number of levels"),
+        ("(frobnicate)", "is not supported"),
+        ("(define-fun-rec f () Real 1)", "recursive"),
+        ("(assert (> x", "never closed"),
+        ("(assert (> x 0)))", "no partner"),
+        ("(assert (> x #b1))", "unexpected"),
+    ],
+)
+def test_what_is_refused(script: str, part: str) -> None:
+    (line,) = answers(XY + script)
+    assert line.startswith('(error "') and part in line and "\n" not in line
+
+
+def test_after_an_assertion_that_was_not_understood_the_answer_is_never_sat() -> None:
+    script = XY + "(push)(assert (> (tanh x) 2)){}(check-sat)(pop)(check-sat)"
+    assert answers(script.format(""))[1:] == ["unknown", "sat"]
+    assert answers(script.format("(assert (< x x))"))[1:] == ["unsat", "sat"]
+
+
+def test_places_are_counted_through_all_lines() -> None:
+    lines: list[str] = []
+    Solver(lines.append, lines.append).run(
+        ["(declare-const x Real)\n(assert\n", " (> x 0)) (check-sat)\n", "(foo)\n(assert z)\n"], "-"
+    )
+    assert lines[0] == "sat" and "line 5 column 9" in lines[2]
+
+
+def test_a_limit_is_kept() -> None:
+    hard = "".join(f"(declare-const a{k} Real)" for k in range(6))
+    body = "(assert (> (+ {}) 0))".format(
+        " ".join(f"(* a{k} a{k} a{k} a{(k + 1) % 6} a{(k + 3) % 6})" for k in range(6))
+    )
+    equal = "".join(
+        f"(assert (= (* a{k} a{k} a{k}) (+ a{(k + 1) % 6} (* a{(k + 2) % 6} a{(k + 4) % 6}) {k})))" for k in range(6)
+    )
+    assert answers(hard + body + equal + "(check-sat)(get-info :reason-unknown)", timeout=0.5) == [
+        "unknown",
+        "(:reason-unknown timeout)",
+    ]
+
+
+def test_the_command(tmp_path: Path) -> None:
+    script = tmp_path / "a.smt2"
+    script.write_text("(declare-const x Real)(assert (> x 2))(check-sat)")
+    run = subprocess.run(
+        [QE, "smt", script, "-i"], input="(get-value (x))(bad)\n(exit)\n", capture_output=True, text=True, timeout=60
+    )
+    assert run.stdout.splitlines()[0] == "sat" and run.stdout.splitlines()[2].startswith('(error "')
+    assert run.returncode == 2 and run.stderr == ""
+    missing = subprocess.run([QE, "smt", tmp_path / "b.smt2"], capture_output=True, text=True, timeout=60)
+    assert missing.returncode == 2 and missing.stderr.count("\n") == 1
+
+
+def test_pysmt_drives_it() -> None:
+    shortcuts = pytest.importorskip("pysmt.shortcuts")
+    from pysmt.logics import QF_NRA
+
+    environment = shortcuts.get_env()
+    if "qe" not in environment.factory.all_solvers():
+        environment.factory.add_generic_solver("qe", [str(QE), "smt", "-i"], [QF_NRA])
+    x, y = (shortcuts.Symbol(name, shortcuts.REAL) for name in ("x", "y"))
+    with shortcuts.Solver(name="qe", logic=QF_NRA) as solver:
+        solver.add_assertion(shortcuts.Equals(shortcuts.Times(x, y), shortcuts.Real(Fraction(1, 2))))
+        solver.add_assertion(shortcuts.GT(x, shortcuts.Real(2)))
+        assert solver.solve()
+        solver.push()
+        solver.add_assertion(shortcuts.LT(y, shortcuts.Real(0)))
+        assert not solver.solve()
+        solver.pop()
+        assert solver.solve()
+        a, b = (Fraction(str(solver.get_value(symbol).constant_value())) for symbol in (x, y))
+        assert a * b == Fraction(1, 2) and a > 2

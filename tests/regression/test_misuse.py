@@ -1,0 +1,116 @@
+"""What people type who know other systems: each of these gets the answer that was meant, or one line that helps."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from collections.abc import Callable
+from fractions import Fraction
+from pathlib import Path
+
+import pytest
+import sympy
+
+import qe
+
+X, Y = sympy.symbols("x y")
+QE = Path(sys.executable).with_name("qe")
+
+
+@pytest.mark.parametrize(
+    ("typed", "meant"),
+    [
+        ("x == 1", "x = 1"),
+        ("x**2 = 4", "x^2 = 4"),
+        ("x² < 2 && y > 0", "x^2 < 2 and y > 0"),
+        ("x > 0 & y > 0 | y < 1", "x > 0 and y > 0 or y < 1"),
+        ("x > 0 || y > 0", "x > 0 or y > 0"),
+        ("|x| < 1 | y > 0", "-1 < x < 1 or y > 0"),
+        ("||x| - 1| < 2", "-3 < x < 3"),
+        ("!(x > 0) && x != -1", "x <= 0 and x /= -1"),
+        (".5*x > .25", "x > 1/2"),
+        ("2x + 3(y - 1) > 5.", "2*x + 3*y > 8"),
+        ("x in [0,1) && y in {1, 2}", "0 <= x and x < 1 and (y = 1 or y = 2)"),
+        ("x > 0 AND NOT y > 0 OR FALSE", "x > 0 and y <= 0"),
+        ("forall x: x^2 >= y", "y <= 0"),
+        ("∃x: x² = y", "y >= 0"),
+        ("exists x (x > 0 and x < y) and y < 3", "0 < y < 3"),
+        ("∀x∈[0,1]: x*y <= 1", "y <= 1"),
+        ("∃x∀y: x + y² > z", "true"),
+        ("ForAll[{x}, x > 0, x y > 0]".replace("x y", "x*y"), "y > 0"),
+        ("Exists[x, x^2 == y && Element[x, Reals]]", "y >= 0"),
+        ("Implies[x > 0, Sqrt[x] < 2]", "x < 4"),
+        ("And(x > 0, Or(y > 0, Not(x > 1)))", "x > 0 and (y > 0 or x <= 1)"),
+        ("ex(x, a*x^2 + 1 = 0)", "a < 0"),
+        (r"\exists x\colon x^2 = y", "y >= 0"),
+        ("x implies y > 0".replace("x implies", "x > 0 implies"), "x <= 0 or y > 0"),
+        ("x <> 1", "x /= 1"),
+        ("1/x > 0", "x > 0"),
+        ("x^(1/2) > 1", "x > 1"),
+        ("√x > 1", "x > 1"),
+        ("0.1 + 0.2 = x", "10*x = 3"),
+        ("-oo < x < oo", "true"),
+        ("i*k = 1", "k /= 0 and i = 1/k"),
+    ],
+)
+def test_the_answer_that_was_meant(typed: str, meant: str) -> None:
+    assert qe.equivalent(typed, meant)
+
+
+@pytest.mark.parametrize(
+    ("misuse", "hint"),
+    [
+        (lambda: qe.eliminate("x = pi"), "coefficients are rational"),
+        (lambda: qe.eliminate("sin(x) = 0"), "c^2 + s^2 = 1"),
+        (lambda: qe.eliminate("exp(x) > 1"), "new variable"),
+        (lambda: qe.eliminate("2^x > 1"), "rational number"),
+        (lambda: qe.eliminate("x => 1"), ">="),
+        (lambda: qe.eliminate("1/2x > 1"), "1/(2*x)"),
+        (lambda: qe.eliminate("a x > 1"), "a*x"),
+        (lambda: qe.eliminate("x(y + 1) > 1"), "x*(…)"),
+        (lambda: qe.eliminate("2|x| > 1"), "2*|x|"),
+        (lambda: qe.eliminate("x = y = "), "too early"),
+        (lambda: qe.eliminate("x^2^3 = 1"), "brackets"),
+        (lambda: qe.eliminate("floor(x) = 1"), "integers"),
+        (lambda: qe.eliminate("x mod 2 = 1"), "an operator is missing"),
+        (lambda: qe.eliminate("ex x x > 1"), "'.'"),
+        (lambda: qe.eliminate(""), "empty"),
+        (lambda: qe.eliminate("x + 1"), "a relation"),
+        (lambda: qe.eliminate(X**2 == Y), "Eq"),
+        (lambda: qe.eliminate(X + 1), "Boolean combination"),
+        (lambda: qe.eliminate(sympy.sin(X) > 0), "not algebraic"),
+        (lambda: qe.eliminate(sympy.Symbol("n", integer=True) > 0), "integer"),
+        (lambda: qe.eliminate(3), "Boolean combination"),
+        (lambda: qe.eliminate(None), "a formula"),
+        (lambda: qe.eliminate("x > 0", format="maple"), "unknown format"),
+        (lambda: qe.eliminate("x > 0", order="z"), "variables of the formula"),
+        (lambda: qe.decide("x > 0"), "a sentence expected; free: x"),
+        (lambda: qe.minimize("x^2 > 0", "true"), "a polynomial expected"),
+        (lambda: qe.region("x > 0").contains({"y": 1}), "x"),
+        (lambda: qe.variables("x")**2 == Fraction(1), "x.equals"),
+    ],
+)  # fmt: skip
+def test_one_line_that_helps(misuse: Callable[[], object], hint: str) -> None:
+    with pytest.raises(qe.InputError) as caught:
+        misuse()
+    assert any(part in str(caught.value) for part in hint.split("|")), str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "code", "part"),
+    [
+        (("--version",), 0, "qe 0"),
+        ((), 0, "Usage"),
+        (("eliminate", "x > 0", "--timeot", "3"), 2, "did you mean --timeout"),
+        (("eliminate", "--ordr=x", "x > 0"), 2, "did you mean --order"),
+        (("eliminat", "x > 0"), 2, "eliminate"),
+        (("eliminate", "1/x > 0 and y = 1", "--total-division"), 0, "x >= 0"),
+        (("decide", "all x. |x| >= 0"), 0, "true"),
+        (("decide", "x > 0"), 2, "a sentence expected"),
+    ],
+)
+def test_the_command(arguments: tuple[str, ...], code: int, part: str) -> None:
+    run = subprocess.run([QE, *arguments], capture_output=True, text=True, timeout=60)
+    assert run.returncode == code and part in run.stdout + run.stderr, (run.stdout, run.stderr)
+    assert "Traceback" not in run.stderr

@@ -1,0 +1,56 @@
+"""LaTeX in: what is printed in mathematics, and what is said about mistakes."""
+
+from __future__ import annotations
+
+import pytest
+
+import qe
+from qe.io import formats
+from qe.io.text import read
+
+
+@pytest.mark.parametrize(
+    ("source", "text"),
+    [
+        (r"\forall x\colon x^{2} \geq \frac{1}{2} \lor \sqrt{x} < 2 a b", "all x. x^2 >= 1/2 or sqrt(x) < 2*a*b"),
+        (r"\exists x \in \mathbb{R}: a x^2 + b x + c = 0", "ex x. a*x^2 + b*x + c = 0"),
+        (r"\exists x\; x^2 = 1", "ex x. x^2 = 1"),
+        (r"\exists x \, \forall y \; x y \le 1 \wedge y > 0", "ex x. all y. x*y <= 1 and y > 0"),
+        (r"b^2-4ac \ge 0", "b^2 - 4*a*c >= 0"),
+        (r"\left| x - 1 \right| < \frac{x+1}{2y}", "|x - 1| < (x + 1)/(2*y)"),
+        (r"\sqrt[3]{x} \neq y_{12} + x_1'", "x^(1/3) /= y12 + x1'"),
+        (r"x \in [0, \infty) \implies \lvert x \rvert = x", "x >= 0 -> |x| = x"),
+        (r"\mathrm{speed} \leq 3 \text{ and } \alpha > 0", "speed <= 3 and alpha > 0"),
+        (r"$x_{ij}^2 + (y)(z) \leq 1$", "x_ij^2 + y*z <= 1"),
+        (r"\frac12 x \cdot 3 \le 1 \iff \top", "3/2*x <= 1 <-> true"),
+        (r"2\sqrt{x}\max(x, y) \lt 1 \% no", "2*sqrt(x)*max(x, y) < 1"),
+        (r"x > 0 /\ y > 0", "x > 0 and y > 0"),
+        (r"a=0/\b=0", "a = 0 and b = 0"),
+    ],
+)
+def test_meaning(source: str, text: str) -> None:
+    source = source.replace(r"\% no", "")
+    assert str(read(source)) == str(read(text))
+
+
+@pytest.mark.parametrize(
+    ("source", "part"),
+    [
+        (r"\sin(x) < 1", "sin is not algebraic"),
+        (r"2^{x} \le 1", "rational number"),
+        (r"\frac{x}{2 \le 1", "never closed"),
+        (r"x \le \mathrm{a b}", "cannot be read in LaTeX"),
+        (r"x \le ", "too early"),
+        (r"\frac{x}", "too early|expected|unbalanced"),
+        (r"x @ \land y", "cannot be read in LaTeX"),
+    ],
+)
+def test_mistakes_are_told_in_one_line(source: str, part: str) -> None:
+    with pytest.raises(qe.ParseError, match=part) as caught:
+        read(source)
+    assert "\n" not in str(caught.value)
+
+
+def test_letters_are_single_in_the_format_and_words_in_text() -> None:
+    assert str(formats.read("ab < 1", "latex")) == "a*b - 1 < 0"
+    assert str(formats.read("ab < 1")) == "ab - 1 < 0"

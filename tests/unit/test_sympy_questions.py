@@ -1,0 +1,108 @@
+"""Questions with SymPy objects as answers, and z3 objects as questions."""
+
+# ruff: noqa: E501
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import pytest
+import sympy as sp
+
+import qe
+from qe import sympy as exact
+from qe.io.sympy import from_sympy
+
+x, y, a = sp.symbols("x y a")
+p = sp.Symbol("p", positive=True)
+n = sp.Symbol("n", nonzero=True, real=True)
+
+
+@pytest.mark.parametrize(
+    ("condition", "expected"),
+    [
+        (x**3 - 2 * x > 0, sp.Union(sp.Interval.open(-sp.sqrt(2), 0), sp.Interval.open(sp.sqrt(2), sp.oo))),
+        ([x**2 <= 2, sp.Ne(x, 0)], sp.Interval(-sp.sqrt(2), sp.sqrt(2)) - sp.FiniteSet(0)),
+        (sp.sqrt(x) < 2, sp.Interval.Ropen(0, 4)),
+        (x**2 < -1, sp.S.EmptySet),
+        (sp.Eq(x**2, 2), sp.FiniteSet(-sp.sqrt(2), sp.sqrt(2))),
+        (1 / sp.Abs(x) <= 1, sp.Union(sp.Interval(-sp.oo, -1), sp.Interval(1, sp.oo))),
+        (p**2 > 4, sp.Interval.open(2, sp.oo)),
+        (n**2 < 4, sp.Interval.open(-2, 2) - sp.FiniteSet(0)),
+        (sp.Contains(x, sp.Union(sp.Interval.open(0, 1), sp.FiniteSet(3))), sp.Union(sp.Interval.open(0, 1), sp.FiniteSet(3))),
+        (sp.Piecewise((x, x > 0), (x**2, x < -1)) > 2, sp.Union(sp.Interval.open(-sp.oo, -sp.sqrt(2)), sp.Interval.open(2, sp.oo))),
+        (sp.And(x < sp.oo, x >= 0), sp.Interval(0, sp.oo)),
+        (x**2 < sp.sqrt(2), sp.Interval.open(-sp.root(2, 4), sp.root(2, 4))),
+        (sp.sign(x) * sp.Max(x, 1) >= 1, sp.Interval.open(0, sp.oo)),
+    ],
+)  # fmt: skip
+def test_regions(condition: object, expected: sp.Set) -> None:
+    found = exact.solve_region(condition)
+    assert found == expected or (found - expected).is_empty or sp.simplify(found.measure - expected.measure) == 0
+    for k in range(-12, 13):
+        point = sp.Rational(k, 3)
+        assert bool(found.contains(point)) is bool(expected.contains(point)), point
+
+
+@pytest.mark.parametrize(
+    ("found", "expected"),
+    [
+        (lambda: exact.function_range(x + 1 / (x**2 + 1)), sp.S.Reals),
+        (lambda: exact.function_range(x**2 - 2 * x, x, x >= 0), sp.Interval(-1, sp.oo)),
+        (lambda: exact.function_range(sp.Integer(3)), sp.FiniteSet(3)),
+        (lambda: exact.minimum(p + 1 / p), 2),
+        (lambda: exact.maximum(x * y, (x, y), x**2 + y**2 <= 1), sp.Rational(1, 2)),
+        (lambda: exact.minimum(x, x, x > x), sp.oo),
+        (lambda: exact.is_true_for_all(x**2 >= 0), True),
+        (lambda: exact.is_true_for_all(p > 0), True),
+        (lambda: exact.is_true_for_all(p > 1), False),
+        (lambda: exact.is_true_for_all([p > 0, x**2 + 1 > p - p**2]), True),
+        (lambda: exact.reduce_inequalities([x**2 + a * x + 1 < 0], x), sp.Or(a - 2 > 0, a + 2 < 0)),
+        (lambda: exact.reduce_inequalities(x > 0).free_symbols, {x}),
+    ],
+)
+def test_answers(found: Callable[[], object], expected: object) -> None:
+    assert found() == expected
+
+
+def test_assumptions_are_conditions_in_their_place() -> None:
+    assert qe.equivalent(qe.eliminate(p * x > 1), "p > 0 and p*x > 1")
+    assert qe.decide(qe.ForAll(p, p > 0)) and not qe.decide(qe.ForAll(x, x > 0))
+    assert qe.equivalent(qe.Exists(p, p < x), "x > 0")
+    assert qe.equivalent(~qe.Exists(x, (x > p)), "p > 0 and false")
+    assert qe.equivalent(qe.Exists(x, x**2 < n) | (p > 3), "p > 0 and n /= 0 and (n > 0 or p > 3)")
+    assert qe.equivalent(qe.ForAll("p", p > 0), "true")
+    assert qe.equivalent(from_sympy(sp.Symbol("z", zero=True) >= x), "z = 0 and z >= x")
+
+
+@pytest.mark.parametrize(
+    ("wrong", "part"),
+    [
+        (lambda: exact.solve_region(x < y), "one free symbol"),
+        (lambda: exact.solve_region(x < y, x), "one free symbol"),
+        (lambda: exact.solve_region(sp.log(x) < 1), "not algebraic"),
+        (lambda: exact.solve_region(sp.Contains(x, sp.S.Integers)), "intervals and points"),
+        (lambda: exact.solve_region(sp.Symbol("k", integer=True) < 1), "integer"),
+        (lambda: exact.solve_region("x < 1"), "text found"),
+        (lambda: exact.function_range(sp.sin(x)), "not algebraic"),
+        (lambda: exact.is_true_for_all(x), "Boolean combination"),
+        (lambda: qe.from_z3(3), "z3"),
+    ],
+)
+def test_mistakes_are_told_in_one_line(wrong: Callable[[], object], part: str) -> None:
+    with pytest.raises(qe.InputError, match=part) as caught:
+        wrong()
+    assert "\n" not in str(caught.value)
+
+
+def test_z3() -> None:
+    z3 = pytest.importorskip("z3")
+    u, v = z3.Reals("u v")
+    assert qe.equivalent(qe.from_z3(z3.Exists([u], z3.And(u * u == v, u > 1))), "v > 1")
+    assert qe.equivalent(qe.from_z3([u > 0, z3.Or(v < u, z3.Not(v < 2))]), "u > 0 and (v < u or v >= 2)")
+    solver = z3.Solver()
+    solver.add(u > v)
+    assert qe.equivalent(qe.from_z3(solver), "u > v")
+    with pytest.raises(qe.InputError, match="Int"):
+        qe.from_z3(z3.Int("k") > 0)
+    with pytest.raises(qe.InputError, match="Boolean"):
+        qe.from_z3(u + 1)
