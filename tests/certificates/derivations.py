@@ -68,5 +68,3 @@ def data(text: str) -> dict[str, Any]:
 def rules(text: str) -> list[str]:
     """The rules of the steps of a certificate."""
     return [step["rule"] for step in data(text)["payload"]["steps"]]
-
-

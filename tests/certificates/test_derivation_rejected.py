@@ -5,7 +5,7 @@ from __future__ import annotations
 import copy
 import json
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterator
 from typing import Any
 
 import pytest
@@ -18,7 +18,20 @@ from qe.proof.certificate import Certificate, digest
 from qe.proof.entry import Entry, formula_from_json
 from tests.certificates.derivations import CASES, certificate, data, rules
 
-STEPS = [(name, k) for name, text in CASES.items() for k in range(len(rules(text)))]
+QUICK = {"sign", "shift", "translated", "squares", "negations", "none", "point"}
+"""Cases for every day; the others are altered in the deep tests."""
+
+
+def steps(first: int = 0, without: Collection[str] = ()) -> list[Any]:
+    """(case, number of a step), for all steps from the first one on."""
+    return [
+        pytest.param(name, k, marks=() if name in QUICK else pytest.mark.deep, id=f"{name}-{k}")
+        for name, text in CASES.items()
+        if name not in without
+        for k in range(first, len(rules(text)))
+    ]
+
+
 RELATIONS = ("=", "/=", "<", "<=", ">", ">=")
 LARGE = {"guarded", "shorter", "constant", "basis"}
 """Cases with long cell tables, whose alterations the tests of tables make."""
@@ -47,14 +60,14 @@ def test_as_it_stands_it_is_accepted() -> None:
         assert verify(Certificate.from_json(certificate(text).to_json())).accepted
 
 
-@pytest.mark.parametrize(("name", "k"), STEPS)
+@pytest.mark.parametrize(("name", "k"), steps())
 def test_dropped_and_repeated_steps(name: str, k: int) -> None:
     whole = data(CASES[name])
     refused(altered(whole, lambda p: p["steps"].pop(k)), k)
     refused(altered(whole, lambda p: p["steps"].insert(k, p["steps"][k])))
 
 
-@pytest.mark.parametrize(("name", "k"), [(name, k) for name, k in STEPS if k > 0])
+@pytest.mark.parametrize(("name", "k"), steps(first=1))
 def test_swapped_steps(name: str, k: int) -> None:
     """Steps at places of their own may be taken in another order: then they are the ones that were given."""
     whole = data(CASES[name])
@@ -67,7 +80,7 @@ def test_swapped_steps(name: str, k: int) -> None:
         refused(verdict, k - 1)
 
 
-@pytest.mark.parametrize(("name", "k"), STEPS)
+@pytest.mark.parametrize(("name", "k"), steps())
 def test_every_field_of_a_step(name: str, k: int) -> None:
     whole = data(CASES[name])
     step = whole["payload"]["steps"][k]
@@ -80,7 +93,7 @@ def test_every_field_of_a_step(name: str, k: int) -> None:
     refused(altered(whole, lambda p: p["steps"][k].update(context=[["atom", f"{p['order'][0]}^2 + 7", "/="]])), k)
 
 
-@pytest.mark.parametrize(("name", "k"), STEPS)
+@pytest.mark.parametrize(("name", "k"), steps())
 def test_another_formula_before_or_after(name: str, k: int) -> None:
     whole = data(CASES[name])
     for field in ("before", "after"):
@@ -109,7 +122,7 @@ def is_right(payload: dict[str, Any], k: int) -> bool:
     return qe.equivalent(left, right)
 
 
-@pytest.mark.parametrize("name", CASES)
+@pytest.mark.parametrize("name", sorted(QUICK))
 def test_another_start_or_answer(name: str) -> None:
     whole = data(CASES[name])
     for field in ("start", "answer"):
@@ -118,7 +131,7 @@ def test_another_start_or_answer(name: str) -> None:
                 refused(altered(whole, lambda p, f=field, o=other: p.update({f: o})))  # type: ignore[misc]
 
 
-@pytest.mark.parametrize(("name", "k"), [(name, k) for name, k in STEPS if name not in LARGE])
+@pytest.mark.parametrize(("name", "k"), steps(without=LARGE))
 def test_every_entry_of_the_evidence(name: str, k: int) -> None:
     """Numbers, names and lemmas: none may be changed, and none is there for nothing."""
     whole = data(CASES[name])
