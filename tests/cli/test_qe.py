@@ -251,3 +251,15 @@ def test_check_of_an_empty_bundle(tmp_path: Path) -> None:
     path = tmp_path / "nothing.json"
     path.write_text(qe.Certificate.bundle([]).to_json())
     refused(run("check", str(path)), 4, "proves nothing")
+
+
+def test_export_proof(tmp_path: Path) -> None:
+    path = tmp_path / "proof.json"
+    run("eliminate", "ex x. x + y = 1 and x > 2", "--certificate", str(path))
+    printed = run("export-proof", str(path), "--to", "coq").stdout
+    assert printed.startswith("From Coq Require Import")
+    assert printed.endswith("Qed.\n")
+    path.write_text(path.read_text().replace('"y + 1"', '"y + 2"'))
+    refused(run("export-proof", str(path)), 4, "answer")
+    run("eliminate", "ex x. x^2 = 2", "--certificate", str(path))
+    refused(run("export-proof", str(path)), 3, "irrational")
