@@ -93,5 +93,3 @@ def _weights(order: MonomialOrder, size: int, most: int, scale: int) -> list[int
         return [scale * (most**size + most ** (size - 1 - i)) for i in range(size)]
     return [scale * (most**size - most**i) for i in range(size)]
 
-
-__all__ = ["Block", "Exponents", "Terms", "parametric_basis"]

@@ -14,7 +14,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from math import prod
 
-from qe.exact.block_order import Block, Exponents, parametric_basis
+from qe.exact.block_order import Block, parametric_basis
 from qe.exact.groebner import groebner_basis
 from qe.exact.ideals import LIMITS, has_zeros
 from qe.exact.ring import Poly
@@ -141,5 +141,3 @@ def _factors(minimal: Sequence[Poly], block: Block) -> tuple[Poly, ...]:
     found = dict.fromkeys(f for p in minimal for f, _ in block.lead(p)[1].factors()[1])
     return tuple(sorted(found, key=_size))
 
-
-__all__ = ["Exponents", "segments"]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from qe.exact.algebraic import RealAlgebraic
 from qe.exact.block_order import Block
@@ -41,7 +41,3 @@ class ParametricSystem:
         if faithful:
             parts = tuple(with_faithful(s, self.polys, budget) for s in parts)
         return ComprehensiveGroebnerSystem(given, self.block, dict(self.constants), parts)
-
-    def restricted(self, equal: tuple[Poly, ...], nonzero: tuple[Poly, ...]) -> ParametricSystem:
-        """The same system where further conditions hold."""
-        return replace(self, equal=(*self.equal, *equal), nonzero=(*self.nonzero, *nonzero))

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import TypeVar
 
 from qe import arguments
 from qe.errors import InputError, InternalError
@@ -18,10 +19,13 @@ from qe.exact.ring import Poly, format_poly
 from qe.exact.sample import Point
 from qe.exact.tower import clear_denominators
 from qe.exact.zeros import Zero
+from qe.execution import Limits, perform
 from qe.formula.build import atom, conj, disj
 from qe.formula.syntax import Formula, Relation
 from qe.groebner.segment import Segment, monomial_names
 from qe.groebner.writing import system_to_html, system_to_latex
+
+Result = TypeVar("Result")
 
 
 @dataclass(frozen=True)
@@ -67,13 +71,18 @@ class ComprehensiveGroebnerSystem:
                 return segment
         raise InternalError("no segment contains a point of the parameters")
 
-    def basis_at(self, point: Mapping[str, object] | Sequence[object]) -> tuple[Poly, ...]:
+    def basis_at(
+        self, point: Mapping[str, object] | Sequence[object], *, timeout: float | None = None
+    ) -> tuple[Poly, ...]:
         """The reduced Groebner basis of the ideal at a point, over the field of the constants.
 
         Irrational numbers of the point join the constants: the names of their parameters stay in the basis and stand
-        for them.
+        for them. ``timeout`` in seconds. Raises ``BudgetExceeded``, and ``Unable`` where the basis grows too large.
         """
         values = self._values(point)
+        return _within(timeout, lambda: self._basis_at(values))
+
+    def _basis_at(self, values: Mapping[str, Number]) -> tuple[Poly, ...]:
         ring, tower = self.polys[0].ring, self._place(values).tower
         # irreducible one over the other, so that what they divide out is a field
         moduli, basis = [clear_denominators(ring, m) for m in tower.moduli], self.at(values).basis
@@ -81,13 +90,19 @@ class ComprehensiveGroebnerSystem:
         found = parametric_basis([*special, *moduli], self.block)
         return tuple(p for p in found if not self.block.is_free(p) or p.is_constant)
 
-    def solutions_at(self, point: Mapping[str, object] | Sequence[object]) -> list[Zero]:
+    def solutions_at(
+        self, point: Mapping[str, object] | Sequence[object], *, timeout: float | None = None
+    ) -> list[Zero]:
         """All real solutions at a point, exactly, with multiplicities; see ``qe.exact.polynomial_system``.
 
-        Raises ``PositiveDimensional`` where infinitely many complex solutions exist.
+        ``timeout`` in seconds. Raises ``PositiveDimensional`` where infinitely many complex solutions exist, and as
+        ``basis_at``.
         """
         values = self._values(point)
-        basis = self.basis_at(values)
+        return _within(timeout, lambda: self._solutions_at(values))
+
+    def _solutions_at(self, values: Mapping[str, Number]) -> list[Zero]:
+        basis = self._basis_at(values)
         index = self.polys[0].ring.index
         irrational = {n: v for n, v in values.items() if isinstance(v, RealAlgebraic)}
         constants = {index[n]: v for n, v in {**self.constants, **irrational}.items()}
@@ -198,6 +213,11 @@ def exact_number(value: object, what: str) -> Number:
     if convert is not None:
         return exact_number(convert(), what)
     return arguments.rational(value, what)
+
+
+def _within(timeout: float | None, work: Callable[[], Result]) -> Result:
+    limit = arguments.seconds(timeout)
+    return work() if limit is None else perform(lambda budgets: work(), Limits(limit), at_once=True)
 
 
 def _lies_in(place: Point, segment: Segment) -> bool:

@@ -211,7 +211,7 @@ class ParametricQuotient:
         """
         size, found = self.size, []
         if size > MOST_EXPANDED:
-            raise Unable("a determinant of a trace form grows past its limits")
+            raise Unable(f"a trace form of {size} complex solutions is too large for sign conditions")
         previous: dict[tuple[int, ...], Poly] = {(): self.ring.constant(1)}
         for k in range(size):
             self.budget.check("determinants of trace forms")

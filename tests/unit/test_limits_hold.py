@@ -44,6 +44,14 @@ CASES: dict[str, tuple[str, Callable[[], Call]]] = {
         "qe.groebner.question.segments",
         lambda: lambda: qe.comprehensive_groebner(["a*x - 1"], "x", timeout=LIMIT),
     ),
+    "ComprehensiveGroebnerSystem.solutions_at": (
+        "qe.groebner.system.solve_system",
+        lambda: lambda found=qe.comprehensive_groebner(["x^2 - a"], "x"): found.solutions_at([2], timeout=LIMIT),
+    ),
+    "ComprehensiveGroebnerSystem.basis_at": (
+        "qe.groebner.system.parametric_basis",
+        lambda: lambda found=qe.comprehensive_groebner(["x^2 - a"], "x"): found.basis_at([2], timeout=LIMIT),
+    ),
     "real_root_classification": (
         "qe.groebner.question.segments",
         lambda: lambda: qe.real_root_classification(["a*x - 1"], "x", timeout=LIMIT),
