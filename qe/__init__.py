@@ -84,8 +84,10 @@ All are loaded at first use: ``import qe`` alone loads neither FLINT nor the eng
 
 def __getattr__(name: str) -> Any:
     """A public name from a module that is loaded at its first use (PEP 562)."""
-    if name in ("api", "sympy"):
-        return import_module(f"qe.{name}")
+    if name == "api":
+        return import_module("qe.api")
+    if name == "sympy":
+        return import_module("qe.sympy")
     if name not in __all__:
         raise AttributeError(f"module 'qe' has no attribute {name!r}")
     found = globals()[name] = getattr(import_module(_ELSEWHERE.get(name, "qe.api")), name)

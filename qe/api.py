@@ -293,5 +293,8 @@ def verify(
     """
     from qe.api_verify import verify as check
 
-    asked = None if formula is None else read_formula(formula, format)
+    from qe.io import formats
+
+    chosen = formats.checked(format)
+    asked = None if formula is None else read_formula(formula, chosen.value)
     return check(certificate, formula=asked, timeout=arguments.seconds(timeout))
