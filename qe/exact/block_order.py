@@ -92,4 +92,3 @@ def _weights(order: MonomialOrder, size: int, most: int, scale: int) -> list[int
     if order is MonomialOrder.DEGLEX:
         return [scale * (most**size + most ** (size - 1 - i)) for i in range(size)]
     return [scale * (most**size - most**i) for i in range(size)]
-
