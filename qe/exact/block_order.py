@@ -40,7 +40,13 @@ class Block:
 
     def lead(self, poly: Poly) -> tuple[Exponents, Poly]:
         """The leading monomial in the variables of a polynomial other than 0, and its coefficient."""
-        return next(iter(self.terms(poly).items()))
+        groups: dict[Exponents, dict[Exponents, int]] = {}
+        for exponents, c in poly.terms():
+            groups.setdefault(tuple([exponents[i] for i in self.variables]), {})[exponents] = c
+        top = max(groups, key=self.order.key)
+        inside = set(self.variables)
+        rest = {tuple([0 if i in inside else k for i, k in enumerate(e)]): c for e, c in groups[top].items()}
+        return top, poly.ring.from_terms(rest)
 
     def is_free(self, poly: Poly) -> bool:
         """Whether only parameters occur."""
@@ -92,4 +98,3 @@ def _weights(order: MonomialOrder, size: int, most: int, scale: int) -> list[int
     if order is MonomialOrder.DEGLEX:
         return [scale * (most**size + most ** (size - 1 - i)) for i in range(size)]
     return [scale * (most**size - most**i) for i in range(size)]
-

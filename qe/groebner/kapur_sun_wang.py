@@ -140,4 +140,3 @@ def _factors(minimal: Sequence[Poly], block: Block) -> tuple[Poly, ...]:
     """The irreducible factors of the leading coefficients, each once, small ones first."""
     found = dict.fromkeys(f for p in minimal for f, _ in block.lead(p)[1].factors()[1])
     return tuple(sorted(found, key=_size))
-
