@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from bezier.arm import inverse
@@ -74,6 +74,7 @@ def test_the_count_is_that_of_the_closed_form(point: tuple[Fraction, ...]) -> No
 
 
 @pytest.mark.parametrize("arm", ARMS, ids=["ev3", "shoulder", "scara", "skew"])
+@settings(max_examples=20)
 @given(st.lists(st.integers(-7, 7), min_size=3, max_size=3))
 def test_the_joints_that_made_the_point_are_found(arm: Arm, halves: list[int]) -> None:
     """Rational half-angle tangents give exact points; their joints are among the solutions, all of which reach them."""
@@ -94,6 +95,7 @@ def test_the_joints_that_made_the_point_are_found(arm: Arm, halves: list[int]) -
     )
 
 
+@settings(max_examples=25)
 @given(st.lists(st.floats(-3, 3), min_size=3, max_size=3), st.integers(1, 3))
 def test_no_solution_is_missed_by_newton(start: list[float], which: int) -> None:
     """Newton's method from anywhere ends, if it ends, in one of the solutions."""

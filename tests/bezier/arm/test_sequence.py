@@ -67,6 +67,9 @@ def test_bounds_hold_at_all_times(plan: JointPlan) -> None:
     columns = np.array(data["rows"], dtype=float)
     speeds = np.abs(np.diff(columns[:, 1:4], axis=0) / np.diff(columns[:, 0])[:, None]).max(axis=0)
     assert all(s <= float(v.high) + 1e-6 for s, v in zip(speeds, plan.motion.speeds))
+    pushes = np.abs(np.diff(columns[:, 4:7], axis=0) / np.diff(columns[:, 0])[:, None]).max(axis=0)
+    assert all(p <= float(a.high) + 1e-7 for p, a in zip(pushes, plan.motion.accelerations))
+    assert all(p > float(a.high) / 8 for p, a in zip(pushes, plan.motion.accelerations))
     assert all(float(v.low) <= float(v.high) for v in (*plan.motion.speeds, *plan.motion.accelerations))
     assert all(s >= float(v.low) * 0.5 for s, v in zip(speeds, plan.motion.speeds))
 
