@@ -12,6 +12,7 @@ from qe.engine.run import solve
 from qe.errors import Unable
 from qe.exact.algebraic import RealAlgebraic
 from qe.exact.number import Values
+from qe.exact.polynomial_system import solve_system
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj, convert, exists
 from qe.formula.syntax import FALSE, TRUE, Formula, Relation
@@ -28,8 +29,8 @@ class GlobalOptimum:
     """The answer to an optimisation problem that need not be convex.
 
     OPTIMAL: ``value`` is the exact minimum or maximum where ``attained``; otherwise it is the infimum or supremum, and
-    no point has it. ``point``: one point that has it, empty where none does. ``minimisers``: quantifier-free, holds at
-    exactly the points that have it (``qe.region`` of it lists or describes them). INFEASIBLE: no point meets the
+    no point has it. ``point``: one point that has it, empty where none does. ``minimisers``: holds at exactly the
+    points that have it (``qe.region`` of it lists or describes them); quantifiers of the constraints stand in it. INFEASIBLE: no point meets the
     constraints; UNBOUNDED: there is no bound. For both ``value`` and ``attained`` are None.
     ``values``: a formula of ``variable``, the values that are taken (of the negative, for a maximum). ``certificate``:
     a bundle that proves them, the least of them, and the point; None where the elimination had no certificate.
@@ -76,12 +77,14 @@ def minimize_globally(
     members = [] if taken.certificate is None else [("values", taken.certificate), ("least", Certificate.cells(table))]
     point: Values = {}
     if least.lower_closed:
-        found = solve(exists((goal.value, *goal.variables), _place(goal, value)), options, limits)
-        if found.witness is None:
-            raise Unable("the least value was found, but no point that has it")
-        point = {name: found.witness.get(name, Fraction(0)) for name in goal.variables}
-        if found.certificate is not None:
-            members.append(("point", found.certificate))
+        known = _stationary(goal, value)
+        if known is None:
+            found = solve(exists((goal.value, *goal.variables), _place(goal, value)), options, limits)
+            if found.witness is None:
+                raise Unable("the least value was found, but no point that has it")
+            known, proof = found.witness, found.certificate
+            members += [] if proof is None else [("point", proof)]
+        point = {name: known.get(name, Fraction(0)) for name in goal.variables}
     return GlobalOptimum(
         status=OptimumStatus.OPTIMAL,
         value=value,
@@ -108,6 +111,25 @@ def _without(status: OptimumStatus, goal: Goal, values: Formula) -> GlobalOptimu
 
 def _plain(value: RealAlgebraic) -> Number:
     return value.as_fraction() if value.is_rational else value
+
+
+def _stationary(goal: Goal, value: Number) -> Values | None:
+    """Without constraints: a point with this least value among the zeros of the gradient, where they are finitely many.
+
+    A point where a polynomial is least on all of space is a zero of its gradient (Fermat).
+    """
+    if goal.conditions is not TRUE or not goal.variables:
+        return None
+    ring = goal.objective.ring
+    slopes = [goal.objective.derivative(ring.index[name]) for name in goal.variables]
+    try:
+        zeros = solve_system([*slopes, goal.equation], variables=[ring.index[goal.value]])
+    except Unable:
+        return None
+    for zero in zeros:
+        if zero.values[goal.value] == value:
+            return {name: _plain(zero.values[name].to_algebraic()) for name in goal.variables}
+    return None
 
 
 def _place(goal: Goal, value: Number) -> Formula:
