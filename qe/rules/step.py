@@ -14,6 +14,7 @@ class StepKind(Enum):
     GUARDED_LINEAR = "linear equation solved under a guard"
     DEGREE_SHIFT = "degree shift"
     GENERIC = "inequations that remove no interior"
+    BOUNDARY = "boundary apart"
     TRANSLATION = "translation of the origin"
     SCALING = "homogeneous scaling"
     GROEBNER = "Groebner basis of the equations"
