@@ -292,7 +292,6 @@ def verify(
     limit that is not positive.
     """
     from qe.api_verify import verify as check
-
     from qe.io import formats
 
     chosen = formats.checked(format)

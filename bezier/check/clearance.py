@@ -54,8 +54,9 @@ def clearance(channel: Channel, request: Request) -> str:
     with clock.step("clearance"):
         findings = survey.survey(curves, obstacles)
     with clock.step("certificates"):
-        certificate = qe.Certificate.bundle(survey.certificates(findings))
-        verdict = qe.verify(certificate)
+        members = survey.certificates(findings)
+        certificate = qe.Certificate.bundle(members)
+        verdict = qe.verify(certificate) if members else None
     if request.certificate is not None:
         _write(request.certificate, certificate.to_json())
     return _as_json(findings, verdict) if request.json else _in_words(findings, verdict)
@@ -98,17 +99,17 @@ def _curves(table: Table) -> dict[str, Bezier]:
     return found
 
 
-def _as_json(findings: Sequence[Finding], verdict: qe.Verdict) -> str:
+def _as_json(findings: Sequence[Finding], verdict: qe.Verdict | None) -> str:
     told: dict[str, Any] = {
         "clear": not survey.contacts(findings),
         "findings": [survey.to_json(finding) for finding in findings],
-        "certificates": "accepted" if verdict.accepted else "rejected",
+        "certificates": "none" if verdict is None else "accepted" if verdict.accepted else "rejected",
     }
     return json.dumps(told, indent=1, ensure_ascii=False)
 
 
-def _in_words(findings: Sequence[Finding], verdict: qe.Verdict) -> str:
+def _in_words(findings: Sequence[Finding], verdict: qe.Verdict | None) -> str:
     met = survey.contacts(findings)
     last = f"{len(met)} of {len(findings)} pairs meet" if met else f"all {len(findings)} pairs are clear"
-    accepted = "accepted" if verdict.accepted else "REJECTED"
+    accepted = "none" if verdict is None else "accepted" if verdict.accepted else "REJECTED"
     return "\n".join([*map(survey.in_words, findings), f"{last}; certificates: {accepted}"])

@@ -49,7 +49,8 @@ def _shape(
         case Not(arg):
             return "not", _shape(arg, bound, depth, join)
         case And(args) | Or(args):
-            return type(formula).__name__, join([_shape(a, bound, depth, join) for a in args])
+            parts = [part for a in args for part in _parts(a, type(formula))]
+            return type(formula).__name__, join([_shape(part, bound, depth, join) for part in parts])
         case Exists(variables, body) | ForAll(variables, body):
             names = [v for v in variables if v in body.free]
             inner = {**bound, **{name: depth + k for k, name in enumerate(names)}}
@@ -61,6 +62,13 @@ def _shape(
             place = bound.get(variable, f"_{variable}")
             return "root", str(place), relation.value, k, _comparison(poly, Relation.EQ, bound)
     raise TypeError(f"not a formula: {formula!r}")
+
+
+def _parts(formula: Formula, kind: type[Formula]) -> tuple[Formula, ...]:
+    """The formula as members of a conjunction (disjunction), where it is one once its idle quantifiers are gone."""
+    while isinstance(formula, Exists | ForAll) and not set(formula.variables) & set(formula.body.free):
+        formula = formula.body
+    return formula.args if isinstance(formula, And | Or) and type(formula) is kind else (formula,)
 
 
 def _comparison(poly: Poly, relation: Relation, bound: Binding) -> object:

@@ -28,12 +28,13 @@ Number = Fraction | RealAlgebraic
 class GlobalOptimum:
     """The answer to an optimisation problem that need not be convex.
 
-    OPTIMAL: ``value`` is the exact minimum or maximum where ``attained``; otherwise it is the infimum or supremum, and
-    no point has it. ``point``: one point that has it, empty where none does. ``minimisers``: holds at exactly the
-    points that have it (``qe.region`` of it lists or describes them); quantifiers of the constraints stand in it. INFEASIBLE: no point meets the
-    constraints; UNBOUNDED: there is no bound. For both ``value`` and ``attained`` are None.
-    ``values``: a formula of ``variable``, the values that are taken (of the negative, for a maximum). ``certificate``:
-    a bundle that proves them, the least of them, and the point; None where the elimination had no certificate.
+    OPTIMAL: ``value`` is the exact minimum or maximum where ``attained``; otherwise it is the infimum or supremum,
+    and no point has it. ``point``: one point that has it, empty where none does. ``minimisers``: holds at exactly
+    the points that have it (``qe.region`` of it lists or describes them); quantifiers of the constraints stand in
+    it. INFEASIBLE: no point meets the constraints; UNBOUNDED: there is no bound. For both ``value`` and
+    ``attained`` are None. ``values``: a formula of ``variable``, the values that are taken (of the negative, for a
+    maximum). ``certificate``: a bundle that proves them, the least of them, and the point; None where the
+    elimination had no certificate.
     """
 
     status: OptimumStatus

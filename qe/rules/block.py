@@ -54,7 +54,7 @@ def reduce_block(variables: Sequence[str], body: Formula, context: BlockContext)
     for rule in RULES:
         found = rule(kept, body, context)
         if found is not None:
-            context.step(found.rule, exists(kept, body), found.node.formula, found.detail, found.proof)
+            context.step(found.kind.value, exists(kept, body), found.node.formula, found.detail, found.proof)
             return _reduced(found.node, context)
     return Leaf(kept, body)
 

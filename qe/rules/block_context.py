@@ -56,19 +56,13 @@ class BlockContext:
 class Found:
     """What a rule found: the tree, whose pending leaves are reduced next, and a word on what was done.
 
-    ``proof``: what a checker needs beside the formulas; ``theorem``: its name where it is not that of the kind.
+    ``proof``: what a checker needs beside the formulas.
     """
 
     kind: StepKind
     detail: str
     node: Node
     proof: Mapping[str, object] | None = None
-    theorem: str = ""
-
-    @property
-    def rule(self) -> str:
-        """The name of the step in the log."""
-        return self.theorem or self.kind.value
 
 
 Rule = Callable[[tuple[str, ...], Formula, BlockContext], Found | None]

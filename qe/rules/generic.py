@@ -47,13 +47,13 @@ def _boundary_apart(
     first = closed[0]
     if len(closed) > 2 or len(variables) > 1 or not isinstance(first, Atom) or first.relation is Relation.EQ:
         return None
-    if first.poly.degree(first.poly.ring.index[variables[0]]) > 2 or not context.may_split(StepKind.GENERIC, 2):
+    if first.poly.degree(first.poly.ring.index[variables[0]]) > 2 or not context.may_split(StepKind.BOUNDARY, 2):
         return None
     rest = [p for p in conjuncts(body) if p != first]
     strict = Relation.GT if first.relation is Relation.GE else Relation.LT
     cases = [atom(first.poly, strict), atom(first.poly, Relation.EQ)]
     node = Any(tuple(Pending(variables, conj((case, *rest))) for case in cases))
-    return Found(StepKind.GENERIC, "boundary apart", node, theorem="boundary apart")
+    return Found(StepKind.BOUNDARY, "weak inequality", node)
 
 
 def _indices(variables: tuple[str, ...], formula: Formula) -> frozenset[int]:

@@ -16,6 +16,7 @@ class StepKind(Enum):
     DEGREE_SHIFT = "degree shift"
     TAKES_VALUE = "value that is taken"
     GENERIC = "inequations that remove no interior"
+    BOUNDARY = "boundary apart"
     TRANSLATION = "translation of the origin"
     ROTATION = "rotation of the axes"
     SCALING = "homogeneous scaling"

@@ -106,7 +106,7 @@ def test_both_accept_what_is_right() -> None:
         assert (said(text), said_plainly(text)) == ("accepted", "accepted"), text[:300]
 
 
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("seed", [0])
 def test_both_reject_what_is_altered(seed: int) -> None:
     _compare(seed, 3)
 
