@@ -41,7 +41,9 @@ class Stage(Enum):
     ``CONSTRAINTS``: projection and lifting restricted by equational constraints. ``PARTIAL``: stacks are left as
     soon as their truth is known. ``OPEN``: sectors only where all atoms are strict. ``MCCALLUM``: Brown–McCallum
     projection before Lazard's. ``ORDER``: the variable order is chosen, not taken as written. ``SYMMETRY``: variables
-    are taken from a block by translations, rotations and scalings that leave its truth alone.
+    are taken from a block by translations, rotations and scalings that leave its truth alone. ``GATHERING``: nested
+    blocks of one kind are prepared as one. ``DISTRIBUTION``: disjuncts with equations are solved apart. ``VALUES``:
+    atoms that some value of a variable meets, whatever the rest is, are dropped.
     """
 
     EQUATIONS = "equations"
@@ -52,6 +54,9 @@ class Stage(Enum):
     MCCALLUM = "mccallum"
     ORDER = "order"
     SYMMETRY = "symmetry"
+    GATHERING = "gathering"
+    DISTRIBUTION = "distribution"
+    VALUES = "values"
 
 
 @dataclass(slots=True)

@@ -33,6 +33,15 @@ from qe.rules.preparation import Prepared, prepare
 from qe.rules.step import ALL_STEPS, EQUATION_STEPS, SYMMETRY_STEPS, StepKind
 from qe.simplify.simplify import simplify
 
+SWITCHED = {
+    Stage.EQUATIONS: EQUATION_STEPS,
+    Stage.SYMMETRY: SYMMETRY_STEPS,
+    Stage.GATHERING: {StepKind.GATHERING},
+    Stage.DISTRIBUTION: {StepKind.DISTRIBUTION},
+    Stage.VALUES: {StepKind.TAKES_VALUE},
+}
+"""The steps of preparation that a stage left out switches off."""
+
 CERTIFY_WORK = 200_000
 """Units of work that a decomposition may take for nothing but a certificate (the longest in the corpus: 90 000)."""
 
@@ -164,8 +173,7 @@ class _Run:
     # --- preparation ---------------------------------------------------------------------------
     def prepared(self, formula: Formula) -> Prepared:
         """Every block brought to its real dimension by the rules."""
-        switched = {Stage.EQUATIONS: EQUATION_STEPS, Stage.SYMMETRY: SYMMETRY_STEPS}
-        off = frozenset[StepKind]().union(*(switched.get(stage, ()) for stage in self.options.without))
+        off = frozenset[StepKind]().union(*(SWITCHED.get(stage, ()) for stage in self.options.without))
         return prepare(formula, budget=self.budget, enabled=ALL_STEPS - off, log=self.log)
 
     # --- sentences, with their witnesses ---------------------------------------------------------

@@ -318,12 +318,13 @@ def select_root(p: fmpz_poly, enclosure: Callable[[int], arb]) -> RealAlgebraic:
     """
     candidates = [r for f, _ in irreducible_factors(p) for r in irreducible_roots(f)]
     bits = FIRST_PRECISION
-    while True:
+    x = enclosure(bits)
+    candidates = [r for r in candidates if hull(r._lo, r._hi).overlaps(x)]  # the isolating intervals tell most apart
+    while len(candidates) > 1:
         x = enclosure(bits)
         candidates = [r for r in candidates if r.ball(bits).overlaps(x)]
-        if len(candidates) == 1:
-            return candidates[0]
         bits *= 2
+    return candidates[0]
 
 
 def _image(a: RealAlgebraic, transform: Callable[[fmpz_poly], fmpz_poly], value: Callable[[arb], arb]) -> RealAlgebraic:

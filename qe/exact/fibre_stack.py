@@ -61,7 +61,10 @@ class Isolation:
     def sample(self, position: int) -> Point:
         """The sample point of a cell."""
         half = position // 2
-        return self.point.extend(self.sections[half].value if position % 2 else self.sectors[half])
+        if not position % 2:
+            return self.point.extend(self.sectors[half])
+        section = self.sections[half]
+        return self.point.extend(section.value, tuple(self.polys[j] for j in section.members))
 
     def sign_maps(self) -> list[dict[Poly, int]]:
         """The signs of the polynomials on every cell, from below."""

@@ -30,12 +30,17 @@ Coordinate = "fmpq | RealAlgebraic | FibreRoot"
 class Point:
     """A point of R^depth; immutable apart from caches."""
 
-    __slots__ = ("_balls", "_reduced", "_tower", "algebraic", "depth", "parent", "ring", "value")
+    __slots__ = ("_balls", "_reduced", "_tower", "_vanishing", "algebraic", "depth", "parent", "ring", "value", "zeros")
 
     def __init__(
-        self, ring: Ring, parent: Point | None = None, value: fmpq | RealAlgebraic | FibreRoot | None = None
+        self,
+        ring: Ring,
+        parent: Point | None = None,
+        value: fmpq | RealAlgebraic | FibreRoot | None = None,
+        zeros: tuple[Poly, ...] = (),
     ) -> None:
-        self.ring, self.parent = ring, parent
+        self.ring, self.parent, self.zeros = ring, parent, zeros
+        self._vanishing: tuple[Poly, ...] | None = None
         if isinstance(value, RealAlgebraic) and value.is_rational:
             value = value.as_fmpq()
         self.value = value
@@ -55,9 +60,9 @@ class Point:
             point = point.extend(value if isinstance(value, RealAlgebraic) else RealAlgebraic.rational(value))
         return point
 
-    def extend(self, value: fmpq | RealAlgebraic | FibreRoot) -> Point:
-        """The point one coordinate longer."""
-        return Point(self.ring, self, value)
+    def extend(self, value: fmpq | RealAlgebraic | FibreRoot, zeros: tuple[Poly, ...] = ()) -> Point:
+        """The point one coordinate longer; ``zeros``: polynomials known to vanish at it."""
+        return Point(self.ring, self, value, zeros)
 
     def ancestor(self, depth: int) -> Point:
         """The projection to the first ``depth`` coordinates."""
@@ -156,7 +161,10 @@ class Point:
         """Whether a polynomial in the algebraic coordinates vanishes, by exact arithmetic alone."""
         if g.is_constant:
             return not g
-        value = self.coordinate(g.level)
+        at = self.ancestor(g.level + 1)
+        if any(divides(f, g) for f in at.vanishing):
+            return True
+        value = at.value
         if isinstance(value, FibreRoot) and value.size_with(g) <= SMALL:
             return value.annuls(g)
         return self.tower.is_zero(g)
@@ -169,6 +177,17 @@ class Point:
             if not self.enclose(g, EXACT_FROM).contains(0):
                 return False
         return self.is_zero(g)
+
+    @property
+    def vanishing(self) -> tuple[Poly, ...]:
+        """The polynomials known to vanish here, rational coordinates put in: whatever they divide vanishes too, and no
+        arithmetic at the point has to prove it.
+        """
+        if self._vanishing is None:
+            own = (self.reduce(f) for f in self.zeros)
+            below = () if self.parent is None else self.parent.vanishing
+            self._vanishing = (*(f for f in own if not f.is_constant), *below)
+        return self._vanishing
 
     @property
     def tower(self) -> Tower:
@@ -354,6 +373,11 @@ class FibreRoot:
             factor = tower.irreducible_factor(element, fibre.var, self.ball, fibre.point.ball)
             self._number = select_root(tower.norm(factor, fibre.var), self.ball)
         return self._number
+
+
+def divides(f: Poly, g: Poly) -> bool:
+    """Whether a polynomial that is no constant divides another."""
+    return all(f.degree(i) <= g.degree(i) for i in f.variables) and f.gcd(g).normal()[1] == f.normal()[1]
 
 
 def common_fibre(f: Fibre, g: Fibre) -> Fibre | None:

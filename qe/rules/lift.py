@@ -10,15 +10,18 @@ import random
 from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
+from math import prod
 from typing import Protocol
 
 from qe.errors import Unable
 from qe.exact.algebraic import RealAlgebraic, real_roots
+from qe.exact.fibre_stack import isolate_over
 from qe.exact.field import NumberField
 from qe.exact.ring import Poly, Ring
 from qe.exact.sample import Point
 from qe.formula.syntax import And, Atom, Constant, Formula, Not, Or
 
+_DEGREE = 200  # the largest degree of a field in which a value is computed
 _ATTEMPTS = 400  # each attempt moves half as far as the one before
 
 Value = Fraction | RealAlgebraic
@@ -45,14 +48,18 @@ def value_at(poly: Poly, assignment: Assignment) -> Value:
     algebraic = [name for name in names if not isinstance(values[name], Fraction)]
     if len(algebraic) == 1:
         return _in_field(poly, algebraic[0], values)
-    total: Value = Fraction(0)
-    for exponents, coefficient in poly.terms():
-        term: Value = Fraction(coefficient)
-        for i in poly.variables:
-            if exponents[i]:
-                term = values[poly.ring.names[i]] ** exponents[i] * term
-        total = term + total
-    return simplest(total)
+    return _over_point(poly, algebraic, values)
+
+
+def _over_point(poly: Poly, algebraic: list[str], values: Assignment) -> Value:
+    """The value where several variables have irrational ones: the root of t - poly over their point."""
+    degree = prod(value.degree for name in algebraic if isinstance(value := values[name], RealAlgebraic))
+    if degree > _DEGREE:
+        raise Unable(f"a value in a field of degree up to {degree} is not computed")
+    ring = Ring.of((*values, "t" * (1 + max(map(len, values)))))
+    point = Point.of(ring, values.values())
+    root_of = isolate_over(point, (ring.gen(point.depth) - poly.convert(ring),)).sections[0].value
+    return simplest(point.extend(root_of).number(point.depth))
 
 
 def _in_field(poly: Poly, name: str, values: Assignment) -> Value:

@@ -65,3 +65,20 @@ def test_nudges_stay_in_the_open_part() -> None:
 def test_quantifiers_cannot_be_evaluated() -> None:
     with pytest.raises(Unable):
         holds_at(read("ex y. x > y^3 + y"), {"x": Fraction(1)})
+
+
+def test_values_of_several_irrational_variables() -> None:
+    ring = Ring.of(("x", "y", "z"))
+    a, b = (RealAlgebraic.from_root(c, 1, 2) for c in ((-2, 0, 1), (1, -3, 0, 1)))
+    poly = ring.var("x") ** 2 * ring.var("y") - 3 * ring.var("z") * ring.var("x") * ring.var("y") ** 2 + 1
+    assert value_at(poly, {"x": a, "y": b, "z": Fraction(1)}) == 2 * b - 3 * a * b * b + 1
+    assert value_at(poly, {"x": a, "y": a, "z": Fraction(1, 3)}) == 1
+    assert value_at(poly - 1 - poly, {"x": a, "y": b}) == -1
+
+
+def test_a_value_in_a_field_of_large_degree_is_refused() -> None:
+    ring = Ring.of(("x", "y"))
+    a = RealAlgebraic.from_root((-2, *[0] * 19, 1), 1, 2)
+    b = RealAlgebraic.from_root((-3, *[0] * 18, 1), 1, 2)
+    with pytest.raises(Unable):
+        value_at(ring.var("x") + ring.var("y"), {"x": a, "y": b})
