@@ -9,6 +9,7 @@ from enum import Enum
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
+from qe import arguments
 from qe.arguments import shown
 from qe.errors import InputError
 
@@ -57,7 +58,7 @@ def read(
         raise InputError(f"text expected, {type(text).__name__} found")
     if not chosen.readable:
         raise InputError(f"the format {chosen.value} can only be written; readable: {', '.join(READABLE)}")
-    if total_division and chosen is Format.TEXT:
+    if arguments.flag(total_division, "total_division") and chosen is Format.TEXT:
         whole: Formula = _module(chosen).read(text, source=source, total_division=True)
         return whole
     formula: Formula = _module(chosen).read(text, source=source)

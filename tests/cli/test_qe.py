@@ -191,7 +191,6 @@ def test_unreadable_files(tmp_path: Path) -> None:
         (["eliminate", "--colour=red"], "--colour"),
         (["eliminate"], "FORMULA"),
         (["elliminate", "x > 0"], "elliminate"),
-        ([], "command"),
     ],
 )
 def test_bad_options(arguments: list[str], word: str) -> None:

@@ -9,6 +9,7 @@ import tempfile
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
+from types import SimpleNamespace
 
 import pytest
 
@@ -45,6 +46,10 @@ CONVEX = qe.region("ex w. x^2 + y^2 + z^2 + u^2 + w^2 <= 1")
 SOLVED = qe.eliminate("ex x. x^2 = 2")
 WITNESS = qe.parametric_witnesses("ex x. x > a and x < b")[0]
 SQUARE_ROOT = qe.RealAlgebraic.from_root([-2, 0, 1], 1, 2)
+
+
+HOLDS = SimpleNamespace(assertions=(), to_smt2=lambda: "(declare-const x Real)(assert (> x 0))")
+"""What a solver of z3 tells of itself."""
 
 
 @dataclass(frozen=True)
@@ -106,6 +111,10 @@ DOORS = {
             **{name: {"list"} for name in ("equal", "nonzero", "positive")},
         },
     ),
+    "exists": Door(qe.exists, {"variables": "x", "body": "x > y"}, {"variables": {"text", "digits"}}),
+    "forall": Door(qe.forall, {"variables": "x", "body": "x > y"}, {"variables": {"text", "digits"}}),
+    "variables": Door(qe.variables, {"names": "x y"}, {"names": {"text", "digits"}}),
+    "from_z3": Door(qe.from_z3, {"given": HOLDS}),
     "region": Door(qe.region, {"formula": "x > 0"}, {"order": {"none"}}),
     "region order": Door(
         qe.region, {"formula": "x > 0", "order": "y"}, {"order": {"text", "digits"}}, {"order": lambda v: ["x", v]}
@@ -163,7 +172,7 @@ DOORS = {
         qe.RealAlgebraic.rational, {"value": 1}, {"value": {*NUMBERS, "float", "digits", "bool"}}
     ),
     "RealAlgebraic.interval": Door(SQUARE_ROOT.interval, {"bits": 8}, {"bits": {"int", "zero"}}),
-    "formats.read": Door(formats.read, {"text": "x > 0"}),
+    "formats.read": Door(formats.read, {"text": "x > 0"}, {"total_division": {"bool"}}),
     "formats.write": Door(formats.write, {"formula": REGION.formula}),
 }  # fmt: skip
 SKIPPED = {
