@@ -11,11 +11,11 @@ from typing import TYPE_CHECKING
 from bezier.curves.scalar import brief
 from bezier.motion import motion
 from bezier.paths import heights
-from bezier.plan import Clock, Outcome, Plan
 from bezier.planner import avoid
 from bezier.planner.outputs import REPORT, SUMMARY, summary, write_data
 from bezier.planner.planning import make_plan
 from bezier.planner.table import method_of
+from bezier.plans import Clock, Outcome, Plan
 from bezier.problem import Problem
 from qe.cli.shell import OK, UNABLE
 from qe.worker import Channel

@@ -21,9 +21,9 @@ from bezier.curves.scalar import decimal_text, described, rational, scale
 from bezier.motion import motion
 from bezier.paths import heights
 from bezier.paths.path import Path
-from bezier.plan import Outcome, Plan
 from bezier.planner import avoid
 from bezier.planner.table import method_of
+from bezier.plans import Outcome, Plan
 from bezier.problem import Problem, to_json
 from qe.errors import InputError
 

@@ -56,7 +56,7 @@ ROWS = {
     "bezier.motion": 15,
     "bezier.problem": 16,
     "bezier.pictures": 17,
-    "bezier.plan": 18,
+    "bezier.plans": 18,
     "bezier.methods.control": 19,
     "bezier.report": 20,
     "bezier.methods": 21,
@@ -198,7 +198,7 @@ def test_the_rule_itself() -> None:
     assert allowed("qe.elimination.cad", "qe.rules")
     assert part("qe.cli.source") == "qe.cli"
     assert not allowed("bezier.methods.cubic", "bezier.methods.quadratic")
-    assert not allowed("bezier.plan", "bezier.planner")
+    assert not allowed("bezier.plans", "bezier.planner")
     assert not allowed("bezier.methods.control", "bezier.methods.single")
     assert allowed("bezier.methods.single", "bezier.methods.control")
     assert part("bezier.methods.control.terms") == "bezier.methods.control"
