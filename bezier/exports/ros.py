@@ -14,6 +14,8 @@ from qe.errors import InputError
 
 ROWS = 101
 NANO = 10**9
+LONGEST = 2**31
+"""Seconds; a duration has 32 bits for them."""
 MOST_ROWS = 100_000
 STILL = "{x: 0.0, y: 0.0, z: 0.0}"
 UPRIGHT = "{x: 0.0, y: 0.0, z: 0.0, w: 1.0}"
@@ -31,6 +33,8 @@ def ros_trajectory(
     if not 2 <= rows <= MOST_ROWS:
         raise InputError(f"rows: a number from 2 to {MOST_ROWS} expected, {rows} found")
     ticks = [round(Fraction(k, rows - 1) * Fraction(track.end) * NANO) for k in range(rows)]
+    if ticks[-1] // NANO >= LONGEST:
+        raise InputError(f"to_ros: a motion of less than 2^31 s expected, one of {track.end:.3g} s found")
     if len(set(ticks)) < rows:
         raise InputError(f"rows: times that differ by a nanosecond expected, {rows} of them in {track.end:.3g} s found")
     lines = ["header:", "  stamp: {sec: 0, nanosec: 0}", f"  frame_id: {_quoted(frame)}"]

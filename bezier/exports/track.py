@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from bezier.motion.pieces import Piece
-from qe.errors import InputError
+from qe.errors import InputError, Unable
 
 Array = NDArray[np.float64]
 
@@ -24,13 +25,15 @@ class Track:
 
     @staticmethod
     def of(pieces: Sequence[Piece]) -> Track:
-        """Each number rounded once. Raises ``InputError`` where floating point has not the range for one."""
+        """Each number rounded once. Raises ``Unable`` where floating point cannot tell two times apart."""
         try:
             breaks = [float(pieces[0].low), *(float(piece.high) for piece in pieces)]
             control = [[[float(c) for c in p] for p in piece.curve.points] for piece in pieces]
         except OverflowError:
             expected = "numbers within the range of floating point"
             raise InputError(f"the path: {expected} expected, larger ones found") from None
+        if not all(a < b for a, b in pairwise(breaks)):
+            raise Unable("a part of the motion is shorter than floating point can tell, so it has no rounded form")
         return Track(np.array(breaks), np.array(control))
 
     @property

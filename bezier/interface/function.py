@@ -72,7 +72,6 @@ def plan(
     timeout: float | None = None,
     memory: int | None = None,
     progress: Listener = silent,
-    process: bool = True,
 ) -> Planned:
     """A path from ``start`` past the two ``via`` points to ``goal``, planned and proved in exact arithmetic.
 
@@ -81,7 +80,8 @@ def plan(
     max_acceleration), each a mapping with their keys. Numbers may be ints, floats, fractions, decimals, texts such as
     "3/4" or "sqrt(27)" for the radius, numpy's, SymPy's; a float is the decimal number that it prints. Lengths in mm.
 
-    ``timeout`` (seconds), ``memory`` (MiB) and ``process`` are as for ``qe.eliminate``; ``progress`` is told each step.
+    With ``timeout`` (seconds) or ``memory`` (MiB) the work runs in a process that is killed at the limit, as for
+    ``qe.eliminate``; ``progress`` is told each step.
 
     Raises ``qe.InputError`` naming the argument, what was expected and what was found; ``NoPath`` with the reason where
     it is proved that no path of this method exists, where no path clear of the obstacles was found, and where the
@@ -102,12 +102,7 @@ def plan(
         "join_speed": join_speed,
         "single": single,
     }
-    bounds = Limits(
-        arguments.seconds(timeout),
-        arguments.mebibytes(memory),
-        arguments.listener(progress),
-        arguments.flag(process, "process"),
-    )
+    bounds = Limits(arguments.seconds(timeout), arguments.mebibytes(memory), arguments.listener(progress))
     made = _made(problem_from(given), bounds)
     planned = Planned(made, time.perf_counter() - begin)
     reason = why_not(made)

@@ -34,6 +34,9 @@ if TYPE_CHECKING:
     from bezier.exports.track import Track
 
 
+SMALLEST = Fraction(1, 10**300)
+
+
 class NoPath(Unable):
     """There is no path to use: none exists, or an obstacle is met, or the motion does not keep its limits.
 
@@ -206,7 +209,6 @@ class Planned:
         """G-code for a pen plotter: chords within ``tolerance`` (mm) of the path in a plane, ``feed`` in mm/min."""
         from bezier.exports.plane import gcode
 
-        path_track = self._flat()
         return gcode(path_track, plane=plane, tolerance=_positive(tolerance, "tolerance"), feed=_positive(feed, "feed"))
 
     def to_svg(self, *, plane: str = "xy") -> str:
@@ -288,7 +290,7 @@ class Planned:
 
 
 def _positive(value: object, what: str) -> float:
-    found = float(arguments.rational(value, what, "a number above zero"))
-    if not found > 0:
-        raise arguments.wrong(what, "a number above zero", value)
-    return found
+    exact = arguments.rational(value, what, "a number above zero")
+    if not SMALLEST < exact < 1 / SMALLEST:
+        raise arguments.wrong(what, "a number above zero, within the range of floating point,", value)
+    return float(exact)

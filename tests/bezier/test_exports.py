@@ -193,10 +193,12 @@ def test_curves_of_high_degree_are_drawn_by_chords() -> None:
     [
         (lambda p: p.to_svg(plane="zx"), "plane: one of xy, xz, yz expected"),
         (lambda p: p.to_gcode(plane=3), "plane: one of"),
-        (lambda p: p.to_gcode(tolerance=0), "tolerance: a number above zero expected"),
-        (lambda p: p.to_gcode(tolerance="x"), "tolerance: a number above zero expected"),
+        (lambda p: p.to_gcode(tolerance=0), "tolerance: a number above zero"),
+        (lambda p: p.to_gcode(tolerance="x"), "tolerance: a number above zero"),
         (lambda p: p.to_gcode(tolerance=1e-30), "tolerance: one with at most 200000 lines"),
-        (lambda p: p.to_gcode(feed=-1), "feed: a number above zero expected"),
+        (lambda p: p.to_gcode(tolerance="1e-400"), "within the range of floating point"),
+        (lambda p: p.to_gcode(feed="1e400"), "within the range of floating point"),
+        (lambda p: p.to_gcode(feed=-1), "feed: a number above zero"),
         (
             lambda p: p.save("path.docx"),
             "target: one of .csv, .json, .npz, .yaml, .gcode, .svg or the name of a folder",
@@ -217,3 +219,19 @@ def test_the_least_distance(timed: bezier.Planned, plain: bezier.Planned) -> Non
     nearest = np.linalg.norm(at - [0, 2, 1], axis=1).min() - 1.5
     assert float(timed.clearance.low) <= nearest <= float(timed.clearance.high) + 1e-4
     assert float(timed.length.low) <= np.linalg.norm(np.diff(at, axis=0), axis=1).sum() + 1e-4
+
+
+def test_times_that_floating_point_cannot_tell_apart_are_no_jump() -> None:
+    plan = bezier.plan(**GIVEN, limits={"law": "trapezoid", "ramp": "1e-30", "duration": 5})
+    assert plan.certified and plan.curves
+    for ask in (lambda: plan(0), plan.to_bspline, plan.to_ros):
+        with pytest.raises(qe.Unable, match="shorter than floating point can tell"):
+            ask()
+    assert plan.to_gcode() and plan.to_csv()
+
+
+def test_a_motion_of_centuries_has_no_message() -> None:
+    plan = bezier.plan(**GIVEN, limits={"duration": 10**10})
+    with pytest.raises(qe.InputError, match=r"less than 2\^31 s expected"):
+        plan.to_ros()
+    assert plan(1e10) == pytest.approx([4, 2, 1])
