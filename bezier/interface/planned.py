@@ -209,7 +209,9 @@ class Planned:
         """G-code for a pen plotter: chords within ``tolerance`` (mm) of the path in a plane, ``feed`` in mm/min."""
         from bezier.exports.plane import gcode
 
-        return gcode(path_track, plane=plane, tolerance=_positive(tolerance, "tolerance"), feed=_positive(feed, "feed"))
+        return gcode(
+            self._flat(), plane=plane, tolerance=_positive(tolerance, "tolerance"), feed=_positive(feed, "feed")
+        )
 
     def to_svg(self, *, plane: str = "xy") -> str:
         """An SVG image of the path in a plane, with workspace, obstacles and given points.
