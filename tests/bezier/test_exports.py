@@ -6,6 +6,7 @@ import io
 import json
 import math
 import xml.etree.ElementTree as ET
+from dataclasses import replace
 from fractions import Fraction
 from itertools import pairwise
 from pathlib import Path
@@ -211,6 +212,12 @@ def test_misuse(plain: bezier.Planned, ask, told: str) -> None:
     with pytest.raises(qe.InputError) as caught:
         ask(plain)
     assert told in str(caught.value) and "\n" not in str(caught.value)
+
+
+def test_a_distance_that_is_not_known_is_not_left_out(timed: bezier.Planned) -> None:
+    first, *rest = timed.findings
+    unknown = replace(timed, found=replace(timed.found, findings=(replace(first, distance=None), *rest)))
+    assert unknown.clearance is None and len(unknown.findings) == 3
 
 
 def test_the_least_distance(timed: bezier.Planned, plain: bezier.Planned) -> None:

@@ -190,6 +190,16 @@ def test_a_motion_that_is_too_fast_is_no_path() -> None:
     assert caught.value.plan.outcome is bezier.Outcome.TOO_FAST and caught.value.plan.curves
 
 
+def test_a_path_that_meets_an_obstacle_is_no_path() -> None:
+    around = {"kind": "ball", "name": "cage", "centre": [-4, 0, 1], "radius": 0.5}
+    given = {NAMES.get(key, key): value for key, value in values("single.toml").items()}
+    with pytest.raises(bezier.NoPath) as caught:
+        bezier.plan(**{**given, "obstacles": [{**around, "centre": given["start"]}]})
+    told, plan = str(caught.value), caught.value.plan
+    assert "meets an obstacle" in told and "cage, first at t = 0" in told and "\n" not in told
+    assert plan.outcome is bezier.Outcome.BLOCKED and plan.curves and not plan.certified
+
+
 def test_limits_of_time_hold() -> None:
     with pytest.raises(qe.BudgetExceeded):
         bezier.plan(**CUBIC, timeout=0.01)
@@ -202,6 +212,7 @@ def test_the_folder_is_that_of_the_command(tmp_path: Path) -> None:
     plan = bezier.plan(**CUBIC)
     files = plan.save(tmp_path / "out", pictures=False)
     assert sorted(file.name for file in files) == sorted(file.name for file in (tmp_path / "out").iterdir())
+    assert not [file for file in files if file.suffix == ".png"]
     assert main(["check", str(tmp_path / "out")]) == 0
 
 
