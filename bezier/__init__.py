@@ -2,4 +2,42 @@
 
 The package builds the formulas of Hatakeyama, Terui and Mikawa (SCSS 2024), hands them to ``qe`` and turns
 the exact answers into proved paths, reports and pictures. It decides nothing by floating point.
+
+>>> import bezier
+>>> plan = bezier.plan(start=[-4, 0, 3], via=[[-2, 1, 3], [2, 1, 3]], goal=[4, 0, 3], radius=6)
+>>> plan.certified, plan(1.5).tolist()
+(True, [0.0, 1.0, 3.0])
 """
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from bezier.interface.function import plan
+    from bezier.interface.planned import NoPath, Planned
+    from bezier.plans import Outcome
+
+_LATER = {
+    "NoPath": "bezier.interface.planned",
+    "Outcome": "bezier.plans",
+    "Planned": "bezier.interface.planned",
+    "plan": "bezier.interface.function",
+}
+"""Public names whose modules are loaded at first use."""
+
+
+def __getattr__(name: str) -> Any:
+    """A public name from a module that is loaded at its first use (PEP 562)."""
+    if name not in _LATER:
+        raise AttributeError(f"module 'bezier' has no attribute {name!r}")
+    found = globals()[name] = getattr(import_module(_LATER[name]), name)
+    return found
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})
+
+
+__all__ = ["NoPath", "Outcome", "Planned", "plan"]

@@ -19,8 +19,8 @@ from bezier.obstacles import survey
 from bezier.obstacles.obstacle import Obstacle
 from bezier.obstacles.reader import read_obstacles
 from bezier.obstacles.survey import Finding
-from bezier.plan import Clock, Plan
 from bezier.planner.table import method_of
+from bezier.plans import Clock, Plan
 from bezier.problem import problem_of
 from qe.errors import InputError, Unable
 from qe.worker import Channel

@@ -20,13 +20,13 @@ from bezier.check.agreement import same_data, same_rows
 from bezier.check.stated import stated_problem
 from bezier.input import stored
 from bezier.obstacles import survey
-from bezier.plan import Outcome, Plan, Stated
 from bezier.planner import avoid
 from bezier.planner.arm import with_joints
 from bezier.planner.outputs import COMPARISON, DATA, LISTED_IN, PICTURES, PROBLEM, REPORT, SUMMARY, data_texts, facts
 from bezier.planner.planning import with_findings, with_quality
 from bezier.planner.radius_rule import stated_rule
 from bezier.planner.table import method_of
+from bezier.plans import Outcome, Plan, Stated
 from bezier.problem import Problem, to_json
 from qe.certify.verdict import Verdict
 from qe.certify.verify import verify

@@ -8,9 +8,9 @@ from pathlib import Path as FilePath
 
 from bezier.compare.comparison import Comparison, compare
 from bezier.compare.output import table, to_json
-from bezier.plan import Clock
 from bezier.planner.command import Reply
 from bezier.planner.outputs import COMPARISON
+from bezier.plans import Clock
 from bezier.problem import Problem
 from qe.cli.shell import OK
 from qe.worker import Channel

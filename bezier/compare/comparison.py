@@ -19,9 +19,9 @@ from bezier.methods.cubic import formula as cubic
 from bezier.methods.cubic.existence import Existence, existence, sentence
 from bezier.methods.quadratic import formula as quadratic
 from bezier.methods.quadratic.plan import QuadraticPlan
-from bezier.plan import Clock, Plan
 from bezier.planner import avoid
 from bezier.planner.table import method_of
+from bezier.plans import Clock, Plan
 from bezier.problem import PlanMethod, Problem
 from qe.errors import InputError, Unable
 from qe.formula.syntax import Formula

@@ -10,9 +10,9 @@ from bezier.compare.comparison import METHODS, PAPER, Comparison, PlanarRegion, 
 from bezier.curves.enclosure import Enclosure
 from bezier.curves.scalar import brief
 from bezier.methods.cubic.existence import trivial_witness
-from bezier.plan import Outcome
 from bezier.planner.outputs import summary
 from bezier.planner.table import method_of
+from bezier.plans import Outcome
 from bezier.problem import PlanMethod
 
 TITLES = {PlanMethod.QUADRATIC: "quadratic, formula (8)", PlanMethod.CUBIC: "cubic, formula (7)"}

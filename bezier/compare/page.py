@@ -9,7 +9,7 @@ from markupsafe import Markup
 
 from bezier.compare.comparison import METHODS, Comparison
 from bezier.compare.output import TITLES, duration, notes, rows, step_rows
-from bezier.plan import Outcome
+from bezier.plans import Outcome
 from bezier.report import parts
 from bezier.report.page import package_version, template
 

@@ -41,10 +41,7 @@ class SingleCurve:
 
 def single_table(table: Table) -> Table:
     """The table [single], empty when it is missing. Raises ``InputError`` for unknown keys."""
-    raw = table.values.get("single", {})
-    if not isinstance(raw, dict):
-        raise table.error("single", "a table [single]", "something else")
-    found = Table(raw, table.source, table.lines, "single.")
+    found = table.inner("single")
     found.only(KEYS)
     return found
 

@@ -1,4 +1,4 @@
-"""TOML tables with exact numbers, and the one line of text that every bad value gets.
+"""Tables with exact numbers, from TOML or from Python, and the one line of text that every bad value gets.
 
 A message names file, line and key, what was expected and what was found. Tables inside arrays (``[[obstacle]]``)
 are ``Table`` objects too, whose keys are reported as ``obstacle[0].radius``.
@@ -9,7 +9,8 @@ from __future__ import annotations
 import re
 import tomllib
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
+from difflib import get_close_matches
 from enum import Enum
 from fractions import Fraction
 from typing import Any, TypeVar
@@ -24,12 +25,16 @@ Choice = TypeVar("Choice", bound=Enum)
 
 @dataclass(frozen=True, slots=True)
 class Table:
-    """One table: its values, the file it came from, and where it stands there (``prefix``, e.g. ``obstacle[0].``)."""
+    """One table: its values, the file it came from, and where it stands there (``prefix``, e.g. ``obstacle[0].``).
+
+    ``names``: for values that came from Python, what the keys of the whole file are called there.
+    """
 
     values: Mapping[str, Any]
     source: str = "<problem>"
     lines: tuple[str, ...] = ()
     prefix: str = ""
+    names: Mapping[str, str] = field(default_factory=dict)
 
     @staticmethod
     def parse(text: str, source: str) -> Table:
@@ -46,19 +51,28 @@ class Table:
         """The one line about a key of this table."""
         place = self.prefix + key
         line = _line_of(place, self.lines)
-        return InputError(f"{self.source}{line}: {place}: expected {expected}, found {found}")
+        return InputError(f"{self.source}{line}: {self._named(place)}: expected {expected}, found {found}")
+
+    def _named(self, place: str) -> str:
+        head = re.match(r"\w*", place)
+        name = head[0] if head else ""
+        return self.names.get(name, name) + place[len(name) :]
 
     def only(self, known: Iterable[str]) -> None:
         """Refuse keys that are not known."""
         names = tuple(known)
         for key in self.values:
             if key not in names:
-                raise self.error(key, f"one of the keys {', '.join(names)}", f'the unknown key "{key}"')
+                known_here = [name if self.prefix else self._named(name) for name in names]
+                raise self.error(
+                    key, f"one of the keys {', '.join(known_here)}", f'the unknown key "{key}"{meant(key, known_here)}'
+                )
 
     def required(self, key: str, expected: str) -> Any:
         """A value that must be there."""
         if key not in self.values:
-            raise InputError(f"{self.source}: {self.prefix}{key}: expected {expected}, found no such key")
+            place = self._named(self.prefix + key)
+            raise InputError(f"{self.source}: {place}: expected {expected}, found no such key")
         return self.values[key]
 
     def choice(self, key: str, choices: type[Choice], default: Choice | None = None) -> Choice:
@@ -111,14 +125,27 @@ class Table:
         """The tables of an array ``[[key]]``; none when the key is missing."""
         raw = self.values.get(key, [])
         if not isinstance(raw, list) or not all(isinstance(entry, dict) for entry in raw):
-            raise self.error(key, f"tables [[{key}]]", describe(raw))
-        return tuple(Table(entry, self.source, self.lines, f"{self.prefix}{key}[{i}].") for i, entry in enumerate(raw))
+            raise self.error(key, "a list of mappings" if self.names else f"tables [[{key}]]", describe(raw))
+        return tuple(replace(self, values=entry, prefix=f"{self.prefix}{key}[{i}].") for i, entry in enumerate(raw))
+
+    def inner(self, key: str) -> Table:
+        """The table [key] of this file, empty when the key is missing."""
+        raw = self.values.get(key, {})
+        if not isinstance(raw, dict):
+            raise self.error(key, "a mapping" if self.names else f"a table [{key}]", describe(raw))
+        return replace(self, values=raw, prefix=f"{self.prefix}{key}.")
 
     def _exact(self, key: str, raw: object) -> Fraction:
         try:
             return read(raw)
         except NotANumber as error:
             raise self.error(key, NUMBER, str(error)) from None
+
+
+def meant(word: str, known: Iterable[str]) -> str:
+    """What was probably meant by an unknown word, to put behind it; empty where nothing is near."""
+    near = get_close_matches(word.lower(), list(known), n=1)
+    return f"; {near[0]} is probably meant" if near else ""
 
 
 def _syntax(message: str, source: str, length: int) -> str:

@@ -21,7 +21,6 @@ from typing import Any
 from bezier.curves.enclosure import Enclosure
 from bezier.curves.quality import curvature_enclosure, length_enclosure
 from bezier.curves.scalar import Vector, add, decimal_text, is_zero, scale
-from bezier.input.numbers import describe
 from bezier.input.toml_table import Table
 from bezier.motion.timelaw import Extremes, Law, TimeLaw, extremes, least_duration
 from bezier.paths.path import Path
@@ -56,10 +55,8 @@ def read_timing(table: Table) -> Timing | None:
     """The table [timing], None when there is none. Raises ``InputError`` naming the key."""
     if "timing" not in table.values:
         return None
-    raw = table.values["timing"]
-    if not isinstance(raw, dict):
-        raise table.error("timing", "a table [timing]", describe(raw))
-    own = Table(raw, table.source, table.lines, "timing.")
+    own = table.inner("timing")
+    raw = own.values
     own.only(("law", "ramp", "duration", *LIMITS))
     law = own.choice("law", Law, Law.QUINTIC)
     if "ramp" in raw and law is not Law.TRAPEZOID:

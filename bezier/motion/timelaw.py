@@ -147,7 +147,7 @@ def extremes(path: Path, law: TimeLaw, rel: Fraction = REL) -> Extremes:
     """Enclosures of max |X'| and max |X''| over the whole motion, for T = 1."""
     speed = acceleration = Enclosure(ZERO, ZERO)
     for stretch in stretches(path, law):
-        position = [_composed(bs.to_power(c), stretch.parameter) for c in _coordinates(path.curves[stretch.curve])]
+        position = [composed(bs.to_power(c), stretch.parameter) for c in _coordinates(path.curves[stretch.curve])]
         velocity = [bs.power_derivative(p) for p in position]
         speed = _larger(speed, _largest_norm(velocity, stretch, rel))
         acceleration = _larger(acceleration, _largest_norm([bs.power_derivative(v) for v in velocity], stretch, rel))
@@ -158,7 +158,7 @@ def _coordinates(curve: Bezier) -> list[bs.Coefficients]:
     return [curve.coordinate(i) for i in range(curve.dimension)]
 
 
-def _composed(outer: Power, inner: Power) -> Power:
+def composed(outer: Power, inner: Power) -> Power:
     """outer(inner(tau)) by Horner's rule."""
     total: Power = ()
     for c in reversed(outer):
@@ -171,7 +171,7 @@ def _largest_norm(vector: list[Power], stretch: Stretch, rel: Fraction) -> Enclo
     """The largest norm of a vector of polynomials on the stretch."""
     square: bs.Coefficients = (ZERO,)
     for p in vector:
-        moved = bs.from_power(_composed(p, (stretch.low, stretch.high - stretch.low)))
+        moved = bs.from_power(composed(p, (stretch.low, stretch.high - stretch.low)))
         square = bs.add(square, bs.multiply(moved, moved))
     if not stretch.certain:
         return root_enclosure(ZERO, max(bounds(c)[1] for c in square))

@@ -20,7 +20,7 @@ from bezier.curves.curve import Bezier
 from bezier.curves.enclosure import bounds
 from bezier.curves.scalar import rational
 from bezier.motion.timelaw import Law, TimeLaw
-from bezier.plan import Outcome, Plan
+from bezier.plans import Outcome, Plan
 from bezier.problem import Problem
 from qe.certify.verify import verify
 from qe.errors import BudgetExceeded, CertificateRejected, InputError, Unable

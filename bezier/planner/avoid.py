@@ -24,8 +24,8 @@ from bezier.input.toml_table import Table
 from bezier.obstacles import survey
 from bezier.obstacles.clearance import Argument, Clear
 from bezier.obstacles.survey import Finding
-from bezier.plan import Attempt, Clock, Outcome, Plan
 from bezier.planner.table import method_of
+from bezier.plans import Attempt, Clock, Outcome, Plan
 from bezier.problem import INNER, PlanMethod, Problem, problem_of, to_json
 from qe.errors import BudgetExceeded, CertificateRejected, InputError, Unable
 

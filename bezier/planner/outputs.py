@@ -21,9 +21,9 @@ from bezier.curves.scalar import decimal_text, described, rational, scale
 from bezier.motion import motion
 from bezier.paths import heights
 from bezier.paths.path import Path
-from bezier.plan import Outcome, Plan
 from bezier.planner import arm, avoid
 from bezier.planner.table import method_of
+from bezier.plans import Outcome, Plan
 from bezier.problem import Problem, to_json
 from qe.errors import InputError
 
@@ -184,6 +184,11 @@ def path_json(plan: Plan, path: Path) -> dict[str, Any]:
     }
 
 
+def path_text(plan: Plan, path: Path) -> str:
+    """The text of ``path.json``."""
+    return json.dumps(path_json(plan, path), indent=1, ensure_ascii=False) + "\n"
+
+
 def _name(path: Path, point: Any) -> str:
     return next(name for name, other in path.points.items() if other == point)
 
@@ -230,7 +235,7 @@ def data_texts(plan: Plan) -> dict[str, str]:
     texts = {"certificate.json": plan.certificate.to_json(), PROBLEM: problem_json(plan.problem)}
     texts |= method_of(plan.problem.method).files(plan)
     if plan.path is not None:
-        texts["path.json"] = json.dumps(path_json(plan, plan.path), indent=1, ensure_ascii=False) + "\n"
+        texts["path.json"] = path_text(plan, plan.path)
         texts["path.csv"] = path_csv(plan.path)
     return {**texts, **motion.files(plan.path, plan.quality), **arm.files(plan)}
 

@@ -7,11 +7,11 @@ from dataclasses import replace
 
 from bezier.motion.motion import quality_of
 from bezier.paths import heights, origin
-from bezier.plan import Clock, Outcome, Plan, RadiusRule
 from bezier.planner import radius_rule
 from bezier.planner.arm import check_arm, with_joints
 from bezier.planner.avoid import avoiding
 from bezier.planner.table import method_of
+from bezier.plans import Clock, Outcome, Plan, RadiusRule
 from bezier.problem import Problem
 from qe.errors import BudgetExceeded, Unable
 

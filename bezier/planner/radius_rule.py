@@ -35,7 +35,7 @@ from bezier.methods.control.statements import (
 from bezier.methods.control.system import System, coordinates
 from bezier.methods.cubic import formula as cubic
 from bezier.methods.quadratic import formula as quadratic
-from bezier.plan import RadiusRule
+from bezier.plans import RadiusRule
 from bezier.problem import PlanMethod, Problem
 from qe.errors import BudgetExceeded, InternalError, Unable
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from bezier.plan import Method
+from bezier.plans import Method
 from bezier.problem import PlanMethod
 
 

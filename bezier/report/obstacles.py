@@ -9,7 +9,7 @@ from bezier.curves.scalar import decimal_text
 from bezier.motion.motion import Motion
 from bezier.obstacles import survey
 from bezier.obstacles.clearance import Clear
-from bezier.plan import Outcome, Plan
+from bezier.plans import Outcome, Plan
 
 Row = dict[str, Any]
 

@@ -11,7 +11,7 @@ from jinja2 import Environment, PackageLoader, StrictUndefined, Template
 from markupsafe import Markup
 
 from bezier.paths import heights
-from bezier.plan import Method, Plan
+from bezier.plans import Method, Plan
 from bezier.report import joints, mathml, parts
 from bezier.report import obstacles as obstacle_report
 

@@ -16,7 +16,7 @@ from bezier.curves.workspace import Condition, HalfSpace, WorkspaceKind, root_te
 from bezier.methods.control.system import Combination, OnPoint, System
 from bezier.methods.control.terms import named_multipliers
 from bezier.paths.path import Path, Proof, speed_at_joins
-from bezier.plan import Outcome, Plan
+from bezier.plans import Outcome, Plan
 from bezier.report import mathml, mathml_cells
 
 Row = dict[str, Any]

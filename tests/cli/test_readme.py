@@ -48,7 +48,7 @@ def test_the_command_lines(folder: Path) -> None:
             assert process.stdout.strip() == promised.strip()
 
 
-@pytest.mark.parametrize("name", ["first_steps.py", "ellipse_in_disc.py"])
+@pytest.mark.parametrize("name", ["first_steps.py", "ellipse_in_disc.py", "plan_in_python.py"])
 def test_examples(name: str) -> None:
     process = subprocess.run([sys.executable, ROOT / "examples" / name], capture_output=True, text=True, timeout=120)
     assert process.returncode == 0, process.stderr

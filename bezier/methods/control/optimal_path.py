@@ -15,7 +15,7 @@ from bezier.methods.control.claims import check_optimum_of, member, optimal_poin
 from bezier.methods.control.statements import Statement
 from bezier.methods.control.system import System
 from bezier.paths.path import Path, Proof, assemble, path_certificates, prove
-from bezier.plan import Clock, Outcome, Plan
+from bezier.plans import Clock, Outcome, Plan
 from bezier.problem import Problem
 from qe.errors import CertificateRejected, InternalError, Unable
 from qe.exact.ring import Ring

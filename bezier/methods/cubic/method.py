@@ -10,7 +10,7 @@ from bezier.methods.control.terms import named_multipliers
 from bezier.methods.cubic import plan as cubic_plan
 from bezier.methods.cubic import report as cubic_report
 from bezier.methods.cubic.plan import CubicPlan
-from bezier.plan import Method, Restored, Stated
+from bezier.plans import Method, Restored, Stated
 from bezier.problem import Problem
 from qe.proof.certificate import Certificate
 

@@ -23,7 +23,7 @@ from bezier.methods.control.system import System
 from bezier.methods.cubic import formula as cubic
 from bezier.paths.path import Path
 from bezier.paths.speed import Slowest, slowest_of
-from bezier.plan import Clock
+from bezier.plans import Clock
 from bezier.problem import Problem
 from qe.proof.certificate import Certificate
 

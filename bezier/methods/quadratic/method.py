@@ -12,7 +12,7 @@ from bezier.methods.quadratic import plan as quadratic_plan
 from bezier.methods.quadratic import report as quadratic_report
 from bezier.methods.quadratic import restore as quadratic_restore
 from bezier.methods.quadratic.plan import QuadraticPlan
-from bezier.plan import Method, Restored, Stated
+from bezier.plans import Method, Restored, Stated
 from bezier.problem import Problem
 from qe.proof.certificate import Certificate
 

@@ -26,7 +26,7 @@ from bezier.methods.control.optimal_path import (
 from bezier.methods.control.system import System
 from bezier.methods.quadratic import formula as quadratic
 from bezier.paths.path import Path, Proof, prove
-from bezier.plan import Clock
+from bezier.plans import Clock
 from bezier.problem import Problem
 from qe.errors import InternalError
 

@@ -13,7 +13,7 @@ from bezier.methods.single.closed import ProvedCurve
 from bezier.methods.single.cuts import Cut
 from bezier.methods.single.plan import NAME, SinglePlan
 from bezier.methods.single.program import TIE_BREAK, Dip
-from bezier.plan import Method, Restored, Stated
+from bezier.plans import Method, Restored, Stated
 from bezier.problem import Problem
 from qe.proof.certificate import Certificate
 

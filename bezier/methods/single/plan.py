@@ -20,7 +20,7 @@ from bezier.methods.single.formula import Piecewise, Symbol
 from bezier.methods.single.program import Chosen, Dip, choose, curve, dips, lowest
 from bezier.methods.single.simplex import Contradiction, LinearOptimum, certificate
 from bezier.paths.path import Path, Proof, assemble, prove
-from bezier.plan import Clock, Outcome, Plan
+from bezier.plans import Clock, Outcome, Plan
 from bezier.problem import Problem
 from qe.errors import InternalError
 

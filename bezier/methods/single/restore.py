@@ -40,7 +40,7 @@ from bezier.methods.single.plan import (
 from bezier.methods.single.program import Chosen, curve, dips, objective, program
 from bezier.methods.single.simplex import Contradiction, Duals, LinearOptimum, LinearProgram, certificate
 from bezier.paths.path import prove
-from bezier.plan import Outcome, Stated
+from bezier.plans import Outcome, Stated
 from bezier.problem import Problem
 from qe.errors import CertificateRejected
 from qe.proof.certificate import Certificate, Kind

@@ -14,12 +14,12 @@ from hypothesis import strategies as st
 from bezier.arm.robot import Robot
 from bezier.check.recheck import recheck
 from bezier.curves.curve import Bezier
-from bezier.plan import Outcome
 from bezier.planner import arm as planner_arm
 from bezier.planner.arm import rounded
 from bezier.planner.outputs import facts, write_data
 from bezier.planner.planning import make_plan
 from bezier.planner.table import method_of
+from bezier.plans import Outcome
 from bezier.problem import from_json, read_problem, to_json
 from bezier.report.page import render
 from qe.errors import CertificateRejected, InputError, Unable

@@ -10,12 +10,12 @@ from bezier.input.toml_table import Table
 from bezier.obstacles.reader import read_obstacles
 from bezier.pictures.obstacles import obstacle_pictures
 from bezier.pictures.plot_clearance import save_chart
-from bezier.plan import Clock, Outcome
 from bezier.planner import avoid
 from bezier.planner.command import in_words
 from bezier.planner.outputs import summary
 from bezier.planner.planning import make_plan
 from bezier.planner.table import method_of
+from bezier.plans import Clock, Outcome
 from bezier.problem import PlanMethod, read_problem
 from bezier.report.page import render
 from qe.errors import BudgetExceeded, CertificateRejected

@@ -15,9 +15,9 @@ from bezier.curves.scalar import dot, sign
 from bezier.curves.workspace import Workspace, WorkspaceKind
 from bezier.methods.control.terms import named_multipliers
 from bezier.methods.quadratic import formula as quadratic
-from bezier.plan import Clock, Outcome, Stated
 from bezier.planner.outputs import facts
 from bezier.planner.planning import make_plan
+from bezier.plans import Clock, Outcome, Stated
 from bezier.problem import PlanMethod, Problem, load_problem
 from qe.errors import BudgetExceeded, CertificateRejected, Unable
 from qe.formula.evaluate import holds_at

@@ -12,9 +12,9 @@ import qe
 from bezier.cli import main
 from bezier.curves.scalar import dot, is_zero, same
 from bezier.curves.workspace import Workspace
-from bezier.plan import Outcome
 from bezier.planner import radius_rule
 from bezier.planner.planning import make_plan
+from bezier.plans import Outcome
 from bezier.problem import PlanMethod, read_problem
 from tests.bezier.planner.test_plan import problem_of
 

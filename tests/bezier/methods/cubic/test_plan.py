@@ -15,8 +15,8 @@ from bezier.curves.workspace import HalfSpace, Workspace, WorkspaceKind
 from bezier.methods.control.terms import named_multipliers
 from bezier.methods.cubic import formula as cubic
 from bezier.paths.path import speed_at_joins
-from bezier.plan import Outcome
 from bezier.planner.planning import make_plan
+from bezier.plans import Outcome
 from bezier.problem import INNER, PlanMethod, PointCondition, Problem
 from qe.errors import InputError
 from qe.io import text

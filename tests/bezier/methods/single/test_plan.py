@@ -15,9 +15,9 @@ from bezier.methods.single.plan import CLOSED, task_of
 from bezier.methods.single.program import choose, curve
 from bezier.methods.single.restore import certified_curve
 from bezier.methods.single.simplex import certificate, solve
-from bezier.plan import Outcome, Stated
 from bezier.planner.outputs import facts, path_json, write_data
 from bezier.planner.planning import make_plan
+from bezier.plans import Outcome, Stated
 from bezier.problem import from_json, load_problem, read_problem, to_json
 from qe.errors import CertificateRejected, InputError
 from qe.proof.certificate import Certificate

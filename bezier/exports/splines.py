@@ -1,0 +1,45 @@
+"""The motion as SciPy's piecewise polynomials."""
+
+from __future__ import annotations
+
+from math import comb
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from bezier.exports.track import Array, Track
+from qe.extras import lacking
+
+if TYPE_CHECKING:
+    from scipy.interpolate import BSpline, PPoly
+
+
+def bspline(track: Track) -> BSpline:
+    """Degree d with d-fold inner knots: its coefficients are the control points, those at the joins once.
+
+    A Bézier chain is a B-spline with knots of this multiplicity (Farin, "Curves and Surfaces for CAGD", chapter 8).
+    """
+    try:
+        from scipy.interpolate import BSpline
+    except ImportError as error:
+        raise lacking(error) or error from None
+    degree = track.control.shape[1] - 1
+    knots = np.concatenate([track.breaks[:1], np.repeat(track.breaks, degree), track.breaks[-1:]])
+    points = np.concatenate([track.control[0, :1], track.control[:, 1:].reshape(-1, 3)])
+    return BSpline(knots, points, degree, extrapolate=False)
+
+
+def ppoly(track: Track) -> PPoly:
+    """The same by powers of the time since the last break."""
+    try:
+        from scipy.interpolate import PPoly
+    except ImportError as error:
+        raise lacking(error) or error from None
+    return PPoly(_powers(track), track.breaks, extrapolate=False)
+
+
+def _powers(track: Track) -> Array:
+    """(d+1, n, 3), the highest power first: the coefficient of u^k is C(d, k) times the k-th difference."""
+    degree, length = track.control.shape[1] - 1, np.diff(track.breaks)[:, None]
+    rows = [comb(degree, k) * np.diff(track.control, n=k, axis=1)[:, 0] / length**k for k in range(degree + 1)]
+    return np.array(rows[::-1])

@@ -1,0 +1,76 @@
+"""A motion in floating point: arrays that numpy evaluates at many times at once. They decide nothing."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from bezier.motion.pieces import Piece
+from qe.errors import InputError, Unable
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Track:
+    """``breaks``: (n+1,) ascending times; ``control``: (n, d+1, 3), the control points of each piece (mm)."""
+
+    breaks: Array
+    control: Array
+
+    @staticmethod
+    def of(pieces: Sequence[Piece]) -> Track:
+        """Each number rounded once. Raises ``Unable`` where floating point cannot tell two times apart."""
+        try:
+            breaks = [float(pieces[0].low), *(float(piece.high) for piece in pieces)]
+            control = [[[float(c) for c in p] for p in piece.curve.points] for piece in pieces]
+        except OverflowError:
+            expected = "numbers within the range of floating point"
+            raise InputError(f"the path: {expected} expected, larger ones found") from None
+        if not all(a < b for a, b in pairwise(breaks)):
+            raise Unable("a part of the motion is shorter than floating point can tell, so it has no rounded form")
+        return Track(np.array(breaks), np.array(control))
+
+    @property
+    def end(self) -> float:
+        """The time at the end; it begins at 0."""
+        return float(self.breaks[-1])
+
+    @cached_property
+    def derivative(self) -> Track:
+        """The velocity as a track."""
+        degree = self.control.shape[1] - 1
+        if degree == 0:
+            return Track(self.breaks, np.zeros_like(self.control))
+        length = np.diff(self.breaks)[:, None, None]
+        return Track(self.breaks, degree * np.diff(self.control, axis=1) / length)
+
+    def at(self, times: ArrayLike) -> Array:
+        """The points at these times, of shape (*times.shape, 3). Raises ``InputError`` for times outside."""
+        given = _times(times)
+        outside = ~((given >= 0) & (given <= self.end))  # true for what is not a number as well
+        if outside.any():
+            found = given[outside].flat[0]
+            raise InputError(f"t: times from 0 to {self.end:.12g} expected, {found:.12g} found")
+        at = np.clip(np.searchsorted(self.breaks, given, side="right") - 1, 0, len(self.control) - 1)
+        low, high = self.breaks[at], self.breaks[at + 1]
+        u = ((given - low) / (high - low))[..., None, None]
+        rows = self.control[at]
+        while rows.shape[-2] > 1:
+            rows = rows[..., :-1, :] * (1 - u) + rows[..., 1:, :] * u
+        return np.asarray(rows[..., 0, :])
+
+
+def _times(times: ArrayLike) -> Array:
+    try:
+        found = np.asarray(times)
+        if found.dtype.kind in "iuf" or (found.dtype == object and found.size):
+            return found.astype(np.float64)
+    except (TypeError, ValueError, OverflowError):
+        pass
+    raise InputError(f"t: numbers expected, {type(times).__name__} found")

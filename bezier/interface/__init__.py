@@ -1,0 +1,1 @@
+"""Planning from Python: the function ``bezier.plan`` and what it gives back."""

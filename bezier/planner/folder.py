@@ -1,0 +1,51 @@
+"""The folder of a plan: data, pictures, the page and the summary."""
+
+from __future__ import annotations
+
+import json
+import time
+from dataclasses import replace
+from pathlib import Path as FilePath
+from typing import TYPE_CHECKING, Any
+
+from bezier.planner.outputs import REPORT, SUMMARY, summary, write_data
+from bezier.planner.table import method_of
+from bezier.plans import Clock, Plan
+
+if TYPE_CHECKING:
+    from bezier.pictures.picture import Drawing
+
+CLEARANCE = "clearance.png"
+
+
+def write_folder(
+    made: Plan, folder: FilePath, target: FilePath, clock: Clock, *, plots: bool
+) -> tuple[list[str], dict[str, Any]]:
+    """All files into ``folder``, whose place will be ``target``; their names, and what the summary says."""
+    method = method_of(made.problem.method)
+    files = write_data(made, folder)
+    drawing = None
+    if plots:
+        with clock.step("pictures"):
+            drawing = method.draw(made, folder)
+            if made.findings:
+                drawing = _with_clearances(drawing, made, folder)
+        files += drawing.files
+    with clock.step("report"):
+        from bezier.report.page import render
+
+        page = render(made, method, drawing)
+        (folder / REPORT).write_text(page, encoding="utf-8")
+    files = sorted([*files, REPORT, SUMMARY])
+    told = summary(made, [str(target / name) for name in files], time.perf_counter() - clock.start)
+    text = json.dumps(told, indent=1, ensure_ascii=False)
+    (folder / SUMMARY).write_text(text + "\n", encoding="utf-8")
+    return files, told
+
+
+def _with_clearances(drawing: Drawing, made: Plan, folder: FilePath) -> Drawing:
+    """The drawing with the chart of heights and distances to the obstacles."""
+    from bezier.pictures.plot_clearance import save_chart
+
+    chart = save_chart(made.findings, drawing.picture.obstacles, folder / CLEARANCE)
+    return replace(drawing, clearance=chart, files=(*drawing.files, CLEARANCE))

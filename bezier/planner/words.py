@@ -1,0 +1,52 @@
+"""A plan in words: the lines of the summary, and why there is no path to use."""
+
+from __future__ import annotations
+
+from bezier.curves.scalar import brief
+from bezier.motion import motion
+from bezier.obstacles import survey
+from bezier.paths import heights
+from bezier.planner import arm, avoid
+from bezier.planner.table import method_of
+from bezier.plans import Outcome, Plan
+
+
+def lines(made: Plan) -> list[str]:
+    """The summary for people, but for the files."""
+    problem, method = made.problem, method_of(made.problem.method)
+    found = [f"radius r = {problem.workspace.radius_text}, {problem.workspace.kind.value}"]
+    found += [f"note: {note}" for note in (*problem.notes, *made.remarks)]
+    if made.outcome is Outcome.INFEASIBLE:
+        found.append(method.reason(made))
+    found += method.summary_lines(made)
+    if made.objective is not None:
+        found.append(f"objective {brief(made.objective)}, active: {', '.join(made.active) or 'nothing'}")
+    if made.path is not None:
+        inside = "proved to lie in the workspace" if made.path.is_inside else "which LEAVES the workspace"
+        joins = f"{made.path.smoothness.name} at both joins, " if made.path.joins else ""
+        found.append(f"path: {joins}{inside}")
+    if made.heights is not None:
+        found += heights.summary_lines(made.heights)
+    found += motion.summary_lines(made.quality)
+    found += avoid.summary_lines(made)
+    found += arm.summary_lines(made)
+    accepted = all(verdict.accepted for verdict in made.checks.values())
+    found.append(f"certificates: {'accepted' if accepted else 'REJECTED'}")
+    return found
+
+
+def why_not(made: Plan) -> str | None:
+    """Why the plan is not a path to use, in one line; None where it is one."""
+    match made.outcome:
+        case Outcome.SOLVED:
+            return None
+        case Outcome.INFEASIBLE:
+            return method_of(made.problem.method).reason(made)
+        case Outcome.BLOCKED:
+            met = "; ".join(map(survey.in_words, survey.contacts(made.findings)))
+            return f"the path meets an obstacle, and no alternative was found: {met}; a path may exist all the same"
+        case Outcome.OUT_OF_REACH:
+            return f"the arm cannot follow the path: {'; '.join(arm.summary_lines(made))}"
+    motion_found = None if made.quality is None else made.quality.motion
+    assert motion_found is not None
+    return f"{motion_found.reason}; kept at all times with {motion_found.suggestion}"
