@@ -69,6 +69,7 @@ def plan(
     ratio: object = None,
     join_speed: object = None,
     single: Mapping[str, object] | None = None,
+    arm: object = None,
     timeout: float | None = None,
     memory: int | None = None,
     progress: Listener = silent,
@@ -77,15 +78,17 @@ def plan(
 
     The arguments are the keys of a problem file (docs/planning.md), with the same meanings: ``obstacles`` are its
     ``[[obstacle]]``, ``half_spaces`` its ``[[half_space]]``, ``limits`` its ``[timing]`` (law, duration, max_speed,
-    max_acceleration), each a mapping with their keys. Numbers may be ints, floats, fractions, decimals, texts such as
-    "3/4" or "sqrt(27)" for the radius, numpy's, SymPy's; a float is the decimal number that it prints. Lengths in mm.
+    max_acceleration), each a mapping with their keys; ``arm`` names an arm that has to follow the path. Numbers may
+    be ints, floats, fractions, decimals, texts such as "3/4" or "sqrt(27)" for the radius, numpy's, SymPy's; a
+    float is the decimal number that it prints. Lengths in mm.
 
     With ``timeout`` (seconds) or ``memory`` (MiB) the work runs in a process that is killed at the limit, as for
     ``qe.eliminate``; ``progress`` is told each step.
 
     Raises ``qe.InputError`` naming the argument, what was expected and what was found; ``NoPath`` with the reason where
     it is proved that no path of this method exists, where no path clear of the obstacles was found, and where the
-    motion does not keep its limits; ``qe.Unable`` where no answer was reached, ``qe.BudgetExceeded`` at a limit.
+    motion does not keep its limits or the arm cannot follow it; ``qe.Unable`` where no answer was reached,
+    ``qe.BudgetExceeded`` at a limit.
     """
     begin = time.perf_counter()
     given = {
@@ -101,6 +104,7 @@ def plan(
         "ratio": ratio,
         "join_speed": join_speed,
         "single": single,
+        "arm": arm,
     }
     bounds = Limits(arguments.seconds(timeout), arguments.mebibytes(memory), arguments.listener(progress))
     made = _made(problem_from(given), bounds)

@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
     from scipy.interpolate import BSpline, PPoly
 
+    from bezier.arm.joint_plan import JointPlan
     from bezier.exports.track import Track
 
 
@@ -144,6 +145,11 @@ class Planned:
     def motion(self) -> Motion | None:
         """The motion in time with its largest speed and acceleration; None without limits."""
         return None if self.quality is None else self.quality.motion
+
+    @property
+    def joints(self) -> JointPlan | None:
+        """The joints of the arm along the path, with what is proved of them; None without an arm."""
+        return self.found.joints
 
     @property
     def duration(self) -> Fraction:
