@@ -8,6 +8,7 @@ from fractions import Fraction
 
 from qe.formula.build import exists
 from qe.formula.evaluate import holds_at
+from qe.formula.features import features
 from qe.formula.normal import nnf
 from qe.formula.syntax import FALSE, TRUE, Formula
 from qe.formula.traverse import atoms
@@ -23,6 +24,9 @@ SCATTERED = 60
 
 DEGREES = {1: 40, 2: 8, 3: 3, 4: 2}
 """With so many variables a formula of at most this total degree is decided; with more, linear ones are."""
+
+MANY = 20
+"""The closure of a question in more variables is not asked for: a chain of 300 differences took minutes."""
 
 ATOMS, LONG = 40, 1000
 """A formula of more atoms is not decided; one of more than ``LONG`` is not even evaluated."""
@@ -41,7 +45,7 @@ def constant_value(
     if not names:
         return None
     cheap = _is_cheap(formula, len(names))
-    if not cheap and (question is None or sum(1 for _ in atoms(formula)) > LONG):
+    if not cheap and (question is None or not _closes(question) or sum(1 for _ in atoms(formula)) > LONG):
         return None
     always = _at(formula, names, PATTERNS[0])
     if not cheap and always:
@@ -87,6 +91,13 @@ def _middle(formula: Formula, names: tuple[str, ...]) -> dict[str, Fraction]:
             if 2 in slope:
                 vertices[ring.names[index]].append(Fraction(-slope.get(1, 0), 2 * slope[2]))
     return {name: (min(v) + max(v)) / 2 if v else Fraction(0) for name, v in vertices.items()}
+
+
+def _closes(question: Formula) -> bool:
+    """Whether quantifying all its variables may make a question easier: it has quantifiers, and few variables."""
+    if question.is_quantifier_free:
+        return False
+    return len(question.free) + len(features(question).bound) <= MANY
 
 
 def _size(formula: Formula) -> int:
