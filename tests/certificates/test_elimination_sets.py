@@ -46,8 +46,8 @@ EXAMPLES = [
 
 @pytest.mark.parametrize("text", EXAMPLES)
 def test_every_step_of_virtual_substitution_is_checked(text: str) -> None:
-    plain = qe.eliminate(text, method="vs")
-    answer = qe.eliminate(text, method="vs", check=True)
+    plain = qe.eliminate(text, method="vs", without="distribution")  # so that substitution sees the whole
+    answer = qe.eliminate(text, method="vs", without="distribution", check=True)
     assert answer.formula == plain.formula
     assert answer.unchecked_steps == ()
     assert answer.certificate is not None

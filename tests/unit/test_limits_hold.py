@@ -56,8 +56,8 @@ CASES: dict[str, tuple[str, Callable[[], Call]]] = {
         "qe.groebner.question.segments",
         lambda: lambda: qe.real_root_classification(["a*x - 1"], "x", timeout=LIMIT),
     ),
-    "minimize": ("qe.convex.optimum.solve", lambda: lambda: qe.minimize("x", "x >= 1", timeout=LIMIT)),
-    "maximize": ("qe.convex.optimum.solve", lambda: lambda: qe.maximize("x", "x <= 1", timeout=LIMIT)),
+    "minimize": ("qe.convex.feasible.solve", lambda: lambda: qe.minimize("x", "x >= 1", timeout=LIMIT)),
+    "maximize": ("qe.convex.feasible.solve", lambda: lambda: qe.maximize("x", "x <= 1", timeout=LIMIT)),
     "parametric_witnesses": (
         "qe.elimination.vs.parametric.eliminate_block",
         lambda: lambda: qe.parametric_witnesses("ex x. x > a", timeout=LIMIT),

@@ -92,7 +92,7 @@ def test_the_form_of_an_answer_does_not_depend_on_the_clock(seed: int, monkeypat
 
 def test_a_certificate_is_looked_for_with_limited_work(monkeypatch: pytest.MonkeyPatch) -> None:
     """So many units, however long each takes: the answer stays, the certificate does not come."""
-    question = QUESTIONS["vs"]
+    question = QUESTIONS["critical"]
     given = qe.eliminate(question, check=True)
     assert given.guarantee is qe.Guarantee.CHECKED
     monkeypatch.setattr("qe.engine.run.CERTIFY_WORK", 5)
