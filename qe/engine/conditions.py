@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from math import prod
 
-from qe.convex.system import NotConvex, read_system
 from qe.elimination.protocol import Problem
 from qe.formula.syntax import And, Atom, Formula, Relation
 from qe.formula.traverse import conjuncts, connected, polynomials
@@ -157,6 +156,8 @@ def _is_convex(body: Formula) -> bool:
     """Whether the body is a conjunction of weak convex quadratic inequalities of which one is not linear."""
     if not isinstance(body, And):
         return False
+    from qe.convex.system import NotConvex, read_system
+
     try:
         system = read_system(body)
     except NotConvex:

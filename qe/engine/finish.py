@@ -14,7 +14,6 @@ from qe.formula.syntax import Atom, Formula, Relation
 from qe.formula.traverse import atoms, conjuncts, disjuncts, free_variables, has_root_atoms, ring_of
 from qe.options import Method, Stage
 from qe.proof.run_log import RunLog
-from qe.rules.block import reduce_block
 from qe.rules.block_context import BlockContext
 from qe.rules.step import POINTWISE_STEPS
 from qe.rules.tree import All, Any, Leaf, Node
@@ -55,6 +54,8 @@ def untangled(formula: Formula, context: Context) -> Formula:
         return formula
     if sum(1 for _ in atoms(formula)) > UNTANGLED_ATOMS or Stage.EQUATIONS in context.options.without:
         return formula
+    from qe.rules.block import reduce_block
+
     rules = BlockContext(context.budget.part(SHORTEN_WORK), POINTWISE_STEPS)
     try:
         shorter = simplify(_matrix(reduce_block(free_variables(formula), formula, rules)))
