@@ -25,8 +25,7 @@ FUNCTIONS = {
     "CubeRoot": "cbrt",
 }
 
-TERMS = """
-comparison: sum RELATION sum | comparison RELATION sum
+ARITHMETIC = """
 ?sum: product | sum PLUS product -> plus
      | sum MINUS product        -> minus
 ?product: factor | product TIMES factor -> times
@@ -35,6 +34,12 @@ comparison: sum RELATION sum | comparison RELATION sum
      | PLUS factor              -> positive
 ?power: primary | primary POWER exponent -> to_power
 ?exponent: primary | MINUS primary -> negative
+"""
+"""The rules of terms by precedence, above ``primary``."""
+
+TERMS = f"""
+comparison: sum RELATION sum | comparison RELATION sum
+{ARITHMETIC}
 ?primary: NUMBER                -> number
      | NAME                     -> name
      | NAME OPEN arguments CLOSE -> call

@@ -8,7 +8,7 @@ from typing import Any
 
 from qe.formula.relation import Relation
 from qe.io import surface as s
-from qe.io.building import RELATIONS, Builder
+from qe.io.building import ARITHMETIC, RELATIONS, Builder
 from qe.io.grammar import parser
 from qe.io.lalr import Parser, Token
 from qe.io.text_errors import SyntaxFailure
@@ -60,17 +60,10 @@ set: (OPEN | LEFT) term COMMA term (CLOSE | RIGHT) -> interval
      | BEGIN arguments END      -> finite
      | REALS                    -> reals
 """
-_TERMS = """
+_TERMS = f"""
 comparison: term RELATION term | comparison RELATION term
 ?term: sum | IF start THEN term ELSE term -> choice
-?sum: product | sum PLUS product -> plus
-     | sum MINUS product        -> minus
-?product: factor | product TIMES factor -> times
-     | product OVER factor      -> over
-?factor: power | MINUS factor   -> negative
-     | PLUS factor              -> positive
-?power: primary | primary POWER exponent -> to_power
-?exponent: primary | MINUS primary -> negative
+{ARITHMETIC}
 ?primary: NUMBER                -> number
      | NAME                     -> name
      | INFINITY                 -> infinity
