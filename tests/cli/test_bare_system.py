@@ -33,10 +33,10 @@ def run(code: str, folder: Path) -> subprocess.CompletedProcess[str]:
     ("code", "printed"),
     [
         ("print(qe.eliminate('ex x. x^2 + b*x + c = 0').formula)", "b^2 - 4*c >= 0"),
-        ("print(qe.eliminate('ex x. x^2 = b', timeout=30, memory=2000).formula)", "b >= 0"),
-        ("print(qe.verify(qe.eliminate('ex x. x^2 = b', check=True).certificate, timeout=30))", "accepted"),
-        ("print(qe.region('x^2 + y^2 <= 1', timeout=30).contains({'x': 0, 'y': 1}))", "True"),
-        ("print(qe.minimize('x', 'x >= 1/3', timeout=30).value)", "1/3"),
+        ("print(qe.eliminate('ex x. x^2 = b', timeout=120, memory=2000).formula)", "b >= 0"),
+        ("print(qe.verify(qe.eliminate('ex x. x^2 = b', check=True).certificate, timeout=120))", "accepted"),
+        ("print(qe.region('x^2 + y^2 <= 1', timeout=120).contains({'x': 0, 'y': 1}))", "True"),
+        ("print(qe.minimize('x', 'x >= 1/3', timeout=120).value)", "1/3"),
     ],
 )
 def test_interface(code: str, printed: str, tmp_path: Path) -> None:

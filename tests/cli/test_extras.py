@@ -26,7 +26,7 @@ BARE = f"import sys\nfor name in {sorted(_EXTRAS)!r}: sys.modules[name] = None\n
 
 
 def run(code: str, folder: Path) -> subprocess.CompletedProcess[str]:
-    return subprocess.run([sys.executable, "-c", BARE + code], cwd=folder, capture_output=True, text=True, timeout=60)
+    return subprocess.run([sys.executable, "-c", BARE + code], cwd=folder, capture_output=True, text=True, timeout=120)
 
 
 @pytest.mark.parametrize(("module", "extra"), _EXTRAS.items())

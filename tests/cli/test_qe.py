@@ -17,7 +17,7 @@ BALLS = "x^2 + y^2 <= 4 and (x - 1)^2 + y^2 <= 4"
 
 
 def run(*arguments: str, stdin: str | None = None, cwd: Path | None = None) -> subprocess.CompletedProcess[str]:
-    return subprocess.run([QE, *arguments], input=stdin, capture_output=True, text=True, timeout=60, cwd=cwd)
+    return subprocess.run([QE, *arguments], input=stdin, capture_output=True, text=True, timeout=120, cwd=cwd)
 
 
 def refused(process: subprocess.CompletedProcess[str], code: int, *words: str) -> None:
@@ -200,7 +200,7 @@ def test_bad_options(arguments: list[str], word: str) -> None:
 def test_the_time_limit_holds_and_tells_what_is_known() -> None:
     start = time.monotonic()
     process = run("eliminate", HARD, "--timeout", "1")
-    assert time.monotonic() - start < 10  # 2 s are asked (the benchmark measures it); the tests' machine may be busy
+    assert time.monotonic() - start < 30  # 2 s are asked (the benchmark measures it); the tests' machine may be busy
     refused(process, 3, "unable", "known after", "8 variables, 5 of them quantified")
 
 

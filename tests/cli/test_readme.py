@@ -42,7 +42,7 @@ def test_the_command_lines(folder: Path) -> None:
     for line in COMMANDS:
         command, _, promised = line.partition(" # ")
         program, *arguments = shlex.split(command)
-        process = subprocess.run([BIN / program, *arguments], cwd=folder, capture_output=True, text=True, timeout=60)
+        process = subprocess.run([BIN / program, *arguments], cwd=folder, capture_output=True, text=True, timeout=120)
         assert process.returncode == 0, (line, process.stderr)
         if promised and re.search(r"[=<>]", promised):
             assert process.stdout.strip() == promised.strip()

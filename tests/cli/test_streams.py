@@ -18,7 +18,7 @@ def shell(line: str) -> tuple[int, str]:
     """Exit status of the first command of a line, and what stands on stderr."""
     environment = {**os.environ, "LC_ALL": "C.UTF-8"}
     command = ["bash", "-c", line + "; exit ${PIPESTATUS[0]}"]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=60, env=environment)
+    done = subprocess.run(command, capture_output=True, text=True, timeout=120, env=environment)
     return done.returncode, done.stderr
 
 

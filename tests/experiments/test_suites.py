@@ -48,7 +48,7 @@ PAPER = {p.id: p for p in paper.problems()}
 )
 def test_known_answers_of_the_paper_suite(id):
     problem = PAPER[id]
-    answer = qe.eliminate(problem.formula, timeout=30)
+    answer = qe.eliminate(problem.formula, timeout=120)
     assert compare(write(answer.formula), problem.expected, seconds=5) in (Verdict.EQUIVALENT, Verdict.PROBED)
 
 

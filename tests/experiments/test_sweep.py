@@ -109,7 +109,7 @@ def test_a_killed_worker_loses_nothing_and_repeats_nothing(tmp_path):
             killed.append(int(row.worker.rpartition(":")[2]))
             os.kill(killed[0], signal.SIGKILL)
 
-    sweep(tasks, store, workers=2, timeout=20, note=note)
+    sweep(tasks, store, workers=2, timeout=120, note=note)
     keys = [json.loads(line)["key"] for line in store.path.read_text().splitlines()]
     assert sorted(keys) == sorted(t.key for t in tasks) == sorted(seen)
     assert all(row.solved for row in store.outcomes.values())

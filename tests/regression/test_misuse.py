@@ -111,6 +111,6 @@ def test_one_line_that_helps(misuse: Callable[[], object], hint: str) -> None:
     ],
 )
 def test_the_command(arguments: tuple[str, ...], code: int, part: str) -> None:
-    run = subprocess.run([QE, *arguments], capture_output=True, text=True, timeout=60)
+    run = subprocess.run([QE, *arguments], capture_output=True, text=True, timeout=120)
     assert run.returncode == code and part in run.stdout + run.stderr, (run.stdout, run.stderr)
     assert "Traceback" not in run.stderr

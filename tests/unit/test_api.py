@@ -17,7 +17,7 @@ def test_a_time_limit_holds_inside_one_long_operation() -> None:
     answer = qe.eliminate(HARD, timeout=1)
     assert answer.status is qe.Status.UNABLE
     assert answer.formula is None and "time" in answer.reason
-    assert time.monotonic() - start < 10  # a bound on blunders: without the hard limit it takes minutes
+    assert time.monotonic() - start < 30  # a bound on blunders: without the hard limit it takes minutes
 
 
 def test_answers_survive_the_worker() -> None:

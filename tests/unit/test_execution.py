@@ -146,7 +146,7 @@ def test_the_limit_kills_work_that_never_looks_up():
     start = time.monotonic()
     with pytest.raises(BudgetExceeded) as caught:
         perform(spent(2 * HERE, stuck), Limits(timeout=0.3))
-    assert caught.value.limit == "time" and time.monotonic() - start < 10
+    assert caught.value.limit == "time" and time.monotonic() - start < 30
 
 
 def test_inside_a_worker_only_an_earlier_limit_forks():

@@ -103,7 +103,7 @@ def test_formula_at_a_point_is_the_statement_about_its_curves(kind: str) -> None
     formula = str(whole_curve.statement(given, plane))
     for u, v in ((0, 3), (2, 1), (-1, 4), (0, 6), (3, 5), (0, 9)):
         put = formula.replace("q1u", f"({u})").replace("q1v", f"({v})")
-        assert qe.decide(put, timeout=30) == inside(given, plane, Fraction(u), Fraction(v)), (u, v)
+        assert qe.decide(put, timeout=120) == inside(given, plane, Fraction(u), Fraction(v)), (u, v)
 
 
 CURVES = {
@@ -120,7 +120,7 @@ def test_cubic_curves_by_the_engine_and_by_subdivision(name: str) -> None:
     curve = Bezier.of(points)
     for condition in (Ball((Fraction(0),) * 3, Fraction(square)), HalfSpace((0, 1, 0), Fraction(1, 4))):
         expected = all_inside(examine_all(curve, [condition]))
-        assert whole_curve.curve_inside(curve, [condition], timeout=30) == expected
+        assert whole_curve.curve_inside(curve, [condition], timeout=120) == expected
     assert whole_curve.curve_inside(curve, [Ball((Fraction(0),) * 3, Fraction(square))]) == (name != "leaves")
 
 

@@ -52,7 +52,7 @@ def solved(record: dict[str, Any]) -> ComprehensiveGroebnerSystem:
 
     return qe.comprehensive_groebner(
         texts("polys"), record["variables"], record["parameters"], record["order"],
-        equal=texts("null"), nonzero=texts("nonnull"), timeout=10,
+        equal=texts("null"), nonzero=texts("nonnull"), timeout=120,
     )  # fmt: skip
 
 
