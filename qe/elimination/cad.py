@@ -18,9 +18,10 @@ from qe.errors import BudgetExceeded, InternalError
 from qe.exact.number import Values
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import convert
+from qe.formula.features import is_small, length
 from qe.formula.normal import Quantifier, nnf, prenex
-from qe.formula.syntax import FALSE, TRUE, Constant, Formula, Or
-from qe.formula.traverse import atoms, polynomials, subformulas
+from qe.formula.syntax import FALSE, TRUE, Constant, Formula
+from qe.formula.traverse import polynomials
 from qe.options import Budget, Options, Projection, Stage
 from qe.proof.cells import CellTable
 from qe.proof.cells_json import CellEvidence
@@ -31,9 +32,6 @@ from qe.simplify.simplify import simplify
 WHOLE_FROM, WHOLE_CELLS = 300, 2000
 """A decomposition of at most so many cells is made once more with the whole space of the free variables, of at most so
 many cells in all, when its answer is small (``is_small``)."""
-
-SMALL_DEGREE = {1: 40, 2: 12, 3: 4, 4: 2}
-"""An answer in so many variables is small up to this total degree: its whole space is decomposed in no time."""
 
 
 class Decomposition:
@@ -171,20 +169,6 @@ class _Question:
         except BudgetExceeded:
             return answer, proof
         return (other, table) if length(other) < length(answer) else (answer, proof)
-
-
-def is_small(formula: Formula) -> bool:
-    """Whether a shorter equivalent is easily found: few variables and low degrees. Conjunctions are short enough."""
-    if not any(isinstance(part, Or) for part in subformulas(formula)):
-        return False
-    degree = max((a.poly.total_degree for a in atoms(formula)), default=0)
-    return degree <= SMALL_DEGREE.get(len(formula.free), 0)
-
-
-def length(formula: Formula) -> tuple[int, int]:
-    """Atoms, and terms of their polynomials."""
-    polys = [a.poly for a in atoms(formula)]
-    return len(polys), sum(p.term_count() for p in polys)
 
 
 def claims(certificate: Certificate, question: Formula, answer: Formula) -> bool:

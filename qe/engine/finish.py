@@ -4,35 +4,32 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from qe.elimination.cad import decomposed, is_small, kept, length
 from qe.elimination.protocol import Context
 from qe.engine.constant import constant_value
 from qe.engine.strategy import allows
-from qe.errors import InternalError, Unable
-from qe.formula.build import conj, convert, disj
+from qe.errors import Unable
+from qe.formula.features import is_small, length
 from qe.formula.syntax import Atom, Formula, Relation
-from qe.formula.traverse import atoms, conjuncts, disjuncts, free_variables, has_root_atoms, ring_of
-from qe.options import Method, Stage
+from qe.formula.traverse import conjuncts, disjuncts, has_root_atoms
+from qe.options import Method
 from qe.proof.run_log import RunLog
-from qe.rules.block_context import BlockContext
-from qe.rules.step import POINTWISE_STEPS
-from qe.rules.tree import All, Any, Leaf, Node
-from qe.simplify.simplify import simplify
 
 SHORTEN_WORK, SETTLE_WORK = 2000, 2000
 """Units of work for a shorter form, and for finding out that an answer is constant."""
-
-UNTANGLED_ATOMS = 120
-"""The equations of an answer of more atoms are left as they are."""
 
 
 def shortened(formula: Formula, context: Context) -> Formula:
     """A shorter equivalent of a small quantifier-free answer, read off a decomposition of its space."""
     if has_root_atoms(formula):
         return formula
-    formula = untangled(formula, context)
+    if _has_equations(formula):
+        from qe.engine.untangle import untangled
+
+        formula = untangled(formula, context)
     if not allows(context.options, Method.CAD) or not is_small(formula):
         return formula
+    from qe.elimination.cad import decomposed, kept
+
     try:
         found = decomposed(formula, context.options, context.budget.part(SHORTEN_WORK), RunLog())
     except Unable:
@@ -43,40 +40,10 @@ def shortened(formula: Formula, context: Context) -> Formula:
     return context.log.step("shorter", formula, found.formula, evidence=kept(found.certificate, context.options))
 
 
-def untangled(formula: Formula, context: Context) -> Formula:
-    """The answer with its equations by a better basis of their ideal, factor by factor, where that makes it shorter.
-
-    The rules about equations (``qe.rules.cases``) are equivalences at every point, of whatever variables the block is
-    made: here of the free ones, so that what the side conditions exclude goes with the factor that it belongs to.
-    """
+def _has_equations(formula: Formula) -> bool:
+    """Whether an equation stands in the formula, or in a disjunct of it."""
     parts = (conjuncts(part) for part in disjuncts(formula))
-    if not any(isinstance(a, Atom) and a.relation is Relation.EQ for part in parts for a in part):
-        return formula
-    if sum(1 for _ in atoms(formula)) > UNTANGLED_ATOMS or Stage.EQUATIONS in context.options.without:
-        return formula
-    from qe.rules.block import reduce_block
-
-    rules = BlockContext(context.budget.part(SHORTEN_WORK), POINTWISE_STEPS)
-    try:
-        shorter = simplify(_matrix(reduce_block(free_variables(formula), formula, rules)))
-    except Unable:
-        context.budget.check("shorten")
-        return formula
-    ring = ring_of(formula)
-    shorter = shorter if ring is None else convert(shorter, ring)
-    return context.log.step("equations taken apart", formula, shorter) if length(shorter) < length(formula) else formula
-
-
-def _matrix(node: Node) -> Formula:
-    """What a tree says without quantifying the block: the rules that made it hold at every point."""
-    match node:
-        case Leaf(_, body):
-            return body
-        case Any(children):
-            return disj(map(_matrix, children))
-        case All(children):
-            return conj(map(_matrix, children))
-    raise InternalError("a rule that is no equivalence at every point")
+    return any(isinstance(a, Atom) and a.relation is Relation.EQ for part in parts for a in part)
 
 
 def settled(

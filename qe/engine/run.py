@@ -138,11 +138,12 @@ class _Run:
     def certificate(self, asked: Formula, question: Formula, found: Outcome) -> Proof:
         """The certificate that a method made if it is about this very question and answer; else one by a witness or
         by linear equations. Where one was asked for also: the derivation, or a decomposition if time allows."""
-        from qe.elimination.cad import certificate_for, claims
-
         problem = Problem.of(question)
-        if found.certificate is not None and claims(found.certificate, question, found.formula):
-            return Proof(as_asked(found.certificate, problem, found.formula))
+        if found.certificate is not None:
+            from qe.elimination.cad import claims
+
+            if claims(found.certificate, question, found.formula):
+                return Proof(as_asked(found.certificate, problem, found.formula))
         if found.witness is not None and problem is not None and problem.is_flat and not problem.free:
             return Proof(as_asked(problem.witnessed(found.witness), problem, found.formula))
         linear = substitution_certificate(question, found.formula)
@@ -152,6 +153,8 @@ class _Run:
         if proof.certificate is not None:
             return proof
         self.log.switch("derivation", f"no checked evidence for: {', '.join(proof.unchecked)}")
+        from qe.elimination.cad import certificate_for
+
         try:
             budget = self.budget.share(CERTIFY_SHARE).part(CERTIFY_WORK)
             table = certificate_for(question, found.formula, self.options, budget)

@@ -4,8 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from qe.formula.syntax import Formula
-from qe.formula.traverse import atoms, bound_variables, free_variables
+from qe.formula.syntax import Formula, Or
+from qe.formula.traverse import atoms, bound_variables, free_variables, subformulas
+
+SMALL_DEGREE = {1: 40, 2: 12, 3: 4, 4: 2}
+"""An answer in so many variables is small up to this total degree: its whole space is decomposed in no time."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -28,3 +31,17 @@ def features(formula: Formula) -> Features:
         atoms=len(found),
         total_degree=max((a.poly.total_degree for a in found), default=0),
     )
+
+
+def is_small(formula: Formula) -> bool:
+    """Whether a shorter equivalent is easily found: few variables and low degrees. Conjunctions are short enough."""
+    if not any(isinstance(part, Or) for part in subformulas(formula)):
+        return False
+    degree = max((a.poly.total_degree for a in atoms(formula)), default=0)
+    return degree <= SMALL_DEGREE.get(len(formula.free), 0)
+
+
+def length(formula: Formula) -> tuple[int, int]:
+    """Atoms, and terms of their polynomials."""
+    polys = [a.poly for a in atoms(formula)]
+    return len(polys), sum(p.term_count() for p in polys)

@@ -12,7 +12,6 @@ from qe.exact.number import Assignment
 from qe.formula.syntax import Constant, Formula
 from qe.proof.certificate import Certificate
 from qe.proof.derivation import Derivation, put_together
-from qe.proof.explanation import explained
 from qe.proof.run_log import RunLog
 
 
@@ -72,6 +71,8 @@ class Answer:
     @property
     def explanation(self) -> str:
         """The steps in words and formulas, numbered, with the choices and figures between them."""
+        from qe.proof.explanation import explained
+
         return explained(self.log)
 
     def _written(self, format: str) -> str:

@@ -15,7 +15,6 @@ from qe.formula.build import conj, convert, disj, exists, forall, neg
 from qe.formula.syntax import And, Constant, Exists, ForAll, Formula, Not, Or
 from qe.formula.traverse import children
 from qe.io.names import names_in
-from qe.proof import writing
 from qe.proof.step import Place, Step
 
 
@@ -34,10 +33,14 @@ class Derivation:
 
     def to_latex(self) -> str:
         """The derivation as numbered LaTeX lines, each with the name of its rule."""
+        from qe.proof import writing
+
         return writing.latex(self.start, self.steps)
 
     def to_html(self) -> str:
         """The derivation as one page that needs nothing from elsewhere: formulas in MathML, evidence folded."""
+        from qe.proof import writing
+
         return writing.page(self.start, self.steps, is_complete=self.is_complete)
 
     @property

@@ -4,14 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING
 
 from qe.formula.build import conj
 from qe.formula.syntax import Formula
 from qe.options import Budget
 from qe.proof.run_log import RunLog
 from qe.rules.step import StepKind
-from qe.rules.tree import Node
 from qe.simplify.facts import NOTHING, Facts
+
+if TYPE_CHECKING:
+    from qe.rules.tree import Node
 
 _SPLITS = 24  # case distinctions allowed within one block
 _BASES = 40  # Groebner bases computed within one block

@@ -1,0 +1,53 @@
+"""The equations of an answer by a better basis of their ideal."""
+
+from __future__ import annotations
+
+from qe.elimination.protocol import Context
+from qe.errors import InternalError, Unable
+from qe.formula.build import conj, convert, disj
+from qe.formula.features import length
+from qe.formula.syntax import Formula
+from qe.formula.traverse import atoms, free_variables, ring_of
+from qe.options import Stage
+from qe.rules.block import reduce_block
+from qe.rules.block_context import BlockContext
+from qe.rules.step import POINTWISE_STEPS
+from qe.rules.tree import All, Any, Leaf, Node
+from qe.simplify.simplify import simplify
+
+UNTANGLE_WORK = 2000
+"""Units of work for the bases."""
+
+UNTANGLED_ATOMS = 120
+"""The equations of an answer of more atoms are left as they are."""
+
+
+def untangled(formula: Formula, context: Context) -> Formula:
+    """The answer with its equations by a better basis of their ideal, factor by factor, where that makes it shorter.
+
+    The rules about equations (``qe.rules.cases``) are equivalences at every point, of whatever variables the block is
+    made: here of the free ones, so that what the side conditions exclude goes with the factor that it belongs to.
+    """
+    if sum(1 for _ in atoms(formula)) > UNTANGLED_ATOMS or Stage.EQUATIONS in context.options.without:
+        return formula
+    rules = BlockContext(context.budget.part(UNTANGLE_WORK), POINTWISE_STEPS)
+    try:
+        shorter = simplify(_matrix(reduce_block(free_variables(formula), formula, rules)))
+    except Unable:
+        context.budget.check("shorten")
+        return formula
+    ring = ring_of(formula)
+    shorter = shorter if ring is None else convert(shorter, ring)
+    return context.log.step("equations taken apart", formula, shorter) if length(shorter) < length(formula) else formula
+
+
+def _matrix(node: Node) -> Formula:
+    """What a tree says without quantifying the block: the rules that made it hold at every point."""
+    match node:
+        case Leaf(_, body):
+            return body
+        case Any(children):
+            return disj(map(_matrix, children))
+        case All(children):
+            return conj(map(_matrix, children))
+    raise InternalError("a rule that is no equivalence at every point")
