@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from qe import arguments
 from qe.api_input import AnyFormula, read_block, read_formula, read_polynomial, together
+from qe.api_limits import cluster_of
 from qe.api_limits import limits_of as _limits
 from qe.api_limits import performed as _performed
 from qe.errors import BudgetExceeded, InputError, Unable
@@ -22,7 +23,7 @@ from qe.formula.features import features
 from qe.formula.syntax import Exists, ForAll, Formula
 from qe.formula.traverse import free_variables, is_quantifier_free, ring_of
 from qe.formula.weight import text_may_block
-from qe.options import VERIFY_SECONDS, Budget, Method, Options, Stage
+from qe.options import VERIFY_SECONDS, Budget, Cluster, Method, Options, Stage
 from qe.progress import Event, silent
 from qe.proof.answer import Answer, Status
 from qe.proof.certificate import Certificate, Kind
@@ -72,6 +73,8 @@ def eliminate(
     explain: bool = False,
     check: bool = False,
     process: bool = True,
+    workers: int = 0,
+    cluster: str | None = None,
 ) -> Answer:
     """Quantifier elimination over the reals: an equivalent quantifier-free formula.
 
@@ -85,7 +88,9 @@ def eliminate(
     checker; certificates that are a witness always are. A verification that does not end in time costs the
     certificate, not the answer (``Answer.reason`` says so). ``explain`` tells on
     stderr how the answer was found (``Answer.explanation`` holds the same text); ``without`` leaves stages of the
-    engine out (``qe.Stage``), to measure what they gain. Raises ``InputError`` for input that cannot be read.
+    engine out (``qe.Stage``), to measure what they gain. With ``workers`` (processes on this machine) or ``cluster``
+    (the address of a Dask scheduler) the cells of long decompositions are lifted side by side; the answer and its
+    certificate are the same as without. Raises ``InputError`` for input that cannot be read.
     """
     start = time.monotonic()
     explain, check = arguments.flag(explain, "explain"), arguments.flag(check, "check")
@@ -96,7 +101,7 @@ def eliminate(
     except BudgetExceeded as error:
         return Answer(Status.UNABLE, None, reason=str(error))
     _check_order(options.order, given)
-    answer = _limited(given, options, limits, check)
+    answer = _limited(given, options, limits, check, cluster_of(workers, cluster))
     if explain:
         print(answer.explanation or answer.reason, file=sys.stderr)
     return answer
@@ -125,15 +130,21 @@ def _solved(formula: Formula, options: Options, budget: Budget) -> Outcome:
     return solve(formula, options, budget)
 
 
-def _limited(formula: Formula, options: Options, limits: Limits, check: bool) -> Answer:
+def _limited(formula: Formula, options: Options, limits: Limits, check: bool, cluster: Cluster | None) -> Answer:
     """The answer, found in a worker process where it takes long or a limit is to hold."""
 
     def work(budgets: Budgets) -> Answer:
         budget = budgets()
-        return _answer(formula, options.with_(progress=budget.listener), budget, check)
+        chosen = options.with_(progress=budget.listener)
+        if cluster is None:
+            return _answer(formula, chosen, budget, check)
+        from qe.cluster import helping
+
+        with helping(cluster) as budget.helpers:
+            return _answer(formula, chosen, budget, check)
 
     try:
-        return _performed(work, formula, limits)
+        return _performed(work, formula, limits, at_once=cluster is not None)
     except Unable as error:
         return Answer(Status.UNABLE, None, reason=str(error), question=formula)
 

@@ -7,21 +7,26 @@ from importlib import import_module
 from typing import TypeVar
 
 from qe import arguments
+from qe.errors import InputError
 from qe.execution import Budgets, Limits, perform
 from qe.formula.syntax import Formula
 from qe.formula.weight import may_block
+from qe.options import Cluster
 from qe.progress import Event
 
 Result = TypeVar("Result")
 Progress = Callable[[Event], None]
 
+MOST_WORKERS = 256
+"""Processes that one call starts at most."""
+
 MOSTLY_NEEDED = ("qe.engine.run", "qe.rules.block", "qe.elimination.vs.block", "qe.elimination.vs.witness")
 """The parts of the engine that nearly every problem with a quantifier needs."""
 
 
-def performed(work: Callable[[Budgets], Result], formula: Formula, limits: Limits) -> Result:
-    """The work on a formula, in a process of its own from the start where a limit must hold."""
-    at_once = limits.timeout is not None or may_block(formula)
+def performed(work: Callable[[Budgets], Result], formula: Formula, limits: Limits, *, at_once: bool = False) -> Result:
+    """The work on a formula, in a process of its own from the start (``at_once``) also where a limit must hold."""
+    at_once = at_once or limits.timeout is not None or may_block(formula)
     if at_once:
         for part in MOSTLY_NEEDED:  # loaded here once, and not again and again in every worker
             import_module(part)
@@ -36,3 +41,13 @@ def limits_of(timeout: float | None, memory: int | None, progress: Progress, pro
         arguments.listener(progress),
         arguments.flag(process, "process"),
     )
+
+
+def cluster_of(workers: int, address: str | None) -> Cluster | None:
+    """The cluster that a caller names, checked; None where there is none."""
+    count = arguments.whole(workers, "workers", MOST_WORKERS)
+    if address is not None and count:
+        raise InputError("workers, cluster: one of them expected, both found")
+    if address is None and not count:
+        return None
+    return Cluster(count, None if address is None else arguments.text(address, "cluster"))

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field, replace
 from enum import Enum
+from typing import Protocol, TypeVar
 
 from qe.errors import BudgetExceeded
 from qe.progress import Event, Listener, silent
@@ -74,16 +75,46 @@ class Handover:
         self.move()
 
 
+@dataclass(frozen=True, slots=True)
+class Cluster:
+    """Processes that help: so many ``workers`` on this machine, or those of the scheduler at an ``address``."""
+
+    workers: int = 0
+    address: str | None = None
+
+
+Result = TypeVar("Result", covariant=True)
+
+
+class Call(Protocol[Result]):
+    """A call without arguments that can be pickled."""
+
+    def __call__(self) -> Result: ...
+
+
+class Helpers(Protocol):
+    """Processes, here or on other machines, that do parts of the work. ``width``: how many."""
+
+    width: int
+
+    def results(self, calls: Iterable[Call[Result]], check: Callable[[], None]) -> Iterator[Result]:
+        """The results in the order of the calls, which are taken a few ahead; ``check`` is called while waiting.
+
+        What a call raises is raised in its place.
+        """
+        ...
+
+
 class Budget:
     """Soft limits, checked between FLINT calls: ``check`` raises ``BudgetExceeded``.
 
     ``seconds`` counts from construction. ``work`` bounds what ``spend`` is told: one unit is a cell of a decomposition,
     or about the time of one; unlike seconds it is the same on every machine, so what depends on it is too.
     A budget for a part of the work (``share``, ``part``) sees the deadline, the limit on work and the cancellation of
-    the budget that it came from.
+    the budget that it came from, and has its ``helpers``.
     """
 
-    __slots__ = ("_cancelled", "_last_note", "deadline", "handover", "listener", "parent", "used", "work")
+    __slots__ = ("_cancelled", "_last_note", "deadline", "handover", "helpers", "listener", "parent", "used", "work")
 
     def __init__(
         self,
@@ -96,6 +127,7 @@ class Budget:
         self.deadline = None if seconds is None else time.monotonic() + seconds
         self.work, self.used, self.listener, self.parent = work, 0, listener, parent
         self.handover: Handover | None = handover if parent is None else parent.handover
+        self.helpers: Helpers | None = None if parent is None else parent.helpers
         self._cancelled, self._last_note = False, 0.0
 
     def cancel(self) -> None:
@@ -114,6 +146,12 @@ class Budget:
     def part(self, work: int | None) -> Budget:
         """A budget for a part of the work: at most so many units."""
         return Budget(self.remaining(), work, self.listener, self)
+
+    def left(self) -> int | None:
+        """Units of work left, or None without a limit on it."""
+        own = None if self.work is None else self.work - self.used
+        above = None if self.parent is None else self.parent.left()
+        return above if own is None else own if above is None else min(own, above)
 
     @property
     def is_limited(self) -> bool:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from qe.cad.constraints import Constraints, equational_constraints
-from qe.cad.lifting import Lifter, sector_levels
+from qe.cad.lifting import Lifter, Plan, sector_levels
 from qe.cad.matrix import compile_matrix, strengthened
 from qe.cad.projection import factor_lists
 from qe.errors import NotWellOriented
@@ -110,17 +110,17 @@ class _Job:
             if len(own) < len(levels[k])  # a constraint made of all factors restricts nothing
         }
         sectors_from = sector_levels(self.matrix, self.quantifiers) if self.tactics.open_only else size
-        lifter = Lifter(
+        plan = Plan(
             levels,
             self.quantifiers,
             projection,
-            self.budget,
             sectors_from,
             indices,
             self.tactics.partial,
             self.tactics.whole_free,
             self.thom_levels,
         )
+        lifter = Lifter(plan, self.budget)
         root = lifter.run(Point(Ring.of(self.order)), compile_matrix(strong, places))
         if lifter.lacking:
             return self.attempt(projection, nullified=nullified, added=(*added, *lifter.lacking))

@@ -6,8 +6,12 @@ that decides it; at the last level only the factors that the formula still depen
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import pickle
+from collections import deque
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
+from functools import lru_cache, partial
+from typing import cast
 
 from qe.cad.matrix import Node, mentioned, specialise
 from qe.cad.projection import Levels
@@ -18,32 +22,53 @@ from qe.exact.ring import Poly
 from qe.exact.sample import Point
 from qe.formula.openness import is_closed, is_open
 from qe.formula.syntax import Formula
-from qe.options import Budget, Projection
+from qe.options import Budget, Call, Projection
 from qe.proof.cells import Cell, Stack
 
 _VALUE = {"+": 1, "-": -1, "0": 0}
 
 
-@dataclass(slots=True)
-class Lifter:
-    """One lifting run. From level ``sectors_from`` on, sections need not be visited (see ``sector_levels``).
+SPREAD_FROM = 2000
+"""Cells after which helpers take part: before that, starting them would take longer than the work."""
+
+SPREAD_LEVELS = 3
+"""Cells of the first so many levels are handed to helpers; there are enough of them, and each is a piece of work."""
+
+SPREAD_WIDTH = 4
+"""A stack is handed out once it has so many cells for each helper; else the stacks above its cells are."""
+
+
+@dataclass(frozen=True, slots=True)
+class Plan:
+    """What lifting is to do. From level ``sectors_from`` on, sections need not be visited (see ``sector_levels``).
 
     ``constraints``: indices of the factors of equational constraints by level (see ``equational``). Without
     ``partial`` cells are decomposed also where the formula is decided, and every cell of a stack is visited. With
     ``whole_free`` that holds for the levels of free variables: every free cell then has the signs of all factors.
-    ``lacking``: where a factor of a level in ``thom_levels`` is nullified, its signs and derivatives do not tell the
-    sections of its Lazard evaluation apart; partial derivatives that do are collected here, where truth depends on it.
+    ``thom_levels``: see ``Lifter.lacking``.
     """
 
     levels: Levels
     quantifiers: tuple[str, ...]
     projection: Projection
-    budget: Budget
     sectors_from: int
     constraints: Mapping[int, frozenset[int]] = field(default_factory=dict)
     partial: bool = True
     whole_free: bool = False
     thom_levels: frozenset[int] = frozenset()
+
+
+@dataclass(slots=True)
+class Lifter:
+    """One lifting run.
+
+    ``lacking``: where a factor of a level in ``Plan.thom_levels`` is nullified, its signs and derivatives do not tell
+    the sections of its Lazard evaluation apart; partial derivatives that do are collected here, where truth depends on
+    it. Where the budget has helpers, the cells of one stack are lifted side by side; the table is the same.
+    """
+
+    plan: Plan
+    budget: Budget
     lacking: dict[Poly, None] = field(default_factory=dict)
     cells: int = 0
     stacks: int = 0
@@ -54,9 +79,9 @@ class Lifter:
 
     def run(self, point: Point, node: Node) -> Cell:
         """The root cell, decomposed as far as needed."""
-        return self._cell(point, node, "", 0)
+        return self.cell(point, node, "", 0)
 
-    def _cell(self, point: Point, node: Node, signs: str, dimension: int) -> Cell:
+    def cell(self, point: Point, node: Node, signs: str, dimension: int) -> Cell:
         """The cell whose sample is ``point`` (``dimension`` of its coordinates are sectors)."""
         level = point.depth
         if isinstance(node, bool) and self._leaves(level):
@@ -72,21 +97,21 @@ class Lifter:
 
     def _leaves(self, level: int) -> bool:
         """Whether cells with ``level`` coordinates are left as they are when their truth is known."""
-        if level == len(self.levels):
+        if level == len(self.plan.levels):
             return True
-        return self.partial and not (self.whole_free and not self.quantifiers[level])
+        return self.plan.partial and not (self.plan.whole_free and not self.plan.quantifiers[level])
 
     def _used(self, node: Node, level: int) -> tuple[int, ...]:
         """The factors that a stack decomposes by: all of the level, or the ones mentioned on the last level."""
-        if level < len(self.levels) - 1 or not self._leaves(level):
-            return tuple(range(len(self.levels[level])))
+        if level < len(self.plan.levels) - 1 or not self._leaves(level):
+            return tuple(range(len(self.plan.levels[level])))
         return tuple(sorted(mentioned(node, level)))
 
     def _stack_over(self, point: Point, used: tuple[int, ...], dimension: int) -> SampledStack:
         """The stack over a cell, by the sections of the level's constraint alone if it has one."""
         level = point.depth
-        factors, constraint = self.levels[level], self.constraints.get(level)
-        last, lazard = level == len(self.levels) - 1, self.projection is Projection.LAZARD
+        factors, constraint = self.plan.levels[level], self.plan.constraints.get(level)
+        last, lazard = level == len(self.plan.levels) - 1, self.plan.projection is Projection.LAZARD
         if constraint is not None:
             stack = restricted_stack(point, factors, used, constraint)
             # A nullified factor of the constraint makes it true on the whole line: its sections then say nothing.
@@ -110,42 +135,86 @@ class Lifter:
         self, point: Point, node: Node, signs: str, dimension: int, used: tuple[int, ...], stack: SampledStack
     ) -> Cell:
         level = point.depth
-        quantifier = self.quantifiers[level]
+        quantifier = self.plan.quantifiers[level]
         size = len(stack.texts)
         cells: list[Cell | None] = [None] * size
-        truth: bool | None = None
-        if quantifier:
-            stop = quantifier == "E"
-            truth = not stop
-            for position in _visiting_order(size, sectors_only=level >= self.sectors_from):
-                cell = self._child(point, node, used, stack, position, dimension)
-                cells[position] = cell
-                if cell.truth is stop:
-                    truth = stop
-                    if self.partial:
-                        break
-        else:
-            for position in range(size):
-                cells[position] = self._child(point, node, used, stack, position, dimension)
+        stop = quantifier == "E"
+        truth = not stop if quantifier else None
+        positions = _visiting_order(size, level >= self.plan.sectors_from) if quantifier else list(range(size))
+        for position, cell in self._cells(point, node, used, stack, positions, dimension):
+            cells[position] = cell
+            if quantifier and cell.truth is stop:
+                truth = stop
+                if self.plan.partial:
+                    break
         complete = tuple(Cell(stack.texts[p], None) if c is None else c for p, c in enumerate(cells))
-        if stack.nullified and level in self.thom_levels and _ambiguous(complete):
+        if stack.nullified and level in self.plan.thom_levels and _ambiguous(complete):
             self._collect_lacking(point, level, stack.nullified)
         return Cell(signs, truth, Stack(used, stack.sectors, stack.sections, complete))
 
-    def _child(
-        self, point: Point, node: Node, used: tuple[int, ...], stack: SampledStack, position: int, dimension: int
-    ) -> Cell:
-        text = stack.texts[position]
-        child = self._specialised(node, point.depth, used, text)
+    def _cells(
+        self, point: Point, node: Node, used: tuple[int, ...], stack: SampledStack, positions: list[int], dimension: int
+    ) -> Iterator[tuple[int, Cell]]:
+        """The cells at these positions of a stack, one after the other."""
+        helpers = self.budget.helpers
+        for place, position in enumerate(positions):
+            if helpers is not None and self._spreads(point.depth, len(positions) - place, helpers.width):
+                yield from self._spread(point, node, used, stack, positions[place:], dimension)
+                return
+            child = self._specialised(node, point.depth, used, stack.texts[position])
+            known = self._known(point.depth, stack, position, child)
+            if known is None:
+                below = stack.sample(position)
+                known = self.cell(below, child, stack.texts[position], dimension + (position % 2 == 0))
+            yield position, known
+
+    def _known(self, level: int, stack: SampledStack, position: int, child: Node) -> Cell | None:
+        """The cell at a position where it is not decomposed any further; ``child``: what is left of the matrix."""
         off_constraint = stack.restricted and position % 2 == 0
-        if isinstance(child, bool) and (off_constraint or self._leaves(point.depth + 1)):
-            return Cell(text, child)
+        if isinstance(child, bool) and (off_constraint or self._leaves(level + 1)):
+            return Cell(stack.texts[position], child)
         if off_constraint:
             raise InternalError("the matrix is undecided off an equational constraint")
-        return self._cell(stack.sample(position), child, text, dimension + (position % 2 == 0))
+        return None
+
+    # --- side by side ------------------------------------------------------------------------------
+    def _spreads(self, level: int, count: int, width: int) -> bool:
+        """Whether helpers lift the ``count`` cells left in a stack of this level."""
+        if self.cells < SPREAD_FROM or level >= min(SPREAD_LEVELS, len(self.plan.levels) - 1):
+            return False
+        return count >= SPREAD_WIDTH * width or level == SPREAD_LEVELS - 1
+
+    def _spread(
+        self, point: Point, node: Node, used: tuple[int, ...], stack: SampledStack, positions: list[int], dimension: int
+    ) -> Iterator[tuple[int, Cell]]:
+        """As ``_cells``, by the helpers of the budget. What they do beyond the last cell that is taken is lost."""
+        helpers = self.budget.helpers
+        assert helpers is not None
+        waiting: deque[tuple[int, Cell | None]] = deque()
+        plan = pickle.dumps(self.plan)
+
+        def calls() -> Iterator[Call[Lifted]]:
+            for position in positions:
+                text = stack.texts[position]
+                child = self._specialised(node, point.depth, used, text)
+                known = self._known(point.depth, stack, position, child)
+                waiting.append((position, known))
+                if known is None:
+                    sample, inner = stack.sample(position), dimension + (position % 2 == 0)
+                    yield partial(lifted, plan, sample, child, text, inner, self.budget.remaining(), self.budget.left())
+
+        for found in helpers.results(calls(), lambda: self.budget.check("lift", self.cells)):
+            while waiting[0][1] is not None:
+                yield cast(tuple[int, Cell], waiting.popleft())
+            self.cells, self.stacks = self.cells + found.cells, self.stacks + found.stacks
+            self.lacking.update(dict.fromkeys(found.lacking))
+            self.budget.spend(found.cells)
+            self.budget.check("lift", self.cells)
+            yield waiting.popleft()[0], found.cell
+        yield from cast(Iterable[tuple[int, Cell]], waiting)
 
     def _collect_lacking(self, point: Point, level: int, nullified: tuple[int, ...]) -> None:
-        factors = self.levels[level]
+        factors = self.plan.levels[level]
         for j in nullified:
             derivative = lazard_derivative(point, factors[j])
             if any(f.level == level and f not in factors for f, _ in derivative.factors()[1]):
@@ -178,7 +247,36 @@ def _ambiguous(cells: tuple[Cell, ...]) -> bool:
     return False
 
 
-def _visiting_order(size: int, *, sectors_only: bool) -> list[int]:
+@dataclass(frozen=True, slots=True)
+class Lifted:
+    """A cell that a helper decomposed, with what it counted."""
+
+    cell: Cell
+    cells: int
+    stacks: int
+    lacking: tuple[Poly, ...]
+
+
+def lifted(
+    plan: bytes, point: Point, node: Node, signs: str, dimension: int, seconds: float | None, work: int | None
+) -> Lifted:
+    """The cell whose sample is ``point``, decomposed by itself: what a helper is asked for.
+
+    Raises ``NotWellOriented``, ``BudgetExceeded``.
+    """
+    lifter = Lifter(_plan(plan), Budget(seconds, work))
+    cell = lifter.cell(point, node, signs, dimension)
+    return Lifted(cell, lifter.cells, lifter.stacks, tuple(lifter.lacking))
+
+
+@lru_cache(maxsize=4)
+def _plan(written: bytes) -> Plan:
+    plan = pickle.loads(written)
+    assert isinstance(plan, Plan)
+    return plan
+
+
+def _visiting_order(size: int, sectors_only: bool) -> list[int]:
     """Sectors first (rational samples are cheap), middle ones first, then sections likewise."""
     middle = size // 2
     positions = range(0, size, 2) if sectors_only else range(size)

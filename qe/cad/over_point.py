@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from qe.cad.lifting import Lifter, sector_levels
+from qe.cad.lifting import Lifter, Plan, sector_levels
 from qe.cad.matrix import compile_matrix, specialise
 from qe.cad.projection import factor_lists
 from qe.exact.ring import Ring
@@ -34,7 +34,7 @@ def over_point(matrix: Formula, order: tuple[str, ...], free: int, *, budget: Bu
     places = {f: (k, j) for k, level in enumerate(lists) for j, f in enumerate(level)}
     node = compile_matrix(matrix, places)
     quantifiers = ("",) * free + ("E",) * (len(order) - free)
-    lifter = Lifter(lists, quantifiers, Projection.LAZARD, budget, sector_levels(matrix, quantifiers))
+    lifter = Lifter(Plan(lists, quantifiers, Projection.LAZARD, sector_levels(matrix, quantifiers)), budget)
 
     def decide(point: Point) -> bool:
         here = node

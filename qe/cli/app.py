@@ -42,6 +42,10 @@ MethodOption = Annotated[Method, typer.Option("--method", help="Elimination meth
 Order = Annotated[str | None, typer.Option("--order", help="Variable order, as in x,y,z.")]
 Timeout = Annotated[float | None, typer.Option("--timeout", help="Seconds; enforced.")]
 Memory = Annotated[int | None, typer.Option("--memory", help="MiB of address space; enforced.")]
+Workers = Annotated[int, typer.Option("--workers", help="Processes on this machine for long decompositions.")]
+ClusterAddress = Annotated[
+    str | None, typer.Option("--cluster", metavar="ADDRESS", help="Dask scheduler whose workers take part.")
+]
 CertificateFile = Annotated[Path | None, typer.Option("--certificate", help="Write the certificate to this file.")]
 PictureFile = Annotated[
     Path | None, typer.Option("--plot", help="Draw the region to this file (.png, .pdf, .svg; .html: turnable).")
@@ -82,6 +86,8 @@ def eliminate(
     certificate: CertificateFile = None,
     root_atoms: RootAtoms = False,
     total_division: TotalDivision = False,
+    workers: Workers = 0,
+    cluster: ClusterAddress = None,
     explain: Explain = False,
     json: Json = False,
     plain: Plain = False,
@@ -91,6 +97,7 @@ def eliminate(
 
     asked = request(formula, format, timeout, memory, certificate, json, total_division)
     asked = replace(asked, method=method.value, order=names(order), root_atoms=root_atoms)
+    asked = replace(asked, workers=workers, cluster=cluster)
     work = partial(cli_work.eliminate, request=asked, output=output)
     reply = limited(work, timeout=timeout, memory=memory, plain=plain)
     return deliver(reply, {"certificate": certificate}, explain=explain)
@@ -105,6 +112,8 @@ def decide(
     memory: Memory = None,
     certificate: CertificateFile = None,
     total_division: TotalDivision = False,
+    workers: Workers = 0,
+    cluster: ClusterAddress = None,
     explain: Explain = False,
     json: Json = False,
     plain: Plain = False,
@@ -112,7 +121,8 @@ def decide(
     """Print true or false for a sentence, sat or unsat for an SMT-LIB script."""
     from qe.cli import work as cli_work
 
-    asked = replace(request(formula, format, timeout, memory, certificate, json, total_division), method=method.value)
+    asked = request(formula, format, timeout, memory, certificate, json, total_division)
+    asked = replace(asked, method=method.value, workers=workers, cluster=cluster)
     reply = limited(partial(cli_work.decide, request=asked), timeout=timeout, memory=memory, plain=plain)
     return deliver(reply, {"certificate": certificate}, explain=explain)
 

@@ -44,6 +44,8 @@ class Request:
     root_atoms: bool = False
     certificate: bool = False
     json: bool = False
+    workers: int = 0
+    cluster: str | None = None
 
     def keywords(self, channel: Channel) -> dict[str, Any]:
         """The keywords for a call of the public functions; the memory limit is the worker's own."""
@@ -54,6 +56,8 @@ class Request:
             "progress": channel.event,
             "root_atoms": self.root_atoms,
             "check": self.certificate,
+            "workers": self.workers,
+            "cluster": self.cluster,
         }
 
 

@@ -25,6 +25,7 @@ ROWS = {
     "qe.portable": 0,
     "qe.worker": 0,
     "qe.execution": 0,
+    "qe.cluster": 0,
     "qe.exact": 1,
     "qe.formula": 2,
     "qe.io": 2,
