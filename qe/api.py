@@ -75,6 +75,7 @@ def eliminate(
     process: bool = True,
     workers: int = 0,
     cluster: str | None = None,
+    race: Iterable[str | Method] | str | Method = (),
 ) -> Answer:
     """Quantifier elimination over the reals: an equivalent quantifier-free formula.
 
@@ -90,18 +91,26 @@ def eliminate(
     stderr how the answer was found (``Answer.explanation`` holds the same text); ``without`` leaves stages of the
     engine out (``qe.Stage``), to measure what they gain. With ``workers`` (processes on this machine) or ``cluster``
     (the address of a Dask scheduler) the cells of long decompositions are lifted side by side; the answer and its
-    certificate are the same as without. Raises ``InputError`` for input that cannot be read.
+    certificate are the same as without. ``race`` names methods that try side by side, each in a process of its own;
+    the answer is the first one, and which that is may differ from run to run. Raises ``InputError`` for input that
+    cannot be read.
     """
     start = time.monotonic()
     explain, check = arguments.flag(explain, "explain"), arguments.flag(check, "check")
     limits = _limits(timeout, memory, progress, process).begun(start)
     options = _options(method, order, root_atoms, without, progress).with_(certify=check)
+    helpers, racing = cluster_of(workers, cluster), arguments.members(race, Method, "race")
+    if racing and (helpers is not None or options.method is not Method.AUTO or not limits.process):
+        raise InputError("race: cannot go with method, workers, cluster or process=False")
     try:
         given = _read(formula, format, limits)
     except BudgetExceeded as error:
         return Answer(Status.UNABLE, None, reason=str(error))
     _check_order(options.order, given)
-    answer = _limited(given, options, limits, check, cluster_of(workers, cluster))
+    if racing:
+        answer = _raced(given, options, limits, check, racing)
+    else:
+        answer = _limited(given, options, limits, check, helpers)
     if explain:
         print(answer.explanation or answer.reason, file=sys.stderr)
     return answer
@@ -145,6 +154,19 @@ def _limited(formula: Formula, options: Options, limits: Limits, check: bool, cl
 
     try:
         return _performed(work, formula, limits, at_once=cluster is not None)
+    except Unable as error:
+        return Answer(Status.UNABLE, None, reason=str(error), question=formula)
+
+
+def _raced(formula: Formula, options: Options, limits: Limits, check: bool, methods: Iterable[Method]) -> Answer:
+    """The first answer that one of the methods has."""
+    from qe.api_race import raced
+
+    def asked(method: Method, budget: Budget) -> Answer:
+        return _answer(formula, options.with_(method=method, progress=budget.listener), budget, check)
+
+    try:
+        return _performed(lambda budgets: raced(asked, methods, budgets()), formula, limits, at_once=True)
     except Unable as error:
         return Answer(Status.UNABLE, None, reason=str(error), question=formula)
 

@@ -273,7 +273,7 @@ class Worker:
         try:
             signal.pthread_sigmask(signal.SIG_SETMASK, self.mask)
             deadline = None if self.timeout is None else self.start + self.timeout + self.grace
-            inbox = _Inbox(self.reading)
+            inbox = Inbox(self.reading)
             outcome = _follow(inbox, known, progress, deadline)
             if outcome is None and inbox.closed:
                 _, status = os.waitpid(self.pid, 0)
@@ -324,7 +324,7 @@ def _lower(which: int, value: int) -> None:
     resource.setrlimit(which, (min(bounds), hard))
 
 
-class _Inbox:
+class Inbox:
     """The parent's end of the pipe: whole messages out of a stream of bytes."""
 
     def __init__(self, descriptor: int) -> None:
@@ -359,7 +359,7 @@ class _Inbox:
         return out
 
 
-def _follow(inbox: _Inbox, known: Known, progress: Listener, deadline: float | None) -> tuple[str, object] | None:
+def _follow(inbox: Inbox, known: Known, progress: Listener, deadline: float | None) -> tuple[str, object] | None:
     """Take messages until the outcome, the end of the stream, or the deadline (None for the last two)."""
     while not inbox.closed:
         left = None if deadline is None else deadline - time.monotonic()

@@ -46,6 +46,10 @@ Workers = Annotated[int, typer.Option("--workers", help="Processes on this machi
 ClusterAddress = Annotated[
     str | None, typer.Option("--cluster", metavar="ADDRESS", help="Dask scheduler whose workers take part.")
 ]
+Race = Annotated[
+    str | None,
+    typer.Option("--race", metavar="METHODS", help="Methods side by side, as in auto,cad."),
+]
 CertificateFile = Annotated[Path | None, typer.Option("--certificate", help="Write the certificate to this file.")]
 PictureFile = Annotated[
     Path | None, typer.Option("--plot", help="Draw the region to this file (.png, .pdf, .svg; .html: turnable).")
@@ -88,6 +92,7 @@ def eliminate(
     total_division: TotalDivision = False,
     workers: Workers = 0,
     cluster: ClusterAddress = None,
+    race: Race = None,
     explain: Explain = False,
     json: Json = False,
     plain: Plain = False,
@@ -97,7 +102,7 @@ def eliminate(
 
     asked = request(formula, format, timeout, memory, certificate, json, total_division)
     asked = replace(asked, method=method.value, order=names(order), root_atoms=root_atoms)
-    asked = replace(asked, workers=workers, cluster=cluster)
+    asked = replace(asked, workers=workers, cluster=cluster, race=names(race) or ())
     work = partial(cli_work.eliminate, request=asked, output=output)
     reply = limited(work, timeout=timeout, memory=memory, plain=plain)
     return deliver(reply, {"certificate": certificate}, explain=explain)
@@ -114,6 +119,7 @@ def decide(
     total_division: TotalDivision = False,
     workers: Workers = 0,
     cluster: ClusterAddress = None,
+    race: Race = None,
     explain: Explain = False,
     json: Json = False,
     plain: Plain = False,
@@ -122,7 +128,7 @@ def decide(
     from qe.cli import work as cli_work
 
     asked = request(formula, format, timeout, memory, certificate, json, total_division)
-    asked = replace(asked, method=method.value, workers=workers, cluster=cluster)
+    asked = replace(asked, method=method.value, workers=workers, cluster=cluster, race=names(race) or ())
     reply = limited(partial(cli_work.decide, request=asked), timeout=timeout, memory=memory, plain=plain)
     return deliver(reply, {"certificate": certificate}, explain=explain)
 

@@ -46,6 +46,7 @@ class Request:
     json: bool = False
     workers: int = 0
     cluster: str | None = None
+    race: tuple[str, ...] = ()
 
     def keywords(self, channel: Channel) -> dict[str, Any]:
         """The keywords for a call of the public functions; the memory limit is the worker's own."""
@@ -58,6 +59,7 @@ class Request:
             "check": self.certificate,
             "workers": self.workers,
             "cluster": self.cluster,
+            "race": self.race,
         }
 
 

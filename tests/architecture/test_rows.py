@@ -26,6 +26,7 @@ ROWS = {
     "qe.worker": 0,
     "qe.execution": 0,
     "qe.cluster": 0,
+    "qe.racing": 0,
     "qe.exact": 1,
     "qe.formula": 2,
     "qe.io": 2,
