@@ -26,6 +26,7 @@ class Method(Enum):
     CONVEX = "convex"
     WITNESS = "witness"
     CGS = "cgs"
+    COVERINGS = "coverings"
 
 
 class Projection(Enum):

@@ -68,7 +68,7 @@ def check_closure(
                 if projection is Projection.LAZARD:
                     _trailing(lists, f, k, i)
                 if i in own:
-                    found[i] = _covered(lists, _discriminant(lists, f, k, i), k, i, "discriminant")
+                    found[i] = _covered(lists, checked_discriminant(lists, f, k, i), k, i, "discriminant")
                 for j in range(i):
                     budget.check("verify")
                     if i in core or j in core:
@@ -111,7 +111,8 @@ def _trailing(lists: FactorLists, f: Poly, k: int, i: int) -> None:
         _covered(lists, trailing, k, i, "trailing coefficient")
 
 
-def _discriminant(lists: FactorLists, f: Poly, k: int, i: int) -> Poly:
+def checked_discriminant(lists: FactorLists, f: Poly, k: int, i: int) -> Poly:
+    """The discriminant with respect to variable k, compared with its second computation."""
     n = f.degree(k)
     if n == 1:
         return lists.ring.constant(1)

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 
 from qe.certify.alternatives import check_alternatives
 from qe.certify.block import check_block
+from qe.certify.covering import check_covering
 from qe.certify.degree_shift import check_degree_shift
 from qe.certify.elimination_set import check_elimination_set
 from qe.certify.independent_parts import check_independent_parts
@@ -49,6 +50,7 @@ RULES: Mapping[str, Check] = {
     "cells": check_table,
     "shorter": check_table,
     "constant": check_table,
+    "covering": check_covering,
     "convex": check_sentence,
     "point or multipliers": check_sentence,
 }

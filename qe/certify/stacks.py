@@ -184,7 +184,7 @@ class StackChecker:
             discriminant = sign(self.closure.discriminants[k][i], sample.signs)
             if not discriminant and f.degree != self.lists.lists[k][i].degree(k):
                 discriminant = None  # it is zero because the degree drops, which says nothing about multiple roots
-        simple = _check_roots(f, signs, at, listed, discriminant, lambda e, r: fail(e, f"factor {i}: {r}"))
+        simple = check_roots(f, signs, at, listed, discriminant, lambda e, r: fail(e, f"factor {i}: {r}"))
         return Branch(i, f, signs, nullified, simple)
 
     def _allow_nullified(self, i: int, sample: Sample, fail: Fail) -> None:
@@ -235,13 +235,7 @@ class StackChecker:
                 return True  # a common root exists, and the polynomial of degree 1 has only this one
             if f.shares_root(g, ends[0][0], ends[1][0]):
                 return True
-        common = f.gcd(g)
-        if common.degree < 1:
-            return False
-        low, high = common.signs(ends)
-        if low * high >= 0:
-            low, high = common.squarefree().signs(ends)
-        return low * high < 0
+        return have_common_root(f, g, sample.point, ends)
 
     def _resultant_zero(self, a: Branch, b: Branch, sample: Sample) -> bool:
         """Whether the resultant is zero on the cell for a reason other than two vanishing leading coefficients."""
@@ -267,6 +261,19 @@ class StackChecker:
         raise fail(f"sections[{j}]", "its root could not be represented")
 
 
+def have_common_root(f: Fibre, g: Fibre, point: Point, ends: Values) -> bool:
+    """Whether two polynomials over the point, each with one root between two numbers, have it in common."""
+    if isinstance(f, RationalFibre) != isinstance(g, RationalFibre):
+        f, g = lift_up(f, point), lift_up(g, point)
+    common = f.gcd(g)  # type: ignore[arg-type]
+    if common.degree < 1:
+        return False
+    low, high = common.signs(ends)
+    if low * high >= 0:
+        low, high = common.squarefree().signs(ends)
+    return low * high < 0
+
+
 def _check_shape(stack: Stack, factors: int, last: bool, fail: Fail) -> None:
     used = stack.used
     if any(a >= b for a, b in pairwise(used)) or (used and not 0 <= used[0] <= used[-1] < factors):
@@ -288,7 +295,7 @@ def _check_shape(stack: Stack, factors: int, last: bool, fail: Fail) -> None:
             raise fail(f"sections[{j}]", "not a nonempty ascending list of used factors")
 
 
-def _check_roots(
+def check_roots(
     f: Simple, signs: list[int], at: Values, listed: list[int], discriminant: int | None, fail: Fail
 ) -> Simple | None:
     """The listed sections hold exactly one root of f each and there are no others.
@@ -307,7 +314,7 @@ def _check_roots(
         return f
     if discriminant == 0:
         simple = f.derivative() if f.degree == 2 and not isinstance(f, SimplePart) else f.squarefree()
-        return _check_roots(simple, simple.signs(at), at, listed, None, fail) or simple
+        return check_roots(simple, simple.signs(at), at, listed, None, fail) or simple
     if changes == listed:
         missing = _distinct_roots(f, len(changes), discriminant) - len(changes)
         if missing:
@@ -316,7 +323,7 @@ def _check_roots(
     simple = f if discriminant else f.squarefree()
     if simple.degree == f.degree:
         raise fail(f"sections[{next(j for j in listed if j not in changes)}]", "it has no root here")
-    return _check_roots(simple, simple.signs(at), at, listed, None, fail) or simple
+    return check_roots(simple, simple.signs(at), at, listed, None, fail) or simple
 
 
 def _distinct_roots(f: Simple, seen: int, discriminant: int | None) -> int:

@@ -26,6 +26,7 @@ METHODS = {
     "convex": ("qe.elimination.convex", "ConvexOptimisation"),
     "witness": ("qe.elimination.witness", "PolynomialWitnesses"),
     "cgs": ("qe.elimination.cgs", "ComprehensiveGroebner"),
+    "coverings": ("qe.elimination.coverings", "Coverings"),
     "only asked to be no root": ("qe.elimination.nonzero", "OnlyNonzero"),
     "infinity first": ("qe.elimination.vs.infinity_first", "InfinityFirst"),
 }
@@ -40,6 +41,7 @@ SPOKEN = {
     "convex": "convex optimisation alone",
     "witness": "the search for witnesses alone",
     "cgs": "elimination by comprehensive Gröbner systems alone",
+    "coverings": "coverings alone",
     "infinity first": "looking at infinity alone",
 }
 """What a method is called where it does not suffice, if not by its name."""
@@ -124,6 +126,7 @@ STRATEGY: tuple[Attempt, ...] = (
     Attempt(Scope.INNER, "critical", on.never),
     Attempt(Scope.BLOCK, "cgs", on.never),
     Attempt(Scope.INNER, "cgs", on.never),
+    Attempt(Scope.BLOCK, "coverings", on.never),
     Attempt(Scope.NESTED, "cad", on.complete),
 )
 

@@ -66,6 +66,16 @@ class Isolation:
         section = self.sections[half]
         return self.point.extend(section.value, tuple(self.polys[j] for j in section.members))
 
+    def place_of(self, q: Fraction) -> tuple[int, bool]:
+        """How many sections lie below a rational number, and whether the next one is that number."""
+        number, below = fmpq(q.numerator, q.denominator), 0
+        for section in self.sections:
+            side = _compared(section.value, number)
+            if side >= 0:
+                return below, side == 0
+            below += 1
+        return below, False
+
     def sign_maps(self) -> list[dict[Poly, int]]:
         """The signs of the polynomials on every cell, from below."""
         value = {"+": 1, "-": -1, "0": 0}

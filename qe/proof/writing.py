@@ -41,6 +41,7 @@ RULES: Mapping[str, str] = {
     "(Collins 1975; Collins, Hong 1991).",
     "critical values": "The truth of a block over bounded fibres changes only at critical values.",
     "degenerate truth set": "A convex truth set without interior points lies on a hyperplane.",
+    "covering": "Intervals on each of which the formula is false cover the line, over a sample and near it.",
     "convex": "A convex set has a point, or multipliers combine its conditions to a contradiction.",
     "point or multipliers": "A universal sentence is false if it fails at a point, and true if its negation has none.",
     "witness in the parameters": "Polynomials in the universal variables satisfy the inner blocks.",

@@ -11,6 +11,7 @@ from qe.cli.app import app
 OWN = {
     qe.Method.CONVEX: ("ex x, y. x^2 + y^2 <= 1 and x + y >= 1", "true"),
     qe.Method.WITNESS: ("all a. ex x. (x - a)^2 <= 0", "true"),
+    qe.Method.COVERINGS: ("ex x, y. x^2 + y^2 < 1 and x*y > 1", "false"),
     qe.Method.CGS: ("ex x. x^2 = a and x > b", "a >= 0 and (b < 0 or b^2 < a)"),
 }
 """Questions for methods that take problems of one kind only."""

@@ -1,0 +1,1 @@
+"""Cylindrical algebraic coverings: existential sentences decided by intervals that overlap, one sample at a time."""

@@ -1,0 +1,236 @@
+"""Coverings are checked by separate code: each side condition of the theorem, each entry, and claims that are false."""
+
+from __future__ import annotations
+
+import copy
+import random
+from collections.abc import Iterable, Iterator
+from typing import Any
+
+import pytest
+
+import qe
+from qe.certify.covering import check_covering
+from qe.certify.derivation import limits_of
+from qe.certify.registry import RULES
+from qe.certify.step import Claim
+from qe.certify.verify import check_certificate
+from qe.coverings import cover
+from qe.coverings.cover import Cover, Search
+from qe.coverings.evidence import evidence
+from qe.engine.proving import Prover
+from qe.errors import CertificateRejected, InternalError, NotWellOriented, Unable
+from qe.exact.ring import Poly, Ring
+from qe.formula.build import convert, exists, forall
+from qe.formula.normal import nnf
+from qe.formula.syntax import FALSE, TRUE, And, Atom, Constant, Formula, Or
+from qe.io import formats
+from qe.options import Budget, Options
+from qe.proof.entry import Entry
+from tests.unit.coverings.test_cover import random_body
+
+BODIES = [
+    "x^2 + y^2 < 1 and x*y > 1",
+    "x^2 + y^2 + z^2 < 1 and x + y + z > 2",
+    "(x^2 - 2)*(y^2 - x) = 0 and x^2 + y^2 < 1 and y^3 > 1/2 and x > 1",
+    "x^2 = 2 and y^2 = x and x*y > 3",
+    "x^3 + y^3 + z^3 = x*y*z + 1 and x^2 + y^2 + z^2 < 1/4",
+    "x*y > 1 and (x + y < 0 or x*y < 1/2) and (x > 0 or y > 0)",
+]
+
+
+def proof(body: Formula, order: tuple[str, ...]) -> dict[str, Any]:
+    """The evidence as it stands in a certificate."""
+    assert body.ring is not None
+    ring = Ring.of(order)
+    found = Search(convert(body, ring), ring, Budget(None, 20_000)).run()
+    assert isinstance(found, Cover)
+    return Prover(body.ring, Options(), Budget())._plain(evidence(found))
+
+
+def verdict(body: Formula, given: object, after: Formula = FALSE) -> str:
+    """Empty where the checker accepts that the body has no solution."""
+    ring = body.ring
+    assert ring is not None
+    entry = Entry(given, "evidence")  # type: ignore[arg-type]
+    claim = Claim("covering", exists(ring.names, body), after, ring, entry, "step")
+    try:
+        check_covering(claim, (), limits_of(Budget(60), RULES, check_certificate))
+    except CertificateRejected as error:
+        return str(error)
+    return ""
+
+
+def read(text: str) -> Formula:
+    return nnf(formats.read(text, "text"))
+
+
+@pytest.mark.parametrize("text", BODIES)
+def test_coverings_are_accepted(text: str) -> None:
+    body = read(text)
+    assert verdict(body, proof(body, body.free)) == ""
+    assert verdict(body, proof(body, body.free[::-1])) == ""
+
+
+@pytest.mark.parametrize("seed", range(80))
+def test_coverings_of_random_bodies_are_accepted(seed: int) -> None:
+    body = random_body(random.Random(seed))
+    if body.ring is None or (body.is_quantifier_free and not body.free):
+        return
+    try:
+        given = proof(body, body.free)
+    except (NotWellOriented, AssertionError, Unable):
+        return
+    assert verdict(body, given) == ""
+
+
+def test_an_answer_by_coverings_is_checked() -> None:
+    for text, truth in ((BODIES[1], "false"), (BODIES[0], "false")):
+        body = read(text)
+        for formula, expected in (
+            (exists(body.free, body), truth),
+            (forall(body.free, nnf(body, negate=True)), "true"),
+        ):
+            answer = qe.eliminate(formula, method="coverings", check=True, process=False)
+            assert str(answer.formula) == expected and answer.guarantee is qe.Guarantee.CHECKED
+            assert [step.rule for step in answer.derivation.steps if step.rule == "covering"]
+
+
+# --- the evidence altered -----------------------------------------------------------------------------
+def places(value: object, path: tuple[object, ...] = ()) -> Iterator[tuple[object, ...]]:
+    if isinstance(value, dict | list):
+        for key, part in value.items() if isinstance(value, dict) else enumerate(value):
+            yield (*path, key)
+            yield from places(part, (*path, key))
+
+
+def altered(given: Any, path: tuple[Any, ...], rng: random.Random) -> Any:
+    found = copy.deepcopy(given)
+    part = found
+    for key in path[:-1]:
+        part = part[key]
+    old, key = part[path[-1]], path[-1]
+    if isinstance(old, bool) or old is None:
+        part[key] = rng.choice([0, 1])
+    elif isinstance(old, int):
+        part[key] = old + rng.choice([-1, 1, 2])
+    elif isinstance(old, str):
+        part[key] = rng.choice(["0", "-1/2", "x", "x - y", "17", ""])
+    elif isinstance(old, list) and old:
+        change = rng.choice(["pop", "reverse", "repeat"])
+        if change == "repeat":
+            old.append(old[0])
+        else:
+            getattr(old, change)()
+    elif isinstance(old, dict):
+        old.pop(rng.choice(sorted(old)))
+    else:
+        part[key] = [0]
+    return found
+
+
+@pytest.mark.parametrize("text", BODIES[:4])
+def test_altered_evidence_never_proves_more(text: str) -> None:
+    """Rejected, or still a proof of this claim: the same evidence never serves for a body with solutions."""
+    body, rng = read(text), random.Random(text)
+    given = proof(body, body.free)
+    listed = list(places(given))
+    satisfiable = [f for f in relaxed(body) if qe.eliminate(exists(f.free, f), process=False).truth]
+    rejected = 0
+    for path in rng.sample(listed, min(len(listed), 60)):
+        changed = altered(given, path, rng)
+        rejected += bool(verdict(body, changed))
+        for weaker in satisfiable[:3]:
+            assert verdict(weaker, changed)
+    assert rejected > 30
+
+
+def relaxed(body: Formula) -> list[Formula]:
+    """The body with one of its parts left out, or with one atom negated."""
+    if not isinstance(body, And | Or):
+        return []
+    found: list[Formula] = []
+    for k, arg in enumerate(body.args):
+        rest = [*body.args[:k], *body.args[k + 1 :]]
+        for other in (nnf(arg, negate=True), TRUE):
+            parts = tuple(p for p in (*rest, other) if p != TRUE)
+            found.append(parts[0] if len(parts) == 1 else type(body)(parts))
+    return [f for f in found if isinstance(f, And | Or | Atom) and set(f.free) == set(body.free)]
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_evidence_for_one_body_proves_no_satisfiable_other(seed: int) -> None:
+    body = random_body(random.Random(1000 + seed))
+    try:
+        given = proof(body, body.free)
+    except (NotWellOriented, AssertionError, Unable):
+        return
+    for other in relaxed(body):
+        if verdict(other, given) == "":
+            assert qe.eliminate(exists(other.free, other), method="cad", process=False).truth is False
+
+
+# --- producers that forget a side condition ----------------------------------------------------------
+def projected(polys: Iterable[Poly], level: int) -> Iterator[tuple[str, Poly]]:
+    listed = list(polys)
+    for i, f in enumerate(listed):
+        yield "leading coefficient", f.leading(level)
+        if f.degree(level) > 1:
+            yield "discriminant", f.discriminant(level)
+        yield from (("resultant", f.resultant(g, level)) for g in listed[:i])
+
+
+@pytest.mark.parametrize("left_out", ["leading coefficient", "discriminant", "resultant"])
+def test_a_projection_without_a_part_is_rejected(left_out: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    def project(polys: Iterable[Poly], level: int, operator: object) -> Iterator[Poly]:
+        return (p for kind, p in projected(polys, level) if kind != left_out)
+
+    monkeypatch.setattr(cover, "project", project)
+    assert any_rejected()
+
+
+def test_neighbours_without_their_resultant_are_rejected(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(cover, "pairwise", lambda intervals: ())
+    assert any_rejected()
+
+
+def test_factors_of_lower_level_that_are_forgotten_are_rejected(monkeypatch: pytest.MonkeyPatch) -> None:
+    whole = cover.characterization
+
+    def without(found: Cover) -> object:
+        for interval in found.intervals:
+            object.__setattr__(interval, "below", ())  # what the atoms say about the lines below
+        return whole(found)
+
+    monkeypatch.setattr(cover, "characterization", without)
+    assert any_rejected()
+
+
+def any_rejected() -> bool:
+    """Whether the checker rejects what the producer makes of some of many bodies."""
+    bodies = [read(text) for text in BODIES] + [random_body(random.Random(seed)) for seed in range(200, 260)]
+    for body in (b for b in bodies if not isinstance(b, Constant)):
+        try:
+            given = proof(body, body.free)
+        except (NotWellOriented, AssertionError, Unable, InternalError):
+            continue
+        if verdict(body, given):
+            return True
+    return False
+
+
+@pytest.mark.parametrize(
+    ("before", "after", "message"),
+    [
+        ("ex x, y. x^2 + y^2 < 1 and x*y > 1", TRUE, "without solutions"),
+        ("ex x. x^2 + y^2 < 1 and x*y > 1", FALSE, "each once"),
+        ("x^2 + y^2 < 1 and x*y > 1", FALSE, "without solutions"),
+    ],
+)
+def test_only_closed_blocks_without_solutions_are_proved(before: str, after: Formula, message: str) -> None:
+    body, formula = read(BODIES[0]), formats.read(before, "text")
+    given = proof(body, body.free)
+    assert formula.ring is not None
+    claim = Claim("covering", formula, after, formula.ring, Entry(given, "evidence"), "step")
+    with pytest.raises(CertificateRejected, match=message):
+        check_covering(claim, (), limits_of(Budget(60), RULES, check_certificate))
