@@ -12,7 +12,7 @@ from qe.formula.evaluate import holds_at
 from qe.formula.syntax import And, Atom, Formula, Not, Or, RootAtom
 from qe.formula.traverse import subformulas
 from tests.strategies import NAMES, formulas, points
-from tests.unit.certify.claims import objection
+from tests.unit.certify.claims import formula, objection
 
 
 @pytest.mark.parametrize(
@@ -45,6 +45,14 @@ def test_other_formulas_are_no_negation_normal_form(before: str, after: str) -> 
     assert "different negation normal forms" in objection("duality", before, after)
 
 
+def test_quantifiers_change_with_an_odd_number_of_negations() -> None:
+    some, every = formula("ex x. x > a"), formula("all x. x > a")
+    assert (normal(some), normal(every)) == (some, every)
+    assert negation(some) == formula("all x. x <= a")
+    assert negation(every) == formula("ex x. x <= a")
+    assert normal(Not(Not(every))) == every
+
+
 def test_there_is_no_evidence_to_give() -> None:
     assert objection("duality", "a > 0", "a > 0", {"theory": 1})
 
@@ -53,7 +61,9 @@ XY = NAMES[:2]
 
 
 @given(formulas(names=XY, root_atoms=True), points(XY))
-def test_the_negation_has_the_other_truth_and_no_negation_but_before_root_atoms(formula: Formula, point: dict[str, Fraction]) -> None:
+def test_the_negation_has_the_other_truth_and_no_negation_but_before_root_atoms(
+    formula: Formula, point: dict[str, Fraction]
+) -> None:
     assert holds_at(negation(formula), point) is not holds_at(formula, point)
     assert holds_at(normal(formula), point) is holds_at(formula, point)
     for part in subformulas(negation(formula)):

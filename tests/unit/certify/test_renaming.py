@@ -39,6 +39,11 @@ def test_what_an_idle_quantifier_held_apart_joins_its_neighbours(idle: type[Exis
         ("ex x. x > root(1, x^2 - a)", "ex y. y > root(1, y^2 - a)", True),
         ("ex x. x > root(1, x^2 - a)", "ex y. y > root(2, y^2 - a)", False),
         ("ex x. x > root(1, x^2 - a)", "ex y. y > root(1, y^2 - b)", False),
+        (
+            "ex x, y. all z. ex a, b. z^2 < x + y + a + b",
+            "ex x, y. all z. ex a, b. b^2 < x + y + a + z",
+            False,  # every bound variable has a number of its own
+        ),
         ("x > 0", "y > 0", False),
         ("a > 0 and b > 0", "a > 0 or b > 0", False),
         ("not (a > 0 and b > 0)", "a > 0 and b > 0", False),
