@@ -43,6 +43,7 @@ def test_exponents_are_divided(text: str, exponent: int, after: tuple[str, ...])
         ("x^2 = a and x /= 0", 2),
         ("x^2 = a and (x > 0 or b > 0)", 2),  # it is no conjunct
         ("x^2 = a or x > 0", 2),
+        ("x^2 = a and b*x > 0", 2),  # the sign of x is not known
         ("x^2 = 4 and x < root(1, x^2 - a)", 2),
         ("x^3 = 8 and x < root(1, x^3 - a)", 3),
         ("x^2 = a and y > root(1, y^2 - x)", 2),
