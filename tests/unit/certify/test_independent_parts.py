@@ -56,6 +56,7 @@ def test_a_part_solved_together_with_what_holds_beside() -> None:
         (BLOCK, ANSWER, [X, Y, piece("a > 0")], "share a variable"),  # no variable of the block
         (BLOCK, ANSWER, [X, Y, piece("y > 7")], "share a variable"),
         ("ex x, y. x = a and y > x and y = c and a > 0", "a > 0", [piece("x = a"), piece("y > x and y = c")], "share"),
+        (BLOCK, f"{ANSWER} and (ex y. y > 7)", [X, piece("y = c and y^3 < b and y > 7")], "not made of conjuncts"),
         (BLOCK.replace("ex", "all"), ANSWER, [X, Y], "existential block"),
         (BLOCK, "false", [X, Y], "not the conjunction"),
     ],
@@ -76,3 +77,15 @@ def test_only_what_was_known_is_taken_away_again() -> None:
     before = "ex x. c > 0 and (x > a or c > 0)"
     one = step("simplification", "ex x. c > 0 and (x > a or c > 0)", "c > 0", {"theory": NO_LEMMAS})
     assert objection(RULE, before, "c > 0", {"pieces": [piece("x > a or c > 0", one, together=True)]}) == ""
+
+
+def test_one_part_of_all_conjuncts() -> None:
+    assert objection(RULE, "ex x. x = a and x > b", "a > b", {"pieces": [X]}) == ""
+
+
+def test_what_was_known_is_true_inside_a_part() -> None:
+    """c > 0 stands beside, so that of "c > 0 or a > b" nothing is left."""
+    before = "ex x. c > 0 and x = a and (c > 0 or x > b)"
+    one = solved("c > 0 and x = a and (c > 0 or x > b)", "x", "-a + x", "c > 0 and (c > 0 or a > b)")
+    evidence = {"pieces": [piece("x = a and (c > 0 or x > b)", one, together=True)]}
+    assert objection(RULE, before, "c > 0", evidence) == ""
