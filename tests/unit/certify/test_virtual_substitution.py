@@ -95,3 +95,13 @@ def test_atoms_settled_at_the_root_are_taken_there() -> None:
     right_of_zero = TestPoint((RING.constant(0), RING.constant(1)), 0, 1)
     assert put(given_, 1, right_of_zero) == atom(RING.constant(1), Relation.GT)
     assert put(given_, 1, right_of_zero, (given_,)) == atom(RING.constant(0), Relation.GT)
+
+
+def test_near_infinity_every_coefficient_counts_where_the_ones_before_vanish() -> None:
+    given_ = atom(A * X * X + (A + 1) * X - 3, Relation.LT)
+    for side, expected in ((1, {0: False, -1: True, 2: False}), (-1, {0: True, -1: True, 2: False})):
+        found = put(given_, 1, TestPoint((), 0, side))
+        for number, truth in expected.items():
+            assert specialise(found, {"a": Fraction(number)}) == atom(RING.constant(int(truth)), Relation.GT)
+    constant = put(atom(A * X - 3, Relation.LT), 1, TestPoint((), 0, 1))
+    assert specialise(constant, {"a": Fraction(0)}) == atom(RING.constant(1), Relation.GT)
