@@ -9,8 +9,8 @@ from qe.certify.turning_points import vanishing
 from qe.certify.virtual_substitution import TestPoint, put
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj
-from qe.formula.syntax import FALSE, TRUE, And, Atom, Formula, Or, Relation
-from qe.formula.traverse import conjuncts, disjuncts
+from qe.formula.syntax import FALSE, TRUE, And, Atom, Formula, Or, Relation, RootAtom
+from qe.formula.traverse import atoms, conjuncts, disjuncts
 from qe.proof.entry import Entry, formula_from_json
 
 EQ, NE, LT, GT, GE = Relation.EQ, Relation.NE, Relation.LT, Relation.GT, Relation.GE
@@ -63,6 +63,8 @@ def _tried(entry: Entry, body: Formula, original: Formula, x: int, shift: int, r
         raise guard.fail("expected a condition on the other variables")
     whole = original if where is None else body
     kept = whole if formula.value is None else formula_from_json(formula, ring)
+    if where is not None and any(isinstance(a, RootAtom) and ring.names[x] in a.free for a in atoms(kept)):
+        raise formula.fail("no test point is put into root atoms")  # the variable would be left, and mean another one
     found = Tried(where, condition, kept, frozenset(formula_from_json(s, ring) for s in settled.items()))
     _check_implication(found, whole, x, shift, formula)
     if where is not None and not _is_real(where, conj((condition, *conjuncts(kept)))):

@@ -28,8 +28,16 @@ def lowered(body: Formula, x: int, shift: int, entry: Entry) -> Formula:
     if shift % 2 == 0 and bare and not any(b in conjuncts(body) and 1 not in _below(b) for b in bare):
         raise entry.fail("the sign of the variable is asked for, and it may be negative")
 
+    ring = body.ring
+    assert ring is not None
+    name = ring.names[x]
+
     def change(found: Atom | RootAtom) -> Formula:
-        if isinstance(found, RootAtom) or _is_bare(found.poly, x):
+        if isinstance(found, RootAtom):
+            if name in found.free:
+                raise entry.fail("no shift of degrees inside root atoms")
+            return found
+        if _is_bare(found.poly, x):
             return found
         parts = found.poly.coefficients(x)
         if any(part and k % shift for k, part in enumerate(parts)):
@@ -37,8 +45,6 @@ def lowered(body: Formula, x: int, shift: int, entry: Entry) -> Formula:
         return atom(lowered_poly(found.poly, x, shift), found.relation)
 
     strict = all(a.relation.is_strict for a in with_x)
-    ring = body.ring
-    assert ring is not None
     values = () if shift % 2 else (atom(ring.gen(x), GT if strict else GE),)
     return conj((map_atoms(body, change), *values))
 

@@ -5,12 +5,12 @@ from __future__ import annotations
 import json
 import re
 import subprocess
-import sys
 from pathlib import Path
 
 import pytest
 
-BEZIER = str(Path(sys.executable).parent / "bezier")
+from tests.cli import command
+
 PROBLEM = """\
 method = "cubic"
 workspace = "ball"
@@ -22,7 +22,7 @@ radius = "sqrt(89/4)"
 
 
 def run(*arguments: object) -> subprocess.CompletedProcess[str]:
-    return subprocess.run([BEZIER, *map(str, arguments)], capture_output=True, text=True, timeout=200)
+    return command.run("bezier", *arguments, seconds=200)
 
 
 @pytest.fixture(scope="module")

@@ -1,4 +1,4 @@
-"""``bezier plan`` and ``bezier check`` for three cubic curves, through a shell."""
+"""``bezier plan`` and ``bezier check`` for three cubic curves."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The command ``bezier`` as a user runs it: through a shell, judged by files, output, message and exit status."""
+"""The command ``bezier`` as a user runs it, judged by files, output, message and exit status."""
 
 from __future__ import annotations
 
@@ -6,14 +6,14 @@ import csv
 import json
 import re
 import subprocess
-import sys
 from fractions import Fraction
 from pathlib import Path
 
 import pytest
 
-BEZIER = str(Path(sys.executable).parent / "bezier")
-QE = str(Path(sys.executable).parent / "qe")
+from tests.cli import command
+
+BEZIER, QE = "bezier", "qe"
 FILES = {"report.html", "region.json", "certificate.json", "path.csv", "path.json", "region.png", "path.png"}
 PROBLEM = """\
 method = "quadratic"
@@ -25,7 +25,7 @@ goal = ["9/2", 1, 1]
 
 
 def run(*arguments: object, program: str = BEZIER) -> subprocess.CompletedProcess[str]:
-    return subprocess.run([program, *map(str, arguments)], capture_output=True, text=True, timeout=120)
+    return command.run(program, *arguments)
 
 
 def refused(process: subprocess.CompletedProcess[str], code: int, *words: str) -> None:
@@ -41,7 +41,7 @@ def refused(process: subprocess.CompletedProcess[str], code: int, *words: str) -
 def main_example(root: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The main example with pictures, planned once."""
     out = tmp_path_factory.mktemp("plan") / "out"
-    process = run("plan", root / "examples" / "three_balls.toml", "--out", out)
+    process = command.in_a_shell(BEZIER, "plan", root / "examples" / "three_balls.toml", "--out", out)
     assert process.returncode == 0, process.stderr
     assert process.stderr == "" and "best Q1 = (0, 3, 3)" in process.stdout
     return out
@@ -77,8 +77,8 @@ def test_the_page_is_whole_and_needs_nothing_else(main_example: Path) -> None:
 
 
 def test_the_certificates_hold(main_example: Path) -> None:
-    assert run("check", main_example / "certificate.json", program=QE).returncode == 0
-    process = run("check", main_example)
+    assert command.in_a_shell(QE, "check", main_example / "certificate.json").returncode == 0
+    process = command.in_a_shell(BEZIER, "check", main_example)
     assert process.returncode == 0 and "C1 at every join" in process.stdout
 
 
@@ -221,5 +221,5 @@ def test_a_second_plan_leaves_nothing_of_the_first(root: Path, tmp_path: Path) -
 
 
 def test_help_names_the_commands() -> None:
-    text = run("--help").stdout
+    text = command.in_a_shell(BEZIER, "--help").stdout
     assert all(command in text for command in ("plan", "check", "compare"))

@@ -1,4 +1,4 @@
-"""``bezier plan`` and ``bezier check`` for Method 1, through a shell."""
+"""``bezier plan`` and ``bezier check`` for Method 1."""
 
 from __future__ import annotations
 

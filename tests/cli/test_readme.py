@@ -10,8 +10,9 @@ from pathlib import Path
 
 import pytest
 
+from tests.cli import command
+
 ROOT = Path(__file__).resolve().parents[2]
-BIN = Path(sys.executable).parent
 README = (ROOT / "README.md").read_text()
 BLOCKS = re.findall(r"```(\w*)\n(.*?)```", README, re.DOTALL)
 PYTHON = [text for language, text in BLOCKS if language == "python"]
@@ -40,9 +41,9 @@ def test_the_command_lines(folder: Path) -> None:
     """In the README's order: a later line may read what an earlier one wrote."""
     assert len(COMMANDS) >= 6
     for line in COMMANDS:
-        command, _, promised = line.partition(" # ")
-        program, *arguments = shlex.split(command)
-        process = subprocess.run([BIN / program, *arguments], cwd=folder, capture_output=True, text=True, timeout=120)
+        shown, _, promised = line.partition(" # ")
+        program, *arguments = shlex.split(shown)
+        process = command.run(program, *arguments, cwd=folder)
         assert process.returncode == 0, (line, process.stderr)
         if promised and re.search(r"[=<>]", promised):
             assert process.stdout.strip() == promised.strip()

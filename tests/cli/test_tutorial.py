@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import re
 import shlex
-import subprocess
-import sys
 from pathlib import Path
 
+from tests.cli import command
+
 ROOT = Path(__file__).resolve().parents[2]
-BIN = Path(sys.executable).parent
 TEXT = (ROOT / "docs" / "tutorial.md").read_text()
 BLOCKS = re.findall(r"```(\w+)\n(.*?)```", TEXT, re.DOTALL)
 CONSOLE = "\n".join(text for language, text in BLOCKS if language == "console")
@@ -20,13 +19,13 @@ def test_the_commands(tmp_path: Path) -> None:
     (tmp_path / "examples").symlink_to(ROOT / "examples")
     steps = [step.splitlines() for step in CONSOLE.split("$ ")[1:]]
     assert len(steps) >= 3
-    for command, *shown in steps:
-        program, *arguments = shlex.split(command)
-        done = subprocess.run([BIN / program, *arguments], cwd=tmp_path, capture_output=True, text=True, timeout=120)
-        status = next((int(line) for line in shown if line.isdigit()), 0)
-        assert done.returncode == status, (command, done.stderr)
+    for line, *shown in steps:
+        program, *arguments = shlex.split(line)
+        done = command.run(program, *arguments, cwd=tmp_path)
+        status = next((int(text) for text in shown if text.isdigit()), 0)
+        assert done.returncode == status, (line, done.stderr)
         printed = done.stdout.splitlines()
-        assert all(line in printed for line in shown if line and not line.isdigit()), (command, printed)
+        assert all(text in printed for text in shown if text and not text.isdigit()), (line, printed)
 
 
 def test_the_problem_shown_is_the_example() -> None:

@@ -91,7 +91,7 @@ def _flipped_leaves(cell: Cell) -> list[Cell]:
     return found[:6]
 
 
-@enough(15, 60, constrained(SPACE, max_degree=3), st.sampled_from(PREFIXES))
+@enough(9, 36, constrained(SPACE, max_degree=3), st.sampled_from(PREFIXES))
 def test_sentences_in_space(matrix: Formula, quantifiers: tuple[str, ...]) -> bool:
     found, plain = _decomposed(matrix, quantifiers), _decomposed(matrix, quantifiers, PLAIN)
     if found is None or plain is None:
@@ -103,7 +103,7 @@ def test_sentences_in_space(matrix: Formula, quantifiers: tuple[str, ...]) -> bo
     return True
 
 
-@enough(15, 60, constrained(PLANE, max_degree=2), st.sampled_from([("E", "E"), ("A", "A"), ("A", "E"), ("E", "A")]))
+@enough(9, 36, constrained(PLANE, max_degree=2), st.sampled_from([("E", "E"), ("A", "A"), ("A", "E"), ("E", "A")]))
 def test_sentences_in_the_plane_against_the_reference(matrix: Formula, quantifiers: tuple[str, ...]) -> bool:
     found = _decomposed(matrix, quantifiers)
     if found is None:
@@ -118,7 +118,7 @@ def test_sentences_in_the_plane_against_the_reference(matrix: Formula, quantifie
     return True
 
 
-@enough(40, 150, nested(), st.sampled_from([("E", "E"), ("A", "A"), ("A", "E"), ("E", "A")]))
+@enough(16, 60, nested(), st.sampled_from([("E", "E"), ("A", "A"), ("A", "E"), ("E", "A")]))
 def test_constraints_of_disjunctions(matrix: Formula, quantifiers: tuple[str, ...]) -> bool:
     found, plain = _decomposed(matrix, quantifiers), _decomposed(matrix, quantifiers, PLAIN)
     if found is None or plain is None:
@@ -128,7 +128,7 @@ def test_constraints_of_disjunctions(matrix: Formula, quantifiers: tuple[str, ..
     return True
 
 
-@enough(10, 40, constrained(SPACE, max_degree=2), st.sampled_from(["E", "A"]), st.sampled_from([1, 2]))
+@enough(6, 24, constrained(SPACE, max_degree=2), st.sampled_from(["E", "A"]), st.sampled_from([1, 2]))
 def test_answers_over_free_variables(matrix: Formula, kind: str, free: int) -> bool:
     """The formula agrees with the reference at rational points; also where a free level is restricted."""
     quantifiers = ("",) * free + (kind,) * (3 - free)
@@ -167,7 +167,7 @@ def _checked(formula: Formula, method: str, *, root_atoms: bool = False) -> bool
 
 
 @enough(
-    12, 40, constrained(SPACE, max_degree=2), st.sampled_from((exists, forall)), st.sampled_from((1, 2)), st.booleans()
+    7, 24, constrained(SPACE, max_degree=2), st.sampled_from((exists, forall)), st.sampled_from((1, 2)), st.booleans()
 )
 def test_checked_answers_where_a_free_level_may_have_a_constraint(
     matrix: Formula, quantify: Callable[..., Formula], free: int, root_atoms: bool

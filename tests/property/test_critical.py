@@ -68,17 +68,17 @@ def agrees(variables: tuple[str, ...], body: Formula) -> bool:
     return True
 
 
-@enough(8, 40, blocks(1, 1))
+@enough(2, 12, blocks(1, 1))
 def test_one_parameter(block: tuple[tuple[str, ...], Formula]) -> bool:
     return agrees(*block)
 
 
-@enough(5, 25, blocks(2, 1))
+@enough(3, 15, blocks(2, 1))
 def test_two_parameters(block: tuple[tuple[str, ...], Formula]) -> bool:
     return agrees(*block)
 
 
-@enough(4, 20, blocks(1, 2, extra=1))
+@enough(2, 12, blocks(1, 2, extra=1))
 def test_two_quantified_variables(block: tuple[tuple[str, ...], Formula]) -> bool:
     return agrees(*block)
 

@@ -29,7 +29,7 @@ def numbers(draw: st.DrawFn) -> RealAlgebraic:
     return draw(st.sampled_from(roots)) if roots else RealAlgebraic.rational(draw(rationals))
 
 
-@settings(max_examples=40)
+@settings(max_examples=30)
 @given(numbers(), numbers(), numbers())
 def test_field_laws(a: RealAlgebraic, b: RealAlgebraic, c: RealAlgebraic) -> None:
     assume(a.degree * b.degree * c.degree <= 12)
@@ -41,7 +41,7 @@ def test_field_laws(a: RealAlgebraic, b: RealAlgebraic, c: RealAlgebraic) -> Non
         assert (a / b) * b == a
 
 
-@settings(max_examples=60)
+@settings(max_examples=30)
 @given(numbers(), numbers(), rationals)
 def test_order(a: RealAlgebraic, b: RealAlgebraic, q: Fraction) -> None:
     assert (a < b) + (a == b) + (b < a) == 1
@@ -53,7 +53,7 @@ def test_order(a: RealAlgebraic, b: RealAlgebraic, q: Fraction) -> None:
         assert hash(a) == hash(b)
 
 
-@settings(max_examples=150)
+@settings(max_examples=60)
 @given(st.lists(integers(30), min_size=2, max_size=9))
 def test_as_many_roots_as_sturm_counts(c: list[int]) -> None:
     p = fmpz_poly(c)
@@ -80,7 +80,7 @@ polys = st.dictionaries(
 )
 
 
-@settings(max_examples=60)
+@settings(max_examples=30)
 @given(numbers(), numbers(), rationals, polys)
 def test_signs_at_algebraic_points(a: RealAlgebraic, b: RealAlgebraic, q: Fraction, terms: dict) -> None:
     assume(a.degree <= 3 and b.degree <= 2)
@@ -92,7 +92,7 @@ def test_signs_at_algebraic_points(a: RealAlgebraic, b: RealAlgebraic, q: Fracti
     assert Point.of(ring, [a, b, q]).sign(f) == exact.sign()
 
 
-@settings(max_examples=60)
+@settings(max_examples=30)
 @given(numbers(), polys, polys)
 def test_stacks_over_algebraic_points(a: RealAlgebraic, f_terms: dict, g_terms: dict) -> None:
     """Sections are roots, sector samples lie between them, and signs change only there."""

@@ -109,7 +109,7 @@ def test_other_text_is_no_polynomial_of_a_certificate(given_text: str) -> None:
     assert poly_to_text(poly) == given_text
 
 
-@settings(max_examples=15)
+@settings(max_examples=8)
 @given(triples)
 @example(("x!0", "d.g", "$in"))
 @example(("a b", "x^*", "pi"))
@@ -158,7 +158,7 @@ def test_print_formats_are_well_formed(formula: Formula) -> None:
     assert formats.write(formula, "latex").isprintable() or r"\begin{array}" in formats.write(formula, "latex")
 
 
-@settings(max_examples=30)
+@settings(max_examples=20)
 @given(named_formulas(), st.data())
 def test_sympy_keeps_names(formula: Formula, data: st.DataObject) -> None:
     again = from_sympy(to_sympy(formula))

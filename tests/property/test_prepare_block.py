@@ -60,7 +60,7 @@ def solvable(draw: st.DrawFn, ring: Ring = RING) -> tuple[Formula, tuple[Fractio
 
 
 @pytest.mark.parametrize("enabled", STEP_SETS, ids=lambda s: "+".join(sorted(k.name for k in s)))
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=30, deadline=None)
 @given(solvable(), st.lists(points, max_size=6), st.sampled_from([("x", "y"), ("a", "b", "x", "y"), ("y",)]))
 def test_nothing_is_lost_and_solutions_lift(
     enabled: frozenset[StepKind],
@@ -84,7 +84,7 @@ def test_nothing_is_lost_and_solutions_lift(
             assert holds_at(body, prepared.lift(at))
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=25, deadline=None)
 @given(solvable())
 def test_universal_blocks_lift_counterexamples(problem: tuple[Formula, tuple[Fraction, ...]]) -> None:
     body, point = problem
@@ -97,7 +97,7 @@ def test_universal_blocks_lift_counterexamples(problem: tuple[Formula, tuple[Fra
     assert not holds_at(neg(body), prepared.lift(known))
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=30, deadline=None)
 @given(solvable(), st.integers(2, 3), st.lists(points, max_size=6))
 def test_degree_shift(
     problem: tuple[Formula, tuple[Fraction, ...]], k: int, elsewhere: list[tuple[Fraction, ...]]
@@ -141,7 +141,7 @@ def homogeneous(draw: st.DrawFn) -> tuple[Formula, tuple[Fraction, ...]]:
     return conj(members), point
 
 
-@settings(max_examples=80, deadline=None)
+@settings(max_examples=40, deadline=None)
 @given(homogeneous(), st.lists(points, max_size=6))
 def test_scaling(problem: tuple[Formula, tuple[Fraction, ...]], elsewhere: list[tuple[Fraction, ...]]) -> None:
     """A body that holds at a point still holds for some value of the scaled block; what is found is a solution."""
@@ -186,7 +186,7 @@ def open_bodies(draw: st.DrawFn) -> tuple[Formula, tuple[Fraction, ...]]:
     return conj((*strict, *apart)), point
 
 
-@settings(max_examples=80, deadline=None)
+@settings(max_examples=40, deadline=None)
 @given(open_bodies(), st.lists(points, max_size=4))
 def test_inequations_in_open_bodies(
     problem: tuple[Formula, tuple[Fraction, ...]], elsewhere: list[tuple[Fraction, ...]]
@@ -203,7 +203,7 @@ def test_inequations_in_open_bodies(
             assert holds_at(body, prepared.lift(at))
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=30, deadline=None)
 @given(solvable(), st.integers(-2, 2), st.lists(points, max_size=4))
 def test_translation(
     problem: tuple[Formula, tuple[Fraction, ...]], slope: int, elsewhere: list[tuple[Fraction, ...]]

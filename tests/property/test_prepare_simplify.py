@@ -26,7 +26,7 @@ def has_negation(formula: Formula) -> bool:
     return isinstance(formula, Not) or any(has_negation(c) for c in children(formula))
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=120, deadline=None)
 @given(formulas(), st.lists(points, min_size=1, max_size=12))
 def test_equivalent_smaller_and_idempotent(formula: Formula, where: list[tuple[Fraction, ...]]) -> None:
     result = simplify(formula)
@@ -38,7 +38,7 @@ def test_equivalent_smaller_and_idempotent(formula: Formula, where: list[tuple[F
     assert simplify(result) == result
 
 
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=60, deadline=None)
 @given(formulas(), st.lists(literals(), min_size=1, max_size=3), st.lists(points, min_size=1, max_size=20))
 def test_assumptions_may_be_used_but_only_where_they_hold(
     formula: Formula, assumed: list[Formula], where: list[tuple[Fraction, ...]]
@@ -51,14 +51,14 @@ def test_assumptions_may_be_used_but_only_where_they_hold(
             assert holds(formula, point) == holds(result, point)
 
 
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=50, deadline=None)
 @given(formulas(), points)
 def test_negation_commutes(formula: Formula, values: tuple[Fraction, ...]) -> None:
     point = named(RING, values)
     assert holds(simplify(neg(formula)), point) != holds(simplify(formula), point)
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=40, deadline=None)
 @given(formulas(), st.lists(points, min_size=1, max_size=8))
 def test_bound_variables_are_not_confused_with_free_ones(formula: Formula, where: list[tuple[Fraction, ...]]) -> None:
     """``f and ex x. f`` is f: what f says about the free x must not leak into the quantifier, nor back."""
@@ -71,7 +71,7 @@ def test_bound_variables_are_not_confused_with_free_ones(formula: Formula, where
                 assert holds(part.body, point | {"x": values[2]}) if isinstance(part, Exists) else holds(part, point)
 
 
-@settings(max_examples=500, deadline=None)
+@settings(max_examples=200, deadline=None)
 @given(ranges, ranges, rationals, rationals, st.integers(1, 4))
 def test_range_arithmetic_encloses(first, second, u, v, exponent) -> None:  # type: ignore[no-untyped-def]
     a, b = reduce(meet, first, EVERYTHING), reduce(meet, second, EVERYTHING)
@@ -92,7 +92,7 @@ line_polys = st.lists(st.integers(-3, 3), min_size=2, max_size=5).map(
 line_atoms = st.builds(atom, line_polys, st.sampled_from(Relation))
 
 
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=60, deadline=None)
 @given(st.lists(line_atoms, min_size=2, max_size=4), line_atoms, st.booleans())
 def test_one_variable_at_its_roots_and_between(found: list[Formula], extra: Formula, conjunctive: bool) -> None:
     """The truth is the same at every real root of every polynomial and at rational points around them."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from fractions import Fraction
 
 import pytest
@@ -26,6 +27,7 @@ def block(text: str) -> ForAll:
     return formula
 
 
+@functools.cache
 def by_critical_values(text: str) -> Formula | None:
     return tried(block(text), 60)
 
@@ -48,7 +50,7 @@ def agree(text: str, answer: Formula, points: list[dict[str, Fraction]]) -> set[
     return seen
 
 
-GRID = [{"x": Fraction(i, 4), "y": Fraction(j, 4)} for i in range(-9, 10, 3) for j in range(-9, 10, 3)]
+GRID = [{"x": Fraction(i, 4), "y": Fraction(j, 4)} for i in range(-9, 10, 4) for j in range(-9, 10, 4)]
 DISCS = "all t. 0 <= t and t <= 1 -> (x - t)^2 + (y - t^2)^2 <= 2"
 
 

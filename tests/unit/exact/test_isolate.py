@@ -58,7 +58,7 @@ far_or_close = st.builds(lambda near, by: near + by, dyadic, st.sampled_from([Fr
 )
 
 
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=60, deadline=None)
 @given(st.sets(dyadic, max_size=4), st.sets(other | far_or_close, max_size=4))
 def test_every_root_has_its_interval(dyadic_roots: set[Fraction], others: set[Fraction]) -> None:
     check(sorted(dyadic_roots | others))

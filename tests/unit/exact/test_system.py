@@ -5,7 +5,7 @@ from __future__ import annotations
 from fractions import Fraction as F
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from qe.exact.algebraic import real_roots
@@ -25,6 +25,7 @@ def _form(poly) -> Quadratic:
     return form
 
 
+@settings(max_examples=30)
 @given(st.lists(st.integers(-30, 30), min_size=2, max_size=7).filter(lambda c: c[-1]))
 def test_roots_are_recognised_from_their_digits(coefficients) -> None:
     ring = Ring.of(("t",))
@@ -34,6 +35,7 @@ def test_roots_are_recognised_from_their_digits(coefficients) -> None:
         assert found == root
 
 
+@settings(max_examples=20)
 @given(st.lists(st.fractions(-9, 9, max_denominator=9), min_size=5, max_size=5))
 def test_elements_are_recognised_from_their_digits(coefficients) -> None:
     field = NumberField.from_root([-1, -1, 0, 0, 0, 1], 1, 2)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pickle
 from fractions import Fraction
 
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from qe.exact.ring import WIDE, Poly, Ring, format_poly
@@ -41,6 +41,7 @@ def same(small: Poly, large: Poly) -> None:
     assert format_poly(large) == format_poly(small) and large.is_constant == small.is_constant
 
 
+@settings(max_examples=25)
 @given(POLYS, POLYS, st.integers(-3, 3))
 def test_arithmetic(f, g, number):
     large, other = wide(f), wide(g)
@@ -55,6 +56,7 @@ def test_arithmetic(f, g, number):
     same(f, large + Poly(BIG, other.p) - other)  # with one that remembers nothing
 
 
+@settings(max_examples=25)
 @given(POLYS, POLYS)
 def test_algebra(f, g):
     large, other = wide(f), wide(g)
@@ -76,6 +78,7 @@ def test_algebra(f, g):
             same(a, b)
 
 
+@settings(max_examples=25)
 @given(POLYS, POLYS, st.tuples(*(RATIONALS for _ in NAMES)))
 def test_substitution(f, g, values):
     large, other = wide(f), wide(g)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import json
 from pathlib import Path
 from random import Random
@@ -23,6 +24,7 @@ VARIABLES = ["s7", "c7", "s4", "c4", "s1", "c1"]
 """In this order the bases stay small: a tenth of a second, where the reverse takes a minute."""
 
 
+@functools.cache
 def system(length: int, line: tuple[str, str, str] | None) -> qe.ComprehensiveGroebnerSystem:
     x, y, z = line or ("x", "y", "z")
     polys = [

@@ -71,10 +71,10 @@ def systems(draw: st.DrawFn) -> list[Poly]:
     return [first, second]
 
 
-POINTS = [(Fraction(a, 2), Fraction(b)) for a in (-2, 0, 1, 4) for b in (-1, 0, 3)]
+POINTS = [(Fraction(a, 2), Fraction(b)) for a in (-2, 0, 3) for b in (-1, 0, 3)]
 
 
-@settings(max_examples=6)
+@settings(max_examples=5)
 @given(systems())
 def test_the_count_is_that_of_isolation(polys: list[Poly]) -> None:
     counts_agree(polys)
@@ -121,7 +121,7 @@ ENTRIES = Ring.of(("z",))
 
 
 @pytest.mark.parametrize("size", [1, 2, 3, 4])
-@settings(max_examples=20)
+@settings(max_examples=10)
 @given(data=st.data())
 def test_sign_conditions_of_matrices(size: int, data: st.DataObject) -> None:
     """Any symmetric matrix, also with vanishing minors: the conditions hold for its signature alone."""

@@ -100,7 +100,7 @@ def invariant(draw: st.DrawFn) -> str:
     return f"{prefix} x^2 + y^2 = 1 and ({condition()}{joint}{condition()})"
 
 
-@settings(max_examples=10, deadline=None)
+@settings(max_examples=6, deadline=None)
 @given(invariant(), st.sampled_from([Fraction(-1), Fraction(0), Fraction(1, 2), Fraction(1), Fraction(2)]))
 def test_answers_are_the_same_without_it(text: str, value: Fraction) -> None:
     text = text.replace("k", f"({value})")

@@ -62,7 +62,7 @@ def test_seven_variables_of_degree_five() -> None:
 RING = Ring.of(("a", "x"))
 
 
-@settings(max_examples=60)
+@settings(max_examples=25)
 @given(
     polynomials(RING, max_degree=2),
     formulas(names=("a", "x"), max_degree=2, max_depth=1),

@@ -1,0 +1,113 @@
+"""Refutation over signs: what is refuted holds at no point, and what is not excluded by lemmas is not refuted."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import Any
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from qe.certify import boolean
+from qe.certify.boolean import Theory, equivalence
+from qe.certify.signs import read_lemma
+from qe.errors import Unable
+from qe.formula.build import atom, conj, disj, neg
+from qe.formula.evaluate import holds_at
+from qe.formula.syntax import Formula, Relation
+from qe.proof.entry import Entry
+from tests.unit.certify.claims import RING, formula, limits, poly
+
+
+def theory(polys: tuple[str, ...] = (), *lemmas: Any) -> Theory:
+    listed = tuple(map(poly, polys))
+    return Theory(listed, tuple(read_lemma(Entry(x, "lemma"), listed, RING) for x in lemmas), limits())
+
+
+SQUARE = {"identity": [["1", [[0, 1]]], ["-1", [[1, 2]]], ["-1", []]]}
+"""Polynomial 0 is the square of polynomial 1, and 1 more."""
+ORDER = {"identity": [["1", [[0, 1]]], ["1", [[1, 1]]], ["-1", [[2, 1]]]]}
+"""Polynomial 2 is the sum of 0 and 1."""
+
+
+@pytest.mark.parametrize(
+    ("texts", "refuted"),
+    [
+        (("a > 0", "a < 0"), True),
+        (("a > 0", "a >= 0"), False),
+        (("a > 0 or b > 0", "a <= 0", "b <= 0"), True),
+        (("a > 0 or b > 0", "a <= 0"), False),
+        (("a >= 0", "a <= 0", "a /= 0"), True),
+        (("(a > 0 or a < 0) and (b = 0 or a = 0)", "b /= 0"), True),
+        (("false",), True),
+        (("true",), False),
+        ((), False),
+        (("ex x. x^2 = a", "all y. y^2 /= a"), True),  # the same condition, and its negation
+        (("ex x. x^2 = a", "all y. y^2 /= b"), False),
+        (("ex x. x^2 = a", "not (ex y. y^2 = a)"), True),
+        (("a > root(1, a^2 - b)", "not (a > root(1, a^2 - b))"), True),
+        (("a > root(1, a^2 - b)", "a < root(1, a^2 - b)"), False),  # nothing is known of root atoms
+        (("b > 0", "a^2 + b > 0 or a = 0", "a^2 + b < 0"), False),
+    ],
+)
+def test_without_lemmas(texts: tuple[str, ...], refuted: bool) -> None:
+    assert theory().refutes(map(formula, texts)) is refuted
+
+
+def test_lemmas_that_took_part() -> None:
+    known = theory(("a^2 + 1", "a", "b"), SQUARE, {"line": [2], "samples": ["-1", "1"]})
+    assert known.used([formula("a^2 + 1 <= 0")]) == frozenset((0,))
+    assert known.used([formula("a < 0 and a > 0")]) == frozenset()
+    assert known.used([formula("a^2 + 1 > 0")]) is None
+
+
+def test_cases_of_signs_that_lemmas_need() -> None:
+    """a*b < 0 and a*c < 0 and b*c < 0: only cases of the signs of a, b, c show that it is impossible."""
+    products = [
+        {"identity": [["1", [[k, 1]]], ["-1", [[i, 1], [j, 1]]]]} for k, i, j in ((3, 0, 1), (4, 0, 2), (5, 1, 2))
+    ]
+    known = theory(("a", "b", "c", "a*b", "a*c", "b*c"), *products)
+    assert known.refutes(map(formula, ("a*b < 0", "a*c < 0", "b*c < 0")))
+    assert not known.refutes(map(formula, ("a*b < 0", "a*c < 0", "b*c > 0")))
+
+
+def test_the_search_is_limited(monkeypatch: pytest.MonkeyPatch) -> None:
+    hard = [formula(f"a > {k} or b > {k}") for k in range(12)] + [formula("c > 0 and c < 1 or c = 7")]
+    assert not theory().refutes(hard)
+    monkeypatch.setattr(boolean, "NODES", 3)
+    with pytest.raises(Unable):
+        theory().refutes(hard)
+
+
+@st.composite
+def conditions(draw: st.DrawFn, depth: int = 2) -> Formula:
+    if not depth or draw(st.booleans()):
+        p = poly(draw(st.sampled_from(("a", "b", "a + b", "a^2 + 1"))))
+        return atom(p, draw(st.sampled_from(tuple(Relation))))
+    parts = [draw(conditions(depth - 1)) for _ in range(2)]
+    return draw(st.sampled_from((conj, disj, lambda fs: neg(conj(fs)))))(parts)
+
+
+NUMBERS = [Fraction(n) for n in (-2, -1, 0, 1, 2)]
+
+
+@settings(max_examples=30)
+@given(conditions(), conditions())
+def test_what_is_refuted_holds_nowhere_and_the_rest_somewhere(left: Formula, right: Formula) -> None:
+    """The signs of a, b and a + b on a grid are all that there are, so both directions hold."""
+    known = theory(("a", "b", "a + b", "a^2 + 1"), ORDER, {"identity": [["1", [[3, 1]]], ["-1", [[0, 2]]], ["-1", []]]})
+    truths = [
+        (holds_at(left, point), holds_at(right, point))
+        for point in ({"a": a, "b": b} for a in NUMBERS for b in NUMBERS)
+    ]
+    assert known.refutes((left, right)) is not any(x and y for x, y in truths)
+    same = all(known.refutes(goal) for goal in equivalence(left, right, ()))
+    assert same is all(x is y for x, y in truths)
+
+
+def test_equivalence_where_something_is_known() -> None:
+    left, right = formula("a > 0"), formula("a /= 0")
+    assert not all(theory().refutes(goal) for goal in equivalence(left, right, ()))
+    assert all(theory().refutes(goal) for goal in equivalence(left, right, [formula("a >= 0")]))
+    assert equivalence(left, formula("not (a <= 0)"), ()) == []
