@@ -10,6 +10,7 @@ from qe.certify.degree_shift import check_degree_shift
 from qe.certify.elimination_set import check_elimination_set
 from qe.certify.independent_parts import check_independent_parts
 from qe.certify.inequations import check_inequations, check_only_nonzero
+from qe.certify.infinity_first import check_infinity_first
 from qe.certify.instance import check_instance
 from qe.certify.linear_equation import check_guarded_linear, check_linear
 from qe.certify.miniscoping import check_miniscoping
@@ -44,6 +45,7 @@ RULES: Mapping[str, Check] = {
     "elimination set": check_elimination_set,
     "alternatives": check_alternatives,
     "independent parts": check_independent_parts,
+    "infinity first": check_infinity_first,
     "open block": check_open_block,
     "instance": check_instance,
     "cells": check_table,
