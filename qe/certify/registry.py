@@ -22,6 +22,7 @@ from qe.certify.sentence import check_sentence
 from qe.certify.step import Check
 from qe.certify.symmetry import check_scaling, check_translation
 from qe.certify.table import check_table
+from qe.certify.witness_in_parameters import check_witness_in_parameters
 
 RULES: Mapping[str, Check] = {
     "renaming": check_renaming,
@@ -49,6 +50,7 @@ RULES: Mapping[str, Check] = {
     "open block": check_open_block,
     "instance": check_instance,
     "cells": check_table,
+    "witness in the parameters": check_witness_in_parameters,
     "shorter": check_table,
     "constant": check_table,
     "convex": check_sentence,
