@@ -6,6 +6,7 @@ from collections.abc import Mapping
 
 from qe.certify.alternatives import check_alternatives
 from qe.certify.block import check_block
+from qe.certify.constant import check_constant
 from qe.certify.degree_shift import check_degree_shift
 from qe.certify.elimination_set import check_elimination_set
 from qe.certify.independent_parts import check_independent_parts
@@ -18,6 +19,7 @@ from qe.certify.negation import check_negation
 from qe.certify.open_block import check_open_block
 from qe.certify.renaming import check_renaming
 from qe.certify.replayed_block import check_replayed_block
+from qe.certify.roots_counted import check_roots_counted
 from qe.certify.sentence import check_sentence
 from qe.certify.step import Check
 from qe.certify.symmetry import check_scaling, check_translation
@@ -26,6 +28,7 @@ from qe.certify.witness_in_parameters import check_witness_in_parameters
 
 RULES: Mapping[str, Check] = {
     "renaming": check_renaming,
+    "roots counted": check_roots_counted,
     "duality": check_negation,
     "negation normal form": check_negation,
     "simplification": check_block,
@@ -52,7 +55,7 @@ RULES: Mapping[str, Check] = {
     "cells": check_table,
     "witness in the parameters": check_witness_in_parameters,
     "shorter": check_table,
-    "constant": check_table,
+    "constant": check_constant,
     "convex": check_sentence,
     "point or multipliers": check_sentence,
 }

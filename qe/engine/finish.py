@@ -9,11 +9,12 @@ from qe.elimination.protocol import Context
 from qe.engine.constant import constant_value
 from qe.engine.strategy import allows
 from qe.errors import InternalError, Unable
-from qe.formula.build import conj, convert, disj
-from qe.formula.syntax import Atom, Formula, Relation
+from qe.formula.build import conj, convert, disj, exists
+from qe.formula.syntax import TRUE, Atom, Formula, Relation
 from qe.formula.traverse import atoms, conjuncts, disjuncts, free_variables, has_root_atoms, ring_of
 from qe.options import Method, Stage
 from qe.proof.run_log import RunLog
+from qe.proof.step import Nested
 from qe.rules.block_context import BlockContext
 from qe.rules.step import POINTWISE_STEPS
 from qe.rules.tree import All, Any, Leaf, Node
@@ -80,18 +81,32 @@ def _matrix(node: Node) -> Formula:
 
 
 def settled(
-    formula: Formula, context: Context, satisfiable: Callable[[Formula, Context], bool], question: Formula
+    formula: Formula, context: Context, decide: Callable[[Formula, Context], Nested], question: Formula, mark: int
 ) -> Formula:
-    """TRUE or FALSE where the answer to the question turns out to be that, if this is cheap to find out."""
+    """TRUE or FALSE where the answer to the question turns out to be that, if this is cheap to find out.
+
+    Where the question itself has no solution, the steps to the answer since ``mark`` are left out.
+    """
     if has_root_atoms(formula):
         return formula
     part = Context(context.options, context.budget.part(SETTLE_WORK), RunLog())
+    decisions: list[Nested] = []
+
+    def satisfiable(sentence: Formula) -> bool:
+        decisions.append(decide(sentence, part))
+        return decisions[-1].answer == TRUE
+
     try:
-        constant = constant_value(formula, lambda sentence: satisfiable(sentence, part), question)
+        constant = constant_value(formula, satisfiable, question)
     except Unable:
         context.budget.check("settle")
         return formula
     if constant is None:
         return formula
     context.log.choice("", (), f"the answer was decided to be {constant}")
-    return context.log.step("constant", formula, constant)
+    (decision,) = decisions
+    before = formula
+    if decision.start == exists(question.free, question):
+        context.log.forget_steps(mark)
+        before = question
+    return context.log.step("constant", before, constant, evidence={"proof": {"steps": decision}})

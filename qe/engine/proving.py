@@ -118,7 +118,7 @@ class Prover:
     def _places(self, formula: Formula, before: Formula, path: Place = ()) -> Iterator[Place]:
         """Where a formula stands, or is a part of a conjunction or disjunction."""
         part = isinstance(formula, And | Or) and type(before) is type(formula)
-        if formula == before or (part and set(before.args) < set(formula.args)):  # type: ignore[attr-defined]
+        if formula == before or (part and set(before.args) <= set(formula.args)):  # type: ignore[attr-defined]
             yield path
             return
         for k, child in enumerate(children(formula)):
