@@ -38,6 +38,8 @@ TABLE_WORK = 3_000
 SIMPLIFYING = ("simplification", "standard simplification")
 """Rules whose steps go on under quantifiers."""
 
+CRITICAL = "critical values"
+
 UNRECORDED = "steps that are not recorded"
 
 
@@ -221,6 +223,9 @@ class Prover:
             inner = self._substituted(step, trace)
             if inner is not None:
                 return "virtual substitution", inner
+        if step.rule == CRITICAL:
+            found = self._critical(step)
+            return None if found is None else (CRITICAL, found)
         given = step.evidence.get("proof")
         evidence = self._plain(given) if isinstance(given, Mapping) else {}
         own = self._tried(step.rule, step, context, evidence)
@@ -261,6 +266,20 @@ class Prover:
             self.budget.check("prove")
             return None
         return evidence
+
+    def _critical(self, step: Step) -> Json | None:
+        """The evidence for a step by critical values, accepted."""
+        from qe.engine.critical_proof import critical_evidence
+
+        order, claim = step.evidence.get("order"), self._claim(step.rule, step, {})
+        try:
+            evidence = critical_evidence(claim, order, self.budget) if isinstance(order, tuple) else None
+        except CertificateRejected:
+            return None
+        except Unable:
+            self.budget.check("prove")
+            return None
+        return None if evidence is None else self._tried(step.rule, step, (), evidence)
 
     def _simplified(self, before: Formula, after: Formula) -> Json:
         """A step of simplification inside another one; ``CertificateRejected`` where it is not proved."""
