@@ -6,19 +6,21 @@ y with one positive definite Hessian for all p. Then T is closed and convex. Its
 (``critical_points``): where all of several polynomials q in p vanish, for one of finitely many sets of them. That is
 inside the zeros of their greatest common divisor, but for a set of codimension two, which separates no open connected
 set. So T either holds all of an open cell, but for such sets, or nothing of it that is open: if the sample is in T, and
-not all q of a set vanish there, the former; if it is not in T, the latter. Let S be another closed convex set with
-the same truth at all samples of a decomposition into open cells, sign-invariant for the polynomials of S and those
-divisors; let one of the samples be in T. Then S = T: both are the closures of their interiors.
+not all q of a set vanish there, the former; if it is not in T, the latter. Let S be another set that is the
+closure of its interior, with the same truth at all samples of a decomposition into open cells, sign-invariant for the
+polynomials of S and those divisors; let one of the samples be in T. Then S = T: so is T.
 PROOF. A bound of y by p: the sum of the g_i is <= 0. So T, the projection of a closed convex set with fibres that are
 bounded locally uniformly, is closed and convex. A closed convex set with interior points is the closure of its
 interior, and that of all but a nowhere dense part of the interior (Rockafellar 1970, Theorem 6.3).
 
 A sample is in T by a point y that satisfies the conditions, and is not by numbers w_i, nonnegative for inequalities,
-such that the sum of all w_i g_i is positive everywhere. S is convex as a conjunction of convex inequalities.
+such that the sum of all w_i g_i is positive everywhere. S is the closure of its interior if it is convex, as a
+conjunction of convex inequalities, or by a cell table (``regular_set``).
 
 Evidence: ``order`` (the parameters), ``bound`` (weights of the conditions), ``chains`` for the sets of conditions that
-may be active, ``factors`` (lists by level, closed under projection), ``stacks`` (``open_cells``; of a cell: the number k
-of a point, or -1 - k for weights number k), ``points``, ``weights``.
+may be active, ``factors`` (lists by level, closed under projection), ``stacks`` (``open_cells``; of a cell: the
+number k of a point, or -1 - k for weights number k), ``points``, ``weights``, ``regular`` (a cell table of S; null
+where S is convex).
 """
 
 from __future__ import annotations
@@ -33,15 +35,18 @@ from qe.certify.block import existential
 from qe.certify.closure import check_closure
 from qe.certify.convex_problem import read_row
 from qe.certify.critical_points import active_sets, vanishing
+from qe.certify.negation import normal
 from qe.certify.open_cells import open_cells
+from qe.certify.regular_set import check_regular
 from qe.certify.step import Claim, Context, Limits, only
 from qe.errors import CertificateRejected
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import convert
 from qe.formula.evaluate import holds_at
 from qe.formula.syntax import Atom, Exists, Formula, Relation
-from qe.formula.traverse import conjuncts
+from qe.formula.traverse import conjuncts, has_root_atoms, polynomials
 from qe.options import Projection
+from qe.proof.cells_json import CellEvidence
 from qe.proof.entry import Entry
 
 Row = Sequence[Fraction]
@@ -68,8 +73,8 @@ class Quadratic:
 
 def check_critical_values(claim: Claim, context: Context, limits: Limits) -> None:
     """Accept silently, or raise ``CertificateRejected`` naming the entry that fails."""
-    order, bound, chains, factors, stacks, points, weights = only(
-        claim, "order", "bound", "chains", "factors", "stacks", "points", "weights"
+    order, bound, chains, factors, stacks, points, weights, regular = only(
+        claim, "order", "bound", "chains", "factors", "stacks", "points", "weights", "regular"
     )
     block, after = existential(claim)
     names = tuple(e.text() for e in order.items())
@@ -80,16 +85,21 @@ def check_critical_values(claim: Claim, context: Context, limits: Limits) -> Non
     if not set(block.free) | set(after.free) <= set(names):
         raise order.fail("a parameter is missing")
     ring, outer = Ring.of((*names, *block.variables)), Ring.of(names)
-    conditions, other = read_conditions(block.body, ring, claim), read_conditions(after, outer, claim)
-    free = len(names)
+    conditions, free, holds = read_conditions(block.body, ring, claim), len(names), convert(after, outer)
+    if has_root_atoms(after):
+        raise claim.fail("a root atom")
+    if regular.value is None:
+        read_conditions(after, outer, claim)
+    else:
+        _check_regular(regular, holds, limits)
     _check_bound(conditions, free, bound)
     lists = _read_lists(factors, outer, limits)
     surfaces = _surfaces(conditions, free, chains, limits)
-    for found in (*([c.poly] for c in other), *surfaces):
+    for found in (*([p] for p in polynomials(holds)), *surfaces):
         if lists.decompose(common(found).convert(outer)) is None:
             raise factors.fail("a polynomial of the answer, or of the critical points, is not a product of factors")
     listed = _Listed(conditions, free, points, weights)
-    holds, inside = convert(after, outer), False
+    inside = False
     for values, said in open_cells(lists.lists, stacks, limits):
         if not holds_at(holds, dict(zip(names, values, strict=True))):
             listed.check_outside(values, said)
@@ -173,6 +183,17 @@ def _check_bound(conditions: Sequence[Quadratic], free: int, entry: Entry) -> No
     inner = [row[free:-1] for row in weighted(conditions, weights)[free:-1]]
     if not is_convex(inner) or rank(inner) < len(inner):
         raise entry.fail("the weighted sum does not bound the variables of the block")
+
+
+def _check_regular(entry: Entry, holds: Formula, limits: Limits) -> None:
+    """The table is one of this formula, and shows that it describes the closure of its interior."""
+    evidence = limits.leaf(entry).payload
+    if not isinstance(evidence, CellEvidence) or any(evidence.table.quantifiers):
+        raise entry.fail("expected a cell table without quantifiers")
+    table, names = evidence.table, () if holds.ring is None else holds.ring.names
+    if set(table.order) != set(names) or normal(convert(table.matrix, Ring.of(names))) != normal(holds):
+        raise entry.fail("the table is about another formula")
+    check_regular(table, limits, entry.path)
 
 
 def _read_lists(entry: Entry, ring: Ring, limits: Limits) -> FactorLists:

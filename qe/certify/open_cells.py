@@ -1,11 +1,11 @@
 """The open cells of a decomposition, each with a rational sample.
 
 THEOREM (Collins 1975; for open cells alone Strzebonski 2000). Let the factor lists be closed under leading
-coefficients, discriminants and pairwise resultants. Over a connected open set where no factor of a lower level vanishes, the real
-roots of the factors of a level are continuous functions, distinct and always as many. So if a stack over its sample has
-as many gaps between neighbouring samples as the factors have real roots, with one sign change in each gap, then the
-samples meet each sector over the whole set once. The cells so found are connected, open, and all that there are;
-no factor vanishes on them.
+coefficients, discriminants and pairwise resultants. Over a connected open set where no factor of a lower level
+vanishes, the real roots of the factors of a level are continuous functions, distinct and always as many. So if a stack
+over its sample has as many gaps between neighbouring samples as the factors have real roots, with one sign change in
+each gap, then the samples meet each sector over the whole set once. The cells so found are connected, open, and all
+that there are; no factor vanishes on them.
 """
 
 from __future__ import annotations

@@ -20,24 +20,27 @@ from qe.certify.critical_values import (
 )
 from qe.certify.step import Claim
 from qe.convex.violation import proposed
+from qe.elimination.cad import certificate_for
 from qe.elimination.critical.boundary import critical_hypersurfaces
 from qe.elimination.critical.method import procedures
 from qe.elimination.critical.system import systems
 from qe.engine.elimination_chain import Row, chain
+from qe.errors import CertificateRejected
 from qe.exact.fibre_stack import isolate_over
 from qe.exact.quadratic_form import Quadratic as Form
 from qe.exact.ring import Poly, Ring
 from qe.exact.sample import Point
 from qe.formula.build import convert
 from qe.formula.evaluate import holds_at
-from qe.formula.syntax import Exists
-from qe.options import Budget, Projection
+from qe.formula.syntax import Exists, Formula
+from qe.formula.traverse import polynomials
+from qe.options import Budget, Options, Projection
 from qe.proof.entry import Json, poly_to_text
 
 Values = tuple[Fraction, ...]
 
 
-def critical_evidence(claim: Claim, order: Sequence[str], budget: Budget) -> Json:
+def critical_evidence(claim: Claim, order: Sequence[str], options: Options, budget: Budget) -> Json:
     """The evidence for a step, with the parameters in this order.
 
     Raises ``CertificateRejected`` where the rule does not apply, or some of the evidence is not found.
@@ -47,15 +50,15 @@ def critical_evidence(claim: Claim, order: Sequence[str], budget: Budget) -> Jso
         raise claim.fail("expected a block")
     names = tuple(order)
     ring, outer = Ring.of((*names, *block.variables)), Ring.of(names)
-    conditions, other = read_conditions(block.body, ring, claim), read_conditions(after, outer, claim)
+    conditions, holds = read_conditions(block.body, ring, claim), convert(after, outer)
+    regular = _table(after, outer, claim, options, budget)
     (system,) = systems(convert(block.body, ring), ring, len(names))
     surfaces = critical_hypersurfaces(system, thin_parts=False, procedures=procedures(budget), budget=budget)
     walls = {f.convert(outer).normal()[1] for f in surfaces}
     chains = _chains(conditions, len(names), walls, claim, budget)
-    answer = [f for c in other for f, _ in c.poly.factors()[1]]
+    answer = [f for p in polynomials(holds) for f, _ in p.factors()[1]]
     levels = factor_lists([*walls, *answer], len(names), Projection.BROWN_MCCALLUM, budget, frozenset())
     cells = _Cells(conditions, claim, budget)
-    holds = convert(after, outer)
 
     def stacks(point: Point, values: Values) -> Json:
         if len(values) == len(names):
@@ -75,7 +78,20 @@ def critical_evidence(claim: Claim, order: Sequence[str], budget: Budget) -> Jso
         "stacks": found,
         "points": [[str(v) for v in point] for point in cells.points],
         "weights": [[str(w) for w in row] for row in cells.weights],
+        "regular": regular,
     }
+
+
+def _table(after: Formula, outer: Ring, claim: Claim, options: Options, budget: Budget) -> Json:
+    """A cell table of the answer; none where it is seen to be convex."""
+    try:
+        read_conditions(after, outer, claim)
+    except CertificateRejected:
+        table = certificate_for(after, after, options, budget)
+        if table is None:
+            raise claim.fail("no table of the answer") from None
+        return table.to_data()
+    return None
 
 
 def _chains(

@@ -273,7 +273,7 @@ class Prover:
 
         order, claim = step.evidence.get("order"), self._claim(step.rule, step, {})
         try:
-            evidence = critical_evidence(claim, order, self.budget) if isinstance(order, tuple) else None
+            evidence = critical_evidence(claim, order, self.options, self.budget) if isinstance(order, tuple) else None
         except CertificateRejected:
             return None
         except Unable:
