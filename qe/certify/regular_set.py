@@ -17,16 +17,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from fractions import Fraction
-from typing import TYPE_CHECKING
 
-from qe.certify.arithmetic.sturm import count_real_roots, count_roots_between, exact, sign_of
+from qe.certify.arithmetic.sturm import count_real_roots, count_roots_below, exact, sign_of, vanishes_on
 from qe.certify.step import Limits
 from qe.errors import CertificateRejected, Unable
 from qe.exact.ring import Poly
 from qe.proof.cells import Cell, CellTable, Stack
-
-if TYPE_CHECKING:
-    from flint import fmpz_poly
 
 MOST_HALVINGS = 400
 """How often an interval around a section is halved at most."""
@@ -88,7 +84,7 @@ class _Section:
             raise CertificateRejected(self.path, "no sign changes at a section")
         for _ in range(MOST_HALVINGS):
             self.limits.tick()
-            lines = [p for p in lines if self._may_vanish(p)]
+            lines = [p for p in lines if vanishes_on(p, self.low, self.high, self.limits.tick)]
             if not lines:
                 return
             middle = (self.low + self.high) / 2
@@ -101,12 +97,6 @@ class _Section:
                 self.high = middle
         raise Unable("an interval around a section cannot be made narrow enough")
 
-    def _may_vanish(self, p: fmpz_poly) -> bool:
-        """Whether a polynomial has a root between the ends, or at one of them."""
-        if any(not p(exact(end)) for end in (self.low, self.high)):
-            return True
-        return p.degree() > 0 and count_roots_between(p, self.low, self.high, self.limits.tick) > 0
-
 
 class _Side:
     """The stack over a point beside a section: where the samples lie in it."""
@@ -118,18 +108,11 @@ class _Side:
         polys = [factors[j].at_rational(0, at).to_univariate(1) for j in _used(cell)]
         if 2 * sum(map(count_real_roots, polys)) + 1 != len(self.truths):
             raise CertificateRejected(path, "a stack with another number of sections at a point of its interval")
-        self.places = [sum(_roots_below(p, y) for p in polys) for y in samples]
+        self.places = [sum(count_roots_below(p, y) for p in polys) for y in samples]
 
     def between(self, i: int, j: int) -> bool:
         """Whether one of the sectors from that of sample i to that of sample j is true."""
         return any(self.truths[2 * self.places[i] : 2 * self.places[j] + 1 : 2])
-
-
-def _roots_below(p: fmpz_poly, y: Fraction) -> int:
-    """The number of distinct real roots less than y, which is none."""
-    lead = abs(int(p.leading_coefficient()))
-    bound = Fraction(-2 - max(abs(int(c)) for c in p.coeffs()) // lead)  # Cauchy
-    return count_roots_between(p, bound, y) if p.degree() > 0 and bound < y else 0
 
 
 def _used(cell: Cell) -> tuple[int, ...]:
