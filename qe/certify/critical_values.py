@@ -88,10 +88,6 @@ def check_critical_values(claim: Claim, context: Context, limits: Limits) -> Non
     conditions, free, holds = read_conditions(block.body, ring, claim), len(names), convert(after, outer)
     if has_root_atoms(after):
         raise claim.fail("a root atom")
-    if regular.value is None:
-        read_conditions(after, outer, claim)
-    else:
-        _check_regular(regular, holds, limits)
     _check_bound(conditions, free, bound)
     lists = _read_lists(factors, outer, limits)
     surfaces = _surfaces(conditions, free, chains, limits)
@@ -110,6 +106,10 @@ def check_critical_values(claim: Claim, context: Context, limits: Limits) -> Non
             raise said.fail("the sample lies over critical points")
     if not inside:
         raise claim.fail("no open cell on which it holds")
+    if regular.value is None:
+        read_conditions(after, outer, claim)
+    else:
+        _check_regular(regular, holds, limits)
 
 
 def read_conditions(formula: Formula, ring: Ring, claim: Claim) -> list[Quadratic]:
