@@ -101,7 +101,7 @@ def replaced(
         case _ if not place and formula == before:
             return facts, after
         case And(args) | Or(args) if not place:
-            if type(before) is not type(formula) or not set(before.args) < set(args):
+            if type(before) is not type(formula) or not set(before.args) <= set(args):
                 raise entry.fail("what the step replaces does not stand there")
             rest = tuple(a for a in args if a not in before.args)
             join = conj if isinstance(formula, And) else disj

@@ -58,7 +58,7 @@ def check_guarded_linear(claim: Claim, context: Context, limits: Limits) -> None
     if more or pivot.sign is not None:
         raise claim.fail("expected one equation with a coefficient of unknown sign")
     lead, rest = pivot.lead, pivot.rest
-    regular = conj((atom(lead, Relation.NE), _substituted(pivot, claim)))
+    regular = conj((atom(lead, Relation.NE), substituted(pivot, claim)))
     vanishing = conj((atom(lead, Relation.EQ), atom(rest, Relation.EQ), pivot.others))
     left = tuple(v for v in block if v != pivot.name)
     if claim.after != disj((exists(left, regular), exists(block, vanishing))):
@@ -66,7 +66,7 @@ def check_guarded_linear(claim: Claim, context: Context, limits: Limits) -> None
 
 
 @dataclass(frozen=True, slots=True)
-class _Pivot:
+class Pivot:
     """lead*x + rest = 0 beside ``others``; ``sign``: what is claimed of lead."""
 
     x: int
@@ -83,7 +83,7 @@ def _block(claim: Claim) -> tuple[tuple[str, ...], Formula]:
     return claim.before.variables, claim.before.body
 
 
-def _pivot(entry: Entry, block: Sequence[str], body: Formula, claim: Claim) -> _Pivot:
+def _pivot(entry: Entry, block: Sequence[str], body: Formula, claim: Claim) -> Pivot:
     parts = list(entry.items())
     if len(parts) != 3 or parts[0].text() not in block:
         raise entry.fail("expected [variable of the block, equation, sign]")
@@ -97,19 +97,19 @@ def _pivot(entry: Entry, block: Sequence[str], body: Formula, claim: Claim) -> _
     if lead.is_constant and sign != (1 if lead.constant_value() > 0 else -1):
         raise parts[2].fail("not the sign of this number")
     others = conj(p for p in conjuncts(body) if p != Atom(equation, Relation.EQ))
-    return _Pivot(x, name, lead, rest, sign if isinstance(sign, int) else None, others)
+    return Pivot(x, name, lead, rest, sign if isinstance(sign, int) else None, others)
 
 
-def _solved(pivot: _Pivot, claim: Claim) -> Formula:
+def _solved(pivot: Pivot, claim: Claim) -> Formula:
     """What the equation leaves of the conjunction."""
     if pivot.sign is None:
         if pivot.name in pivot.others.free:
             raise claim.fail(f"the coefficient of {pivot.name} may vanish")
         return conj((disj((atom(pivot.lead, Relation.NE), atom(pivot.rest, Relation.EQ))), pivot.others))
-    return _substituted(pivot, claim)
+    return substituted(pivot, claim)
 
 
-def _substituted(pivot: _Pivot, claim: Claim) -> Formula:
+def substituted(pivot: Pivot, claim: Claim) -> Formula:
     """The other conjuncts with -rest/lead for the variable."""
     x, lead = pivot.x, pivot.lead
 

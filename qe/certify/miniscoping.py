@@ -1,7 +1,7 @@
 """Rule "independent parts and miniscoping": conditions that share no variable of a block are quantified apart.
 
 THEOREM. ex v (A or B) iff ex v A or ex v B. ex v, w (A and B and C) iff A and ex v B and ex w C where no variable of
-the block is free in A, none but v in B and none but w in C.
+the block is free in A, none but v in B and none but w in C. Either side may stand before.
 """
 
 from __future__ import annotations
@@ -13,18 +13,20 @@ from qe.formula.traverse import conjuncts
 
 
 def check_miniscoping(claim: Claim, context: Context, limits: Limits) -> None:
-    """What stands after, with its quantifiers drawn together again, is what stood before."""
+    """One side, with its quantifiers drawn together again, is the other."""
     only(claim)
-    before = claim.before
+    before, after = claim.before, claim.after
+    if not isinstance(before, Exists):
+        before, after = after, before
     if not isinstance(before, Exists):
         raise claim.fail("expected an existential block")
     if isinstance(before.body, Or):
-        if claim.after != disj(exists(before.variables, part) for part in before.body.args):
+        if after != disj(exists(before.variables, part) for part in before.body.args):
             raise claim.fail("expected the block before each part of the disjunction")
         return
     block, taken = set(before.variables), set[str]()
     parts: list[Formula] = []
-    for piece in conjuncts(claim.after):
+    for piece in conjuncts(after):
         own = block & set(piece.variables) if isinstance(piece, Exists) else set[str]()
         if block & set(piece.free) or own & taken:
             raise claim.fail("parts share a variable of the block")

@@ -6,11 +6,14 @@ from collections.abc import Mapping
 
 from qe.certify.alternatives import check_alternatives
 from qe.certify.block import check_block
+from qe.certify.constant import check_constant
 from qe.certify.covering import check_covering
+from qe.certify.critical_values import check_critical_values
 from qe.certify.degree_shift import check_degree_shift
 from qe.certify.elimination_set import check_elimination_set
 from qe.certify.independent_parts import check_independent_parts
 from qe.certify.inequations import check_inequations, check_only_nonzero
+from qe.certify.infinity_first import check_infinity_first
 from qe.certify.instance import check_instance
 from qe.certify.linear_equation import check_guarded_linear, check_linear
 from qe.certify.miniscoping import check_miniscoping
@@ -18,13 +21,16 @@ from qe.certify.negation import check_negation
 from qe.certify.open_block import check_open_block
 from qe.certify.renaming import check_renaming
 from qe.certify.replayed_block import check_replayed_block
+from qe.certify.roots_counted import check_roots_counted
 from qe.certify.sentence import check_sentence
 from qe.certify.step import Check
 from qe.certify.symmetry import check_scaling, check_translation
 from qe.certify.table import check_table
+from qe.certify.witness_in_parameters import check_witness_in_parameters
 
 RULES: Mapping[str, Check] = {
     "renaming": check_renaming,
+    "roots counted": check_roots_counted,
     "duality": check_negation,
     "negation normal form": check_negation,
     "simplification": check_block,
@@ -42,15 +48,18 @@ RULES: Mapping[str, Check] = {
     "inequations that remove no interior": check_inequations,
     "only asked to be no root": check_only_nonzero,
     "virtual substitution": check_replayed_block,
+    "critical values": check_critical_values,
     "elimination set": check_elimination_set,
     "alternatives": check_alternatives,
     "independent parts": check_independent_parts,
+    "infinity first": check_infinity_first,
     "open block": check_open_block,
     "instance": check_instance,
     "cells": check_table,
+    "witness in the parameters": check_witness_in_parameters,
     "shorter": check_table,
-    "constant": check_table,
     "covering": check_covering,
+    "constant": check_constant,
     "convex": check_sentence,
     "point or multipliers": check_sentence,
 }

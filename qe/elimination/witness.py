@@ -28,6 +28,7 @@ from qe.formula.normal import nnf, rename_apart
 from qe.formula.syntax import TRUE, And, Atom, Exists, ForAll, Formula, Or, Relation, RootAtom
 from qe.formula.traverse import atoms, map_atoms
 from qe.options import Budget, Options
+from qe.proof.run_log import RunLog
 from qe.rules.preparation import prepare
 from qe.simplify.simplify import simplify
 
@@ -36,6 +37,9 @@ MOST = 500
 
 PROBES, UNPROBED = 8, 200
 """Parameter points at which a candidate must hold before a proof is tried; candidates tried where there are none."""
+
+
+RULE = "witness in the parameters"
 
 
 class PolynomialWitnesses:
@@ -49,12 +53,14 @@ class PolynomialWitnesses:
 
     def run(self, problem: Problem, context: Context) -> Outcome | None:
         """TRUE where witnesses were found and proved; None says nothing."""
-        found = find(problem.formula, budget=context.budget)
+        log = RunLog()
+        found = find(problem.formula, budget=context.budget, log=log)
         if found is None:
             return None
         for proof in found:
-            context.log.choice(self.name, (), f"witness in the parameters: {proof}")
-        return Outcome(context.log.step("witness in the parameters", problem.formula, TRUE))
+            context.log.choice(self.name, (), f"{RULE}: {proof}")
+        context.log.entries.extend(log.steps())
+        return Outcome(TRUE)
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,10 +93,17 @@ class PolynomialWitness:
     def __str__(self) -> str:
         return ", ".join(f"{name} = {term}" for name, term in self.terms.items())
 
+    def equations(self) -> list[tuple[str, Poly]]:
+        """By variable, the polynomial that is zero where the variable is the term."""
+        rings = [(name, term, term.numerator.ring) for name, term in self.terms.items()]
+        return [(name, ring.var(name) * term.denominator - term.numerator) for name, term, ring in rings]
 
-def find(sentence: Formula, *, budget: Budget) -> tuple[PolynomialWitness, ...] | None:
+
+def find(sentence: Formula, *, budget: Budget, log: RunLog | None = None) -> tuple[PolynomialWitness, ...] | None:
     """Witnesses for the existential blocks that together prove the sentence; None when none were found."""
-    return _prove(nnf(rename_apart(sentence)), TRUE, budget)
+    log = log or RunLog()
+    apart = log.step("renaming", sentence, rename_apart(sentence))
+    return _prove(log.step("negation normal form", apart, nnf(apart)), TRUE, budget, log)
 
 
 def instantiate(sentence: Formula, terms: Mapping[str, Term]) -> Formula:
@@ -156,27 +169,38 @@ def _composed(poly: Poly, terms: Mapping[str, Term]) -> Poly:
 
 
 # --- the proof --------------------------------------------------------------------------------------------
-def _prove(formula: Formula, known: Formula, budget: Budget) -> tuple[PolynomialWitness, ...] | None:
+def _prove(formula: Formula, known: Formula, budget: Budget, log: RunLog) -> tuple[PolynomialWitness, ...] | None:
     """Witnesses that prove ``formula``, in negation normal form, where ``known`` holds."""
     if formula.is_quantifier_free:
-        return () if simplify(formula, known) == TRUE else None
+        if simplify(formula, known) != TRUE:
+            return None
+        log.step("simplification", formula, TRUE, context=known)
+        return ()
     match formula:
         case ForAll(_, body):
-            return _prove(body, known, budget)
+            return _prove(body, known, budget, log)
         case And(args):
-            parts = [_prove(a, known, budget) for a in args]
+            parts = [_prove(a, known, budget, log) for a in args]
             return None if any(p is None for p in parts) else tuple(w for p in parts if p is not None for w in p)
         case Or(args):
             plain = [a for a in args if a.is_quantifier_free]
             extended = conj((known, *(nnf(neg(a)) for a in plain)))
-            proofs = (_prove(a, extended, budget) for a in args if not a.is_quantifier_free)
-            return next((p for p in proofs if p is not None), None)
+            for a in args:
+                mark = log.mark()
+                found = None if a.is_quantifier_free else _prove(a, extended, budget, log)
+                if found is not None:
+                    return found
+                log.forget_steps(mark)
+            return None
         case Exists():
-            ready = prepare(formula, budget=budget).formula
+            ready = prepare(formula, budget=budget, log=log).formula
             if not isinstance(ready, Exists):
-                return _prove(ready, known, budget)
-            found = _witness(ready, known, budget) if ready.body.is_quantifier_free else None
-            return None if found is None else (found,)
+                return _prove(ready, known, budget, log)
+            witness = _witness(ready, known, budget) if ready.body.is_quantifier_free else None
+            if witness is None:
+                return None
+            log.step(RULE, ready, TRUE, context=known, evidence={"proof": {"equations": witness.equations()}})
+            return (witness,)
     return None
 
 

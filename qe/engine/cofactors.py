@@ -1,4 +1,5 @@
-"""Polynomials as combinations of others: cofactors by linear algebra over the rationals, for bounded degrees.
+"""Polynomials as combinations of others: cofactors by linear algebra over the rationals, for bounded degrees, and by
+Buchberger's algorithm beyond.
 
 THEOREM. If target = sum c_i * e_i with deg(c_i * e_i) <= D for all i, then the coefficients of the c_i solve a system
 of linear equations, one for each monomial of degree at most D. What is found is multiplied out by the checker.
@@ -11,8 +12,10 @@ from fractions import Fraction
 from itertools import combinations_with_replacement
 from math import lcm
 
+from qe.engine.elimination_chain import member
 from qe.exact.quadratic_form import solve_linear
 from qe.exact.ring import Poly
+from qe.options import Budget
 
 MOST_UNKNOWNS, SLACK = 300, 2
 """Coefficients to be found at most; how far the degree may lie above those of the polynomials."""
@@ -23,7 +26,9 @@ Column = tuple[int, Powers, dict[Powers, int]]
 """An unknown coefficient: of which cofactor or further target, of which monomial, and what it is multiplied with."""
 
 
-def cofactors(targets: Sequence[Poly], generators: Sequence[Poly]) -> tuple[list[int], list[Poly]] | None:
+def cofactors(
+    targets: Sequence[Poly], generators: Sequence[Poly], budget: Budget
+) -> tuple[list[int], list[Poly]] | None:
     """(numbers, cofactors) with targets[0]*n_0 + targets[1]*n_1 + ... = sum of cofactors times generators, n_0 /= 0.
 
     The number of the first target is positive; None where nothing is found.
@@ -39,11 +44,12 @@ def cofactors(targets: Sequence[Poly], generators: Sequence[Poly]) -> tuple[list
         for k, target in enumerate(targets[1:], start=len(generators)):
             columns.append((k, (0,) * ring.size, {e: -c for e, c in target.terms()}))
         if len(columns) > MOST_UNKNOWNS:
-            return None
+            break
         found = _solved(columns, dict(targets[0].terms()))
         if found is not None:
             return _cleared(columns, found, targets, generators)
-    return None
+    solved = member(targets[0], generators, budget) if len(targets) == 1 else None
+    return None if solved is None else ([solved[0]], solved[1])
 
 
 def _solved(columns: Sequence[Column], wanted: dict[Powers, int]) -> list[Fraction] | None:

@@ -8,11 +8,13 @@ from qe.elimination.protocol import Context
 from qe.engine.constant import constant_value
 from qe.engine.strategy import allows
 from qe.errors import Unable
+from qe.formula.build import exists
 from qe.formula.features import is_small, length
-from qe.formula.syntax import Atom, Formula, Relation
+from qe.formula.syntax import TRUE, Atom, Formula, Relation
 from qe.formula.traverse import conjuncts, disjuncts, has_root_atoms
 from qe.options import Method
 from qe.proof.run_log import RunLog
+from qe.proof.step import Nested
 
 SHORTEN_WORK, SETTLE_WORK = 2000, 2000
 """Units of work for a shorter form, and for finding out that an answer is constant."""
@@ -47,18 +49,32 @@ def _has_equations(formula: Formula) -> bool:
 
 
 def settled(
-    formula: Formula, context: Context, satisfiable: Callable[[Formula, Context], bool], question: Formula
+    formula: Formula, context: Context, decide: Callable[[Formula, Context], Nested], question: Formula, mark: int
 ) -> Formula:
-    """TRUE or FALSE where the answer to the question turns out to be that, if this is cheap to find out."""
+    """TRUE or FALSE where the answer to the question turns out to be that, if this is cheap to find out.
+
+    Where the question itself has no solution, the steps to the answer since ``mark`` are left out.
+    """
     if has_root_atoms(formula):
         return formula
     part = Context(context.options, context.budget.part(SETTLE_WORK), RunLog())
+    decisions: list[Nested] = []
+
+    def satisfiable(sentence: Formula) -> bool:
+        decisions.append(decide(sentence, part))
+        return decisions[-1].answer == TRUE
+
     try:
-        constant = constant_value(formula, lambda sentence: satisfiable(sentence, part), question)
+        constant = constant_value(formula, satisfiable, question)
     except Unable:
         context.budget.check("settle")
         return formula
     if constant is None:
         return formula
     context.log.choice("", (), f"the answer was decided to be {constant}")
-    return context.log.step("constant", formula, constant)
+    (decision,) = decisions
+    before = formula
+    if decision.start == exists(question.free, question):
+        context.log.forget_steps(mark)
+        before = question
+    return context.log.step("constant", before, constant, evidence={"proof": {"steps": decision}})

@@ -21,6 +21,7 @@ from qe.exact.nearby import rational_between
 from qe.exact.ring import Poly, Ring
 from qe.formula.syntax import FALSE, Atom, Exists, ForAll, Formula, Relation
 from qe.formula.traverse import children, conjuncts
+from qe.options import Budget
 from qe.proof.entry import Entry, Json, poly_to_text
 from qe.simplify.facts import factor_list, key_of
 from qe.simplify.minima import minimum
@@ -134,7 +135,7 @@ def refuting(goals: Sequence[Sequence[Formula]], ring: Ring, limits: Limits) -> 
         elif stage == 3:
             _ranges(found, polys)
         elif stage == 4:
-            _combinations(found, goals)
+            _combinations(found, goals, limits.budget)
         if stage and count == len(found.lemmas):
             continue
         used = _used(found.theory(limits), goals)
@@ -281,7 +282,7 @@ def _ranges(found: Lemmas, polys: Iterable[Poly]) -> None:
             found.identity([(-1, ((poly, 1),)), *_monomials(poly)])
 
 
-def _combinations(found: Lemmas, goals: Sequence[Sequence[Formula]]) -> None:
+def _combinations(found: Lemmas, goals: Sequence[Sequence[Formula]], budget: Budget) -> None:
     """What stands on one side of an equivalence as a combination of the equations on the other, up to a multiple of an
     inequality there."""
     if len(goals) != 2 or len(goals[0]) < 2:
@@ -295,18 +296,18 @@ def _combinations(found: Lemmas, goals: Sequence[Sequence[Formula]]) -> None:
         known = {a.poly for a in own if isinstance(a, Atom)}
         wanted = [a for a in other if isinstance(a, Atom) and a.poly not in known]
         if list(other) == [FALSE]:
-            _combined(found, [generators[0].ring.constant(1)], generators)
+            _combined(found, [generators[0].ring.constant(1)], generators, budget)
         for target in wanted[:MOST_TARGETS]:
             if target.relation is Relation.EQ:
-                _combined(found, [target.poly], generators)
+                _combined(found, [target.poly], generators, budget)
                 continue
             for beside in own:
                 if isinstance(beside, Atom) and beside.relation not in (Relation.EQ,):
-                    _combined(found, [target.poly, beside.poly], generators)
+                    _combined(found, [target.poly, beside.poly], generators, budget)
 
 
-def _combined(found: Lemmas, targets: Sequence[Poly], generators: Sequence[Poly]) -> None:
-    solved = cofactors(targets, generators)
+def _combined(found: Lemmas, targets: Sequence[Poly], generators: Sequence[Poly], budget: Budget) -> None:
+    solved = cofactors(targets, generators, budget)
     if solved is None:
         return
     numbers, factors = solved

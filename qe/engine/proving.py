@@ -6,7 +6,7 @@ Nothing here is trusted: a step counts as proved when the checker of its rule ac
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 
 from qe.certify.block import existential
@@ -18,23 +18,27 @@ from qe.certify.verify import check_certificate
 from qe.elimination.cad import certificate_for
 from qe.elimination.vs.trace import Eliminated
 from qe.engine.lemmas import EMPTY, refuting
+from qe.engine.nested import derivations_within, formulas_within, proved_inside
 from qe.engine.substitution_steps import steps
 from qe.errors import CertificateRejected, Unable
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import conj, disj
 from qe.formula.syntax import FALSE, TRUE, And, Exists, ForAll, Formula, Or
 from qe.formula.traverse import children, conjuncts
+from qe.io.names import names_in
 from qe.options import Budget, Options
 from qe.proof.certificate import Certificate, Proof, written
-from qe.proof.derivation import Derivation, moved
+from qe.proof.derivation import Derivation, moved, put_together
 from qe.proof.entry import Entry, Json, formula_to_json, poly_to_text
-from qe.proof.step import Place, Step
+from qe.proof.step import Nested, Place, Step
 
 TABLE_WORK = 3_000
 """Units of work for a decomposition that proves a single step."""
 
 SIMPLIFYING = ("simplification", "standard simplification")
 """Rules whose steps go on under quantifiers."""
+
+CRITICAL = "critical values"
 
 UNRECORDED = "steps that are not recorded"
 
@@ -45,13 +49,8 @@ def proved(derivation: Derivation, answer: Formula, options: Options, budget: Bu
     Raises ``BudgetExceeded``.
     """
     prover = Prover(_ring(derivation, answer), options, budget)
-    current = moved(derivation.start, prover.ring)
-    start = current
-    for step in derivation.steps:
-        current = prover.taken(step, current)
-    goal = moved(answer, prover.ring)
-    if current != goal:
-        prover.joined(current, goal)
+    start, goal = moved(derivation.start, prover.ring), moved(answer, prover.ring)
+    prover.whole(derivation, start, goal)
     unchecked = tuple(dict.fromkeys(prover.unchecked))
     if unchecked:
         return Proof(None, unchecked)
@@ -59,21 +58,25 @@ def proved(derivation: Derivation, answer: Formula, options: Options, budget: Bu
 
 
 def _ring(derivation: Derivation, answer: Formula) -> Ring:
+    """The ring of the derivation, with the names of those inside the evidence of its steps."""
     formulas = (derivation.start, *(step.before for step in derivation.steps), answer)
-    return next((f.ring for f in formulas if f.ring is not None), Ring.of(()))
+    ring = next((f.ring for f in formulas if f.ring is not None), Ring.of(()))
+    inner = [f for step in derivation.steps for f in formulas_within(step.evidence)]
+    return Ring.of(dict.fromkeys((*ring.names, *(name for f in inner for name in names_in(f)))))
 
 
 @dataclass(slots=True)
 class Prover:
     """The steps written so far, and the rules of those that no checker accepts.
 
-    ``tables``: whether decompositions may help.
+    ``tables``: whether decompositions may help; ``known``: what holds wherever the whole formula matters.
     """
 
     ring: Ring
     options: Options
     budget: Budget
     tables: bool = True
+    known: Context = ()
     steps: list[Json] = field(default_factory=list)
     unchecked: list[str] = field(default_factory=list)
     limits: Limits = field(init=False)
@@ -82,6 +85,29 @@ class Prover:
         self.limits = limits_of(self.budget, RULES, check_certificate)
 
     # --- steps ---------------------------------------------------------------------------------
+    def whole(self, derivation: Derivation, start: Formula, goal: Formula) -> None:
+        """All steps of a derivation from ``start`` to ``goal``, and between these and its own ends."""
+        current = moved(derivation.start, self.ring)
+        if start != current:
+            self.joined(start, current)
+        for step in derivation.steps:
+            before, after, known = (moved(f, self.ring) for f in (step.before, step.after, step.context))
+            current = self.taken(replace(step, before=before, after=after, context=known), current)
+        if current != goal:
+            self.joined(current, goal)
+
+    def nested(self, inner: Nested, start: Formula, known: Context) -> tuple[Formula, list[Json]]:
+        """The answer of a derivation inside the evidence of a step, and its steps from ``start`` on.
+
+        Raises ``CertificateRejected`` where one of them has no accepted evidence.
+        """
+        prover = Prover(self.ring, self.options, self.budget, self.tables, known)
+        goal = moved(inner.answer, self.ring)
+        prover.whole(put_together(inner.start, inner.steps, inner.answer), start, goal)
+        if prover.unchecked:
+            raise CertificateRejected("parts", f"no evidence for: {', '.join(prover.unchecked)}")
+        return goal, prover.steps
+
     def taken(self, step: Step, current: Formula) -> Formula:
         """The formula after a step at each of its places, one after the other."""
         for _ in step.places:
@@ -94,14 +120,14 @@ class Prover:
     def _places(self, formula: Formula, before: Formula, path: Place = ()) -> Iterator[Place]:
         """Where a formula stands, or is a part of a conjunction or disjunction."""
         part = isinstance(formula, And | Or) and type(before) is type(formula)
-        if formula == before or (part and set(before.args) < set(formula.args)):  # type: ignore[attr-defined]
+        if formula == before or (part and set(before.args) <= set(formula.args)):  # type: ignore[attr-defined]
             yield path
             return
         for k, child in enumerate(children(formula)):
             yield from self._places(child, before, (*path, k))
 
     def _at(self, place: Place, step: Step, current: Formula) -> Formula:
-        facts, changed = replaced(current, place, step.before, step.after, (), Entry(None, "place"))
+        facts, changed = replaced(current, place, step.before, step.after, self.known, Entry(None, "place"))
         context = tuple(f for f in conjuncts(step.context) if f in facts)
         found = self.own(step, context)
         if found is None and step.rule in SIMPLIFYING and self._simplified_inside(place, step, current) == changed:
@@ -131,7 +157,7 @@ class Prover:
     def _inside(self, place: Place, before: Formula, after: Formula, current: Formula) -> Formula | None:
         if before == after:
             return current
-        facts, changed = replaced(current, place, before, after, (), Entry(None, "place"))
+        facts, changed = replaced(current, place, before, after, self.known, Entry(None, "place"))
         context = tuple(f for f in facts if f.is_quantifier_free)
         for used in ((), context) if context else ((),):
             found = self._tried("simplification", Step("simplification", before, after), used, {})
@@ -197,8 +223,12 @@ class Prover:
             inner = self._substituted(step, trace)
             if inner is not None:
                 return "virtual substitution", inner
+        if step.rule == CRITICAL:
+            found = self._critical(step)
+            return None if found is None else (CRITICAL, found)
         given = step.evidence.get("proof")
-        own = self._tried(step.rule, step, context, self._plain(given) if isinstance(given, Mapping) else {})
+        evidence = self._plain(given) if isinstance(given, Mapping) else {}
+        own = self._tried(step.rule, step, context, evidence)
         return None if own is None else (step.rule, own)
 
     def _tried(self, rule: str, step: Step, context: Context, evidence: dict[str, Json]) -> Json | None:
@@ -206,6 +236,8 @@ class Prover:
         if checker is None:
             return None
         try:
+            if any(derivations_within(evidence)):
+                evidence = proved_inside(checker, self._claim(rule, step, evidence), context, self.limits, self.nested)
             if isinstance(checker, ByLemmas):
                 evidence = {**evidence, "theory": EMPTY}
                 goals = checker.obligations(self._claim(rule, step, evidence), context)
@@ -234,6 +266,20 @@ class Prover:
             self.budget.check("prove")
             return None
         return evidence
+
+    def _critical(self, step: Step) -> Json | None:
+        """The evidence for a step by critical values, accepted."""
+        from qe.engine.critical_proof import critical_evidence
+
+        order, claim = step.evidence.get("order"), self._claim(step.rule, step, {})
+        try:
+            evidence = critical_evidence(claim, order, self.options, self.budget) if isinstance(order, tuple) else None
+        except CertificateRejected:
+            return None
+        except Unable:
+            self.budget.check("prove")
+            return None
+        return None if evidence is None else self._tried(step.rule, step, (), evidence)
 
     def _simplified(self, before: Formula, after: Formula) -> Json:
         """A step of simplification inside another one; ``CertificateRejected`` where it is not proved."""
@@ -278,6 +324,8 @@ class Prover:
                 return self._plain(value)
             case Certificate():
                 return value.to_data()
+            case Nested():
+                return value  # type: ignore[return-value]  # becomes a list of steps when they are proved
             case Formula():
                 return formula_to_json(moved(value, self.ring), quantified=True)
             case None | bool() | int() | str():

@@ -29,6 +29,7 @@ from qe.proof.certificate import Certificate, Kind, Proof, written
 from qe.proof.derivation import negated, put_together
 from qe.proof.entry import Json
 from qe.proof.run_log import RunLog
+from qe.proof.step import Nested
 from qe.rules.preparation import Prepared, prepare
 from qe.rules.step import ALL_STEPS, EQUATION_STEPS, SYMMETRY_STEPS, StepKind
 from qe.simplify.simplify import simplify
@@ -61,7 +62,8 @@ def solve(formula: Formula, options: Options, budget: Budget) -> Outcome:
     started = time.perf_counter()
     run, free = _Run(options, budget), formula.free
     plain = formula if options.root_atoms and formula.is_quantifier_free else without_root_atoms(formula)
-    question = run.log.step("renaming", formula, rename_apart(run.log.step("roots counted", formula, plain)))
+    run.log.step("roots counted", formula, plain)
+    question = run.log.step("renaming", plain, rename_apart(plain))
     found = run.question(question)
     answer = convert(found.formula, Ring.of(free)) if free else found.formula
     proof = run.certificate(formula, question, replace(found, formula=answer))
@@ -78,7 +80,7 @@ class _Run:
     # --- the question as a whole ---------------------------------------------------------------
     def question(self, formula: Formula) -> Outcome:
         """The answer; for sentences that begin with a quantifier also a witness or counterexample."""
-        problem = Problem.of(formula)
+        problem, mark = Problem.of(formula), self.log.mark()
         found = None if problem is None else self.first_of(Scope.ASKED, problem)
         if found is None and problem is not None and not problem.free:
             found = self.sentence(problem)
@@ -90,7 +92,7 @@ class _Run:
             found = self.formula(formula)
         if found.certificate is not None or isinstance(found.formula, Constant):
             return found
-        return replace(found, formula=self.finished(found.formula, formula))
+        return replace(found, formula=self.finished(found.formula, formula, mark))
 
     def sentence(self, problem: Problem) -> Outcome:
         """A sentence of one outermost block, by its existential dual, with values for the block's variables."""
@@ -115,21 +117,27 @@ class _Run:
     def formula(self, formula: Formula) -> Outcome:
         """A formula with parameters, or one that does not begin with a quantifier."""
         ready = self.prepared(formula).formula
-        gathered = gathered_block(ready)
-        found = None if gathered is None else self.first_of(Scope.PREPARED, gathered)
+        gathered, mark = gathered_block(ready), self.log.mark()
+        found = None
+        if gathered is not None:
+            self.log.step("independent parts and miniscoping", ready, gathered.formula)
+            found = self.first_of(Scope.PREPARED, gathered)
+        if found is None:
+            self.log.forget_steps(mark)
         problem = Problem.of(ready)
         if found is None and problem is not None:
             found = self.eliminated(problem)
         return found if found is not None else Outcome(self.without_quantifiers(ready))
 
-    def finished(self, formula: Formula, question: Formula) -> Formula:
-        """A last look: shorter, and TRUE or FALSE where it is that."""
-        return settled(shortened(formula, self.context()), self.context(), self.satisfiable, question)
+    def finished(self, formula: Formula, question: Formula, mark: int) -> Formula:
+        """A last look: shorter, and TRUE or FALSE where it is that. ``mark``: where the question's own steps begin."""
+        return settled(shortened(formula, self.context()), self.context(), self.decision, question, mark)
 
-    def satisfiable(self, sentence: Formula, context: Context) -> bool:
-        """Whether a sentence is true, found in a run of its own within the limits of the context."""
-        plain = context.options.with_(certify=False, root_atoms=False)
-        return _Run(plain, context.budget).question(sentence).formula == TRUE
+    def decision(self, sentence: Formula, context: Context) -> Nested:
+        """How a sentence is decided, in a run of its own within the limits of the context."""
+        run = _Run(context.options.with_(root_atoms=False), context.budget)
+        answer = run.question(sentence).formula
+        return Nested(sentence, tuple(run.log.steps()), answer)
 
     def context(self, budget: Budget | None = None) -> Context:
         return Context(self.options, budget or self.budget, self.log)

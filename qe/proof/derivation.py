@@ -102,7 +102,7 @@ def _replaced(formula: Formula, before: Formula, after: Formula, path: Place, pl
     match formula:
         case And(args) | Or(args):
             build = conj if isinstance(formula, And) else disj
-            if type(before) is type(formula) and set(before.args) < set(args):
+            if type(before) is type(formula) and set(before.args) <= set(args):
                 rest = [c for c, old in zip(changed, args, strict=True) if old not in before.args]
                 places.append(path)
                 return build((*rest, after))

@@ -24,3 +24,12 @@ class Step:
     context: Formula = TRUE
     evidence: Mapping[str, object] = field(default_factory=dict)
     places: tuple[Place, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Nested:
+    """A derivation inside the evidence of a step: how ``start`` became ``answer``."""
+
+    start: Formula
+    steps: tuple[Step, ...]
+    answer: Formula

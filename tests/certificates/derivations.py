@@ -39,6 +39,12 @@ CASES = {
     "point": "all x, y, z, u. x^2 + y^2 + z^2 + u^2 > 1",
     "multipliers": "ex x, y, z, u. x^2 + y^2 + z^2 + u^2 + x < -1",
     "basis": "ex x, y. x*y = 1 and x^2 + y^2 = a and x > 0 and y > x",
+    "infinity": "all x. a*x^3 + b*x + c >= 0 or x = d",
+    "terms": "all a, b. ex x. 4*(x - a)^2 <= (a - b)^2 and 4*(x - b)^2 <= (a - b)^2",
+    "roots": "x < root(2, x^2 - y)",
+    "nonzero shift": "ex x. x^2 = a and x /= 0 and x^4 /= 9*b",
+    "discs": "ex x, y. (x - a)^2 + (y - b)^2 <= 1 and x^2 + y^2 <= 4",
+    "nowhere": "(ex x, y, z. x + a = 4 and y + b = 9 and z + c = 9 and x^2 + y^2 + z^2 <= 9) and a^2 + b^2 + c^2 <= 9",
     "intervals": "all x. x > 3 -> x^2 - 2 > 0 and x /= 1",
 }
 

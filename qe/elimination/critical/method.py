@@ -59,7 +59,7 @@ class CriticalValues:
         """
         dual = problem.dual
         formula, order = by_critical_values(dual.variables, dual.body, context)
-        answer = context.log.step("critical values", problem.formula, problem.asked(formula))
+        answer = context.log.step("critical values", problem.formula, problem.asked(formula), evidence={"order": order})
         return Outcome(answer, order=order)
 
 

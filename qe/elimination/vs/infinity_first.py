@@ -18,6 +18,8 @@ from qe.formula.normal import nnf
 from qe.formula.syntax import FALSE, TRUE, Formula, Relation
 from qe.formula.traverse import polynomials
 from qe.options import Budget, Options
+from qe.proof.run_log import RunLog
+from qe.proof.step import Nested
 from qe.rules.preparation import prepare
 from qe.simplify.facts import NOTHING
 from qe.simplify.simplify import simplify
@@ -39,15 +41,22 @@ class InfinityFirst:
         if found is None:
             return None
         whole = problem.asked(disj((found.solutions, found.rest)))
-        return Outcome(context.log.step(self.name, problem.formula, whole))
+        proof = {"variable": dual.variables[0], "cases": list(found.cases), "parts": list(found.parts)}
+        return Outcome(context.log.step(self.name, problem.formula, whole, evidence={"proof": proof}))
 
 
 @dataclass(frozen=True, slots=True)
 class FarFirst:
-    """exists x. F iff ``solutions`` or ``rest``; ``rest`` is quantified, prepared, and of lower degree in x."""
+    """exists x. F iff ``solutions`` or ``rest``; ``rest`` is quantified, prepared, and of lower degree in x.
+
+    ``cases``: of the sign of the leading coefficient, that of the rest first. ``parts``: how the solutions and what is
+    left in each case were found.
+    """
 
     solutions: Formula
     rest: Formula
+    cases: tuple[Formula, ...]
+    parts: tuple[Nested, ...]
 
 
 def far_first(variable: str, body: Formula, *, budget: Budget) -> FarFirst | None:
@@ -57,13 +66,24 @@ def far_first(variable: str, body: Formula, *, budget: Budget) -> FarFirst | Non
         return None
     x = high[0].ring.index[variable]
     lead = max(high, key=lambda p: p.degree(x)).leading(x)
-    far = simplify(disj(Substitution(x, Infinity(side), NOTHING)(body) for side in (-1, 1)))
+    near = disj(Substitution(x, Infinity(side), NOTHING)(body) for side in (-1, 1))
+    far = simplify(near)
+    solutions = Nested(near, (), far)
     if far == TRUE:
-        return FarFirst(TRUE, FALSE)
+        return FarFirst(TRUE, FALSE, (TRUE,), (solutions, Nested(FALSE, (), FALSE)))
     if lead.is_constant:
         return None
-    near = conj((body, nnf(neg(far))))
-    for relation in (Relation.GT, Relation.LT):
-        if prepare(exists([variable], conj((near, atom(lead, relation)))), budget=budget).formula != FALSE:
+    left = conj((body, nnf(neg(far))))
+    cases = [atom(lead, relation) for relation in (Relation.GT, Relation.LT, Relation.EQ)]
+    parts: list[Nested] = []
+    for case in cases:
+        parts.insert(0, _prepared(exists([variable], conj((left, case))), budget))
+        if case is not cases[-1] and parts[0].answer != FALSE:
             return None
-    return FarFirst(far, prepare(exists([variable], conj((near, atom(lead, Relation.EQ)))), budget=budget).formula)
+    return FarFirst(far, parts[0].answer, tuple(reversed(cases)), (solutions, *parts))
+
+
+def _prepared(block: Formula, budget: Budget) -> Nested:
+    log = RunLog()
+    answer = prepare(block, budget=budget, log=log).formula
+    return Nested(block, tuple(log.steps()), answer)

@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 
 from qe.engine.cofactors import cofactors
 from qe.exact.ring import Poly, Ring
+from qe.options import Budget
 
 R = Ring.of(("x", "y"))
 X, Y = R.gen(0), R.gen(1)
@@ -22,7 +23,7 @@ def test_combinations_are_found_and_multiply_out(numbers: list[int]) -> None:
 
 
 def check(targets: list[Poly], generators: list[Poly]) -> None:
-    found = cofactors(targets, generators)
+    found = cofactors(targets, generators, Budget(20))
     assert found is not None
     numbers, factors = found
     assert numbers[0] > 0
@@ -39,5 +40,5 @@ def test_no_common_zero() -> None:
 
 
 def test_outside_the_ideal() -> None:
-    assert cofactors([X + 1], [X * X, Y]) is None
-    assert cofactors([R.constant(1)], [X, Y]) is None
+    assert cofactors([X + 1], [X * X, Y], Budget(20)) is None
+    assert cofactors([R.constant(1)], [X, Y], Budget(20)) is None

@@ -1,0 +1,65 @@
+"""Evidence with derivations inside: the checker of the rule says where each begins, and it is proved from there.
+
+Nothing here is trusted: what is found is checked once more as a whole.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import replace
+
+from qe.certify.step import Check, Claim, Context, Limits
+from qe.errors import CertificateRejected
+from qe.exact.ring import Ring
+from qe.formula.syntax import Formula
+from qe.proof.entry import Entry, Json
+from qe.proof.step import Nested
+
+Prove = Callable[[Nested, Formula, Context], tuple[Formula, list[Json]]]
+"""From the formula with which a checker begins, under a context, to the answer of a derivation: that, and the steps.
+
+Raises ``CertificateRejected`` where a step has no accepted evidence.
+"""
+
+
+def derivations_within(value: object) -> Iterator[Nested]:
+    """All derivations in the evidence of a step, also those inside each other."""
+    if isinstance(value, Nested):
+        yield value
+        yield from derivations_within([step.evidence for step in value.steps])
+    elif isinstance(value, Mapping):
+        yield from derivations_within(list(value.values()))
+    elif isinstance(value, list | tuple):
+        for part in value:
+            yield from derivations_within(part)
+
+
+def formulas_within(value: object) -> Iterator[Formula]:
+    """The formulas of those derivations."""
+    for inner in derivations_within(value):
+        yield from (inner.start, inner.answer)
+        for step in inner.steps:
+            yield from (step.before, step.after, step.context)
+
+
+def proved_inside(checker: Check, claim: Claim, context: Context, limits: Limits, prove: Prove) -> Json:
+    """The claim's evidence with the steps of its derivations. Raises as the checker and ``prove`` do."""
+    found: dict[int, list[Json]] = {}
+
+    def replay(entry: Entry, start: Formula, known: Context, ring: Ring) -> Formula:
+        nested: object = entry.value
+        if not isinstance(nested, Nested):
+            raise CertificateRejected(entry.path, "no derivation")
+        answer, found[id(nested)] = prove(nested, start, known)
+        return answer
+
+    checker(claim, context, replace(limits, replay=replay))
+
+    def filled(value: object) -> Json:
+        if isinstance(value, Nested):
+            return list(found[id(value)])
+        if isinstance(value, dict):
+            return {name: filled(part) for name, part in value.items()}
+        return [filled(part) for part in value] if isinstance(value, list) else value  # type: ignore[return-value]
+
+    return filled(claim.evidence.value)
