@@ -7,7 +7,9 @@ from collections.abc import Mapping
 from qe.certify.alternatives import check_alternatives
 from qe.certify.block import check_block
 from qe.certify.degree_shift import check_degree_shift
+from qe.certify.distribution import check_distribution
 from qe.certify.elimination_set import check_elimination_set
+from qe.certify.gathering import check_gathering
 from qe.certify.independent_parts import check_independent_parts
 from qe.certify.inequations import check_inequations, check_only_nonzero
 from qe.certify.instance import check_instance
@@ -17,10 +19,12 @@ from qe.certify.negation import check_negation
 from qe.certify.open_block import check_open_block
 from qe.certify.renaming import check_renaming
 from qe.certify.replayed_block import check_replayed_block
+from qe.certify.rotation import check_rotation
 from qe.certify.sentence import check_sentence
 from qe.certify.step import Check
 from qe.certify.symmetry import check_scaling, check_translation
 from qe.certify.table import check_table
+from qe.certify.value_taken import check_value_taken
 
 RULES: Mapping[str, Check] = {
     "renaming": check_renaming,
@@ -38,6 +42,11 @@ RULES: Mapping[str, Check] = {
     "degree shift": check_degree_shift,
     "translation of the origin": check_translation,
     "homogeneous scaling": check_scaling,
+    "rotation of the axes": check_rotation,
+    "nested blocks of one kind gathered": check_gathering,
+    "disjuncts with equations apart": check_distribution,
+    "value that is taken": check_value_taken,
+    "equations taken apart": check_replayed_block,
     "inequations that remove no interior": check_inequations,
     "only asked to be no root": check_only_nonzero,
     "virtual substitution": check_replayed_block,

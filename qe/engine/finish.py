@@ -10,12 +10,12 @@ from qe.engine.constant import constant_value
 from qe.engine.strategy import allows
 from qe.errors import InternalError, Unable
 from qe.formula.build import conj, convert, disj
-from qe.formula.syntax import Atom, Formula, Relation
+from qe.formula.syntax import And, Atom, Exists, Formula, Or, Relation
 from qe.formula.traverse import atoms, conjuncts, disjuncts, free_variables, has_root_atoms, ring_of
 from qe.options import Method, Stage
 from qe.proof.run_log import RunLog
 from qe.rules.block_context import BlockContext
-from qe.rules.step import POINTWISE_STEPS
+from qe.rules.step import POINTWISE_STEPS, StepKind
 from qe.rules.tree import All, Any, Leaf, Node
 from qe.simplify.simplify import simplify
 
@@ -56,15 +56,22 @@ def untangled(formula: Formula, context: Context) -> Formula:
         return formula
     from qe.rules.block import reduce_block
 
-    rules = BlockContext(context.budget.part(SHORTEN_WORK), POINTWISE_STEPS)
+    rules, steps = BlockContext(context.budget.part(SHORTEN_WORK), POINTWISE_STEPS), RunLog()
     try:
-        shorter = simplify(_matrix(reduce_block(free_variables(formula), formula, rules)))
+        apart = _matrix(reduce_block(free_variables(formula), formula, rules))
+        shorter = simplify(apart)
     except Unable:
         context.budget.check("shorten")
         return formula
     ring = ring_of(formula)
     shorter = shorter if ring is None else convert(shorter, ring)
-    return context.log.step("equations taken apart", formula, shorter) if length(shorter) < length(formula) else formula
+    if length(shorter) >= length(formula):
+        return formula
+    for step in rules.log.steps():
+        rule = StepKind.SIMPLIFY.value if step.rule == StepKind.MINISCOPE.value else step.rule
+        steps.step(rule, _unquantified(step.before), _unquantified(step.after), context=step.context)
+    steps.step(StepKind.SIMPLIFY.value, apart, shorter)
+    return context.log.step("equations taken apart", formula, shorter, evidence={"trace": steps})
 
 
 def _matrix(node: Node) -> Formula:
@@ -77,6 +84,16 @@ def _matrix(node: Node) -> Formula:
         case All(children):
             return conj(map(_matrix, children))
     raise InternalError("a rule that is no equivalence at every point")
+
+
+def _unquantified(formula: Formula) -> Formula:
+    """A formula of a block that is only there to say which variables there are; without it, parts are joined."""
+    match formula:
+        case Exists(_, body):
+            return _unquantified(body)
+        case And(args) | Or(args):
+            return (conj if isinstance(formula, And) else disj)(map(_unquantified, args))
+    return formula
 
 
 def settled(

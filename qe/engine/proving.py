@@ -28,6 +28,7 @@ from qe.options import Budget, Options
 from qe.proof.certificate import Certificate, Proof, written
 from qe.proof.derivation import Derivation, moved
 from qe.proof.entry import Entry, Json, formula_to_json, poly_to_text
+from qe.proof.run_log import RunLog
 from qe.proof.step import Place, Step
 
 TABLE_WORK = 3_000
@@ -197,6 +198,9 @@ class Prover:
             inner = self._substituted(step, trace)
             if inner is not None:
                 return "virtual substitution", inner
+        if isinstance(trace, RunLog):
+            inner = self._replayed(step, trace)
+            return None if inner is None else (step.rule, inner)
         given = step.evidence.get("proof")
         own = self._tried(step.rule, step, context, self._plain(given) if isinstance(given, Mapping) else {})
         return None if own is None else (step.rule, own)
@@ -234,6 +238,18 @@ class Prover:
             self.budget.check("prove")
             return None
         return evidence
+
+    def _replayed(self, step: Step, log: RunLog) -> Json | None:
+        """The steps of which one step is made, all of them accepted."""
+        inner = Prover(self.ring, self.options, self.budget, self.tables)
+        current = step.before
+        for part in log.steps():
+            before, after, context = (moved(f, self.ring) for f in (part.before, part.after, part.context))
+            places = tuple(self._places(current, before))
+            current = inner.taken(Step(part.rule, before, after, context, part.evidence, places), current)
+        if current != step.after:
+            inner.joined(current, step.after)
+        return None if inner.unchecked else self._tried(step.rule, step, (), {"steps": inner.steps})
 
     def _simplified(self, before: Formula, after: Formula) -> Json:
         """A step of simplification inside another one; ``CertificateRejected`` where it is not proved."""

@@ -10,7 +10,7 @@ from qe.api_input import read_formula
 from qe.engine.proving import proved
 from qe.engine.run import solve
 from qe.formula.syntax import Formula
-from qe.options import Budget, Options, Stage
+from qe.options import Budget, Options
 from qe.proof.certificate import Certificate
 from qe.proof.derivation import Derivation, put_together
 
@@ -39,12 +39,18 @@ CASES = {
     "point": "all x, y, z, u. x^2 + y^2 + z^2 + u^2 > 1",
     "multipliers": "ex x, y, z, u. x^2 + y^2 + z^2 + u^2 + x < -1",
     "basis": "ex x, y. x*y = 1 and x^2 + y^2 = a and x > 0 and y > x",
+    "gathered": "ex x. x > a and ex y. x*y = 1 and y > 2",
+    "gathered all": "all x. x > a or (all y. x*y > 1 or y > x)",
+    "turned": "ex x, y. x^2 + y^2 = a and (x^2 + y^2)^2 > b",
+    "turned vectors": "all x, y. x^2 + y^2 > a or (ex u, v. u = 2*x and v = 2*y and x*u + y*v > b)",
+    "distributed": "ex x, y. x > b and (y = 3*x or x = 2*y + a)",
+    "taken": "ex x, y. (a^2 + 1)*x^5 - y*x = b and y^2 > a",
+    "taken far out": "ex x. b > 0 and b*x^4 + x > a",
+    "taken apart": "ex x, y. a - b = 0 and (a + b)*x = c",
     "intervals": "all x. x > 3 -> x^2 - 2 > 0 and x /= 1",
 }
 
-
-PROVED = Options(certify=True, without=frozenset({Stage.VALUES, Stage.DISTRIBUTION}))
-"""Without the rules that have no checker yet."""
+PROVED = Options(certify=True)
 
 
 def derived(text: str) -> tuple[Derivation, Formula]:

@@ -18,7 +18,7 @@ from qe.proof.certificate import Certificate, digest
 from qe.proof.entry import Entry, formula_from_json
 from tests.certificates.derivations import CASES, certificate, data, rules
 
-QUICK = {"sign", "shift", "translated", "squares", "negations", "none", "point"}
+QUICK = {"sign", "shift", "translated", "squares", "negations", "none", "point", "distributed", "taken far out"}
 """Cases for every day; the others are altered in the deep tests."""
 
 
