@@ -85,7 +85,7 @@ def _skew(plane: Entry, blocks: Sequence[Sequence[str]], claim: Claim) -> Skew:
 
 def _is_plane(skew: Skew, plane: set[int]) -> bool:
     """Whether the two are joined to each other and to nothing else; by the number 1, as multiples of S are as good."""
-    return len(plane) == 2 and [(set(pair), s) for pair, s in skew.items() if plane & set(pair)] == [(plane, 1)]
+    return len(plane) == 2 and [(set(pair), s == 1) for pair, s in skew.items() if plane & set(pair)] == [(plane, True)]
 
 
 def _derivatives(formula: Formula, skew: Skew) -> Iterator[Poly]:

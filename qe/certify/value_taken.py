@@ -29,9 +29,9 @@ def value_goals(claim: Claim, context: Context) -> list[Goal]:
     parts = conjuncts(block.body)
     having = [part for part in parts if name in part.free]
     others = [part for part in parts if name not in part.free]
-    if len(having) != 1 or not isinstance(having[0], Atom):
+    met, x = having[0] if len(having) == 1 else None, claim.ring.index[name]
+    if not isinstance(met, Atom):
         raise claim.fail(f"expected one comparison with {name}")
-    (met,), x = having, claim.ring.index[name]
     if claim.after != exists([v for v in block.variables if v != name], conj(others)):
         raise claim.fail("not the block without this comparison")
     if met.poly.degree(x) % 2 or met.relation is Relation.NE:

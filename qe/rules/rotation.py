@@ -94,7 +94,7 @@ def _plane(variables: Sequence[str], body: Formula, polys: Sequence[Poly], wante
     ring = polys[0].ring
     blocks = [tuple(variables), *(f.variables for f in subformulas(body) if isinstance(f, Exists | ForAll))]
     names = [name for block in blocks for name in block]
-    if len(names) != len(set(names)):
+    if len(names) != len(set(names)) or set(names[len(variables) :]) & set(body.free):
         return None
     occurring = {i for p in polys for i in p.variables}
     pairs = [

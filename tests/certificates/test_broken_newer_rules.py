@@ -165,8 +165,9 @@ def test_one_name_bound_twice() -> None:
 def test_equations_of_which_one_is_lost(monkeypatch: pytest.MonkeyPatch) -> None:
     given = read_formula("a - b = 0 and (a + b /= 0 or c = 0)")
     assert accepted(untangling(given))
-    full = finish.simplify
-    monkeypatch.setattr(finish, "simplify", lambda formula: conj(full(formula).args[:1]))  # type: ignore[attr-defined]
+    from qe.simplify.simplify import simplify
+
+    monkeypatch.setattr(finish, "simplify", lambda formula: conj(simplify(formula).args[:1]))  # type: ignore[attr-defined]
     assert not accepted(untangling(given))
 
 
@@ -177,3 +178,15 @@ def untangling(given: Formula) -> Step:
     (step,) = log.steps()
     assert step.rule == "equations taken apart"
     return step
+
+
+@pytest.mark.parametrize(
+    ("text", "kind"),
+    [
+        ("ex x. x > u and (ex u. u > x)", StepKind.TRANSLATION),
+        ("ex x, y. x^2 > u*y and (ex u. u^2 > x*y and u > 0)", StepKind.SCALING),
+        ("ex x, y. x^2 + y^2 < 2 and x*u - y*v > 1 and (all u, v. x*u > y*v + 1)", TURNED),
+    ],
+)
+def test_a_free_name_that_is_bound_elsewhere_is_not_moved(text: str, kind: StepKind) -> None:
+    assert not steps_of(text, kind)
