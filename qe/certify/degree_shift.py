@@ -2,7 +2,7 @@
 
 THEOREM. Let every exponent of x in f be a multiple of k > 1, f(x) = g(x^k). Then ex x f iff ex x (x >= 0 and g) for
 even k, and iff ex x g for odd k, since x^k takes all non-negative (all) real values. Comparisons of x itself with 0 may
-stay for odd k, and for even k where f implies x >= 0.
+stay for odd k, and for even k where f implies x >= 0; x = 0 and x /= 0 may stay in any case.
 
 Evidence: ``variable``, ``exponent``, ``theory`` (for x >= 0).
 """
@@ -32,7 +32,7 @@ def shift_goals(claim: Claim, context: Context) -> list[Goal]:
         if len(parts) == 1:
             return given
         if given.poly == ring.gen(x):
-            bare = True
+            bare = bare or given.relation not in (Relation.EQ, Relation.NE)
             return given
         if any(part for power, part in enumerate(parts) if power % k):
             raise exponent.fail("not all exponents are multiples of it")

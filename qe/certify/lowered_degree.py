@@ -2,10 +2,10 @@
 
 THEOREM (Dolzmann, Sturm & Weispfenning 1998). If the exponents of x in the atoms of F are multiples of d, but for
 atoms that compare x itself with 0, then exists x. F iff exists x. G, with x for x^d in G; for even d with x >= 0
-added, and atoms that compare x itself need a conjunct of F that says x >= 0. For odd d, x^d takes every value once
-and has the sign of x; for even d and x >= 0 it takes every value >= 0 once, and F without such atoms is the same at
--x. If all atoms with x in F are strict, the solutions are an open set, so 0 is not the only one, and x > 0 may be
-added instead.
+added, and atoms that compare x itself, but by = or /=, need a conjunct of F that says x >= 0. For odd d, x^d takes
+every value once and has the sign of x; for even d and x >= 0 it takes every value >= 0 once, and F without such atoms
+is the same at -x. If all atoms with x in F are strict, the solutions are an open set, so 0 is not the only one, and
+x > 0 may be added instead.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ def lowered(body: Formula, x: int, shift: int, entry: Entry) -> Formula:
     if shift == 1:
         return body
     with_x = [a for a in atoms(body) if isinstance(a, Atom) and a.poly.degree(x)]
-    bare = [a for a in with_x if _is_bare(a.poly, x)]
+    bare = [a for a in with_x if _is_bare(a.poly, x) and a.relation not in (Relation.EQ, Relation.NE)]
     if shift % 2 == 0 and bare and not any(b in conjuncts(body) and 1 not in _below(b) for b in bare):
         raise entry.fail("the sign of the variable is asked for, and it may be negative")
 

@@ -20,6 +20,7 @@ CASES = {
     "sign": "a > 1 and (ex x. a*x = b and x^3 > 2)",
     "guard": "ex x, y. a*x = y and x + y > 1 and y < 2",
     "shift": "ex x. x^12 = a",
+    "shift beside zero": "ex x. x /= 0 and x^4 + a*x^2 + b = 0",
     "translated": "ex x, y. (x - y)^4 + (x - y) < a",
     "scaled": "ex x, y. x^3 + y^3 > 0 and x^2*y > 0",
     "squares": "ex x, y. x^2 + y^2 = 0 and x*y = a",
