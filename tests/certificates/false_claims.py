@@ -104,12 +104,6 @@ def optimum(rng: random.Random) -> Certificate | None:
         lambda: x**2 + line(),
         lambda: x**2 * 2 + x * y + y**2 + line(),
     ]
-        line,
-        line,
-        lambda: x**2 + y**2 + line(),
-        lambda: x**2 + line(),
-        lambda: x**2 * 2 + x * y + y**2 + line(),
-    ]
     relations = (Relation.LE, Relation.LE, Relation.LT)
     conditions = conj(atom(rng.choice(shapes)(), rng.choice(relations)) for _ in range(rng.randint(1, 3)))
     try:
