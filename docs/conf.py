@@ -64,3 +64,15 @@ sphinx_gallery_conf = {
     "show_memory": False,
     "min_reported_time": 10,
 }
+
+
+def example_of_a_derivation(app: Any, error: Exception | None) -> None:
+    """The page to which ``derivations.md`` links, as ``Derivation.to_html`` writes it."""
+    if error is None:
+        answer = qe.eliminate("ex x, y. x^2 + y^2 = a and x + y = b")
+        (Path(app.outdir) / "derivation_example.html").write_text(answer.derivation.to_html(), "utf-8")
+
+
+def setup(app: Any) -> None:
+    """The example is written when the site is."""
+    app.connect("build-finished", example_of_a_derivation)

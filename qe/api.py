@@ -32,7 +32,7 @@ from qe.proof.run_log import RunLog
 if TYPE_CHECKING:  # the checker and the optimiser are loaded where they are used
     from qe.certify.verdict import Verdict
     from qe.elimination.protocol import Outcome
-    from qe.elimination.vs.parametric import ParametricWitness
+    from qe.elimination.vs.parametric import ParametricWitnesses
     from qe.regions.region import Region
 
 Result = TypeVar("Result")
@@ -178,16 +178,9 @@ def _answer(formula: Formula, options: Options, budget: Budget, check: bool) -> 
         log = RunLog()
         log.work("limits", {"work": budget.used})
         return Answer(Status.UNABLE, None, reason=str(error), question=formula, log=log)
-    certificate = found.certificate
-    answer = Answer(
-        Status.SOLVED,
-        found.formula,
-        found.witness,
-        certificate,
-        unchecked_steps=found.unchecked,
-        question=formula,
-        log=found.log,
-    )
+    from qe.engine.run import answer_to
+
+    answer, certificate = answer_to(formula, found), found.certificate
     if certificate is not None and (check or certificate.kind is Kind.WITNESS or found.witness is not None):
         from qe.api_verify import with_verdict
 
@@ -230,25 +223,40 @@ def parametric_witnesses(
     timeout: float | None = None,
     memory: int | None = None,
     progress: Progress = silent,
+    check: bool = False,
     process: bool = True,
-) -> tuple[ParametricWitness, ...]:
+) -> ParametricWitnesses:
     """Solutions of the outermost block as terms in the free variables, each under its guard (extended answers).
 
     The guards together are equivalent to an existential block; for a universal block the terms are counterexamples.
+    ``answer`` of the tuple says so as an ``Answer``; with ``check`` it has a certificate, whose steps put the terms in.
     Raises ``InputError`` for a formula without an outermost block, ``Unable`` where substitution does not apply.
     """
     start = time.monotonic()
     from qe.elimination.vs.parametric import parametric_witnesses as find
 
     limits = _limits(timeout, memory, progress, process).begun(start)
-    given = without_root_atoms(_read(formula, format, limits, read_block))
+    check = arguments.flag(check, "check")
+    given = _read(formula, format, limits, read_block)
 
-    def work(budgets: Budgets) -> tuple[ParametricWitness, ...]:
-        block = given
+    def work(budgets: Budgets) -> ParametricWitnesses:
+        from qe.api_verify import with_verdict
+        from qe.engine.run import derived
+
+        log, options, budget = RunLog(), Options(certify=check), budgets()
+        block = log.step("roots counted", given, without_root_atoms(given))
         if isinstance(block, Exists | ForAll) and not is_quantifier_free(block.body):
             # what is left may well be a constant
-            block = replace(block, body=_solved(block.body, Options(), budgets()).formula)
-        return find(block, budget=budgets())
+            inner = _solved(block.body, options.with_(certify=False), budget)
+            log.entries += inner.log.entries
+            block = replace(block, body=inner.formula)
+        found = find(block, budget=budget, log=log)
+        formula = found.equivalent_to(given)
+        answer = Answer(Status.SOLVED, formula, question=given, log=log)
+        if check:
+            proof = derived(given, log, formula, options, budget)
+            answer = replace(answer, certificate=proof.certificate, unchecked_steps=proof.unchecked)
+        return found.with_(answer if answer.certificate is None else with_verdict(answer, budget))
 
     return _performed(work, given, limits)
 
@@ -288,6 +296,7 @@ def region(
     timeout: float | None = None,
     memory: int | None = None,
     progress: Progress = silent,
+    check: bool = False,
     process: bool = True,
 ) -> Region:
     """The solution set of a formula in its free variables (or in ``order``, which may name more).
@@ -298,16 +307,27 @@ def region(
     quadratic conditions in four or more variables, or with existential quantifiers before it, membership, fibres
     and bounds are found by exact optimisation, and the description only on request. ``timeout`` (seconds) and
     ``memory`` (MB) hold here and then for every question that is asked of the region; see ``eliminate`` for them and
-    for ``process``. Raises ``BudgetExceeded`` at a limit.
+    for ``process``. With ``check`` the description is made at once (not where there are four or more variables and
+    convex conditions) and verified, and ``Region.answer`` has the elimination of the quantifiers with its derivation;
+    ``Region.guarantee`` and ``reason`` say what came of it, ``Region.proof`` is for others.
+    Raises ``BudgetExceeded`` at a limit.
     """
     start = time.monotonic()
     from qe.regions.build import described
 
     whole, names = _limits(timeout, memory, progress, process), arguments.names(order)
     limits = whole.begun(start)
+    check = arguments.flag(check, "check")
     read = _read(formula, format, limits)
 
-    return _performed(lambda budgets: described(read, names, budgets(), whole), read, limits)
+    def work(budgets: Budgets) -> Region:
+        from qe.api_verify import with_guarantee
+
+        budget = budgets()
+        found = described(read, names, budget, whole, check=check)
+        return with_guarantee(found, budget) if check else found
+
+    return _performed(work, read, limits)
 
 
 def verify(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Literal, overload
 
 from qe import arguments
@@ -10,6 +11,7 @@ from qe.api_input import AnyFormula, read_constraints, read_polynomial
 from qe.api_limits import Progress, limits_of, performed
 from qe.errors import InputError
 from qe.execution import Budgets, Limits
+from qe.options import Budget
 from qe.progress import silent
 
 if TYPE_CHECKING:
@@ -30,6 +32,7 @@ def minimize(
     timeout: float | None = ...,
     memory: int | None = ...,
     progress: Progress = ...,
+    check: bool = ...,
     process: bool = ...,
 ) -> Optimum: ...
 @overload
@@ -42,6 +45,7 @@ def minimize(
     timeout: float | None = ...,
     memory: int | None = ...,
     progress: Progress = ...,
+    check: bool = ...,
     process: bool = ...,
 ) -> ParametricOptimum: ...
 @overload
@@ -53,6 +57,7 @@ def minimize(
     timeout: float | None = ...,
     memory: int | None = ...,
     progress: Progress = ...,
+    check: bool = ...,
     process: bool = ...,
 ) -> Optimum | GlobalOptimum: ...
 def minimize(
@@ -64,6 +69,7 @@ def minimize(
     timeout: float | None = None,
     memory: int | None = None,
     progress: Progress = silent,
+    check: bool = False,
     process: bool = True,
 ) -> Optimum | GlobalOptimum | ParametricOptimum:
     """The exact global minimum of a polynomial where the constraints hold.
@@ -73,9 +79,11 @@ def minimize(
     multipliers; all others are solved by elimination, with quantifiers in the constraints if need be, and get a
     ``GlobalOptimum`` with all minimisers. ``method``: "convex" or "elimination" takes that way only.
     ``parameters``: variables that are not optimised over; the answer is a ``ParametricOptimum``, their function.
+    With ``check`` its certificate is verified: ``guarantee`` is ``CHECKED``, or ``reason`` says why not; an elimination
+    comes with its derivation (``answer``).
     Raises ``Unable`` where no proof was found, ``BudgetExceeded`` at a limit; see ``eliminate`` for the limits.
     """
-    return _best(1, objective, constraints, parameters, method, limits_of(timeout, memory, progress, process))
+    return _best(1, objective, constraints, parameters, method, limits_of(timeout, memory, progress, process), check)
 
 
 @overload
@@ -87,6 +95,7 @@ def maximize(
     timeout: float | None = ...,
     memory: int | None = ...,
     progress: Progress = ...,
+    check: bool = ...,
     process: bool = ...,
 ) -> Optimum: ...
 @overload
@@ -99,6 +108,7 @@ def maximize(
     timeout: float | None = ...,
     memory: int | None = ...,
     progress: Progress = ...,
+    check: bool = ...,
     process: bool = ...,
 ) -> ParametricOptimum: ...
 @overload
@@ -110,6 +120,7 @@ def maximize(
     timeout: float | None = ...,
     memory: int | None = ...,
     progress: Progress = ...,
+    check: bool = ...,
     process: bool = ...,
 ) -> Optimum | GlobalOptimum: ...
 def maximize(
@@ -121,39 +132,63 @@ def maximize(
     timeout: float | None = None,
     memory: int | None = None,
     progress: Progress = silent,
+    check: bool = False,
     process: bool = True,
 ) -> Optimum | GlobalOptimum | ParametricOptimum:
     """The exact global maximum; see ``minimize``."""
-    return _best(-1, objective, constraints, parameters, method, limits_of(timeout, memory, progress, process))
+    return _best(-1, objective, constraints, parameters, method, limits_of(timeout, memory, progress, process), check)
 
 
 def _best(
-    sign: int, objective: AnyFormula, constraints: AnyFormula, parameters: Names | None, method: Way, limits: Limits
+    sign: int,
+    objective: AnyFormula,
+    constraints: AnyFormula,
+    parameters: Names | None,
+    method: Way,
+    limits: Limits,
+    check: bool,
 ) -> Optimum | GlobalOptimum | ParametricOptimum:
     """The optimum of a convex problem by its method, of any other by elimination."""
-    from qe.convex.optimum import NotConvex, maximize, minimize
+    from qe.convex.optimum import NotConvex, Optimum, maximize, minimize
 
     poly, scale = read_polynomial(objective, "objective")
     conditions = read_constraints(constraints)
-    given = arguments.names(parameters, "parameters")
+    given, check = arguments.names(parameters, "parameters"), arguments.flag(check, "check")
     if not isinstance(method, str) or method not in ("auto", "convex", "elimination"):
         raise arguments.wrong("method", "auto, convex or elimination", method)
     if given is not None and method == "convex":
         raise InputError("parameters: method auto or elimination expected with parameters, convex found")
 
     def work(budgets: Budgets) -> Optimum | GlobalOptimum | ParametricOptimum:
+        budget = budgets()
+        found = search(budget)
+        if not check:
+            return found
+        from qe.api_verify import judged
+        from qe.optimization.global_optimum import POINT, GlobalOptimum
+        from qe.proof.answer import Guarantee
+
+        guarantee, reason = judged(found.certificate, budget)
+        if isinstance(found, Optimum):
+            return replace(found, guarantee=guarantee, reason=reason)
+        if found.certificate is None:
+            reason = found.answer.why_unchecked
+        elif isinstance(found, GlobalOptimum) and POINT in found.unchecked_steps:
+            guarantee, reason = Guarantee.DERIVED, reason or "the point under the quantifiers is not proved"
+        return replace(found, guarantee=guarantee, reason=reason)
+
+    def search(budget: Budget) -> Optimum | GlobalOptimum | ParametricOptimum:
         from qe.optimization.global_optimum import best
         from qe.optimization.parametric_optimum import optimum_of
 
-        budget = budgets()
         if given is not None:
-            return optimum_of(sign, poly, conditions, given, scale=scale, budget=budget)
+            return optimum_of(sign, poly, conditions, given, scale=scale, budget=budget, check=check)
         if method != "elimination":
             try:
                 return (minimize if sign > 0 else maximize)(poly, conditions, scale=scale, budget=budget)
             except NotConvex:
                 if method == "convex":
                     raise
-        return best(sign, poly, conditions, scale=scale, budget=budget)
+        return best(sign, poly, conditions, scale=scale, budget=budget, check=check)
 
     return performed(work, conditions, limits)

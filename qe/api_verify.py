@@ -18,6 +18,7 @@ from qe.proof.certificate import Certificate, Labelled
 if TYPE_CHECKING:
     from qe.certify.verdict import Verdict
     from qe.proof.entry import Json
+    from qe.regions.region import Region
 
 SHARE = 0.8
 """The part of the time left after an answer that its verification may take: the answer has to get home too."""
@@ -62,16 +63,41 @@ def with_verdict(answer: Answer, budget: Budget) -> Answer:
     A certificate that is not verified in the time that the budget leaves is dropped, and the reason noted: the answer
     follows from the algorithms all the same. Raises ``InternalError`` where a certificate is refused.
     """
-    certificate, left = answer.certificate, budget.remaining()
-    assert certificate is not None
+    guarantee, reason = judged(answer.certificate, budget)
+    if guarantee is Guarantee.CHECKED:
+        return replace(answer, guarantee=guarantee)
+    answer.log.switch("certificate", reason)
+    return replace(answer, certificate=None, guarantee=guarantee, reason=reason)
+
+
+def judged(certificate: Certificate | None, budget: Budget) -> tuple[Guarantee, str]:
+    """The guarantee that a certificate gives within what the budget leaves, and why it is no better.
+
+    Raises ``InternalError`` where the certificate is refused.
+    """
+    if certificate is None:
+        return Guarantee.DERIVED, "there is no certificate"
+    left = budget.remaining()
     verdict = _limited(certificate, VERIFY_SECONDS if left is None else min(VERIFY_SECONDS, max(0.0, SHARE * left)))
     if verdict.accepted:
-        return replace(answer, guarantee=Guarantee.CHECKED)
+        return Guarantee.CHECKED, ""
     if verdict.decided:
         raise InternalError(f"the certificate of an answer was rejected at {verdict.step}: {verdict.reason}")
-    reason = f"the certificate was not verified: {verdict.reason}"
-    answer.log.switch("certificate", reason)
-    return replace(answer, certificate=None, guarantee=Guarantee.DERIVED, reason=reason)
+    return Guarantee.DERIVED, f"the certificate was not verified: {verdict.reason}"
+
+
+def with_guarantee(region: Region, budget: Budget) -> Region:
+    """The region, after the elimination of its quantifiers and its table have been verified as far as time allows."""
+    answer = region.answer
+    if answer is not None and answer.certificate is not None:
+        answer = region.answer = with_verdict(answer, budget)
+    if region.is_optimised:
+        region.reason = "its questions are answered by convex optimisation: bounds have certificates of their own"
+        return region
+    region.guarantee, region.reason = judged(region.certificate, budget)
+    if answer is not None and answer.guarantee is not Guarantee.CHECKED:
+        region.guarantee, region.reason = Guarantee.DERIVED, answer.why_unchecked
+    return region
 
 
 def _limited(certificate: Certificate, timeout: float | None) -> Verdict:

@@ -66,8 +66,11 @@ def is_about(certificate: Certificate, formula: Formula) -> Formula | None:
     """The answer that the certificate claims to this formula, up to names of bound variables and the order of
     conjuncts and disjuncts; None where it is about something else.
 
-    A certificate about the negation counts, with the negated answer.
+    A certificate about the negation counts, with the negated answer; of a bundle the first member that is about it.
     """
+    if isinstance(certificate.payload, tuple):
+        found = (is_about(member.certificate, formula) for member in certificate.payload)
+        return next((answer for answer in found if answer is not None), None)
     claim = claim_of(certificate)
     if claim.question is None or claim.answer is None:
         return None

@@ -1,5 +1,7 @@
 """Rule "instance": an existential sentence is true because numbers are known that satisfy it.
 
+THEOREM. If f holds where v has certain values, then ex v. f is true.
+
 Evidence: ``certificate``, of kind "witness", for the body of the block and all its variables. It is checked as any
 other.
 """

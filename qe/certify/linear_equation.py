@@ -1,4 +1,4 @@
-"""Rules "linear equation solved", also under a guard (Gauss).
+"""Rules "linear equation solved" and "linear equation solved under a guard" (Gauss).
 
 THEOREM (Loos, Weispfenning 1993). Let a, b be polynomials without x, and f[-b/a] be f with a^d g(-b/a) in place of each
 g of degree d in x, times a once more where d is odd and the sign of a is not known (with the sign changed where it is

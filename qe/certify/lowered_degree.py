@@ -51,7 +51,7 @@ def divided(found: Atom, x: int, shift: int, entry: Entry) -> Formula:
     if _is_bare(found.poly, x):
         return found
     if any(part and k % shift for k, part in enumerate(found.poly.coefficients(x))):
-        raise entry.fail("an exponent that is no multiple of it")
+        raise entry.fail("not all exponents are multiples of it")
     return atom(lowered_poly(found.poly, x, shift), found.relation)
 
 

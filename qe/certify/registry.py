@@ -10,7 +10,9 @@ from qe.certify.constant import check_constant
 from qe.certify.covering import check_covering
 from qe.certify.critical_values import check_critical_values
 from qe.certify.degree_shift import check_degree_shift
+from qe.certify.distribution import check_distribution
 from qe.certify.elimination_set import check_elimination_set
+from qe.certify.gathering import check_gathering
 from qe.certify.independent_parts import check_independent_parts
 from qe.certify.inequations import check_inequations, check_only_nonzero
 from qe.certify.infinity_first import check_infinity_first
@@ -22,10 +24,12 @@ from qe.certify.open_block import check_open_block
 from qe.certify.renaming import check_renaming
 from qe.certify.replayed_block import check_replayed_block
 from qe.certify.roots_counted import check_roots_counted
+from qe.certify.rotation import check_rotation
 from qe.certify.sentence import check_sentence
 from qe.certify.step import Check
 from qe.certify.symmetry import check_scaling, check_translation
 from qe.certify.table import check_table
+from qe.certify.value_taken import check_value_taken
 from qe.certify.witness_in_parameters import check_witness_in_parameters
 
 RULES: Mapping[str, Check] = {
@@ -45,6 +49,11 @@ RULES: Mapping[str, Check] = {
     "degree shift": check_degree_shift,
     "translation of the origin": check_translation,
     "homogeneous scaling": check_scaling,
+    "rotation of the axes": check_rotation,
+    "nested blocks of one kind gathered": check_gathering,
+    "disjuncts with equations apart": check_distribution,
+    "value that is taken": check_value_taken,
+    "equations taken apart": check_replayed_block,
     "inequations that remove no interior": check_inequations,
     "only asked to be no root": check_only_nonzero,
     "virtual substitution": check_replayed_block,

@@ -1,7 +1,7 @@
-"""Rule "virtual substitution": a block eliminated by steps of its own.
+"""Rules "virtual substitution" and "equations taken apart": one step that is made of steps of its own.
 
 THEOREM. Equivalence is transitive, and A <-> B iff not A <-> not B: the ``steps`` of the evidence lead from the
-existential block to what became of it; for a universal block both sides are negated.
+formula to what became of it; for a universal block both sides are negated.
 """
 
 from __future__ import annotations

@@ -37,6 +37,7 @@ def optimize(channel: Channel, request: Request, goal: Goal) -> Reply:
     solve = api_optimum.maximize if goal.maximize else api_optimum.minimize
     constraints = read_formula(channel, request.source)
     asked: dict[str, Any] = {"timeout": request.timeout, "progress": channel.event, "parameters": goal.parameters}
+    asked["check"] = request.certificate
     best: Optimum | GlobalOptimum | ParametricOptimum = solve(goal.objective, constraints, **asked)
     files: dict[str, str | bytes] = {"certificate": certificate_text(best)} if request.certificate else {}
     if isinstance(best, ParametricOptimum):
@@ -48,7 +49,7 @@ def optimize(channel: Channel, request: Request, goal: Goal) -> Reply:
     seconds = time.perf_counter() - start
     if request.json:
         return Reply(json.dumps({**data, "seconds": round(seconds, 6)}, indent=2, ensure_ascii=False), files=files)
-    how = "proved optimal" if best.certificate is not None else "found"
+    how = "proved optimal" if best.certificate is not None and not best.reason else "found"
     return Reply("\n".join([*lines, f"{how} in {seconds:.3f} s"]), files=files)
 
 

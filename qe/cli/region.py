@@ -5,10 +5,10 @@ from __future__ import annotations
 import tempfile
 import time
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from qe.cli.numbers import shown
-from qe.cli.work import Reply, Request, certificate_text, read_formula
+from qe.cli.work import Reply, Request, read_formula
 from qe.errors import InputError
 from qe.spelling import quoted
 from qe.worker import Channel
@@ -27,11 +27,12 @@ def region(channel: Channel, request: Request, picture: str | None) -> Reply:
         raise InputError(f"--plot: a file ending in {', '.join(PICTURES)} expected, {picture} found")
     start = time.perf_counter()
     formula = read_formula(channel, request.source)
-    found = api.region(formula, order=request.order, timeout=request.timeout, progress=channel.event)
+    asked: dict[str, Any] = {"order": request.order, "timeout": request.timeout, "check": request.certificate}
+    found = api.region(formula, progress=channel.event, **asked)
     seconds = time.perf_counter() - start
     files: dict[str, str | bytes] = {}
     if request.certificate:
-        files["certificate"] = certificate_text(found)
+        files["certificate"] = found.proof.to_json()
     if picture is not None:
         files["plot"] = _drawn(found, picture)
     text = found.to_json() if request.json else "\n".join(_in_words(found, seconds))
@@ -55,4 +56,4 @@ def _in_words(found: Region, seconds: float) -> list[str]:
         low, high = found.bounds(name)
         lines.append(f"{quoted(name)} from {shown(low, '-infinity')} to {shown(high, 'infinity')}")
     lines += [f"cell {k}: {cell.brief()}" for k, cell in enumerate(found.cells, 1)]
-    return lines
+    return [*lines, f"not proved: {found.reason}"] if found.reason else lines

@@ -143,7 +143,7 @@ def convert(channel: Channel, source: Source, output: Format) -> Reply:
 def check(channel: Channel, text: str, asked: Source | None, seconds: float) -> Reply:
     """``qe check``: exit status 4 when the certificate is rejected, 3 when that is not decided."""
     from qe.api_verify import of_question
-    from qe.certify.claims import claim_of
+    from qe.certify.claims import claim_of, is_about
     from qe.certify.verify import verify
     from qe.errors import CertificateRejected
     from qe.options import Budget
@@ -161,7 +161,7 @@ def check(channel: Channel, text: str, asked: Source | None, seconds: float) -> 
         raise CertificateRejected(verdict.step, verdict.reason)
     lines = [f"accepted ({time.perf_counter() - start:.3f} s)", *claim_of(certificate).words]
     if formula is not None:
-        lines.append("this is the question that was given, or its negation")
+        lines.append(f"so the question that was given has the answer  {is_about(certificate, formula)}")
     return Reply("\n".join(lines))
 
 

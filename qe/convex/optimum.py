@@ -20,6 +20,7 @@ from qe.exact.quadratic_form import independent_rows
 from qe.exact.ring import Poly, Ring
 from qe.formula.syntax import Atom, Formula
 from qe.options import Budget
+from qe.proof.answer import Guarantee
 from qe.proof.certificate import Certificate, Kind
 from qe.proof.multipliers import (
     FaceLink,
@@ -48,7 +49,8 @@ class Optimum:
     inequalities, such that grad f + sum multipliers_i grad p_i = 0 with constraint i read as p_i <= 0 (after facial
     reduction also equations implied by the constraints take part; see ``evidence``). ``unique`` is None when not
     decided. INFEASIBLE: ``multipliers`` combine the constraints to a contradiction, seen from ``point``. UNBOUNDED:
-    from ``point`` the objective improves forever along ``direction``. ``attained`` is None for both.
+    from ``point`` the objective improves forever along ``direction``. ``attained`` is None for both. ``guarantee``:
+    CHECKED where ``check`` was asked for and separate code accepted the certificate; otherwise ``reason`` says why not.
     """
 
     status: OptimumStatus
@@ -63,6 +65,8 @@ class Optimum:
     field: NumberField
     evidence: OptimumEvidence
     certificate: Certificate
+    guarantee: Guarantee = Guarantee.DERIVED
+    reason: str = ""
 
     @property
     def active_constraints(self) -> tuple[str, ...]:

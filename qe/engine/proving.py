@@ -30,6 +30,7 @@ from qe.options import Budget, Options
 from qe.proof.certificate import Certificate, Proof, written
 from qe.proof.derivation import Derivation, moved, put_together
 from qe.proof.entry import Entry, Json, formula_to_json, poly_to_text
+from qe.proof.run_log import RunLog
 from qe.proof.step import Nested, Place, Step
 
 TABLE_WORK = 3_000
@@ -226,6 +227,9 @@ class Prover:
         if step.rule == CRITICAL:
             found = self._critical(step)
             return None if found is None else (CRITICAL, found)
+        if isinstance(trace, RunLog):
+            inner = self._replayed(step, trace)
+            return None if inner is None else (step.rule, inner)
         given = step.evidence.get("proof")
         evidence = self._plain(given) if isinstance(given, Mapping) else {}
         own = self._tried(step.rule, step, context, evidence)
@@ -280,6 +284,18 @@ class Prover:
             self.budget.check("prove")
             return None
         return None if evidence is None else self._tried(step.rule, step, (), evidence)
+
+    def _replayed(self, step: Step, log: RunLog) -> Json | None:
+        """The steps of which one step is made, all of them accepted."""
+        inner = Prover(self.ring, self.options, self.budget, self.tables)
+        current = step.before
+        for part in log.steps():
+            before, after, context = (moved(f, self.ring) for f in (part.before, part.after, part.context))
+            places = tuple(self._places(current, before))
+            current = inner.taken(Step(part.rule, before, after, context, part.evidence, places), current)
+        if current != step.after:
+            inner.joined(current, step.after)
+        return None if inner.unchecked else self._tried(step.rule, step, (), {"steps": inner.steps})
 
     def _simplified(self, before: Formula, after: Formula) -> Json:
         """A step of simplification inside another one; ``CertificateRejected`` where it is not proved."""

@@ -25,6 +25,7 @@ from qe.formula.features import features
 from qe.formula.normal import nnf, rename_apart
 from qe.formula.syntax import FALSE, TRUE, And, Constant, Exists, ForAll, Formula, Not, Or
 from qe.options import Budget, Options, Stage
+from qe.proof.answer import Answer, Status
 from qe.proof.certificate import Certificate, Kind, Proof, written
 from qe.proof.derivation import negated, put_together
 from qe.proof.entry import Json
@@ -173,13 +174,7 @@ class _Run:
 
     def proof(self, asked: Formula, answer: Formula) -> Proof:
         """The derivation with evidence for each step, within a share of the time."""
-        from qe.engine.proving import proved
-
-        derivation = put_together(asked, self.log.steps(), answer)
-        try:
-            return proved(derivation, answer, self.options, self.budget.share(PROOF_SHARE).part(CERTIFY_WORK))
-        except Unable as error:
-            return Proof(None, (f"all ({error})",))
+        return derived(asked, self.log, answer, self.options, self.budget)
 
     # --- preparation ---------------------------------------------------------------------------
     def prepared(self, formula: Formula) -> Prepared:
@@ -299,6 +294,30 @@ class _Run:
             formula = shortened(formula, self.context())
         simple = self.log.step("simplification", formula, simplify(formula))
         return found if simple == found.formula else replace(found, formula=simple)
+
+
+def derived(asked: Formula, log: RunLog, answer: Formula, options: Options, budget: Budget) -> Proof:
+    """The steps of the log from a formula to its answer with evidence for each, within a share of the time."""
+    from qe.engine.proving import proved
+
+    derivation = put_together(asked, log.steps(), answer)
+    try:
+        return proved(derivation, answer, options, budget.share(PROOF_SHARE).part(CERTIFY_WORK))
+    except Unable as error:
+        return Proof(None, (f"all ({error})",))
+
+
+def answer_to(question: Formula, found: Outcome) -> Answer:
+    """What was found as an answer, nothing verified yet."""
+    return Answer(
+        Status.SOLVED,
+        found.formula,
+        found.witness,
+        found.certificate,
+        unchecked_steps=found.unchecked,
+        question=question,
+        log=found.log,
+    )
 
 
 def as_asked(certificate: Certificate, problem: Problem | None, answer: Formula) -> Certificate:

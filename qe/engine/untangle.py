@@ -6,12 +6,13 @@ from qe.elimination.protocol import Context
 from qe.errors import InternalError, Unable
 from qe.formula.build import conj, convert, disj
 from qe.formula.features import length
-from qe.formula.syntax import Formula
+from qe.formula.syntax import And, Exists, Formula, Or
 from qe.formula.traverse import atoms, free_variables, ring_of
 from qe.options import Stage
+from qe.proof.run_log import RunLog
 from qe.rules.block import reduce_block
 from qe.rules.block_context import BlockContext
-from qe.rules.step import POINTWISE_STEPS
+from qe.rules.step import POINTWISE_STEPS, StepKind
 from qe.rules.tree import All, Any, Leaf, Node
 from qe.simplify.simplify import simplify
 
@@ -30,15 +31,22 @@ def untangled(formula: Formula, context: Context) -> Formula:
     """
     if sum(1 for _ in atoms(formula)) > UNTANGLED_ATOMS or Stage.EQUATIONS in context.options.without:
         return formula
-    rules = BlockContext(context.budget.part(UNTANGLE_WORK), POINTWISE_STEPS)
+    rules, steps = BlockContext(context.budget.part(UNTANGLE_WORK), POINTWISE_STEPS), RunLog()
     try:
-        shorter = simplify(_matrix(reduce_block(free_variables(formula), formula, rules)))
+        apart = _matrix(reduce_block(free_variables(formula), formula, rules))
+        shorter = simplify(apart)
     except Unable:
         context.budget.check("shorten")
         return formula
     ring = ring_of(formula)
     shorter = shorter if ring is None else convert(shorter, ring)
-    return context.log.step("equations taken apart", formula, shorter) if length(shorter) < length(formula) else formula
+    if length(shorter) >= length(formula):
+        return formula
+    for step in rules.log.steps():
+        rule = StepKind.SIMPLIFY.value if step.rule == StepKind.MINISCOPE.value else step.rule
+        steps.step(rule, _unquantified(step.before), _unquantified(step.after), context=step.context)
+    steps.step(StepKind.SIMPLIFY.value, apart, shorter)
+    return context.log.step("equations taken apart", formula, shorter, evidence={"trace": steps})
 
 
 def _matrix(node: Node) -> Formula:
@@ -51,3 +59,13 @@ def _matrix(node: Node) -> Formula:
         case All(children):
             return conj(map(_matrix, children))
     raise InternalError("a rule that is no equivalence at every point")
+
+
+def _unquantified(formula: Formula) -> Formula:
+    """A formula of a block that is only there to say which variables there are; without it, parts are joined."""
+    match formula:
+        case Exists(_, body):
+            return _unquantified(body)
+        case And(args) | Or(args):
+            return (conj if isinstance(formula, And) else disj)(map(_unquantified, args))
+    return formula

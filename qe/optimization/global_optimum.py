@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 
 from qe.cad.decompose import decompose
 from qe.cells.pieces import merge
+from qe.elimination.protocol import Problem
 from qe.engine.run import solve
 from qe.errors import Unable
 from qe.exact.algebraic import RealAlgebraic
@@ -15,13 +16,18 @@ from qe.exact.number import Values
 from qe.exact.polynomial_system import solve_system
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj, convert, exists
-from qe.formula.syntax import FALSE, TRUE, Formula, Relation
+from qe.formula.syntax import FALSE, TRUE, Constant, Formula, Relation
 from qe.optimization.values import Goal
 from qe.options import Budget, Options
+from qe.proof.answer import Answer, Guarantee
 from qe.proof.certificate import Certificate
 from qe.proof.multipliers import OptimumStatus
 
 Number = Fraction | RealAlgebraic
+Members = list[tuple[str, Certificate]]
+
+POINT = "point"
+"""The label of the certificate of a point."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,7 +40,8 @@ class GlobalOptimum:
     it. INFEASIBLE: no point meets the constraints; UNBOUNDED: there is no bound. For both ``value`` and
     ``attained`` are None. ``values``: a formula of ``variable``, the values that are taken (of the negative, for a
     maximum). ``certificate``: a bundle that proves them, the least of them, and the point; None where the
-    elimination had no certificate.
+    elimination had no certificate. ``answer``: how the values were found. ``guarantee``: CHECKED where ``check`` was
+    asked for and separate code accepted the certificate; otherwise ``reason`` says why not.
     """
 
     status: OptimumStatus
@@ -44,7 +51,17 @@ class GlobalOptimum:
     minimisers: Formula
     values: Formula
     variable: str
+    answer: Answer = field(repr=False)
     certificate: Certificate | None = None
+    guarantee: Guarantee = Guarantee.DERIVED
+    reason: str = ""
+
+    @property
+    def unchecked_steps(self) -> tuple[str, ...]:
+        """With ``check``: steps of the elimination that no checker accepted, and "point" where that is not proved."""
+        members = self.certificate.payload if self.certificate is not None else ()
+        shown = isinstance(members, tuple) and any(member.label == POINT for member in members)
+        return (*self.answer.unchecked_steps, *([POINT] if self.point and not shown else []))
 
     @property
     def is_optimal(self) -> bool:
@@ -52,39 +69,42 @@ class GlobalOptimum:
 
 
 def minimize_globally(
-    objective: Poly, constraints: Formula, *, scale: Fraction | int = 1, budget: Budget | None = None
+    objective: Poly,
+    constraints: Formula,
+    *,
+    scale: Fraction | int = 1,
+    budget: Budget | None = None,
+    check: bool = False,
 ) -> GlobalOptimum:
     """The minimum of ``scale * objective`` where ``constraints`` hold (they may have quantifiers).
 
     Raises ``Unable`` (``BudgetExceeded`` at a limit) where elimination does.
     """
     limits = budget or Budget()
-    options = Options(progress=limits.listener)
     goal = Goal.of(objective, Fraction(scale), constraints)
-    taken = goal.values(limits, options)
-    if taken.formula is FALSE:
-        return _without(OptimumStatus.INFEASIBLE, goal, taken.formula)
-    if taken.formula is TRUE:
-        return _without(OptimumStatus.UNBOUNDED, goal, taken.formula)
-    table = decompose(taken.formula, (goal.value,), ("",), budget=limits).table
+    taken, answer = goal.values(limits, check=check)
+    members = [] if answer.certificate is None else [("values", answer.certificate)]
+    if isinstance(taken, Constant):
+        return _without(OptimumStatus.UNBOUNDED if taken.value else OptimumStatus.INFEASIBLE, goal, answer, members)
+    table = decompose(taken, (goal.value,), ("",), budget=limits).table
     pieces = merge(table, budget=limits)
+    members += [("least", Certificate.cells(table))] if members else []
     if not pieces:
-        return _without(OptimumStatus.INFEASIBLE, goal, taken.formula)
+        return _without(OptimumStatus.INFEASIBLE, goal, answer, members)
     least = pieces[0].ranges[0]
     if least.lower is None:
-        return _without(OptimumStatus.UNBOUNDED, goal, taken.formula)
+        return _without(OptimumStatus.UNBOUNDED, goal, answer, members)
     assert least.lower.value is not None
     value = _plain(least.lower.value)
-    members = [] if taken.certificate is None else [("values", taken.certificate), ("least", Certificate.cells(table))]
     point: Values = {}
     if least.lower_closed:
-        known = _stationary(goal, value)
+        known, place = _stationary(goal, value), exists((goal.value, *goal.variables), _place(goal, value))
         if known is None:
-            found = solve(exists((goal.value, *goal.variables), _place(goal, value)), options, limits)
+            found = solve(place, Options(progress=limits.listener), limits)
             if found.witness is None:
                 raise Unable("the least value was found, but no point that has it")
-            known, proof = found.witness, found.certificate
-            members += [] if proof is None else [("point", proof)]
+            known = found.witness
+        members += _proof_of(place, {**known, goal.value: value}) if members else []
         point = {name: known.get(name, Fraction(0)) for name in goal.variables}
     return GlobalOptimum(
         status=OptimumStatus.OPTIMAL,
@@ -92,22 +112,39 @@ def minimize_globally(
         attained=least.lower_closed,
         point=point,
         minimisers=_level_set(goal, value) if least.lower_closed else FALSE,
-        values=taken.formula,
+        values=taken,
         variable=goal.value,
+        answer=answer,
         certificate=Certificate.bundle(members) if members else None,
     )
 
 
 def best(
-    sign: int, objective: Poly, constraints: Formula, *, scale: Fraction | int = 1, budget: Budget | None = None
+    sign: int,
+    objective: Poly,
+    constraints: Formula,
+    *,
+    scale: Fraction | int = 1,
+    budget: Budget | None = None,
+    check: bool = False,
 ) -> GlobalOptimum:
     """The minimum (``sign`` 1), or the maximum (-1): minus the minimum of the negative."""
-    found = minimize_globally(objective, constraints, scale=sign * Fraction(scale), budget=budget)
+    found = minimize_globally(objective, constraints, scale=sign * Fraction(scale), budget=budget, check=check)
     return found if sign > 0 or found.value is None else replace(found, value=-found.value)
 
 
-def _without(status: OptimumStatus, goal: Goal, values: Formula) -> GlobalOptimum:
-    return GlobalOptimum(status, None, None, {}, FALSE, values, goal.value)
+def _without(status: OptimumStatus, goal: Goal, answer: Answer, members: Members) -> GlobalOptimum:
+    assert answer.formula is not None
+    proof = Certificate.bundle(members) if members else None
+    return GlobalOptimum(status, None, None, {}, FALSE, answer.formula, goal.value, answer, proof)
+
+
+def _proof_of(place: Formula, known: Values) -> Members:
+    """A certificate of the point; none where the constraints have quantifiers."""
+    problem = Problem.of(place)
+    if problem is None or not problem.is_flat:
+        return []
+    return [(POINT, problem.witnessed({name: known.get(name, Fraction(0)) for name in problem.variables}))]
 
 
 def _plain(value: RealAlgebraic) -> Number:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
 from itertools import groupby
 
@@ -12,7 +12,8 @@ from qe.cells.pieces import Range, RootFunction, merge
 from qe.exact.ring import Poly
 from qe.formula.syntax import Formula
 from qe.optimization.values import Goal
-from qe.options import Budget, Options
+from qe.options import Budget
+from qe.proof.answer import Answer, Guarantee
 from qe.proof.certificate import Certificate
 
 
@@ -39,13 +40,17 @@ class ParametricOptimum:
 
     Where no case applies, no point meets the constraints. ``values``: the values that are taken, a formula of
     ``variable`` and the parameters. ``certificate``: of the elimination and of the cells; None where it had none.
+    ``answer``: how the values were found. ``guarantee``, ``reason``: with ``check``, as in ``GlobalOptimum``.
     """
 
     cases: tuple[Case, ...]
     parameters: tuple[str, ...]
     values: Formula
     variable: str
+    answer: Answer = field(repr=False)
     certificate: Certificate | None = None
+    guarantee: Guarantee = Guarantee.DERIVED
+    reason: str = ""
 
     def __iter__(self) -> Iterator[Case]:
         return iter(self.cases)
@@ -62,6 +67,7 @@ def optimum_of(
     *,
     scale: Fraction | int = 1,
     budget: Budget | None = None,
+    check: bool = False,
 ) -> ParametricOptimum:
     """The minimum (``sign`` 1) or maximum (-1) for all values of the parameters at once.
 
@@ -69,15 +75,16 @@ def optimum_of(
     """
     limits = budget or Budget()
     goal = Goal.of(objective, Fraction(scale), constraints, parameters)
-    taken = goal.values(limits, Options(progress=limits.listener))
+    taken, answer = goal.values(limits, check=check)
     order = (*goal.parameters, goal.value)
-    table = decompose(taken.formula, order, ("",) * len(order), budget=limits).table
+    table = decompose(taken, order, ("",) * len(order), budget=limits).table
     cases = []
     for ranges, stack in groupby(merge(table, budget=limits), key=lambda piece: piece.ranges[:-1]):
         values = [piece.ranges[-1] for piece in stack]
         end = values[0] if sign > 0 else values[-1]
         found, closed = (end.lower, end.lower_closed) if sign > 0 else (end.upper, end.upper_closed)
         cases.append(Case(ranges, found, found is not None and closed))
-    members = [] if taken.certificate is None else [("values", taken.certificate), ("cases", Certificate.cells(table))]
+    proof = answer.certificate
+    members = [] if proof is None else [("values", proof), ("cases", Certificate.cells(table))]
     certificate = Certificate.bundle(members) if members else None
-    return ParametricOptimum(tuple(cases), goal.parameters, taken.formula, goal.value, certificate)
+    return ParametricOptimum(tuple(cases), goal.parameters, taken, goal.value, answer, certificate)

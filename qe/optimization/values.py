@@ -11,14 +11,14 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from fractions import Fraction
 
-from qe.elimination.protocol import Outcome
-from qe.engine.run import solve
+from qe.engine.run import answer_to, solve
 from qe.errors import InputError
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj, convert, exists
 from qe.formula.syntax import FALSE, Formula, Relation
 from qe.formula.traverse import ring_of
 from qe.options import Budget, Options
+from qe.proof.answer import Answer
 
 VALUE = "value"
 
@@ -59,7 +59,12 @@ class Goal:
         ring = self.objective.ring
         return ring.var(self.value) * self.scale.denominator - self.objective * self.scale.numerator
 
-    def values(self, budget: Budget, options: Options) -> Outcome:
-        """The values that are taken, as a formula in ``value`` and the parameters."""
-        taken = conj((self.conditions, atom(self.equation, Relation.EQ)))
-        return solve(exists(self.variables, taken), options, budget)
+    @property
+    def taken(self) -> Formula:
+        """That the value is taken somewhere."""
+        return exists(self.variables, conj((self.conditions, atom(self.equation, Relation.EQ))))
+
+    def values(self, budget: Budget, *, check: bool) -> tuple[Formula, Answer]:
+        """The values that are taken, as a formula in ``value`` and the parameters, and how that was found."""
+        found = solve(self.taken, Options(certify=check, progress=budget.listener), budget)
+        return found.formula, answer_to(self.taken, found)

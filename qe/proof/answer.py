@@ -57,6 +57,13 @@ class Answer:
         return self.formula.value if isinstance(self.formula, Constant) else None
 
     @property
+    def why_unchecked(self) -> str:
+        """Why the guarantee is no better, where a check was asked for; empty for ``CHECKED``."""
+        if self.guarantee is Guarantee.CHECKED:
+            return ""
+        return self.reason or f"no checked evidence for: {', '.join(self.unchecked_steps) or 'any step'}"
+
+    @property
     def stats(self) -> Mapping[str, Any]:
         """What was done: figures by method, choices, switches, seconds."""
         return self.log.stats()

@@ -38,10 +38,11 @@ class Derivation:
         return writing.latex(self.start, self.steps)
 
     def to_html(self) -> str:
-        """The derivation as one page that needs nothing from elsewhere: formulas in MathML, evidence folded."""
+        """The derivation as one page that needs nothing from elsewhere: formulas in MathML, each step with the theorem
+        of its rule, as the checker states it, and its evidence folded."""
         from qe.proof import writing
 
-        return writing.page(self.start, self.steps, is_complete=self.is_complete)
+        return writing.page(self.start, self.steps, self.answer, is_complete=self.is_complete)
 
     @property
     def answer(self) -> Formula:

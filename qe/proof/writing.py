@@ -5,10 +5,14 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from html import escape
 
+from qe.exact.ring import Poly, format_poly
 from qe.formula.syntax import TRUE, Formula
 from qe.io import latex as tex
 from qe.io import mathml
+from qe.proof.certificate import Certificate
+from qe.proof.run_log import RunLog
 from qe.proof.step import Step
+from qe.proof.theorems import theorem_of
 
 RULES: Mapping[str, str] = {
     "renaming": "Bound variables get names of their own.",
@@ -61,14 +65,14 @@ def latex(start: Formula, steps: Sequence[Step]) -> str:
     return "\\begin{align*}\n" + " \\\\\n".join(lines) + "\n\\end{align*}"
 
 
-def page(start: Formula, steps: Sequence[Step], *, is_complete: bool) -> str:
+def page(start: Formula, steps: Sequence[Step], answer: Formula, *, is_complete: bool) -> str:
     """One self-contained page."""
     note = "" if is_complete else "<p>Some steps are not recorded one by one.</p>"
-    rows = "\n".join(_row(number, step) for number, step in enumerate(steps, start=1))
     return (
         '<!doctype html>\n<html lang="en"><head><meta charset="utf-8"><title>Derivation</title>'
         "<meta name=viewport content='width=device-width, initial-scale=1'>"
-        f"<style>{STYLE}</style></head>\n<body><h1>Derivation</h1>\n<p>{_math(start)}</p>{note}\n<ol>\n{rows}\n</ol>\n"
+        f"<style>{STYLE}</style></head>\n<body><h1>Derivation</h1>\n"
+        f"<p>{_math(start)}</p><p>⟺ {_math(answer)}</p>{note}\n<h2>Steps</h2>\n{_list(steps, 'step-')}\n"
         "</body></html>\n"
     )
 
@@ -76,19 +80,53 @@ def page(start: Formula, steps: Sequence[Step], *, is_complete: bool) -> str:
 STYLE = (
     "body{font:16px/1.5 system-ui,sans-serif;max-width:60rem;margin:2rem auto;padding:0 1rem;color-scheme:light dark}"
     "li{margin:1.2rem 0}.rule{font-weight:600}.says{opacity:.75}math{overflow-x:auto;max-width:100%}"
+    "details{margin:.4rem 0}details li{margin:.3rem 0;overflow-wrap:anywhere}summary{cursor:pointer}"
 )
 
 
-def _row(number: int, step: Step) -> str:
+def _list(steps: Sequence[Step], prefix: str = "") -> str:
+    rows = (_row(step, f' id="{prefix}{k}"' if prefix else "") for k, step in enumerate(steps, start=1))
+    return "<ol>\n" + "\n".join(rows) + "\n</ol>"
+
+
+def _row(step: Step, anchor: str) -> str:
     where = "" if step.context == TRUE else f"<p>where {_math(step.context)}</p>"
-    shown = {k: v for k, v in step.evidence.items() if k not in ("proof", "trace")}  # those are for checkers
-    evidence = "".join(f"<li>{escape(str(k))}: {escape(str(v))}</li>" for k, v in shown.items())
-    folded = f"<details><summary>evidence</summary><ul>{evidence}</ul></details>" if evidence else ""
+    theorem = "".join(f"<p>{escape(text)}</p>" for text in theorem_of(step.rule))
     return (
-        f'<li id="step-{number}"><span class="rule">{escape(step.rule)}</span> '
-        f'<span class="says">{escape(RULES.get(step.rule, ""))}</span>{where}'
-        f"<p>{_math(step.before)}</p><p>⟺ {_math(step.after)}</p>{folded}</li>"
+        f'<li{anchor}><span class="rule">{escape(step.rule)}</span> '
+        f'<span class="says">{escape(RULES.get(step.rule, ""))}</span>{_folded("theorem", theorem)}{where}'
+        f"<p>{_math(step.before)}</p><p>⟺ {_math(step.after)}</p>{_folded('evidence', _evidence(step))}</li>"
     )
+
+
+def _folded(title: str, content: str) -> str:
+    return f"<details><summary>{title}</summary>{content}</details>" if content else ""
+
+
+def _evidence(step: Step) -> str:
+    """What the rule found, what its checker needs, and the steps of which a step is made.
+
+    Left out are traces of substitutions, from which the evidence is made when a certificate is asked for.
+    """
+    proof, trace = step.evidence.get("proof"), step.evidence.get("trace")
+    given = {k: v for k, v in step.evidence.items() if k not in ("proof", "trace")}
+    given |= {str(k): v for k, v in proof.items()} if isinstance(proof, Mapping) else {}
+    listed = "".join(f"<li>{escape(k)}: {escape(_shown(v))}</li>" for k, v in given.items())
+    return (f"<ul>{listed}</ul>" if listed else "") + (_list(list(trace.steps())) if isinstance(trace, RunLog) else "")
+
+
+def _shown(value: object) -> str:
+    """A piece of evidence as text."""
+    match value:
+        case Poly():
+            return format_poly(value)
+        case Certificate():
+            return f"a certificate of kind {value.kind.value}"
+        case Mapping():
+            return "{" + ", ".join(f"{k}: {_shown(v)}" for k, v in value.items()) + "}"
+        case list() | tuple():
+            return "[" + ", ".join(map(_shown, value)) + "]"
+    return "unknown" if value is None else str(value)
 
 
 def _math(formula: Formula) -> str:

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from qe.engine.run import solve
+from qe.engine.run import answer_to, solve
 from qe.execution import Limits
 from qe.formula.counting import without_root_atoms
 from qe.formula.syntax import Formula
 from qe.formula.traverse import free_variables, is_quantifier_free
 from qe.options import Budget, Options
+from qe.proof.answer import Answer, Status
+from qe.proof.run_log import RunLog
 from qe.regions.convex_region import ConvexRegion, shadow_of
 from qe.regions.region import Region
 
@@ -17,21 +19,36 @@ TABLE_VARIABLES = 3
 """In more variables than this, convex regions are not decomposed unless that is asked for."""
 
 
-def described(formula: Formula, names: tuple[str, ...] | None, budget: Budget, limits: Limits) -> Region:
+def described(
+    formula: Formula, names: tuple[str, ...] | None, budget: Budget, limits: Limits, *, check: bool = False
+) -> Region:
     """The region of a formula in the order of ``names``; ``limits`` are for the questions that it will be asked.
 
+    ``check``: with a table where there are few variables, and evidence for the elimination of quantifiers.
     Raises ``InputError`` for an order that misses a free variable, ``Unable`` where elimination does.
     """
     given = without_root_atoms(formula)
     quantified = not is_quantifier_free(given)
-    if quantified or len(free_variables(given)) > TABLE_VARIABLES:
+    many = len(free_variables(given)) > TABLE_VARIABLES
+    if many or (quantified and not check):
         shadow = shadow_of(given, Elimination(names))
         if shadow is not None:
             return ConvexRegion(shadow, names, limits=limits)
     if not quantified:
-        return Region.of(given, names, budget=budget, limits=limits)
-    found = solve(given, Options(order=names), budget)
-    return Region.of(found.formula, names or found.order, budget=budget, limits=limits)
+        region = Region.of(given, names, budget=budget, limits=limits)
+        region.answer = None if given is formula else _counted(formula, given)
+        return region
+    found = solve(formula, Options(order=names, certify=check), budget)
+    region = Region.of(found.formula, names or found.order, budget=budget, limits=limits)
+    region.answer = answer_to(formula, found)
+    return region
+
+
+def _counted(formula: Formula, given: Formula) -> Answer:
+    """The answer that a formula with root atoms has by counting roots."""
+    log = RunLog()
+    log.step("roots counted", formula, given)
+    return Answer(Status.SOLVED, given, unchecked_steps=("roots counted",), question=formula, log=log)
 
 
 @dataclass(frozen=True, slots=True)

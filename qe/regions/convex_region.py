@@ -65,6 +65,8 @@ class ConvexRegion(Region):
 
     __slots__ = ("_shadow",)
 
+    is_optimised = True
+
     def __init__(self, shadow: Shadow, order: tuple[str, ...] | None, *, limits: Limits = NONE) -> None:
         free = free_variables(exists(shadow.hidden, shadow.conditions))
         super().__init__(None, None, checked_order(free, order), limits)

@@ -27,6 +27,7 @@ from qe.formula.normal import nnf
 from qe.formula.syntax import Formula
 from qe.formula.traverse import free_variables
 from qe.options import Budget
+from qe.proof.answer import Answer, Guarantee
 from qe.proof.cells import Cell, CellTable
 from qe.proof.certificate import Certificate
 from qe.regions.volume import enclose
@@ -41,10 +42,26 @@ class Region:
 
     ``limits`` hold for every question (replace them to change them); ``timeout`` in seconds, where a question has one,
     goes before theirs. Questions that take long are worked on in another process (see ``qe.execution``); they raise
-    ``BudgetExceeded`` at a limit.
+    ``BudgetExceeded`` at a limit. ``answer``: how ``formula`` was found, where quantifiers were eliminated (None: it
+    was given). ``guarantee``, with ``qe.region(..., check=True)``: CHECKED where separate code accepted ``proof``, and
+    otherwise ``reason`` says why not.
     """
 
-    __slots__ = ("_bounds", "_budget", "_formula", "_pieces", "_table", "limits", "order")
+    __slots__ = (
+        "_bounds",
+        "_budget",
+        "_formula",
+        "_pieces",
+        "_table",
+        "answer",
+        "guarantee",
+        "limits",
+        "order",
+        "reason",
+    )
+
+    is_optimised = False
+    """Whether questions are answered by convex optimisation, without a table."""
 
     def __init__(
         self, formula: Formula | None, table: CellTable | None, order: tuple[str, ...], limits: Limits = NONE
@@ -53,6 +70,8 @@ class Region:
         self._pieces: list[Piece] | None = None
         self._bounds: dict[str, Interval] = {}
         self._budget: Budget | None = None
+        self.answer: Answer | None = None
+        self.guarantee, self.reason = Guarantee.DERIVED, ""
 
     @staticmethod
     def of(
@@ -238,6 +257,14 @@ class Region:
     def certificate(self) -> Certificate:
         """What ``qe.verify`` accepts: the whole cell table."""
         return Certificate.cells(self.table)
+
+    @property
+    def proof(self) -> Certificate:
+        """The certificate, beside that of the elimination of quantifiers where there is one."""
+        found = None if self.answer is None else self.answer.certificate
+        return (
+            self.certificate if found is None else Certificate.bundle([("formula", found), ("cells", self.certificate)])
+        )
 
     def to_json(self) -> str:
         """The certificate's JSON, from which ``from_json`` restores the region."""

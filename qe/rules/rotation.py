@@ -15,6 +15,7 @@ their plane, some t makes v = 0 and u >= 0, and:  ex u, v, y f  iff  ex u, y (u 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
 from fractions import Fraction
 from itertools import combinations
 from typing import TypeVar
@@ -33,8 +34,24 @@ _PAIRS = 400  # pairs of variables up to which they are looked for
 _COMPONENT = 8  # terms of a polynomial that may be one component of a vector
 
 
-def invariant_plane(variables: Sequence[str], body: Formula, wanted: Iterable[str]) -> tuple[str, str, set[str]] | None:
-    """(u, v, moved): v may be set to 0 where u >= 0, by a matrix S that moves the variables ``moved`` of the block.
+@dataclass(frozen=True, slots=True)
+class Turn:
+    """``zero`` v may be set to 0 where ``half`` u >= 0, by the matrix ``skew``, with the entry 1 for them, which moves
+    the variables ``moved`` of the block."""
+
+    half: str
+    zero: str
+    moved: frozenset[str]
+    skew: tuple[tuple[str, str, Fraction], ...]
+
+    @property
+    def proof(self) -> dict[str, object]:
+        """What a checker needs."""
+        return {"zero": self.zero, "half": self.half, "plane": self.skew}
+
+
+def invariant_plane(variables: Sequence[str], body: Formula, wanted: Iterable[str]) -> Turn | None:
+    """A plane of the corollary in which a coordinate can be fixed.
 
     Planes with one of ``wanted`` go first, as u; then the ones that occur in most terms. None if there is no plane.
     """
@@ -72,14 +89,12 @@ def _sums(formula: Formula) -> Iterator[Poly]:
             yield from _sums(child)
 
 
-def _plane(
-    variables: Sequence[str], body: Formula, polys: Sequence[Poly], wanted: frozenset[str]
-) -> tuple[str, str, set[str]] | None:
+def _plane(variables: Sequence[str], body: Formula, polys: Sequence[Poly], wanted: frozenset[str]) -> Turn | None:
     """``invariant_plane`` for given polynomials that the truth of the body depends on."""
     ring = polys[0].ring
     blocks = [tuple(variables), *(f.variables for f in subformulas(body) if isinstance(f, Exists | ForAll))]
     names = [name for block in blocks for name in block]
-    if len(names) != len(set(names)):
+    if len(names) != len(set(names)) or set(names[len(variables) :]) & set(body.free):
         return None
     occurring = {i for p in polys for i in p.variables}
     pairs = [
@@ -92,7 +107,7 @@ def _plane(
     outer = {ring.index[v] for v in variables if v in ring.index}
     favoured = {ring.index[v] for v in wanted}
     weight = {i: sum(p.degree(i) > 0 for p in polys) for i in outer}
-    best: tuple[tuple[bool, int, int, int], str, str, set[str]] | None = None
+    best: tuple[tuple[bool, int, int, int], Turn] | None = None
     for skew in rotations(polys, pairs):
         moved = {i for pair in skew for i in pair}
         for i, j in skew:
@@ -101,8 +116,9 @@ def _plane(
             u, v = (j, i) if j in favoured or (i not in favoured and weight[i] > weight[j]) else (i, j)
             rank = (u in favoured, weight[u] + weight[v], -u, -v)
             if best is None or rank > best[0]:
-                best = rank, ring.names[u], ring.names[v], {ring.names[k] for k in moved & outer}
-    return best and best[1:]
+                named = tuple((ring.names[a], ring.names[b], s / skew[i, j]) for (a, b), s in skew.items())
+                best = rank, Turn(ring.names[u], ring.names[v], frozenset(ring.names[k] for k in moved & outer), named)
+    return best and best[1]
 
 
 def rotations(polys: Sequence[Poly], pairs: Sequence[Pair]) -> list[Skew]:

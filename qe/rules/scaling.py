@@ -30,6 +30,8 @@ def fix_scale(variables: tuple[str, ...], body: Formula, context: BlockContext) 
     if StepKind.SCALING not in context.enabled or not _worthwhile(body):
         return None
     inner = frozenset(bound_variables(body))
+    if inner & set(body.free):
+        return None
     weights = find_weights(body, frozenset(variables) | inner)
     if weights is None:
         return None

@@ -21,14 +21,15 @@ def without_rotations(formula: Exists | ForAll, context: BlockContext) -> tuple[
     """
     variables, body = formula.variables, formula.body
     signs: set[str] = set()
+    turns: list[dict[str, object]] = []
     rules: list[Solve] = []
     while StepKind.ROTATION in context.enabled and len(variables) > 1:
         context.budget.check("prepare")
-        plane = invariant_plane(variables, body, signs)
-        if plane is None:
+        turn = invariant_plane(variables, body, signs)
+        if turn is None:
             break
-        u, v, moved = plane
-        signs = (signs - moved) | {u}
+        v, signs = turn.zero, (signs - turn.moved) | {turn.half}
+        turns.append(turn.proof)
         ring = ring_of(body)
         assert ring is not None
         index = ring.index[v]
@@ -49,5 +50,6 @@ def without_rotations(formula: Exists | ForAll, context: BlockContext) -> tuple[
     else:
         body = disj((*(atom(u, Relation.LT) for u in halves), body))
         after = forall(variables, body)
-    context.step(StepKind.ROTATION.value, formula, after, ", ".join(f"{rule.variable} = 0" for rule in rules))
+    detail = ", ".join(f"{rule.variable} = 0" for rule in rules)
+    context.step(StepKind.ROTATION.value, formula, after, detail, {"turns": turns})
     return variables, body, rules

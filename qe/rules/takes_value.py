@@ -68,7 +68,7 @@ def drop_what_can_be_met(variables: tuple[str, ...], body: Formula, context: Blo
             rest = tuple(v for v in variables if v != name)
             rule = TakesValue(name, found.poly, found.relation)
             node = Lifted((rule,), Pending(rest, conj(others)))
-            return Found(StepKind.TAKES_VALUE, f"{name} in {format_poly(found.poly)}", node)
+            return Found(StepKind.TAKES_VALUE, f"{name} in {format_poly(found.poly)}", node, {"variable": name})
     return None
 
 

@@ -29,9 +29,11 @@ def fix_origin(variables: tuple[str, ...], body: Formula, context: BlockContext)
     if StepKind.TRANSLATION not in context.enabled:
         return None
     found = list(atoms(body))
+    inner = frozenset(bound_variables(body))
     if any(isinstance(a, RootAtom) for a in found) or sum(a.poly.term_count() for a in found) > _TERMS:
         return None
-    inner = frozenset(bound_variables(body))
+    if inner & set(body.free):
+        return None
     polys, columns = occurring(body, frozenset(variables) | inner)
     direction = kernel_vector(columns, (row for poly in polys for row in _derivatives(poly, columns)))
     if direction is None:

@@ -10,7 +10,7 @@ from qe.api_input import read_formula
 from qe.engine.proving import proved
 from qe.engine.run import solve
 from qe.formula.syntax import Formula
-from qe.options import Budget, Options, Stage
+from qe.options import Budget, Options
 from qe.proof.certificate import Certificate
 from qe.proof.derivation import Derivation, put_together
 
@@ -20,6 +20,7 @@ CASES = {
     "sign": "a > 1 and (ex x. a*x = b and x^3 > 2)",
     "guard": "ex x, y. a*x = y and x + y > 1 and y < 2",
     "shift": "ex x. x^12 = a",
+    "shift beside zero": "ex x. x /= 0 and x^4 + a*x^2 + b = 0",
     "translated": "ex x, y. (x - y)^4 + (x - y) < a",
     "scaled": "ex x, y. x^3 + y^3 > 0 and x^2*y > 0",
     "squares": "ex x, y. x^2 + y^2 = 0 and x*y = a",
@@ -45,12 +46,18 @@ CASES = {
     "nonzero shift": "ex x. x^2 = a and x /= 0 and x^4 /= 9*b",
     "discs": "ex x, y. (x - a)^2 + (y - b)^2 <= 1 and x^2 + y^2 <= 4",
     "nowhere": "(ex x, y, z. x + a = 4 and y + b = 9 and z + c = 9 and x^2 + y^2 + z^2 <= 9) and a^2 + b^2 + c^2 <= 9",
+    "gathered": "ex x. x > a and ex y. x*y = 1 and y > 2",
+    "gathered all": "all x. x > a or (all y. x*y > 1 or y > x)",
+    "turned": "ex x, y. x^2 + y^2 = a and (x^2 + y^2)^2 > b",
+    "turned vectors": "all x, y. x^2 + y^2 > a or (ex u, v. u = 2*x and v = 2*y and x*u + y*v > b)",
+    "distributed": "ex x, y. x > b and (y = 3*x or x = 2*y + a)",
+    "taken": "ex x, y. (a^2 + 1)*x^5 - y*x = b and y^2 > a",
+    "taken far out": "ex x. b > 0 and b*x^4 + x > a",
+    "taken apart": "ex x, y. a - b = 0 and (a + b)*x = c",
     "intervals": "all x. x > 3 -> x^2 - 2 > 0 and x /= 1",
 }
 
-
-PROVED = Options(certify=True, without=frozenset({Stage.VALUES, Stage.DISTRIBUTION}))
-"""Without the rules that have no checker yet."""
+PROVED = Options(certify=True)
 
 
 def derived(text: str) -> tuple[Derivation, Formula]:

@@ -34,6 +34,9 @@ ALWAYS = {
     "case split on factors",
     "boundary apart",
     "vanishing sum of squares split",
+    "nested blocks of one kind gathered",
+    "rotation of the axes",
+    "disjuncts with equations apart",
 }
 """Rules whose steps need little or no search for evidence."""
 

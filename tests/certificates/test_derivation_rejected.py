@@ -18,7 +18,18 @@ from qe.proof.certificate import Certificate, digest
 from qe.proof.entry import Entry, formula_from_json
 from tests.certificates.derivations import CASES, certificate, data, rules
 
-QUICK = {"sign", "shift", "translated", "squares", "negations", "none", "point", "terms"}
+QUICK = {
+    "sign",
+    "shift",
+    "translated",
+    "squares",
+    "negations",
+    "none",
+    "point",
+    "terms",
+    "distributed",
+    "taken far out",
+}
 """Cases for every day; the others are altered in the deep tests."""
 
 

@@ -20,10 +20,13 @@ from qe.errors import DegreeTooHigh, InputError, Unable
 from qe.exact.algebraic import RealAlgebraic
 from qe.exact.sample import Point
 from qe.execution import Limits, perform
+from qe.formula.build import disj
 from qe.formula.evaluate import truth_under
 from qe.formula.normal import nnf
 from qe.formula.syntax import FALSE, Constant, Exists, ForAll, Formula
 from qe.options import Budget
+from qe.proof import answer as solution
+from qe.proof.run_log import RunLog
 from qe.simplify.simplify import simplify
 
 Number = Fraction | RealAlgebraic
@@ -75,10 +78,28 @@ class ParametricWitness:
         return f"{terms or 'anything'} if {self.guard}"
 
 
-def parametric_witnesses(block: Formula, *, budget: Budget) -> tuple[ParametricWitness, ...]:
+class ParametricWitnesses(tuple[ParametricWitness, ...]):
+    """Guarded terms. ``answer``: that the block holds where one of the guards does (a universal one: where none does),
+    with its derivation, and a certificate where one was asked for and found."""
+
+    answer: solution.Answer
+
+    def with_(self, answer: solution.Answer) -> ParametricWitnesses:
+        """The same with this answer."""
+        made = ParametricWitnesses(self)
+        made.answer = answer
+        return made
+
+    def equivalent_to(self, block: Formula) -> Formula:
+        """What the guards say of the block."""
+        return nnf(disj(found.guard for found in self), negate=isinstance(block, ForAll))
+
+
+def parametric_witnesses(block: Formula, *, budget: Budget, log: RunLog | None = None) -> ParametricWitnesses:
     """Guarded terms for the variables of ``block`` = ``ex x, ... phi`` or ``all x, ... phi``, phi quantifier-free.
 
-    The disjunction of the guards is equivalent to the existential block (to the negation of the universal one).
+    The disjunction of the guards is equivalent to the existential block (to the negation of the universal one), which
+    ``log`` gets as a step.
     Raises ``InputError`` for other formulas and ``DegreeTooHigh`` where substitution cannot eliminate it.
     """
     if isinstance(block, Constant):
@@ -95,9 +116,12 @@ def parametric_witnesses(block: Formula, *, budget: Budget) -> tuple[ParametricW
     if len(found) > MOST:
         raise Unable(f"more than {MOST} parametric witnesses")
     guarded = ((simplify(answer.guard), answer) for answer in found)
-    return tuple(
+    made = ParametricWitnesses(
         ParametricWitness(guard, _terms(answer), answer, block.variables) for guard, answer in guarded if guard != FALSE
     )
+    if log is not None:
+        log.step("elimination set", block, made.equivalent_to(block), evidence={"trace": result.trace})
+    return made
 
 
 def _terms(answer: Answer) -> dict[str, str]:

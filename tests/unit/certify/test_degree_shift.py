@@ -39,7 +39,6 @@ def test_exponents_are_divided(before: str, after: str, exponent: int) -> None:
         ("ex x. x^3 = a", "ex x. x = a", 2, "not all exponents"),
         ("ex x. x^4 + x^2 = a", "ex x. x >= 0 and x + x^2 = a", 4, "not all exponents"),
         ("ex x. x^2 = a and x < 0", "ex x. x >= 0 and x = a and x < 0", 2, "do not exclude"),
-        ("ex x. x^2 = a and x /= 0", "ex x. x >= 0 and x = a and x /= 0", 2, "do not exclude"),
         ("ex x. x^2 = a", "ex x. x >= 0 and x = a", 1, "at least 2"),
         ("all x. x^2 = a", "all x. x >= 0 and x = a", 2, "existential block"),
         ("ex y. y^2 = x^2", "ex y. y^2 = x", 2, "existential block"),  # x is not bound here
@@ -54,7 +53,7 @@ def test_what_breaks_a_side_condition(before: str, after: str, exponent: int, re
 def test_the_sign_of_another_variable_of_the_same_name_is_not_known() -> None:
     before, after = "ex x. x^2 = a and x > b", "ex x. x >= 0 and x = a and x > b"
     assert objection(RULE, before, after, by(2))
-    bare = "ex x. x^2 = a and x /= 0", "ex x. x >= 0 and x = a and x /= 0"
+    bare = "ex x. x^2 = a and x < 0", "ex x. x >= 0 and x = a and x < 0"
     assert "do not exclude" in objection(RULE, *bare, by(2), given="x > 0")
 
 

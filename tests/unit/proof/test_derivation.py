@@ -14,6 +14,7 @@ from qe.formula.traverse import free_variables
 from qe.io import formats
 from qe.proof.derivation import put_together
 from qe.proof.step import Step
+from qe.proof.theorems import theorem_of
 from qe.proof.writing import RULES
 from tests.differential.generate import NESTED, SMALL, random_formula
 
@@ -86,7 +87,32 @@ def test_derivations_are_printed_and_pickled() -> None:
     assert derivation.to_latex().count(r"\Longleftrightarrow") == len(derivation.steps)
     page = derivation.to_html()
     assert page.count('<li id="step-') == len(derivation.steps)
-    ET.fromstring(page[page.index("<ol>") : page.index("</ol>") + 5].replace("&nbsp;", " "))
+    ET.fromstring(page[page.index("<ol>") : page.rindex("</ol>") + 5].replace("&nbsp;", " "))
+
+
+def test_a_page_has_theorems_and_evidence() -> None:
+    page = qe.eliminate("ex x, y. a - b = 0 and (a + b)*x = c and y^2 < 1").derivation.to_html()
+    assert "Gauss" in page and "Theorem (Loos, Weispfenning 1993). Let a, b be polynomials without x" in page
+    assert "<summary>theorem</summary>" in page and "<summary>evidence</summary>" in page
+    assert "solved: [[x, " in page
+    assert "<details><summary>evidence</summary><ol>" in page  # the small steps of "equations taken apart"
+    ET.fromstring(page[page.index("<ol>") : page.rindex("</ol>") + 5])
+
+
+def test_names_in_a_page_are_no_markup() -> None:
+    page = qe.eliminate("ex x. x + `<script>` = 1 and x > `a&b`").derivation.to_html()
+    assert "<script>" not in page
+    ET.fromstring(page[page.index("<body>") : page.index("</body>") + 7])
+
+
+def test_every_rule_with_a_checker_has_its_theorem() -> None:
+    from qe.certify.registry import RULES as CHECKED
+
+    for rule in CHECKED:
+        assert theorem_of(rule), f'the docstring of the checker begins with Rule "{rule}" and says THEOREM'
+    assert "translation" in theorem_of("translation of the origin")[0]
+    assert len(theorem_of("homogeneous scaling")) == 1
+    assert theorem_of("no such rule") == ()
 
 
 def test_no_derivation_without_an_answer() -> None:

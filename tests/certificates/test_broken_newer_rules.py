@@ -1,0 +1,192 @@
+"""Side conditions of the rules about gathering, rotations, cases and values, switched off: the steps are refused."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import replace
+from fractions import Fraction
+
+import pytest
+
+import qe.engine.finish as finish
+import qe.rules.gather as gather
+import qe.rules.rotation as rotation
+import qe.rules.structural as structural
+import qe.rules.symmetry as symmetry
+import qe.rules.takes_value as takes_value
+from qe.api_input import read_formula
+from qe.elimination.protocol import Context
+from qe.exact.ring import Poly
+from qe.formula.build import conj
+from qe.formula.syntax import And, Formula, Or, Relation
+from qe.options import Budget, Options
+from qe.proof.run_log import RunLog
+from qe.proof.step import Step
+from qe.rules.preparation import prepare
+from qe.rules.step import StepKind
+from qe.rules.tree import Any, Node
+from tests.certificates.test_broken_producers import Patch, accepted
+
+GATHERED, TURNED, APART, TAKEN = (
+    StepKind.GATHERING,
+    StepKind.ROTATION,
+    StepKind.DISTRIBUTION,
+    StepKind.TAKES_VALUE,
+)
+
+
+def steps_of(text: str, kind: StepKind) -> list[Step]:
+    """The steps of one rule alone."""
+    log = RunLog()
+    prepare(read_formula(text), enabled={kind}, log=log)
+    return [step for step in log.steps() if step.rule == kind.value]
+
+
+def captured(m: pytest.MonkeyPatch) -> None:
+    """Nobody looks whether a name is free beside the block that is opened."""
+    m.setattr(gather, "free_variables", lambda formula: ())
+
+
+def under_or(m: pytest.MonkeyPatch) -> None:
+    """Blocks inside a disjunction are opened as if it were a conjunction."""
+    m.setattr(gather, "conjuncts", lambda formula: formula.args if isinstance(formula, And | Or) else (formula,))
+
+
+def one_rotation(m: pytest.MonkeyPatch) -> None:
+    """Every polynomial counts as constant along a rotation."""
+    m.setattr(rotation, "rotations", lambda polys, pairs: [{pairs[0]: Fraction(1)}])
+
+
+def no_plane(m: pytest.MonkeyPatch) -> None:
+    """Nobody looks whether the two variables are joined to others."""
+
+    def none(values: Iterable[object], start: object = 0) -> object:
+        return start
+
+    m.setattr(rotation, "sum", none, raising=False)
+
+
+def all_equations(m: pytest.MonkeyPatch) -> None:
+    """Inequalities side by side count as the components of a vector."""
+    m.setattr(rotation, "_sums", lambda formula: [_norm(a.poly for a in formula.args)])
+
+
+def _norm(polys: Iterable[Poly]) -> Poly:
+    first, *more = polys
+    return sum((p * p for p in more), first * first)
+
+
+def fewer_cases(m: pytest.MonkeyPatch) -> None:
+    """The last case is forgotten."""
+
+    def fewer(nodes: tuple[Node, ...]) -> Node:
+        return Any(nodes[:-1])
+
+    m.setattr(structural, "Any", fewer)
+
+
+def no_rest(m: pytest.MonkeyPatch) -> None:
+    """What stands beside the disjunction is forgotten."""
+    m.setattr(structural, "conj", lambda parts: conj(list(parts)[-1:]))
+
+
+def always_met(m: pytest.MonkeyPatch) -> None:
+    """Neither degrees nor leading coefficients are looked at."""
+    m.setattr(takes_value, "_is_met", lambda found, name, others, context: True)
+
+
+def any_sign(m: pytest.MonkeyPatch) -> None:
+    """A leading coefficient has the sign that is wanted as soon as it has one."""
+    m.setattr(takes_value, "_WANTED", {relation: sign for relation in Relation for sign in (1,)})
+
+
+def only_equations(m: pytest.MonkeyPatch) -> None:
+    """Only equations count as conditions on the variable."""
+    m.setattr(takes_value, "free_variables", lambda part: part.free if part.relation is Relation.EQ else ())
+
+
+CASES: dict[str, tuple[Patch, str, StepKind]] = {
+    "captured": (captured, "ex x. x > y and ex y. x*y > 1", GATHERED),
+    "captured, dual": (captured, "all x. x > y or (all y. x*y > 1)", GATHERED),
+    "disjunction": (under_or, "ex x. x > a or ex y. x*y > 1", GATHERED),
+    "not constant": (one_rotation, "ex x, y. x^2 + y^2 + x < a", TURNED),
+    "not constant, dual": (one_rotation, "all x, y. x^2 + 2*y^2 > a or x*y > b", TURNED),
+    "axis": (no_plane, "ex x, y, z. x^2 + y^2 + z^2 < a and x + y + z > b", TURNED),
+    "inequalities": (all_equations, "ex x, y. x^2 + 2*x*y - y^2 > 0 and x^2 - 2*x*y - y^2 > 0", TURNED),
+    "cases": (fewer_cases, "ex x. x > a and (x = b or x = c)", APART),
+    "rest": (no_rest, "ex x. x > a and (x = b or x = c)", APART),
+    "even": (always_met, "ex x. x^2 = a and b > 0", TAKEN),
+    "vanishing": (always_met, "ex x. a*x^3 + x^2 + 1 = 0 and b > 0", TAKEN),
+    "sign": (always_met, "ex x. b*x^2 + x > a", TAKEN),
+    "other sign": (any_sign, "ex x. x^2 + x < a", TAKEN),
+    "constant": (always_met, "ex x. a*x^2 + a*x + b /= 0", TAKEN),
+    "twice": (only_equations, "ex x. x^3 + x = a and x > b", TAKEN),
+}
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_the_step_is_not_accepted(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    patch, text, kind = CASES[name]
+    assert all(map(accepted, steps_of(text, kind)))
+    patch(monkeypatch)
+    broken = steps_of(text, kind)
+    assert broken
+    assert not any(map(accepted, broken))
+
+
+@pytest.mark.parametrize("careless", [False, True])
+def test_signs_of_variables_that_move(careless: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The second turn moves x, whose sign the first one has chosen; it chooses that of u."""
+    one = Fraction(1)
+    first = rotation.Turn("x", "y", frozenset("xyuv"), (("x", "y", one), ("u", "v", one)))
+    second = rotation.Turn("u", "w", frozenset("xzuw"), (("x", "z", one), ("u", "w", one)))
+    turns = iter([first, replace(second, moved=frozenset()) if careless else second])
+    monkeypatch.setattr(symmetry, "invariant_plane", lambda variables, body, wanted: next(turns, None))
+    dot = "ex x, y, z, u, v, w. x^2 + y^2 + z^2 = a and u^2 + v^2 + w^2 = b and x*u + y*v + z*w > c"
+    (step,) = steps_of(dot, TURNED)
+    assert accepted(step) is not careless
+
+
+def test_variables_of_different_quantifiers() -> None:
+    """x^2 + y^2 is constant along the rotation, but only one of them can be chosen freely."""
+    before = read_formula("ex x. all y. x^2 + y^2 > a or x^2 + y^2 < b")
+    after = read_formula("ex x. x >= 0 and (x^2 > a or x^2 < b)")
+    turn = {"zero": "y", "half": "x", "plane": (("x", "y", Fraction(1)),)}
+    assert not accepted(Step(TURNED.value, before, after, evidence={"proof": {"turns": [turn]}}))
+
+
+def test_one_name_bound_twice() -> None:
+    before = read_formula("ex u, v. u^2 + v^2 < a and (ex x, y. x^2 + y^2 > b) and (ex y, z. y^2 + z^2 > b)")
+    after = read_formula("ex u. u >= 0 and u^2 < a and (ex x, y. x^2 + y^2 > b) and (ex y, z. y^2 + z^2 > b)")
+    turn = {"zero": "v", "half": "u", "plane": (("u", "v", Fraction(1)),)}
+    assert not accepted(Step(TURNED.value, before, after, evidence={"proof": {"turns": [turn]}}))
+
+
+def test_equations_of_which_one_is_lost(monkeypatch: pytest.MonkeyPatch) -> None:
+    given = read_formula("a - b = 0 and (a + b /= 0 or c = 0)")
+    assert accepted(untangling(given))
+    from qe.simplify.simplify import simplify
+
+    monkeypatch.setattr(finish, "simplify", lambda formula: conj(simplify(formula).args[:1]))  # type: ignore[attr-defined]
+    assert not accepted(untangling(given))
+
+
+def untangling(given: Formula) -> Step:
+    """The step of the rule that takes the equations of an answer apart."""
+    log = RunLog()
+    finish.untangled(given, Context(Options(), Budget(20), log))
+    (step,) = log.steps()
+    assert step.rule == "equations taken apart"
+    return step
+
+
+@pytest.mark.parametrize(
+    ("text", "kind"),
+    [
+        ("ex x. x > u and (ex u. u > x)", StepKind.TRANSLATION),
+        ("ex x, y. x^2 > u*y and (ex u. u^2 > x*y and u > 0)", StepKind.SCALING),
+        ("ex x, y. x^2 + y^2 < 2 and x*u - y*v > 1 and (all u, v. x*u > y*v + 1)", TURNED),
+    ],
+)
+def test_a_free_name_that_is_bound_elsewhere_is_not_moved(text: str, kind: StepKind) -> None:
+    assert not steps_of(text, kind)

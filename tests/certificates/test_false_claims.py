@@ -1,0 +1,91 @@
+"""No certificate of a false claim is accepted: claims of every kind, made at random (``false_claims``)."""
+
+from __future__ import annotations
+
+import json
+import random
+from collections.abc import Iterator
+
+import pytest
+
+from qe.certify.verify import verify
+from qe.errors import QEError
+from qe.options import Budget
+from qe.proof.certificate import Certificate
+from tests.certificates.false_claims import KINDS, Data, other_claim, text_of
+
+DEEP = {
+    "derivation": 6000,
+    "cells": 5000,
+    "substitution": 2000,
+    "witness": 3000,
+    "optimum": 3000,
+    "containment": 1500,
+    "clearance": 1500,
+}
+PARTS = 4
+TRIES = 30
+"""Alterations of one certificate."""
+
+
+def true_certificates(rng: random.Random, kind: str) -> Iterator[Data]:
+    """Certificates as they are made, all accepted."""
+    make, _ = KINDS[kind]
+    while True:
+        certificate = make(rng)
+        if certificate is not None:
+            assert verify(certificate, Budget(20)).accepted
+            yield json.loads(certificate.to_json())
+
+
+def false_claims(kind: str, seed: int, wanted: int) -> Iterator[str]:
+    """Certificates of false claims, signed."""
+    rng, found = random.Random(seed), 0
+    is_false = KINDS[kind][1]
+    for data in true_certificates(rng, kind):
+        assert not is_false(rng, data), "the claim of a certificate as it is made seems to be false"
+        for _ in range(TRIES):
+            other = other_claim(rng, data)
+            if _is_false(rng, kind, other):
+                yield text_of(other)
+                found += 1
+                if found == wanted:
+                    return
+
+
+def _is_false(rng: random.Random, kind: str, data: Data) -> bool:
+    """Whether the claim can be read, and is false."""
+    try:
+        return KINDS[kind][1](rng, data)
+    except (QEError, ValueError, KeyError, IndexError, TypeError, ZeroDivisionError, AttributeError):
+        return False  # nothing is claimed
+
+
+def accepted(text: str) -> bool:
+    """Whether the checker accepts a certificate as text."""
+    try:
+        return verify(Certificate.from_json(text), Budget(5)).accepted
+    except QEError:
+        return False
+
+
+def search(kind: str, seed: int, wanted: int) -> int:
+    """How many false claims were offered; fails at the first that is accepted."""
+    tries = 0
+    for text in false_claims(kind, seed, wanted):
+        tries += 1
+        assert not accepted(text), text
+    return tries
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_false_claims_are_refused(kind: str) -> None:
+    assert search(kind, 1, 20) == 20
+
+
+@pytest.mark.deep
+@pytest.mark.parametrize("part", range(PARTS))
+@pytest.mark.parametrize("kind", KINDS)
+def test_many_false_claims_are_refused(kind: str, part: int) -> None:
+    wanted = DEEP[kind] // PARTS
+    assert search(kind, 1000 + part, wanted) == wanted

@@ -1,0 +1,131 @@
+"""Steps of the rules about gathering, rotations, cases and values, made for random formulas: all are accepted."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Iterator
+from itertools import combinations
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from qe.elimination.protocol import Context
+from qe.engine.finish import untangled
+from qe.exact.ring import Poly, Ring
+from qe.formula.build import atom, conj, disj, exists, forall
+from qe.formula.syntax import Formula, Relation
+from qe.options import Budget, Options
+from qe.proof.run_log import RunLog
+from qe.proof.step import Step
+from qe.rules.preparation import prepare
+from qe.rules.step import StepKind
+from tests.certificates.test_broken_producers import accepted
+from tests.certificates.test_false_steps import formula, polynomial, simple
+
+RING = Ring.of(("a", "b", "x", "y", "z", "u", "v", "w"))
+VECTORS = (("x", "y", "z"), ("u", "v", "w"))
+
+
+def nested(rng: random.Random) -> Formula:
+    """Blocks inside blocks, of either kind, under conjunctions and disjunctions."""
+
+    def part(names: list[str], free: list[str]) -> Formula:
+        ring = Ring.of(("a", *free, *names[:1]))
+        own = formula(rng, ring, 1)
+        if not names:
+            return own
+        inner = part(names[1:], [*free, names[0]])
+        body = (conj if rng.random() < 0.6 else disj)((own, inner, formula(rng, ring, 0)))
+        return (exists if rng.random() < 0.6 else forall)(names[:1], body)
+
+    return part(rng.sample(["x", "y", "z"], 3), [])
+
+
+def turnable(rng: random.Random) -> Formula:
+    """Lengths, angles and determinants of vectors, some of them coordinates side by side in equations."""
+    dimension = rng.choice((2, 2, 3))
+    first, second = ([RING.var(name) for name in names[:dimension]] for names in VECTORS)
+
+    def dot(left: list[Poly], right: list[Poly]) -> Poly:
+        return sum((p * q for p, q in zip(left, right, strict=True)), RING.constant(0))
+
+    sizes = [dot(first, first), dot(second, second), dot(first, second)]
+    if dimension == 2:
+        sizes.append(first[0] * second[1] - first[1] * second[0])
+    parts: list[Formula] = []
+    for _ in range(rng.randint(1, 3)):
+        p = rng.choice(sizes) * rng.choice((1, -2)) + rng.choice(sizes) * rng.choice((0, 0, 1)) - RING.var("a")
+        parts.append(atom(p, rng.choice(tuple(Relation))))
+    if rng.random() < 0.3:
+        parts.append(conj(atom(p - q * 2, Relation.EQ) for p, q in zip(first, second, strict=True)))
+    rng.shuffle(parts)
+    everywhere = exists if rng.random() < 0.5 else forall  # of both vectors
+    if rng.random() < 0.4:
+        return everywhere((*VECTORS[0][:dimension], *VECTORS[1][:dimension]), conj(parts))
+    inside = (exists if rng.random() < 0.5 else forall)(VECTORS[1][:dimension], disj(parts[:2]))
+    outside = conj((inside, atom(sizes[0] - RING.var("b"), rng.choice(tuple(Relation)))))
+    return (exists if rng.random() < 0.7 else forall)(VECTORS[0][:dimension], outside)
+
+
+def solvable(rng: random.Random) -> Formula:
+    """A disjunction whose members have equations, beside other conditions."""
+    ring = Ring.of(("a", "b", "x", "y"))
+    cases = [
+        conj((atom(ring.var("x") * rng.choice((1, 2)) - simple(rng, Ring.of(("a", "b"))).convert(ring), Relation.EQ),))
+        for _ in range(rng.randint(2, 3))
+    ]
+    more = [conj((case, formula(rng, ring, 0))) for case in cases]
+    return exists(("x", "y"), conj((formula(rng, ring, 1), disj(more), formula(rng, ring, 0))))
+
+
+def met(rng: random.Random) -> Formula:
+    """A variable that stands in one comparison alone, under conditions on its leading coefficient."""
+    ring = Ring.of(("a", "b", "x", "y"))
+    rest = Ring.of(("a", "b", "y"))
+    x, degree = ring.var("x"), rng.choice((1, 2, 3, 4))
+    lead = rng.choice([ring.constant(2), ring.var("a"), ring.var("y") ** 2 + 1, ring.var("y")])
+    p = x**degree * lead + x * simple(rng, rest).convert(ring) + ring.var("b")
+    sign = atom(lead, rng.choice((Relation.GT, Relation.LT, Relation.NE)))
+    others = atom(polynomial(rng, rest).convert(ring), rng.choice(tuple(Relation)))
+    return exists(("x", "y"), conj((atom(p, rng.choice(tuple(Relation))), sign, others)))
+
+
+def steps(given_: Formula, kind: StepKind) -> Iterator[Step]:
+    log = RunLog()
+    prepare(given_, enabled={kind}, log=log)
+    return (step for step in log.steps() if step.rule == kind.value)
+
+
+MADE = {
+    StepKind.GATHERING: nested,
+    StepKind.ROTATION: turnable,
+    StepKind.DISTRIBUTION: solvable,
+    StepKind.TAKES_VALUE: met,
+}
+
+
+@pytest.mark.parametrize("kind", MADE)
+@settings(deadline=None, max_examples=40, derandomize=True)
+@given(seed=st.integers(0, 10**9))
+def test_what_the_rule_does_is_accepted(kind: StepKind, seed: int) -> None:
+    for step in steps(MADE[kind](random.Random(seed)), kind):
+        assert accepted(step), (step.before, step.after)
+
+
+@pytest.mark.parametrize("kind", MADE)
+def test_the_rules_find_something_to_do(kind: StepKind) -> None:
+    found = sum(1 for seed in range(40) for _ in steps(MADE[kind](random.Random(seed)), kind))
+    assert found >= 10
+
+
+@settings(deadline=None, max_examples=25, derandomize=True)
+@given(seed=st.integers(0, 10**9))
+def test_equations_of_answers(seed: int) -> None:
+    """Linear equations and products, as they come out of eliminations: each small step has evidence."""
+    rng, ring, log = random.Random(seed), Ring.of(("a", "b", "c")), RunLog()
+    lines = [ring.gen(i) * rng.choice((1, 2)) - ring.gen(j) * rng.choice((0, 1)) for i, j in combinations(range(3), 2)]
+    cases = disj((atom(rng.choice(lines), Relation.NE), atom(rng.choice(lines), Relation.EQ)))
+    equation = atom(rng.choice(lines) * rng.choice((*lines, ring.constant(1))), Relation.EQ)
+    untangled(conj((equation, cases, atom(rng.choice(lines), Relation.EQ))), Context(Options(), Budget(), log))
+    assert all(map(accepted, log.steps()))
