@@ -28,6 +28,7 @@ from qe.options import Budget, Options
 from qe.proof.certificate import Certificate, Proof, written
 from qe.proof.derivation import Derivation, moved
 from qe.proof.entry import Entry, Json, formula_to_json, poly_to_text
+from qe.proof.on_demand import OnDemand
 from qe.proof.step import Place, Step
 
 TABLE_WORK = 3_000
@@ -197,6 +198,9 @@ class Prover:
             inner = self._substituted(step, trace)
             if inner is not None:
                 return "virtual substitution", inner
+        refuted = step.evidence.get("refuted")
+        if isinstance(refuted, OnDemand):
+            return self._refuted(step, refuted)
         given = step.evidence.get("proof")
         own = self._tried(step.rule, step, context, self._plain(given) if isinstance(given, Mapping) else {})
         return None if own is None else (step.rule, own)
@@ -234,6 +238,16 @@ class Prover:
             self.budget.check("prove")
             return None
         return evidence
+
+    def _refuted(self, step: Step, refuted: OnDemand) -> tuple[str, Json] | None:
+        """That the conjunctions of a sentence have no solutions."""
+        try:
+            evidence: dict[str, Json] = {"certificates": [c.to_data() for c in refuted.make()]}
+        except Unable:
+            self.budget.check("prove")
+            return None
+        own = self._tried(step.rule, step, (), evidence)
+        return None if own is None else (step.rule, own)
 
     def _simplified(self, before: Formula, after: Formula) -> Json:
         """A step of simplification inside another one; ``CertificateRejected`` where it is not proved."""

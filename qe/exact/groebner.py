@@ -102,6 +102,11 @@ class Basis:
         return self.order.key([e * w for e, w in zip(exponents, self._scales, strict=True)])
 
     @property
+    def weights(self) -> tuple[int, ...]:
+        """Of the variables, by which degrees are counted in a graded order."""
+        return self._scales
+
+    @property
     def _scales(self) -> tuple[int, ...]:
         return self._weights or (1,) * len(self.variables)
 
@@ -120,6 +125,8 @@ class Basis:
             raise InternalError("a polynomial to be reduced has a variable that the basis does not know")
         if not self._internal or not poly:
             return 1, poly
+        if self.is_unit:
+            return 1, poly.ring.constant(0)
         tag = self._context.gens()[len(self.variables)]
         inside = _inside(poly, self.variables, self._weights, self._context)
         reduced = (inside + tag).reduction_primitive_part(fmpz_mpoly_vec(self._internal, self._context))
