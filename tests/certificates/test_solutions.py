@@ -10,12 +10,15 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import qe
+from qe.api_input import read_formula
 from qe.certify.verify import verify
 from qe.errors import Unable
 from qe.exact.quotient import PositiveDimensional
 from qe.exact.ring import Poly, Ring
-from qe.formula.syntax import Relation
+from qe.formula.build import convert
+from qe.formula.syntax import FALSE, Relation
 from qe.groebner.evidence import solutions_certificate
+from qe.proof.certificate import written
 from tests.certificates.mutation import replaced, without
 
 RING = Ring.of(("w", "y", "x"))
@@ -198,3 +201,21 @@ def test_false_sentences_of_the_method_cgs_are_proved_by_counts(text: str) -> No
     foreign = {"kind": other["kind"], "payload": other["payload"]}
     assert not verdict(replaced(data, path, [foreign])).accepted
     assert not verdict(replaced(data, ("payload", "answer"), True)).accepted
+
+
+@pytest.mark.parametrize(
+    ("text", "refuted", "accepted"),
+    [
+        ("ex x. x^2 + 1 = 0", [x**2 + 1], True),
+        ("ex x. x^2 + 1 = 0 and x > y", [x**2 + 1], False),  # not a sentence
+        ("ex x. x^2 - 1 = 0", [x**2 - 1], False),  # the certificate lists solutions
+        ("ex x. x^2 + 1 = 0 or x = 1", [x**2 + 1], False),
+        ("ex x. x^2 + 2 = 0", [x**2 + 1], False),
+        ("ex x. x > 1 and (x^2 + 1 = 0 or x^2 + 1 = 0 and x < 2)", [x**2 + 1], True),
+    ],
+)
+def test_what_refutes_a_sentence(text: str, refuted: list[Poly], accepted: bool) -> None:
+    formula = convert(read_formula(text), Ring.of(("x", "y")))
+    evidence: Any = {"certificates": [solutions_certificate(refuted).to_data()]}
+    step = written("comprehensive Gröbner system", (), formula, FALSE, (), evidence)
+    assert verify(qe.Certificate.derivation(("x", "y"), formula, [step], FALSE)).accepted == accepted
