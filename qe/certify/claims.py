@@ -15,7 +15,7 @@ from qe.certify.table import is_prenex_form
 from qe.exact.ring import Ring, format_poly
 from qe.formula.build import atom, conj, convert, exists, forall
 from qe.formula.normal import rename_apart
-from qe.formula.syntax import FALSE, TRUE, Constant, Formula
+from qe.formula.syntax import FALSE, TRUE, Constant, Formula, Relation
 from qe.proof.cells import CellTable
 from qe.proof.cells_json import CellEvidence
 from qe.proof.certificate import Certificate, Kind
@@ -59,6 +59,8 @@ def claim_of(certificate: Certificate) -> Claim:
             return Claim((*_equivalence(question, TRUE), "by numbers for the variables"), question, TRUE)
         case Kind.OPTIMUM:
             return _of_optimum(entry)
+        case Kind.SOLUTIONS:
+            return _of_solutions(entry)
     return Claim((f"{certificate.kind.value}: about a curve, see the entries of its payload",))
 
 
@@ -147,6 +149,22 @@ def _size(table: CellTable) -> int:
         count += cell.stack is None
         pending += cell.stack.cells if cell.stack is not None else ()
     return count
+
+
+def _of_solutions(entry: Entry) -> Claim:
+    order, equations, conditions, _, _, solutions = entry.fields(
+        "order", "equations", "conditions", "weights", "form", "solutions"
+    )
+    ring = _ring(order)
+    parts = [atom(e.polynomial(ring), Relation.EQ) for e in equations.items()]
+    for condition in conditions.items():
+        poly, relation = list(condition.items())
+        parts.append(atom(poly.polynomial(ring), Relation(relation.text())))
+    where, count = conj(parts), len(list(solutions.items()))
+    question = exists(ring.names, where)
+    number = ("no real solution", "exactly 1 real solution")[count] if count < 2 else f"exactly {count} real solutions"
+    words = (f"the system  {where}", f"has {number}", "by signatures of trace forms")
+    return Claim(words, question, TRUE if count else FALSE)
 
 
 def _of_optimum(entry: Entry) -> Claim:

@@ -20,6 +20,7 @@ from qe.certify.instance import check_instance
 from qe.certify.linear_equation import check_guarded_linear, check_linear
 from qe.certify.miniscoping import check_miniscoping
 from qe.certify.negation import check_negation
+from qe.certify.no_solutions import check_no_solutions
 from qe.certify.open_block import check_open_block
 from qe.certify.renaming import check_renaming
 from qe.certify.replayed_block import check_replayed_block
@@ -71,4 +72,5 @@ RULES: Mapping[str, Check] = {
     "constant": check_constant,
     "convex": check_sentence,
     "point or multipliers": check_sentence,
+    "comprehensive Gröbner system": check_no_solutions,
 }

@@ -11,6 +11,7 @@ from qe.certify.derivation import check_derivation
 from qe.certify.gauss import check_substitution
 from qe.certify.optimum import check_optimum
 from qe.certify.registry import RULES
+from qe.certify.solutions import check_solutions
 from qe.certify.verdict import Verdict
 from qe.certify.witness import check_witness
 from qe.errors import CertificateRejected, InputError, Unable
@@ -25,6 +26,7 @@ _CHECKERS = {
     Kind.CONTAINMENT: check_containment,
     Kind.CLEARANCE: check_clearance,
     Kind.BRANCH: check_branch,
+    Kind.SOLUTIONS: check_solutions,
 }
 
 

@@ -22,13 +22,16 @@ from qe.exact.quotient import PositiveDimensional, independent_sets
 from qe.exact.ring import Poly, Ring
 from qe.exact.zeros import Zero
 from qe.formula.build import atom, conj, convert, disj, exists
-from qe.formula.syntax import TRUE, And, Atom, Constant, Formula, Or, Relation
+from qe.formula.syntax import FALSE, TRUE, And, Atom, Constant, Formula, Or, Relation
 from qe.formula.traverse import atoms, free_variables, ring_of
 from qe.groebner.counting import SolutionCount
+from qe.groebner.evidence import solutions_certificate
 from qe.groebner.kapur_sun_wang import segments
 from qe.groebner.segment import Segment
 from qe.groebner.system import condition_of
 from qe.options import Budget, Options
+from qe.proof.certificate import Certificate
+from qe.proof.on_demand import OnDemand
 from qe.simplify.simplify import simplify
 
 MOST_CONJUNCTIONS = 24
@@ -69,14 +72,18 @@ class ComprehensiveGroebner:
                 found.append(part.eliminated(context.budget))
             elif (witness := part.witness(zeros)) is not None:
                 return _outcome(problem, context, TRUE, witness)
-        return _outcome(problem, context, simplify(disj(found)), None)
+        refuted = OnDemand(_Conjunctions(tuple(read)).certificates)
+        return _outcome(problem, context, simplify(disj(found)), None, refuted)
 
 
-def _outcome(problem: Problem, context: Context, found: Formula, witness: Values | None) -> Outcome:
+def _outcome(
+    problem: Problem, context: Context, found: Formula, witness: Values | None, refuted: OnDemand | None = None
+) -> Outcome:
     # back into the ring of the formula it came from: it is joined with parts of that formula
     ring = ring_of(problem.formula)
     moved = found if ring is None else convert(found, ring)
-    answer = context.log.step("comprehensive Gröbner system", problem.formula, problem.asked(moved))
+    evidence = {"refuted": refuted} if found == FALSE and not problem.free else {}
+    answer = context.log.step("comprehensive Gröbner system", problem.formula, problem.asked(moved), evidence=evidence)
     return Outcome(answer, witness)
 
 
@@ -183,26 +190,18 @@ class _Conjunction:
         except PositiveDimensional:
             return None
 
+    def certificate(self) -> Certificate:
+        """Of the real solutions, where nothing but the block's variables occurs."""
+        return solutions_certificate(
+            self.equations, self.conditions, variables=[self.ring.index[v] for v in self.block]
+        )
+
     def witness(self, zeros: Sequence[Zero]) -> Values | None:
         """Exact values of the block's variables: a solution that meets the other conditions."""
         for zero in zeros:
-            if all(r.holds(sign_at(zero, g)) for g, r in self.conditions):
+            if all(r.holds(zero.sign(g)) for g, r in self.conditions):
                 return {name: simplest(value.to_algebraic()) for name, value in zero.values.items()}
         return None
-
-
-def sign_at(zero: Zero, poly: Poly) -> int:
-    """The sign of a polynomial at a zero, exactly."""
-    values = [zero.values.get(name) for name in poly.ring.names]
-    some = next(iter(zero.values.values()))
-    total = some.field.rational(0)
-    for exponents, c in poly.terms():
-        term = some.field.rational(c)
-        for value, k in zip(values, exponents, strict=True):
-            if k and value is not None:
-                term = term * value**k
-        total = total + term
-    return total.sign()
 
 
 def _upward(found: Atom) -> tuple[Poly, Relation]:
@@ -211,3 +210,12 @@ def _upward(found: Atom) -> tuple[Poly, Relation]:
     if found.relation in turned:
         return -found.poly, turned[found.relation]
     return found.poly, found.relation
+
+
+@dataclass(frozen=True)
+class _Conjunctions:
+    parts: tuple[_Conjunction, ...]
+
+    def certificates(self) -> list[Certificate]:
+        """Of the solutions of each."""
+        return [part.certificate() for part in self.parts]

@@ -30,6 +30,7 @@ from qe.options import Budget, Options
 from qe.proof.certificate import Certificate, Proof, written
 from qe.proof.derivation import Derivation, moved, put_together
 from qe.proof.entry import Entry, Json, formula_to_json, poly_to_text
+from qe.proof.on_demand import OnDemand
 from qe.proof.run_log import RunLog
 from qe.proof.step import Nested, Place, Step
 
@@ -230,6 +231,9 @@ class Prover:
         if isinstance(trace, RunLog):
             inner = self._replayed(step, trace)
             return None if inner is None else (step.rule, inner)
+        refuted = step.evidence.get("refuted")
+        if isinstance(refuted, OnDemand):
+            return self._refuted(step, refuted)
         given = step.evidence.get("proof")
         evidence = self._plain(given) if isinstance(given, Mapping) else {}
         own = self._tried(step.rule, step, context, evidence)
@@ -296,6 +300,16 @@ class Prover:
         if current != step.after:
             inner.joined(current, step.after)
         return None if inner.unchecked else self._tried(step.rule, step, (), {"steps": inner.steps})
+
+    def _refuted(self, step: Step, refuted: OnDemand) -> tuple[str, Json] | None:
+        """That the conjunctions of a sentence have no solutions."""
+        try:
+            evidence: dict[str, Json] = {"certificates": [c.to_data() for c in refuted.make()]}
+        except Unable:
+            self.budget.check("prove")
+            return None
+        own = self._tried(step.rule, step, (), evidence)
+        return None if own is None else (step.rule, own)
 
     def _simplified(self, before: Formula, after: Formula) -> Json:
         """A step of simplification inside another one; ``CertificateRejected`` where it is not proved."""

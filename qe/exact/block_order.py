@@ -13,13 +13,18 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from qe.errors import Unable
-from qe.exact.groebner import Basis, Limits, MonomialOrder, groebner_basis
+from qe.exact.fglm import changed_order
+from qe.exact.groebner import BRIEF, Basis, Limits, MonomialOrder, groebner_basis
+from qe.exact.quotient import Quotient, dimension
 from qe.exact.ring import Poly
 
 Exponents = tuple[int, ...]
 Terms = dict[Exponents, Poly]
 
-LIMITS = Limits(elements=600, terms=20_000, bits=40_000)
+LIMITS = Limits(elements=600, terms=20_000, bits=40_000, modular=True)
+
+MOST_CONVERTED = 80
+"""Complex solutions, with multiplicities, of a system whose basis is changed into another order."""
 
 _TRIALS = ((4, 16), (8, 128), (24, 1024), (96, 8192))
 """(K, scale): differences of exponents of one variable up to K, degrees in the parameters up to the scale."""
@@ -64,7 +69,7 @@ def parametric_basis(polys: Sequence[Poly], block: Block, limits: Limits = LIMIT
     everything = (*block.variables, *block.parameters)
     if all(block.is_free(p) for p in given) or not block.parameters:
         order = block.order if not block.parameters else MonomialOrder.DEGREVLEX
-        basis = groebner_basis(given, variables=everything, order=order, limits=limits)
+        basis = _plain_basis(given, everything, order, limits)
         if basis is None:
             raise Unable("a Gröbner basis grows past its limits")
         return basis.polys
@@ -76,6 +81,19 @@ def parametric_basis(polys: Sequence[Poly], block: Block, limits: Limits = LIMIT
         if _agrees(basis, block):
             return basis.polys
     raise Unable("the degrees in a parametric Gröbner basis grow past their limits")
+
+
+def _plain_basis(given: list[Poly], variables: tuple[int, ...], order: MonomialOrder, limits: Limits) -> Basis | None:
+    """Without parameters; from the graded order where that is the way around a long computation."""
+    if order is MonomialOrder.DEGREVLEX:
+        return groebner_basis(given, variables=variables, limits=limits)
+    brief = groebner_basis(given, variables=variables, order=order, limits=BRIEF)
+    if brief is not None:
+        return brief
+    graded = groebner_basis(given, variables=variables, limits=limits)
+    if graded is not None and dimension(graded) == 0 and len(Quotient(graded).monomials) <= MOST_CONVERTED:
+        return changed_order(graded, order)
+    return groebner_basis(given, variables=variables, order=order, limits=limits)
 
 
 def _agrees(basis: Basis, block: Block) -> bool:

@@ -1,6 +1,7 @@
 """Groebner bases over Q of integer polynomials, within limits.
 
-The engine is FLINT's Buchberger algorithm in a degree reverse lexicographic context. Other orders come
+The engine is FLINT's Buchberger algorithm in a degree reverse lexicographic context, and where it gets long, if the
+limits say so, F4 modulo primes (``modular_groebner.py``). Other orders come
 from exponent inflation: giving variable x_i the weight w_i by substituting x_i^(w_i) turns degrevlex
 into the order "weighted degree first", which is a monomial order for every choice of weights. With
 heavy weights on a block it is an elimination order for that block; this is checked on the result.
@@ -14,7 +15,7 @@ from enum import Enum
 
 from flint import fmpq, fmpz_mpoly, fmpz_mpoly_ctx, fmpz_mpoly_vec
 
-from qe.errors import InternalError
+from qe.errors import InternalError, Unable
 from qe.exact.ring import Poly, Ring
 
 _HEAVY = (1009, 1213, 1471, 1723, 1999, 2293, 2557, 2819, 3089, 3359)
@@ -42,15 +43,19 @@ class MonomialOrder(Enum):
 class Limits:
     """When to give up: number of basis elements, terms and coefficient bits of one of them.
 
-    A C call cannot be interrupted, so these are the only protection from a runaway computation.
+    A C call cannot be interrupted, so these are the only protection from a runaway computation. ``modular``: beyond
+    ``BRIEF`` F4 modulo primes is tried, within a limit of its own, before Buchberger's algorithm goes on.
     """
 
     elements: int = 120
     terms: int = 600
     bits: int = 1500
+    modular: bool = False
 
 
 DEFAULT_LIMITS = Limits()
+BRIEF = Limits(elements=150, terms=1000, bits=1000)
+"""Within these FLINT's algorithm mostly ends, or gives up, in some tenths of a second."""
 
 
 class Basis:
@@ -97,6 +102,11 @@ class Basis:
         return self.order.key([e * w for e, w in zip(exponents, self._scales, strict=True)])
 
     @property
+    def weights(self) -> tuple[int, ...]:
+        """Of the variables, by which degrees are counted in a graded order."""
+        return self._scales
+
+    @property
     def _scales(self) -> tuple[int, ...]:
         return self._weights or (1,) * len(self.variables)
 
@@ -115,6 +125,8 @@ class Basis:
             raise InternalError("a polynomial to be reduced has a variable that the basis does not know")
         if not self._internal or not poly:
             return 1, poly
+        if self.is_unit:
+            return 1, poly.ring.constant(0)
         tag = self._context.gens()[len(self.variables)]
         inside = _inside(poly, self.variables, self._weights, self._context)
         reduced = (inside + tag).reduction_primitive_part(fmpz_mpoly_vec(self._internal, self._context))
@@ -174,14 +186,42 @@ def groebner_basis(
     scales = _weights(heavy, len(chosen)) if heavy else tuple(weights) or None
     names = (*(f"v{k}" for k in range(len(chosen))), "tag")
     context = fmpz_mpoly_ctx.get(names, order.value)
-    internal = [_inside(p, chosen, scales, context) for p in given]
-    found, complete = fmpz_mpoly_vec(internal, context).buchberger_naive(
+    found = _found([_inside(p, chosen, scales, context) for p in given], context, limits, order)
+    if found is None:
+        return None
+    basis = Basis(ring, chosen, order, scales, _interreduced(found, context), context)
+    return basis if not heavy or _is_block(basis, heavy) else None
+
+
+def _found(
+    polys: list[fmpz_mpoly], context: fmpz_mpoly_ctx, limits: Limits, order: MonomialOrder
+) -> list[fmpz_mpoly] | None:
+    """A basis, in one way or the other."""
+    if not limits.modular or order is not MonomialOrder.DEGREVLEX:
+        return _by_buchberger(polys, context, limits)
+    brief = Limits(min(limits.elements, BRIEF.elements), min(limits.terms, BRIEF.terms), min(limits.bits, BRIEF.bits))
+    if (found := _by_buchberger(polys, context, brief)) is not None:
+        return found
+    return _by_primes(polys, context) or _by_buchberger(polys, context, limits)
+
+
+def _by_buchberger(polys: list[fmpz_mpoly], context: fmpz_mpoly_ctx, limits: Limits) -> list[fmpz_mpoly] | None:
+    found, complete = fmpz_mpoly_vec(polys, context).buchberger_naive(
         limits=(limits.elements, limits.terms, limits.bits)
     )
-    if not complete:
+    return list(found) if complete else None
+
+
+def _by_primes(polys: list[fmpz_mpoly], context: fmpz_mpoly_ctx) -> list[fmpz_mpoly] | None:
+    """By F4 modulo primes, which loads numpy; the tag variable takes no part."""
+    from qe.exact.modular_groebner import modular_basis
+
+    given = [{tuple(int(k) for k in e)[:-1]: int(c) for e, c in p.terms()} for p in polys]
+    try:
+        found = modular_basis(given, context.nvars() - 1)
+    except Unable:
         return None
-    basis = Basis(ring, chosen, order, scales, _interreduced(list(found), context), context)
-    return basis if not heavy or _is_block(basis, heavy) else None
+    return [context.from_dict({(*e, 0): c for e, c in g.items()}) for g in found]
 
 
 def _weights(heavy: int, size: int) -> tuple[int, ...]:

@@ -9,7 +9,7 @@ from qe.errors import Unable
 from qe.exact.groebner import Limits, groebner_basis
 from qe.exact.ring import Poly, Ring
 
-LIMITS = Limits(elements=600, terms=20_000, bits=40_000)
+LIMITS = Limits(elements=600, terms=20_000, bits=40_000, modular=True)
 
 
 def in_ideal(poly: Poly, generators: Sequence[Poly]) -> bool:

@@ -12,7 +12,7 @@ from qe.exact.ring import Poly
 from qe.exact.univariate import from_univariate
 from qe.exact.zeros import Zero
 
-LIMITS = Limits(elements=600, terms=4000, bits=40_000)
+LIMITS = Limits(elements=600, terms=4000, bits=40_000, modular=True)
 
 _WEIGHTS = (1009, 1013, 1019, 1021, 1031, 1033, 1039, 1049, 1051, 1061, 1063, 1069)
 """Nearly equal weights for variables above constants: sorted by degree, and no ties that the constants would break."""

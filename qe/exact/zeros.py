@@ -17,6 +17,7 @@ from flint import fmpq, fmpq_mat, fmpq_poly
 from qe.errors import InternalError
 from qe.exact.algebraic import RealAlgebraic, irreducible_factors, irreducible_roots
 from qe.exact.field import FieldElement, NumberField
+from qe.exact.ring import Poly
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,6 +34,18 @@ class Zero:
     def box(self, bits: int = 64) -> dict[str, tuple[object, object]]:
         """Rational bounds of every coordinate with about so many bits."""
         return {name: value.interval(bits) for name, value in self.values.items()}
+
+    def sign(self, poly: Poly) -> int:
+        """The sign of a polynomial in the variables at the zero, exactly."""
+        values = [self.values.get(name) for name in poly.ring.names]
+        total = next(iter(self.values.values())).field.rational(0)
+        for exponents, c in poly.terms():
+            term = total.field.rational(c)
+            for value, k in zip(values, exponents, strict=True):
+                if k and value is not None:
+                    term = term * value**k
+            total = total + term
+        return total.sign()
 
 
 def zeros_of(matrices: Sequence[fmpq_mat], traces: fmpq_mat, distinct: int, names: Sequence[str]) -> list[Zero]:
@@ -66,7 +79,7 @@ def zeros_of(matrices: Sequence[fmpq_mat], traces: fmpq_mat, distinct: int, name
 
 def _separating(matrices: Sequence[fmpq_mat], distinct: int) -> tuple[fmpq_mat, fmpq_poly]:
     """Multiplication by a linear form with ``distinct`` values at the zeros, and the polynomial with these roots."""
-    for form in _forms(len(matrices)):
+    for form in linear_forms(len(matrices)):
         matrix = fmpq_mat(matrices[0].nrows(), matrices[0].ncols())
         for k, m in zip(form, matrices, strict=True):
             if k:
@@ -78,7 +91,7 @@ def _separating(matrices: Sequence[fmpq_mat], distinct: int) -> tuple[fmpq_mat, 
     raise InternalError("no linear form separates the zeros")  # pragma: no cover: almost all of them do
 
 
-def _forms(size: int) -> Iterator[list[int]]:
+def linear_forms(size: int) -> Iterator[list[int]]:
     """Single variables first, then (1, k, k^2, …): each pair of zeros agrees for fewer than ``size`` of these k."""
     for k in range(size - 1, -1, -1):
         yield [int(i == k) for i in range(size)]

@@ -17,6 +17,7 @@ from qe.groebner.signs import SignatureConditions, signatures_sum_to
 from qe.groebner.system import ComprehensiveGroebnerSystem
 from qe.groebner.trace_form import ParametricQuotient
 from qe.options import Budget
+from qe.proof.certificate import Certificate
 from qe.simplify.simplify import simplify
 
 MOST_CASES = 3000
@@ -84,13 +85,14 @@ class RootClass:
 
 @dataclass(frozen=True)
 class RealRootClassification:
-    """A partition of parameter space by the number of distinct real solutions; ``classes``: by count, None last.
-
-    Conditions may hold the names of constants, which stand for their numbers.
+    """A partition of parameter space by the number of distinct real solutions; ``classes``: by count, None last;
+    ``positive``: only solutions with these positive count. Conditions may hold the names of constants, which stand for
+    their numbers.
     """
 
     system: ComprehensiveGroebnerSystem
     classes: tuple[RootClass, ...]
+    positive: tuple[Poly, ...] = ()
 
     def __iter__(self) -> Iterator[RootClass]:
         return iter(self.classes)
@@ -109,6 +111,15 @@ class RealRootClassification:
             if truth_under(convert(found.condition, place.ring), place.sign):
                 return found.count
         raise InternalError("no class contains a point of the parameters")
+
+    def certificate_at(
+        self, point: Mapping[str, object] | Sequence[object], *, timeout: float | None = None
+    ) -> Certificate:
+        """A certificate of the solutions at a point, as many as ``at`` says there are, for ``qe.verify``.
+
+        ``timeout`` in seconds. Raises ``PositiveDimensional`` where there are infinitely many complex ones, ``Unable``.
+        """
+        return self.system.certificate_at(point, self.positive, timeout=timeout)
 
     def to_dict(self) -> dict[str, object]:
         """The partition as plain data, formulas as text."""
@@ -143,4 +154,6 @@ def classified(question: ParametricSystem, positive: Sequence[Poly], budget: Bud
                 parts.setdefault(k, []).append(conj([where, number.is_in({k})]))
     found = {count: simplify(disj(conditions)) for count, conditions in parts.items()}
     classes = [RootClass(count, f) for count, f in found.items() if f != FALSE]
-    return RealRootClassification(system, tuple(sorted(classes, key=lambda c: (c.count is None, c.count or 0))))
+    return RealRootClassification(
+        system, tuple(sorted(classes, key=lambda c: (c.count is None, c.count or 0))), tuple(positive)
+    )

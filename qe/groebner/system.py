@@ -22,8 +22,10 @@ from qe.exact.zeros import Zero
 from qe.execution import Limits, perform
 from qe.formula.build import atom, conj, disj
 from qe.formula.syntax import Formula, Relation
+from qe.groebner.evidence import solutions_certificate
 from qe.groebner.segment import Segment, monomial_names
 from qe.groebner.writing import system_to_html, system_to_latex
+from qe.proof.certificate import Certificate
 
 Result = TypeVar("Result")
 
@@ -103,15 +105,44 @@ class ComprehensiveGroebnerSystem:
 
     def _solutions_at(self, values: Mapping[str, Number]) -> list[Zero]:
         basis = self._basis_at(values)
-        index = self.polys[0].ring.index
-        irrational = {n: v for n, v in values.items() if isinstance(v, RealAlgebraic)}
-        constants = {index[n]: v for n, v in {**self.constants, **irrational}.items()}
         if not basis:
             raise PositiveDimensional(self.variables)
         if basis[0].is_constant:
             return []
-        found = solve_system(basis, variables=self.block.variables, constants=constants)
+        found = solve_system(basis, variables=self.block.variables, constants=self._all_constants(values))
         return [Zero({n: z.values[n] for n in self.variables}, z.multiplicity) for z in found]
+
+    def certificate_at(
+        self,
+        point: Mapping[str, object] | Sequence[object],
+        positive: Sequence[Poly] = (),
+        *,
+        timeout: float | None = None,
+    ) -> Certificate:
+        """A certificate of the real solutions at a point (with all of ``positive`` positive): these, and no others.
+
+        Kind "solutions", for ``qe.verify`` and ``qe check``; the checker works from the given polynomials, not from the
+        segments. Arguments and errors as for ``solutions_at``.
+        """
+        values = self._values(point)
+        return _within(timeout, lambda: self._certificate_at(values, positive))
+
+    def _certificate_at(self, values: Mapping[str, Number], positive: Sequence[Poly]) -> Certificate:
+        special = [_specialised(p, values, self._names) for p in self.polys]
+        if not any(special):
+            raise PositiveDimensional(self.variables)
+        return solutions_certificate(
+            special,
+            [(_specialised(p, values, self._names), Relation.GT) for p in positive],
+            variables=self.block.variables,
+            constants=self._all_constants(values),
+        )
+
+    def _all_constants(self, values: Mapping[str, Number]) -> dict[int, RealAlgebraic]:
+        """With the irrational numbers of a point, by ring index."""
+        index = self.polys[0].ring.index
+        irrational = {n: v for n, v in values.items() if isinstance(v, RealAlgebraic)}
+        return {index[n]: v for n, v in {**self.constants, **irrational}.items()}
 
     def contains(self, poly: Poly, point: Mapping[str, object] | Sequence[object]) -> bool:
         """Whether a polynomial in variables and parameters is in the ideal at a point, exactly."""

@@ -85,6 +85,18 @@ def test_many_random_blocks(text: str) -> None:
     agree(text)
 
 
+@pytest.mark.deep
+@settings(max_examples=40)
+@given(blocks())
+def test_many_random_blocks_against_substitution(text: str) -> None:
+    """Where both eliminate the block, their formulas hold at the same points."""
+    found, other = (qe.eliminate(text, method=m, timeout=20) for m in ("cgs", "vs"))
+    if found.formula is None or other.formula is None:
+        return
+    for value in map(Fraction, ("-2", "-1", "0", "1/2", "1", "3", "1000000")):
+        assert holds_at(found.formula, {"k": value}) == holds_at(other.formula, {"k": value}), (text, value)
+
+
 def agree(text: str) -> None:
     """At points of the parameter, also special ones, the truth is that of decomposition."""
     found = qe.eliminate(text, method="cgs", timeout=120)

@@ -47,6 +47,11 @@ def test_multiplicities_do_not_count_twice() -> None:
     assert quotient.signature(-x) == -1
 
 
+def test_everything_is_in_the_unit_ideal() -> None:
+    unit = basis_of(x, x - 1)
+    assert unit.is_unit and unit.contains(y + 3) and unit.contains(RING.constant(1))
+
+
 def test_dimensions() -> None:
     assert dimension(basis_of(x * y, x * z)) == 2
     assert dimension(basis_of(x * y - 1, z)) == 1

@@ -1,0 +1,221 @@
+"""Certificates of kind "solutions": accepted where the solutions are right, rejected in every entry that is altered."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import qe
+from qe.api_input import read_formula
+from qe.certify.verify import verify
+from qe.errors import Unable
+from qe.exact.quotient import PositiveDimensional
+from qe.exact.ring import Poly, Ring
+from qe.formula.build import convert
+from qe.formula.syntax import FALSE, Relation
+from qe.groebner.evidence import solutions_certificate
+from qe.proof.certificate import written
+from tests.certificates.mutation import replaced, without
+
+RING = Ring.of(("w", "y", "x"))
+w, y, x = (RING.gen(i) for i in range(3))
+ROOT_2 = qe.RealAlgebraic.from_root([-2, 0, 1], 1, 2)
+CERTIFICATE = solutions_certificate(
+    [x**2 + y**2 - w - 3, x * y - 1, x + y - w], [(x, Relation.GT)], constants={0: ROOT_2}
+)
+CIRCLE = solutions_certificate([x**2 + y**2 - 4, x * y - 1], [(x - 1, Relation.NE), (y + 2, Relation.GE)])
+DATA: dict[str, Any] = json.loads(CIRCLE.to_json())
+
+
+def verdict(text: str) -> Any:
+    return verify(qe.Certificate.from_json(text))
+
+
+def count(certificate: qe.Certificate) -> int:
+    assert isinstance(certificate.payload, dict) and isinstance(certificate.payload["solutions"], list)
+    return len(certificate.payload["solutions"])
+
+
+@pytest.mark.parametrize(
+    ("equations", "conditions", "expected"),
+    [
+        ([x**2 + y**2 - 4, x * y - 1], [], 4),
+        ([x**2 + y**2 - 4, x * y - 1], [(x, Relation.GT)], 2),
+        ([(x - y) ** 2, x**2 + y**2 - 2], [(x, Relation.GE), (y - 1, Relation.NE)], 0),
+        ([(x - y) ** 2, x**2 + y**2 - 2], [(x, Relation.GE)], 1),
+        ([x**2 + y**2 + 1, x - y], [], 0),
+        ([x - 1, x - 2], [], 0),
+        ([x**2 - x, y**3 - y], [(x - y, Relation.NE)], 4),
+        ([(10**9 * x - 1) * (10**9 * x - 2), y - x], [], 2),
+    ],
+)
+def test_counts(equations: list[Poly], conditions: list[tuple[Poly, Relation]], expected: int) -> None:
+    certificate = solutions_certificate(equations, conditions)
+    assert count(certificate) == expected
+    assert verdict(certificate.to_json()).accepted
+
+
+def test_constants_are_told_from_their_conjugates() -> None:
+    certificate = solutions_certificate([x**2 - w, y - x], constants={0: ROOT_2})
+    assert count(certificate) == 2 and qe.verify(certificate).accepted
+    assert count(CERTIFICATE) == 0 and qe.verify(CERTIFICATE).accepted
+
+
+def test_the_claim_in_words() -> None:
+    from qe.certify.claims import claim_of
+
+    words = claim_of(CIRCLE).words
+    assert words[1] == "has exactly 4 real solutions" and "x^2 + y^2 - 4 = 0" in words[0]
+    assert claim_of(CERTIFICATE).words[1] == "has no real solution"
+
+
+def altered() -> list[tuple[tuple[str | int, ...], Any]]:
+    """Paths and other values that make the certificate wrong."""
+    base = ("payload",)
+    found: list[tuple[tuple[str | int, ...], Any]] = [
+        ((*base, "order"), ["y", "x"]),
+        ((*base, "order", 0), "z"),
+        ((*base, "order"), ["x", "x"]),
+        ((*base, "equations", 0), "x^2 + y^2 - 5"),
+        ((*base, "equations", 0), "x^2 + y^2 - 4 + 0"),
+        ((*base, "equations", 1), "x*y + 1"),
+        ((*base, "equations", 1), "x - x"),
+        ((*base, "conditions", 0, 0), "y + 1*x"),
+        ((*base, "conditions", 0, 1), ">"),
+        ((*base, "conditions", 0, 1), "<"),
+        ((*base, "conditions", 1, 0), "y"),
+        ((*base, "weights"), [1]),
+        ((*base, "weights", 0), 0),
+        ((*base, "weights", 0), 10**9),
+        ((*base, "weights", 0), True),
+        ((*base, "form"), [1, 1]),
+        ((*base, "form"), [0, 0]),
+        ((*base, "form"), [0, "1"]),
+        ((*base, "solutions"), []),
+        ((*base, "solutions"), DATA["payload"]["solutions"] * 2),
+        ((*base, "kind"), 3),
+    ]
+    for k, solution in enumerate(DATA["payload"]["solutions"]):
+        place = (*base, "solutions", k)
+        polynomial, interval = solution["field"]["minimal_polynomial"], solution["field"]["interval"]
+        for i, c in enumerate(polynomial):
+            found.append(((*place, "field", "minimal_polynomial", i), str(int(c) + 1)))
+        found.append(((*place, "field", "interval"), interval[::-1]))
+        found.append(((*place, "field", "interval"), ["-9", "9"]))
+        found.append(((*place, "field", "interval"), ["7", "8"]))
+        other = DATA["payload"]["solutions"][k - 1]
+        found.append(((*place, "field"), other["field"]))
+        found.append((place, other))
+        for j, numbers in enumerate(solution["values"]):
+            for i, c in enumerate(numbers):
+                found.append(((*place, "values", j, i), "17" if c != "17" else "18"))
+            found.append(((*place, "values", j), numbers[:-1]))
+        found.append(((*place, "values"), solution["values"][::-1]))
+    return found
+
+
+@pytest.mark.parametrize(("path", "value"), altered(), ids=lambda v: str(v)[:40])
+def test_every_altered_entry_is_rejected(path: tuple[str | int, ...], value: Any) -> None:
+    found = verdict(replaced(DATA, path, value))
+    assert not found.accepted and found.decided, found
+
+
+@pytest.mark.parametrize("name", ["equations", "conditions", "solutions"])
+def test_nothing_can_be_left_out(name: str) -> None:
+    strict = solutions_certificate([x**2 + y**2 - 4, x * y - 1], [(x, Relation.GT)])
+    data = json.loads(strict.to_json())
+    for k in range(len(data["payload"][name])):
+        assert not verdict(without(data, ("payload", name), k)).accepted
+
+
+def test_a_solution_that_is_none_is_not_listed() -> None:
+    # x = 0 satisfies the equation, not the condition: a certificate that lists it is rejected where it stands
+    data = json.loads(solutions_certificate([x * (x - 1)]).to_json())
+    assert verdict(replaced(data, ("payload", "conditions"), [["x", "/="]])).step.startswith("payload.solutions[0]")
+
+
+def test_infinitely_many_solutions_have_no_certificate() -> None:
+    with pytest.raises(PositiveDimensional):
+        solutions_certificate([x * y - 1])
+    assert not verdict(replaced(DATA, ("payload", "equations"), ["x*y - 1"])).accepted
+
+
+def test_numbers_of_solutions_at_points_have_certificates() -> None:
+    found = qe.real_root_classification(["x^2 + b*x + c"], "x", positive=["x"])
+    for point in ([-3, 2], [0, -1], [0, 1], [ROOT_2, 0], [-2, 1]):
+        certificate = found.certificate_at(point, timeout=60)
+        assert count(certificate) == found.at(point) and qe.verify(certificate).accepted
+    system = qe.comprehensive_groebner(["w*x - a", "x^2 - b"], "x", constants={"w": ROOT_2})
+    certificate = system.certificate_at([2, 2])
+    assert count(certificate) == 1 and qe.verify(certificate).accepted
+    assert count(system.certificate_at([2, 3])) == 0
+
+
+@st.composite
+def systems(draw: st.DrawFn) -> list[Poly]:
+    c = st.integers(-3, 3)
+    first = x**2 + draw(c) * x * y + draw(c) * y + draw(c)
+    second = y ** draw(st.integers(1, 3)) + draw(c) * x + draw(c)
+    return [first, second, *([draw(c) * x * y + draw(c)] if draw(st.booleans()) else [])]
+
+
+@settings(max_examples=25)
+@given(systems(), st.sampled_from([Relation.GT, Relation.GE, Relation.NE]), st.integers(-2, 2))
+def test_both_counts_agree(polys: list[Poly], relation: Relation, shift: int) -> None:
+    """The checker's basis, quotient and signature against isolation, where solutions may be multiple."""
+    try:
+        certificate = solutions_certificate(polys, [(x - y + shift, relation)])
+    except Unable:
+        return
+    assert verdict(certificate.to_json()).accepted
+
+
+FALSE_SENTENCES = [
+    "ex x, y. x^2 + y^2 = 1 and x*y = 1",
+    "ex x, y. x^2 + y^2 = 1 and x*y = 0 and x > 1",
+    "ex x, y. (x^2 = 2 and y = x and x > 2) or (y^2 = 3 and x^3 = y and y > 2)",
+]
+
+
+@pytest.mark.parametrize("text", FALSE_SENTENCES)
+def test_false_sentences_of_the_method_cgs_are_proved_by_counts(text: str) -> None:
+    answer = qe.eliminate(text, method="cgs", check=True, timeout=60)
+    assert answer.formula is not None and str(answer.formula) == "false" and answer.guarantee is qe.Guarantee.CHECKED
+    assert answer.certificate is not None
+    data = json.loads(answer.certificate.to_json())
+    (step,) = data["payload"]["steps"]
+    assert step["rule"] == "comprehensive Gröbner system"
+    certificates = step["evidence"]["certificates"]
+    path = ("payload", "steps", 0, "evidence", "certificates")
+    assert not verdict(replaced(data, path, certificates[1:])).accepted
+    # one that proves something else
+    other = json.loads(solutions_certificate([x**2 + 1]).to_json())
+    foreign = {"kind": other["kind"], "payload": other["payload"]}
+    assert not verdict(replaced(data, path, [foreign] * len(certificates))).accepted
+    # one with a solution, which refutes nothing
+    other = json.loads(solutions_certificate([x**2 - 1]).to_json())
+    foreign = {"kind": other["kind"], "payload": other["payload"]}
+    assert not verdict(replaced(data, path, [foreign])).accepted
+    assert not verdict(replaced(data, ("payload", "answer"), True)).accepted
+
+
+@pytest.mark.parametrize(
+    ("text", "refuted", "accepted"),
+    [
+        ("ex x. x^2 + 1 = 0", [x**2 + 1], True),
+        ("ex x. x^2 + 1 = 0 and x > y", [x**2 + 1], False),  # not a sentence
+        ("ex x. x^2 - 1 = 0", [x**2 - 1], False),  # the certificate lists solutions
+        ("ex x. x^2 + 1 = 0 or x = 1", [x**2 + 1], False),
+        ("ex x. x^2 + 2 = 0", [x**2 + 1], False),
+        ("ex x. x > 1 and (x^2 + 1 = 0 or x^2 + 1 = 0 and x < 2)", [x**2 + 1], True),
+    ],
+)
+def test_what_refutes_a_sentence(text: str, refuted: list[Poly], accepted: bool) -> None:
+    formula = convert(read_formula(text), Ring.of(("x", "y")))
+    evidence: Any = {"certificates": [solutions_certificate(refuted).to_data()]}
+    step = written("comprehensive Gröbner system", (), formula, FALSE, (), evidence)
+    assert verify(qe.Certificate.derivation(("x", "y"), formula, [step], FALSE)).accepted == accepted
