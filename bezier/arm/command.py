@@ -10,7 +10,7 @@ from typing import Any
 
 from bezier.arm import path_report
 from bezier.arm.evidence import certificates
-from bezier.arm.inverse import Ends, Inverse, Solution, solve
+from bezier.arm.inverse import Ends, Inverse, Solution, Value, solve
 from bezier.arm.joint_path import joint_path
 from bezier.arm.model import Arm
 from bezier.curves.curve import Bezier
@@ -45,8 +45,8 @@ def to_json(found: Inverse) -> dict[str, Any]:
     """All solutions as JSON data.
 
     ``count``: of different solutions, null for infinitely many; then the joints in ``free`` can be chosen (null in the
-    solutions). Each joint of a solution has its ``angle`` (rad), ``cos`` and ``sin``, and a ``box`` that isolates the
-    solution: exact rational bounds of cosine and sine.
+    solutions). Each joint of a solution has its ``angle`` (rad), ``cos`` and ``sin``, or its ``length`` (mm), and a
+    ``box`` that isolates the solution: exact rational bounds of these.
     """
     return {
         "arm": found.arm.name,
@@ -63,16 +63,15 @@ def to_json(found: Inverse) -> dict[str, Any]:
 def _solution(arm: Arm, solution: Solution) -> dict[str, Any]:
     joints: dict[str, Any] = {}
     for joint, value in zip(arm.joints, solution.values, strict=True):
-        joints[joint.name] = None
-        if value is not None:
-            box = {"cos": [str(e) for e in value.cosine], "sin": [str(e) for e in value.sine]}
-            joints[joint.name] = {
-                "angle": float(value),
-                "cos": _decimal(value.cosine),
-                "sin": _decimal(value.sine),
-                "box": box,
-            }
+        joints[joint.name] = None if value is None else _joint(value)
     return {"joints": joints, "multiple": solution.multiple, "within_limits": solution.allowed}
+
+
+def _joint(value: Value) -> dict[str, Any]:
+    if value.cosine is None or value.sine is None:
+        return {"length": float(value), "box": {"length": [str(e) for e in value.ends]}}
+    box = {"cos": [str(e) for e in value.cosine], "sin": [str(e) for e in value.sine]}
+    return {"angle": float(value), "cos": _decimal(value.cosine), "sin": _decimal(value.sine), "box": box}
 
 
 def _decimal(ends: Ends) -> str:
@@ -84,7 +83,6 @@ def in_words(found: Inverse) -> list[str]:
     where = ", ".join(brief(c) for c in found.point)
     lines = [f"{found.arm.name} at ({where}) mm"]
     lines += [f"special: {case}" for case in found.cases]
-    names = [joint.name for joint in found.arm.joints]
     if not found.is_reachable:
         return [*lines, "no joint position reaches the point (proved: the equation of the last joint has no real root)"]
     if found.free:
@@ -93,11 +91,16 @@ def in_words(found: Inverse) -> list[str]:
         lines.append(f"{len(found.solutions)} solution{'s' if len(found.solutions) != 1 else ''} (proved), in rad:")
     for k, solution in enumerate(found.solutions, start=1):
         parts = [
-            f"{name} = free" if angle is None else f"{name} = {angle:.12f} ({degrees(angle):.4f}°)"
-            for name, angle in zip(names, solution.angles, strict=True)
+            f"{joint.name} = {'free' if value is None else _told(value)}"
+            for joint, value in zip(found.arm.joints, solution.values, strict=True)
         ]
         notes = ["two solutions meet"] * solution.multiple + ["outside the limits of the joints"] * (
             not solution.allowed
         )
         lines.append(f"  {k}. " + ", ".join(parts) + (f"  [{'; '.join(notes)}]" if notes else ""))
     return lines
+
+
+def _told(value: Value) -> str:
+    number = float(value)
+    return f"{number:.9f} mm" if value.cosine is None else f"{number:.12f} ({degrees(number):.4f}°)"
