@@ -98,9 +98,10 @@ def test_the_reduction_holds_for_all_points(arm: Arm) -> None:
 @given(st.lists(st.floats(-3, 3), min_size=3, max_size=3))
 def test_no_solution_is_missed_by_newton(arm: Arm, start: list[float]) -> None:
     point = [Fraction(v) for v in positions(arm, [[0.4, -1.1, 0.7]])[0]]
+    if np.linalg.matrix_rank(jacobians(arm, [[0.4, -1.1, 0.7]])[0], tol=1e-9) < 3:
+        return  # it moves on a surface, which points in floating point miss
     inverse = solve(arm, point)
-    if inverse.free:
-        return
+    assert inverse.solutions and not inverse.free
     found = np.array([s.angles for s in inverse.solutions])
     turning = np.array([j.motion is Motion.REVOLUTE for j in arm.joints])
     q = np.array(start) * np.where(turning, 1, 20)
