@@ -13,18 +13,26 @@ from bezier.arm.evidence import certificates
 from bezier.arm.inverse import Ends, Inverse, Solution, Value, solve
 from bezier.arm.joint_path import joint_path
 from bezier.arm.model import Arm
+from bezier.arm.pose import rotation_of, solve_pose
 from bezier.curves.curve import Bezier
 from bezier.curves.scalar import brief, decimal_text, described
 from qe.certify.verify import verify
+from qe.errors import InputError
 from qe.proof.certificate import Certificate
 from qe.worker import Channel
 
 DIGITS = 15
+MOST_FOR_A_POINT = 3
+"""Joints that a point alone can determine."""
 
 
-def inverse(channel: Channel, arm: Arm, point: Sequence[Any], *, json: bool) -> str:
-    """``bezier ik``."""
-    found = solve(arm, point)
+def inverse(
+    channel: Channel, arm: Arm, point: Sequence[Any], quaternion: Sequence[Any] | None = None, *, json: bool
+) -> str:
+    """``bezier ik``: at a point, or at a pose."""
+    if quaternion is None and len(arm.joints) > MOST_FOR_A_POINT:
+        raise InputError(f"{arm.name} has {len(arm.joints)} joints: --quaternion W X Y Z expected, the orientation")
+    found = solve(arm, point) if quaternion is None else solve_pose(arm, point, rotation_of(quaternion))
     return json_text.dumps(to_json(found), indent=1, ensure_ascii=False) if json else "\n".join(in_words(found))
 
 
@@ -51,6 +59,7 @@ def to_json(found: Inverse) -> dict[str, Any]:
     return {
         "arm": found.arm.name,
         "point": [described(c) for c in found.point],
+        "rotation": [[described(c) for c in row] for row in found.rotation] or None,
         "count": found.count,
         "count_within_limits": None if found.free else sum(s.allowed for s in found.solutions),
         "reachable": found.is_reachable,
@@ -81,10 +90,12 @@ def _decimal(ends: Ends) -> str:
 def in_words(found: Inverse) -> list[str]:
     """The same for people."""
     where = ", ".join(brief(c) for c in found.point)
-    lines = [f"{found.arm.name} at ({where}) mm"]
+    lines = [f"{found.arm.name} at ({where}) mm" + (", turned" if found.rotation else "")]
     lines += [f"special: {case}" for case in found.cases]
     if not found.is_reachable:
-        return [*lines, "no joint position reaches the point (proved: the equation of the last joint has no real root)"]
+        what = "pose (proved: a square that has to be a root's is negative, or the pose is out of the arm's plane)"
+        what = what if found.rotation else "point (proved: the equation of the last joint has no real root)"
+        return [*lines, f"no joint position reaches the {what}"]
     if found.free:
         lines.append(f"infinitely many solutions, {', '.join(found.free)} free; {len(found.solutions)} families")
     else:

@@ -75,7 +75,8 @@ class Inverse:
     """All solutions at a point (mm).
 
     ``free``: the joints whose angle is not determined; then every solution stands for a family, and there are
-    infinitely many. ``cases``: the names of what is special about the point.
+    infinitely many. ``cases``: the names of what is special about the point. ``rotation``: the rows of the orientation
+    that was asked for, if one was.
     """
 
     arm: Arm
@@ -83,6 +84,7 @@ class Inverse:
     solutions: tuple[Solution, ...]
     free: tuple[str, ...] = ()
     cases: tuple[str, ...] = ()
+    rotation: tuple[tuple[Any, ...], ...] = ()
 
     @property
     def count(self) -> int | None:
@@ -100,7 +102,7 @@ def solve(arm: Arm, point: Sequence[Any]) -> Inverse:
 
     Raises ``Unable`` for an arm that the reduction does not fit, ``InputError`` for anything but three exact numbers.
     """
-    numbers = tuple(_exact(v) for v in point)
+    numbers = tuple(exact_number(v, "point") for v in point)
     if len(numbers) != 3:
         raise InputError(f"point: three coordinates expected, {len(numbers)} found")
     return solve_at(arm, place(general(arm, 0).ring, arm, numbers), numbers)
@@ -169,9 +171,10 @@ def place(ring: Ring, arm: Arm, numbers: Sequence[Any]) -> Point:
     return Point.of(ring, [arm.field.theta, *numbers])
 
 
-def _exact(value: Any) -> Fraction | RealAlgebraic:
+def exact_number(value: Any, what: str) -> Fraction | RealAlgebraic:
+    """The value as a rational number or a real algebraic one. Raises ``InputError`` for anything else."""
     if isinstance(value, bool) or not (isinstance(value, int | Fraction | RealAlgebraic) or hasattr(value, "field")):
-        raise InputError(f"point: exact numbers expected (int, Fraction, RealAlgebraic), {type(value).__name__} found")
+        raise InputError(f"{what}: exact numbers expected (int, Fraction, RealAlgebraic), {type(value).__name__} found")
     number = rational(value)
     if number is not None:
         return number

@@ -26,6 +26,10 @@ def ik(
     x: Annotated[str, coordinate("X")],
     y: Annotated[str, coordinate("Y")],
     z: Annotated[str, coordinate("Z")],
+    quaternion: Annotated[
+        tuple[str, str, str, str] | None,
+        typer.Option(metavar="W X Y Z", help="The orientation, of any length: a pose, for six joints or planar arms."),
+    ] = None,
     json: Json = False,
     timeout: Timeout = None,
     memory: Memory = None,
@@ -37,5 +41,7 @@ def ik(
 
     check_limits(timeout, memory)
     model, point = load_arm(arm), tuple(read_exact(text) for text in (x, y, z))
-    print(limited(partial(inverse, arm=model, point=point, json=json), timeout=timeout, memory=memory, plain=json))
+    turned = None if quaternion is None else tuple(read_exact(text) for text in quaternion)
+    work = partial(inverse, arm=model, point=point, quaternion=turned, json=json)
+    print(limited(work, timeout=timeout, memory=memory, plain=json))
     return OK
