@@ -11,6 +11,7 @@ from typing import Any
 from bezier.arm import path_report
 from bezier.arm.evidence import certificates
 from bezier.arm.inverse import Ends, Inverse, Solution, Value, solve
+from bezier.arm.inverse_evidence import inverse_certificate
 from bezier.arm.joint_path import joint_path
 from bezier.arm.model import Arm
 from bezier.arm.pose import rotation_of, solve_pose
@@ -27,13 +28,25 @@ MOST_FOR_A_POINT = 3
 
 
 def inverse(
-    channel: Channel, arm: Arm, point: Sequence[Any], quaternion: Sequence[Any] | None = None, *, json: bool
-) -> str:
-    """``bezier ik``: at a point, or at a pose."""
+    channel: Channel,
+    arm: Arm,
+    point: Sequence[Any],
+    quaternion: Sequence[Any] | None = None,
+    *,
+    json: bool,
+    certified: bool = False,
+) -> tuple[str, str]:
+    """``bezier ik``: at a point, or at a pose. What to print, and the certificate as text where one is asked for.
+
+    Raises ``Unable`` where there is no certificate."""
     if quaternion is None and len(arm.joints) > MOST_FOR_A_POINT:
         raise InputError(f"{arm.name} has {len(arm.joints)} joints: --quaternion W X Y Z expected, the orientation")
     found = solve(arm, point) if quaternion is None else solve_pose(arm, point, rotation_of(quaternion))
-    return json_text.dumps(to_json(found), indent=1, ensure_ascii=False) if json else "\n".join(in_words(found))
+    evidence = inverse_certificate(found).to_json() if certified else ""
+    if json:
+        data = {**to_json(found), **({"certified": True} if certified else {})}
+        return json_text.dumps(data, indent=1, ensure_ascii=False), evidence
+    return "\n".join([*in_words(found), *(["certificate: accepted"] if certified else [])]), evidence
 
 
 def certify(channel: Channel, arm: Arm, curves: Mapping[str, Bezier], *, json: bool) -> tuple[str, str]:

@@ -35,7 +35,7 @@ class Kind(Enum):
     satisfies a quantifier-free formula. SUBSTITUTION: that linear equations eliminate an existential block.
     CONTAINMENT: that a Bezier curve stays in a ball or half-space. CLEARANCE: that one never meets an obstacle, or
     where it first does. DERIVATION: that a formula is equivalent to another, step by step. BRANCH: that an arm follows
-    curves continuously. BUNDLE: several certificates with labels.
+    curves continuously. INVERSE: all joint positions of an arm at a point. BUNDLE: several certificates with labels.
     """
 
     CELLS = "cells"
@@ -46,6 +46,7 @@ class Kind(Enum):
     CLEARANCE = "clearance"
     DERIVATION = "derivation"
     BRANCH = "branch"
+    INVERSE = "inverse"
     BUNDLE = "bundle"
 
 
