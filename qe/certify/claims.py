@@ -59,6 +59,11 @@ def claim_of(certificate: Certificate) -> Claim:
             return Claim((*_equivalence(question, TRUE), "by numbers for the variables"), question, TRUE)
         case Kind.OPTIMUM:
             return _of_optimum(entry)
+        case Kind.INVERSE:
+            count = entry.fields("arm", "point", "turn", "count", "roots")[3].integer()
+            return Claim(
+                (f"inverse: an arm has exactly {count} joint positions at a point, see the entries of its payload",)
+            )
     return Claim((f"{certificate.kind.value}: about a curve, see the entries of its payload",))
 
 

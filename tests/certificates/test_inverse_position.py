@@ -14,7 +14,8 @@ from hypothesis import strategies as st
 
 from bezier.arm.exact_text import read_exact
 from bezier.arm.inverse import solve
-from bezier.arm.inverse_evidence import inverse_certificate, square_roots
+from bezier.arm.inverse_evidence import _roots, _tangent, inverse_certificate, square_roots
+from bezier.arm.kinematics import position
 from bezier.arm.reader import load_arm, read_arm
 from qe.certify.arithmetic import square_roots as sr
 from qe.certify.arithmetic.square_roots import ONE, Surd
@@ -153,6 +154,20 @@ def test_boxes_and_intervals_may_not_lose_their_solution(payload: dict[str, Any]
         inwards = Fraction(1, 10) if path[-1] in (0, "low") else Fraction(-1, 10)
         node[path[-1]] = str(Fraction(node[path[-1]]) + inwards)
         assert not accepted(changed), path
+
+
+def test_the_angle_that_t_misses_cannot_hide_a_solution() -> None:
+    """θ7 = pi is a solution, but no t: without it the other three and their intervals are right."""
+    arm = load_arm("ev3-120")
+    point = position(arm, {"theta1": (1, 0), "theta4": (Fraction(3, 5), Fraction(4, 5)), "theta7": (-1, 0)})
+    found = solve(arm, point)
+    payload = json.loads(json.dumps(inverse_certificate(found).payload))
+    assert payload["turn"] != ["1", "0"] and payload["count"] == 4
+    others = [s for s in found.solutions if abs(s.angles[2] or 0) < 3.1]
+    turn = (Fraction(1), Fraction(0))
+    roots = list(_roots(others, [_tangent(s, turn, 100) for s in others], 100, 30))
+    assert len(roots) == 3
+    assert not accepted({**payload, "turn": ["1", "0"], "count": 3, "roots": roots})
 
 
 def test_as_text() -> None:
