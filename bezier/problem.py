@@ -114,6 +114,8 @@ def problem_of(table: Table) -> Problem:
     table.only(_KEYS)
     method = table.choice("method", PlanMethod, PlanMethod.QUADRATIC)
     kind = table.choice("workspace", WorkspaceKind, WorkspaceKind.BALL)
+    if kind is WorkspaceKind.REACHABLE and "arm" not in table.values:
+        raise table.error("workspace", "an arm with the true reachable set as workspace", "no arm")
     start, goal, obstacles = table.point("start"), table.point("goal"), read_obstacles(table)
     via = stated_via(table, start, goal) or _via(table, start, goal, obstacles)
     raw_radius = table.values.get("radius", "auto")

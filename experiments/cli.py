@@ -34,13 +34,16 @@ app.add_typer(baselines, name="baseline")
 
 OUT = Path("out")
 """Everything goes below this folder of the current one, unless an option says otherwise."""
+ARM = "arm"
 RESULTS = OUT / "corpus.jsonl"
 Results = Annotated[list[Path] | None, typer.Option("--results", help="Result files [default: out/corpus.jsonl].")]
 
 
 @app.command()
 def run(
-    suites: Annotated[list[str], typer.Option("--suite", help="paper, classics, literature, scaling or ablation.")],
+    suites: Annotated[
+        list[str], typer.Option("--suite", help="paper, classics, literature, scaling, ablation or arm.")
+    ],
     solvers: Annotated[list[str] | None, typer.Option("--solver", help="A solver; default: ours.")] = None,
     limit: Annotated[float, typer.Option(min=0.01, help="Seconds of solving time for each problem.")] = 15.0,
     memory: Annotated[int, typer.Option(min=1, help="MiB for each problem.")] = 2048,
@@ -51,9 +54,17 @@ def run(
     again: Annotated[bool, typer.Option("--again", help="Run again what has a result already.")] = False,
     results: Annotated[Path, typer.Option(help="The file to which results are added.")] = RESULTS,
 ) -> int:
-    """Run suites through solvers. A second call goes on where an interrupted one stopped."""
+    """Run suites through solvers. A second call goes on where an interrupted one stopped.
+
+    The suite arm asks no solver: it prints a table of CPU seconds, with published ones beside them.
+    """
     from experiments.session import Session
 
+    if ARM in suites:
+        _arm_figures(repeat)
+        suites = [name for name in suites if name != ARM]
+        if not suites:
+            return OK
     work = [
         (_problems(name, only), [solver(each) for each in (solvers or chosen.solvers)])
         for name, chosen in [(name, suite(name)) for name in suites]
@@ -201,6 +212,16 @@ def sweep(
         _write(out / f"{picture.name}.svg", picture.svg())
     failed = [row for key, row in store.outcomes.items() if key in wanted and not row.solved]
     print(f"{len(wanted) - len(failed)} of {len(wanted)} problems solved")
+
+
+def _arm_figures(repeat: int) -> None:
+    from experiments.arm_figures import figures, table
+
+    found = []
+    for figure in figures(max(repeat, 3)):
+        found.append(figure)
+        print(f"{figure.name}: {figure.median:.4f} s", file=sys.stderr)
+    print(table(found))
 
 
 def _problems(name: str, only: str) -> list[Problem]:

@@ -17,6 +17,7 @@ _EXTRAS = {
     "pyarrow": "sweep",
     "pysat": "sat",
     "scipy": "plan",
+    "yourdfpy": "robots",
     "z3": "solvers",
 }
 """Module to extra, as ``pyproject.toml`` lists them."""

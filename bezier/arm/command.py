@@ -10,22 +10,43 @@ from typing import Any
 
 from bezier.arm import path_report
 from bezier.arm.evidence import certificates
-from bezier.arm.inverse import Ends, Inverse, Solution, solve
+from bezier.arm.inverse import Ends, Inverse, Solution, Value, solve
+from bezier.arm.inverse_evidence import inverse_certificate
 from bezier.arm.joint_path import joint_path
 from bezier.arm.model import Arm
+from bezier.arm.pose import rotation_of, solve_pose
 from bezier.curves.curve import Bezier
 from bezier.curves.scalar import brief, decimal_text, described
 from qe.certify.verify import verify
+from qe.errors import InputError
 from qe.proof.certificate import Certificate
 from qe.worker import Channel
 
 DIGITS = 15
+MOST_FOR_A_POINT = 3
+"""Joints that a point alone can determine."""
 
 
-def inverse(channel: Channel, arm: Arm, point: Sequence[Any], *, json: bool) -> str:
-    """``bezier ik``."""
-    found = solve(arm, point)
-    return json_text.dumps(to_json(found), indent=1, ensure_ascii=False) if json else "\n".join(in_words(found))
+def inverse(
+    channel: Channel,
+    arm: Arm,
+    point: Sequence[Any],
+    quaternion: Sequence[Any] | None = None,
+    *,
+    json: bool,
+    certified: bool = False,
+) -> tuple[str, str]:
+    """``bezier ik``: at a point, or at a pose. What to print, and the certificate as text where one is asked for.
+
+    Raises ``Unable`` where there is no certificate."""
+    if quaternion is None and len(arm.joints) > MOST_FOR_A_POINT:
+        raise InputError(f"{arm.name} has {len(arm.joints)} joints: --quaternion W X Y Z expected, the orientation")
+    found = solve(arm, point) if quaternion is None else solve_pose(arm, point, rotation_of(quaternion))
+    evidence = inverse_certificate(found).to_json() if certified else ""
+    if json:
+        data = {**to_json(found), **({"certified": True} if certified else {})}
+        return json_text.dumps(data, indent=1, ensure_ascii=False), evidence
+    return "\n".join([*in_words(found), *(["certificate: accepted"] if certified else [])]), evidence
 
 
 def certify(channel: Channel, arm: Arm, curves: Mapping[str, Bezier], *, json: bool) -> tuple[str, str]:
@@ -45,12 +66,13 @@ def to_json(found: Inverse) -> dict[str, Any]:
     """All solutions as JSON data.
 
     ``count``: of different solutions, null for infinitely many; then the joints in ``free`` can be chosen (null in the
-    solutions). Each joint of a solution has its ``angle`` (rad), ``cos`` and ``sin``, and a ``box`` that isolates the
-    solution: exact rational bounds of cosine and sine.
+    solutions). Each joint of a solution has its ``angle`` (rad), ``cos`` and ``sin``, or its ``length`` (mm), and a
+    ``box`` that isolates the solution: exact rational bounds of these.
     """
     return {
         "arm": found.arm.name,
         "point": [described(c) for c in found.point],
+        "rotation": [[described(c) for c in row] for row in found.rotation] or None,
         "count": found.count,
         "count_within_limits": None if found.free else sum(s.allowed for s in found.solutions),
         "reachable": found.is_reachable,
@@ -63,16 +85,15 @@ def to_json(found: Inverse) -> dict[str, Any]:
 def _solution(arm: Arm, solution: Solution) -> dict[str, Any]:
     joints: dict[str, Any] = {}
     for joint, value in zip(arm.joints, solution.values, strict=True):
-        joints[joint.name] = None
-        if value is not None:
-            box = {"cos": [str(e) for e in value.cosine], "sin": [str(e) for e in value.sine]}
-            joints[joint.name] = {
-                "angle": float(value),
-                "cos": _decimal(value.cosine),
-                "sin": _decimal(value.sine),
-                "box": box,
-            }
+        joints[joint.name] = None if value is None else _joint(value)
     return {"joints": joints, "multiple": solution.multiple, "within_limits": solution.allowed}
+
+
+def _joint(value: Value) -> dict[str, Any]:
+    if value.cosine is None or value.sine is None:
+        return {"length": float(value), "box": {"length": [str(e) for e in value.ends]}}
+    box = {"cos": [str(e) for e in value.cosine], "sin": [str(e) for e in value.sine]}
+    return {"angle": float(value), "cos": _decimal(value.cosine), "sin": _decimal(value.sine), "box": box}
 
 
 def _decimal(ends: Ends) -> str:
@@ -82,22 +103,28 @@ def _decimal(ends: Ends) -> str:
 def in_words(found: Inverse) -> list[str]:
     """The same for people."""
     where = ", ".join(brief(c) for c in found.point)
-    lines = [f"{found.arm.name} at ({where}) mm"]
+    lines = [f"{found.arm.name} at ({where}) mm" + (", turned" if found.rotation else "")]
     lines += [f"special: {case}" for case in found.cases]
-    names = [joint.name for joint in found.arm.joints]
     if not found.is_reachable:
-        return [*lines, "no joint position reaches the point (proved: the equation of the last joint has no real root)"]
+        what = "pose (proved: a square that has to be a root's is negative, or the pose is out of the arm's plane)"
+        what = what if found.rotation else "point (proved: the equation of the last joint has no real root)"
+        return [*lines, f"no joint position reaches the {what}"]
     if found.free:
         lines.append(f"infinitely many solutions, {', '.join(found.free)} free; {len(found.solutions)} families")
     else:
         lines.append(f"{len(found.solutions)} solution{'s' if len(found.solutions) != 1 else ''} (proved), in rad:")
     for k, solution in enumerate(found.solutions, start=1):
         parts = [
-            f"{name} = free" if angle is None else f"{name} = {angle:.12f} ({degrees(angle):.4f}°)"
-            for name, angle in zip(names, solution.angles, strict=True)
+            f"{joint.name} = {'free' if value is None else _told(value)}"
+            for joint, value in zip(found.arm.joints, solution.values, strict=True)
         ]
         notes = ["two solutions meet"] * solution.multiple + ["outside the limits of the joints"] * (
             not solution.allowed
         )
         lines.append(f"  {k}. " + ", ".join(parts) + (f"  [{'; '.join(notes)}]" if notes else ""))
     return lines
+
+
+def _told(value: Value) -> str:
+    number = float(value)
+    return f"{number:.9f} mm" if value.cosine is None else f"{number:.12f} ({degrees(number):.4f}°)"

@@ -16,7 +16,7 @@ from functools import cached_property
 from itertools import pairwise
 from math import comb
 
-from bezier.arm.elimination import TURNS, Geometry, Reduction
+from bezier.arm.elimination import LIFTED, TURNS, Geometry, Reduction
 from bezier.arm.inverse import geometry_of
 from bezier.arm.model import Arm
 from bezier.arm.ratio import Ratio, constant, reduced
@@ -30,9 +30,6 @@ from qe.exact.sample import Point
 
 NAMES = ("w", "s", "t", "m")
 S = 1
-LIFTED = 4
-"""The degree in t of |κ|² (1 + t²)² and of m², where they do not vanish at the angle that t misses."""
-
 Number = Fraction | RealAlgebraic
 
 
@@ -97,7 +94,7 @@ class AlongCurve:
         """A reduction whose equation has its full degree for almost all s."""
         for k in range(len(TURNS)):
             found = self.reduction(k)
-            if len(found.coefficients) > found.degree:
+            if found.degree is None or len(found.coefficients) > found.degree:
                 return found
         raise Unable(f"along the curve the equation of {self.arm.name} has a solution at every angle that was tried")
 
@@ -105,12 +102,16 @@ class AlongCurve:
         """Polynomials in w and s whose zeros contain all places where the number of solutions may change."""
         r, field = self.regular, self.arm.field
         t = r.ring.index["t"]
-        yield Reason.MERGE, reduced(r.equation.discriminant(t), field)
-        yield Reason.AXIS, r.axis
+        if len(r.coefficients) > 1:
+            yield Reason.MERGE, reduced(r.equation.discriminant(t), field)
+        if r.axis is not None:
+            yield Reason.AXIS, r.axis
         for reason, other in ((Reason.MERGE, r.square), (Reason.FREE, r.kappa)):
             if other is not None:
                 yield reason, reduced(r.equation.resultant(other, t), field)
-                if other.degree(t) < LIFTED:  # it vanishes at the angle that t misses: so may the equation for some s
+                if (
+                    r.degree is not None and other.degree(t) < LIFTED
+                ):  # it vanishes at the angle that t misses: so may the equation for some s
                     yield reason, r.coefficients[-1]
 
     def critical(self) -> list[tuple[Number, tuple[Reason, ...]]]:

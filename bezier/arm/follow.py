@@ -16,7 +16,7 @@ from functools import lru_cache
 from operator import attrgetter
 
 from bezier.arm.critical import powers
-from bezier.arm.inverse import Solution
+from bezier.arm.inverse import Solution, Value
 from bezier.arm.kinematics import wrapped
 from bezier.arm.model import Arm, Motion
 from bezier.curves.curve import Bezier
@@ -67,7 +67,7 @@ class Branch:
         piece = self.piece(s)
         near = [float(v) for v in piece.at(s)]
         for value, other, size in zip(solution.values, near, piece.radius, strict=True):
-            if value is None or abs(wrapped(float(value) - other)) > 2 * size + 1e-6:
+            if value is None or abs(_gap(value, other)) > 2 * size + 1e-6:
                 return False  # far away, as most are
         return _inside(_turned(solution, near), piece, s)
 
@@ -166,7 +166,11 @@ def _turned(solution: Solution, near: Sequence[float]) -> Box:
     found = []
     for value, other in zip(solution.values, near, strict=True):
         assert value is not None, "a branch is followed where no angle is free"
-        turns = round((other - float(value)) / 6.283185307179586)
+        turns = 0 if value.cosine is None else round((other - float(value)) / 6.283185307179586)
         low, high = pi_ends(96) if turns >= 0 else pi_ends(96)[::-1]
-        found.append((value.angle[0] + 2 * turns * low, value.angle[1] + 2 * turns * high))
+        found.append((value.ends[0] + 2 * turns * low, value.ends[1] + 2 * turns * high))
     return tuple(found)
+
+
+def _gap(value: Value, other: float) -> float:
+    return float(value) - other if value.cosine is None else wrapped(float(value) - other)

@@ -13,7 +13,7 @@ from fractions import Fraction
 from functools import lru_cache, partial
 from typing import Any
 
-from bezier.arm.elimination import TURNS, Geometry, Quotient, Reduction
+from bezier.arm.elimination import LIFTED, TURNS, Geometry, M, Quotient, Reduction, T
 from bezier.arm.limits import allowed
 from bezier.arm.model import Arm
 from bezier.arm.ratio import variable
@@ -22,8 +22,8 @@ from bezier.curves.scalar import rational
 from qe.errors import InputError, InternalError
 from qe.exact.algebraic import RealAlgebraic
 from qe.exact.point_values import Evaluation, angle_ends, multiple_roots, roots_above
-from qe.exact.ring import Ring
-from qe.exact.sample import Point
+from qe.exact.ring import Poly, Ring
+from qe.exact.sample import FibreRoot, Point
 
 Ends = tuple[Fraction, Fraction]
 Reductions = Callable[[int], Reduction]
@@ -34,24 +34,22 @@ NAMES = ("w", "x", "y", "z", "t", "m")
 
 @dataclass(frozen=True, slots=True)
 class Value:
-    """One joint of one solution: intervals around cosine, sine and angle (rad), each at most 2^-60 wide.
-
-    ``radians``: the angle in floating point, in (-pi, pi].
+    """One joint of one solution: an interval around its angle in (-pi, pi] (rad) or its length (mm), at most 2^-60
+    wide, with those around cosine and sine of an angle; ``number``: about the middle.
     """
 
-    cosine: Ends
-    sine: Ends
-    angle: Ends
-    radians: float
+    ends: Ends
+    number: float
+    cosine: Ends | None = None
+    sine: Ends | None = None
 
     def __float__(self) -> float:
-        return self.radians
+        return self.number
 
 
 @dataclass(frozen=True, eq=False)
 class Solution:
-    """One solution. ``values``: one for each joint, None where its angle is free; ``multiple``: two solutions meet
-    here;
+    """One solution. ``values``: one for each joint, None where it is free; ``multiple``: two solutions meet here;
     ``allowed``: whether it keeps the limits of the joints. ``place``: the exact point that it was read from.
     """
 
@@ -59,17 +57,17 @@ class Solution:
     multiple: bool
     allowed: bool
     place: Evaluation
-    quotients: tuple[tuple[Quotient, Quotient] | None, ...]
+    quotients: tuple[tuple[Quotient, ...] | None, ...]
 
     @property
     def angles(self) -> tuple[float | None, ...]:
-        """The angles (rad)."""
+        """The angles (rad), and the lengths (mm) of joints that slide."""
         return tuple(None if value is None else float(value) for value in self.values)
 
     def refined(self, joint: int, bits: int) -> Value | None:
         """The value of a joint with intervals at most about 2^-bits wide."""
-        pair = self.quotients[joint]
-        return None if pair is None else _value(self.place, pair, bits)
+        known = self.quotients[joint]
+        return None if known is None else value_of(self.place, known, bits)
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,7 +75,8 @@ class Inverse:
     """All solutions at a point (mm).
 
     ``free``: the joints whose angle is not determined; then every solution stands for a family, and there are
-    infinitely many. ``cases``: the names of what is special about the point.
+    infinitely many. ``cases``: the names of what is special about the point. ``rotation``: the rows of the orientation
+    that was asked for, if one was.
     """
 
     arm: Arm
@@ -85,6 +84,7 @@ class Inverse:
     solutions: tuple[Solution, ...]
     free: tuple[str, ...] = ()
     cases: tuple[str, ...] = ()
+    rotation: tuple[tuple[Any, ...], ...] = ()
 
     @property
     def count(self) -> int | None:
@@ -102,7 +102,7 @@ def solve(arm: Arm, point: Sequence[Any]) -> Inverse:
 
     Raises ``Unable`` for an arm that the reduction does not fit, ``InputError`` for anything but three exact numbers.
     """
-    numbers = tuple(_exact(v) for v in point)
+    numbers = tuple(exact_number(v, "point") for v in point)
     if len(numbers) != 3:
         raise InputError(f"point: three coordinates expected, {len(numbers)} found")
     return solve_at(arm, place(general(arm, 0).ring, arm, numbers), numbers)
@@ -112,19 +112,22 @@ def solve_at(arm: Arm, here: Point, numbers: tuple[Any, ...], reductions: Reduct
     """``solve`` where the point stands in the ring of the ``reductions`` already (those for all points by default)."""
     reductions = reductions or partial(general, arm)
     first = reductions(0)
-    on_axis = here.sign(first.axis) == 0
-    cases = ((f"on the axis of {arm.joints[0].name}",) if on_axis else ()) + (
-        (f"on the circle of the shoulder, the centre of {arm.joints[1].name}",)
-        if all(here.sign(p) == 0 for p in first.shoulder)
-        else ()
-    )
+    on_axis = first.axis is not None and here.sign(first.axis) == 0
+    on_shoulder = bool(first.shoulder) and all(here.sign(p) == 0 for p in first.shoulder)
+    cases = (f"on the axis of {arm.joints[0].name}",) * on_axis + (
+        f"on the circle of the shoulder, the centre of {arm.joints[1].name}",
+    ) * on_shoulder
     values = Evaluation(here)
     for k in range(len(TURNS)):
         reduction = reductions(k)
-        roots = roots_above(here, reduction.ring.index["t"], reduction.equation)
+        roots = roots_above(here, reduction.ring.index[T], reduction.equation)
         if roots is None:
-            return _family(arm, here, numbers, reduction, cases)
-        if len(reduction.coefficients) <= reduction.degree or here.sign(reduction.coefficients[-1]) == 0:
+            if _misses(here, reduction.square, None if reduction.degree is None else LIFTED, reduction.ring.index[T]):
+                continue
+            roots = _isolated(here, reduction)
+            if roots is None:
+                return _family(arm, numbers, on_axis, cases)
+        elif _misses(here, reduction.equation, reduction.degree, reduction.ring.index[T]):
             continue  # the angle that t misses may be a solution: another φ tells
         found = [
             solution
@@ -137,6 +140,14 @@ def solve_at(arm: Arm, here: Point, numbers: tuple[Any, ...], reductions: Reduct
             cases = (*cases, "two solutions meet: the arm is singular here")
         return Inverse(arm, numbers, tuple(found), tuple(n for n in _names(arm) if n in undetermined), cases)
     raise InternalError("an equation of degree four has more than four roots")
+
+
+def _misses(here: Point, p: Poly | None, degree: int | None, t: int) -> bool:
+    """Whether p, of this degree in t where it does not vanish at the angle that t misses, vanishes there."""
+    if p is None or degree is None:
+        return False
+    coefficients = p.coefficients(t)
+    return len(coefficients) <= degree or here.sign(coefficients[-1]) == 0
 
 
 @lru_cache(maxsize=256)
@@ -160,9 +171,10 @@ def place(ring: Ring, arm: Arm, numbers: Sequence[Any]) -> Point:
     return Point.of(ring, [arm.field.theta, *numbers])
 
 
-def _exact(value: Any) -> Fraction | RealAlgebraic:
+def exact_number(value: Any, what: str) -> Fraction | RealAlgebraic:
+    """The value as a rational number or a real algebraic one. Raises ``InputError`` for anything else."""
     if isinstance(value, bool) or not (isinstance(value, int | Fraction | RealAlgebraic) or hasattr(value, "field")):
-        raise InputError(f"point: exact numbers expected (int, Fraction, RealAlgebraic), {type(value).__name__} found")
+        raise InputError(f"{what}: exact numbers expected (int, Fraction, RealAlgebraic), {type(value).__name__} found")
     number = rational(value)
     if number is not None:
         return number
@@ -182,34 +194,50 @@ def _at_root(arm: Arm, here: Evaluation, reduction: Reduction, on_axis: bool, mu
     side = here.point.sign(reduction.square)
     if side < 0:
         return
-    m = reduction.ring.var("m")
-    roots = roots_above(here.point, reduction.ring.index["m"], m * m - reduction.square)
+    m = reduction.ring.var(M)
+    roots = roots_above(here.point, reduction.ring.index[M], m * m - reduction.square)
     for root in roots or ():
         yield _solution(arm, here.extend(root), reduction, on_axis, multiple or side == 0)
 
 
 def _solution(arm: Arm, here: Evaluation, reduction: Reduction, on_axis: bool, multiple: bool) -> Solution:
-    first, second, last = reduction.pairs
-    turns = here.point.sign(reduction.kappa) == 0
+    first, second, last = reduction.values
+    turns = reduction.kappa is not None and here.point.sign(reduction.kappa) == 0
     known = (None if on_axis else first, None if turns else second, last)
-    values = tuple(None if pair is None else _value(here, pair, BITS) for pair in known)
+    values = tuple(None if quotients is None else value_of(here, quotients, BITS) for quotients in known)
     keeps = all(
-        pair is None or allowed(joint, here, pair, _value) for joint, pair in zip(arm.joints, known, strict=True)
+        quotients is None or allowed(joint, here, quotients, value_of)
+        for joint, quotients in zip(arm.joints, known, strict=True)
     )
     return Solution(values, multiple, keeps, here, known)
 
 
-def _value(here: Evaluation, pair: tuple[Quotient, Quotient], bits: int) -> Value:
-    cosine, sine = (here.quotient(q.top, q.bottom, q.scale, bits) for q in pair)
+def value_of(here: Evaluation, quotients: tuple[Quotient, ...], bits: int) -> Value:
+    """A joint at a point: from its cosine and sine, or from its length alone."""
+    if len(quotients) == 1:
+        ends = quotients[0].ends(here, bits)
+        return Value(ends, float((ends[0] + ends[1]) / 2))
+    cosine, sine = (q.ends(here, bits) for q in quotients)
     angle = angle_ends(cosine, sine, bits)
-    return Value(cosine, sine, angle, float((angle[0] + angle[1]) / 2))
+    return Value(angle, float((angle[0] + angle[1]) / 2), cosine, sine)
 
 
-def _family(arm: Arm, here: Point, numbers: tuple[Any, ...], reduction: Reduction, cases: tuple[str, ...]) -> Inverse:
-    """The equation holds for all t: a family of solutions, or none where m² is negative for all t."""
-    if reduction.square is not None:
-        t = reduction.ring.index["t"]
-        roots = roots_above(here, t, reduction.square)
-        if roots == [] and here.sign(reduction.square.coefficients(t)[0]) < 0:
-            return Inverse(arm, numbers, (), (), cases)
-    return Inverse(arm, numbers, (), _names(arm)[1:], (*cases, f"{arm.joints[2].name} can be chosen"))
+def _isolated(here: Point, reduction: Reduction) -> list[FibreRoot] | None:
+    """Where the equation holds for all t: the t with m² = 0 if m² is positive nowhere, None if a family of solutions is
+    left."""
+    if reduction.square is None:
+        return None
+    t = reduction.ring.index[T]
+    roots = roots_above(here, t, reduction.square)
+    if roots is None:
+        return None
+    signs = [here.sign(c) for c in reduction.square.coefficients(t)]
+    degree = max(k for k, side in enumerate(signs) if side)
+    # of degree at most four: it is positive nowhere iff it is not at infinity, and no root is simple or triple
+    return roots if degree % 2 == 0 and signs[degree] < 0 and all(multiple_roots(roots)) else None
+
+
+def _family(arm: Arm, numbers: tuple[Any, ...], on_axis: bool, cases: tuple[str, ...]) -> Inverse:
+    """The equation holds for all t, and so do solutions for an interval of them."""
+    free = _names(arm)[0 if on_axis else 1 :]
+    return Inverse(arm, numbers, (), free, (*cases, f"{arm.joints[2].name} can be chosen"))

@@ -15,7 +15,7 @@ from typing import Any
 from bezier.arm import path_report
 from bezier.arm.joint_path import JointPath, joint_path
 from bezier.arm.kinematics import jacobians, positions, skeleton
-from bezier.arm.model import Arm
+from bezier.arm.model import Arm, Motion
 from bezier.arm.motion import Extreme, JointMotion, joint_motion
 from bezier.arm.sequence import JointSequence, joint_sequence, samples_of
 from bezier.curves.curve import Bezier
@@ -186,7 +186,8 @@ def in_words(plan: JointPlan) -> list[str]:
         lines.append(f"sequence of {size} joint positions: {change:.6g} rad in all, {kept}")
     if plan.motion is not None:
         for joint, v, a in zip(plan.motion.joints, plan.motion.speeds, plan.motion.accelerations, strict=True):
-            speed, push = f"{float(v.high):.4g} rad/s", f"{float(a.high):.4g} rad/s^2"
+            unit = "rad" if joint.motion is Motion.REVOLUTE else "mm"
+            speed, push = f"{float(v.high):.4g} {unit}/s", f"{float(a.high):.4g} {unit}/s^2"
             lines.append(f"  {joint.name}: at most {speed} and {push} at all times (proved)")
         words = {True: "kept (proved)", False: "EXCEEDED", None: "closer than the bounds can tell"}
         lines += [f"  limit of {name}: {words[kept]}" for name, kept in plan.motion.kept.items()]

@@ -75,6 +75,8 @@ def reachable_set(arm: Arm) -> Torus:
 
 def _check_shape(geometry: Geometry) -> None:
     """Whether axis 2 is orthogonal to axis 1, axis 3 parallel to axis 2, and all moves in a plane through axis 1."""
+    if not all(geometry.turns):
+        raise Unable(f"{geometry.arm.name}: the closed form is for arms whose joints all turn")
     parallel = is_zero(geometry.nu[2])
     flat = all(is_zero(f[2]) for f in geometry.v[1:])
     in_plane = is_zero(geometry.v[0][2] + geometry.gamma[2])

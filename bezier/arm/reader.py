@@ -36,13 +36,17 @@ def shipped() -> tuple[str, ...]:
 
 
 def load_arm(name: str) -> Arm:
-    """The arm of a shipped name or of a TOML file. Raises ``InputError``."""
+    """The arm of a shipped name, or of a file in TOML or URDF. Raises ``InputError``."""
     name = ALIASES.get(name, name)
     if name in shipped():
         return _shipped(name)
     if name.endswith(SUFFIX):
         return read_arm(read_text(Path(name)), name)
-    raise InputError(f"arm: expected a file {SUFFIX} or one of {', '.join(shipped())}, found {name!r}")
+    if ".urdf" in name:
+        from bezier.arm.urdf import load_urdf
+
+        return load_urdf(name)
+    raise InputError(f"arm: expected a file {SUFFIX} or .urdf, or one of {', '.join(shipped())}, found {name!r}")
 
 
 @cache

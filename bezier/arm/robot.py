@@ -12,6 +12,7 @@ from bezier.arm.inverse import Inverse, solve
 from bezier.arm.joint_path import JointPath, joint_path
 from bezier.arm.joint_plan import JointPlan, joint_plan
 from bezier.arm.model import Arm
+from bezier.arm.pose import rotation_of, solve_pose
 from bezier.arm.reachable import Torus, reachable_set
 from bezier.arm.reader import load_arm
 from bezier.curves.curve import Bezier
@@ -43,6 +44,12 @@ class Robot:
     def inverse(self, point: Sequence[Any]) -> Inverse:
         """All real joint positions at a point with exact coordinates. Raises ``InputError`` and ``Unable``."""
         return solve(self.arm, point)
+
+    def inverse_at_pose(self, point: Sequence[Any], rotation: Sequence[Any]) -> Inverse:
+        """All real joint positions at a pose: ``rotation`` is a quaternion (w, x, y, z) of any length, or the rows of a
+        matrix. For planar arms and arms with six joints, see ``bezier.arm.pose``."""
+        rows = rotation if len(rotation) == 3 else rotation_of(rotation)
+        return solve_pose(self.arm, point, rows)
 
     def reachable(self) -> Torus:
         """The reachable set in closed form. Raises ``Unable`` for arms of another shape than the EV3's."""

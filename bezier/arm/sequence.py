@@ -1,9 +1,9 @@
 """Joint sequences: one joint position for each sample of a path, with the least total joint change.
 
 A layered graph: one layer for each sample, one node for each solution within the limits of the joints, edges between
-neighbouring layers weighted by the sum of the angle differences on the circle (arXiv 2412.18294, section 4); a shortest
-path through it. On the axis of the first joint its angle is free: there the angles of the neighbouring layers are
-offered.
+neighbouring layers weighted by the sum of the angle differences on the circle (arXiv 2412.18294, section 4), of a joint
+that slides by its way in units of ``SLIDE``; a shortest path through it. On the axis of the first joint its angle is
+free: there the angles of the neighbouring layers are offered.
 """
 
 from __future__ import annotations
@@ -20,13 +20,16 @@ from bezier.arm.follow import Branch
 from bezier.arm.inverse import Solution, solve
 from bezier.arm.joint_path import JointPath
 from bezier.arm.kinematics import wrapped
-from bezier.arm.model import Motion
+from bezier.arm.model import Arm, Motion
 from bezier.motion.timelaw import TimeLaw
 from qe.errors import InputError, Unable
 
 Note = Callable[[], None]
 MOST_SAMPLES = 5_000
 UNIT = 1 << 32
+SLIDE = 100.0
+"""The way (mm) of a joint that slides that counts as much as one rad of one that turns."""
+
 FAR = 1.0
 """Solutions further from the middle of a box than this (rad, sum of the joints) do not lie in it: boxes are small."""
 
@@ -92,20 +95,21 @@ def samples_of(ends: Sequence[Fraction], law: TimeLaw, count: int) -> list[Sampl
 
 def joint_sequence(found: JointPath, samples: Sequence[Sample], note: Note = lambda: None) -> JointSequence:
     """The sequence of least total change. Raises ``Unable`` where a sample has no joint position within the limits."""
-    if any(j.motion is not Motion.REVOLUTE for j in found.arm.joints):
-        raise Unable("joint sequences are for arms whose joints all turn")
+    arm = found.arm
     layers = list(_layers(found, samples, note))
     graph: nx.DiGraph[Any] = nx.DiGraph()
     graph.add_edges_from((("start", (0, i)) for i in range(len(layers[0]))), weight=0.0)
     for k, (near, far) in enumerate(pairwise(layers)):
         graph.add_weighted_edges_from(
-            ((k, i), (k + 1, j), _distance(a.angles, b.angles)) for i, a in enumerate(near) for j, b in enumerate(far)
+            ((k, i), (k + 1, j), _distance(arm, a.angles, b.angles))
+            for i, a in enumerate(near)
+            for j, b in enumerate(far)
         )
     graph.add_edges_from((((len(layers) - 1, i), "goal") for i in range(len(layers[-1]))), weight=0.0)
     path: Any = nx.dijkstra_path(graph, "start", "goal")
     stands = [layers[k][i] for k, i in path[1:-1]]
-    change = sum(_distance(a.angles, b.angles) for a, b in pairwise(stands))
-    return JointSequence(tuple(samples), _unrolled(stands), change, *_kept(stands, samples))
+    change = sum(_distance(arm, a.angles, b.angles) for a, b in pairwise(stands))
+    return JointSequence(tuple(samples), _unrolled(arm, stands), change, *_kept(arm, stands, samples))
 
 
 def _layers(found: JointPath, samples: Sequence[Sample], note: Note) -> Iterator[list[Stand]]:
@@ -150,29 +154,38 @@ def _runs(
     if len(angles) < len(solution.angles):
         return frozenset(run.number for run in found.runs)  # the axis: every motion passes there, or stops
     return frozenset(
-        number for number, branch, near in places if _distance(angles, near) < FAR and branch.contains(s, solution)
+        number
+        for number, branch, near in places
+        if _distance(found.arm, angles, near) < FAR and branch.contains(s, solution)
     )
 
 
-def _distance(a: Sequence[float], b: Sequence[float]) -> float:
-    return sum(abs(wrapped(x - y)) for x, y in zip(a, b, strict=True))
+def _steps(arm: Arm, a: Sequence[float], b: Sequence[float]) -> list[float]:
+    """From a to b, the shorter way round where a joint turns."""
+    return [wrapped(y - x) if j.motion is Motion.REVOLUTE else y - x for x, y, j in zip(a, b, arm.joints, strict=True)]
 
 
-def _unrolled(stands: Sequence[Stand]) -> tuple[tuple[float, ...], ...]:
+def _distance(arm: Arm, a: Sequence[float], b: Sequence[float]) -> float:
+    parts = zip(_steps(arm, a, b), arm.joints, strict=True)
+    return sum(abs(step) if joint.motion is Motion.REVOLUTE else abs(step) / SLIDE for step, joint in parts)
+
+
+def _unrolled(arm: Arm, stands: Sequence[Stand]) -> tuple[tuple[float, ...], ...]:
     """The angles with full turns added, so that no angle moves by more than half a turn between two samples."""
     found = [stands[0].angles]
     for stand in stands[1:]:
-        found.append(tuple(x + wrapped(y - x) for x, y in zip(found[-1], stand.angles, strict=True)))
+        last = found[-1]
+        found.append(tuple(x + step for x, step in zip(last, _steps(arm, last, stand.angles), strict=True)))
     return tuple(found)
 
 
-def _kept(stands: Sequence[Stand], samples: Sequence[Sample]) -> tuple[int | None, tuple[Switch, ...]]:
+def _kept(arm: Arm, stands: Sequence[Stand], samples: Sequence[Sample]) -> tuple[int | None, tuple[Switch, ...]]:
     """The motion kept from start to end, or the places where one has to be left for another."""
     switches, now = [], stands[0].runs
     for k in range(1, len(stands)):
         both = now & stands[k].runs
         if not both:
-            change = _distance(stands[k - 1].angles, stands[k].angles)
+            change = _distance(arm, stands[k - 1].angles, stands[k].angles)
             switches.append(Switch(samples[k - 1], samples[k], change))
         now = both or stands[k].runs
     return (min(now, default=None) if not switches else None), tuple(switches)

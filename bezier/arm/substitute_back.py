@@ -8,7 +8,7 @@ from typing import Any
 
 from bezier.arm.elimination import M, Quotient, Reduction, T
 from bezier.arm.kinematics import position
-from bezier.arm.model import Arm
+from bezier.arm.model import Arm, Motion
 from bezier.arm.ratio import Ratio, reduced
 from qe.errors import InternalError
 from qe.exact.field import NumberField
@@ -23,9 +23,9 @@ def confirm(arm: Arm, reduction: Reduction, point: Sequence[Ratio]) -> None:
     leading coefficient does not). Raises ``InternalError`` otherwise.
     """
     field, ring = arm.field, reduction.ring
-    tops = [tuple(_top(q, field) for q in pair) for pair in reduction.pairs]
-    bottoms = [Ratio(pair[0].bottom, 1, field) for pair in reduction.pairs]
-    zeros = [c * c + s * s - d * d for (c, s), d in zip(tops, bottoms, strict=True)]
+    tops = [tuple(_top(q, field) for q in quotients) for quotients in reduction.values]
+    bottoms = [Ratio(quotients[0].bottom, 1, field) for quotients in reduction.values]
+    zeros = [c * c + s * s - d * d for (c, *rest), d in zip(tops, bottoms, strict=True) for s in rest]
     whole = Ratio(ring.constant(1), 1, field)
     for d in bottoms:
         whole = whole * d
@@ -33,9 +33,9 @@ def confirm(arm: Arm, reduction: Reduction, point: Sequence[Ratio]) -> None:
         total = -(whole * p)
         for exponents, c in coordinate:
             term = Ratio(c.convert(ring), 1, field) * Fraction(1, coordinate.bottom)
-            for k, (pair, d) in enumerate(zip(tops, bottoms, strict=True)):
-                turned, lifted = exponents[2 * k], exponents[2 * k + 1]
-                term = term * (pair[0] if turned else pair[1] if lifted else d)
+            for k, (known, d) in enumerate(zip(tops, bottoms, strict=True)):
+                used = [top for top, e in zip(known, exponents[2 * k : 2 * k + 2], strict=False) if e]
+                term = term * (used[0] if used else d)
             total = total + term
         zeros.append(total)
     for value in zeros:
@@ -50,17 +50,20 @@ def _top(q: Quotient, field: NumberField) -> Ratio:
 
 
 class _Coordinate(list[tuple[tuple[int, ...], Poly]]):
-    """Terms in the cosines and sines (exponents of c1, s1, c2, s2, ...), over ``bottom``."""
+    """Terms in cosines and sines (exponents of c1, s1, c2, s2, ...; a length stands for a cosine), over ``bottom``."""
 
     bottom: int = 1
 
 
 def _general_position(arm: Arm) -> list[_Coordinate]:
-    """The forward kinematics as polynomials in the cosines and sines of the joints: of degree 1 in each pair."""
+    """The forward kinematics as polynomials in cosines and sines, or lengths, of the joints: of degree 1 in each."""
     names = [f"{letter}{k}" for k in range(len(arm.joints)) for letter in "cs"]
     ring = Ring.of(("w", *names))
     variables = [Ratio(ring.var(name), 1, arm.field) for name in names]
-    values: dict[str, Any] = {j.name: (variables[2 * k], variables[2 * k + 1]) for k, j in enumerate(arm.joints)}
+    values: dict[str, Any] = {
+        j.name: (variables[2 * k], variables[2 * k + 1]) if j.motion is Motion.REVOLUTE else variables[2 * k]
+        for k, j in enumerate(arm.joints)
+    }
     found = []
     for value in position(arm, values):
         ratio = value if isinstance(value, Ratio) else variables[0] * 0 + value

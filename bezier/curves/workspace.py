@@ -68,10 +68,11 @@ class HalfSpace:
 
 
 class WorkspaceKind(Enum):
-    """The model of the reachable set."""
+    """The model of the reachable set. REACHABLE: what an arm truly reaches, for which the ball is only a bound."""
 
     BALL = "ball"
     HEMISPHERE = "hemisphere"
+    REACHABLE = "reachable"
 
 
 @dataclass(frozen=True, slots=True)

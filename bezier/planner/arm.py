@@ -10,15 +10,20 @@ import json
 from dataclasses import replace
 from fractions import Fraction
 from functools import lru_cache
+from math import ceil, hypot
 from typing import Any
 
 from bezier.arm import joint_plan as plans
 from bezier.arm.evidence import certificates
+from bezier.arm.inverse import solve
 from bezier.arm.joint_plan import JointPlan, joint_plan
+from bezier.arm.model import Arm
+from bezier.arm.reachable import reachable_set
 from bezier.arm.reader import load_arm, shipped
 from bezier.curves.curve import Bezier
 from bezier.curves.enclosure import bounds
 from bezier.curves.scalar import rational
+from bezier.curves.workspace import WorkspaceKind
 from bezier.motion.timelaw import Law, TimeLaw
 from bezier.plans import Outcome, Plan
 from bezier.problem import Problem
@@ -34,15 +39,33 @@ USUAL_DURATION = Fraction(50)
 FILES = ("joints.csv", "joints.json", "joints_certificate.json")
 
 
-def check_arm(problem: Problem) -> None:
-    """Raises ``InputError`` for an arm that is not known: before any work is done."""
-    if problem.arm is not None:
-        if problem.arm.endswith(".toml"):
-            raise InputError(f"{problem.source}: arm: expected one of {', '.join(shipped())}, found a file")
-        try:
-            load_arm(problem.arm)
-        except InputError as error:
-            raise InputError(f"{problem.source}: {error}") from None
+def check_arm(problem: Problem) -> Problem:
+    """The problem, in the ball that holds what the arm reaches where that is the workspace and no radius is given.
+
+    Raises ``InputError`` for an arm that is not known, and for points that it does not reach: before any work is done.
+    """
+    if problem.arm is None:
+        return problem
+    if problem.arm.endswith(".toml"):
+        raise InputError(f"{problem.source}: arm: expected one of {', '.join(shipped())}, found a file")
+    try:
+        arm = load_arm(problem.arm)
+        return _within_reach(problem, arm) if problem.workspace.kind is WorkspaceKind.REACHABLE else problem
+    except (InputError, Unable) as error:
+        raise InputError(f"{problem.source}: {error}") from None
+
+
+def _within_reach(problem: Problem, arm: Arm) -> Problem:
+    points = {"start": problem.start, "via[0]": problem.via[0], "via[1]": problem.via[1], "goal": problem.goal}
+    for name, point in points.items():
+        if not solve(arm, point).is_reachable:
+            told = ", ".join(map(str, point))
+            raise InputError(f"{name}: a point that {arm.name} reaches expected, found ({told})")
+    if not problem.radius_is_auto:
+        return problem
+    a, c, radius = reachable_set(arm).numbers
+    outer = Fraction(ceil(hypot(a, c) + radius))
+    return replace(problem, workspace=replace(problem.workspace, radius_squared=outer**2), radius_is_auto=False)
 
 
 def with_joints(plan: Plan) -> Plan:

@@ -18,7 +18,7 @@ from qe.errors import BudgetExceeded, Unable
 
 def make_plan(problem: Problem, clock: Clock | None = None) -> Plan:
     """Plan a path. Raises ``Unable`` where no answer is reached, at limits with what is known by then."""
-    check_arm(problem)
+    problem = check_arm(problem)
     watch = clock or Clock()
     try:
         plan: Plan = avoiding(problem, watch) if problem.obstacles else method_of(problem.method).make(problem, watch)

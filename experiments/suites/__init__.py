@@ -31,5 +31,5 @@ SUITES = {
 def suite(name: str) -> Suite:
     """The suite of this name. Raises ``InputError``, naming the suites there are."""
     if name not in SUITES:
-        raise InputError(f"--suite: one of {', '.join(SUITES)} expected, {name!r} found")
+        raise InputError(f"--suite: one of {', '.join(SUITES)} (or arm, for run) expected, {name!r} found")
     return SUITES[name]

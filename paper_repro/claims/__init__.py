@@ -2,6 +2,7 @@
 
 from paper_repro.claim import Claim
 from paper_repro.claims import (
+    arm,
     conclusions,
     cubic,
     cubic_region,
@@ -29,4 +30,5 @@ CLAIMS: tuple[Claim, ...] = (
     *quadratic.CLAIMS,
     *quadratic_gaps.CLAIMS,
     *conclusions.CLAIMS,
+    *arm.CLAIMS,
 )

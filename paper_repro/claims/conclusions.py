@@ -88,8 +88,8 @@ def practical() -> Iterator[Evidence]:
     "efficiency and joint sequences are the next steps.",
     verdict=Verdict.NOT_TESTABLE,
     finding="Statements about the literature and about plans. Of the plans this project takes up better constraints "
-    "(heights, obstacles, whole-curve tests) and efficiency.",
-    rests_on=(),
+    "(heights, obstacles, whole-curve tests), efficiency and joint sequences.",
+    rests_on=("arm-joint-sequence",),
 )
 def future() -> Iterator[Evidence]:
     """Nothing to compute."""

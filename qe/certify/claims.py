@@ -61,6 +61,11 @@ def claim_of(certificate: Certificate) -> Claim:
             return _of_optimum(entry)
         case Kind.SOLUTIONS:
             return _of_solutions(entry)
+        case Kind.INVERSE:
+            count = entry.fields("arm", "point", "turn", "count", "roots")[3].integer()
+            return Claim(
+                (f"inverse: an arm has exactly {count} joint positions at a point, see the entries of its payload",)
+            )
     return Claim((f"{certificate.kind.value}: about a curve, see the entries of its payload",))
 
 

@@ -9,6 +9,7 @@ from qe.certify.clearance import check_clearance
 from qe.certify.containment import check_containment
 from qe.certify.derivation import check_derivation
 from qe.certify.gauss import check_substitution
+from qe.certify.inverse_position import check_inverse
 from qe.certify.optimum import check_optimum
 from qe.certify.registry import RULES
 from qe.certify.solutions import check_solutions
@@ -27,6 +28,7 @@ _CHECKERS = {
     Kind.CLEARANCE: check_clearance,
     Kind.BRANCH: check_branch,
     Kind.SOLUTIONS: check_solutions,
+    Kind.INVERSE: check_inverse,
 }
 
 

@@ -35,8 +35,8 @@ class Kind(Enum):
     satisfies a quantifier-free formula. SUBSTITUTION: that linear equations eliminate an existential block.
     CONTAINMENT: that a Bezier curve stays in a ball or half-space. CLEARANCE: that one never meets an obstacle, or
     where it first does. DERIVATION: that a formula is equivalent to another, step by step. BRANCH: that an arm follows
-    curves continuously. SOLUTIONS: that a system has these real solutions, and no others. BUNDLE: several certificates
-    with labels.
+    curves continuously. INVERSE: all joint positions of an arm at a point. SOLUTIONS: that a system has these real
+    solutions, and no others. BUNDLE: several certificates with labels.
     """
 
     CELLS = "cells"
@@ -48,6 +48,7 @@ class Kind(Enum):
     DERIVATION = "derivation"
     BRANCH = "branch"
     SOLUTIONS = "solutions"
+    INVERSE = "inverse"
     BUNDLE = "bundle"
 
 

@@ -185,8 +185,19 @@ def test_a_planar_arm_has_a_family() -> None:
     assert solve(read_arm(flat), (600, 2, 0)).count == 0
 
 
+def test_a_planar_arm_at_the_border_of_its_family() -> None:
+    """One solution only, at the angle that t misses first: stretched, or folded back."""
+    flat = 'convention = "standard"\n' + "".join(
+        f'[[row]]\njoint = "t{k}"\na = {a}\n' for k, a in enumerate((1, 1, 10))
+    )
+    for distance, last in ((12, 0.0), (8, pi)):
+        (found,) = solve(read_arm(flat), (distance, 0, 0)).solutions
+        assert found.multiple and abs(abs(found.angles[2] or 0) - last) < 1e-15
+    assert solve(read_arm(flat), (Fraction(7999, 1000), 0, 0)).count == 0
+
+
 def test_arms_that_do_not_fit() -> None:
-    with pytest.raises(Unable, match="three revolute"):
+    with pytest.raises(Unable, match="three joints"):
         solve(read_arm(SHOULDER + '[[row]]\njoint = "t4"\na = 3\n'), POINT)
     same = 'convention = "standard"\n' + "".join(f'[[row]]\njoint = "t{k}"\n' for k in range(3))
     with pytest.raises(Unable, match="one axis"):
@@ -205,7 +216,7 @@ def test_a_wrong_reduction_does_not_pass() -> None:
     point = [variable(ring, name, arm.field) for name in "xyz"]
     right = Geometry.of(arm).reduce(ring, point, TURNS[0])
     confirm(arm, right, point)
-    swapped = replace(right, pairs=(right.pairs[1], right.pairs[0], right.pairs[2]))
+    swapped = replace(right, values=(right.values[1], right.values[0], right.values[2]))
     other = Geometry.of(load_arm("ev3-112")).reduce(ring, point, TURNS[0])
     for wrong in (swapped, other, replace(right, equation=right.equation + 1)):
         with pytest.raises(InternalError):

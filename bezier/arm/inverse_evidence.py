@@ -1,0 +1,158 @@
+"""Certificates of kind "inverse" for all joint positions at a point, which ``qe.verify`` checks."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator, Sequence
+from fractions import Fraction
+from typing import Any
+
+from bezier.arm.elimination import TURNS, M
+from bezier.arm.evidence import arm_json
+from bezier.arm.inverse import Inverse, Solution, Value
+from bezier.arm.model import Motion
+from bezier.curves.scalar import rational
+from qe.certify.verify import verify
+from qe.errors import Unable
+from qe.exact.algebraic import RealAlgebraic
+from qe.exact.algebraic_text import square_part
+from qe.exact.radicals import format_number
+from qe.proof.certificate import Certificate, Kind
+from qe.proof.entry import Json
+
+ATTEMPTS = ((100, 30), (260, 90), (800, 300))
+"""Binary places of t, and of the boxes: more where solutions lie close together."""
+
+FAR = 8
+"""t is at most about so large: else another φ is taken."""
+
+Terms = dict[int, Fraction]
+
+
+def inverse_certificate(found: Inverse) -> Certificate:
+    """The certificate that these are all solutions, accepted by the checker.
+
+    Raises ``Unable`` where there is none: a joint is free, a joint slides, the arm is at a pose, or a coordinate is not
+    a sum of square roots.
+    """
+    if found.free or found.rotation or any(j.motion is not Motion.REVOLUTE for j in found.arm.joints):
+        raise Unable("certificates of joint positions are for three joints that turn, a point, and no free joint")
+    point: list[Json] = [_listed(square_roots(c)) for c in found.point]
+    verdict = None
+    for bits, places in ATTEMPTS:
+        for turn in TURNS:
+            t = [_tangent(s, turn, bits) for s in found.solutions]
+            if any(abs(v) > FAR for v in t):
+                continue
+            payload = {"arm": arm_json(found.arm), "point": point, "turn": [str(v) for v in turn]}
+            roots: list[Json] = list(_roots(found.solutions, t, bits, places))
+            certificate = Certificate(Kind.INVERSE, {**payload, "count": len(found.solutions), "roots": roots})
+            verdict = verify(certificate)
+            if verdict.accepted:
+                return certificate
+    raise Unable(
+        f"no certificate was found: {verdict.reason if verdict is not None else 'the last joint is undetermined'}"
+    )
+
+
+def _tangent(solution: Solution, turn: tuple[Fraction, Fraction], bits: int) -> Fraction:
+    """About tan((θ3 - φ)/2)."""
+    value = solution.refined(2, bits + 20)
+    assert value is not None and value.cosine is not None and value.sine is not None, "no joint is free"
+    c, s = (sum(ends) / 2 for ends in (value.cosine, value.sine))
+    cosine, sine = c * turn[0] + s * turn[1], s * turn[0] - c * turn[1]
+    return sine / (1 + cosine) if 1 + cosine > Fraction(1, FAR**3) else Fraction(FAR * FAR)
+
+
+def _roots(solutions: Sequence[Solution], t: Sequence[Fraction], bits: int, places: int) -> Iterator[Json]:
+    width = Fraction(1, 1 << bits)
+    order = sorted(range(len(t)), key=lambda k: t[k])
+    while order:
+        low = t[order[0]]
+        here = [k for k in order if t[k] - low <= width]  # two with the same last joint
+        order = [k for k in order if k not in here]
+        middle = round(low * (1 << bits)) * width
+        boxes: list[Json] = [_box(solutions[k], places) for k in sorted(here, key=lambda k: _side(solutions[k]))]
+        yield {"low": str(middle - 4 * width), "high": str(middle + 4 * width), "solutions": boxes}
+
+
+def _side(solution: Solution) -> int:
+    """The sign of m, where there is one: solutions with the same last joint are listed in its order."""
+    point = solution.place.point
+    return point.sign(point.ring.var(M)) if point.depth > point.ring.index[M] else 0
+
+
+def _box(solution: Solution, places: int) -> Json:
+    values = [solution.refined(k, places + 20) for k in range(len(solution.values))]
+    return [[_around(ends, places) for ends in _pair(value)] for value in values]
+
+
+def _pair(value: Value | None) -> tuple[Any, Any]:
+    assert value is not None and value.cosine is not None and value.sine is not None, "no joint is free"
+    return value.cosine, value.sine
+
+
+def _around(ends: tuple[Fraction, Fraction], places: int) -> Json:
+    unit = Fraction(1, 1 << places)
+    middle = round(sum(ends) / 2 / unit)
+    return [str((middle - 2) * unit), str((middle + 2) * unit)]
+
+
+# --- exact coordinates -------------------------------------------------------------------------------------------
+
+
+def square_roots(value: Any) -> Terms:
+    """The number as a sum of factors times square roots of squarefree numbers. Raises ``Unable`` where it is none."""
+    number = rational(value)
+    if number is not None:
+        return {1: number}
+    refused = Unable("certificates of joint positions are for coordinates that are sums of square roots")
+    algebraic: RealAlgebraic = value if isinstance(value, RealAlgebraic) else value.to_algebraic()
+    try:
+        found = _terms(ast.parse(format_number(algebraic), mode="eval").body, refused)
+    except (SyntaxError, RecursionError):
+        raise refused from None
+    return {d: q for d, q in found.items() if q}
+
+
+def _terms(node: ast.expr, refused: Unable) -> Terms:
+    match node:
+        case ast.Constant(value=int() as number):
+            return {1: Fraction(number)}
+        case ast.UnaryOp(op=ast.USub(), operand=inner):
+            return _times(_terms(inner, refused), {1: Fraction(-1)})
+        case ast.BinOp(left=left, op=ast.Add() | ast.Sub() as op, right=right):
+            sign = Fraction(1 if isinstance(op, ast.Add) else -1)
+            a, b = _terms(left, refused), _times(_terms(right, refused), {1: sign})
+            return {d: a.get(d, Fraction(0)) + b.get(d, Fraction(0)) for d in {*a, *b}}
+        case ast.BinOp(left=left, op=ast.Mult(), right=right):
+            return _times(_terms(left, refused), _terms(right, refused))
+        case ast.BinOp(left=left, op=ast.Div(), right=right):
+            below = _terms(right, refused)
+            if set(below) == {1} and below[1]:
+                return _times(_terms(left, refused), {1: 1 / below[1]})
+        case ast.Call(func=ast.Name(id="sqrt"), args=[inner], keywords=[]):
+            under = _terms(inner, refused)
+            if set(under) <= {1}:
+                return _root(under.get(1, Fraction(0)))
+    raise refused
+
+
+def _root(value: Fraction) -> Terms:
+    whole = value.numerator * value.denominator
+    outside = square_part(whole)
+    return {whole // outside**2: Fraction(outside, value.denominator)}
+
+
+def _times(a: Terms, b: Terms) -> Terms:
+    found: Terms = {}
+    for d, q in a.items():
+        for e, r in b.items():
+            outside = square_part(d * e)
+            rest = d * e // outside**2
+            found[rest] = found.get(rest, Fraction(0)) + q * r * outside
+    return found
+
+
+def _listed(terms: Terms) -> Json:
+    return [[str(q), d] for d, q in sorted(terms.items()) if q]

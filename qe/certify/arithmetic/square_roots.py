@@ -1,0 +1,209 @@
+"""Numbers Σ q √d (q rational, d squarefree) with exact signs, polynomials over them, counts of real roots.
+
+Square roots of different squarefree numbers are linearly independent over Q (A. S. Besicovitch, J. London Math. Soc.
+15, 1940), so such a sum is zero iff every q is; then more digits always tell its sign. The checker's own arithmetic:
+nothing but integers and fractions.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import pairwise
+from math import gcd, isqrt
+
+LARGEST = 10**10
+"""Radicands are factored by trial division, up to this."""
+
+Interval = tuple[Fraction, Fraction]
+Polynomial = list["Surd"]
+"""Coefficients from degree 0 up, the last one not zero."""
+
+
+@dataclass(frozen=True, slots=True)
+class Surd:
+    """``terms``: (d, q) with q not zero, ascending."""
+
+    terms: tuple[tuple[int, Fraction], ...]
+
+    @staticmethod
+    def of(pairs: Iterable[tuple[int, Fraction]]) -> Surd:
+        """The sum of q √d over the pairs (d, q)."""
+        found: dict[int, Fraction] = {}
+        for d, q in pairs:
+            found[d] = found.get(d, Fraction(0)) + q
+        return Surd(tuple(sorted((d, q) for d, q in found.items() if q)))
+
+    @staticmethod
+    def rational(value: Fraction | int) -> Surd:
+        """A rational number."""
+        return Surd(((1, Fraction(value)),)) if value else Surd(())
+
+    def __add__(self, other: Surd) -> Surd:
+        return Surd.of((*self.terms, *other.terms))
+
+    def __sub__(self, other: Surd) -> Surd:
+        return Surd.of((*self.terms, *((d, -q) for d, q in other.terms)))
+
+    def __neg__(self) -> Surd:
+        return Surd(tuple((d, -q) for d, q in self.terms))
+
+    def __mul__(self, other: Surd) -> Surd:
+        found = []
+        for d, q in self.terms:
+            for e, r in other.terms:
+                g = gcd(d, e)
+                found.append((d // g * (e // g), q * r * g))
+        return Surd.of(found)
+
+    def __bool__(self) -> bool:
+        return bool(self.terms)
+
+    def inverse(self) -> Surd:
+        """1 / self: the product with what √p -> -√p makes of it is free of √p."""
+        largest = self.terms[-1][0]
+        if largest == 1:
+            return Surd.rational(1 / self.terms[0][1])
+        p = _prime(largest)
+        other = Surd(tuple((d, -q if d % p == 0 else q) for d, q in self.terms))
+        return other * (self * other).inverse()
+
+    def interval(self, bits: int) -> Interval:
+        """Rational numbers around it; each root is known to 2^-bits."""
+        low = high = Fraction(0)
+        for d, q in self.terms:
+            root = isqrt(d << (2 * bits))
+            ends = Fraction(root, 1 << bits), Fraction(root + (d != 1), 1 << bits)
+            low += q * ends[q < 0]
+            high += q * ends[q > 0]
+        return low, high
+
+    def sign(self) -> int:
+        """-1, 0 or 1."""
+        bits = 32
+        while self.terms:
+            low, high = self.interval(bits)
+            if low > 0 or high < 0:
+                return 1 if low > 0 else -1
+            bits *= 2
+        return 0
+
+
+ZERO, ONE = Surd(()), Surd.rational(1)
+
+
+def is_squarefree(d: int) -> bool:
+    """Whether no square but 1 divides d, for 1 <= d <= ``LARGEST``."""
+    k = 2
+    while k * k <= d:
+        if d % (k * k) == 0:
+            return False
+        if d % k == 0:
+            d //= k
+        k += 1
+    return True
+
+
+def _prime(d: int) -> int:
+    return next((k for k in range(2, isqrt(d) + 1) if d % k == 0), d)
+
+
+# --- polynomials -------------------------------------------------------------------------------------------------
+
+
+def trimmed(p: Sequence[Surd]) -> Polynomial:
+    """Without leading zeros."""
+    found = list(p)
+    while found and not found[-1]:
+        found.pop()
+    return found
+
+
+def add(p: Polynomial, q: Polynomial) -> Polynomial:
+    """p + q."""
+    size = max(len(p), len(q))
+    return trimmed([(p[k] if k < len(p) else ZERO) + (q[k] if k < len(q) else ZERO) for k in range(size)])
+
+
+def times(p: Polynomial, q: Polynomial) -> Polynomial:
+    """p q."""
+    found = [ZERO] * max(0, len(p) + len(q) - 1)
+    for i, a in enumerate(p):
+        for j, b in enumerate(q):
+            found[i + j] = found[i + j] + a * b
+    return trimmed(found)
+
+
+def scaled(p: Polynomial, c: Surd) -> Polynomial:
+    """c p."""
+    return trimmed([a * c for a in p])
+
+
+def divided(p: Polynomial, q: Polynomial) -> tuple[Polynomial, Polynomial]:
+    """Quotient and remainder."""
+    rest, over = list(p), q[-1].inverse()
+    quotient = [ZERO] * max(0, len(p) - len(q) + 1)
+    for k in range(len(p) - len(q), -1, -1):
+        c = quotient[k] = rest[k + len(q) - 1] * over
+        if c:
+            for j, a in enumerate(q):
+                rest[k + j] = rest[k + j] - c * a
+    return trimmed(quotient), trimmed(rest[: len(q) - 1] if len(p) >= len(q) else rest)
+
+
+def at(p: Polynomial, x: Fraction) -> Surd:
+    """The value at a rational number."""
+    total, point = ZERO, Surd.rational(x)
+    for c in reversed(p):
+        total = total * point + c
+    return total
+
+
+def tarski(p: Polynomial, s: Polynomial, between: Interval | None = None) -> int:
+    """The sum of the signs of s at the different real roots of p, all of them or those in an interval whose ends are no
+    roots (S. Basu, R. Pollack, M.-F. Roy, *Algorithms in Real Algebraic Geometry*, theorem 2.73). p is not constant."""
+    slope = trimmed([Surd.rational(k) * c for k, c in enumerate(p)][1:])
+    sequence = [p, times(slope, s)]
+    while sequence[-1]:
+        sequence.append([-c for c in divided(sequence[-2], sequence[-1])[1]])
+    sequence.pop()
+    if between is None:
+        high = [q[-1].sign() for q in sequence]
+        low = [sign * (-1) ** (len(q) - 1) for sign, q in zip(high, sequence, strict=True)]
+    else:
+        low, high = ([at(q, x).sign() for q in sequence] for x in between)
+    return _variations(low) - _variations(high)
+
+
+def _variations(signs: Sequence[int]) -> int:
+    present = [s for s in signs if s]
+    return sum(a != b for a, b in pairwise(present))
+
+
+# --- intervals ---------------------------------------------------------------------------------------------------
+
+
+def plus(a: Interval, b: Interval) -> Interval:
+    """a + b."""
+    return a[0] + b[0], a[1] + b[1]
+
+
+def product(a: Interval, b: Interval) -> Interval:
+    """a b."""
+    ends = [x * y for x in a for y in b]
+    return min(ends), max(ends)
+
+
+def enclosure(p: Polynomial, x: Interval, bits: int) -> Interval:
+    """An interval around p on x, by Horner's rule."""
+    total: Interval = (Fraction(0), Fraction(0))
+    for c in reversed(p):
+        total = plus(product(total, x), c.interval(bits))
+    return total
+
+
+def root(a: Interval, bits: int) -> Interval:
+    """An interval around the square roots of what is not negative in a, whose upper end is not negative."""
+    low, high = (max(Fraction(0), v) * (1 << (2 * bits)) for v in a)
+    return Fraction(isqrt(int(low)), 1 << bits), Fraction(isqrt(int(high)) + 1, 1 << bits)

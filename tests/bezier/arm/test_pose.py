@@ -1,0 +1,227 @@
+"""Inverse kinematics at a pose: six joints with three parallel axes, planar arms."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from fractions import Fraction
+from math import pi, sqrt
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from bezier.arm import command
+from bezier.arm.inverse import Inverse
+from bezier.arm.kinematics import _constants, _motions, pose
+from bezier.arm.model import Arm
+from bezier.arm.pose import rotation_of, shape_of, solve_pose
+from bezier.arm.reader import load_arm, read_arm
+from bezier.arm.robot import Robot
+from qe.errors import InputError, Unable
+from qe.exact.algebraic import RealAlgebraic
+
+SIX, PLANAR = load_arm("six-joints"), load_arm("planar-3r")
+
+
+def arm_of(*rows: str) -> Arm:
+    body = "".join(f'[[row]]\njoint = "q{k}"\n{row}\n' for k, row in enumerate(rows, start=1))
+    return read_arm('convention = "standard"\n' + body.replace("; ", "\n"))
+
+
+SKEW = arm_of(
+    'a = 7; alpha = "pi/3"; d = 90; theta = "pi/6"',
+    "a = 60; d = 3",
+    'a = 55; alpha = "pi"; d = 2; theta = "pi/4"',
+    'alpha = "pi/4"; a = 4; d = 9',
+    'alpha = {cos = "3/5", sin = "4/5"}; d = 20',
+    'd = 30; a = 5; alpha = "pi/6"',
+)
+"""Axes 2 to 4 parallel (the last one turned over), 5 and 6 meet; constants in Q(sqrt 2, sqrt 3)."""
+
+BACKWARDS = arm_of(
+    'alpha = "pi/2"; d = 40',
+    'alpha = "pi/3"; d = 11; a = 8',
+    "a = 70",
+    "a = 50; d = 5",
+    'alpha = "pi/2"; a = 3; d = 6',
+    "d = 17; a = 2",
+)
+"""Axes 1 and 2 meet, 3 to 5 are parallel."""
+
+Pairs = Sequence[tuple[Fraction, Fraction]]
+
+
+def pairs_of(tangents: Sequence[Fraction]) -> Pairs:
+    return [((1 - t * t) / (1 + t * t), 2 * t / (1 + t * t)) for t in tangents]
+
+
+def at_the_pose_of(arm: Arm, pairs: Pairs) -> Inverse:
+    m = pose(arm, dict(zip((j.name for j in arm.joints), pairs)))
+    return solve_pose(arm, [row[3] for row in m], [row[:3] for row in m])
+
+
+def frames(arm: Arm, found: Inverse) -> np.ndarray:
+    q = np.array([s.angles for s in found.solutions], dtype=float)
+    constants = _constants(arm)
+    whole = np.broadcast_to(constants[0], (len(q), 4, 4))
+    for motion, constant in zip(_motions(arm, q), constants[1:]):
+        whole = whole @ motion @ constant
+    return whole[:, :3]
+
+
+def holds(found: Inverse, pairs: Pairs) -> bool:
+    return any(
+        all(
+            v is not None and v.cosine[0] <= c <= v.cosine[1] and v.sine[0] <= s <= v.sine[1]
+            for v, (c, s) in zip(x.values, pairs)
+        )
+        for x in found.solutions
+    )
+
+
+@pytest.mark.parametrize("arm", [SIX, BACKWARDS, PLANAR], ids=["six", "backwards", "planar"])
+@settings(max_examples=5)
+@given(st.lists(st.fractions(-4, 4, max_denominator=4), min_size=6, max_size=6))
+def test_the_joints_that_made_the_pose_are_found(arm: Arm, tangents: list[Fraction]) -> None:
+    pairs = pairs_of(tangents)[: len(arm.joints)]
+    try:
+        found = at_the_pose_of(arm, pairs)
+    except Unable as error:
+        assert "can be chosen" in str(error)
+        return
+    if found.free:
+        return
+    assert found.count in (range(1, 9) if len(arm.joints) == 6 else (1, 2))
+    assert holds(found, pairs)
+    point, rotation = ([[float(v) for v in row] for row in rows] for rows in ([found.point], found.rotation))
+    for frame in frames(arm, found):
+        assert np.allclose(frame[:, 3], point[0], atol=1e-9)
+        assert np.allclose(frame[:, :3], rotation, atol=1e-12)
+
+
+def test_an_arm_with_irrational_constants() -> None:
+    pairs = pairs_of([Fraction(k, 2) for k in (1, -1, 2, 1, 3, -2)])
+    assert shape_of(SKEW).first == 1
+    m = pose(SKEW, dict(zip((j.name for j in SKEW.joints), pairs)))
+    found = solve_pose(SKEW, [round(float(row[3])) for row in m], rotation_of((1, 2, -1, 3)))
+    assert all(np.allclose(f[:, 3], [float(c) for c in found.point]) for f in frames(SKEW, found))
+
+
+def test_irrational_poses() -> None:
+    half = RealAlgebraic.from_root([-1, 0, 2], 0, 1)
+    turned = ((half, -half, 0), (half, half, 0), (0, 0, 1))
+    found = solve_pose(PLANAR, (RealAlgebraic.from_root([-2, 0, 1], 1, 2) * 90, 40, 0), turned)
+    assert found.count == 2
+    assert all(np.allclose(f[:, 3], (90 * sqrt(2), 40, 0)) for f in frames(PLANAR, found))
+    assert all(abs(sum(s.angles) % (2 * pi) - pi / 4) < 1e-12 for s in found.solutions)
+
+
+@settings(max_examples=4)
+@given(st.lists(st.floats(-3, 3), min_size=6, max_size=6))
+def test_no_solution_is_missed_by_newton(start: list[float]) -> None:
+    """Least squares with numbers from anywhere end, if they end, in one of the solutions."""
+    from scipy.optimize import least_squares
+
+    found = solve_pose(SIX, (120, 90, 200), rotation_of((2, 1, -1, 1)))
+    target = np.array([[float(v) for v in (*row, p)] for row, p in zip(found.rotation, found.point)])
+    constants = _constants(SIX)
+
+    def gap(q: np.ndarray) -> np.ndarray:
+        whole = constants[0]
+        for motion, constant in zip(_motions(SIX, q[None]), constants[1:]):
+            whole = whole @ motion[0] @ constant
+        return ((whole[:3] - target) * [100, 100, 100, 1]).ravel()
+
+    ended = least_squares(gap, start, xtol=1e-14, ftol=1e-14, gtol=1e-14, max_nfev=40)
+    if ended.cost < 1e-18:
+        angles = np.array([s.angles for s in found.solutions], dtype=float)
+        assert (np.abs((angles - ended.x + pi) % (2 * pi) - pi).max(axis=1)).min() < 1e-6
+
+
+def test_poses_that_cannot_be_reached() -> None:
+    found = solve_pose(SIX, (10**4, 0, 0), rotation_of((1, 0, 0, 0)))
+    assert found.count == 0 and not found.is_reachable
+    assert "no joint position reaches the pose" in "\n".join(command.in_words(found))
+    for point, quaternion in (((100, 50, 1), (1, 0, 0, 0)), ((100, 50, 0), (1, 1, 0, 0)), ((400, 0, 0), (1, 0, 0, 0))):
+        assert solve_pose(PLANAR, point, rotation_of(quaternion)).count == 0
+
+
+def test_a_stretched_planar_arm() -> None:
+    found = solve_pose(PLANAR, (230, 0, 0), rotation_of((1, 0, 0, 0)))
+    assert [s.angles for s in found.solutions] == [(0.0, 0.0, 0.0)]
+    assert found.solutions[0].multiple and "two solutions meet" in found.cases[0]
+
+
+def test_a_free_pair_of_joints() -> None:
+    """Equal links folded onto each other: the sum of two angles is all that is determined."""
+    arm = arm_of("a = 10", "a = 10", "a = 4")
+    found = solve_pose(arm, (0, 4, 0), rotation_of((1, 0, 0, 1)))
+    assert found.free == ("q1", "q3") and found.count is None and found.is_reachable
+    assert abs(abs(found.solutions[0].angles[1] or 0) - pi) < 1e-12
+
+
+def test_what_is_free_is_named() -> None:
+    """C on the first axis; the last axis parallel to the three."""
+    m = pose(SIX, {f"theta{k}": (0, -1) if k == 5 else (1, 0) for k in range(1, 7)})
+    with pytest.raises(Unable, match="last joint can be chosen"):
+        solve_pose(SIX, [row[3] for row in m], [row[:3] for row in m])
+    with pytest.raises(Unable, match="first joint can be chosen"):
+        solve_pose(SKEW_FREE, (0, 0, 150), rotation_of((1, 0, 0, 0)))
+
+
+SKEW_FREE = arm_of('alpha = "pi/2"; d = 90', "a = 60", "a = 55", 'alpha = "pi/2"', 'alpha = "-pi/2"; d = 0', "d = 30")
+
+
+def test_limits_and_offsets() -> None:
+    text = 'convention = "standard"\n' + "".join(
+        f'[[row]]\njoint = "q{k}"\na = {a}\n' for k, a in enumerate((100, 80, 50))
+    )
+    arm = read_arm(text.replace("a = 80", 'a = 80\ntheta = "pi/2"\nlimits = [0, 1]'))
+    found = solve_pose(arm, (120, 30, 0), rotation_of((1, 0, 0, 0)))
+    assert sorted((s.allowed, 0 <= (s.angles[1] or 0) <= 1) for s in found.solutions) == [(False, False), (True, True)]
+    assert all(np.allclose(f[:, 3], (120, 30, 0)) for f in frames(arm, found))
+
+
+@pytest.mark.parametrize("name", ["ev3-120", "shoulder-3r", "cylindrical"])
+def test_arms_of_another_shape(name: str) -> None:
+    with pytest.raises(Unable, match="three parallel axes"):
+        solve_pose(load_arm(name), (1, 2, 3), rotation_of((1, 0, 0, 0)))
+
+
+def test_six_joints_without_a_meeting_point() -> None:
+    rows = ['alpha = "pi/2"', "a = 5", "a = 5", 'alpha = "pi/2"', 'alpha = "pi/2"; a = 1', "d = 1"]
+    with pytest.raises(Unable, match="three parallel axes"):
+        solve_pose(arm_of(*rows), (1, 2, 3), rotation_of((1, 0, 0, 0)))
+
+
+@pytest.mark.parametrize(
+    ("point", "rotation"),
+    [
+        ((1, 2), ((1, 0, 0), (0, 1, 0), (0, 0, 1))),
+        ((1, 2, 3), ((1, 0), (0, 1), (0, 0))),
+        ((1, 2, 3), ((1, 0, 0), (0, 1, 0), (0, 0, -1))),
+        ((1, 2, 3), ((1, 1, 0), (0, 1, 0), (0, 0, 1))),
+        ((1, 2, 3), ((1.0, 0, 0), (0, 1, 0), (0, 0, 1))),
+    ],
+)
+def test_no_pose(point: tuple, rotation: tuple) -> None:
+    with pytest.raises(InputError):
+        solve_pose(SIX, point, rotation)
+
+
+@pytest.mark.parametrize(
+    "quaternion", [(0, 0, 0, 0), (1, 0, 0), (1, 0, 0, 0.5), (RealAlgebraic.from_root([-2, 0, 1], 1, 2), 0, 0, 1)]
+)
+def test_no_quaternion(quaternion: tuple) -> None:
+    with pytest.raises(InputError):
+        rotation_of(quaternion)
+
+
+def test_the_command() -> None:
+    said = json.loads(command.inverse(None, SIX, (120, 90, 200), (2, 1, -1, 1), json=True)[0])  # type: ignore[arg-type]
+    assert said["count"] == len(said["solutions"]) > 0
+    assert Robot(SIX).inverse_at_pose((120, 90, 200), (2, 1, -1, 1)).count == said["count"]
+    with pytest.raises(InputError, match="--quaternion"):
+        command.inverse(None, SIX, (120, 90, 200), json=True)  # type: ignore[arg-type]

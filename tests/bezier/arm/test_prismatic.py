@@ -1,0 +1,194 @@
+"""Arms with joints that slide: inverse kinematics, whole paths, limits."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from fractions import Fraction
+from math import pi
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from bezier.arm.command import in_words, to_json
+from bezier.arm.elimination import TURNS, Geometry
+from bezier.arm.evidence import certificates
+from bezier.arm.inverse import NAMES, solve
+from bezier.arm.joint_path import joint_path
+from bezier.arm.joint_plan import in_words as plan_in_words
+from bezier.arm.joint_plan import joint_plan
+from bezier.arm.kinematics import jacobians, position, positions
+from bezier.arm.model import Arm, Motion
+from bezier.arm.ratio import variable
+from bezier.arm.reader import read_arm
+from bezier.arm.study import study
+from bezier.arm.substitute_back import confirm
+from bezier.curves.curve import Bezier
+from bezier.motion.timelaw import Law, TimeLaw
+from qe.certify.verify import verify
+from qe.errors import Unable
+from qe.exact.ring import Ring
+
+CONSTANTS = (
+    'alpha = "pi/6"\na = 5\nd = 3',
+    'a = 20\nalpha = "pi/3"\nd = 7\ntheta = "pi/4"',
+    'a = 30\nalpha = {cos = "3/5", sin = "4/5"}\nd = 4',
+)
+SQUARE = ('theta = "pi/3"', 'alpha = "pi/2"\na = 20', 'alpha = "-pi/2"\nd = 4\na = 9')
+"""Neighbouring axes are orthogonal."""
+
+KINDS = ("RRP", "RPR", "PRR", "RPP", "PRP", "PPR", "PPP")
+
+
+def arm_of(kinds: str, constants: tuple[str, ...] = CONSTANTS, last: str = "a = 25") -> Arm:
+    words = {"R": "revolute", "P": "prismatic"}
+    rows = [
+        f'[[row]]\njoint = "q{k}"\nkind = "{words[c]}"\n{body}\n' for k, (c, body) in enumerate(zip(kinds, constants))
+    ]
+    return read_arm('convention = "modified"\n' + "".join(rows) + f"[[row]]\n{last}\n")
+
+
+ARMS = [arm_of(kinds, constants) for kinds in KINDS for constants in (CONSTANTS, SQUARE)]
+IDS = [f"{kinds}-{word}" for kinds in KINDS for word in ("skew", "square")]
+
+
+def pair(k: int) -> tuple[Fraction, Fraction]:
+    t = Fraction(k, 3)
+    return (1 - t * t) / (1 + t * t), 2 * t / (1 + t * t)
+
+
+def found_again(arm: Arm, numbers: list[int]) -> None:
+    values = [pair(k) if j.motion is Motion.REVOLUTE else Fraction(7 * k, 2) for k, j in zip(numbers, arm.joints)]
+    point = position(arm, dict(zip((j.name for j in arm.joints), values)))
+    found = solve(arm, point)
+    assert found.is_reachable
+    if found.free:
+        return
+    assert np.allclose(positions(arm, [s.angles for s in found.solutions]), [float(c) for c in point], atol=1e-9)
+
+    def holds(box, value) -> bool:
+        if isinstance(value, Fraction):
+            return box.cosine is None and box.ends[0] <= value <= box.ends[1]
+        return all(low <= v <= high for (low, high), v in zip((box.cosine, box.sine), value))
+
+    assert any(all(map(holds, s.values, values)) for s in found.solutions)
+
+
+@pytest.mark.parametrize("arm", ARMS, ids=IDS)
+@settings(max_examples=4)
+@given(st.lists(st.integers(-7, 7), min_size=3, max_size=3))
+def test_the_joints_that_made_the_point_are_found(arm: Arm, numbers: list[int]) -> None:
+    try:
+        found_again(arm, numbers)
+    except Unable as error:
+        assert "slide along one direction" in str(error) and arm in ARMS[13:]
+
+
+@pytest.mark.parametrize("arm", ARMS, ids=IDS)
+def test_the_reduction_holds_for_all_points(arm: Arm) -> None:
+    ring = Ring.of(NAMES)
+    point = [variable(ring, name, arm.field) for name in "xyz"]
+    for turn in TURNS[:2]:
+        confirm(arm, Geometry.of(arm).reduce(ring, point, turn), point)
+
+
+@pytest.mark.parametrize("arm", ARMS, ids=IDS)
+@settings(max_examples=4)
+@given(st.lists(st.floats(-3, 3), min_size=3, max_size=3))
+def test_no_solution_is_missed_by_newton(arm: Arm, start: list[float]) -> None:
+    point = [Fraction(v) for v in positions(arm, [[0.4, -1.1, 0.7]])[0]]
+    if np.linalg.matrix_rank(jacobians(arm, [[0.4, -1.1, 0.7]])[0], tol=1e-9) < 3:
+        return  # it moves on a surface, which points in floating point miss
+    inverse = solve(arm, point)
+    assert inverse.solutions and not inverse.free
+    found = np.array([s.angles for s in inverse.solutions])
+    turning = np.array([j.motion is Motion.REVOLUTE for j in arm.joints])
+    q = np.array(start) * np.where(turning, 1, 20)
+    for _ in range(40):
+        step = positions(arm, [q])[0] - [float(c) for c in point]
+        q = q - np.linalg.lstsq(jacobians(arm, [q])[0], step, rcond=None)[0]
+    if np.allclose(positions(arm, [q])[0], [float(c) for c in point], atol=1e-10):
+        gaps = found - q
+        gaps = np.abs(np.where(turning, (gaps + pi) % (2 * pi) - pi, gaps)).max(axis=1)
+        assert gaps.min() < 1e-4
+
+
+CYLINDER = arm_of("RPP", ("", "", 'alpha = "pi/2"'), "")
+"""Turn, lift, reach: ρ² = x² + y² and height are the two lengths."""
+
+
+def test_a_cylindrical_arm() -> None:
+    found = solve(CYLINDER, (30, 40, -7))
+    assert found.count == 2
+    assert sorted(s.angles[2] for s in found.solutions) == [-50, 50]
+    assert {s.angles[1] for s in found.solutions} == {-7}
+    assert solve(CYLINDER, (0, 0, 5)).free == ("q0",)
+    assert to_json(found)["solutions"][0]["joints"]["q1"]["length"] == -7
+    assert any("q2 = -50.000000000 mm" in line for line in in_words(found))
+
+
+def test_a_portal_has_one_solution_everywhere() -> None:
+    arm = ARMS[IDS.index("PPP-skew")]
+    assert all(solve(arm, p).count == 1 for p in ((0, 0, 0), (10**9, -3, 1), (Fraction(1, 7), 2, 3)))
+
+
+def test_lengths_are_compared_with_limits_exactly() -> None:
+    text = '[[row]]\njoint = "q2"\nkind = "prismatic"\nalpha = "pi/2"\nlimits = [0, 50]\n'
+    arm = read_arm('convention = "modified"\n[[row]]\njoint = "q0"\n[[row]]\njoint = "q1"\nkind = "prismatic"\n' + text)
+    kept = [[s.allowed for s in solve(arm, (x, 40, 1)).solutions if (s.angles[2] or 0) > 0] for x in (30, 31)]
+    assert kept == [[True], [False]]
+    least = replace(arm, rows=(*arm.rows[:2], replace(arm.rows[2], joint=replace(arm.joints[2], limits=(50, 60)))))
+    kept = [[s.allowed for s in solve(least, (x, 40, 1)).solutions if (s.angles[2] or 0) > 0] for x in (30, 29)]
+    assert kept == [[True], [False]]
+    assert all(not s.allowed for s in solve(arm, (30, 40, 1)).solutions if (s.angles[2] or 0) < 0)
+
+
+def test_two_slides_along_one_direction() -> None:
+    with pytest.raises(Unable, match="slide along one direction"):
+        solve(arm_of("PPR", ("", "", ""), "a = 3"), (1, 2, 3))
+
+
+@pytest.mark.parametrize("kinds", ["RRP", "PPR"])
+def test_paths(kinds: str) -> None:
+    """The number of solutions along a line, its branches, and their certificates."""
+    arm = arm_of(kinds)
+    near, far = (
+        position(
+            arm, {j.name: pair(k) if j.motion is Motion.REVOLUTE else Fraction(3 * k) for k, j in zip(ks, arm.joints)}
+        )
+        for ks in ((1, 2, 1), (2, 1, 2))
+    )
+    start, end = ([Fraction(round(float(c))) for c in p] for p in (near, far))
+    line = Bezier.of([start, [a + (b - a) * 2 for a, b in zip(start, end)]])
+    found = study(arm, line)
+    for part in found.stretches:
+        for s in (part.sample, (3 * part.sample + Fraction(float(part.low))) / 4):
+            if part.low < s < part.high:
+                assert solve(arm, line.point(s)).count == part.count
+    path = joint_path(arm, {"line": line})
+    assert path.runs
+    assert all(verify(c).accepted for _, c in certificates(path))
+
+
+def test_a_path_with_a_missing_stretch() -> None:
+    """A turning arm with a slide orthogonal to its first axis cannot come nearer than its offset."""
+    arm = arm_of("RPP", ("", "", 'alpha = "pi/2"\na = 30'), "")
+    found = study(arm, Bezier.of([(-90, 5, 0), (90, 5, 0)]))
+    assert [p.count for p in found.stretches] == [2, 0, 2]
+    assert [round(float(p.s), 6) for p in found.specials[1:-1]] == [
+        round(0.5 - 875**0.5 / 180, 6),
+        round(0.5 + 875**0.5 / 180, 6),
+    ]
+
+
+def test_a_joint_sequence_of_a_cylindrical_arm() -> None:
+    plan = joint_plan(
+        CYLINDER, {"line": Bezier.of([(30, 40, 0), (-50, 60, 20)])}, TimeLaw.of(Law.QUINTIC), Fraction(4), 9
+    )
+    assert plan.is_proved and plan.sequence is not None and plan.motion is not None
+    angles = np.array(plan.sequence.angles)
+    assert np.allclose(positions(CYLINDER, angles)[-1], [-50, 60, 20])
+    assert np.all(np.sign(angles[:, 2]) == np.sign(angles[0, 2]))
+    assert plan.motion.speeds[1].low <= 20 / 4 * 15 / 8 <= plan.motion.speeds[1].high
+    assert any("q1: at most" in line and "mm/s^2" in line for line in plan_in_words(plan))
