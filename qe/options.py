@@ -43,7 +43,8 @@ class Stage(Enum):
     projection before Lazard's. ``ORDER``: the variable order is chosen, not taken as written. ``SYMMETRY``: variables
     are taken from a block by translations, rotations and scalings that leave its truth alone. ``GATHERING``: nested
     blocks of one kind are prepared as one. ``DISTRIBUTION``: disjuncts with equations are solved apart. ``VALUES``:
-    atoms that some value of a variable meets, whatever the rest is, are dropped.
+    atoms that some value of a variable meets, whatever the rest is, are dropped. ``ZEROS``: conditions on which
+    variables vanish are dropped where they follow from the others.
     """
 
     EQUATIONS = "equations"
@@ -57,6 +58,7 @@ class Stage(Enum):
     GATHERING = "gathering"
     DISTRIBUTION = "distribution"
     VALUES = "values"
+    ZEROS = "zeros"
 
 
 @dataclass(slots=True)

@@ -21,6 +21,7 @@ from qe.certify.sentence import check_sentence
 from qe.certify.step import Check
 from qe.certify.symmetry import check_scaling, check_translation
 from qe.certify.table import check_table
+from qe.certify.zeros import check_zeros
 
 RULES: Mapping[str, Check] = {
     "renaming": check_renaming,
@@ -32,6 +33,7 @@ RULES: Mapping[str, Check] = {
     "boundary apart": check_block,
     "vanishing sum of squares split": check_block,
     "Groebner basis of the equations": check_block,
+    "conditions on zeros that follow": check_zeros,
     "independent parts and miniscoping": check_miniscoping,
     "linear equation solved": check_linear,
     "linear equation solved under a guard": check_guarded_linear,

@@ -39,6 +39,7 @@ SWITCHED = {
     Stage.GATHERING: {StepKind.GATHERING},
     Stage.DISTRIBUTION: {StepKind.DISTRIBUTION},
     Stage.VALUES: {StepKind.TAKES_VALUE},
+    Stage.ZEROS: {StepKind.ZEROS},
 }
 """The steps of preparation that a stage left out switches off."""
 
