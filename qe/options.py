@@ -44,7 +44,7 @@ class Stage(Enum):
     are taken from a block by translations, rotations and scalings that leave its truth alone. ``GATHERING``: nested
     blocks of one kind are prepared as one. ``DISTRIBUTION``: disjuncts with equations are solved apart. ``VALUES``:
     atoms that some value of a variable meets, whatever the rest is, are dropped. ``ZEROS``: conditions on which
-    variables vanish are dropped where they follow from the others.
+    variables vanish are dropped where they follow from the others. ``BALLS``: whether two balls meet is a closed form.
     """
 
     EQUATIONS = "equations"
@@ -59,6 +59,7 @@ class Stage(Enum):
     DISTRIBUTION = "distribution"
     VALUES = "values"
     ZEROS = "zeros"
+    BALLS = "balls"
 
 
 @dataclass(slots=True)

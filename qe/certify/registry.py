@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from qe.certify.alternatives import check_alternatives
+from qe.certify.balls import check_balls
 from qe.certify.block import check_block
 from qe.certify.degree_shift import check_degree_shift
 from qe.certify.elimination_set import check_elimination_set
@@ -33,6 +34,7 @@ RULES: Mapping[str, Check] = {
     "boundary apart": check_block,
     "vanishing sum of squares split": check_block,
     "Groebner basis of the equations": check_block,
+    "two balls": check_balls,
     "conditions on zeros that follow": check_zeros,
     "independent parts and miniscoping": check_miniscoping,
     "linear equation solved": check_linear,

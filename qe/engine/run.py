@@ -40,6 +40,7 @@ SWITCHED = {
     Stage.DISTRIBUTION: {StepKind.DISTRIBUTION},
     Stage.VALUES: {StepKind.TAKES_VALUE},
     Stage.ZEROS: {StepKind.ZEROS},
+    Stage.BALLS: {StepKind.BALLS},
 }
 """The steps of preparation that a stage left out switches off."""
 

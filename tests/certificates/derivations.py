@@ -40,6 +40,8 @@ CASES = {
     "multipliers": "ex x, y, z, u. x^2 + y^2 + z^2 + u^2 + x < -1",
     "basis": "ex x, y. x*y = 1 and x^2 + y^2 = a and x > 0 and y > x",
     "zeros": "ex x, y. (x /= 0 or y /= 0) and x^2 - 3*y^2 > a^2 and x + y > b",
+    "balls": "s > 0 and ex x, y. (x - a)^2 + y^2 <= 4 and x^2 + y^2 < s^2",
+    "radicands": "ex x, y. 2*x^2 + 2*y^2 - x <= a and x^2 + y^2 < b",
     "intervals": "all x. x > 3 -> x^2 - 2 > 0 and x /= 1",
 }
 
