@@ -130,11 +130,14 @@ class _Run:
 
     def satisfiable(self, sentence: Formula, context: Context) -> bool:
         """Whether a sentence is true, found in a run of its own within the limits of the context."""
-        plain = context.options.with_(certify=False, root_atoms=False)
-        return _Run(plain, context.budget).question(sentence).formula == TRUE
+        return self.apart(sentence, context.budget).formula == TRUE
 
     def context(self, budget: Budget | None = None) -> Context:
-        return Context(self.options, budget or self.budget, self.log)
+        return Context(self.options, budget or self.budget, self.log, self.apart)
+
+    def apart(self, sentence: Formula, budget: Budget) -> Outcome:
+        """The outcome for a sentence, found in a run of its own."""
+        return _Run(self.options.with_(certify=False, root_atoms=False), budget).question(sentence)
 
     # --- certificates --------------------------------------------------------------------------
     def certificate(self, asked: Formula, question: Formula, found: Outcome) -> Proof:
