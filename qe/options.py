@@ -45,7 +45,9 @@ class Stage(Enum):
     projection before Lazard's. ``ORDER``: the variable order is chosen, not taken as written. ``SYMMETRY``: variables
     are taken from a block by translations, rotations and scalings that leave its truth alone. ``GATHERING``: nested
     blocks of one kind are prepared as one. ``DISTRIBUTION``: disjuncts with equations are solved apart. ``VALUES``:
-    atoms that some value of a variable meets, whatever the rest is, are dropped.
+    atoms that some value of a variable meets, whatever the rest is, are dropped. ``ZEROS``: conditions on which
+    variables vanish are dropped where they follow from the others. ``BALLS``: whether two balls meet is a closed form.
+    ``SEARCH``: sentences with many cases are searched by a SAT solver.
     """
 
     EQUATIONS = "equations"
@@ -59,6 +61,9 @@ class Stage(Enum):
     GATHERING = "gathering"
     DISTRIBUTION = "distribution"
     VALUES = "values"
+    ZEROS = "zeros"
+    BALLS = "balls"
+    SEARCH = "search"
 
 
 @dataclass(slots=True)

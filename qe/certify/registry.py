@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from qe.certify.alternatives import check_alternatives
+from qe.certify.balls import check_balls
 from qe.certify.block import check_block
 from qe.certify.constant import check_constant
 from qe.certify.covering import check_covering
@@ -32,6 +33,7 @@ from qe.certify.symmetry import check_scaling, check_translation
 from qe.certify.table import check_table
 from qe.certify.value_taken import check_value_taken
 from qe.certify.witness_in_parameters import check_witness_in_parameters
+from qe.certify.zeros import check_zeros
 
 RULES: Mapping[str, Check] = {
     "renaming": check_renaming,
@@ -44,6 +46,8 @@ RULES: Mapping[str, Check] = {
     "boundary apart": check_block,
     "vanishing sum of squares split": check_block,
     "Groebner basis of the equations": check_block,
+    "two balls": check_balls,
+    "conditions on zeros that follow": check_zeros,
     "independent parts and miniscoping": check_miniscoping,
     "linear equation solved": check_linear,
     "linear equation solved under a guard": check_guarded_linear,

@@ -7,6 +7,7 @@ polynomials at the point are decided exactly by ``qe.certify.arithmetic.triangul
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from fractions import Fraction
 
 from qe.certify.arithmetic.fibre import RationalFibre, fibre, values
@@ -36,7 +37,7 @@ def check_witness(payload: dict[str, Json], budget: Budget | None = None) -> Non
             point = point.extended(number)
         else:
             rationals[i] = number
-    if not _holds(formula, point, rationals, matrix):
+    if not _holds(formula, _Signs(point, rationals), matrix):
         raise matrix.fail("the values do not satisfy the formula")
 
 
@@ -62,24 +63,46 @@ def _number(entry: Entry, ring: Ring, i: int, budget: Budget | None) -> Fraction
     return found
 
 
-def _holds(formula: Formula, point: Point, rationals: dict[int, Fraction], entry: Entry) -> bool:
+class _Signs:
+    """The signs of polynomials at the point, each found once."""
+
+    def __init__(self, point: Point, rationals: dict[int, Fraction]) -> None:
+        self.point, self.rationals, self.known = point, rationals, dict[Poly, int]()
+
+    def __call__(self, poly: Poly) -> int:
+        found = self.known.get(poly)
+        if found is None:
+            found = self.known[poly] = self._sign(poly)
+        return found
+
+    def _sign(self, poly: Poly) -> int:
+        rational = [i for i in poly.variables if i in self.rationals]
+        for i in rational:
+            check_value(poly, i, self.rationals[i])
+        if len(rational) == len(poly.variables):
+            value = sum((c * self._product(powers) for powers, c in poly.sparse_terms()), Fraction(0))
+            return (value > 0) - (value < 0)
+        for i in rational:
+            poly = poly.at_rational(i, self.rationals[i])
+        return self.point.sign(poly)
+
+    def _product(self, powers: Iterable[tuple[int, int]]) -> Fraction:
+        value = Fraction(1)
+        for i, exponent in powers:
+            value *= self.rationals[i] ** exponent
+        return value
+
+
+def _holds(formula: Formula, sign: _Signs, entry: Entry) -> bool:
     match formula:
         case Constant(value):
             return value
         case Atom(poly, relation):
-            return relation.holds(_sign(poly, point, rationals))
+            return relation.holds(sign(poly))
         case Not(arg):
-            return not _holds(arg, point, rationals, entry)
+            return not _holds(arg, sign, entry)
         case And(args):
-            return all(_holds(a, point, rationals, entry) for a in args)
+            return all(_holds(a, sign, entry) for a in args)
         case Or(args):
-            return any(_holds(a, point, rationals, entry) for a in args)
+            return any(_holds(a, sign, entry) for a in args)
     raise entry.fail("expected a quantifier-free formula without root atoms")
-
-
-def _sign(poly: Poly, point: Point, rationals: dict[int, Fraction]) -> int:
-    for i, value in rationals.items():
-        if poly.degree(i):
-            check_value(poly, i, value)
-            poly = poly.at_rational(i, value)
-    return point.sign(poly)

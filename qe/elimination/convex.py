@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from fractions import Fraction
 
+from qe.convex.linear_point import linear_point
 from qe.convex.optimum import Decision, decide
 from qe.convex.system import NotConvex
 from qe.elimination.protocol import Context, Outcome, Problem
+from qe.exact.number import Number
 from qe.formula.syntax import FALSE, TRUE, Exists
 from qe.options import Budget, Options
 
@@ -23,18 +26,20 @@ class ConvexOptimisation:
     def run(self, problem: Problem, context: Context) -> Outcome | None:
         """A decision with its certificate; None where the set is not a convex one that can be read."""
         dual = problem.dual
-        sentence = Exists(dual.variables, dual.body)
-        found = decide_convex(sentence, budget=context.budget)
-        if found is None:
-            return None
-        truth = FALSE if found.values is None else TRUE
-        known = found.values
-        values = None if known is None else {name: known.get(name, Fraction(0)) for name in dual.variables}
-        proof = found.certificate if values is None else dual.witnessed(values)
-        context.log.step("convex", problem.formula, problem.asked(truth), evidence={"proof": {"certificate": proof}})
-        if values is None:
-            return Outcome(problem.asked(truth), certificate=found.certificate)
-        return Outcome(problem.asked(truth), values)
+        known: Mapping[str, Number] | None = linear_point(dual.body, budget=context.budget)
+        if known is None:
+            found = decide_convex(Exists(dual.variables, dual.body), budget=context.budget)
+            if found is None:
+                return None
+            known = found.values
+            if known is None:
+                answer, evidence = problem.asked(FALSE), {"proof": {"certificate": found.certificate}}
+                context.log.step("convex", problem.formula, answer, evidence=evidence)
+                return Outcome(answer, certificate=found.certificate)
+        values = {name: known.get(name, Fraction(0)) for name in dual.variables}
+        evidence = {"proof": {"certificate": dual.witnessed(values)}}
+        answer = context.log.step("convex", problem.formula, problem.asked(TRUE), evidence=evidence)
+        return Outcome(answer, values)
 
 
 def decide_convex(sentence: Exists, *, budget: Budget) -> Decision | None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Protocol
 
@@ -98,11 +98,13 @@ class Outcome:
 
 @dataclass(frozen=True, slots=True)
 class Context:
-    """What every method is given beside its problem."""
+    """What every method is given beside its problem. ``decide``: the outcome for a sentence of its own, by any method,
+    within a budget; raises ``Unable``."""
 
     options: Options
     budget: Budget
     log: RunLog
+    decide: Callable[[Formula, Budget], Outcome] | None = None
 
 
 class Method(Protocol):

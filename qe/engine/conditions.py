@@ -6,9 +6,9 @@ from collections.abc import Callable
 from math import prod
 
 from qe.elimination.protocol import Problem
-from qe.formula.syntax import And, Atom, Formula, Relation
-from qe.formula.traverse import conjuncts, connected, polynomials
-from qe.options import Options
+from qe.formula.syntax import And, Atom, Formula, Or, Relation
+from qe.formula.traverse import conjuncts, connected, polynomials, subformulas
+from qe.options import Options, Stage
 
 Condition = Callable[[Problem, Options], str | None]
 
@@ -29,6 +29,10 @@ CONVEX_FROM = 4
 EQUATIONS_FROM, FEW_SOLUTIONS, MANY_SOLUTIONS = 4, 16, 130
 """Sentences with as many equations as variables, so many, are solved as systems if the product of degrees (Bézout's
 bound of the number of complex solutions) lies between these: below, the other methods take tens of milliseconds."""
+
+CASES_FROM, CURVED_CASES = 12, 80
+"""Sentences with so many case distinctions are searched by a SAT solver first, unless more polynomials are not linear:
+what has to be decided again and again is then too large."""
 
 CONVEX_PARTS = 24
 """In more variables, conditions that fall apart into some without common variables are not one convex problem."""
@@ -56,6 +60,17 @@ def never(problem: Problem, options: Options) -> str | None:
 def inner_blocks(problem: Problem, options: Options) -> str | None:
     """Quantifiers inside a universal block."""
     return "blocks inside a universal one" if problem.universal and not problem.is_flat else None
+
+
+def many_cases(problem: Problem, options: Options) -> str | None:
+    """A sentence with ``CASES_FROM`` disjunctions or more; not where a proof is asked for: there is no checker."""
+    if problem.free or not problem.is_flat or options.certify or Stage.SEARCH in options.without:
+        return None
+    kind = And if problem.universal else Or
+    cases = sum(1 for f in subformulas(problem.body) if isinstance(f, kind))
+    if cases < CASES_FROM or sum(p.total_degree > 1 for p in polynomials(problem.body)) > CURVED_CASES:
+        return None
+    return f"a sentence with {cases} case distinctions"
 
 
 def closed_in_many_variables(problem: Problem, options: Options) -> str | None:

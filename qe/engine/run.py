@@ -41,6 +41,8 @@ SWITCHED = {
     Stage.GATHERING: {StepKind.GATHERING},
     Stage.DISTRIBUTION: {StepKind.DISTRIBUTION},
     Stage.VALUES: {StepKind.TAKES_VALUE},
+    Stage.ZEROS: {StepKind.ZEROS},
+    Stage.BALLS: {StepKind.BALLS},
 }
 """The steps of preparation that a stage left out switches off."""
 
@@ -141,7 +143,11 @@ class _Run:
         return Nested(sentence, tuple(run.log.steps()), answer)
 
     def context(self, budget: Budget | None = None) -> Context:
-        return Context(self.options, budget or self.budget, self.log)
+        return Context(self.options, budget or self.budget, self.log, self.apart)
+
+    def apart(self, sentence: Formula, budget: Budget) -> Outcome:
+        """The outcome for a sentence, found in a run of its own."""
+        return _Run(self.options.with_(certify=False, root_atoms=False), budget).question(sentence)
 
     # --- certificates --------------------------------------------------------------------------
     def certificate(self, asked: Formula, question: Formula, found: Outcome) -> Proof:

@@ -25,6 +25,7 @@ METHODS = {
     "critical, convex universal": ("qe.elimination.critical.method", "ConvexUniversal"),
     "convex": ("qe.elimination.convex", "ConvexOptimisation"),
     "witness": ("qe.elimination.witness", "PolynomialWitnesses"),
+    "search": ("qe.elimination.search.method", "BooleanSearch"),
     "cgs": ("qe.elimination.cgs", "ComprehensiveGroebner"),
     "coverings": ("qe.elimination.coverings", "Coverings"),
     "only asked to be no root": ("qe.elimination.nonzero", "OnlyNonzero"),
@@ -111,6 +112,7 @@ A unit is one cell, or about the time of one (a tenth of a millisecond); see ``B
 
 STRATEGY: tuple[Attempt, ...] = (
     Attempt(Scope.ASKED, "witness", on.inner_blocks, SHORTCUT),
+    Attempt(Scope.ASKED, "search", on.many_cases, SHORTCUT),
     Attempt(Scope.ASKED, "convex", on.closed_in_many_variables, SHORTCUT),
     Attempt(Scope.ASKED, "cgs", on.equations_bind_a_sentence, SHORTCUT, complete),
     Attempt(Scope.ASKED, "critical, convex universal", on.curved_in_the_block, SHORTCUT),

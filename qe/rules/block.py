@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 from qe.formula.build import exists
 from qe.formula.syntax import FALSE, Formula
+from qe.rules.balls import two_balls
 from qe.rules.block_context import BlockContext, Rule
 from qe.rules.cases import groebner_equations, split_factors, split_squares
 from qe.rules.degree_shift import shift_degree
@@ -20,6 +21,7 @@ from qe.simplify.simplify import simplify_under
 
 RULES: tuple[Rule, ...] = (
     independent_parts,
+    two_balls,
     linear_equation,
     drop_what_can_be_met,
     fix_origin,

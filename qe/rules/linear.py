@@ -11,7 +11,7 @@ sign of a is not known, so the factor is positive.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 from qe.errors import BudgetExceeded
@@ -65,21 +65,28 @@ def choose_pivot(parts: Sequence[Formula], variables: Sequence[str], facts: Call
             if isinstance(found, RootAtom):
                 named = found.poly.ring.index[found.variable]
                 occurrences[named] = occurrences.get(named, 0) + 1
-    for position, part in enumerate(parts):
-        if not isinstance(part, Atom) or part.relation is not Relation.EQ:
-            continue
-        poly = part.poly
-        for i in poly.variables:
-            if poly.degree(i) != 1 or poly.ring.names[i] not in variables:
-                continue
-            rest, lead = poly.coefficients(i)
-            alone = occurrences[i] == 1
-            sign = _sign(lead, position, facts)
-            work = max(1, rest.term_count()) * (occurrences[i] - 1) * lead.term_count()
-            cost = (2 if sign is None and not alone else 0 if lead.is_constant else 1, work, poly.total_degree)
-            if best_cost is None or cost < best_cost:
-                best_cost, best = cost, Pivot(position, i, lead, rest, sign, alone)
+    # those with a constant coefficient first: where there is one, the signs of the others need not be known
+    for position, i, rest, lead in sorted(_linear_in(parts, variables), key=lambda found: not found[3].is_constant):
+        if best_cost is not None and best_cost[0] == 0 and not lead.is_constant:
+            break
+        alone = occurrences[i] == 1
+        sign = _sign(lead, position, facts)
+        work = max(1, rest.term_count()) * (occurrences[i] - 1) * lead.term_count()
+        degree = max(rest.total_degree, lead.total_degree + 1)
+        cost = (2 if sign is None and not alone else 0 if lead.is_constant else 1, work, degree)
+        if best_cost is None or cost < best_cost:
+            best_cost, best = cost, Pivot(position, i, lead, rest, sign, alone)
     return best
+
+
+def _linear_in(parts: Sequence[Formula], variables: Sequence[str]) -> Iterator[tuple[int, int, Poly, Poly]]:
+    """Position, variable, rest and coefficient of every variable in which an equation among the conjuncts is linear."""
+    for position, part in enumerate(parts):
+        if isinstance(part, Atom) and part.relation is Relation.EQ:
+            for i in part.poly.variables:
+                if part.poly.degree(i) == 1 and part.poly.ring.names[i] in variables:
+                    rest, lead = part.poly.coefficients(i)
+                    yield position, i, rest, lead
 
 
 def _sign(lead: Poly, position: int, facts: Callable[[int], Facts]) -> int | None:

@@ -87,8 +87,9 @@ def _block(formula: Exists | ForAll, context: BlockContext) -> Node:
     from qe.rules.gather import gathered
     from qe.rules.symmetry import without_rotations
     from qe.rules.tree import Lifted
+    from qe.rules.zeros import without_implied_zeros
 
-    formula = gathered(formula, context)
+    formula = without_implied_zeros(gathered(formula, context), context)
     variables, symmetric, rules = without_rotations(formula, context)
     body = _inside(symmetric, context)
     if isinstance(formula, Exists):

@@ -14,6 +14,8 @@ class StepKind(Enum):
     LINEAR = "linear equation solved"
     GUARDED_LINEAR = "linear equation solved under a guard"
     DEGREE_SHIFT = "degree shift"
+    BALLS = "two balls"
+    ZEROS = "conditions on zeros that follow"
     TAKES_VALUE = "value that is taken"
     GENERIC = "inequations that remove no interior"
     BOUNDARY = "boundary apart"

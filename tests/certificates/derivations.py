@@ -54,6 +54,9 @@ CASES = {
     "taken": "ex x, y. (a^2 + 1)*x^5 - y*x = b and y^2 > a",
     "taken far out": "ex x. b > 0 and b*x^4 + x > a",
     "taken apart": "ex x, y. a - b = 0 and (a + b)*x = c",
+    "zeros": "ex x, y. (x /= 0 or y /= 0) and x^2 - 3*y^2 > a^2 and x + y > b",
+    "balls": "s > 0 and ex x, y. (x - a)^2 + y^2 <= 4 and x^2 + y^2 < s^2",
+    "radicands": "ex x, y. 2*x^2 + 2*y^2 - x <= a and x^2 + y^2 < b",
     "intervals": "all x. x > 3 -> x^2 - 2 > 0 and x /= 1",
 }
 

@@ -1,0 +1,1 @@
+"""Boolean search for sentences of many cases: a SAT solver proposes conjunctions, theories refuse them with reasons."""

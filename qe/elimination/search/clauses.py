@@ -1,0 +1,145 @@
+"""A formula without quantifiers as clauses over the signs of its polynomials, and back: what a model makes true.
+
+Every polynomial has a literal for > 0, one for < 0 and one for = 0, tied together by clauses. Conjunctions and
+disjunctions get literals of their own in one direction only, as the formula is in negation normal form (Plaisted,
+Greenbaum 1986): a model of the clauses makes the formula true, and every model of the formula extends to one of them.
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Iterable, Iterator
+from fractions import Fraction
+from itertools import pairwise
+
+from qe.elimination.search.linear_forms import over_monomials
+from qe.exact.ring import Poly
+from qe.formula.syntax import And, Atom, Constant, Formula, Or, Relation
+
+Clause = list[int]
+
+
+class Clauses:
+    """The clauses of one formula; ``literal`` gives the number of an atom."""
+
+    def __init__(self, formula: Formula) -> None:
+        self.formula = formula
+        self.clauses: list[Clause] = []
+        self._signs: dict[Poly, tuple[int, int, int]] = {}
+        self._nodes: dict[Formula, int] = {}
+        self._count = 0
+        self._assert(formula)
+        self._order()
+
+    def literal(self, given: Atom) -> int:
+        """The literal of an atom."""
+        positive, negative, zero = self._of(given.poly)
+        match given.relation:
+            case Relation.GT:
+                return positive
+            case Relation.LE:
+                return -positive
+            case Relation.LT:
+                return negative
+            case Relation.GE:
+                return -negative
+            case Relation.EQ:
+                return zero
+        return -zero
+
+    def chosen(self, model: Iterable[int]) -> list[Atom]:
+        """Atoms, true in the model, that make the formula true. An inequation p /= 0 is chosen as p < 0 or p > 0 where
+        p is linear."""
+        true = set(model)
+        known: dict[Formula, bool] = {}
+
+        def holds(f: Formula) -> bool:
+            value = known.get(f)
+            if value is None:
+                match f:
+                    case Atom():
+                        value = self.literal(f) in true
+                    case And(args):
+                        value = all(map(holds, args))
+                    case Or(args):
+                        value = any(map(holds, args))
+                    case _:
+                        value = f == Constant(True)
+                known[f] = value
+            return value
+
+        taken: dict[Atom, None] = {}
+        pending = [self.formula]
+        while pending:
+            match pending.pop():
+                case Atom(poly, Relation.NE) if poly.total_degree == 1:
+                    side = Relation.GT if self._of(poly)[0] in true else Relation.LT
+                    taken[Atom(poly, side)] = None
+                case Atom() as found:
+                    taken[found] = None
+                case And(args):
+                    pending.extend(args)
+                case Or(args):
+                    alive = [a for a in args if holds(a)]
+                    pending.append(next((a for a in alive if a in taken), alive[0]))
+        return list(taken)
+
+    # --- building --------------------------------------------------------------------------------------
+    def _new(self) -> int:
+        self._count += 1
+        return self._count
+
+    def _of(self, poly: Poly) -> tuple[int, int, int]:
+        found = self._signs.get(poly)
+        if found is None:
+            found = positive, negative, zero = self._new(), self._new(), self._new()
+            self.clauses += [[-positive, -negative], [-zero, -positive], [-zero, -negative]]
+            if poly.total_degree == 1:
+                self.clauses.append([positive, negative, zero])
+            self._signs[poly] = found
+        return found
+
+    def _assert(self, formula: Formula) -> None:
+        match formula:
+            case And(args):
+                for arg in args:
+                    self._assert(arg)
+            case Or(args):
+                self.clauses.append([self._named(arg) for arg in args])
+            case Constant(value):
+                self.clauses += [] if value else [[]]
+            case _:
+                self.clauses.append([self._named(formula)])
+
+    def _named(self, formula: Formula) -> int:
+        """A literal that implies the formula."""
+        if isinstance(formula, Atom):
+            return self.literal(formula)
+        found = self._nodes.get(formula)
+        if found is None:
+            found = self._nodes[formula] = self._new()
+            match formula:
+                case And(args):
+                    self.clauses += [[-found, self._named(arg)] for arg in args]
+                case Or(args):
+                    self.clauses.append([-found, *(self._named(arg) for arg in args)])
+                case _:
+                    raise AssertionError(f"not in negation normal form: {formula}")
+        return found
+
+    def _order(self) -> None:
+        """What bounds of one linear form say about each other: form > 3 implies form > 2."""
+        bounds: defaultdict[object, list[tuple[Fraction, int, int]]] = defaultdict(list)
+        for poly, (positive, negative, _) in self._signs.items():
+            form = over_monomials(poly)
+            above, below = (positive, negative) if form.scale > 0 else (negative, positive)
+            bounds[form.direction].append((form.bound, above, below))
+        for same in bounds.values():
+            self.clauses += _chain(sorted(same))
+
+
+def _chain(bounds: list[tuple[Fraction, int, int]]) -> Iterator[Clause]:
+    for (_, above, below), (_, next_above, next_below) in pairwise(bounds):
+        yield [-next_above, above]
+        yield [-below, next_below]
+        yield [above, next_below]

@@ -1,0 +1,83 @@
+"""Boolean search: existential sentences with many cases, by a SAT solver over the signs of their polynomials.
+
+The clauses are those of ``qe.elimination.search.clauses``. Each model of theirs chooses atoms that make the formula
+true; if these hold at a point, so does the formula; if not, some of them cannot hold together, which is a further
+clause. THEOREM. If the clauses have no model, the sentence is false: every clause added is true at all real points, and
+a real point that makes the formula true gives a model of all of them. There are finitely many choices, each of which is
+made at most once (Nieuwenhuis, Oliveras, Tinelli 2006: DPLL(T)).
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+from qe.elimination.protocol import Context, Outcome, Problem
+from qe.elimination.search.clauses import Clauses
+from qe.elimination.search.theory import Theory
+from qe.errors import Unable
+from qe.exact.number import Values
+from qe.extras import lacking
+from qe.formula.syntax import FALSE, TRUE, Formula, RootAtom
+from qe.formula.traverse import atoms
+from qe.options import Budget, Options
+
+_UNITS = 60
+"""Units of work of one round of the search."""
+
+
+class BooleanSearch:
+    """Existential sentences with many cases."""
+
+    name = "search"
+
+    def suits(self, problem: Problem, options: Options) -> str | None:
+        """Sentences of one block without root atoms."""
+        if not problem.is_flat or problem.free or any(isinstance(a, RootAtom) for a in atoms(problem.body)):
+            return None
+        return f"{sum(1 for _ in atoms(problem.body))} atoms"
+
+    def run(self, problem: Problem, context: Context) -> Outcome | None:
+        """The decision. Raises ``Unable`` where python-sat is absent or a conjunction is not decided."""
+        if context.decide is None:
+            return None
+        dual = problem.dual
+        values = found_point(dual.positive, context)
+        truth = FALSE if values is None else TRUE
+        context.log.step(self.name, problem.formula, problem.asked(truth))
+        if values is None:
+            return Outcome(problem.asked(truth))
+        return Outcome(problem.asked(truth), {name: values.get(name, Fraction(0)) for name in dual.variables})
+
+
+def found_point(body: Formula, context: Context) -> Values | None:
+    """Values that make a formula in negation normal form true, or None where there are none."""
+    try:
+        from pysat.solvers import Solver
+    except ImportError as error:
+        raise lacking(error) or error from None
+    ring, decide = body.ring, context.decide
+    if ring is None or decide is None:
+        return {} if body == TRUE else None
+
+    def decided(sentence: Formula, budget: Budget) -> Values | None:
+        outcome = decide(sentence, budget)
+        if outcome.formula == FALSE:
+            return None
+        if outcome.witness is None:
+            raise Unable("a conjunction is satisfiable, but no point was found")
+        return outcome.witness
+
+    clauses, theory = Clauses(body), Theory(ring, decided, context.budget)
+    rounds = 0
+    with Solver(name="cadical153", bootstrap_with=clauses.clauses) as solver:
+        while solver.solve():
+            rounds += 1
+            context.budget.spend(_UNITS)
+            context.budget.check("search", rounds)
+            found = theory.look(clauses.chosen(solver.get_model()))
+            if isinstance(found, dict):
+                context.log.work("search", {"clauses": len(clauses.clauses), "refuted": rounds - 1})
+                return found
+            solver.add_clause([-clauses.literal(a) for a in found])
+    context.log.work("search", {"clauses": len(clauses.clauses), "refuted": rounds})
+    return None

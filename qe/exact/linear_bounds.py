@@ -1,0 +1,172 @@
+"""Bounds of linear forms: whether they can hold together, kept from one question to the next (general simplex).
+
+Dutertre, de Moura, CAV 2006: every form is a variable of its own, tied to the others by a row; bounds come and go, rows
+and values stay, so that a question like the last one takes few pivots. Strict bounds are weak ones moved by a positive
+infinitesimal: values are pairs (a, b) for a + b*delta, compared lexicographically.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Hashable, Mapping
+from fractions import Fraction
+
+from flint import fmpq
+
+Value = tuple[fmpq, fmpq]
+Bound = tuple[Value, Hashable]
+
+_ZERO, _ONE = fmpq(0), fmpq(1)
+_GREEDY = 60
+"""Pivots that look for the largest violation, before Bland's rule sees to it that the search ends."""
+
+
+class LinearBounds:
+    """Variables are numbers from 0; ``reasons`` of a conflict are those given with the bounds that contradict."""
+
+    def __init__(self) -> None:
+        self.rows: dict[int, dict[int, fmpq]] = {}
+        self.using: list[set[int]] = []
+        self.values: list[Value] = []
+        self.lower: dict[int, Bound] = {}
+        self.upper: dict[int, Bound] = {}
+
+    def variable(self) -> int:
+        """A new variable."""
+        self.values.append((_ZERO, _ZERO))
+        self.using.append(set())
+        return len(self.values) - 1
+
+    def form(self, coefficients: Mapping[int, Fraction]) -> int:
+        """A new variable equal to a linear form in others."""
+        row: dict[int, fmpq] = {}
+        for x, c in coefficients.items():
+            factor = fmpq(c.numerator, c.denominator)
+            for y, other in self.rows[x].items() if x in self.rows else ((x, _ONE),):
+                row[y] = row.get(y, _ZERO) + factor * other
+        new = self.variable()
+        self.rows[new] = row = {y: c for y, c in row.items() if c}
+        first = second = _ZERO
+        for y, c in row.items():
+            self.using[y].add(new)
+            first, second = first + c * self.values[y][0], second + c * self.values[y][1]
+        self.values[new] = first, second
+        return new
+
+    def clear(self) -> None:
+        """No bounds; rows and values stay as they are."""
+        self.lower.clear()
+        self.upper.clear()
+
+    def at_least(self, x: int, bound: Fraction, *, strict: bool, reason: Hashable) -> set[Hashable] | None:
+        """x >= bound (>); the reasons of a contradiction with an upper bound, or None."""
+        value = fmpq(bound.numerator, bound.denominator), _ONE if strict else _ZERO
+        if x in self.lower and self.lower[x][0] >= value:
+            return None
+        if x in self.upper and self.upper[x][0] < value:
+            return {reason, self.upper[x][1]}
+        self.lower[x] = value, reason
+        if x not in self.rows and self.values[x] < value:
+            self._move(x, value)
+        return None
+
+    def at_most(self, x: int, bound: Fraction, *, strict: bool, reason: Hashable) -> set[Hashable] | None:
+        """x <= bound (<); the reasons of a contradiction with a lower bound, or None."""
+        value = fmpq(bound.numerator, bound.denominator), -_ONE if strict else _ZERO
+        if x in self.upper and self.upper[x][0] <= value:
+            return None
+        if x in self.lower and self.lower[x][0] > value:
+            return {reason, self.lower[x][1]}
+        self.upper[x] = value, reason
+        if x not in self.rows and self.values[x] > value:
+            self._move(x, value)
+        return None
+
+    def conflict(self, check: Callable[[], object]) -> set[Hashable] | None:
+        """None where all bounds can hold together; else reasons that cannot, by Farkas's lemma on one row.
+
+        No reason can be left out of them as long as the row stands. ``check`` is called between pivots.
+        """
+        pivots = 0
+        while True:
+            check()
+            broken = self._broken(greedy=pivots < _GREEDY)
+            if broken is None:
+                return None
+            x, wanted, up = broken
+            row = self.rows[x]
+            open_ones = [y for y, c in row.items() if self._may_move(y, up == (c > 0))]
+            if not open_ones:
+                own = self.lower[x] if up else self.upper[x]
+                return {own[1]} | {(self.upper if up == (c > 0) else self.lower)[y][1] for y, c in row.items()}
+            self._pivot(x, min(open_ones), wanted)
+            pivots += 1
+
+    def point(self) -> list[Fraction]:
+        """Numbers for all variables that keep all bounds, after ``conflict`` found none."""
+        delta = _ONE
+        for bounds, s in ((self.lower, 1), (self.upper, -1)):
+            for x, ((a, b), _) in bounds.items():
+                gap, slope = s * (self.values[x][0] - a), s * (b - self.values[x][1])
+                if slope > 0 and gap < delta * slope:
+                    delta = gap / slope
+        moved = (a + b * delta for a, b in self.values)
+        return [Fraction(int(v.p), int(v.q)) for v in moved]
+
+    # --- steps -------------------------------------------------------------------------------------
+    def _may_move(self, y: int, up: bool) -> bool:
+        if up:
+            return y not in self.upper or self.values[y] < self.upper[y][0]
+        return y not in self.lower or self.values[y] > self.lower[y][0]
+
+    def _broken(self, *, greedy: bool) -> tuple[int, Value, bool] | None:
+        """A basic variable outside its bounds, the bound, and whether it has to grow."""
+        found: tuple[int, Value, bool] | None = None
+        most = _ZERO
+        for x in self.rows:
+            value = self.values[x]
+            if x in self.lower and value < self.lower[x][0]:
+                wanted, up = self.lower[x][0], True
+            elif x in self.upper and value > self.upper[x][0]:
+                wanted, up = self.upper[x][0], False
+            else:
+                continue
+            size = abs(wanted[0] - value[0])
+            if found is None or (size > most if greedy else x < found[0]):
+                found, most = (x, wanted, up), size
+        return found
+
+    def _move(self, x: int, value: Value) -> None:
+        """Give a variable without a row this value, and the rows that use it theirs."""
+        da, db = value[0] - self.values[x][0], value[1] - self.values[x][1]
+        self.values[x] = value
+        for r in self.using[x]:
+            c, (a, b) = self.rows[r][x], self.values[r]
+            self.values[r] = a + c * da, b + c * db
+
+    def _pivot(self, x: int, y: int, wanted: Value) -> None:
+        """x leaves its row at the value ``wanted``, y takes the row."""
+        row, (a, b) = self.rows.pop(x), self.values[x]
+        lead = row.pop(y)
+        step = (wanted[0] - a) / lead, (wanted[1] - b) / lead
+        for z in row:
+            self.using[z].discard(x)
+        self.using[y].discard(x)
+        self._move(y, (self.values[y][0] + step[0], self.values[y][1] + step[1]))
+        self.values[x] = wanted
+        new = {z: -c / lead for z, c in row.items()}
+        new[x] = 1 / lead
+        for r in list(self.using[y]):
+            other = self.rows[r]
+            factor = other.pop(y)
+            for z, c in new.items():
+                total = other.get(z, _ZERO) + factor * c
+                if total:
+                    other[z] = total
+                    self.using[z].add(r)
+                elif z in other:
+                    del other[z]
+                    self.using[z].discard(r)
+        self.using[y] = set()
+        self.rows[y] = new
+        for z in new:
+            self.using[z].add(y)

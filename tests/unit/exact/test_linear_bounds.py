@@ -1,0 +1,85 @@
+"""Bounds of linear forms: contradictions with reasons that suffice and are needed, points that keep all bounds."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import qe
+from qe.exact.linear_bounds import LinearBounds
+from qe.exact.ring import Ring
+from qe.formula.build import atom, conj, exists
+from qe.formula.syntax import Relation
+
+RING = Ring.of(("x", "y", "z"))
+SMALL = st.integers(-3, 3)
+CONDITION = st.tuples(st.tuples(SMALL, SMALL, SMALL), SMALL, st.sampled_from(["<", "<=", ">", ">="]))
+Condition = tuple[tuple[int, int, int], int, str]
+
+
+class Asked:
+    """A system whose forms stay, asked about several sets of conditions one after another."""
+
+    def __init__(self) -> None:
+        self.bounds = LinearBounds()
+        self.columns = [self.bounds.variable() for _ in range(3)]
+        self.forms: dict[tuple[int, int, int], int] = {}
+
+    def ask(self, conditions: list[Condition]) -> set[object] | None:
+        self.bounds.clear()
+        for k, (coefficients, bound, relation) in enumerate(conditions):
+            if coefficients not in self.forms:
+                terms = {x: Fraction(c) for x, c in zip(self.columns, coefficients, strict=True)}
+                self.forms[coefficients] = self.bounds.form(terms)
+            tell = self.bounds.at_least if relation[0] == ">" else self.bounds.at_most
+            found = tell(self.forms[coefficients], Fraction(bound), strict="=" not in relation, reason=k)
+            if found is not None:
+                return set(found)
+        found = self.bounds.conflict(lambda: None)
+        return None if found is None else set(found)
+
+
+def holds(condition: Condition, point: list[Fraction]) -> bool:
+    coefficients, bound, relation = condition
+    value = sum((c * v for c, v in zip(coefficients, point, strict=True)), Fraction(0))
+    return Relation(relation).holds((value > bound) - (value < bound))
+
+
+def possible(conditions: list[Condition]) -> bool:
+    parts = []
+    for coefficients, bound, relation in conditions:
+        form = sum((c * RING.gen(i) for i, c in enumerate(coefficients)), RING.constant(-bound))
+        parts.append(atom(form, Relation(relation)))
+    return qe.decide(exists(RING.names, conj(parts)), timeout=60)
+
+
+@settings(max_examples=80, deadline=None)
+@given(st.lists(st.lists(CONDITION, min_size=1, max_size=9), min_size=1, max_size=4))
+def test_points_keep_bounds_and_reasons_contradict(questions: list[list[Condition]]) -> None:
+    asked = Asked()
+    for conditions in questions:
+        found = asked.ask(conditions)
+        if found is None:
+            values = asked.bounds.point()
+            assert all(holds(c, [values[x] for x in asked.columns]) for c in conditions)
+        else:
+            assert not possible([conditions[k] for k in found if isinstance(k, int)])
+
+
+def test_strict_bounds_meet_at_no_point() -> None:
+    asked = Asked()
+    assert asked.ask([((1, 1, 0), 1, ">="), ((1, 1, 0), 1, "<=")]) is None
+    assert asked.ask([((1, 1, 0), 1, ">"), ((1, 1, 0), 1, "<=")]) == {0, 1}
+    assert asked.ask([((1, 0, 0), 0, ">"), ((0, 1, 0), 0, ">"), ((1, 1, 0), 0, "<="), ((0, 0, 1), 5, ">")]) == {0, 1, 2}
+    assert asked.ask([((0, 0, 0), 0, ">=")]) is None
+    assert asked.ask([((0, 0, 0), 0, ">")]) == {0}
+
+
+def test_huge_and_close_numbers() -> None:
+    big = 10**40
+    asked = Asked()
+    low, high = ((1, 0, 0), big, ">"), ((1, 0, 0), big + 1, "<")
+    assert asked.ask([low, high]) is None
+    assert big < asked.bounds.point()[asked.columns[0]] < big + 1

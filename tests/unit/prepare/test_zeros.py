@@ -1,0 +1,103 @@
+"""Conditions on zeros that follow from others: dropped, and only these; the checker looks at the patterns itself."""
+
+from __future__ import annotations
+
+from itertools import product
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import qe
+from qe.certify.step import Claim, Limits
+from qe.certify.zeros import check_zeros
+from qe.errors import CertificateRejected
+from qe.exact.ring import Ring
+from qe.formula.build import atom, conj, disj
+from qe.formula.evaluate import holds_at
+from qe.formula.normal import nnf
+from qe.formula.syntax import Exists, ForAll, Formula, Relation
+from qe.formula.traverse import conjuncts
+from qe.io.text import read
+from qe.options import Budget
+from qe.proof.entry import Entry
+from qe.rules.preparation import prepare
+from qe.rules.step import StepKind
+from qe.rules.zeros import needed
+
+VECTORS = "x*v - y*u /= 0 and x^2 + y^2 + u^2 + v^2 < a"
+
+
+def unread(*_: object) -> object:
+    raise AssertionError("this checker replays nothing")
+
+
+LIMITS = Limits(Budget(), unread, unread)  # type: ignore[arg-type]
+
+
+def claim(before: Formula, after: Formula) -> Claim:
+    ring = before.ring
+    assert ring is not None
+    return Claim("conditions on zeros that follow", before, after, ring, Entry({}, "step"), "step")
+
+
+@pytest.mark.parametrize(
+    ("text", "left"),
+    [
+        (f"ex x, y, u, v. (x /= 0 or y /= 0) and {VECTORS}", f"ex x, y, u, v. {VECTORS}"),
+        (f"ex x, y, u, v. (x*u /= 0 or x*v /= 0 or y*u /= 0 or y*v /= 0) and {VECTORS}", f"ex x, y, u, v. {VECTORS}"),
+        (f"ex x, y, u, v. (x /= 0 or y = 0) and {VECTORS}", None),
+        ("ex x, y. (x /= 0 or y /= 0) and x*y + a = 0", None),
+        ("ex x, y. (x /= 0 or y /= 0) and x*y + 2 < 0", "ex x, y. x*y + 2 < 0"),
+        ("ex x, y. (x /= 0 or y /= 0) and (x = 0 or y = 0) and x*y^3 + x >= 0", None),
+        ("all x, y. x = 0 and y = 0 or x*a - y*b = 0", "all x, y. x*a - y*b = 0"),
+        ("all x, y. x = 0 and y = 0 or x*a - y*b > 0", None),
+    ],
+)
+def test_what_follows_is_dropped(text: str, left: str | None) -> None:
+    found = prepare(read(text), enabled={StepKind.ZEROS}).formula
+    assert str(found) == str(prepare(read(left or text), enabled=set()).formula)
+
+
+RING = Ring.of(("x", "y", "z"))
+X, Y, Z = (RING.var(name) for name in RING.names)
+ABOUT = [X, Y, Z, X * Y, Y * Z, X * X * Z]
+OTHERS = [X * Y - Z, X + Y, X * X + 1, X * Y + 1, X * X * Y * Y + Z, Y * Y - Z * Z, X - 1, X * X * Y * Y, -Z * Z]
+ZEROS = st.builds(atom, st.sampled_from(ABOUT), st.sampled_from([Relation.EQ, Relation.NE]))
+CLAUSES = st.one_of(
+    st.lists(ZEROS, min_size=2, max_size=3).map(disj),
+    st.lists(st.lists(ZEROS, min_size=1, max_size=2).map(conj), min_size=2, max_size=3).map(disj),
+)
+PLAIN = st.builds(atom, st.sampled_from(OTHERS), st.sampled_from(list(Relation)))
+GRID = [dict(zip(RING.names, point, strict=True)) for point in product((-2, -1, 0, 1, 2), repeat=3)]
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.lists(CLAUSES, min_size=1, max_size=3), st.lists(st.one_of(PLAIN, CLAUSES), max_size=3))
+def test_the_truth_stays_and_the_checker_agrees(clauses: list[Formula], others: list[Formula]) -> None:
+    whole = conj((*clauses, *others))
+    left = conj(needed(conjuncts(whole)))
+    assert all(holds_at(whole, point) == holds_at(left, point) for point in GRID)
+    if left != whole and left.ring is not None:
+        check_zeros(claim(Exists(RING.names, whole), Exists(RING.names, left)), (), LIMITS)
+        dual, short = (ForAll(RING.names, nnf(f, negate=True)) for f in (whole, left))
+        check_zeros(claim(dual, short), (), LIMITS)
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.lists(CLAUSES, min_size=1, max_size=2), st.lists(st.one_of(PLAIN, CLAUSES), min_size=1, max_size=3))
+def test_a_false_step_is_refused(clauses: list[Formula], others: list[Formula]) -> None:
+    before, after = Exists(RING.names, conj((*clauses, *others))), Exists(RING.names, conj(others))
+    try:
+        check_zeros(claim(before, after), (), LIMITS)
+    except CertificateRejected:
+        return
+    assert all(holds_at(before.body, point) == holds_at(after.body, point) for point in GRID)
+
+
+def test_a_vector_that_is_not_zero_does_not_hide_a_rotation() -> None:
+    text = f"ex x, y, u, v. (x /= 0 or y /= 0) and (x /= 0 and u /= 0 or x /= 0 and v /= 0 or y /= 0) and {VECTORS}"
+    answer = qe.eliminate(text)
+    rules = [step.rule for step in answer.derivation.steps]
+    assert rules.index("conditions on zeros that follow") < rules.index("rotation of the axes")
+    assert qe.eliminate(text, without="zeros").formula == answer.formula

@@ -1,0 +1,161 @@
+"""Boolean search: points that hold, refutations that others confirm, reasons that suffice, the solver absent."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+from itertools import product
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import qe
+from qe.elimination.protocol import Context, Outcome, Problem
+from qe.elimination.search.clauses import Clauses
+from qe.elimination.search.linear_forms import over_monomials
+from qe.elimination.search.method import BooleanSearch, found_point
+from qe.elimination.search.theory import Theory
+from qe.engine.conditions import CASES_FROM, many_cases
+from qe.engine.run import solve
+from qe.errors import Unable
+from qe.exact.number import Values
+from qe.exact.ring import Ring
+from qe.formula.build import atom, conj, disj, exists
+from qe.formula.normal import nnf
+from qe.formula.syntax import FALSE, TRUE, And, Atom, Constant, Exists, ForAll, Formula, Or, Relation
+from qe.io.text import read
+from qe.options import Budget, Options, Stage
+from qe.proof.run_log import RunLog
+from qe.rules.lift import holds_at
+
+pytest.importorskip("pysat")
+
+RING = Ring.of(("x", "y", "z"))
+X, Y, Z = (RING.var(name) for name in RING.names)
+LINEAR = [X, X - 1, X - 2, Y + X, Y + X - 1, 2 * Y + 2 * X + 3, Z - X, Z - Y - 1, Z]
+CURVED = [X * Y - 1, X * X + Y * Y - 2, X * X - Y, Z * X + 1, Y * Y + 1, X * X * X - Z]
+ATOMS = st.builds(atom, st.sampled_from(LINEAR + CURVED), st.sampled_from(list(Relation)))
+FORMULAS = st.recursive(
+    ATOMS, lambda f: st.one_of(*(st.lists(f, min_size=2, max_size=3).map(join) for join in (conj, disj))), max_leaves=14
+)
+WITHOUT = Options(without=frozenset({Stage.SEARCH}))
+
+
+def decide(sentence: Formula, budget: Budget) -> Outcome:
+    return solve(sentence, WITHOUT, budget)
+
+
+def values(sentence: Formula, budget: Budget) -> Values | None:
+    found = decide(sentence, budget)
+    assert found.formula == FALSE or found.witness is not None
+    return found.witness
+
+
+def context() -> Context:
+    return Context(Options(), Budget(60), RunLog(), decide)
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.lists(FORMULAS, min_size=1, max_size=4).map(conj))
+def test_the_search_decides_what_other_methods_decide(body: Formula) -> None:
+    found = found_point(nnf(body), context())
+    sentence = exists(body.free, body)
+    if found is None:
+        assert decide(sentence, Budget(60)).formula == FALSE
+    else:
+        assert holds_at(body, found)
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.lists(ATOMS.filter(lambda a: isinstance(a, Atom)), min_size=1, max_size=8, unique=True))
+def test_a_reason_is_a_part_that_cannot_hold(chosen: Sequence[Atom]) -> None:
+    found = Theory(RING, values, Budget(60)).look(chosen)
+    if isinstance(found, dict):
+        assert all(holds_at(a, found) for a in chosen)
+    else:
+        assert found
+        assert set(found) <= set(chosen)
+        assert decide(exists(RING.names, conj(found)), Budget(60)).formula == FALSE
+
+
+@settings(max_examples=60, deadline=None)
+@given(FORMULAS)
+def test_what_is_chosen_from_a_model_makes_the_formula_true(body: Formula) -> None:
+    from pysat.solvers import Solver
+
+    clauses = Clauses(body)
+    with Solver(name="cadical153", bootstrap_with=clauses.clauses) as solver:
+        if not solver.solve():
+            assert all(not holds_at(body, dict(zip(RING.names, p))) for p in product((-1, 0, 1, 2), repeat=3))
+            return
+        chosen = clauses.chosen(solver.get_model())
+    taken = {(a.poly, sign) for a in chosen for sign in (-1, 0, 1) if sign in a.relation.signs}
+
+    def follows(f: Formula) -> bool:
+        match f:
+            case Atom(poly, relation):
+                mine = [a for a in chosen if a.poly == poly]
+                return any(a.relation.signs <= relation.signs for a in mine)
+            case And(args):
+                return all(map(follows, args))
+            case Or(args):
+                return any(map(follows, args))
+        return f == TRUE
+
+    assert isinstance(body, Constant) or (taken and follows(body))
+
+
+def test_bounds_of_one_form_are_in_order() -> None:
+    low, high = over_monomials(2 * X + 2 * Y - 1), over_monomials(-X - Y + 3)
+    assert low.direction == high.direction
+    assert (low.bound < high.bound, low.scale > 0, high.scale > 0) == (True, True, False)
+
+
+def many(count: int, last: str) -> Formula:
+    cases = [f"(x > {k} or y > {k} or x + y*z > {2 * k})" for k in range(1, count + 1)]
+    return read(f"ex x, y, z. {' and '.join(cases)} and {last}")
+
+
+@pytest.mark.parametrize(
+    ("last", "truth"),
+    [("x < 1 and y > 20", True), ("x < 1 and y < 1 and z = 1", False), ("x < 1 and y < 1 and z = 40 - y", True)],
+)
+def test_many_choices(last: str, truth: bool) -> None:
+    sentence = many(14, last)
+    answer = qe.eliminate(sentence, timeout=120)
+    assert answer.truth is truth
+    assert [plan.split()[0] for plan in answer.stats["plan"]] == ["search"]
+    if truth:
+        assert isinstance(sentence, Exists) and answer.witness is not None
+        assert holds_at(sentence.body, answer.witness)
+
+
+def test_a_universal_sentence_is_searched_for_a_counterexample() -> None:
+    sentence = many(14, "x < 1 and y < 1 and z = 1")
+    assert isinstance(sentence, Exists)
+    dual = ForAll(sentence.variables, nnf(sentence.body, negate=True))
+    assert many_cases(Problem(dual.variables, dual.body, universal=True), Options()) is not None
+    found = BooleanSearch().run(Problem(dual.variables, dual.body, universal=True), context())
+    assert found is not None and found.formula == TRUE
+
+
+def test_few_cases_and_proofs_are_for_others() -> None:
+    sentence = many(14, "x < 1")
+    problem = Problem.of(sentence)
+    assert problem is not None
+    assert many_cases(problem, Options()) is not None
+    assert many_cases(problem, Options(certify=True)) is None
+    assert many_cases(problem, WITHOUT) is None
+    few = Problem.of(many(CASES_FROM - 1, "x < 1"))
+    assert few is not None and many_cases(few, Options()) is None
+
+
+def test_without_the_solver_it_says_so_and_others_go_on(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "pysat.solvers", None)
+    with pytest.raises(Unable, match=r"pip install 'bezier-qe\[sat\]'"):
+        found_point(read("x > 0 or y > 0"), context())
+    body = conj(disj((atom(X - k, Relation.EQ), atom(Y - k, Relation.EQ))) for k in range(CASES_FROM))
+    answer = qe.eliminate(exists(("x", "y"), conj((body, atom(Y - X, Relation.GT)))), timeout=120, process=False)
+    assert answer.truth is False
+    assert any("python-sat" in line or "pysat" in line for line in map(str, answer.stats["switches"]))
