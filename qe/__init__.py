@@ -23,6 +23,7 @@ from qe.errors import (
     Unable,
 )
 from qe.options import Method, Stage
+from qe.regions.operators import answered_by
 from qe.sympy_form import written_by
 
 if TYPE_CHECKING:
@@ -38,6 +39,7 @@ if TYPE_CHECKING:
     )
     from qe.api_groebner import comprehensive_groebner, real_root_classification
     from qe.api_optimum import maximize, minimize
+    from qe.api_solve import find_instances, reduce, solve
     from qe.certify.verdict import Verdict
     from qe.convex.optimum import Optimum
     from qe.elimination.vs.parametric import ParametricWitness
@@ -52,6 +54,7 @@ if TYPE_CHECKING:
     from qe.proof.answer import Answer, Guarantee, Status
     from qe.proof.certificate import Certificate
     from qe.regions.region import Region
+    from qe.regions.solutions import Solutions
 
 __version__ = "0.1.0"
 
@@ -64,6 +67,7 @@ _ELSEWHERE = {
     "comprehensive_groebner": "qe.api_groebner",
     "real_root_classification": "qe.api_groebner",
     **dict.fromkeys(("maximize", "minimize"), "qe.api_optimum"),
+    **dict.fromkeys(("find_instances", "reduce", "solve"), "qe.api_solve"),
     "Exists": "qe.io.sympy",
     "ForAll": "qe.io.sympy",
     "GlobalOptimum": "qe.optimization.global_optimum",
@@ -74,6 +78,7 @@ _ELSEWHERE = {
     "ParametricWitness": "qe.elimination.vs.parametric",
     "RealAlgebraic": "qe.exact.algebraic",
     "Region": "qe.regions.region",
+    "Solutions": "qe.regions.solutions",
     "Verdict": "qe.certify.verdict",
 }
 """Where public names stand that are neither here nor in ``qe.api``.
@@ -95,6 +100,7 @@ def __getattr__(name: str) -> Any:
 
 
 written_by(lambda value: import_module("qe.io.sympy").sympy_form(value))
+answered_by(lambda: import_module("qe.api_region"))
 
 
 def __dir__() -> list[str]:
@@ -126,6 +132,7 @@ __all__ = [
     "RealAlgebraic",
     "RealRootClassification",
     "Region",
+    "Solutions",
     "Stage",
     "Statement",
     "Status",
@@ -138,13 +145,16 @@ __all__ = [
     "equivalent",
     "exists",
     "find_instance",
+    "find_instances",
     "forall",
     "from_z3",
     "maximize",
     "minimize",
     "parametric_witnesses",
     "real_root_classification",
+    "reduce",
     "region",
+    "solve",
     "variables",
     "verify",
 ]

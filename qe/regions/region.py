@@ -29,6 +29,7 @@ from qe.formula.traverse import free_variables
 from qe.options import Budget
 from qe.proof.cells import Cell, CellTable
 from qe.proof.certificate import Certificate
+from qe.regions.operators import SetOperations
 from qe.regions.volume import enclose
 
 T = TypeVar("T")
@@ -36,7 +37,7 @@ NONE = Limits()
 _CACHES = ("_bounds", "_formula", "_pieces", "_table")
 
 
-class Region:
+class Region(SetOperations):
     """The set of real points that satisfy ``formula``; ``table`` proves where it is true.
 
     ``limits`` hold for every question (replace them to change them); ``timeout`` in seconds, where a question has one,
@@ -111,6 +112,11 @@ class Region:
         """The defining quantifier-free formula."""
         assert self._formula is not None
         return self._formula
+
+    @property
+    def condition(self) -> Formula:
+        """The formula that is cheapest to have, perhaps with quantifiers."""
+        return self.formula
 
     @property
     def table(self) -> CellTable:
