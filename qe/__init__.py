@@ -22,8 +22,8 @@ from qe.errors import (
     QEError,
     Unable,
 )
+from qe.later import provide
 from qe.options import Method, Stage
-from qe.regions.operators import answered_by
 from qe.sympy_form import written_by
 
 if TYPE_CHECKING:
@@ -33,13 +33,12 @@ if TYPE_CHECKING:
         eliminate,
         equivalent,
         find_instance,
-        parametric_witnesses,
         region,
         verify,
     )
     from qe.api_groebner import comprehensive_groebner, real_root_classification
     from qe.api_optimum import maximize, minimize
-    from qe.api_solve import find_instances, reduce, solve
+    from qe.api_solve import find_instances, parametric_witnesses, reduce, solve
     from qe.certify.verdict import Verdict
     from qe.convex.optimum import Optimum
     from qe.elimination.vs.parametric import ParametricWitness
@@ -67,7 +66,7 @@ _ELSEWHERE = {
     "comprehensive_groebner": "qe.api_groebner",
     "real_root_classification": "qe.api_groebner",
     **dict.fromkeys(("maximize", "minimize"), "qe.api_optimum"),
-    **dict.fromkeys(("find_instances", "reduce", "solve"), "qe.api_solve"),
+    **dict.fromkeys(("find_instances", "parametric_witnesses", "reduce", "solve"), "qe.api_solve"),
     "Exists": "qe.io.sympy",
     "ForAll": "qe.io.sympy",
     "GlobalOptimum": "qe.optimization.global_optimum",
@@ -100,11 +99,14 @@ def __getattr__(name: str) -> Any:
 
 
 written_by(lambda value: import_module("qe.io.sympy").sympy_form(value))
-answered_by(lambda: import_module("qe.api_region"))
+provide("regions", lambda: import_module("qe.api_region"))
+provide("connected", lambda: import_module("qe.io.expressions").connected)
+provide("formats", lambda: import_module("qe.io.formats"))
+provide("region", lambda: import_module("qe.api").region)
 
 
 def __dir__() -> list[str]:
-    return sorted({*globals(), *__all__})
+    return sorted((*__all__, *(name for name in globals() if name.startswith("__")), "api", "sympy"))
 
 
 __all__ = [

@@ -7,13 +7,15 @@ from importlib import import_module
 from typing import TypeVar
 
 from qe import arguments
+from qe.api_input import AnyFormula, read_formula
 from qe.execution import Budgets, Limits, perform
 from qe.formula.syntax import Formula
-from qe.formula.weight import may_block
+from qe.formula.weight import may_block, text_may_block
 from qe.progress import Event
 
 Result = TypeVar("Result")
 Progress = Callable[[Event], None]
+Reader = Callable[[AnyFormula, str, bool], Formula]
 
 MOSTLY_NEEDED = ("qe.engine.run", "qe.rules.block", "qe.elimination.vs.block", "qe.elimination.vs.witness")
 """The parts of the engine that nearly every problem with a quantifier needs."""
@@ -36,3 +38,13 @@ def limits_of(timeout: float | None, memory: int | None, progress: Progress, pro
         arguments.listener(progress),
         arguments.flag(process, "process"),
     )
+
+
+def reading(
+    formula: AnyFormula, format: str, limits: Limits, total_division: bool = False, *, reader: Reader = read_formula
+) -> Formula:
+    """The formula, read under the limits where reading may take long. Raises ``BudgetExceeded`` at one."""
+    total = arguments.flag(total_division, "total_division")
+    if not isinstance(formula, str) or not text_may_block(formula):
+        return reader(formula, format, total)
+    return perform(lambda budgets: reader(formula, format, total), limits, at_once=True)

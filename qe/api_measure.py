@@ -16,7 +16,7 @@ from typing import Any
 
 import sympy
 
-from qe.cells.pieces import Piece, RootFunction
+from qe.cells.pieces import Piece, Range, RootFunction
 from qe.errors import Unable
 from qe.exact.ring import Poly
 from qe.io.sympy_numbers import number_to_sympy
@@ -41,7 +41,7 @@ def measure(region: Region) -> Expression:
     whole = [p for p in region.cells if p.dimension == len(region.order)]
     if any(r.lower is None or r.upper is None for p in whole for r in p.ranges):
         raise Unable("the region is unbounded")
-    low, high = region.volume(CHECKED)
+    low, high = region.volume(float(CHECKED))
     total = sum((_measured(piece) for piece in whole), sympy.S.Zero)
     value = sympy.N(total, 30)
     if not value.is_real or not low * (1 - ROUNDING) <= Fraction(str(value)) <= high * (1 + ROUNDING):
@@ -53,8 +53,7 @@ def _measured(piece: Piece) -> Expression:
     ring = piece.table.factors[0][0].ring
     symbols = [sympy.Symbol(f"x{k}", real=True) for k in range(ring.size)]
     first = piece.ranges[0]
-    assert first.lower is not None and first.upper is not None
-    ends = [number_to_sympy(end.value) for end in (first.lower, first.upper)]
+    ends = [number_to_sympy(end.value) for end in _both(first) if end.value is not None]
     if len(piece.ranges) == 1:
         return ends[1] - ends[0]
     if len(piece.ranges) == 2:
@@ -65,9 +64,15 @@ def _measured(piece: Piece) -> Expression:
     return sum((_integral(c, q, symbols[0], ends) for q, c in width.items()), sympy.S.Zero)
 
 
+def _both(r: Range) -> tuple[RootFunction, RootFunction]:
+    """Both ends of a bounded range."""
+    assert r.lower is not None and r.upper is not None
+    return r.lower, r.upper
+
+
 def _slice(piece: Piece, symbols: list[Expression]) -> Parts:
     """The area over a value of the first variable."""
-    (y0, y1), (z0, z1) = ((r.lower, r.upper) for r in piece.ranges[1:])
+    (y0, y1), (z0, z1) = (_both(r) for r in piece.ranges[1:])
     if z0.poly == z1.poly and z0.poly.degree(2) == 2 and y0.poly == y1.poly and y0.poly != z0.poly:
         c = z0.poly.coefficients(2)
         found = c[1] * c[1] - 4 * (c[2] * c[0])

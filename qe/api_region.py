@@ -14,7 +14,7 @@ from qe.api_input import read_formula, together
 from qe.api_limits import performed
 from qe.cells.interval import Coordinate, Interval, Number, number_of
 from qe.engine.run import solve as eliminated
-from qe.errors import InputError, InternalError, Unable
+from qe.errors import BudgetExceeded, InputError, InternalError, Unable
 from qe.exact.algebraic import RealAlgebraic
 from qe.exact.number import simplest, square_root
 from qe.exact.ring import Ring
@@ -31,7 +31,7 @@ from qe.regions import planar, topology
 from qe.regions.build import described
 from qe.regions.convex_region import ConvexRegion
 from qe.regions.region import Region
-from qe.regions.walk import different_points, walked
+from qe.regions.walk import MOST_POINTS, different_points, walked
 
 T = TypeVar("T")
 
@@ -143,13 +143,13 @@ def section(region: Region, values: Mapping[Any, Coordinate], timeout: float | N
     return _region(region, exists(exact, found), rest, timeout)
 
 
-def distance(region: Region, point: Mapping[Any, Coordinate], timeout: float | None) -> Number:
+def distance(region: Region, point: object, timeout: float | None) -> Number:
     """The infimum of the distances of a point from the points of a region."""
-    from qe.convex.optimum import NotConvex, exact, minimize
+    from qe.convex.optimum import exact, minimize
     from qe.optimization.global_optimum import best
     from qe.proof.multipliers import OptimumStatus
 
-    given = _numbers(region, arguments.by_name(point, "point"), "point")
+    given = _numbers(region, arguments.point(point, region.order), "point")
     if missing := [v for v in region.order if v not in given]:
         raise InputError(f"point: a value for {missing[0]} expected")
     irrational = {v: a for v, a in given.items() if isinstance(a, RealAlgebraic)}
@@ -169,7 +169,9 @@ def distance(region: Region, point: Mapping[Any, Coordinate], timeout: float | N
         try:
             convex = minimize(square, conditions, scale=factor, budget=budget)
             status, value = convex.status, None if convex.value is None else exact(convex.value)
-        except NotConvex:
+        except Unable as error:
+            if isinstance(error, BudgetExceeded):
+                raise
             found = best(1, square, conditions, scale=factor, budget=budget)
             status, value = found.status, found.value
         if status is OptimumStatus.INFEASIBLE:
@@ -199,7 +201,7 @@ def sample(region: Region, seed: int, timeout: float | None) -> dict[str, Number
 
 def instances(region: Region, n: int, seed: int, timeout: float | None) -> list[dict[str, Number]]:
     """Different points of a region."""
-    count, walk = arguments.whole(n, "n"), random.Random(arguments.integers([seed], "seed")[0])
+    count, walk = arguments.whole(n, "n", MOST_POINTS), random.Random(arguments.integers([seed], "seed")[0])
     return _under(region, region.condition, timeout, lambda budgets: different_points(region, count, walk, budgets()))
 
 

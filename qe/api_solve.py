@@ -1,22 +1,29 @@
-"""The public functions that list solutions: ``solve``, ``find_instances``."""
+"""The public functions that list solutions: ``solve``, ``find_instances``, ``parametric_witnesses``."""
 
 from __future__ import annotations
 
 import random
 import time
 from dataclasses import replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from qe import arguments
-from qe.api_input import AnyFormula, read_formula
-from qe.api_limits import Progress, limits_of, performed
+from qe.api_input import AnyFormula, read_block
+from qe.api_limits import Progress, limits_of, performed, reading
+from qe.engine.run import solve as eliminated
 from qe.exact.number import Values
 from qe.execution import Budgets
-from qe.formula.traverse import free_variables
+from qe.formula.counting import without_root_atoms
+from qe.formula.syntax import Exists, ForAll
+from qe.formula.traverse import free_variables, is_quantifier_free
+from qe.options import Options
 from qe.progress import silent
 from qe.regions.build import described
 from qe.regions.solutions import Solutions
-from qe.regions.walk import different_points
+from qe.regions.walk import MOST_POINTS, different_points
+
+if TYPE_CHECKING:
+    from qe.elimination.vs.parametric import ParametricWitness
 
 
 def solve(
@@ -24,6 +31,7 @@ def solve(
     variables: Any = None,
     *,
     format: str = "text",
+    total_division: bool = False,
     timeout: float | None = None,
     memory: int | None = None,
     progress: Progress = silent,
@@ -37,18 +45,19 @@ def solve(
     Raises ``InputError`` for what cannot be read, ``Unable`` (``BudgetExceeded`` at a limit) where elimination does.
     """
     start = time.monotonic()
-    limits = limits_of(timeout, memory, progress, process)
-    given, wanted = read_formula(formula, format), arguments.names(variables, "variables")
+    whole = limits_of(timeout, memory, progress, process)
+    limits = whole.begun(start)
+    given, wanted = reading(formula, format, limits, total_division), arguments.names(variables, "variables")
     order = None if wanted is None else (*(v for v in free_variables(given) if v not in wanted), *wanted)
 
     def work(budgets: Budgets) -> Solutions:
         budget = budgets()
-        found = described(given, order, budget, replace(limits, process=False))
+        found = described(given, order, budget, replace(whole, process=False))
         cases = tuple(found.cells)
-        found.limits = limits
+        found.limits = whole
         return Solutions(found.order, cases, found)
 
-    return performed(work, given, limits.begun(start))
+    return performed(work, given, limits)
 
 
 reduce = solve
@@ -61,6 +70,7 @@ def find_instances(
     *,
     seed: int = 0,
     format: str = "text",
+    total_division: bool = False,
     timeout: float | None = None,
     memory: int | None = None,
     progress: Progress = silent,
@@ -71,12 +81,43 @@ def find_instances(
     See ``eliminate`` for the limits. Raises ``Unable`` (``BudgetExceeded`` at a limit) where no description is found.
     """
     start = time.monotonic()
-    count = arguments.whole(n, "n")
-    limits = limits_of(timeout, memory, progress, process)
-    given = read_formula(formula, format)
+    count, walk = arguments.whole(n, "n", MOST_POINTS), random.Random(arguments.integers([seed], "seed")[0])
+    whole = limits_of(timeout, memory, progress, process)
+    limits = whole.begun(start)
+    given = reading(formula, format, limits, total_division)
 
     def work(budgets: Budgets) -> list[Values]:
-        found = described(given, None, budgets(), replace(limits, process=False))
-        return different_points(found, count, random.Random(seed), budgets())
+        found = described(given, None, budgets(), replace(whole, process=False))
+        return different_points(found, count, walk, budgets())
 
-    return performed(work, given, limits.begun(start))
+    return performed(work, given, limits)
+
+
+def parametric_witnesses(
+    formula: AnyFormula,
+    *,
+    format: str = "text",
+    timeout: float | None = None,
+    memory: int | None = None,
+    progress: Progress = silent,
+    process: bool = True,
+) -> tuple[ParametricWitness, ...]:
+    """Solutions of the outermost block as terms in the free variables, each under its guard (extended answers).
+
+    The guards together are equivalent to an existential block; for a universal block the terms are counterexamples.
+    Raises ``InputError`` for a formula without an outermost block, ``Unable`` where substitution does not apply.
+    """
+    start = time.monotonic()
+    from qe.elimination.vs.parametric import parametric_witnesses as find
+
+    limits = limits_of(timeout, memory, progress, process).begun(start)
+    given = without_root_atoms(reading(formula, format, limits, reader=read_block))
+
+    def work(budgets: Budgets) -> tuple[ParametricWitness, ...]:
+        block = given
+        if isinstance(block, Exists | ForAll) and not is_quantifier_free(block.body):
+            # what is left may well be a constant
+            block = replace(block, body=eliminated(block.body, Options(), budgets()).formula)
+        return find(block, budget=budgets())
+
+    return performed(work, given, limits)

@@ -78,7 +78,7 @@ def _bracketed(text: str) -> str:
     return f"({text})" if " " in text or "*" in text else text
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class Range:
     """The values of one variable: from ``lower`` to ``upper`` (None: unbounded), ends included or not.
 
@@ -97,6 +97,9 @@ class Range:
 
     def __str__(self) -> str:
         return self._text(str)
+
+    def __repr__(self) -> str:
+        return f"<{self.brief()}>"
 
     def brief(self) -> str:
         """As ``str``, with long bounds described only."""

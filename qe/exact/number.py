@@ -8,10 +8,16 @@ from fractions import Fraction
 from flint import fmpz_poly
 
 from qe.exact.algebraic import RealAlgebraic, real_roots
+from qe.spelling import quoted
 
 Number = Fraction | RealAlgebraic
 Assignment = Mapping[str, Number]
 Values = dict[str, Number]
+
+
+def point_text(point: Mapping[str, object]) -> str:
+    """A point in one line: ``x = 1/2, y = sqrt(2)``, the names as the text syntax reads them."""
+    return ", ".join(f"{quoted(name)} = {value}" for name, value in point.items())
 
 
 def simplest(value: Number) -> Number:
@@ -33,4 +39,4 @@ def square_root(value: Number) -> Number:
     )
     spread = [c for pair in zip(coefficients, (0,) * len(coefficients), strict=True) for c in pair]
     squares, roots = ([r for r in real_roots(fmpz_poly(c)) if r > 0] for c in (list(coefficients), spread))
-    return simplest(roots[squares.index(value)])
+    return simplest(next(root for square, root in zip(squares, roots, strict=True) if square == value))

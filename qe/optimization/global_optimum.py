@@ -11,7 +11,7 @@ from qe.cells.pieces import merge
 from qe.engine.run import solve
 from qe.errors import Unable
 from qe.exact.algebraic import RealAlgebraic
-from qe.exact.number import Values
+from qe.exact.number import Values, point_text
 from qe.exact.polynomial_system import solve_system
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj, convert, exists
@@ -24,7 +24,7 @@ from qe.proof.multipliers import OptimumStatus
 Number = Fraction | RealAlgebraic
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class GlobalOptimum:
     """The answer to an optimisation problem that need not be convex.
 
@@ -45,6 +45,11 @@ class GlobalOptimum:
     values: Formula
     variable: str
     certificate: Certificate | None = None
+
+    def __repr__(self) -> str:
+        if not self.is_optimal:
+            return f"GlobalOptimum({self.status.value})"
+        return f"GlobalOptimum({self.value}{f' at {point_text(self.point)}' if self.point else ', not attained'})"
 
     @property
     def is_optimal(self) -> bool:

@@ -1,22 +1,17 @@
 """What sets are asked and joined by that needs the engine: the operators and further questions of a region.
 
-Their work stands where the engine is known (``qe.api_region``); ``qe`` itself says how it is reached: ``answered_by``.
+Their work stands where the engine is known, in ``qe.api_region``, which is reached by ``qe.later``.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Self
+
+from qe.later import later
 
 if TYPE_CHECKING:  # loaded with ``qe`` itself, which loads nothing of the engine
     from qe.cells.interval import Coordinate, Interval, Number
-
-_WAYS: list[Callable[[], Any]] = []
-
-
-def answered_by(ways: Callable[[], Any]) -> None:
-    """Set what gives the functions that do the work; called when one is needed, not before."""
-    _WAYS[:] = [ways]
 
 
 class SetOperations:
@@ -128,7 +123,9 @@ class SetOperations:
         found: Self = _ways().section(self, values, timeout)
         return found
 
-    def distance(self, point: Mapping[Any, Coordinate], *, timeout: float | None = None) -> Number:
+    def distance(
+        self, point: Mapping[Any, Coordinate] | Sequence[Coordinate], *, timeout: float | None = None
+    ) -> Number:
         """The exact distance of a point: the infimum over the set, 0 for its limit points, too.
 
         Raises ``InputError`` for an empty set.
@@ -168,4 +165,4 @@ class SetOperations:
 
 
 def _ways() -> Any:
-    return _WAYS[0]()
+    return later("regions")

@@ -12,6 +12,8 @@ from qe.exact.number import Values, simplest
 from qe.options import Budget
 from qe.regions.region import Region
 
+MOST_POINTS = 100_000
+"""So many points may be asked for at once."""
 TRIES = 64
 """Random walks in a row that may find nothing new before the rest of the points is looked for systematically."""
 FAR = 8

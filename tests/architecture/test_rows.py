@@ -22,6 +22,7 @@ ROWS = {
     "qe.surroundings": 0,
     "qe.sympy_form": 0,
     "qe.extras": 0,
+    "qe.later": 0,
     "qe.portable": 0,
     "qe.worker": 0,
     "qe.execution": 0,
