@@ -22,6 +22,7 @@ from qe.errors import (
     QEError,
     Unable,
 )
+from qe.later import provide
 from qe.options import Method, Stage
 from qe.sympy_form import written_by
 
@@ -32,12 +33,12 @@ if TYPE_CHECKING:
         eliminate,
         equivalent,
         find_instance,
-        parametric_witnesses,
         region,
         verify,
     )
     from qe.api_groebner import comprehensive_groebner, real_root_classification
     from qe.api_optimum import maximize, minimize
+    from qe.api_solve import find_instances, parametric_witnesses, reduce, solve
     from qe.certify.verdict import Verdict
     from qe.convex.optimum import Optimum
     from qe.elimination.vs.parametric import ParametricWitness
@@ -52,6 +53,7 @@ if TYPE_CHECKING:
     from qe.proof.answer import Answer, Guarantee, Status
     from qe.proof.certificate import Certificate
     from qe.regions.region import Region
+    from qe.regions.solutions import Solutions
 
 __version__ = "0.1.0"
 
@@ -64,6 +66,7 @@ _ELSEWHERE = {
     "comprehensive_groebner": "qe.api_groebner",
     "real_root_classification": "qe.api_groebner",
     **dict.fromkeys(("maximize", "minimize"), "qe.api_optimum"),
+    **dict.fromkeys(("find_instances", "parametric_witnesses", "reduce", "solve"), "qe.api_solve"),
     "Exists": "qe.io.sympy",
     "ForAll": "qe.io.sympy",
     "GlobalOptimum": "qe.optimization.global_optimum",
@@ -74,6 +77,7 @@ _ELSEWHERE = {
     "ParametricWitness": "qe.elimination.vs.parametric",
     "RealAlgebraic": "qe.exact.algebraic",
     "Region": "qe.regions.region",
+    "Solutions": "qe.regions.solutions",
     "Verdict": "qe.certify.verdict",
 }
 """Where public names stand that are neither here nor in ``qe.api``.
@@ -95,10 +99,14 @@ def __getattr__(name: str) -> Any:
 
 
 written_by(lambda value: import_module("qe.io.sympy").sympy_form(value))
+provide("regions", lambda: import_module("qe.api_region"))
+provide("connected", lambda: import_module("qe.io.expressions").connected)
+provide("formats", lambda: import_module("qe.io.formats"))
+provide("region", lambda: import_module("qe.api").region)
 
 
 def __dir__() -> list[str]:
-    return sorted({*globals(), *__all__})
+    return sorted((*__all__, *(name for name in globals() if name.startswith("__")), "api", "sympy"))
 
 
 __all__ = [
@@ -126,6 +134,7 @@ __all__ = [
     "RealAlgebraic",
     "RealRootClassification",
     "Region",
+    "Solutions",
     "Stage",
     "Statement",
     "Status",
@@ -138,13 +147,16 @@ __all__ = [
     "equivalent",
     "exists",
     "find_instance",
+    "find_instances",
     "forall",
     "from_z3",
     "maximize",
     "minimize",
     "parametric_witnesses",
     "real_root_classification",
+    "reduce",
     "region",
+    "solve",
     "variables",
     "verify",
 ]

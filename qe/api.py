@@ -5,24 +5,23 @@ from __future__ import annotations
 import sys
 import time
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import replace
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from qe import arguments
-from qe.api_input import AnyFormula, read_block, read_formula, read_polynomial, together
+from qe.api_input import AnyFormula, read_formula, read_polynomial, together
 from qe.api_limits import cluster_of
 from qe.api_limits import limits_of as _limits
 from qe.api_limits import performed as _performed
+from qe.api_limits import reading as _read
 from qe.errors import BudgetExceeded, InputError, Unable
 from qe.exact.number import Assignment
-from qe.execution import Budgets, Limits, perform
+from qe.execution import Budgets, Limits
 from qe.formula.build import convert, exists, forall, iff
 from qe.formula.counting import without_root_atoms
 from qe.formula.features import features
-from qe.formula.syntax import Exists, ForAll, Formula
-from qe.formula.traverse import free_variables, is_quantifier_free, ring_of
-from qe.formula.weight import text_may_block
+from qe.formula.syntax import Formula
+from qe.formula.traverse import free_variables, ring_of
 from qe.options import VERIFY_SECONDS, Budget, Cluster, Method, Options, Stage
 from qe.progress import Event, silent
 from qe.proof.answer import Answer, Status
@@ -32,11 +31,9 @@ from qe.proof.run_log import RunLog
 if TYPE_CHECKING:  # the checker and the optimiser are loaded where they are used
     from qe.certify.verdict import Verdict
     from qe.elimination.protocol import Outcome
-    from qe.elimination.vs.parametric import ParametricWitnesses
     from qe.regions.region import Region
 
 Result = TypeVar("Result")
-Reader = Callable[[AnyFormula, str], Formula]
 
 Progress = Callable[[Event], None]
 Order = Any
@@ -63,6 +60,7 @@ def eliminate(
     formula: AnyFormula,
     *,
     format: str = "text",
+    total_division: bool = False,
     timeout: float | None = None,
     memory: int | None = None,
     method: str | Method = Method.AUTO,
@@ -87,7 +85,9 @@ def eliminate(
     reason, when a limit was reached; it is never partial. With ``check`` the answer comes with a certificate where
     one can be had (if the method makes none, by a decomposition of the whole formula), verified by the separate
     checker; certificates that are a witness always are. A verification that does not end in time costs the
-    certificate, not the answer (``Answer.reason`` says so). ``explain`` tells on
+    certificate, not the answer (``Answer.reason`` says so). With ``total_division`` a quotient in text has some value,
+    too, where its denominator is zero, as in SMT-LIB: the formula holds if it does for a choice of these values.
+    ``explain`` tells on
     stderr how the answer was found (``Answer.explanation`` holds the same text); ``without`` leaves stages of the
     engine out (``qe.Stage``), to measure what they gain. With ``workers`` (processes on this machine) or ``cluster``
     (the address of a Dask scheduler) the cells of long decompositions are lifted side by side; the answer and its
@@ -103,7 +103,7 @@ def eliminate(
     if racing and (helpers is not None or options.method is not Method.AUTO or not limits.process):
         raise InputError("race: cannot go with method, workers, cluster or process=False")
     try:
-        given = _read(formula, format, limits)
+        given = _read(formula, format, limits, total_division)
     except BudgetExceeded as error:
         return Answer(Status.UNABLE, None, reason=str(error))
     _check_order(options.order, given)
@@ -122,14 +122,6 @@ def _check_order(order: tuple[str, ...] | None, formula: Formula) -> None:
     names = order or ()
     if not known.issuperset(names) or len(set(names)) < len(names):
         raise InputError(f"order: variables of the formula expected, each once, {', '.join(names)} found")
-
-
-def _read(formula: AnyFormula, format: str, limits: Limits, reader: Reader | None = None) -> Formula:
-    """The formula, read under the limits where reading may take long. Raises ``BudgetExceeded`` at one."""
-    read = reader or read_formula
-    if not isinstance(formula, str) or not text_may_block(formula):
-        return read(formula, format)
-    return perform(lambda budgets: read(formula, format), limits, at_once=True)
 
 
 def _solved(formula: Formula, options: Options, budget: Budget) -> Outcome:
@@ -188,80 +180,108 @@ def _answer(formula: Formula, options: Options, budget: Budget, check: bool) -> 
     return answer
 
 
-def decide(formula: AnyFormula, **keywords: Any) -> bool:
-    """The truth of a sentence. Raises ``InputError`` for free variables and ``Unable`` at a limit."""
-    given = read_formula(formula, keywords.pop("format", "text"))
+def decide(
+    formula: AnyFormula,
+    *,
+    format: str = "text",
+    total_division: bool = False,
+    timeout: float | None = None,
+    memory: int | None = None,
+    method: str | Method = Method.AUTO,
+    order: Order = None,
+    progress: Progress = silent,
+    root_atoms: bool = False,
+    without: Iterable[str | Stage] | str | Stage = (),
+    explain: bool = False,
+    check: bool = False,
+    process: bool = True,
+) -> bool:
+    """The truth of a sentence; the keywords are those of ``eliminate``.
+
+    Raises ``InputError`` for free variables and ``Unable`` at a limit.
+    """
+    given = read_formula(formula, format, total_division)
     free = free_variables(given)
     if free:
         raise InputError(f"a sentence expected; free: {', '.join(free)}")
-    answer = eliminate(given, **keywords)
+    answer = eliminate(
+        given,
+        timeout=timeout,
+        memory=memory,
+        method=method,
+        order=order,
+        progress=progress,
+        root_atoms=root_atoms,
+        without=without,
+        explain=explain,
+        check=check,
+        process=process,
+    )
     if answer.truth is None:
         raise Unable(answer.reason or "no decision was reached")
     return answer.truth
 
 
-def find_instance(formula: AnyFormula, **keywords: Any) -> Assignment | None:
-    """Exact values of the free variables that satisfy the formula, or None if there are none."""
-    given = read_formula(formula, keywords.pop("format", "text"))
+def find_instance(
+    formula: AnyFormula,
+    *,
+    format: str = "text",
+    total_division: bool = False,
+    timeout: float | None = None,
+    memory: int | None = None,
+    method: str | Method = Method.AUTO,
+    order: Order = None,
+    progress: Progress = silent,
+    root_atoms: bool = False,
+    without: Iterable[str | Stage] | str | Stage = (),
+    explain: bool = False,
+    check: bool = False,
+    process: bool = True,
+) -> Assignment | None:
+    """Exact values of the free variables that satisfy the formula, or None if there are none.
+
+    The keywords are those of ``eliminate``. Raises ``Unable`` at a limit.
+    """
+    given = read_formula(formula, format, total_division)
     free = free_variables(given)
-    if not free:
-        return {} if decide(given, **keywords) else None
-    answer = eliminate(exists(free, given), **keywords)
+    answer = eliminate(
+        exists(free, given),
+        timeout=timeout,
+        memory=memory,
+        method=method,
+        order=order,
+        progress=progress,
+        root_atoms=root_atoms,
+        without=without,
+        explain=explain,
+        check=check,
+        process=process,
+    )
     if answer.truth is None:
         raise Unable(answer.reason or "no decision was reached")
     if answer.truth is False:
         return None
-    if answer.witness is None:
+    if answer.witness is None and free:
         raise Unable("the formula is satisfiable, but no witness was found")
-    return {name: answer.witness.get(name, Fraction(0)) for name in free}
+    return {name: (answer.witness or {}).get(name, Fraction(0)) for name in free}
 
 
-def parametric_witnesses(
-    formula: AnyFormula,
+def check_witness(
+    sentence: AnyFormula,
+    witness: Mapping[Any, AnyFormula],
     *,
     format: str = "text",
     timeout: float | None = None,
     memory: int | None = None,
+    method: str | Method = Method.AUTO,
+    order: Order = None,
     progress: Progress = silent,
+    root_atoms: bool = False,
+    without: Iterable[str | Stage] | str | Stage = (),
+    explain: bool = False,
     check: bool = False,
     process: bool = True,
-) -> ParametricWitnesses:
-    """Solutions of the outermost block as terms in the free variables, each under its guard (extended answers).
-
-    The guards together are equivalent to an existential block; for a universal block the terms are counterexamples.
-    ``answer`` of the tuple says so as an ``Answer``; with ``check`` it has a certificate, whose steps put the terms in.
-    Raises ``InputError`` for a formula without an outermost block, ``Unable`` where substitution does not apply.
-    """
-    start = time.monotonic()
-    from qe.elimination.vs.parametric import parametric_witnesses as find
-
-    limits = _limits(timeout, memory, progress, process).begun(start)
-    check = arguments.flag(check, "check")
-    given = _read(formula, format, limits, read_block)
-
-    def work(budgets: Budgets) -> ParametricWitnesses:
-        from qe.api_verify import with_verdict
-        from qe.engine.run import derived
-
-        log, options, budget = RunLog(), Options(certify=check), budgets()
-        block = log.step("roots counted", given, without_root_atoms(given))
-        if isinstance(block, Exists | ForAll) and not is_quantifier_free(block.body):
-            # what is left may well be a constant
-            inner = _solved(block.body, options.with_(certify=False), budget)
-            log.entries += inner.log.entries
-            block = replace(block, body=inner.formula)
-        found = find(block, budget=budget, log=log)
-        formula = found.equivalent_to(given)
-        answer = Answer(Status.SOLVED, formula, question=given, log=log)
-        if check:
-            proof = derived(given, log, formula, options, budget)
-            answer = replace(answer, certificate=proof.certificate, unchecked_steps=proof.unchecked)
-        return found.with_(answer if answer.certificate is None else with_verdict(answer, budget))
-
-    return _performed(work, given, limits)
-
-
-def check_witness(sentence: AnyFormula, witness: Mapping[str, AnyFormula], **keywords: Any) -> bool:
+) -> bool:
     """Whether existential variables can be given by these polynomials in the variables quantified further outside.
 
     The polynomials (text, ``Poly`` or SymPy) are put in and the stronger sentence is decided: True proves the
@@ -271,21 +291,62 @@ def check_witness(sentence: AnyFormula, witness: Mapping[str, AnyFormula], **key
     from qe.elimination.witness import Term, instantiate
     from qe.exact.ring import Ring
 
-    given = without_root_atoms(read_formula(sentence, keywords.pop("format", "text")))
+    given = without_root_atoms(read_formula(sentence, format))
     offered, known = arguments.by_name(witness, "witness"), features(given).bound
     read = {name: read_polynomial(term, f"witness: {name}", known=known) for name, term in offered.items()}
     rings = [r for r in (ring_of(given), *(poly.ring for poly, _ in read.values())) if r is not None]
     ring = Ring.of(dict.fromkeys(name for r in rings for name in r.names))
     terms = {name: Term.of(poly.convert(ring), scale) for name, (poly, scale) in read.items()}
-    return decide(instantiate(convert(given, ring), terms), **keywords)
+    return decide(
+        instantiate(convert(given, ring), terms),
+        timeout=timeout,
+        memory=memory,
+        method=method,
+        order=order,
+        progress=progress,
+        root_atoms=root_atoms,
+        without=without,
+        explain=explain,
+        check=check,
+        process=process,
+    )
 
 
-def equivalent(left: AnyFormula, right: AnyFormula, **keywords: Any) -> bool:
-    """Whether two formulas have the same solutions in all their free variables together."""
-    format = keywords.pop("format", "text")
+def equivalent(
+    left: AnyFormula,
+    right: AnyFormula,
+    *,
+    format: str = "text",
+    timeout: float | None = None,
+    memory: int | None = None,
+    method: str | Method = Method.AUTO,
+    order: Order = None,
+    progress: Progress = silent,
+    root_atoms: bool = False,
+    without: Iterable[str | Stage] | str | Stage = (),
+    explain: bool = False,
+    check: bool = False,
+    process: bool = True,
+) -> bool:
+    """Whether two formulas have the same solutions in all their free variables together.
+
+    The keywords are those of ``eliminate``. Raises ``Unable`` at a limit.
+    """
     f, g = together(read_formula(left, format), read_formula(right, format))
     free = dict.fromkeys((*free_variables(f), *free_variables(g)))
-    return decide(forall(free, iff(f, g)), **keywords)
+    return decide(
+        forall(free, iff(f, g)),
+        timeout=timeout,
+        memory=memory,
+        method=method,
+        order=order,
+        progress=progress,
+        root_atoms=root_atoms,
+        without=without,
+        explain=explain,
+        check=check,
+        process=process,
+    )
 
 
 def region(
@@ -293,6 +354,7 @@ def region(
     order: Order = None,
     *,
     format: str = "text",
+    total_division: bool = False,
     timeout: float | None = None,
     memory: int | None = None,
     progress: Progress = silent,
@@ -318,7 +380,7 @@ def region(
     whole, names = _limits(timeout, memory, progress, process), arguments.names(order)
     limits = whole.begun(start)
     check = arguments.flag(check, "check")
-    read = _read(formula, format, limits)
+    read = _read(formula, format, limits, total_division)
 
     def work(budgets: Budgets) -> Region:
         from qe.api_verify import with_guarantee

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Container
+from decimal import Decimal
 from fractions import Fraction
+from numbers import Real
 from typing import Any
 
 from qe import arguments
@@ -18,8 +20,11 @@ AnyFormula = Any
 """A ``Formula``, text, or a SymPy object."""
 
 
-def read_formula(given: AnyFormula, format: str = "text") -> Formula:
-    """The formula given in any of the accepted shapes; ``InputError`` otherwise."""
+def read_formula(given: AnyFormula, format: str = "text", total_division: bool = False) -> Formula:
+    """The formula given in any of the accepted shapes; ``InputError`` otherwise.
+
+    ``total_division``: what text says of a division by zero (see ``qe.io.text.read``); other shapes know it already.
+    """
     from qe.io import formats
 
     chosen = formats.checked(format)
@@ -30,20 +35,20 @@ def read_formula(given: AnyFormula, format: str = "text") -> Formula:
             raise InputError("an answer without a formula was given")
         return given.formula
     if isinstance(given, str):
-        return formats.read(given, chosen)
+        return formats.read(given, chosen, total_division=total_division)
     from qe.io.sympy import from_sympy
 
     return from_sympy(given)
 
 
-def read_block(given: AnyFormula, format: str = "text") -> Formula:
+def read_block(given: AnyFormula, format: str = "text", total_division: bool = False) -> Formula:
     """The formula, its outermost quantifier kept where reading would drop it because its body is true or false.
 
     Text and ``qe.Exists``/``qe.ForAll`` still tell which it is; other formulas come without it.
     """
     from qe.io import formats
 
-    formula = read_formula(given, format)
+    formula = read_formula(given, format, total_division)
     if not isinstance(formula, Constant):
         return formula
     block = None
@@ -87,6 +92,9 @@ def read_polynomial(given: AnyFormula, what: str, *, known: Container[str] = ())
         return given
     if isinstance(given, bool):
         raise arguments.wrong(what, "a polynomial", given)
+    if isinstance(given, Real | Decimal):
+        number = arguments.rational(given, what)
+        return Ring.of(()).constant(number.numerator), Fraction(1, number.denominator)
     try:
         if isinstance(given, str):
             from qe.io.text import read_polynomial as read

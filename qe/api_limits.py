@@ -7,15 +7,17 @@ from importlib import import_module
 from typing import TypeVar
 
 from qe import arguments
+from qe.api_input import AnyFormula, read_formula
 from qe.errors import InputError
 from qe.execution import Budgets, Limits, perform
 from qe.formula.syntax import Formula
-from qe.formula.weight import may_block
+from qe.formula.weight import may_block, text_may_block
 from qe.options import Cluster
 from qe.progress import Event
 
 Result = TypeVar("Result")
 Progress = Callable[[Event], None]
+Reader = Callable[[AnyFormula, str, bool], Formula]
 
 MOST_WORKERS = 256
 """Processes that one call starts at most."""
@@ -51,3 +53,13 @@ def cluster_of(workers: int, address: str | None) -> Cluster | None:
     if address is None and not count:
         return None
     return Cluster(count, None if address is None else arguments.text(address, "cluster"))
+
+
+def reading(
+    formula: AnyFormula, format: str, limits: Limits, total_division: bool = False, *, reader: Reader = read_formula
+) -> Formula:
+    """The formula, read under the limits where reading may take long. Raises ``BudgetExceeded`` at one."""
+    total = arguments.flag(total_division, "total_division")
+    if not isinstance(formula, str) or not text_may_block(formula):
+        return reader(formula, format, total)
+    return perform(lambda budgets: reader(formula, format, total), limits, at_once=True)

@@ -31,6 +31,7 @@ MOST_MEMORY = 1 << 40
 LONGEST_NUMBER = 4000
 """Characters of a number, and the largest exponent of ten in one."""
 
+_TIMES = ("timedelta64", "datetime64")
 _NAMES = re.compile(rf"\s*(?:({QUOTED})|([^\s,`]+))(?:\s*,\s*(?=\S)|\s+|$)")
 _DECIMAL = re.compile(r"\s*[-+]?[0-9]*\.?[0-9]*(?:[eE]([-+]?[0-9]{1,5}))?\s*")
 _FRACTION = re.compile(r"\s*[-+]?[0-9]+\s*/\s*[0-9]+\s*")
@@ -76,8 +77,10 @@ def listener(value: object, what: str = "progress") -> Callable[..., Any]:
 
 
 def _number(given: object, kind: type) -> Any:
-    """The value if it is a number of this kind (``numbers.Real``, ``numbers.Integral``) and no truth value."""
-    return given if isinstance(given, kind) and not isinstance(given, bool) else None
+    """The value if it is a number of this kind (``numbers.Real``, ``numbers.Integral``), no truth value and no time
+    of numpy's, which its type calls an integer although it counts units of its own."""
+    is_number = isinstance(given, kind) and not isinstance(given, bool)
+    return given if is_number and type(given).__name__ not in _TIMES else None
 
 
 def seconds(given: object, what: str = "timeout") -> float | None:
@@ -202,8 +205,20 @@ def by_name(value: object, what: str) -> dict[str, Any]:
     return found
 
 
+def point(value: object, order: Sequence[str], what: str = "point") -> dict[str, Any]:
+    """Values by name, from a mapping or from as many values in the order of the variables."""
+    if isinstance(value, Mapping):
+        return by_name(value, what)
+    values = by_place(value, what)
+    if len(values) != len(order):
+        raise InputError(f"{what}: values for {', '.join(order)} expected, {len(values)} found")
+    return dict(zip(order, values, strict=True))
+
+
 def by_place(value: object, what: str) -> list[Any]:
-    """A sequence of values; text, which is one too, is not meant."""
+    """A sequence of values (also an array of numpy's); text, which is one too, is not meant."""
+    if hasattr(value, "tolist") and getattr(value, "ndim", None) == 1:
+        value = list(value)  # type: ignore[call-overload]
     if not isinstance(value, Sequence) or isinstance(value, str | bytes | bytearray):
         raise wrong(what, "values in order, or a mapping from names to values,", value)
     return list(value)
@@ -212,6 +227,8 @@ def by_place(value: object, what: str) -> list[Any]:
 # --- numbers ------------------------------------------------------------------------------------------------
 def rational(value: object, what: str, expected: str = "an exact number") -> Fraction:
     """A rational number: int, ``Fraction``, text such as ``-3/4`` or ``1.5e-3``; a finite float, also one of SymPy."""
+    if getattr(value, "shape", None) == () and hasattr(value, "ndim") and not isinstance(value, Real):
+        value = value.item()  # type: ignore[attr-defined]  # an array of numpy's that holds one number
     if isinstance(value, float):
         if not math.isfinite(value):
             raise wrong(what, expected, value)
@@ -220,8 +237,10 @@ def rational(value: object, what: str, expected: str = "an exact number") -> Fra
         return _rational(value, what, expected)
     if isinstance(value, Decimal) or getattr(value, "is_Float", False) is True:
         return _rational(str(value), what, expected)
-    if isinstance(value, Rational) and not isinstance(value, bool):
+    if _number(value, Rational) is not None and isinstance(value, Rational):
         return Fraction(int(value.numerator), int(value.denominator))
+    if _number(value, Real) is not None and type(value).__module__ == "numpy":  # float32 and its kind
+        return _rational(str(value), what, expected)
     raise wrong(what, expected, value)
 
 

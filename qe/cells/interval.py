@@ -21,7 +21,7 @@ Coordinate = int | Fraction | str | float | RealAlgebraic | FieldElement
 """
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class Interval:
     """Exact bounds of a variable: ``lower``/``upper`` are None when unbounded; ``*_closed``: attained.
 
@@ -33,6 +33,11 @@ class Interval:
     lower_closed: bool
     upper_closed: bool
     certificates: tuple[Certificate, ...] = ()
+
+    def __repr__(self) -> str:
+        low = "(-oo" if self.lower is None else f"{'[' if self.lower_closed else '('}{self.lower}"
+        high = "oo)" if self.upper is None else f"{self.upper}{']' if self.upper_closed else ')'}"
+        return f"Interval{low}, {high}"
 
     def __iter__(self) -> Iterator[Number | None]:
         yield self.lower

@@ -13,7 +13,8 @@ from qe.cells.sampled_cells import Number, Place, child, coordinates, root_place
 from qe.exact.algebraic import RealAlgebraic, real_roots
 from qe.exact.algebraic_brief import brief_algebraic
 from qe.exact.ring import Poly, format_poly
-from qe.exact.sample import Point
+from qe.formula.syntax import Formula
+from qe.io.text import read
 from qe.options import Budget
 from qe.proof.cells import CellTable
 from qe.spelling import quoted
@@ -24,9 +25,11 @@ LONGEST = 200
 
 @dataclass(frozen=True, slots=True)
 class RootFunction:
-    """The k-th real root (from 1, counted with multiplicity) of ``poly`` in its main variable.
+    """The k-th real root (from 1) of ``poly`` in its main variable; its text is a term that can be read back.
 
-    ``value`` is the number itself when the polynomial has one variable.
+    Distinct roots are counted, as in ``RootAtom``; those of a polynomial of degree 2 with a constant leading
+    coefficient, which are written with ``sqrt``, by their multiplicity. ``value`` is the number itself when the
+    polynomial has one variable.
     """
 
     poly: Poly
@@ -75,7 +78,7 @@ def _bracketed(text: str) -> str:
     return f"({text})" if " " in text or "*" in text else text
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class Range:
     """The values of one variable: from ``lower`` to ``upper`` (None: unbounded), ends included or not.
 
@@ -95,6 +98,9 @@ class Range:
     def __str__(self) -> str:
         return self._text(str)
 
+    def __repr__(self) -> str:
+        return f"<{self.brief()}>"
+
     def brief(self) -> str:
         """As ``str``, with long bounds described only."""
         return self._text(RootFunction.brief)
@@ -109,9 +115,12 @@ class Range:
         return f"{left}{name}{right}" if left or right else f"{name} any"
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class Piece:
-    """A union of cells with one description. ``dimension``: of its largest cell, the one at ``path`` in ``table``."""
+    """A union of cells with one description. ``dimension``: of its largest cell, the one at ``path`` in ``table``.
+
+    ``str`` is a conjunction with a bound or two for each variable in terms of those before it; it can be read back.
+    """
 
     ranges: tuple[Range, ...]
     dimension: int
@@ -126,12 +135,20 @@ class Piece:
             place = child(self.table, place, position)
         return coordinates(self.table, place)
 
+    @property
+    def formula(self) -> Formula:
+        """What ``str`` says, as a formula that holds at exactly the points of the piece; it may have root atoms."""
+        return read(str(self))
+
     def __str__(self) -> str:
-        return " and ".join(str(r) for r in self._bounded) or "everything"
+        return " and ".join(str(r) for r in self._bounded) or "true"
+
+    def __repr__(self) -> str:
+        return f"<{self.brief()}>"
 
     def brief(self) -> str:
         """As ``str``, for people: bounds whose exact text is longer than ``LONGEST`` characters are described only."""
-        return " and ".join(r.brief() for r in self._bounded) or "everything"
+        return " and ".join(r.brief() for r in self._bounded) or "true"
 
     @property
     def _bounded(self) -> list[Range]:
@@ -213,17 +230,20 @@ class _Merging:
         seen: dict[int, int] = {}
         met = dict.fromkeys(stack.used, 0)
         totals = {j: sum(j in s for s in stack.sections) for j in stack.used}
+        nullified = {j for j, sign in zip(stack.used, stack.cells[0].signs, strict=True) if sign == "0"}
         result: list[Candidates] = []
         for members in stack.sections:
             found: set[RootFunction] = set()
             for j in members:
                 poly = self.table.factors[level][j]
                 k = seen.get(j, 0) + 1
-                single = not self.distinct and totals[j] == 1
-                multiplicity = 2 if single and _true_degree(place.point, poly, level) == 2 else 1
+                double = not self.distinct and totals[j] == 1 and _is_quadratic(poly, level)
+                multiplicity = 2 if double else 1
                 value = self.value(poly, met[j]) if poly.variables == (level,) else None
                 met[j] += 1
-                found.update(RootFunction(poly, k + m, value) for m in range(multiplicity))
+                # where a polynomial is zero for every value, the place of its root is of no use in a text
+                if j not in nullified or nullified.issuperset(members):
+                    found.update(RootFunction(poly, k + m, value) for m in range(multiplicity))
                 seen[j] = k + multiplicity - 1
             result.append(frozenset(found))
         return result
@@ -278,11 +298,9 @@ def _common(a: Candidates | None, b: Candidates | None) -> Candidates | None:
     return a & b
 
 
-def _true_degree(point: Point, poly: Poly, level: int) -> int:
-    """The degree over the point, for polynomials of formal degree 2 (others: -1)."""
-    if poly.degree(level) != 2:
-        return -1
-    return 2 if point.sign(poly.leading(level)) else 1
+def _is_quadratic(poly: Poly, level: int) -> bool:
+    """Whether both roots can be written with ``sqrt`` wherever they are real, also where they meet."""
+    return poly.degree(level) == 2 and poly.leading(level).is_constant
 
 
 def _flatten(table: CellTable, branch: _Branch, ranges: tuple[Range, ...]) -> list[Piece]:

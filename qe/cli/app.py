@@ -1,4 +1,4 @@
-"""The command ``qe``: eliminate, decide, region, minimize, check, export-proof, convert, smt.
+"""The command ``qe``: eliminate, decide, region, solve, minimize, check, export-proof, convert, smt, prompt.
 
 Every command works in a child process under hard limits. Answers go to stdout and nothing else does;
 an error is one line on stderr. Exit status as in ``qe.cli.shell``.
@@ -24,7 +24,6 @@ from qe.io.formats import READABLE, Format
 from qe.options import Method
 
 app = typer.Typer(
-    add_completion=False,
     pretty_exceptions_enable=False,
     rich_markup_mode=None,
     help="Exact real quantifier elimination. FORMULA is text ('ex x. x^2 + b*x + c = 0'), a file, or - for stdin.",
@@ -78,7 +77,7 @@ def whole(
     """Exact real quantifier elimination. FORMULA is text ('ex x. x^2 + b*x + c = 0'), a file, or - for stdin."""
 
 
-@app.command(context_settings=_LENIENT)
+@app.command(context_settings=_LENIENT, short_help="A quantifier-free formula equivalent to FORMULA.")
 def eliminate(
     formula: Formula,
     format: InputFormat = None,
@@ -108,7 +107,7 @@ def eliminate(
     return deliver(reply, {"certificate": certificate}, explain=explain)
 
 
-@app.command(context_settings=_LENIENT)
+@app.command(context_settings=_LENIENT, short_help="Whether a sentence is true, a script satisfiable.")
 def decide(
     formula: Formula,
     format: InputFormat = None,
@@ -133,7 +132,7 @@ def decide(
     return deliver(reply, {"certificate": certificate}, explain=explain)
 
 
-@app.command(context_settings=_LENIENT)
+@app.command(context_settings=_LENIENT, short_help="The set of points that satisfy FORMULA.")
 def region(
     formula: Formula,
     format: InputFormat = None,
@@ -142,6 +141,7 @@ def region(
     timeout: Timeout = None,
     memory: Memory = None,
     certificate: CertificateFile = None,
+    total_division: TotalDivision = False,
     json: Json = False,
     plain: Plain = False,
 ) -> int:
@@ -149,13 +149,36 @@ def region(
     from qe.cli import region as cli_region
 
     check_writable(plot)
-    asked = replace(request(formula, format, timeout, memory, certificate, json), order=names(order))
+    asked = replace(request(formula, format, timeout, memory, certificate, json, total_division), order=names(order))
     work = partial(cli_region.region, request=asked, picture=None if plot is None else plot.suffix or ".png")
     reply = limited(work, timeout=timeout, memory=memory, plain=plain)
     return deliver(reply, {"certificate": certificate, "plot": plot})
 
 
-@app.command(context_settings=_LENIENT)
+@app.command(context_settings=_LENIENT, short_help="All solutions of FORMULA, case by case.")
+def solve(
+    formula: Formula,
+    variables: Annotated[
+        str | None, typer.Option("--variables", help="Those to solve for, as in x,y; the others come before them.")
+    ] = None,
+    format: InputFormat = None,
+    timeout: Timeout = None,
+    memory: Memory = None,
+    certificate: CertificateFile = None,
+    total_division: TotalDivision = False,
+    json: Json = False,
+    plain: Plain = False,
+) -> int:
+    """Print all real solutions, one case a line, each variable in terms of those before it."""
+    from qe.cli import region as cli_region
+
+    asked = request(formula, format, timeout, memory, certificate, json, total_division)
+    asked = replace(asked, order=names(variables))
+    reply = limited(partial(cli_region.solve, request=asked), timeout=timeout, memory=memory, plain=plain)
+    return deliver(reply, {"certificate": certificate})
+
+
+@app.command(context_settings=_LENIENT, short_help="The exact least value under CONSTRAINTS.")
 def minimize(
     objective: Annotated[str, typer.Argument(metavar="OBJECTIVE", show_default=False)],
     constraints: Annotated[str, typer.Argument(metavar="CONSTRAINTS|FILE|-", show_default=False)] = "true",
@@ -178,7 +201,7 @@ def minimize(
     return deliver(reply, {"certificate": certificate})
 
 
-@app.command()
+@app.command(short_help="Verify a certificate.")
 def check(
     certificate: Annotated[str, typer.Argument(metavar="CERTIFICATE|-", show_default=False)],
     formula: Annotated[
@@ -186,6 +209,7 @@ def check(
     ] = None,
     timeout: Timeout = None,
     memory: Memory = None,
+    json: Json = False,
 ) -> int:
     """Verify a certificate with the independent checker (60 seconds if no --timeout is given); say what it proves.
 
@@ -200,11 +224,11 @@ def check(
         raise InputError(f"{certificate}: no such file")
     seconds = VERIFY_SECONDS if timeout is None else timeout
     asked = None if formula is None else read_source(formula, None)
-    work = partial(cli_work.check, text=source.text, asked=asked, seconds=remaining(seconds))
+    work = partial(cli_work.check, text=source.text, asked=asked, seconds=remaining(seconds), as_json=json)
     return deliver(limited(work, timeout=seconds, memory=memory, plain=True), {})
 
 
-@app.command("export-proof")
+@app.command("export-proof", short_help="A certificate as proofs for a proof assistant.")
 def export_proof(
     certificate: Annotated[str, typer.Argument(metavar="CERTIFICATE|-", show_default=False)],
     to: Annotated[ProofFormat, typer.Option("--to", help="The proof assistant.")] = ProofFormat.COQ,
@@ -227,20 +251,22 @@ def export_proof(
     return deliver(limited(work, timeout=seconds, memory=memory, plain=True), {})
 
 
-@app.command(context_settings=_LENIENT)
+@app.command(context_settings=_LENIENT, short_help="FORMULA in another format.")
 def convert(
     formula: Formula,
     format: InputFormat = None,
     output: Output = Format.TEXT,
+    timeout: Timeout = None,
 ) -> int:
     """Print FORMULA in another format, unchanged in meaning."""
     from qe.cli import work as cli_work
 
+    check_limits(timeout, None)
     work = partial(cli_work.convert, source=read_source(formula, format), output=output)
-    return deliver(limited(work, timeout=None, memory=None, plain=True), {})
+    return deliver(limited(work, timeout=timeout, memory=None, plain=True), {})
 
 
-@app.command()
+@app.command(short_help="Run an SMT-LIB script as a solver.")
 def smt(
     script: Annotated[str, typer.Argument(metavar="FILE|-", show_default=False)] = "-",
     timeout: Annotated[
@@ -264,6 +290,17 @@ def smt(
     text, name = (None, "<stdin>") if source is None else (source.text, source.name)
     limit = timeout if timeout is None or interactive else remaining(timeout)
     return cli_smt.run(text, name, timeout=limit, memory=memory, interactive=interactive)
+
+
+@app.command(short_help="Ask and answer on the terminal (so does qe alone).")
+def prompt() -> int:
+    """Read questions and answer them until the input ends; % is the last answer, :help lists what can be asked.
+
+    On a terminal qe without a command does this, too.
+    """
+    from qe.cli import prompt as cli_prompt
+
+    return cli_prompt.run(None if cli_prompt.is_wanted() else cli_prompt.plain_reader())
 
 
 def request(
@@ -318,4 +355,6 @@ def deliver(reply: Reply, paths: dict[str, Path | None], *, explain: bool = Fals
 def main(argv: Sequence[str] | None = None) -> int:
     """The entry point of the command ``qe``; returns the exit status."""
     words = sys.argv[1:] if argv is None else argv
+    if not words and all(stream is not None and stream.isatty() for stream in (sys.stdin, sys.stdout)):
+        words = ["prompt"]
     return enter(app, words or ["--help"], name="qe")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import tempfile
 import time
 from pathlib import Path
@@ -37,6 +38,25 @@ def region(channel: Channel, request: Request, picture: str | None) -> Reply:
         files["plot"] = _drawn(found, picture)
     text = found.to_json() if request.json else "\n".join(_in_words(found, seconds))
     return Reply(text, files=files)
+
+
+def solve(channel: Channel, request: Request) -> Reply:
+    """``qe solve``."""
+    from qe import api_solve
+
+    start = time.perf_counter()
+    formula = read_formula(channel, request.source)
+    found = api_solve.solve(formula, request.order, timeout=request.timeout, progress=channel.event)
+    files = {"certificate": certificate_text(found.region)} if request.certificate else {}
+    if not request.json:
+        return Reply(str(found), files=files)
+    data = {
+        "status": "solved",
+        "variables": list(found.order),
+        "cases": [str(case) for case in found],
+        "seconds": round(time.perf_counter() - start, 6),
+    }
+    return Reply(json.dumps(data, indent=2, ensure_ascii=False), files=files)
 
 
 def _drawn(found: Region, ending: str) -> bytes:

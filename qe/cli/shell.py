@@ -6,6 +6,7 @@ Exit status: 0 answered, 2 bad input, 3 unable within the limits, 4 certificate 
 from __future__ import annotations
 
 import io
+import json
 import os
 import sys
 import tempfile
@@ -28,43 +29,63 @@ T = TypeVar("T")
 
 OK, BUG, BAD_INPUT, UNABLE, REJECTED, INTERRUPTED = 0, 1, 2, 3, 4, 130
 
+_PREFIX = {
+    "unable": "unable: ",
+    "rejected": "certificate rejected: ",
+    "internal_error": "internal error, please report: ",
+}
+"""What an error's line begins with, by its status."""
+
 DISPLAY_AFTER = 0.4
 """Seconds before a progress display appears: quick answers stay quiet."""
 
 
 def enter(app: typer.Typer, argv: Sequence[str] | None, *, name: str) -> int:
-    """Run a command line; the exit status. Errors become exactly one line on stderr."""
+    """Run a command line; the exit status. Errors become exactly one line on stderr.
+
+    With ``--json`` what went wrong stands on stdout, too, as one object.
+    """
     sys.excepthook = _one_line_hook(name)
     _open_streams()
     command: Any = get_command(app)
     take_plain_values(command)
+    words = sys.argv[1:] if argv is None else argv
+
+    def told(status: str, message: str, code: int) -> int:
+        lost = (
+            _put({"status": status, "message": " ".join(message.split()), "exit": code}) if "--json" in words else None
+        )
+        if lost is not None:
+            return _unheard(name, lost)
+        return fail(name, _PREFIX.get(status, "") + message, code)
+
     try:
         code = command.main(args=None if argv is None else list(argv), prog_name=name, standalone_mode=False)
         sys.stdout.flush()
         return int(code or OK)
     except typer.TyperException as error:
         message = error.format_message().replace("Value error, ", "").rstrip(".")
-        message = _misspelt(command, sys.argv[1:] if argv is None else argv) or message
-        return fail(name, f"{message} (see {name} --help)", BAD_INPUT)
+        message = _misspelt(command, words) or message
+        return told("input_error", f"{message} (see {name} --help)", BAD_INPUT)
     except InputError as error:
         unknown = str(error).startswith("no such option")
-        message = _misspelt(command, sys.argv[1:] if argv is None else argv) if unknown else ""
-        return fail(name, message or str(error), BAD_INPUT)
+        message = _misspelt(command, words) if unknown else ""
+        return told("input_error", message or str(error), BAD_INPUT)
     except (WorkerStopped, WorkerDied) as error:
-        return fail(name, f"unable: {error}; known {error.known}", UNABLE)
+        return told("unable", f"{error}; known {error.known}", UNABLE)
     except Unable as error:
-        return fail(name, f"unable: {error}", UNABLE)
+        return told("unable", str(error), UNABLE)
     except CertificateRejected as error:
-        return fail(name, f"certificate rejected: {error}", REJECTED)
+        return told("rejected", str(error), REJECTED)
     except InternalError as error:
-        return fail(name, f"internal error, please report: {error}", BUG)
+        return told("internal_error", str(error), BUG)
     except (KeyboardInterrupt, typer.Abort):
-        return fail(name, "interrupted", INTERRUPTED)
+        return told("interrupted", "interrupted", INTERRUPTED)
     except ImportError as error:
-        told = lacking(error)
-        if told is None:
+        absent = lacking(error)
+        if absent is None:
             raise
-        return fail(name, f"unable: {told}", UNABLE)
+        return told("unable", str(absent), UNABLE)
     except OSError as error:
         if error.filename is not None:
             raise
@@ -73,6 +94,15 @@ def enter(app: typer.Typer, argv: Sequence[str] | None, *, name: str) -> int:
         if not isinstance(stop.__context__, OSError):
             raise
         return _unheard(name, stop.__context__)
+
+
+def _put(data: dict[str, object]) -> OSError | None:
+    """Write an object on stdout; the error that kept it from being written."""
+    try:
+        print(json.dumps(data, indent=2, ensure_ascii=False), flush=True)
+    except OSError as error:
+        return error
+    return None
 
 
 def _misspelt(command: Any, words: Sequence[str]) -> str:

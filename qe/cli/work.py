@@ -118,7 +118,8 @@ def decide(channel: Channel, request: Request) -> Reply:
     text = ("sat" if answer.truth else "unsat") if script else ("true" if answer.truth else "false")
     files = {"certificate": certificate_text(answer)} if request.certificate else {}
     if request.json:
-        return Reply(json.dumps(_summary(answer, seconds), indent=2, ensure_ascii=False), files=files)
+        data = {"status": answer.status.name.lower(), **_summary(answer, seconds)}
+        return Reply(json.dumps(data, indent=2, ensure_ascii=False), files=files)
     return Reply(text, _story(answer, seconds), files)
 
 
@@ -140,7 +141,7 @@ def convert(channel: Channel, source: Source, output: Format) -> Reply:
     return Reply(formats.write(read_formula(channel, source), output.value).rstrip("\n"))
 
 
-def check(channel: Channel, text: str, asked: Source | None, seconds: float) -> Reply:
+def check(channel: Channel, text: str, asked: Source | None, seconds: float, as_json: bool = False) -> Reply:
     """``qe check``: exit status 4 when the certificate is rejected, 3 when that is not decided."""
     from qe.api_verify import of_question
     from qe.certify.claims import claim_of, is_about
@@ -159,7 +160,11 @@ def check(channel: Channel, text: str, asked: Source | None, seconds: float) -> 
         raise Unable(f"not decided: {verdict.reason}")
     if not verdict.accepted:
         raise CertificateRejected(verdict.step, verdict.reason)
-    lines = [f"accepted ({time.perf_counter() - start:.3f} s)", *claim_of(certificate).words]
+    took = time.perf_counter() - start
+    if as_json:
+        data = {"status": "accepted", "claims": list(claim_of(certificate).words), "seconds": round(took, 6)}
+        return Reply(json.dumps(data, indent=2, ensure_ascii=False))
+    lines = [f"accepted ({took:.3f} s)", *claim_of(certificate).words]
     if formula is not None:
         lines.append(f"so the question that was given has the answer  {is_about(certificate, formula)}")
     return Reply("\n".join(lines))

@@ -16,6 +16,7 @@ from qe.convex.system import NotConvex, atoms_of, read_system
 from qe.errors import Unable
 from qe.exact.algebraic import RealAlgebraic
 from qe.exact.field import FieldElement, NumberField
+from qe.exact.number import point_text
 from qe.exact.quadratic_form import independent_rows
 from qe.exact.ring import Poly, Ring
 from qe.formula.syntax import Atom, Formula
@@ -37,7 +38,7 @@ Exact = Fraction | RealAlgebraic
 __all__ = ["NotConvex", "Optimum", "OptimumStatus", "maximize", "minimize"]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class Optimum:
     """The answer to an optimisation problem.
 
@@ -72,6 +73,11 @@ class Optimum:
     def active_constraints(self) -> tuple[str, ...]:
         """The active constraints as text."""
         return tuple(self.constraints[i] for i in self.active)
+
+    def __repr__(self) -> str:
+        if not self.is_optimal:
+            return f"Optimum({self.status.value})"
+        return f"Optimum({self.value}{f' at {point_text(self.point)}' if self.attained else ', not attained'})"
 
     @property
     def is_optimal(self) -> bool:

@@ -5,11 +5,19 @@ from __future__ import annotations
 from collections.abc import Mapping
 from fractions import Fraction
 
-from qe.exact.algebraic import RealAlgebraic
+from flint import fmpz_poly
+
+from qe.exact.algebraic import RealAlgebraic, real_roots
+from qe.spelling import quoted
 
 Number = Fraction | RealAlgebraic
 Assignment = Mapping[str, Number]
 Values = dict[str, Number]
+
+
+def point_text(point: Mapping[str, object]) -> str:
+    """A point in one line: ``x = 1/2, y = sqrt(2)``, the names as the text syntax reads them."""
+    return ", ".join(f"{quoted(name)} = {value}" for name, value in point.items())
 
 
 def simplest(value: Number) -> Number:
@@ -17,3 +25,18 @@ def simplest(value: Number) -> Number:
     if isinstance(value, RealAlgebraic) and value.is_rational:
         return value.as_fraction()
     return value
+
+
+def square_root(value: Number) -> Number:
+    """The square root of a number that is not negative.
+
+    The roots of p(x^2) that are not negative are the roots of those of p, in the same order.
+    """
+    if value == 0:
+        return Fraction(0)
+    coefficients = (
+        value.minimal_polynomial if isinstance(value, RealAlgebraic) else (-value.numerator, value.denominator)
+    )
+    spread = [c for pair in zip(coefficients, (0,) * len(coefficients), strict=True) for c in pair]
+    squares, roots = ([r for r in real_roots(fmpz_poly(c)) if r > 0] for c in (list(coefficients), spread))
+    return simplest(next(root for square, root in zip(squares, roots, strict=True) if square == value))

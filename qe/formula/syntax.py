@@ -12,12 +12,16 @@ from typing import ClassVar
 
 from qe.exact.ring import Poly, Ring
 from qe.formula.notation import Level, Notation, bracketed, chain, oriented, polynomial
+from qe.formula.operators import Connected
 from qe.formula.relation import Relation as Relation
 from qe.formula.text import text_notation
 from qe.sympy_form import SymPyForm
 
+LONGEST = 300
+"""Characters of a formula in its ``repr`` and those of values that have one."""
 
-class Formula(SymPyForm):
+
+class Formula(Connected, SymPyForm):
     """Base class of all nodes; ``str()`` prints the text syntax.
 
     ``ring``, ``free``, ``is_quantifier_free`` and the hash are worked out when they are first asked for and then kept.
@@ -91,6 +95,14 @@ class Formula(SymPyForm):
     def __str__(self) -> str:
         return self.written(text_notation(self.free))
 
+    def __repr__(self) -> str:
+        return f"Formula({self.brief()})"
+
+    def brief(self) -> str:
+        """As ``str``, cut off after ``LONGEST`` characters."""
+        text = str(self)
+        return text if len(text) <= LONGEST else f"{text[: LONGEST - 1]}…"
+
     def written(self, notation: Notation, level: Level = Level.OPEN, last: bool = True) -> str:
         """The text in a line format, with no more brackets than reading it back needs.
 
@@ -117,7 +129,7 @@ class Constant(Formula):
 TRUE, FALSE = Constant(True), Constant(False)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class Atom(Formula):
     """``poly relation 0``. Invariant: poly is non-constant, primitive, with positive leading coefficient."""
 
@@ -138,7 +150,7 @@ class Atom(Formula):
         return f"{polynomial(parts, notation)} {notation.relation(relation)} 0"
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class RootAtom(Formula):
     """``variable relation root_k(poly)``: the k-th smallest distinct real root of ``poly`` in ``variable``.
 
@@ -165,7 +177,7 @@ class RootAtom(Formula):
         return notation.root(self.variable, self.relation, self.poly, self.k)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class Connective(Formula):
     """Two or more formulas joined by one connective."""
 
@@ -183,7 +195,7 @@ class Connective(Formula):
         return all(arg.is_quantifier_free for arg in self.args)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class And(Connective):
     """Conjunction. Invariant (builders): at least two arguments, none an And or a Constant."""
 
@@ -193,7 +205,7 @@ class And(Connective):
         return chain(self.args, Level.AND, level, last, notation)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class Or(Connective):
     """Disjunction. Invariant (builders): at least two arguments, none an Or or a Constant."""
 
@@ -203,7 +215,7 @@ class Or(Connective):
         return chain(self.args, Level.OR, level, last, notation)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class Not(Formula):
     """Negation."""
 
@@ -226,7 +238,7 @@ class Not(Formula):
         return notation.negation + self.arg.written(notation, Level.NOT, last)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class Quantified(Formula):
     """A block of one kind of quantifier over a body."""
 
@@ -253,14 +265,14 @@ class Quantified(Formula):
         return prefix + self.body.written(notation)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class Exists(Quantified):
     """There are real values of ``variables`` such that ``body``."""
 
     __hash__ = Formula.__hash__
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class ForAll(Quantified):
     """For all real values of ``variables``, ``body``."""
 

@@ -6,13 +6,14 @@ An ``Expression`` is a term, made of variables and exact numbers by ``+ - * / **
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 from fractions import Fraction
 from typing import Any, NoReturn
 
 from qe import arguments
 from qe.errors import InputError, NoTruthValue
 from qe.exact.algebraic import RealAlgebraic
+from qe.exact.field import FieldElement
 from qe.formula import build
 from qe.formula.syntax import Formula, Relation
 from qe.formula.traverse import atoms
@@ -31,6 +32,7 @@ class Expression:
     """A term; ``str`` shows it as text."""
 
     __slots__ = ("term",)
+    __array_ufunc__ = None  # numpy's scalars leave the operators to this class
 
     def __init__(self, term: s.Term) -> None:
         self.term = term
@@ -123,6 +125,7 @@ class Statement:
     """A formula that Python's operators connect: ``f & g``, ``f | g``, ``~f``, ``f >> g`` (implication)."""
 
     __slots__ = ("formula",)
+    __array_ufunc__ = None
 
     def __init__(self, formula: Formula) -> None:
         self.formula = formula
@@ -143,22 +146,22 @@ class Statement:
         return Statement(substitute(self.formula, {name: _term(value) for name, value in given.items()}))
 
     def __and__(self, other: object) -> Statement:
-        return _connected(build.conj, self, other)
+        return _connected("and", self, other)
 
     def __rand__(self, other: object) -> Statement:
-        return _connected(build.conj, other, self)
+        return _connected("and", other, self)
 
     def __or__(self, other: object) -> Statement:
-        return _connected(build.disj, self, other)
+        return _connected("or", self, other)
 
     def __ror__(self, other: object) -> Statement:
-        return _connected(build.disj, other, self)
+        return _connected("or", other, self)
 
     def __rshift__(self, other: object) -> Statement:
-        return _connected(lambda parts: build.implies(*parts), self, other)
+        return _connected("implies", self, other)
 
     def __rrshift__(self, other: object) -> Statement:
-        return _connected(lambda parts: build.implies(*parts), other, self)
+        return _connected("implies", other, self)
 
     def __invert__(self) -> Statement:
         return Statement(build.neg(self.formula))
@@ -183,6 +186,9 @@ class Statement:
 
     def __repr__(self) -> str:
         return f"Statement({self.formula})"
+
+    def _repr_latex_(self) -> str | None:
+        return self.formula._repr_latex_()
 
     def _sympy_(self) -> Any:
         return self.formula._sympy_()
@@ -217,6 +223,8 @@ def _bound(variables: object) -> tuple[str, ...]:
 def _formula(given: object) -> Formula:
     if isinstance(given, Formula):
         return given
+    if isinstance(given, Statement):
+        return given.formula
     if isinstance(given, str):
         from qe.io.text import read
 
@@ -226,8 +234,22 @@ def _formula(given: object) -> Formula:
     return from_sympy(given)
 
 
-def _connected(join: Callable[[Iterable[Formula]], Formula], left: object, right: object) -> Statement:
-    return Statement(join(over_one_ring(_formula(left), _formula(right))))
+_JOINS: dict[str, Callable[..., Formula]] = {
+    "and": lambda *parts: build.conj(parts),
+    "or": lambda *parts: build.disj(parts),
+    "implies": build.implies,
+    "not": build.neg,
+}
+
+
+def connected(way: str, *parts: object) -> Formula | Statement:
+    """The formula that ``and``, ``or``, ``implies`` or ``not`` makes; a ``Statement`` where one takes part."""
+    made = _JOINS[way](*over_one_ring(*map(_formula, parts)))
+    return Statement(made) if any(isinstance(part, Statement) for part in parts) else made
+
+
+def _connected(way: str, left: object, right: object) -> Statement:
+    return Statement(_JOINS[way](*over_one_ring(_formula(left), _formula(right))))
 
 
 def _joined(build_term: Callable[[s.Term, s.Term], s.Term], left: object, right: object) -> Expression:
@@ -242,8 +264,8 @@ def _term(given: object) -> s.Term:
     """A number, an expression, text, or a SymPy expression as a term."""
     if isinstance(given, Expression):
         return given.term
-    if isinstance(given, RealAlgebraic):
-        return s.Algebraic(given, -1)
+    if isinstance(given, RealAlgebraic | FieldElement):
+        return s.Algebraic(given if isinstance(given, RealAlgebraic) else given.to_algebraic(), -1)
     if isinstance(given, bool):
         raise arguments.wrong("term", "a number or an expression", given)
     if isinstance(given, str):

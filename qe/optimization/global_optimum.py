@@ -12,7 +12,7 @@ from qe.elimination.protocol import Problem
 from qe.engine.run import solve
 from qe.errors import Unable
 from qe.exact.algebraic import RealAlgebraic
-from qe.exact.number import Values
+from qe.exact.number import Values, point_text
 from qe.exact.polynomial_system import solve_system
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj, convert, exists
@@ -30,7 +30,7 @@ POINT = "point"
 """The label of the certificate of a point."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class GlobalOptimum:
     """The answer to an optimisation problem that need not be convex.
 
@@ -62,6 +62,11 @@ class GlobalOptimum:
         members = self.certificate.payload if self.certificate is not None else ()
         shown = isinstance(members, tuple) and any(member.label == POINT for member in members)
         return (*self.answer.unchecked_steps, *([POINT] if self.point and not shown else []))
+
+    def __repr__(self) -> str:
+        if not self.is_optimal:
+            return f"GlobalOptimum({self.status.value})"
+        return f"GlobalOptimum({self.value}{f' at {point_text(self.point)}' if self.point else ', not attained'})"
 
     @property
     def is_optimal(self) -> bool:

@@ -17,7 +17,7 @@ from qe.proof.answer import Answer, Guarantee
 from qe.proof.certificate import Certificate
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class Case:
     """Where the parameters lie in ``ranges``, the optimum is ``value`` (None: unbounded), taken or only approached.
 
@@ -28,13 +28,16 @@ class Case:
     value: RootFunction | None
     attained: bool
 
+    def __repr__(self) -> str:
+        return f"<{self}>"
+
     def __str__(self) -> str:
         where = ", ".join(str(r) for r in self.ranges)
         what = "unbounded" if self.value is None else f"{self.value}{'' if self.attained else ' (not attained)'}"
         return f"{what} if {where}" if where else what
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class ParametricOptimum:
     """The minimum or maximum as a function of the parameters: ``cases`` with disjoint conditions.
 
@@ -54,6 +57,10 @@ class ParametricOptimum:
 
     def __iter__(self) -> Iterator[Case]:
         return iter(self.cases)
+
+    def __repr__(self) -> str:
+        count = len(self.cases)
+        return f"ParametricOptimum({', '.join(self.parameters)}: {count} case{'s' if count != 1 else ''})"
 
     def __str__(self) -> str:
         return "\n".join(map(str, self.cases)) or "no point meets the constraints"

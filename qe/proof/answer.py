@@ -5,11 +5,14 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import Enum
+from html import escape
+from pathlib import Path
 from typing import Any
 
 from qe.errors import NoTruthValue, Unable
-from qe.exact.number import Assignment
+from qe.exact.number import Assignment, point_text
 from qe.formula.syntax import Constant, Formula
+from qe.later import later
 from qe.proof.certificate import Certificate
 from qe.proof.derivation import Derivation, put_together
 from qe.proof.run_log import RunLog
@@ -29,7 +32,7 @@ class Guarantee(Enum):
     DERIVED = "derived"
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class Answer:
     """``formula``: quantifier-free and equivalent to the input over R (None if unable).
 
@@ -121,6 +124,36 @@ class Answer:
     def __bool__(self) -> bool:
         """Raises ``NoTruthValue``: a false sentence has an answer, too."""
         raise NoTruthValue("an answer has no truth value of its own; ask for answer.truth, or call qe.decide")
+
+    def plot(
+        self, path: str | Path | None = None, *, ax: Any = None, order: Any = None, timeout: float | None = None
+    ) -> Any:
+        """A picture of the values of one to three free variables for which the formula holds; see ``Region.plot``.
+
+        ``order``: which variable goes where. Raises ``InputError`` for other numbers of variables, ``Unable`` where
+        there is no answer, ``BudgetExceeded`` at the limit.
+        """
+        if self.formula is None:
+            raise Unable(f"there is no formula to draw: {self.reason}")
+        return later("region")(self.formula, order, timeout=timeout).plot(path, ax=ax, timeout=timeout)
+
+    def __repr__(self) -> str:
+        found = f"unable: {self.reason}" if self.formula is None else self.formula.brief()
+        known = f", {point_text(self.witness)}" if self.witness else ""
+        return f"Answer({found}{known}; {self.guarantee.value})"
+
+    def _repr_latex_(self) -> str | None:
+        return None if self.formula is None else self.formula._repr_latex_()
+
+    def _repr_html_(self) -> str:
+        """The formula with its guarantee and time, for notebooks."""
+        seconds = self.log.seconds
+        notes = [self.guarantee.value, *([] if seconds is None else [f"{seconds:.3f} s"])]
+        if self.witness:
+            notes.append(f"{'counterexample' if self.truth is False else 'witness'}: {point_text(self.witness)}")
+        shown = "unable" if self.formula is None else later("formats").write(self.formula, "mathml")
+        reason = [self.reason] if self.reason else []
+        return f"<div>{shown}<br><small>{escape('; '.join((*notes, *reason)))}</small></div>"
 
     def __str__(self) -> str:
         return str(self.formula) if self.formula is not None else f"unable: {self.reason}"

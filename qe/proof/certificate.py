@@ -79,7 +79,7 @@ class Root:
 Payload = CellEvidence | tuple[Labelled, ...] | dict[str, Json]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class Certificate:
     """Payload by kind: CELLS: ``CellEvidence``; BUNDLE: a tuple of ``Labelled``; the others: plain JSON data.
 
@@ -89,6 +89,10 @@ class Certificate:
     kind: Kind
     payload: Payload
     digests: tuple[str, str] | None = field(default=None, compare=False)
+
+    def __repr__(self) -> str:
+        members = f", {len(self.payload)} members" if isinstance(self.payload, tuple) else ""
+        return f"Certificate({self.kind.value}{members})"
 
     @staticmethod
     def cells(table: CellTable, answer: Formula | None = None) -> Certificate:

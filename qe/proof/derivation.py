@@ -18,7 +18,7 @@ from qe.io.names import names_in
 from qe.proof.step import Place, Step
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class Derivation:
     """``start`` and the steps in their order. ``whole[k]`` is the formula after k steps; ``answer`` is the last one.
 
@@ -30,6 +30,10 @@ class Derivation:
     steps: tuple[Step, ...] = ()
     whole: tuple[Formula, ...] = field(default=(), repr=False)
     is_complete: bool = False
+
+    def __repr__(self) -> str:
+        rules = ", ".join(step.rule for step in self.steps[:8])
+        return f"Derivation({len(self.steps)} steps: {rules}{', …' if len(self.steps) > 8 else ''})"
 
     def to_latex(self) -> str:
         """The derivation as numbered LaTeX lines, each with the name of its rule."""

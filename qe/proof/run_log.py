@@ -43,7 +43,7 @@ class Work:
 Entry = Step | Choice | Switch | Work
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, repr=False)
 class RunLog:
     """Entries in order. Nothing in the engine reads them back: they are for people, derivations and statistics."""
 
@@ -83,6 +83,9 @@ class RunLog:
     def forget_steps(self, mark: int) -> None:
         """Leave out the steps since a mark: the attempt was given up. Choices, switches and figures stay."""
         self.entries[mark:] = [e for e in self.entries[mark:] if not isinstance(e, Step)]
+
+    def __repr__(self) -> str:
+        return f"RunLog({len(self.entries)} entries)"
 
     def steps(self) -> Iterator[Step]:
         """The steps in order."""

@@ -80,6 +80,11 @@ class ConvexRegion(Region):
             self._formula = self._asked(self._eliminated, at_once=True)
         return self._formula
 
+    @property
+    def condition(self) -> Formula:
+        """The convex conditions, behind existential quantifiers where variables are hidden."""
+        return exists(self._shadow.hidden, self._shadow.conditions)
+
     def _eliminated(self) -> Formula:
         shadow = self._shadow
         found = shadow.eliminate(shadow.whole, self._current()) if shadow.hidden else shadow.conditions

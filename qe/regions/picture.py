@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from html import escape
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +18,24 @@ def check_ending(path: Path) -> None:
     """``InputError`` for a file name that no picture has."""
     if path.suffix.lower() not in (*FLAT, TURNABLE):
         raise InputError(f"a picture needs a file name ending in .png, .svg, .pdf or .html, {path.name} found")
+
+
+def inline(sketch: Sketch) -> str:
+    """An HTML image that holds the picture itself. Raises ``ImportError`` where matplotlib is not installed."""
+    from base64 import b64encode
+    from io import BytesIO
+
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(3.6, 2.9), dpi=100)
+    FigureCanvasAgg(figure)
+    paint(sketch, figure.add_subplot(projection=_projection(sketch)))
+    figure.tight_layout()
+    content = BytesIO()
+    figure.savefig(content, format="png")
+    names = escape(", ".join(sketch.order))
+    return f'<img alt="the region in {names}" src="data:image/png;base64,{b64encode(content.getvalue()).decode()}">'
 
 
 def write(sketch: Sketch, path: Path) -> Any:

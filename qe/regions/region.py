@@ -5,17 +5,19 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
+from html import escape
 from pathlib import Path
 from typing import Any, TypeVar
 
 from qe.arguments import by_name, by_place, instance, name, ratio, seconds
 from qe.arguments import path as name_of_file
+from qe.arguments import point as point_of
 from qe.cad.decompose import decompose
 from qe.cells.fibres import any_true, fibre_of
 from qe.cells.interval import Coordinate, Interval, Number, number_of
 from qe.cells.pieces import Piece, merge
 from qe.cells.sampled_cells import Place, coordinates, free_part, leaves
-from qe.errors import InputError
+from qe.errors import InputError, Unable
 from qe.exact.algebraic import RealAlgebraic
 from qe.exact.ring import Poly, Ring
 from qe.exact.sample import Point
@@ -30,14 +32,19 @@ from qe.options import Budget
 from qe.proof.answer import Answer, Guarantee
 from qe.proof.cells import Cell, CellTable
 from qe.proof.certificate import Certificate
+from qe.regions.operators import SetOperations
 from qe.regions.volume import enclose
 
 T = TypeVar("T")
+Values = Mapping[Any, Coordinate] | Sequence[Coordinate]
+"""Coordinates by name (or by variable), or in order."""
+PICTURE_SECONDS = 3.0
+"""What the picture of a region may take that a notebook shows without being asked for it."""
 NONE = Limits()
 _CACHES = ("_bounds", "_formula", "_pieces", "_table")
 
 
-class Region:
+class Region(SetOperations):
     """The set of real points that satisfy ``formula``; ``table`` proves where it is true.
 
     ``limits`` hold for every question (replace them to change them); ``timeout`` in seconds, where a question has one,
@@ -132,6 +139,11 @@ class Region:
         return self._formula
 
     @property
+    def condition(self) -> Formula:
+        """The formula that is cheapest to have, perhaps with quantifiers."""
+        return self.formula
+
+    @property
     def table(self) -> CellTable:
         """The decomposition that proves where the formula is true."""
         assert self._table is not None
@@ -154,12 +166,13 @@ class Region:
         size = len(self.order)
         return max((p.dimension + size - p.depth for p in leaves(self.table, is_true)), default=-1)
 
-    def contains(self, point: Mapping[str, Coordinate], *, timeout: float | None = None) -> bool:
-        """Exact membership. Coordinates: int, Fraction, decimal or fraction text, exact irrational numbers.
+    def contains(self, point: Values, *, timeout: float | None = None) -> bool:
+        """Exact membership. ``point``: values by name (or variable), or in the order of the variables.
 
-        A float is the decimal number that it prints. Raises ``InputError`` for other things and missing names.
+        Coordinates: int, Fraction, decimal or fraction text, exact irrational numbers, numpy's and SymPy's. A float is
+        the decimal number that it prints. Raises ``InputError`` for other things and missing names.
         """
-        values = self._values(by_name(point, "point"), len(self.order))
+        values = self._values(point_of(point, self.order), len(self.order))
         return self._asked(lambda: self._holds(values), timeout, at_once=_are_irrational(values))
 
     def _values(self, point: Mapping[str, Coordinate], count: int) -> list[Number]:
@@ -312,7 +325,20 @@ class Region:
             raise lacking(error) or error from None
 
     def __repr__(self) -> str:
-        return f"Region({', '.join(self.order)}: {self.formula})"
+        return f"Region({', '.join(self.order)}: {self.formula.brief()})"
+
+    def _repr_html_(self) -> str:
+        """The formula, for notebooks with a picture in one or two variables, where it is found at once."""
+        picture = ""
+        if len(self.order) <= 2:
+            from qe.regions.picture import inline
+            from qe.regions.sketch import sketch
+
+            try:
+                picture = inline(self._asked(lambda: sketch(self), PICTURE_SECONDS, at_once=True))
+            except (Unable, ImportError):
+                picture = ""
+        return f"<div><code>{escape(repr(self))}</code><br>{picture}</div>"
 
 
 def checked_order(free: tuple[str, ...], order: tuple[str, ...] | None) -> tuple[str, ...]:

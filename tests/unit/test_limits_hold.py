@@ -87,6 +87,44 @@ CASES: dict[str, tuple[str, Callable[[], Call]]] = {
         "qe.regions.region.coordinates",
         lambda: lambda found=qe.region(DISC): found.sample_points(timeout=LIMIT),
     ),
+    "Region.closure": (
+        "qe.regions.planar.decompose",
+        lambda: lambda found=qe.region(DISC): found.closure(timeout=LIMIT),
+    ),
+    "Region.components": (
+        "qe.regions.planar.decompose",
+        lambda: lambda found=qe.region(DISC): found.components(timeout=LIMIT),
+    ),
+    "Region.complement": (
+        "qe.regions.region.decompose",
+        lambda: lambda found=qe.region(DISC): found.complement(timeout=LIMIT),
+    ),
+    "Region.is_subset": (
+        "qe.api_region.eliminated",
+        lambda: lambda found=qe.region(DISC): found.is_subset("x < 2", timeout=LIMIT),
+    ),
+    "Region.project": (
+        "qe.regions.region.decompose",
+        lambda: lambda found=qe.region(DISC): found.section({"x": 0}, timeout=LIMIT),
+    ),
+    "Region.bounding_box": (
+        "qe.regions.region.decompose",
+        lambda: lambda found=qe.region(DISC): found.bounding_box(timeout=LIMIT),
+    ),
+    "Region.distance": (
+        "qe.convex.feasible.solve",
+        lambda: lambda found=qe.region(DISC): found.distance([2, 2], timeout=LIMIT),
+    ),
+    "Region.exact_volume": (
+        "qe.api_measure._measured",
+        lambda: lambda found=qe.region(DISC): found.exact_volume(timeout=LIMIT),
+    ),
+    "Region.find_instances": (
+        "qe.regions.region.fibre_of",
+        lambda: lambda found=qe.region(DISC): found.find_instances(2, timeout=LIMIT),
+    ),
+    "solve": ("qe.regions.region.decompose", lambda: lambda: qe.solve(DISC, timeout=LIMIT)),
+    "find_instances": ("qe.regions.region.decompose", lambda: lambda: qe.find_instances(DISC, 2, timeout=LIMIT)),
     "Region.volume": (
         "qe.regions.volume.ends",
         lambda: lambda found=qe.region(DISC): found.volume(timeout=LIMIT),

@@ -1,0 +1,195 @@
+"""Length, area and volume in closed form, as SymPy numbers, where there is one that is known here.
+
+A bounded piece is integrated from its last variable to its first. The ends may be polynomials, quotients with a
+denominator in the first variable, and ``(p + sqrt(q))/d`` with q of degree at most 2; a slice of space between the two
+sheets of an ellipsoid has the area ``pi D/(8 (-A)^(3/2))``, where their discriminant is A y^2 + B y + C with A < 0 and
+D = B^2 - 4AC. With r = sqrt(q), integrals of P r come from an ansatz: P q = Q' q + Q q'/2 + c, so that
+``∫ P r = Q r + c ∫ 1/r``, and ``∫ 1/r`` is an arc sine or a logarithm (Bronstein, Symbolic Integration I).
+The sum is compared with the enclosure that ``Region.volume`` proves.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from fractions import Fraction
+from typing import Any
+
+import sympy
+
+from qe.cells.pieces import Piece, Range, RootFunction
+from qe.errors import Unable
+from qe.exact.ring import Poly
+from qe.io.sympy_numbers import number_to_sympy
+from qe.regions.region import Region
+
+CHECKED = Fraction(1, 50)
+"""The relative error of the enclosure in which the sum has to lie."""
+ROUNDING = Fraction(1, 10**20)
+SHORT = 400
+"""Operations in a sum up to which SymPy is asked for a shorter form."""
+
+Expression = Any
+Parts = Mapping[Expression, Expression]
+"""A sum of c sqrt(q), by q, with rational functions c of the first variable; q = 1 stands for the rational part."""
+_ONE = sympy.S.One
+
+
+def measure(region: Region) -> Expression:
+    """The measure of a region in one to three variables. Raises ``Unable`` where no closed form is found."""
+    if len(region.order) > 3:
+        raise Unable("closed forms of volumes are known in up to three variables; volume encloses those of others")
+    whole = [p for p in region.cells if p.dimension == len(region.order)]
+    if any(r.lower is None or r.upper is None for p in whole for r in p.ranges):
+        raise Unable("the region is unbounded")
+    low, high = region.volume(float(CHECKED))
+    total = sum((_measured(piece) for piece in whole), sympy.S.Zero)
+    value = sympy.N(total, 30)
+    if not value.is_real or not low * (1 - ROUNDING) <= Fraction(str(value)) <= high * (1 + ROUNDING):
+        raise Unable("no closed form was found")
+    return sympy.simplify(total) if total.count_ops() < SHORT else total
+
+
+def _measured(piece: Piece) -> Expression:
+    ring = piece.table.factors[0][0].ring
+    symbols = [sympy.Symbol(f"x{k}", real=True) for k in range(ring.size)]
+    first = piece.ranges[0]
+    ends = [number_to_sympy(end.value) for end in _both(first) if end.value is not None]
+    if len(piece.ranges) == 1:
+        return ends[1] - ends[0]
+    if len(piece.ranges) == 2:
+        lower, upper = (_parts(end, symbols) for end in (piece.ranges[1].lower, piece.ranges[1].upper))
+        width = _sum(upper, lower, -1)
+    else:
+        width = _slice(piece, symbols)
+    return sum((_integral(c, q, symbols[0], ends) for q, c in width.items()), sympy.S.Zero)
+
+
+def _both(r: Range) -> tuple[RootFunction, RootFunction]:
+    """Both ends of a bounded range."""
+    assert r.lower is not None and r.upper is not None
+    return r.lower, r.upper
+
+
+def _slice(piece: Piece, symbols: list[Expression]) -> Parts:
+    """The area over a value of the first variable."""
+    (y0, y1), (z0, z1) = (_both(r) for r in piece.ranges[1:])
+    if z0.poly == z1.poly and z0.poly.degree(2) == 2 and y0.poly == y1.poly and y0.poly != z0.poly:
+        c = z0.poly.coefficients(2)
+        found = c[1] * c[1] - 4 * (c[2] * c[0])
+        if found.normal()[1] == y0.poly and y0.poly.degree(1) == 2 and c[2].is_constant:
+            k, j, i = (_expression(part, symbols) for part in found.coefficients(1))
+            if i.is_number and i.is_negative:
+                lead = abs(_expression(c[2], symbols))
+                return {_ONE: sympy.expand(sympy.pi * (j**2 - 4 * i * k) / (8 * sympy.sqrt(-i) ** 3) / lead)}
+    height = _flat(z1, symbols) - _flat(z0, symbols)
+    inner = sympy.Poly(sympy.integrate(sympy.Poly(height, symbols[1]).as_expr(), symbols[1]), symbols[1])
+    return _sum(_composed(inner, _parts(y1, symbols)), _composed(inner, _parts(y0, symbols)), -1)
+
+
+def _flat(root: RootFunction | None, symbols: list[Expression]) -> Expression:
+    """An end of the third variable that is a polynomial in the others."""
+    parts = _parts(root, symbols)
+    if set(parts) != {_ONE} or not parts[_ONE].is_polynomial(*symbols):
+        raise Unable("no closed form was found: a curved surface that is no ellipsoid")
+    return parts[_ONE]
+
+
+def _parts(root: RootFunction | None, symbols: list[Expression]) -> Parts:
+    """An end as a sum of square roots."""
+    assert root is not None
+    if root.value is not None:
+        return {_ONE: number_to_sympy(root.value)}
+    c = [_expression(part, symbols) for part in root.poly.coefficients(root.poly.level)]
+    if len(c) == 2:
+        return {_ONE: sympy.together(-c[0] / c[1])}
+    if len(c) == 3 and c[2].is_number:
+        inside = _without_squares(sympy.expand(c[1] ** 2 - 4 * c[2] * c[0]), symbols[0])
+        sign = -1 if (root.k == 1) == c[2].is_positive else 1
+        return _sum({_ONE: -c[1] / (2 * c[2])}, {inside: sign / (2 * c[2])}, 1)
+    raise Unable("no closed form was found: an end of degree above 2")
+
+
+def _without_squares(q: Expression, x: Expression) -> Expression:
+    """The radicand, if it has the first variable only and no square factor, whose root would change its sign."""
+    if q.free_symbols - {x}:
+        raise Unable("no closed form was found: a square root of several variables")
+    if any(power > 1 for _, power in sympy.factor_list(q, x)[1]):
+        raise Unable("no closed form was found: a square root that is a polynomial in places")
+    return q
+
+
+def _composed(poly: Any, at: Parts) -> Parts:
+    """A polynomial of the second variable at an end (Horner)."""
+    found: Parts = {}
+    for c in poly.all_coeffs():
+        found = _sum(_product(found, at), {_ONE: c}, 1)
+    return found
+
+
+def _sum(left: Parts, right: Parts, sign: int) -> Parts:
+    found = dict(left)
+    for q, c in right.items():
+        found[q] = found.get(q, 0) + sign * c
+    return {q: e for q, c in found.items() if (e := sympy.together(sympy.expand(c))) != 0}
+
+
+def _product(left: Parts, right: Parts) -> Parts:
+    found: dict[Expression, Expression] = {}
+    for p, a in left.items():
+        for q, b in right.items():
+            under, c = (_ONE, a * b * p) if p == q else (sympy.expand(p * q), a * b)
+            found[under] = found.get(under, 0) + c
+    return {q: sympy.together(sympy.expand(c)) for q, c in found.items()}
+
+
+def _integral(c: Expression, q: Expression, x: Expression, ends: list[Expression]) -> Expression:
+    """The integral of c sqrt(q) between the ends."""
+    if q.is_number:
+        found = sympy.sqrt(q) * _rational(c, x)
+    elif not c.is_polynomial(x) or sympy.degree(q, x) > 2:
+        raise Unable("no closed form was found: an elliptic integral, perhaps")
+    else:
+        found = _with_root(sympy.Poly(c, x), sympy.Poly(q, x), x)
+    return _at(found, x, ends[1]) - _at(found, x, ends[0])
+
+
+def _rational(c: Expression, x: Expression) -> Expression:
+    found = sympy.integrate(c, x)
+    if found.has(sympy.Integral, sympy.RootSum):
+        raise Unable("no closed form was found: a logarithm at roots of a polynomial")
+    return found.replace(sympy.log, lambda argument: sympy.log(sympy.Abs(argument)))
+
+
+def _with_root(p: Any, q: Any, x: Expression) -> Expression:
+    """An antiderivative of p sqrt(q) for q of degree 1 or 2."""
+    size = p.degree() + q.degree() + (q.degree() == 1)
+    unknown = sympy.symbols(f"u:{size}")
+    rest = sympy.Symbol("c") if q.degree() == 2 else sympy.S.Zero
+    ansatz = sympy.Poly(sum(u * x**k for k, u in enumerate(unknown)), x)
+    equation = ansatz.diff(x) * q + ansatz * q.diff(x) / 2 + rest - p * q
+    solved = sympy.linsolve(sympy.Poly(equation, x).all_coeffs(), *unknown, *([rest] if rest != 0 else []))
+    values = dict(zip((*unknown, *([rest] if rest != 0 else [])), next(iter(solved)), strict=True))
+    root = sympy.sqrt(q.as_expr())
+    found = ansatz.as_expr().subs(values) * root
+    if rest == 0:
+        return found
+    a, b, c = q.all_coeffs()
+    if a.is_negative:
+        inverse = -sympy.asin((2 * a * x + b) / sympy.sqrt(b**2 - 4 * a * c)) / sympy.sqrt(-a)
+    else:
+        inverse = sympy.log(sympy.Abs(2 * a * x + b + 2 * sympy.sqrt(a) * root)) / sympy.sqrt(a)
+    return found + values[rest] * inverse
+
+
+def _at(found: Expression, x: Expression, end: Expression) -> Expression:
+    value = found.subs(x, end)
+    value = value.replace(lambda e: isinstance(e, sympy.asin), lambda e: sympy.asin(sympy.simplify(e.args[0])))
+    if not value.is_finite:
+        raise Unable("no closed form was found: an end at which a term has no value")
+    return value
+
+
+def _expression(poly: Poly, symbols: list[Expression]) -> Expression:
+    return sympy.Add(
+        *(c * sympy.Mul(*(s**e for s, e in zip(symbols, exponents, strict=True))) for exponents, c in poly.terms())
+    )

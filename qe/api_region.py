@@ -1,0 +1,263 @@
+"""The work behind the operators and questions of regions (``qe.regions.operators`` says what they mean)."""
+
+from __future__ import annotations
+
+import random
+import time
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from fractions import Fraction
+from typing import Any, TypeVar
+
+from qe import arguments
+from qe.api_input import read_formula, together
+from qe.api_limits import performed
+from qe.cells.interval import Coordinate, Interval, Number, number_of
+from qe.engine.run import solve as eliminated
+from qe.errors import BudgetExceeded, InputError, InternalError, Unable
+from qe.exact.algebraic import RealAlgebraic
+from qe.exact.number import simplest, square_root
+from qe.exact.ring import Ring
+from qe.execution import Budgets
+from qe.formula.build import conj, convert, disj, exists, forall, iff, implies, neg
+from qe.formula.evaluate import substituted
+from qe.formula.normal import nnf
+from qe.formula.syntax import Constant, Formula, Relation
+from qe.formula.traverse import free_variables
+from qe.io import surface as s
+from qe.io.lowering import lower
+from qe.options import Options
+from qe.regions import planar, topology
+from qe.regions.build import described
+from qe.regions.convex_region import ConvexRegion
+from qe.regions.region import Region
+from qe.regions.walk import MOST_POINTS, different_points, walked
+
+T = TypeVar("T")
+
+
+# --- what the operators of regions do --------------------------------------------------------------------------
+def joined(way: str, left: Region, right: object) -> Region:
+    """The set that an operator makes of two."""
+    f, g = _operands(left, right)
+    made = {
+        "and": lambda: conj((f, g)),
+        "or": lambda: disj((f, g)),
+        "minus": lambda: conj((f, neg(g))),
+        "xor": lambda: neg(iff(f, g)),
+    }[way]()
+    return _region(left, made, left.order, None)
+
+
+def compared(way: str, left: Region, right: object, timeout: float | None) -> bool:
+    """Whether two sets stand in this relation."""
+    f, g = _operands(left, right)
+    claim = {
+        "subset": lambda: implies(f, g),
+        "superset": lambda: implies(g, f),
+        "equal": lambda: iff(f, g),
+        "disjoint": lambda: neg(conj((f, g))),
+    }[way]()
+
+    def work(budgets: Budgets) -> bool:
+        found = eliminated(forall(left.order, claim), Options(), budgets()).formula
+        if not isinstance(found, Constant):
+            raise InternalError("a sentence has no truth value")
+        return found.value
+
+    return _under(left, claim, timeout, work)
+
+
+def complement(region: Region, timeout: float | None) -> Region:
+    """All other points."""
+    return _region(region, neg(region.condition), region.order, timeout)
+
+
+def closure(region: Region, timeout: float | None) -> Region:
+    """The set and its limit points."""
+    return _topological(region, planar.Cells.closure, topology.closure, timeout)
+
+
+def interior(region: Region, timeout: float | None) -> Region:
+    """The complement of the closure of the complement."""
+    return _topological(region, planar.Cells.interior, topology.interior, timeout)
+
+
+def boundary(region: Region, timeout: float | None) -> Region:
+    """The closure without the interior."""
+    return _topological(region, planar.Cells.boundary, topology.boundary, timeout)
+
+
+def components(region: Region, timeout: float | None) -> list[Region]:
+    """The connected components."""
+    if isinstance(region, ConvexRegion):  # a convex set is connected
+        return [] if region.is_empty else [region]
+    f, order = region.formula, region.order
+    if len(order) > planar.DIMENSIONS:
+        raise Unable(f"connected components are found in up to {planar.DIMENSIONS} variables, not in {len(order)}")
+
+    def work(budgets: Budgets) -> list[Region]:
+        budget = budgets()
+        count = len(planar.Cells.of(f, order, budget).components())
+        if count == 1:
+            return [region]
+        parts = [planar.formula_of(f, order, lambda c, k=k: c.components()[k], budget) for k in range(count)]  # type: ignore[misc]
+        return [Region.of(part, order, budget=budget, limits=region.limits) for part in parts]
+
+    return _under(region, f, timeout, work)
+
+
+def bounding_box(region: Region, timeout: float | None) -> dict[str, Interval]:
+    """The bounds of every variable."""
+    start = time.monotonic()
+    limit = arguments.seconds(timeout)
+    found = {}
+    for variable in region.order:
+        left = None if limit is None else max(limit - (time.monotonic() - start), limit * 1e-3)
+        found[variable] = region.bounds(variable, timeout=left)
+    return found
+
+
+def project(region: Region, variables: Any, timeout: float | None) -> Region:
+    """The shadow in the space of some variables."""
+    names = arguments.names(variables, "variables") or ()
+    if not names or len(set(names)) < len(names) or not set(names) <= set(region.order):
+        raise InputError(f"variables: some of {', '.join(region.order)}, each once, expected")
+    hidden = [v for v in region.order if v not in names]
+    return _region(region, exists(hidden, region.condition), names, timeout)
+
+
+def section(region: Region, values: Mapping[Any, Coordinate], timeout: float | None) -> Region:
+    """The part where some variables have these values, in the space of the others."""
+    given = _numbers(region, arguments.by_name(values, "values"), "values")
+    rest = tuple(v for v in region.order if v not in given)
+    if not rest:
+        raise InputError("values: a variable without a value expected; ask contains whether a point is in the region")
+    ring = Ring.of(
+        dict.fromkeys((*region.order, *(() if region.condition.ring is None else region.condition.ring.names)))
+    )
+    found = convert(region.condition, ring)
+    found = substituted(found, {v: q for v, q in given.items() if isinstance(q, Fraction)})
+    exact = {v: a for v, a in given.items() if isinstance(a, RealAlgebraic)}
+    found = conj(together(found, *(_equal(v, a) for v, a in exact.items())))
+    return _region(region, exists(exact, found), rest, timeout)
+
+
+def distance(region: Region, point: object, timeout: float | None) -> Number:
+    """The infimum of the distances of a point from the points of a region."""
+    from qe.convex.optimum import exact, minimize
+    from qe.optimization.global_optimum import best
+    from qe.proof.multipliers import OptimumStatus
+
+    given = _numbers(region, arguments.point(point, region.order), "point")
+    if missing := [v for v in region.order if v not in given]:
+        raise InputError(f"point: a value for {missing[0]} expected")
+    irrational = {v: a for v, a in given.items() if isinstance(a, RealAlgebraic)}
+    ring = Ring.of([*region.order, *(f"at {v}" for v in irrational)])
+    square, scale = ring.constant(0), 1
+    for q in given.values():
+        scale *= q.denominator if isinstance(q, Fraction) else 1
+    for v, q in given.items():
+        x = ring.var(v)
+        apart = x - ring.var(f"at {v}") if isinstance(q, RealAlgebraic) else x * q.denominator - q.numerator
+        part = scale if isinstance(q, RealAlgebraic) else scale // q.denominator
+        square = square + apart * apart * (part * part)
+    conditions = conj(together(region.condition, *(_equal(f"at {v}", a) for v, a in irrational.items())))
+
+    def work(budgets: Budgets) -> Number:
+        budget, factor = budgets(), Fraction(1, scale * scale)
+        try:
+            convex = minimize(square, conditions, scale=factor, budget=budget)
+            status, value = convex.status, None if convex.value is None else exact(convex.value)
+        except Unable as error:
+            if isinstance(error, BudgetExceeded):
+                raise
+            found = best(1, square, conditions, scale=factor, budget=budget)
+            status, value = found.status, found.value
+        if status is OptimumStatus.INFEASIBLE:
+            raise InputError("an empty region has no distance from a point")
+        if value is None:
+            raise InternalError("a sum of squares has no infimum")
+        return square_root(simplest(value))
+
+    return _under(region, conditions, timeout, work)
+
+
+def exact_volume(region: Region, timeout: float | None) -> Any:
+    """The measure in closed form; see ``qe.api_measure``."""
+    from qe.api_measure import measure
+
+    return region._asked(lambda: measure(region), arguments.seconds(timeout), at_once=True)
+
+
+def sample(region: Region, seed: int, timeout: float | None) -> dict[str, Number]:
+    """A random point of a region."""
+    walk = random.Random(arguments.integers([seed], "seed")[0])
+    found = _under(region, region.condition, timeout, lambda budgets: walked(region, walk, budgets()))
+    if found is None:
+        raise InputError("an empty region has no points")
+    return found
+
+
+def instances(region: Region, n: int, seed: int, timeout: float | None) -> list[dict[str, Number]]:
+    """Different points of a region."""
+    count, walk = arguments.whole(n, "n", MOST_POINTS), random.Random(arguments.integers([seed], "seed")[0])
+    return _under(region, region.condition, timeout, lambda budgets: different_points(region, count, walk, budgets()))
+
+
+# --- parts -------------------------------------------------------------------------------------------------------
+def _under(region: Region, formula: Formula, timeout: float | None, work: Callable[[Budgets], T]) -> T:
+    """Work under the limits of a region, or the time that goes before them."""
+    limits = region.limits if timeout is None else replace(region.limits, timeout=arguments.seconds(timeout))
+    return performed(work, formula, limits.begun(time.monotonic()))
+
+
+def _region(region: Region, formula: Formula, order: tuple[str, ...], timeout: float | None) -> Region:
+    """The region of a formula that was made of one's."""
+    return _under(region, formula, timeout, lambda budgets: described(formula, order, budgets(), region.limits))
+
+
+def _operands(left: Region, right: object) -> tuple[Formula, Formula]:
+    """The formulas of both, over one ring. Raises ``InputError`` for sets in other variables."""
+    if isinstance(right, Region):
+        if set(left.order) != set(right.order):
+            raise InputError(
+                f"regions in the same variables expected, those in {', '.join(left.order)} and in "
+                f"{', '.join(right.order)} found (qe.region(formula, order=…) names the variables of the space)"
+            )
+        given = right.condition
+    else:
+        given = read_formula(right)
+        if strange := [v for v in free_variables(given) if v not in left.order]:
+            raise InputError(f"a condition on {', '.join(left.order)} expected, {strange[0]} found")
+    f, g = together(left.condition, given)
+    return f, g
+
+
+def _topological(region: Region, chosen: planar.Choice, formula: topology.Operation, timeout: float | None) -> Region:
+    """The union of ``chosen`` cells where there are few variables, else what a formula says."""
+    f, order = nnf(region.formula), region.order
+
+    def work(budgets: Budgets) -> Region:
+        budget = budgets()
+        if len(order) > planar.DIMENSIONS:
+            return described(formula(f, order, budget), order, budget, region.limits)
+        found = planar.formula_of(f, order, chosen, budget)
+        return Region.of(found, order, budget=budget, limits=region.limits)
+
+    return _under(region, f, timeout, work)
+
+
+def _numbers(region: Region, given: Mapping[str, Coordinate], what: str) -> dict[str, Number]:
+    if strange := [v for v in given if v not in region.order]:
+        raise InputError(f"{what}: values for some of {', '.join(region.order)} expected, {strange[0]} found")
+    return {v: simplest(number_of(q, what, f"an exact number for {v}")) for v, q in given.items()}
+
+
+def _equal(name: str, number: RealAlgebraic) -> Formula:
+    """That a variable has this value."""
+
+    def fail(message: str, at: int) -> InputError:
+        return InputError(message)
+
+    return lower(s.Comparison([s.Name(name, -1), s.Algebraic(number, -1)], [Relation.EQ], -1), fail)

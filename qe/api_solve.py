@@ -1,0 +1,140 @@
+"""The public functions that list solutions: ``solve``, ``find_instances``, ``parametric_witnesses``."""
+
+from __future__ import annotations
+
+import random
+import time
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+from qe import arguments
+from qe.api_input import AnyFormula, read_block
+from qe.api_limits import Progress, limits_of, performed, reading
+from qe.engine.run import solve as eliminated
+from qe.exact.number import Values
+from qe.execution import Budgets
+from qe.formula.counting import without_root_atoms
+from qe.formula.syntax import Exists, ForAll
+from qe.formula.traverse import free_variables, is_quantifier_free
+from qe.options import Options
+from qe.progress import silent
+from qe.proof.answer import Answer, Status
+from qe.proof.run_log import RunLog
+from qe.regions.build import described
+from qe.regions.solutions import Solutions
+from qe.regions.walk import MOST_POINTS, different_points
+
+if TYPE_CHECKING:
+    from qe.elimination.vs.parametric import ParametricWitnesses
+
+
+def solve(
+    formula: AnyFormula,
+    variables: Any = None,
+    *,
+    format: str = "text",
+    total_division: bool = False,
+    timeout: float | None = None,
+    memory: int | None = None,
+    progress: Progress = silent,
+    process: bool = True,
+) -> Solutions:
+    """All real solutions, case by case, as Mathematica's ``Reduce`` writes them (cylindrical decomposition).
+
+    ``variables``: those to solve for, in their order; they come after all others, so that each is told in terms of the
+    parameters and of the variables before it. Without them all free variables are meant, in the order of the formula.
+    Quantifiers are eliminated first. See ``eliminate`` for the limits.
+    Raises ``InputError`` for what cannot be read, ``Unable`` (``BudgetExceeded`` at a limit) where elimination does.
+    """
+    start = time.monotonic()
+    whole = limits_of(timeout, memory, progress, process)
+    limits = whole.begun(start)
+    given, wanted = reading(formula, format, limits, total_division), arguments.names(variables, "variables")
+    order = None if wanted is None else (*(v for v in free_variables(given) if v not in wanted), *wanted)
+
+    def work(budgets: Budgets) -> Solutions:
+        budget = budgets()
+        found = described(given, order, budget, replace(whole, process=False))
+        cases = tuple(found.cells)
+        found.limits = whole
+        return Solutions(found.order, cases, found)
+
+    return performed(work, given, limits)
+
+
+reduce = solve
+"""The older name of ``solve``."""
+
+
+def find_instances(
+    formula: AnyFormula,
+    n: int,
+    *,
+    seed: int = 0,
+    format: str = "text",
+    total_division: bool = False,
+    timeout: float | None = None,
+    memory: int | None = None,
+    progress: Progress = silent,
+    process: bool = True,
+) -> list[Values]:
+    """Up to ``n`` different exact solutions; fewer only where there are no more. The same for the same ``seed``.
+
+    See ``eliminate`` for the limits. Raises ``Unable`` (``BudgetExceeded`` at a limit) where no description is found.
+    """
+    start = time.monotonic()
+    count, walk = arguments.whole(n, "n", MOST_POINTS), random.Random(arguments.integers([seed], "seed")[0])
+    whole = limits_of(timeout, memory, progress, process)
+    limits = whole.begun(start)
+    given = reading(formula, format, limits, total_division)
+
+    def work(budgets: Budgets) -> list[Values]:
+        found = described(given, None, budgets(), replace(whole, process=False))
+        return different_points(found, count, walk, budgets())
+
+    return performed(work, given, limits)
+
+
+def parametric_witnesses(
+    formula: AnyFormula,
+    *,
+    format: str = "text",
+    timeout: float | None = None,
+    memory: int | None = None,
+    progress: Progress = silent,
+    check: bool = False,
+    process: bool = True,
+) -> ParametricWitnesses:
+    """Solutions of the outermost block as terms in the free variables, each under its guard (extended answers).
+
+    The guards together are equivalent to an existential block; for a universal block the terms are counterexamples.
+    ``answer`` of the tuple says so as an ``Answer``; with ``check`` it has a certificate, whose steps put the terms in.
+    Raises ``InputError`` for a formula without an outermost block, ``Unable`` where substitution does not apply.
+    """
+    start = time.monotonic()
+    from qe.elimination.vs.parametric import parametric_witnesses as find
+
+    limits = limits_of(timeout, memory, progress, process).begun(start)
+    check = arguments.flag(check, "check")
+    given = reading(formula, format, limits, reader=read_block)
+
+    def work(budgets: Budgets) -> ParametricWitnesses:
+        from qe.api_verify import with_verdict
+        from qe.engine.run import derived
+
+        log, options, budget = RunLog(), Options(certify=check), budgets()
+        block = log.step("roots counted", given, without_root_atoms(given))
+        if isinstance(block, Exists | ForAll) and not is_quantifier_free(block.body):
+            # what is left may well be a constant
+            inner = eliminated(block.body, options.with_(certify=False), budget)
+            log.entries += inner.log.entries
+            block = replace(block, body=inner.formula)
+        found = find(block, budget=budget, log=log)
+        formula = found.equivalent_to(given)
+        answer = Answer(Status.SOLVED, formula, question=given, log=log)
+        if check:
+            proof = derived(given, log, formula, options, budget)
+            answer = replace(answer, certificate=proof.certificate, unchecked_steps=proof.unchecked)
+        return found.with_(answer if answer.certificate is None else with_verdict(answer, budget))
+
+    return performed(work, given, limits)

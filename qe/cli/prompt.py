@@ -1,0 +1,246 @@
+"""The prompt that ``qe`` opens on a terminal: one question after the other, ``%`` is the last answer.
+
+A line whose brackets are open, or that ends where more has to come, goes on in the next one. With prompt_toolkit (the
+extra ``prompt``) lines can be edited and are kept over sessions; without it, as far as Python does that itself.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import shlex
+import sys
+from collections.abc import Callable
+from contextlib import suppress
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import qe
+from qe.errors import InputError, QEError, Unable
+from qe.extras import lacking
+
+Ask = Callable[[str], str]
+
+HELP = """A formula is answered by one without quantifiers, a sentence by true or false; % is the last answer.
+  ex x. x^2 + b*x + c = 0       what b and c have to fulfil
+  :solve x, y: FORMULA          all solutions for x and y, case by case (without names: for all variables)
+  :instance FORMULA             one exact point, or none
+  :region FORMULA               the set of solutions: cells, bounds, dimension
+  :min TERM [: FORMULA]         the least value where the formula holds; :max the greatest
+  :decide FORMULA               true or false
+  :plot FILE                    a picture of the last answer (.png, .svg, .pdf; .html in three variables)
+  :why                          how the last answer was found
+  :timeout SECONDS              the limit for each question (off: none), now {timeout}
+  :help   :quit (or Ctrl-D)     Ctrl-C ends a question that takes too long"""
+
+_MORE = re.compile(r"(?:[-+*/^=<>,.:&|]|\\|\b(?:and|or|not|implies|iff|then|else|if|AND|OR|NOT))\s*$")
+_LAST = re.compile(r"(`(?:[^`\\]|\\.)*`)|%")
+COMMANDS = ("decide", "help", "instance", "max", "min", "plot", "quit", "region", "solve", "timeout", "why")
+
+
+@dataclass(slots=True)
+class Session:
+    """What a prompt remembers: the last answer, its text for ``%``, and the limit."""
+
+    timeout: float | None = 60.0
+    last: Any = None
+    text: str = ""
+    commands: dict[str, Callable[[str], str]] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        known = {name: getattr(self, f"_{name}") for name in COMMANDS if name != "quit"}
+        self.commands.update(known)
+
+    def reply(self, line: str) -> str:
+        """What is printed for a line: an answer, or one line that says what is wrong."""
+        try:
+            return self._answer(line.strip())
+        except Unable as error:
+            return f"unable: {error}"
+        except QEError as error:
+            return f"error: {error}"
+        except ImportError as error:
+            told = lacking(error)
+            if told is None:
+                raise
+            return f"unable: {told}"
+
+    def _answer(self, line: str) -> str:
+        if not line or line.startswith("#"):
+            return ""
+        if not line.startswith(":"):
+            return self._eliminate(self._meant(line))
+        name, _, rest = line[1:].partition(" ")
+        if name not in self.commands:
+            from difflib import get_close_matches
+
+            near = get_close_matches(name, COMMANDS, 1)
+            raise InputError(
+                f"no such command: :{name}; " + (f"did you mean :{near[0]}?" if near else ":help lists them")
+            )
+        return self.commands[name](self._meant(rest.strip()))
+
+    def _meant(self, text: str) -> str:
+        """The text with the last answer in the place of ``%``."""
+
+        def put(found: re.Match[str]) -> str:
+            if found[1]:
+                return found[1]
+            if not self.text:
+                raise InputError("% is the last answer, and there is none yet")
+            return f"({self.text})"
+
+        return _LAST.sub(put, text)
+
+    def _keep(self, value: Any, text: str) -> str:
+        self.last, self.text = value, " ".join(text.split())
+        return text
+
+    def _eliminate(self, line: str) -> str:
+        answer = qe.eliminate(line, timeout=self.timeout)
+        if answer.formula is None:
+            raise Unable(answer.reason)
+        lines = [self._keep(answer, str(answer))]
+        if answer.witness:
+            kind = "counterexample" if answer.truth is False else "witness"
+            lines.append(f"{kind}: " + ", ".join(f"{name} = {value}" for name, value in answer.witness.items()))
+        return "\n".join(lines)
+
+    def _decide(self, rest: str) -> str:
+        return self._keep(None, str(qe.decide(rest, timeout=self.timeout)).lower())
+
+    def _solve(self, rest: str) -> str:
+        names, colon, formula = rest.partition(":")
+        named = bool(colon) and not re.search(r"[=<>.()]|\b(ex|all|exists|forall)\b", names)
+        found = qe.solve(formula if named else rest, names if named else None, timeout=self.timeout)
+        return self._keep(found.region, str(found))
+
+    def _instance(self, rest: str) -> str:
+        point = qe.find_instance(rest, timeout=self.timeout)
+        if point is None:
+            return "there is none"
+        return self._keep(None, " and ".join(f"{name} = {value}" for name, value in point.items()) or "true")
+
+    def _region(self, rest: str) -> str:
+        found = qe.region(rest, timeout=self.timeout)
+        if found.is_empty:
+            return self._keep(found, "false")
+        lines = [f"dimension {found.dimension} in {', '.join(found.order)}"]
+        lines += [f"{name}: {found.bounds(name)!r}".replace("Interval", "") for name in found.order]
+        lines += [f"cell: {cell.brief()}" for cell in found.cells]
+        self._keep(found, str(found.formula))
+        return "\n".join(lines)
+
+    def _min(self, rest: str) -> str:
+        return self._best(rest, qe.minimize)
+
+    def _max(self, rest: str) -> str:
+        return self._best(rest, qe.maximize)
+
+    def _best(self, rest: str, solve: Callable[..., Any]) -> str:
+        term, _, conditions = rest.partition(":")
+        best = solve(term, conditions.strip() or "true", timeout=self.timeout)
+        if best.value is None:
+            return str(best.status.name.lower())
+        at = ", ".join(f"{name} = {value}" for name, value in best.point.items()) if best.attained else "not attained"
+        self._keep(None, str(best.value))
+        return f"{best.value}  ({at})"
+
+    def _plot(self, rest: str) -> str:
+        if self.last is None:
+            raise InputError("there is no answer to draw yet")
+        words = shlex.split(rest)
+        if len(words) != 1:
+            raise InputError("the name of a file expected, as in :plot region.png")
+        self.last.plot(words[0], timeout=self.timeout)
+        return f"written: {words[0]}"
+
+    def _why(self, rest: str) -> str:
+        if not isinstance(self.last, qe.Answer):
+            raise InputError("there is no elimination to explain yet")
+        return self.last.explanation
+
+    def _timeout(self, rest: str) -> str:
+        from qe import arguments
+
+        try:
+            self.timeout = None if rest in ("off", "none") else arguments.seconds(float(rest))
+        except ValueError:
+            raise InputError(f"a positive number of seconds, or off, expected, {rest or 'nothing'} found") from None
+        return f"limit: {'none' if self.timeout is None else f'{self.timeout:g} s'}"
+
+    def _help(self, rest: str) -> str:
+        return HELP.format(timeout="off" if self.timeout is None else f"{self.timeout:g}")
+
+
+def is_open(text: str) -> bool:
+    """Whether more has to come before the text can mean something."""
+    bare = re.sub(r"`(?:[^`\\]|\\.)*`|#.*", "", text)
+    if bare.lstrip().startswith(":") and not _bracketed(bare):
+        return False
+    return _bracketed(bare) or bool(_MORE.search(bare))
+
+
+def _bracketed(text: str) -> bool:
+    return text.count("(") > text.count(")") or text.count("[") > text.count("]")
+
+
+def run(ask: Ask | None = None, put: Callable[[str], None] = print) -> int:
+    """Ask and answer until the input ends; exit status 0."""
+    session = Session()
+    read = ask or _reader()
+    if ask is None:
+        put(f"qe {qe.__version__}: a formula is answered, :help lists what else there is, Ctrl-D leaves")
+    while True:
+        try:
+            text = read("qe> ")
+            while is_open(text):
+                text = f"{text.rstrip().removesuffix(chr(92))}\n{read('... ')}"
+            if text.strip() in (":quit", ":q", ":exit", "quit", "exit"):
+                return 0
+            if told := session.reply(text):
+                put(told)
+        except EOFError:
+            return 0
+        except KeyboardInterrupt:
+            put("interrupted")
+
+
+def _reader() -> Ask:
+    """The best way to ask that there is."""
+    try:
+        from prompt_toolkit import PromptSession
+        from prompt_toolkit.history import FileHistory, History, InMemoryHistory
+        from prompt_toolkit.output import ColorDepth
+    except ImportError:
+        with suppress(ImportError):
+            import readline  # noqa: F401  (input() is edited by it)
+        return input
+    place = _history()
+    history: History = InMemoryHistory() if place is None else FileHistory(str(place))
+    depth = ColorDepth.DEPTH_1_BIT if os.environ.get("NO_COLOR") else None
+    prompt: PromptSession[str] = PromptSession(history=history, color_depth=depth)
+    return lambda shown: prompt.prompt(shown)
+
+
+def plain_reader() -> Ask:
+    """Lines as they come, for pipes: nothing is asked."""
+    return lambda shown: input()
+
+
+def _history() -> Path | None:
+    """The file of earlier lines, where one can be kept."""
+    folder = Path(os.environ.get("XDG_STATE_HOME") or Path.home() / ".local" / "state") / "bezier-qe"
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        place = folder / "history"
+        place.touch(mode=0o600)
+    except OSError:
+        return None
+    return place
+
+
+def is_wanted() -> bool:
+    """Whether somebody sits there: questions come from a terminal and answers go to one."""
+    return sys.stdin is not None and sys.stdout is not None and sys.stdin.isatty() and sys.stdout.isatty()

@@ -1,0 +1,168 @@
+"""What sets are asked and joined by that needs the engine: the operators and further questions of a region.
+
+Their work stands where the engine is known, in ``qe.api_region``, which is reached by ``qe.later``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any, Self
+
+from qe.later import later
+
+if TYPE_CHECKING:  # loaded with ``qe`` itself, which loads nothing of the engine
+    from qe.cells.interval import Coordinate, Interval, Number
+
+
+class SetOperations:
+    """Operators and questions of sets in the space of the variables ``order``.
+
+    The other operand is a region in the same variables, or a formula (of any kind that ``qe.region`` takes) in some of
+    them. All are exact. They work under the limits of the region; ``timeout`` (seconds) goes before these.
+    All raise ``InputError`` for what is no such set, ``Unable`` where the engine does, ``BudgetExceeded`` at a limit.
+    """
+
+    __slots__ = ()
+    order: tuple[str, ...]
+
+    def __and__(self, other: object) -> Self:
+        """The intersection."""
+        return self._joined("and", other)
+
+    def __rand__(self, other: object) -> Self:
+        return self._joined("and", other)
+
+    def __or__(self, other: object) -> Self:
+        """The union."""
+        return self._joined("or", other)
+
+    def __ror__(self, other: object) -> Self:
+        return self._joined("or", other)
+
+    def __sub__(self, other: object) -> Self:
+        """The points that are not in the other set."""
+        return self._joined("minus", other)
+
+    def __xor__(self, other: object) -> Self:
+        """The points of just one of both sets."""
+        return self._joined("xor", other)
+
+    def __invert__(self) -> Self:
+        """The complement."""
+        return self.complement()
+
+    def __le__(self, other: object) -> bool:
+        """Whether it is a subset."""
+        return self.is_subset(other)
+
+    def __ge__(self, other: object) -> bool:
+        """Whether the other set is a subset of it."""
+        found: bool = _ways().compared("superset", self, other, None)
+        return found
+
+    def __eq__(self, other: object) -> bool:
+        """Whether both are the same set of points; regions in other variables are not. The engine decides it."""
+        if not isinstance(other, SetOperations):
+            return NotImplemented
+        return self is other or (set(self.order) == set(other.order) and self.equals(other))
+
+    def __hash__(self) -> int:
+        return hash(frozenset(self.order))
+
+    def complement(self, *, timeout: float | None = None) -> Self:
+        """All points of the space that are not in the set."""
+        return self._made("complement", timeout)
+
+    def closure(self, *, timeout: float | None = None) -> Self:
+        """The set with all its limit points."""
+        return self._made("closure", timeout)
+
+    def interior(self, *, timeout: float | None = None) -> Self:
+        """The points around which there is a ball inside the set."""
+        return self._made("interior", timeout)
+
+    def boundary(self, *, timeout: float | None = None) -> Self:
+        """The closure without the interior."""
+        return self._made("boundary", timeout)
+
+    def components(self, *, timeout: float | None = None) -> list[Self]:
+        """The connected components, those with the least first coordinate first; of nothing there are none.
+
+        In one or two variables, and of sets that are seen to be convex in any number; otherwise raises ``Unable``.
+        """
+        found: list[Self] = _ways().components(self, timeout)
+        return found
+
+    def is_subset(self, other: object, *, timeout: float | None = None) -> bool:
+        """Whether all points of the set are in the other one; so says ``a <= b``."""
+        found: bool = _ways().compared("subset", self, other, timeout)
+        return found
+
+    def is_disjoint(self, other: object, *, timeout: float | None = None) -> bool:
+        """Whether the sets have no common point."""
+        found: bool = _ways().compared("disjoint", self, other, timeout)
+        return found
+
+    def equals(self, other: object, *, timeout: float | None = None) -> bool:
+        """Whether both sets have the same points; so says ``a == b``."""
+        found: bool = _ways().compared("equal", self, other, timeout)
+        return found
+
+    def bounding_box(self, *, timeout: float | None = None) -> dict[str, Interval]:
+        """The exact bounds of every variable; ``InputError`` for an empty set."""
+        found: dict[str, Interval] = _ways().bounding_box(self, timeout)
+        return found
+
+    def project(self, variables: Any, *, timeout: float | None = None) -> Self:
+        """The set of all values of some of the variables (in the order given) with which points of the set begin."""
+        found: Self = _ways().project(self, variables, timeout)
+        return found
+
+    def section(self, values: Mapping[Any, Coordinate], *, timeout: float | None = None) -> Self:
+        """The points of the set with these values of some variables, in the space of the other variables."""
+        found: Self = _ways().section(self, values, timeout)
+        return found
+
+    def distance(
+        self, point: Mapping[Any, Coordinate] | Sequence[Coordinate], *, timeout: float | None = None
+    ) -> Number:
+        """The exact distance of a point: the infimum over the set, 0 for its limit points, too.
+
+        Raises ``InputError`` for an empty set.
+        """
+        found: Number = _ways().distance(self, point, timeout)
+        return found
+
+    def exact_volume(self, *, timeout: float | None = None) -> Any:
+        """The length, area or volume in closed form, as a SymPy expression.
+
+        The number lies in the enclosure that ``volume`` proves; where its terms come from see ``qe.api_measure``.
+        Raises ``Unable`` for unbounded sets, and where no closed form is known: ``volume`` encloses it.
+        """
+        return _ways().exact_volume(self, timeout)
+
+    def sample(self, seed: int = 0, *, timeout: float | None = None) -> dict[str, Number]:
+        """An exact point of the set, the same for the same seed; rational coordinates wherever there are some.
+
+        Random steps from variable to variable: every piece can be met, but no distribution is promised.
+        Raises ``InputError`` for an empty set.
+        """
+        found: dict[str, Number] = _ways().sample(self, seed, timeout)
+        return found
+
+    def find_instances(self, n: int, *, seed: int = 0, timeout: float | None = None) -> list[dict[str, Number]]:
+        """Up to ``n`` different points of the set; fewer only where it has no more."""
+        found: list[dict[str, Number]] = _ways().instances(self, n, seed, timeout)
+        return found
+
+    def _joined(self, way: str, other: object) -> Self:
+        found: Self = _ways().joined(way, self, other)
+        return found
+
+    def _made(self, way: str, timeout: float | None) -> Self:
+        found: Self = getattr(_ways(), way)(self, timeout)
+        return found
+
+
+def _ways() -> Any:
+    return later("regions")

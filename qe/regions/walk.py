@@ -1,0 +1,77 @@
+"""Points of a region by random walks from variable to variable: each value lies in what the earlier ones leave."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from itertools import islice
+from random import Random
+
+from qe.cells.interval import Interval, Number
+from qe.exact.nearby import rational_between
+from qe.exact.number import Values, simplest
+from qe.options import Budget
+from qe.regions.region import Region
+
+MOST_POINTS = 100_000
+"""So many points may be asked for at once."""
+TRIES = 64
+"""Random walks in a row that may find nothing new before the rest of the points is looked for systematically."""
+FAR = 8
+"""How far a walk goes from the end of a range that goes on for ever."""
+STEPS = 1 << 12
+"""Into how many steps the width of a range is divided, at least, for a random value."""
+
+
+def walked(region: Region, random: Random, budget: Budget) -> Values | None:
+    """A random point of a region; None if there is none."""
+    if region.is_empty:
+        return None
+    values: list[Number] = []
+    for _ in region.order:
+        budget.check("walk to a point", len(values))
+        offered = region.fibre(values)
+        values.append(_value(random.choice(offered), random))
+    return dict(zip(region.order, values, strict=True))
+
+
+def different_points(region: Region, n: int, random: Random, budget: Budget) -> list[Values]:
+    """Up to ``n`` different points, fewer only where there are no more."""
+    found: dict[tuple[Number, ...], Values] = {}
+    misses = 0
+    while len(found) < n and misses < TRIES:
+        point = walked(region, random, budget)
+        if point is None:
+            return []
+        before = len(found)
+        found.setdefault(tuple(point.values()), point)
+        misses = 0 if len(found) > before else misses + 1
+    if len(found) < n and misses:  # few isolated points, perhaps, that are hard to meet
+        for point in region.sample_points():
+            found.setdefault(tuple(simplest(value) for value in point.values()), point)
+    return list(islice(found.values(), n))
+
+
+def _value(offered: Interval, random: Random) -> Number:
+    """A value of an interval, rational unless it is a single irrational one."""
+    lower, upper = offered
+    if lower is not None and lower == upper:
+        return simplest(lower)
+    middle = rational_between(lower, upper)
+    low, high = (middle - FAR if lower is None else lower), (middle + FAR if upper is None else upper)
+    start, stop = _rational(low), _rational(high)
+    value = Fraction(round((start + (stop - start) * Fraction(random.random())) / (grid := _grid(stop - start)))) * grid
+    return value if value in offered else middle
+
+
+def _rational(number: Number) -> Fraction:
+    return number if isinstance(number, Fraction) else sum(number.interval(64), Fraction(0)) / 2
+
+
+def _grid(width: Fraction) -> Fraction:
+    """The greatest power of two that is at most the width over ``STEPS``."""
+    step = Fraction(1)
+    while step * STEPS > width:
+        step /= 2
+    while step * STEPS * 2 <= width:
+        step *= 2
+    return step

@@ -1,0 +1,78 @@
+"""``--json``: one object for every outcome, on stdout alone; completion, suggestions, colours."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+QE = str(Path(sys.executable).parent / "qe")
+HARD = "ex x, y, z. x^7 + y^7*a + z^7 + x*y*b*z = c and x^5 + z*y > y*a + b and z^4*x - y^5 > a*x"
+
+
+def run(*words: str, **environment: str) -> subprocess.CompletedProcess[str]:
+    surroundings = {**os.environ, **environment}
+    return subprocess.run([QE, *words], capture_output=True, text=True, timeout=100, env=surroundings)
+
+
+@pytest.mark.parametrize(
+    ("words", "status", "code"),
+    [
+        (["eliminate", "ex x. x^2 = b"], "solved", 0),
+        (["decide", "ex x. x^2 = 2"], "solved", 0),
+        (["solve", "x*y = 1", "--variables", "y"], "solved", 0),
+        (["minimize", "x^2 - x"], "optimal", 0),
+        (["minimize", "x"], "unable", 3),
+        (["eliminate", "x <"], "input_error", 2),
+        (["decide", "x > 0"], "input_error", 2),
+        (["region", "x > 0", "--tmeout", "5"], "input_error", 2),
+        (["check", "no-such-file"], "input_error", 2),
+        (["eliminate", HARD, "--timeout", "0.5"], "unable", 3),
+        (["eliminate", "ex x. a*x^5 + x = 1", "--method", "vs"], "unable", 3),
+    ],
+)
+def test_every_outcome_is_an_object(words: list[str], status: str, code: int) -> None:
+    done = run(*words, "--json")
+    data = json.loads(done.stdout)
+    assert (data["status"], done.returncode) == (status, code)
+    if code:
+        assert data["exit"] == code and data["message"] in done.stderr and done.stderr.count("\n") == 1
+    else:
+        assert data["seconds"] >= 0 and "exit" not in data
+
+
+def test_checks_as_objects(tmp_path: Path) -> None:
+    good, bad = tmp_path / "good.json", tmp_path / "bad.json"
+    assert run("region", "x^2 <= 2", "--certificate", str(good)).returncode == 0
+    data = json.loads(run("check", str(good), "--json").stdout)
+    assert data["status"] == "accepted" and data["claims"]
+    bad.write_text(good.read_text().replace('"x^2 - 2"', '"x^2 - 3"'))
+    done = run("check", str(bad), "--json")
+    assert json.loads(done.stdout)["status"] in ("rejected", "input_error") and done.returncode in (2, 4)
+
+
+def test_solutions_line_by_line() -> None:
+    done = run("solve", "x^2 = a", "--variables", "x")
+    assert done.stdout == "a = 0 and x = -sqrt(a) or\n0 < a and x = -sqrt(a) or\n0 < a and x = sqrt(a)\n"
+    assert json.loads(run("solve", "x^2 < 0", "--json").stdout)["cases"] == []
+
+
+def test_completion() -> None:
+    done = run(COMP_WORDS="qe eli", COMP_CWORD="1", _QE_COMPLETE="complete_bash")
+    assert done.stdout.split() == ["eliminate"]
+    assert "_qe_completion" in run("--show-completion", "bash").stdout
+
+
+def test_total_division_and_colours() -> None:
+    assert run("region", "1/x > 0", "--total-division").stdout.count("x from 0 to infinity") == 1
+    assert "\x1b" not in run("region", "x^2 < 2", NO_COLOR="1", TERM="xterm").stdout
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="no /dev/full here")
+def test_an_error_that_finds_no_room() -> None:
+    done = subprocess.run(f"{QE} eliminate 'x <' --json > /dev/full", shell=True, capture_output=True, text=True)
+    assert done.returncode == 3 and done.stderr.count("\n") == 1 and "No space left" in done.stderr
