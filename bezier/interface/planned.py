@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from scipy.interpolate import BSpline, PPoly
 
     from bezier.arm.joint_plan import JointPlan
-    from bezier.exports.track import Track
+    from bezier.motion.track import Track
 
 
 SMALLEST = Fraction(1, 10**300)
@@ -161,7 +161,7 @@ class Planned:
     # --- floating point ---------------------------------------------------------------------------------
     @cached_property
     def _track(self) -> Track:
-        from bezier.exports.track import Track
+        from bezier.motion.track import Track
 
         return Track.of(pieces(self.path, self.motion))
 
@@ -236,7 +236,7 @@ class Planned:
 
     def _flat(self) -> Track:
         """The curves themselves, without a time law, which only raises their degree."""
-        from bezier.exports.track import Track
+        from bezier.motion.track import Track
 
         return Track.of(pieces(self.path, None))
 
