@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from typing import Any
 
 from bezier.report import html as pages
 from bezier.report.html import Page, Section
@@ -52,9 +53,9 @@ def _inline(svg: str) -> str:
     return svg[svg.index("<svg") :]
 
 
-def _blocks(text: str) -> list[tuple[str, object]]:
+def _blocks(text: str) -> list[tuple[str, Any]]:
     """(kind, content) of the few Markdown forms that the page has: title, heading, table, paragraph."""
-    blocks: list[tuple[str, object]] = []
+    blocks: list[tuple[str, Any]] = []
     for part in re.split(r"\n\s*\n", text.strip()):
         lines = part.strip().splitlines()
         if lines[0].startswith("#"):

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path as FilePath
 
+from markupsafe import Markup
+
 from bezier.compare.comparison import METHODS, Comparison
 from bezier.compare.output import TITLES, Row, duration, notes, rows, step_rows
 from bezier.pictures.picture import Chart
@@ -56,7 +58,7 @@ def _results(found: Comparison, drawings: Mapping[str, Sequence[Chart]]) -> Sect
     return Section("results", "Side by side", content)
 
 
-def _beside(found: Iterable[Row], *, numbers: Sequence[int] = ()) -> html.Markup:
+def _beside(found: Iterable[Row], *, numbers: Sequence[int] = ()) -> Markup:
     return html.table(("", *TITLES.values()), ((row.label, *row.cells) for row in found), numbers=numbers)
 
 

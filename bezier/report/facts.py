@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
+from markupsafe import Markup
+
 from bezier.curves.containment import Argument, Inside
 from bezier.curves.curve import Smoothness
 from bezier.curves.enclosure import Enclosure
@@ -40,7 +42,8 @@ def path(plan: Plan, drawing: Drawing | None) -> Section | None:
     """Why the whole path stays in the workspace, how smooth it is, and its heights."""
     if plan.path is None:
         return None
-    content = [html.table(("curve", "condition", "result", "proved by"), map(_proof, plan.path.proofs))]
+    head = ("curve", "condition", "result", "proved by")
+    content: list[Text] = [html.table(head, map(_proof, plan.path.proofs))]
     if plan.path.joins:
         content += [html.heading("Joins"), _joins(plan.path)]
     found = heights.summary_lines(plan.heights) if plan.heights else []
@@ -132,7 +135,7 @@ def certificates(plan: Plan, claims: Mapping[str, str]) -> Section:
         claim = f"Both joins are {'C²' if smooth is Smoothness.C2 else 'C¹'}"
         good = smooth >= Smoothness.C1
         rows.append((claim, FIELD, toned("proved" if good else "refuted", good)))
-    files = html.Markup(
+    files = Markup(
         "The certificates are in <code>certificate.json</code>; <code>qe check certificate.json</code> verifies them"
         " again with code that shares nothing with the code that made them, and <code>bezier check</code> on this"
         " folder also proves the path again."
@@ -150,7 +153,7 @@ def quality(plan: Plan, drawing: Drawing | None) -> Section | None:
         (curve_name(name), between(length), _bend(plan.quality.curvatures[name]))
         for name, length in plan.quality.lengths.items()
     ]
-    content = [
+    content: list[Text] = [
         html.paragraph(f"Rigorous bounds, rounded outwards. The whole path is {between(plan.quality.length)} mm long.")
     ]
     content.append(html.table(("curve", "length (mm)", "largest curvature (1/mm)"), rows))
@@ -197,7 +200,7 @@ def _motion(motion: Motion) -> list[Text]:
 def timings(seconds: Mapping[str, float], reported: str = "") -> Section:
     """One row per step, with a bar of its length."""
     longest = max(seconds.values(), default=0.0) or 1.0
-    bar = html.Markup('<div class="bar" style="width:{}%"></div>')
+    bar = Markup('<div class="bar" style="width:{}%"></div>')
     rows = [(name, duration(s), bar.format(round(100 * s / longest, 1))) for name, s in seconds.items()]
     content = html.joined(html.table((), rows, numbers=(1,)), html.note(reported) if reported else None)
     return Section("timings", "Timings", content)
