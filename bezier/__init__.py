@@ -29,10 +29,13 @@ _LATER = {
 
 
 def __getattr__(name: str) -> Any:
-    """A public name from a module that is loaded at its first use (PEP 562)."""
+    """A public name from a module that is loaded at its first use (PEP 562); ``Unable`` names a library it lacks."""
     if name not in _LATER:
         raise AttributeError(f"module 'bezier' has no attribute {name!r}")
-    found = globals()[name] = getattr(import_module(_LATER[name]), name)
+    from qe.extras import wanted
+
+    with wanted():
+        found = globals()[name] = getattr(import_module(_LATER[name]), name)
     return found
 
 

@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     import qe
     from bezier.arm.joint_plan import JointPlan
     from bezier.pictures.picture import Drawing
+    from bezier.report.html import Section
 
 Note = Callable[[str, object], None]
 
@@ -194,7 +195,24 @@ class Stated:
 
 
 P = TypeVar("P", bound=Plan)
-Section = dict[str, Any]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Story:
+    """What the page of a method says in its own words.
+
+    ``kind``: the curves. ``place``: the section of the paper; ``reported``: the time that it gives. ``given``: its
+    names of the four given points. ``claims``: what each certificate says, by its label. ``none``: why there is no
+    path, where there is none. ``sections``: question, answer and optimum, in order.
+    """
+
+    kind: str
+    place: str
+    given: tuple[str, str, str, str]
+    claims: Mapping[str, str]
+    none: Section | None
+    sections: tuple[Section, ...]
+    reported: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -215,7 +233,7 @@ class Method(Generic[P]):
     ``make``: the plan. ``reason``: why there is no path, in one sentence. ``summary_lines``: its lines in the summary
     for people. ``json_entries``: its further entries in the summary as JSON. ``files``: its further data files, by
     name. ``draw``: writes the pictures into a folder. ``hatted_names``: whether the paper writes its points with hats.
-    ``template`` and ``sections``: its page, and the values that the page shows beyond those of every method.
+    ``story``: what its page says beyond what every page says, with the drawing if there is one.
     ``restore``: the plan that the certificates in a folder prove, without any search; ``CertificateRejected`` where
     they are not about the problem.
     """
@@ -227,6 +245,5 @@ class Method(Generic[P]):
     files: Callable[[P], dict[str, str]]
     draw: Callable[[P, FilePath], Drawing]
     hatted_names: bool
-    template: str
-    sections: Callable[[P], Section]
+    story: Callable[[P, Drawing | None], Story]
     restore: Callable[[Problem, Certificate, Stated], Restored[P]]

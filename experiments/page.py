@@ -4,23 +4,48 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from pathlib import Path
+from typing import Any
 
+from bezier.report import html as pages
+from bezier.report.html import Page, Section
 from experiments.figures import Picture
 from experiments.results import Log
 from experiments.tables import page as markdown_page
 
-TEMPLATE = Path(__file__).parent / "templates" / "benchmarks.html.j2"
+FOOTER = "Made by the experiments of bezier-qe."
+STYLE = """\
+table { font-size: 13px; }
+@media (prefers-color-scheme: dark) { figure svg { background: #fff; border-radius: 8px; padding: 6px; } }
+"""
 
 
 def html(log: Log, pictures: Sequence[Picture]) -> str:
     """The page; tables are those of the Markdown page."""
-    import jinja2
+    title, sections = "bezier-qe: benchmarks", list[Section]()
+    heading, content = "Overview", list[pages.Text]()
 
-    environment = jinja2.Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True)
-    template = environment.from_string(TEMPLATE.read_text())
-    inline = [(p.caption, _inline(p.svg())) for p in pictures]
-    return template.render(blocks=list(_blocks(markdown_page(log))), pictures=inline)
+    def close() -> None:
+        if content:
+            key = re.sub(r"[^a-z0-9]+", "-", heading.lower()).strip("-")
+            sections.append(Section(f"{key}-{len(sections)}", heading, pages.joined(*content)))
+
+    for kind, block in _blocks(markdown_page(log)):
+        match kind, block:
+            case "title", str(text):
+                title = text
+            case "heading", str(text):
+                close()
+                heading, content = text, []
+            case "table", (head, rows):
+                content.append(pages.table(head, rows))
+            case _:
+                content.append(pages.paragraph(str(block)))
+    close()
+    if pictures:
+        drawn = pages.figures([(_inline(p.svg()), p.caption) for p in pictures], wide=True)
+        sections.append(Section("figures", "Figures", drawn))
+    lead = "every solver on every problem, checked" if log.results else "no results"
+    return pages.document(Page(title=title, lead=lead, sections=sections, footer=FOOTER, style=STYLE))
 
 
 def _inline(svg: str) -> str:
@@ -28,9 +53,9 @@ def _inline(svg: str) -> str:
     return svg[svg.index("<svg") :]
 
 
-def _blocks(text: str) -> list[tuple[str, object]]:
+def _blocks(text: str) -> list[tuple[str, Any]]:
     """(kind, content) of the few Markdown forms that the page has: title, heading, table, paragraph."""
-    blocks: list[tuple[str, object]] = []
+    blocks: list[tuple[str, Any]] = []
     for part in re.split(r"\n\s*\n", text.strip()):
         lines = part.strip().splitlines()
         if lines[0].startswith("#"):

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Sequence
+from importlib.resources import files
 from typing import Any
 
 from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 
+from bezier.report.html import Card, Page, Section, described, document
 from paper_repro import tex
 from paper_repro.claim import Asked, Entry, Evidence, Fact, Picture, Table, Verdict
 
@@ -63,12 +65,26 @@ def render(entries: Sequence[Entry], made: str) -> str:
     environment = Environment(loader=PackageLoader("paper_repro"), autoescape=True, undefined=StrictUndefined)
     environment.trim_blocks = environment.lstrip_blocks = True
     environment.filters["math"] = lambda text: Markup(tex.inline(text))
+    article, overview = (environment.get_template(f"{name}.html.j2") for name in ("article", "overview"))
     shown = {heading: [_shown(e) for e in members] for heading, members in by_section(entries).items()}
-    counts = [(v.value, n, v.name.lower()) for v, n in counted(entries).items()]
-    template = environment.get_template("page.html.j2")
-    return template.render(
-        sections=shown, counts=counts, paper=PAPER, made=made, seconds=sum(e.seconds for e in entries)
+    sections = [Section("overview", "Overview", Markup(overview.render(sections=shown, seconds=_seconds(entries))))]
+    for heading, members in shown.items():
+        articles = Markup("\n").join(Markup(article.render(entry=entry)) for entry in members)
+        number = heading.partition(" ")[0]
+        sections.append(Section(f"section-{number}", heading, articles, short=number, bare=True))
+    page = Page(
+        title="The paper, claim by claim",
+        lead=PAPER,
+        cards=[Card(v.value, str(n), v.name.lower()) for v, n in counted(entries).items()],
+        sections=sections,
+        footer=made,
+        style=(files("paper_repro") / "templates" / "page.css").read_text(encoding="utf-8"),
     )
+    return document(page)
+
+
+def _seconds(entries: Sequence[Entry]) -> float:
+    return sum(entry.seconds for entry in entries)
 
 
 def _shown(entry: Entry) -> dict[str, Any]:
@@ -96,7 +112,7 @@ def _extra(entry: Entry, item: Evidence) -> dict[str, Any]:
                 "file": file,
             }
         case Picture():
-            return {"svg": Markup(item.svg)}
+            return {"svg": described(item.svg, item.caption)}
         case Fact() | Table():
             return {}
 

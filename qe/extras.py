@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
+
 from qe.errors import Unable
 
 _EXTRAS = {
@@ -13,6 +16,7 @@ _EXTRAS = {
     "matplotlib": "pictures",
     "mpl_toolkits": "pictures",
     "networkx": "plan",
+    "numpy": "pictures",
     "plotly": "plan",
     "pyarrow": "sweep",
     "pysat": "sat",
@@ -29,3 +33,12 @@ def lacking(error: ImportError) -> Unable | None:
     if module not in _EXTRAS:
         return None
     return Unable(f"{module} is not installed; it comes with: pip install 'bezier-qe[{_EXTRAS[module]}]'")
+
+
+@contextmanager
+def wanted() -> Iterator[None]:
+    """What is imported inside may be absent. Raises ``Unable`` with the extra that brings it."""
+    try:
+        yield
+    except ImportError as error:
+        raise lacking(error) or error from None

@@ -34,6 +34,7 @@ def compare(
         request = compare_command.Request(
             problem=read, folder=folder, target=out, plots=not no_plots, json=json, timeout=timeout
         )
-        reply = limited(partial(compare_command.run, request=request), timeout=timeout, memory=memory, plain=json)
+        work = partial(compare_command.run, request=request)
+        reply = limited(work, timeout=timeout, memory=memory, plain=json, lines=True)
     print(reply.text)
     return reply.code

@@ -50,7 +50,7 @@ def _write(found: Comparison, folder: FilePath, target: FilePath, *, plots: bool
         from bezier.compare import pictures as plot_compare
 
         names += plot_compare.save(found, folder)
-        drawings = plot_compare.svg(found)
+        drawings = plot_compare.charts(found)
     from bezier.compare.page import render
 
     files = [str(target / name) for name in sorted(names)]

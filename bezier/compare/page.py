@@ -2,43 +2,93 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path as FilePath
 
 from markupsafe import Markup
 
 from bezier.compare.comparison import METHODS, Comparison
-from bezier.compare.output import TITLES, duration, notes, rows, step_rows
+from bezier.compare.output import TITLES, Row, duration, notes, rows, step_rows
+from bezier.pictures.picture import Chart
 from bezier.plans import Outcome
-from bezier.report import parts
-from bezier.report.page import package_version, template
+from bezier.report import html, parts
+from bezier.report.html import Card, Page, Section
+from bezier.report.page import PAPER
 
-DRAWINGS = ("regions", "paths")
+NAMES = ("P0", "Q0", "R0", "R2")
+PLANE = (
+    "In the plane through O, Q0 and R0, with coordinates q1u along R0 − Q0 and q1v across: the places that formula (8)"
+    " allows, those that keep the whole quadratic curves inside (8*), and those that formula (7) leaves with some Q2."
+)
+REPORTED = (
+    "The paper reports about 15.4 s for formula (8) with a general computer algebra system on a laptop of 2018 (other"
+    " points, other machine), and that elimination for formula (7) has not yet been successful."
+)
 
 
-def render(found: Comparison, drawings: Mapping[str, str]) -> str:
-    """The page; ``drawings``: SVG text by name, none of them needed."""
+def render(found: Comparison, drawings: Mapping[str, Sequence[Chart]]) -> str:
+    """The page; ``drawings``: those of the paths and of the regions, none of them needed."""
+    file = FilePath(found.problem.source).name
+    page = Page(
+        title=f"{file.removesuffix('.toml').replace('_', ' ')}: quadratic and cubic curves side by side",
+        lead="three quadratic curves with C¹ joins, formula (8), and three cubic curves with C² joins, formula (7)",
+        cards=_cards(found),
+        sections=[_results(found, drawings), _regions(found, drawings), _problem(found), _timings(found)],
+        footer=f"{PAPER}, section 4.2. Made by bezier-qe {html.package_version()} from {file}.",
+    )
+    return html.document(page)
+
+
+def _cards(found: Comparison) -> list[Card]:
     cards = []
     for method in METHODS:
-        side = found.sides[method]
-        good = side.plan.outcome is Outcome.SOLVED
-        cards.append(parts.card(f"{method.value}", "path found" if good else "no path", parts.tone(good)))
-        cards.append(parts.card("eliminated in", duration(side.plan.seconds["elimination"])))
-    regions = {name: r.region for name, r in found.planar.named.items() if r.region}
-    return template("compare.html.j2").render(
-        file=FilePath(found.problem.source).name,
-        title="Quadratic and cubic curves side by side",
-        cards=cards,
-        given=parts.given(found.sides[METHODS[0]].plan, ("P0", "Q0", "R0", "R2")),
-        radius=found.problem.workspace.radius_text,
-        headings=list(TITLES.values()),
-        rows=rows(found),
-        steps=step_rows(found),
-        common={name: duration(s) for name, s in found.seconds.items()},
-        notes=notes(found),
-        planar={name: [piece.brief() for piece in region.cells] for name, region in regions.items()},
-        formulas={name: r.formula for name, r in found.planar.named.items()},
-        sentence=found.existence.sentence,
-        drawings={name: Markup(drawings.get(name, "")) for name in DRAWINGS},
-        version=package_version(),
+        plan = found.sides[method].plan
+        good = plan.outcome is Outcome.SOLVED
+        note = f"eliminated in {duration(plan.seconds['elimination'])}"
+        cards.append(Card(f"{method.value} curves", "path found" if good else "no path", html.tone(good), note))
+    return cards
+
+
+def _results(found: Comparison, drawings: Mapping[str, Sequence[Chart]]) -> Section:
+    content = html.joined(
+        html.figures(drawings.get("paths", ()), wide=True),
+        _beside(rows(found)),
+        html.note("Lengths, curvatures, areas and volumes are enclosures: the number lies between the two ends."),
     )
+    return Section("results", "Side by side", content)
+
+
+def _beside(found: Iterable[Row], *, numbers: Sequence[int] = ()) -> Markup:
+    return html.table(("", *TITLES.values()), ((row.label, *row.cells) for row in found), numbers=numbers)
+
+
+def _regions(found: Comparison, drawings: Mapping[str, Sequence[Chart]]) -> Section:
+    content = [html.paragraph(PLANE), html.figures(drawings.get("regions", ()), wide=True)]
+    content += [html.paragraph(f"{line[0].upper()}{line[1:]}.") for line in notes(found)]
+    for name, item in found.planar.named.items():
+        if item.region:
+            cells = [piece.brief() for piece in item.region.cells]
+            count = f"{name}: cylindrical description, {len(cells)} cell{'s' * (len(cells) != 1)}"
+            content.append(html.folded(count, html.pre("\n".join(cells))))
+    for name, item in found.planar.named.items():
+        content.append(html.folded(f"{name} as handed to the engine", html.pre(item.formula)))
+    theorem = html.pre(found.existence.sentence)
+    content.append(html.folded("the existence theorem as handed to the engine", theorem))
+    return Section("regions", "Where Q1 may be", html.joined(*content), "regions")
+
+
+def _problem(found: Comparison) -> Section:
+    given = parts.given(found.problem.named_points, NAMES)
+    radius = f"{float(found.problem.workspace.radius_squared) ** 0.5:.8g}"
+    said = html.paragraph(f"Radius r = {radius} mm (exactly {found.problem.workspace.radius_text}).")
+    return Section("problem", "The problem", given + said)
+
+
+def _timings(found: Comparison) -> Section:
+    common = [(name, duration(seconds)) for name, seconds in found.seconds.items()]
+    content = html.joined(
+        _beside(step_rows(found), numbers=(1, 2)),
+        html.table(("common step", "time"), common, numbers=(1,)),
+        html.note(REPORTED),
+    )
+    return Section("timings", "Timings", content)

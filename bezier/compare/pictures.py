@@ -10,13 +10,15 @@ import numpy as np
 from bezier.compare.comparison import METHODS, Comparison
 from bezier.compare.output import TITLES
 from bezier.compare.planar import plane_coordinates
+from bezier.pictures import labels
 from bezier.pictures.mesh import Array
-from bezier.pictures.picture import COLOURS, INK, PALE, curve_pictures, numbers
+from bezier.pictures.picture import COLOURS, GRID, INK, PALE, Chart, curve_pictures, numbers
 from bezier.pictures.plot import new_figure, svg_text
+from bezier.problem import PlanMethod
 
 REGION_COLOURS = {"(7)": "#2e9e6b", "(8*)": "#d1a03b", "(8)": "#2364aa"}
 LABELS = {
-    "(7)": "(7): cubic curves, some $Q_2$",
+    "(7)": "(7): cubic curves, some Q₂",
     "(8*)": "(8*): whole quadratic curves",
     "(8)": "(8): their control polygons",
 }
@@ -25,14 +27,25 @@ VIEWS = (("top view", 0, 1), ("front view", 0, 2))
 
 def save(found: Comparison, folder: FilePath) -> list[str]:
     """``regions.png`` and ``paths.png``."""
-    for name, figure in (("regions.png", _regions(found)), ("paths.png", _paths(found))):
+    paths = new_figure(11, 8)
+    for k, method in enumerate(METHODS):
+        for column in range(len(VIEWS)):
+            _view(paths.add_axes((0.06 + 0.5 * column, 0.56 - 0.5 * k, 0.41, 0.37)), found, method, column)
+    for name, figure in (("regions.png", _regions(found)), ("paths.png", paths)):
         figure.savefig(folder / name, dpi=120, pil_kwargs={"compress_level": 4})
     return ["regions.png", "paths.png"]
 
 
-def svg(found: Comparison) -> dict[str, str]:
-    """The same as SVG text for the page."""
-    return {"regions": svg_text(_regions(found)), "paths": svg_text(_paths(found))}
+def charts(found: Comparison) -> dict[str, tuple[Chart, ...]]:
+    """The same for the page."""
+    paths = []
+    for method in METHODS:
+        for column, (title, _i, _j) in enumerate(VIEWS):
+            figure = new_figure(5.6, 4.2)
+            _view(figure.add_axes((0.1, 0.1, 0.88, 0.81)), found, method, column)
+            paths.append((svg_text(figure), f"{TITLES[method]}: {title} of the path and its control polygons"))
+    words = "where Q1 may be, in the plane of O, Q0 and R0"
+    return {"regions": ((svg_text(_regions(found)), words),), "paths": tuple(paths)}
 
 
 def _regions(found: Comparison) -> Any:
@@ -56,54 +69,47 @@ def _regions(found: Comparison) -> Any:
             fill(values, low, high, color=colour, alpha=0.3, linewidth=0, label=None if k else LABELS[name])
             for end in (low, high):
                 axis.plot(*((values, end) if along_first else (end, values)), color=colour, linewidth=1.4)
-    for k, (text, point) in enumerate(_marks(found).items()):
+    marks = []
+    for text, point in _marks(found).items():
         u, v = (float(c) * s for c, s in zip(plane.place(point), unit, strict=True))
         axis.plot([u], [v], "o", color=INK, markersize=5)
-        above = k >= 2
-        side = "center" if not above else "left" if k == 2 else "right"
-        axis.annotate(text, (u, v), xytext=(0, 8 if above else -14), textcoords="offset points", ha=side)
+        marks.append((text, (u, v)))
     axis.set_aspect("equal", adjustable="datalim")
-    axis.set_title("where $Q_1$ may be, in the plane of $O$, $Q_0$ and $R_0$", fontsize=11, color=INK)
-    axis.set_xlabel("along $R_0 - Q_0$, mm")
+    axis.set_title("where Q₁ may be, in the plane of O, Q₀ and R₀", fontsize=11, color=INK)
+    axis.set_xlabel("along R₀ − Q₀, mm")
     axis.set_ylabel("across, mm")
-    axis.grid(color="#e3e8ec", linewidth=0.6)
+    axis.grid(color=GRID, linewidth=0.6)
     axis.set_axisbelow(True)
+    labels.place(axis, marks, np.zeros((0, 2)), size=9)
     figure.legend(loc="upper left", bbox_to_anchor=(0.69, 0.94), frameon=False, fontsize=9)
     return figure
 
 
 def _marks(found: Comparison) -> dict[str, Any]:
     q0, r0 = found.problem.via
-    marks = {"$Q_0$": q0, "$R_0$": r0}
+    marks = {"Q₀": q0, "R₀": r0}
     for method, sign in zip(METHODS, ("8", "7"), strict=True):
         path = found.sides[method].plan.path
         if path is not None:
-            marks[f"$Q_1$ of ({sign})"] = path.points["Q1"]
+            marks[f"Q₁ of ({sign})"] = path.points["Q1"]
     return marks
 
 
-def _paths(found: Comparison) -> Any:
-    figure = new_figure(11, 8)
-    for row, method in enumerate(METHODS):
-        path = found.sides[method].plan.path
-        for column, (title, i, j) in enumerate(VIEWS):
-            axis = figure.add_axes((0.06 + 0.5 * column, 0.56 - 0.5 * row, 0.41, 0.37))
-            _view(axis, found, path, i, j)
-            axis.set_title(f"{TITLES[method]}: {title}", fontsize=10, color=INK)
-    return figure
-
-
-def _view(axis: Any, found: Comparison, path: Any, i: int, j: int) -> None:
+def _view(axis: Any, found: Comparison, method: PlanMethod, column: int) -> None:
+    path, (title, i, j) = found.sides[method].plan.path, VIEWS[column]
     reach = float(found.problem.workspace.radius_squared) ** 0.5
     angle = np.linspace(0, 2 * np.pi, 181)
     axis.plot(reach * np.cos(angle), reach * np.sin(angle), color=PALE, linewidth=1)
+    drawn = [np.zeros((0, 2))]
     for curve in curve_pictures(path.curves) if path is not None else ():
         colour = COLOURS.get(curve.name, INK)
         axis.plot(curve.polygon[:, i], curve.polygon[:, j], "--o", color=colour, linewidth=0.8, markersize=3, alpha=0.8)
         axis.plot(curve.points[:, i], curve.points[:, j], color=colour, linewidth=2.2)
-    given: Array = numbers(list(found.problem.named_points.values()))
-    for name, point in zip(("$P_0$", "$Q_0$", "$R_0$", "goal"), given, strict=True):
-        axis.annotate(name, (point[i], point[j]), xytext=(3, 6), textcoords="offset points", fontsize=8)
+        drawn += [curve.points[:, [i, j]], curve.polygon[:, [i, j]]]
     axis.set_aspect("equal", adjustable="datalim")
-    axis.grid(color="#e3e8ec", linewidth=0.6)
+    axis.set_title(f"{TITLES[method]}: {title}", fontsize=10, color=INK)
+    axis.grid(color=GRID, linewidth=0.6)
     axis.set_axisbelow(True)
+    given: Array = numbers(list(found.problem.named_points.values()))
+    names = ("P₀", "Q₀", "R₀", "goal")
+    labels.place(axis, [(n, (p[i], p[j])) for n, p in zip(names, given, strict=True)], np.concatenate(drawn))

@@ -11,7 +11,7 @@ from __future__ import annotations
 import itertools
 from collections.abc import Sequence
 from fractions import Fraction
-from math import comb
+from math import comb, lcm
 from typing import Any
 
 from bezier.curves.scalar import is_zero, sign
@@ -20,8 +20,25 @@ Coefficients = tuple[Any, ...]
 HALF = Fraction(1, 2)
 
 
+def _whole(values: Sequence[Any]) -> tuple[list[int], int] | None:
+    """Integers and what to divide them by, for rational numbers; None for others.
+
+    A fraction finds a greatest common divisor at every operation, integers only once at the end.
+    """
+    if not all(isinstance(c, (int, Fraction)) for c in values):
+        return None
+    below = lcm(*(c.denominator for c in values))
+    return [c.numerator * (below // c.denominator) for c in values], below
+
+
 def value(b: Sequence[Any], t: Any) -> Any:
     """p(t) by de Casteljau's algorithm."""
+    if (known := _whole(b)) is not None and isinstance(t, (int, Fraction)):
+        (numbers, below), up, all_of = known, t.numerator, t.denominator
+        rest = all_of - up
+        while len(numbers) > 1:
+            numbers = [rest * x + up * y for x, y in itertools.pairwise(numbers)]
+        return Fraction(numbers[0], below * all_of ** (len(b) - 1))
     row = list(b)
     while len(row) > 1:
         row = [x + t * (y - x) for x, y in itertools.pairwise(row)]
@@ -30,6 +47,8 @@ def value(b: Sequence[Any], t: Any) -> Any:
 
 def split(b: Sequence[Any], t: Any = HALF) -> tuple[Coefficients, Coefficients]:
     """The Bernstein coefficients on [0, t] and on [t, 1], each mapped to [0, 1]."""
+    if (known := _whole(b)) is not None and isinstance(t, (int, Fraction)):
+        return _split_whole(*known, t)
     row, left, right = list(b), [b[0]], [b[-1]]
     while len(row) > 1:
         row = [x + t * (y - x) for x, y in itertools.pairwise(row)]
@@ -38,8 +57,22 @@ def split(b: Sequence[Any], t: Any = HALF) -> tuple[Coefficients, Coefficients]:
     return tuple(left), tuple(reversed(right))
 
 
+def _split_whole(numbers: list[int], below: int, t: Fraction | int) -> tuple[Coefficients, Coefficients]:
+    """The same for integers over a common denominator."""
+    up, all_of = t.numerator, t.denominator
+    rest, left, right = all_of - up, [Fraction(numbers[0], below)], [Fraction(numbers[-1], below)]
+    while len(numbers) > 1:
+        numbers, below = [rest * x + up * y for x, y in itertools.pairwise(numbers)], below * all_of
+        left.append(Fraction(numbers[0], below))
+        right.append(Fraction(numbers[-1], below))
+    return tuple(left), tuple(reversed(right))
+
+
 def elevate(b: Sequence[Any], degree: int) -> Coefficients:
     """The same polynomial with ``degree`` + 1 coefficients (degree elevation)."""
+    more = degree + 1 - len(b)
+    if more > 0 and _whole(b) is not None:
+        return multiply(b, (1,) * (more + 1))  # 1 in Bernstein form
     row = list(b)
     while len(row) <= degree:
         n = len(row)
@@ -62,11 +95,24 @@ def negate(b: Sequence[Any]) -> Coefficients:
 def multiply(a: Sequence[Any], b: Sequence[Any]) -> Coefficients:
     """The product: c_k = sum_{i+j=k} C(m,i) C(n,j) / C(m+n,k) a_i b_j (Farouki 2012, section 4)."""
     m, n = len(a) - 1, len(b) - 1
+    one, other = _whole(a), _whole(b)
+    if one is not None and other is not None:
+        left = [comb(m, i) * x for i, x in enumerate(one[0])]
+        sums = _convolved(left, [comb(n, j) * y for j, y in enumerate(other[0])])
+        return tuple(Fraction(s, comb(m + n, k) * one[1] * other[1]) for k, s in enumerate(sums))
     out: list[Any] = [Fraction(0)] * (m + n + 1)
     for i, x in enumerate(a):
         for j, y in enumerate(b):
             out[i + j] = out[i + j] + Fraction(comb(m, i) * comb(n, j), comb(m + n, i + j)) * (x * y)
     return tuple(out)
+
+
+def _convolved(a: Sequence[int], b: Sequence[int]) -> list[int]:
+    out = [0] * (len(a) + len(b) - 1)
+    for i, x in enumerate(a):
+        for j, y in enumerate(b):
+            out[i + j] += x * y
+    return out
 
 
 def derivative(b: Sequence[Any]) -> Coefficients:
@@ -78,6 +124,10 @@ def derivative(b: Sequence[Any]) -> Coefficients:
 def to_power(b: Sequence[Any]) -> Coefficients:
     """Coefficients of 1, t, t^2, ..., without leading zeros (() for the zero polynomial)."""
     n = len(b) - 1
+    if (known := _whole(b)) is not None:
+        numbers, below = known
+        sums = (sum((-1) ** (k - i) * comb(k, i) * numbers[i] for i in range(k + 1)) for k in range(n + 1))
+        return trim([Fraction(comb(n, k) * total, below) for k, total in enumerate(sums)])
     out = []
     for k in range(n + 1):
         total = sum(((-1) ** (k - i) * comb(k, i) * b[i] for i in range(k + 1)), Fraction(0))
@@ -89,6 +139,12 @@ def from_power(p: Sequence[Any]) -> Coefficients:
     """The Bernstein coefficients of a polynomial given by its coefficients of 1, t, t^2, ..."""
     n = max(len(p) - 1, 0)
     rows = list(p) or [Fraction(0)]
+    if (known := _whole(rows)) is not None:
+        numbers, below = known
+        shared = lcm(*(comb(n, i) for i in range(n + 1)))
+        shares = [number * (shared // comb(n, i)) for i, number in enumerate(numbers)]
+        sums = (sum(comb(k, i) * shares[i] for i in range(k + 1)) for k in range(n + 1))
+        return tuple(Fraction(total, below * shared) for total in sums)
     return tuple(
         sum((Fraction(comb(k, i), comb(n, i)) * rows[i] for i in range(k + 1)), Fraction(0)) for k in range(n + 1)
     )
@@ -121,6 +177,9 @@ def power_multiply(a: Sequence[Any], b: Sequence[Any]) -> Coefficients:
     """The product of two polynomials in power form."""
     if not a or not b:
         return ()
+    one, other = _whole(a), _whole(b)
+    if one is not None and other is not None:
+        return tuple(Fraction(s, one[1] * other[1]) for s in _convolved(one[0], other[0]))
     out: list[Any] = [Fraction(0)] * (len(a) + len(b) - 1)
     for i, x in enumerate(a):
         for j, y in enumerate(b):

@@ -6,7 +6,7 @@ import io
 
 import numpy as np
 
-from bezier.exports.track import Track
+from bezier.motion.track import Track
 
 ROWS = 151
 

@@ -9,7 +9,7 @@ from math import ceil, sqrt
 import numpy as np
 
 from bezier.curves.workspace import WorkspaceKind
-from bezier.exports.track import Array, Track
+from bezier.motion.track import Array, Track
 from bezier.pictures.obstacles import ObstaclePicture
 from bezier.problem import Problem
 from qe.arguments import wrong

@@ -8,7 +8,7 @@ from fractions import Fraction
 
 import numpy as np
 
-from bezier.exports.track import Array, Track
+from bezier.motion.track import Array, Track
 from qe.arguments import wrong
 from qe.errors import InputError
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from bezier.exports.track import Array, Track
+from bezier.motion.track import Array, Track
 from qe.extras import lacking
 
 if TYPE_CHECKING:

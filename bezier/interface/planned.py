@@ -23,7 +23,7 @@ from bezier.plans import Clock, Outcome, Plan
 from bezier.problem import Problem
 from qe import arguments
 from qe.errors import InputError, Unable
-from qe.extras import lacking
+from qe.extras import wanted
 from qe.proof.certificate import Certificate
 
 if TYPE_CHECKING:
@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from scipy.interpolate import BSpline, PPoly
 
     from bezier.arm.joint_plan import JointPlan
-    from bezier.exports.track import Track
+    from bezier.motion.track import Track
 
 
 SMALLEST = Fraction(1, 10**300)
@@ -161,7 +161,8 @@ class Planned:
     # --- floating point ---------------------------------------------------------------------------------
     @cached_property
     def _track(self) -> Track:
-        from bezier.exports.track import Track
+        with wanted():
+            from bezier.motion.track import Track
 
         return Track.of(pieces(self.path, self.motion))
 
@@ -184,13 +185,15 @@ class Planned:
 
     def to_bspline(self) -> BSpline:
         """The motion as a SciPy ``BSpline`` over time. Raises ``Unable`` without SciPy."""
-        from bezier.exports.splines import bspline
+        with wanted():
+            from bezier.exports.splines import bspline
 
         return bspline(self._track)
 
     def to_ppoly(self) -> PPoly:
         """The motion as a SciPy ``PPoly`` over time. Raises ``Unable`` without SciPy."""
-        from bezier.exports.splines import ppoly
+        with wanted():
+            from bezier.exports.splines import ppoly
 
         return ppoly(self._track)
 
@@ -203,17 +206,19 @@ class Planned:
 
         Without them a ``MultiDOFJointTrajectory``. Raises ``InputError`` for a plan without a motion in time.
         """
-        from bezier.exports.ros import ros_trajectory
-
         if self.motion is None:
             raise InputError("to_ros: a plan with limits= expected, one without a motion in time found")
+        with wanted():
+            from bezier.exports.ros import ros_trajectory
+
         return ros_trajectory(
             self._track, frame=arguments.text(frame, "frame"), joints=joints, rows=arguments.whole(rows, "rows")
         )
 
     def to_gcode(self, *, plane: str = "xy", tolerance: float = 0.05, feed: float = 1000) -> str:
         """G-code for a pen plotter: chords within ``tolerance`` (mm) of the path in a plane, ``feed`` in mm/min."""
-        from bezier.exports.plane import gcode
+        with wanted():
+            from bezier.exports.plane import gcode
 
         return gcode(
             self._flat(), plane=plane, tolerance=_positive(tolerance, "tolerance"), feed=_positive(feed, "feed")
@@ -224,19 +229,18 @@ class Planned:
 
         Raises ``Unable`` for obstacles without SciPy, which finds their outlines.
         """
-        from bezier.exports.plane import svg
-        from bezier.pictures.obstacles import obstacle_pictures
-
         reach = float(self.problem.workspace.radius_squared) ** 0.5
-        try:
+        with wanted():
+            from bezier.exports.plane import svg
+            from bezier.pictures.obstacles import obstacle_pictures
+
             pictures = obstacle_pictures(self.problem.obstacles, reach)
-        except ImportError as error:
-            raise lacking(error) or error from None
         return svg(self._flat(), self.problem, pictures, plane)
 
     def _flat(self) -> Track:
         """The curves themselves, without a time law, which only raises their degree."""
-        from bezier.exports.track import Track
+        with wanted():
+            from bezier.motion.track import Track
 
         return Track.of(pieces(self.path, None))
 
@@ -271,18 +275,16 @@ class Planned:
         }
 
     def _npz(self) -> bytes:
-        from bezier.exports.arrays import npz
+        with wanted():
+            from bezier.exports.arrays import npz
 
         return npz(self._track)
 
     def _save_folder(self, target: FilePath, pictures: bool) -> list[FilePath]:
         clock = Clock(seconds=dict(self.found.seconds), start=time.perf_counter() - self.seconds)
-        try:
-            with outputs.all_or_none(target) as folder:
-                made = changed(self.found, seconds=clock.seconds)
-                files, _ = write_folder(made, folder, target, clock, plots=pictures)
-        except ImportError as error:
-            raise lacking(error) or error from None
+        with wanted(), outputs.all_or_none(target) as folder:
+            made = changed(self.found, seconds=clock.seconds)
+            files, _ = write_folder(made, folder, target, clock, plots=pictures)
         return [target / name for name in files]
 
     def __str__(self) -> str:

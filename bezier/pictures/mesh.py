@@ -24,12 +24,13 @@ Indices = NDArray[np.int64]
 class RegionMesh:
     """A closed surface: ``vertices`` (n, 3), ``faces`` (m, 3), ``owner`` (m,): index of the bounding condition.
 
-    ``edges``: polylines where two boundary surfaces meet.
+    ``normals`` (m, 3): outward, those of the boundary surface itself. ``edges``: polylines where two of these meet.
     """
 
     vertices: Array
     faces: Indices
     owner: Indices
+    normals: Array
     edges: tuple[Array, ...]
 
 
@@ -83,7 +84,16 @@ def region_mesh(conditions: Sequence[Condition], level: int = 3) -> RegionMesh |
     middle = vertices[faces].mean(axis=1) - centre
     middle /= np.linalg.norm(middle, axis=1, keepdims=True)
     owner = np.stack([_ray(s, centre, middle) for s in shapes]).argmin(axis=0)
-    return RegionMesh(vertices, faces, owner, edges)
+    return RegionMesh(vertices, faces, owner, _normals(shapes, owner, vertices[faces].mean(axis=1)), edges)
+
+
+def _normals(shapes: Sequence[Shape], owner: Indices, middles: Array) -> Array:
+    """The outward unit normals of the surfaces to which the faces belong: a thin triangle's own one tells little."""
+    found = np.zeros_like(middles)
+    for k, (kind, vector, _number) in enumerate(shapes):
+        mine = owner == k
+        found[mine] = middles[mine] - vector if kind == "ball" else -vector
+    return np.asarray(found / (np.linalg.norm(found, axis=1, keepdims=True) + 1e-30))
 
 
 def _cast(shapes: Sequence[Shape], centre: Array, directions: Array) -> Array:

@@ -11,8 +11,8 @@ from bezier.obstacles.bodies import Body, Cylinder, HalfSpaceBody, Rounded
 from bezier.obstacles.obstacle import Obstacle
 from bezier.pictures.mesh import Array, Indices, hull, hull_faces, icosphere
 
-COLOURS = ("#c9772b", "#8a6fb0", "#5d8a3a", "#b5537c", "#4a8d97", "#a08a2e")
-"""The colours of obstacles, in turn."""
+COLOURS = ("#d98a2b", "#8a6fb0", "#3f9aa8", "#8c6239", "#c2a92b", "#6b7785")
+"""The colours of obstacles, in turn; none is near a colour of the curves."""
 GRID = 21
 """Grid points per axis to show an obstacle given by a formula."""
 

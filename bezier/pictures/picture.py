@@ -20,7 +20,14 @@ COLOURS = {"P": "#2364aa", "Q": "#d1495b", "R": "#2e9e6b"}
 """One colour per curve, used for its control points and for the region's boundary that keeps them in."""
 SECOND = {"P2": "#6fb1e8", "Q2": "#e79aa4", "R2": "#8fd3b6"}
 """For the second inner control point of a cubic curve."""
-INK, PALE, FLOOR = "#22303c", "#9aa7b1", "#b08d57"
+INK, PALE, FLOOR = "#22303c", "#8493a0", "#b08d57"
+GRID, SHADE = "#e3e8ec", "#e9edf1"
+TABLE = {"P1.z": "#7d6a45", "Q1.z": FLOOR, "R1.z": "#dcc598", "P2.z": "#66583c", "Q2.z": "#c3a36c", "R2.z": "#ecdcbb"}
+"""For the boundary that keeps a control point above the table."""
+OTHER = ("#8a6fb0", "#3f9aa8", "#c2a92b", "#6b7785", "#8c6239")
+"""For all other boundary surfaces, in turn."""
+Chart = tuple[str, str]
+"""A drawing as SVG text, and what it shows in words."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,9 +55,9 @@ class RegionPicture:
     def colour(self, index: int) -> str:
         """The colour of a boundary surface."""
         label = self.labels[index]
-        if label.endswith(".z"):
-            return FLOOR
-        return SECOND.get(label, COLOURS.get(label[:1], PALE) if len(label) == 2 else PALE)
+        known = {**TABLE, **SECOND, **{f"{letter}1": colour for letter, colour in COLOURS.items()}}
+        others = [k for k, name in enumerate(self.labels) if name not in known]
+        return known[label] if label in known else OTHER[others.index(index) % len(OTHER)]
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,15 +78,14 @@ class PathPicture:
 class Drawing:
     """The pictures of a plan: what the page shows, and the files written.
 
-    ``views``: the coordinate views, ``charts``: further drawings, ``clearance``: heights and distances to the
-    obstacles, all as SVG text.
+    ``views``: the coordinate views; ``charts``: further drawings; ``clearance``: heights, distances to the obstacles.
     """
 
     picture: PathPicture
-    views: str
     files: tuple[str, ...]
-    charts: str = ""
-    clearance: str = ""
+    views: tuple[Chart, ...] = ()
+    charts: tuple[Chart, ...] = ()
+    clearance: tuple[Chart, ...] = ()
 
 
 def path_picture(
@@ -137,3 +143,17 @@ def _label(condition: Condition, named: Sequence[Condition]) -> str:
 def numbers(points: Sequence[Sequence[Any]]) -> Array:
     """Exact points as floating-point rows."""
     return np.array([[float(c) for c in p] for p in points])
+
+
+# --- names -----------------------------------------------------------------------------------------------
+def boundary(label: str) -> str:
+    """A boundary surface in words."""
+    if label.endswith(".z"):
+        return f"{written(label[:-2])} on the table"
+    return f"‖{written(label)}‖ = r" if len(label) == 2 else label
+
+
+def written(name: str) -> str:
+    """A name with a combining hat on its letter and its index lowered."""
+    lowered = name[1:].translate(str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉"))
+    return f"{name[0]}\u0302{lowered}" if name[:1] in "PQR" else name

@@ -9,19 +9,40 @@ from typing import Any
 
 import numpy as np
 
+from bezier.pictures import labels
 from bezier.pictures.mesh import Array, best_view, direction, hull
 from bezier.pictures.obstacles import ObstaclePicture
-from bezier.pictures.picture import FLOOR, INK, PALE, PathPicture, RegionPicture
+from bezier.pictures.picture import (
+    COLOURS,
+    FLOOR,
+    GRID,
+    INK,
+    PALE,
+    SHADE,
+    Chart,
+    PathPicture,
+    RegionPicture,
+    boundary,
+    written,
+)
 
-CONTROL = {f"{curve}{i}" for curve in "PQR" for i in range(4)}
 VIEWS = (("top view", 0, 1), ("front view", 0, 2), ("side view", 1, 2))
 AXES = ("x", "y", "z")
+NEAR = 0.02
+"""The share of the radius within which points get one label."""
+
+
+WORDS = {
+    "top view": "the path and its control polygons in the workspace from above",
+    "front view": "the same seen from the front",
+    "side view": "the same seen from the side",
+}
 
 
 def save_region(picture: PathPicture, path: Path, title: str) -> None:
     """``region.png``: the possible places of Q1 from two sides in space, and the three coordinate views."""
     figure = new_figure(11, 8)
-    figure.suptitle(title, fontsize=14, color=INK, y=0.995)
+    figure.suptitle(title, fontsize=14, color=INK, y=0.985)
     region = picture.region
     if region is None:
         axis = figure.add_axes((0.0, 0.0, 1.0, 1.0))
@@ -29,66 +50,69 @@ def save_region(picture: PathPicture, path: Path, title: str) -> None:
     else:
         elevation, turn = best_view(region.mesh)
         for column, view in enumerate(((elevation, turn), (10.0, turn + 180))):
-            axis = figure.add_axes((0.02 + 0.48 * column, 0.37, 0.46, 0.58), projection="3d")
+            axis = figure.add_axes((0.09 + 0.46 * column, 0.37, 0.42, 0.54), projection="3d")
             _draw_region(axis, region, alpha=1.0, view=view)
             _frame(axis, region.mesh.vertices, pad=0.06, view=view)
             if region.chosen is not None:
                 axis.plot(*region.chosen[:, None], "o", color=INK, markersize=7, zorder=10)
             if column == 0:
-                _legend(axis, region)
+                _legend(figure, region)
             else:
-                axis.text2D(0.5, 0.93, "from the other side", transform=axis.transAxes, ha="center", fontsize=9)
+                axis.text2D(0.5, 0.97, "from the other side", transform=axis.transAxes, ha="center", fontsize=9)
         for column, (title, a, b) in enumerate(VIEWS):
-            _region_view(figure.add_axes((0.055 + 0.325 * column, 0.06, 0.27, 0.23)), region, title, a, b)
+            _region_view(figure.add_axes((0.055 + 0.325 * column, 0.07, 0.27, 0.23)), region, title, a, b)
     _save(figure, path, picture.hatted_names)
 
 
 def save_path(picture: PathPicture, path: Path) -> None:
-    """``path.png``: the three curves with control polygons in the workspace, and the coordinate views."""
-    figure = new_figure(10, 9)
-    axis = figure.add_axes((0.1, 0.385, 0.8, 0.62), projection="3d")
+    """``path.png``: the curves with control polygons in the workspace, and the coordinate views."""
+    figure = new_figure(11, 9.2)
+    axis = figure.add_axes((0.05, 0.33, 0.9, 0.66), projection="3d")
     _draw_workspace(axis, picture)
     for curve in picture.curves:
         axis.plot(*curve.polygon.T, "--o", color=curve.colour, linewidth=1, markersize=4, alpha=0.75)
-        axis.plot(*curve.points.T, color=curve.colour, linewidth=3, label=f"$\\hat{{{curve.name}}}(t)$")
-    if picture.region is not None:
-        _draw_region(axis, picture.region, alpha=0.25)
+        axis.plot(*curve.points.T, color=curve.colour, linewidth=3, label=f"{written(curve.name)}(t)")
     for obstacle in picture.obstacles:
         _draw_obstacle(axis, obstacle)
-    for name, point in picture.marks.items():
-        axis.text(*(point * 1.04), mathematical(name), fontsize=10, color=INK)
-    if picture.curves:
-        axis.legend(loc="upper left", frameon=False)
     reach = picture.radius
     low = 0.0 if picture.has_floor else -reach
-    _frame(axis, np.array([[-reach, -reach, low], [reach, reach, reach]]), pad=0.0)
+    _frame(
+        axis, np.array([[-reach, -reach, low], [reach, reach, reach]]), pad=0.0, zoom=1.2 if picture.has_floor else 1.0
+    )
+    _name_in_space(axis, picture)
+    if picture.curves:
+        handles, texts = axis.get_legend_handles_labels()
+        figure.legend(handles, texts, loc="upper left", bbox_to_anchor=(0.02, 0.98), frameon=False)
     for column, (title, i, j) in enumerate(VIEWS):
-        _path_view(figure.add_axes((0.055 + 0.325 * column, 0.05, 0.27, 0.26)), picture, title, i, j)
+        _path_view(figure.add_axes((0.055 + 0.325 * column, 0.055, 0.27, 0.26)), picture, title, i, j)
     _save(figure, path, picture.hatted_names)
 
 
-def views_svg(picture: PathPicture) -> str:
-    """The three coordinate views as one SVG element for the report."""
-    figure = new_figure(12, 4.2)
-    for column, (title, i, j) in enumerate(VIEWS):
-        _path_view(figure.add_axes((0.045 + 0.33 * column, 0.12, 0.275, 0.78)), picture, title, i, j)
-    _letter(figure, picture.hatted_names)
-    return svg_text(figure)
+def views(picture: PathPicture) -> tuple[Chart, ...]:
+    """The three coordinate views for the page."""
+    found = []
+    for title, i, j in VIEWS:
+        figure = new_figure(4.4, 3.7)
+        _path_view(figure.add_axes((0.16, 0.14, 0.81, 0.77)), picture, title, i, j)
+        _letter(figure, picture.hatted_names)
+        found.append((svg_text(figure), f"{title} ({AXES[i]}{AXES[j]}): {WORDS[title]}"))
+    return tuple(found)
+
+
+VARIABLES = {INK: "ink", PALE: "pale", GRID: "grid", SHADE: "shade", FLOOR: "floor", "#ffffff": "paper"}
+"""The colours that the page changes in the dark, by their names there."""
 
 
 def svg_text(figure: Any) -> str:
-    """A figure as one SVG element."""
+    """A figure as one SVG element, its colours given by those of the page."""
     from matplotlib.backends.backend_svg import FigureCanvasSVG
 
     buffer = io.StringIO()
     FigureCanvasSVG(figure).print_svg(buffer, metadata={"Date": None, "Creator": None})
     text = buffer.getvalue()
-    return text[text.index("<svg") :]
-
-
-def mathematical(name: str) -> str:
-    """A point's name in mathematical letters: ``Q1`` becomes Q with a hat and an index."""
-    return f"$\\hat{{{name[0]}}}_{{{name[1:]}}}$" if name[:1] in "PQR" and name[1:].isdigit() else name
+    named = {**VARIABLES, **{colour: letter.lower() for letter, colour in COLOURS.items()}}
+    text = re.sub("|".join(named), lambda found: f"var(--{named[found[0]]})", text[text.index("<svg") :])
+    return re.sub(r"<metadata>.*?</metadata>\s*", "", text, flags=re.DOTALL)
 
 
 def new_figure(width: float, height: float) -> Any:
@@ -115,7 +139,7 @@ def _letter(figure: Any, hatted_names: bool) -> None:
     from matplotlib.text import Text
 
     for item in [] if hatted_names else figure.findobj(Text):
-        item.set_text(re.sub(r"\\hat\{(.)\}", r"\1", item.get_text()))
+        item.set_text(item.get_text().replace("\u0302", ""))
 
 
 def _draw_region(axis: Any, region: RegionPicture, alpha: float, view: tuple[float, float] | None = None) -> None:
@@ -124,9 +148,7 @@ def _draw_region(axis: Any, region: RegionPicture, alpha: float, view: tuple[flo
     from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
     mesh = region.mesh
-    triangles = mesh.vertices[mesh.faces]
-    normals = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
-    normals /= np.linalg.norm(normals, axis=1, keepdims=True) + 1e-30
+    triangles, normals = mesh.vertices[mesh.faces], mesh.normals
     seen = np.ones(len(normals), dtype=bool) if view is None else normals @ direction(view) > -0.15
     triangles, normals = triangles[seen], normals[seen]
     light = np.array([-0.35, -0.65, 0.68])
@@ -163,7 +185,7 @@ def _draw_workspace(axis: Any, picture: PathPicture) -> None:
     axis.plot([0], [0], [0], marker="+", color=INK)
 
 
-def _frame(axis: Any, points: Array, pad: float, view: tuple[float, float] = (20.0, -62.0)) -> None:
+def _frame(axis: Any, points: Array, pad: float, view: tuple[float, float] = (20.0, -62.0), zoom: float = 0.94) -> None:
     from matplotlib.ticker import MaxNLocator
 
     low, high = points.min(axis=0), points.max(axis=0)
@@ -173,32 +195,47 @@ def _frame(axis: Any, points: Array, pad: float, view: tuple[float, float] = (20
         getattr(axis, f"set_{name}lim")(a, b)
         getattr(axis, f"set_{name}label")(name)
         getattr(axis, f"{name}axis").set_major_locator(MaxNLocator(max(1, round(5 * (b - a) / widest))))
-    axis.set_box_aspect((high - low) + 1e-12, zoom=1.06)
+    axis.set_box_aspect((high - low) + 1e-12, zoom=zoom)
     axis.view_init(elev=view[0], azim=view[1])
     for pane in (axis.xaxis, axis.yaxis, axis.zaxis):
         pane.pane.set_facecolor("#f6f8fa")
         pane.pane.set_edgecolor("#dfe5ea")
-        pane._axinfo["grid"]["color"] = "#e3e8ec"
+        pane._axinfo["grid"]["color"] = GRID
 
 
-def _legend(axis: Any, region: RegionPicture) -> None:
+def _legend(figure: Any, region: RegionPicture) -> None:
     from matplotlib.patches import Patch
 
     shown = sorted(set(region.mesh.owner.tolist()))
-    handles = [Patch(color=region.colour(k), alpha=0.75, label=boundary_name(region.labels[k])) for k in shown]
-    axis.legend(handles=handles, loc="upper left", frameon=False, fontsize=9, bbox_to_anchor=(-0.08, 1.05))
+    handles = [Patch(color=region.colour(k), alpha=0.75, label=boundary(region.labels[k])) for k in shown]
+    figure.legend(handles=handles, loc="upper left", frameon=False, fontsize=9, bbox_to_anchor=(0.01, 0.96))
 
 
-def boundary_name(label: str) -> str:
-    """A boundary surface in mathematical letters."""
-    if label.endswith(".z"):
-        return f"{mathematical(label[:2])} on the table"
-    return rf"$\|${mathematical(label)}$\| = r$" if label in CONTROL else label
+def _name_in_space(axis: Any, picture: PathPicture) -> None:
+    """The names of the points beside them, as seen from the viewer."""
+    from mpl_toolkits.mplot3d.proj3d import proj_transform
+
+    axis.apply_aspect()
+    axis.M = axis.get_proj()
+
+    def seen(points: Array) -> Array:
+        return np.stack(proj_transform(*points.T, axis.M)[:2], axis=1)
+
+    drawn = [seen(part) for curve in picture.curves for part in (curve.points, _along(curve.polygon))]
+    texts = [(written(name), tuple(seen(point[None, :])[0])) for name, point in picture.marks.items()]
+    labels.place(axis, texts, np.concatenate(drawn) if drawn else np.zeros((0, 2)), size=10)
+
+
+def _along(polygon: Array) -> Array:
+    """Points on the sides of a polygon."""
+    share = np.linspace(0.0, 1.0, 9)[:, None, None]
+    found: Array = (polygon[:-1] * (1 - share) + polygon[1:] * share).reshape(-1, polygon.shape[1])
+    return found
 
 
 def _region_view(axis: Any, region: RegionPicture, title: str, i: int, j: int) -> None:
     outline = hull(region.mesh.vertices[:, [i, j]])
-    axis.fill(*outline.T, color="#e9edf1", zorder=0)
+    axis.fill(*outline.T, color=SHADE, zorder=0)
     axis.plot(*outline.T, color=INK, linewidth=1)
     for edge in region.mesh.edges:
         axis.plot(edge[:, i], edge[:, j], color=PALE, linewidth=0.8)
@@ -212,9 +249,6 @@ def _path_view(axis: Any, picture: PathPicture, title: str, i: int, j: int) -> N
     axis.plot(picture.radius * np.cos(angle), picture.radius * np.sin(angle), color=PALE, linewidth=1)
     if picture.has_floor and j == 2:
         axis.plot([-picture.radius, picture.radius], [0, 0], color=FLOOR, linewidth=1.5)
-    if picture.region is not None:
-        outline = hull(picture.region.mesh.vertices[:, [i, j]])
-        axis.fill(*outline.T, color="#e9edf1", zorder=0)
     for obstacle in picture.obstacles:
         silhouette = obstacle.outline(i, j)
         if silhouette is None:
@@ -225,10 +259,9 @@ def _path_view(axis: Any, picture: PathPicture, title: str, i: int, j: int) -> N
         style = {"color": curve.colour}
         axis.plot(curve.polygon[:, i], curve.polygon[:, j], "--o", linewidth=0.8, markersize=3, alpha=0.8, **style)
         axis.plot(curve.points[:, i], curve.points[:, j], linewidth=2.2, **style)
-    for text, point in _grouped(picture, i, j):
-        label = axis.annotate(text, point, xytext=(3, 6), textcoords="offset points")
-        label.set_fontsize(8)
     _flat(axis, title, i, j)
+    drawn = [part[:, [i, j]] for curve in picture.curves for part in (curve.points, _along(curve.polygon))]
+    labels.place(axis, _grouped(picture, i, j), np.concatenate(drawn) if drawn else np.zeros((0, 2)))
 
 
 def _grouped(picture: PathPicture, i: int, j: int) -> list[tuple[str, tuple[float, float]]]:
@@ -236,12 +269,12 @@ def _grouped(picture: PathPicture, i: int, j: int) -> list[tuple[str, tuple[floa
     groups: list[tuple[list[str], tuple[float, float]]] = []
     for name, point in picture.marks.items():
         here = (float(point[i]), float(point[j]))
-        near = [g for g in groups if np.hypot(g[1][0] - here[0], g[1][1] - here[1]) < 0.07 * picture.radius]
+        near = [g for g in groups if np.hypot(g[1][0] - here[0], g[1][1] - here[1]) < NEAR * picture.radius]
         if near:
             near[0][0].append(name)
         else:
             groups.append(([name], here))
-    return [(" ".join(map(mathematical, names)), place) for names, place in groups]
+    return [(" ".join(map(written, names)), place) for names, place in groups]
 
 
 def _flat(axis: Any, title: str, i: int, j: int) -> None:
@@ -249,7 +282,7 @@ def _flat(axis: Any, title: str, i: int, j: int) -> None:
     axis.set_title(f"{title} ({AXES[i]}{AXES[j]})", fontsize=10, color=INK)
     axis.set_xlabel(AXES[i])
     axis.set_ylabel(AXES[j])
-    axis.grid(color="#e3e8ec", linewidth=0.6)
+    axis.grid(color=GRID, linewidth=0.6)
     axis.set_axisbelow(True)
 
 

@@ -13,21 +13,35 @@ from bezier.obstacles.survey import Finding
 from bezier.pictures.mesh import sampled
 from bezier.pictures.obstacles import COLOURS as OBSTACLES
 from bezier.pictures.obstacles import ObstaclePicture
-from bezier.pictures.picture import COLOURS, INK
+from bezier.pictures.picture import COLOURS, GRID, INK, Chart
 from bezier.pictures.plot import new_figure, svg_text
 
 STEPS = 40
 """Steps per curve."""
 
 
-def save_chart(findings: Sequence[Finding], pictures: Sequence[ObstaclePicture], file: FilePath) -> str:
-    """``clearance.png``, and the same as SVG text: heights over x, and the distance to each obstacle over t."""
-    figure = new_figure(12, 4.2)
-    curves = {finding.name: finding for finding in findings}
-    _heights(figure.add_axes((0.06, 0.13, 0.41, 0.76)), list(curves.values()), pictures)
-    _clearances(figure.add_axes((0.55, 0.13, 0.43, 0.76)), findings, list(curves), pictures)
-    figure.savefig(file, dpi=120, pil_kwargs={"compress_level": 4})
-    return svg_text(figure)
+def save_chart(findings: Sequence[Finding], pictures: Sequence[ObstaclePicture], file: FilePath) -> tuple[Chart, ...]:
+    """``clearance.png``, and the same for the page: heights over x, and the distance to each obstacle over t."""
+    names = list(dict.fromkeys(finding.name for finding in findings))
+
+    def heights(axis: Any) -> None:
+        _heights(axis, list({finding.name: finding for finding in findings}.values()), pictures)
+
+    def distances(axis: Any) -> None:
+        _clearances(axis, findings, names, pictures)
+
+    panels = {"height over x, with the silhouettes of the obstacles": heights}
+    if any(finding.obstacle.body is not None for finding in findings):
+        panels["distance to each obstacle along the path, in mm"] = distances
+    whole, charts = new_figure(6 * len(panels), 4.2), []
+    for k, (words, draw) in enumerate(panels.items()):
+        wide = 1 / len(panels)
+        draw(whole.add_axes((wide * (k + 0.11), 0.13, wide * 0.85, 0.76)))
+        single = new_figure(5.8, 3.6)
+        draw(single.add_axes((0.11, 0.15, 0.86, 0.75)))
+        charts.append((svg_text(single), words))
+    whole.savefig(file, dpi=120, pil_kwargs={"compress_level": 4})
+    return tuple(charts)
 
 
 def _heights(axis: Any, findings: Sequence[Finding], pictures: Sequence[ObstaclePicture]) -> None:
@@ -39,7 +53,7 @@ def _heights(axis: Any, findings: Sequence[Finding], pictures: Sequence[Obstacle
         points = sampled(finding.curve.points, 81)
         axis.plot(points[:, 0], points[:, 2], color=COLOURS.get(finding.name, INK), linewidth=2.2)
     axis.set_aspect("equal", adjustable="datalim")
-    _labelled(axis, "height over x, with the silhouettes of the obstacles", "x", "z")
+    _labelled(axis, "height over x", "x", "z")
 
 
 def _clearances(
@@ -58,16 +72,16 @@ def _clearances(
         if isinstance(finding.outcome, Contact):
             axis.plot(start + float(finding.outcome.t[0]), 0, "x", color=colour, markersize=9)
     for k in range(1, len(names)):
-        axis.axvline(k, color="#dfe5ea", linewidth=1)
+        axis.axvline(k, color=GRID, linewidth=1)
     axis.set_xticks([k + 0.5 for k in range(len(names))], list(names))
     axis.set_ylim(bottom=0)
     if seen:
         axis.legend(frameon=False, fontsize=9)
-    _labelled(axis, "distance to each obstacle along the path", "curve", "distance")
+    _labelled(axis, "distance to each obstacle", "curve", "distance (mm)")
 
 
 def _labelled(axis: Any, title: str, across: str, up: str) -> None:
     axis.set_title(title, fontsize=10)
     axis.set_xlabel(across)
     axis.set_ylabel(up)
-    axis.grid(color="#e3e8ec", linewidth=0.6)
+    axis.grid(color=GRID, linewidth=0.6)

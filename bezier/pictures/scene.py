@@ -1,173 +1,126 @@
-"""Turnable pictures for the report: figure descriptions for plotly.js, as plain dictionaries.
+"""Turnable pictures for the pages, as plain data for ``scene.js``: points rounded to what a screen can show.
 
-The library's script is shipped inside the plotly package and is put into the page once, so the page needs no
-network. The Python side of plotly is not imported: a figure is only data.
+Everything drawn is a convex body with a closed surface, a cloud of points, or a line, so that the page needs no
+library to draw it: of a convex body only the faces towards the viewer are seen.
 """
 
 from __future__ import annotations
 
-from importlib.resources import files
+import json
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from bezier.pictures.mesh import Array, best_view, direction
+from bezier.motion.track import Track
+from bezier.pictures.mesh import Array, best_view
 from bezier.pictures.obstacles import ObstaclePicture
-from bezier.pictures.picture import INK, PALE, PathPicture, RegionPicture
+from bezier.pictures.picture import CurvePicture, PathPicture, RegionPicture, boundary, written
 
-Trace = dict[str, Any]
-
-
-def plotly_script() -> str:
-    """The text of plotly.js."""
-    return (files("plotly") / "package_data" / "plotly.min.js").read_text(encoding="utf-8")
+FRAMES = 181
+VIEW = (20.0, -62.0)
+"""Elevation and azimuth of the first look, in degrees."""
+Scene = dict[str, Any]
 
 
-def region_figure(picture: PathPicture) -> dict[str, Any] | None:
-    """The region with its creases and the chosen point; None when there is nothing to draw."""
-    if picture.region is None:
-        return None
-    traces = _region_traces(picture.region, opacity=1.0, legend=True)
-    if picture.region.chosen is not None:
-        traces.append(_marks({"Q1": picture.region.chosen}, size=6))
-    mesh = picture.region.mesh
-    return _figure(traces, mesh.vertices, best_view(mesh))
+def path_scene(picture: PathPicture, track: Track | None, *, timed: bool, given: Mapping[str, Array]) -> Scene:
+    """The path with its control polygons, the obstacles, and the workspace.
 
-
-def compared_figure(picture: RegionPicture, other: RegionPicture) -> dict[str, Any]:
-    """A region seen as one sees another one, for a picture beside it."""
-    view = best_view(other.mesh)
-    return _figure(_region_traces(picture, opacity=1.0, legend=True), other.mesh.vertices, view)
-
-
-def path_figure(picture: PathPicture) -> dict[str, Any]:
-    """The curves and control polygons in the workspace, with the region."""
-    traces = _workspace_traces(picture)
-    for curve in picture.curves:
-        polygon = _line(curve.polygon, curve.colour, 3, dash="dash")
-        polygon |= {"mode": "lines+markers", "marker": {"size": 4, "color": curve.colour}, "showlegend": False}
-        traces.append(polygon)
-        traces.append(_line(curve.points, curve.colour, 9) | {"name": f"{hatted(curve.name)}(t)", "showlegend": True})
-    if picture.region is not None:
-        traces += _region_traces(picture.region, opacity=0.35, legend=False)
-    traces += [_obstacle_trace(obstacle) for obstacle in picture.obstacles]
-    traces.append(_marks(picture.marks, size=3))
-    reach = picture.radius
-    return _figure(traces, np.array([[-reach, -reach, 0.0 if picture.has_floor else -reach], [reach] * 3]))
-
-
-def hatted(name: str) -> str:
-    """A name with a combining hat on its letter and its index lowered, for labels inside the canvas."""
-    lowered = name[1:].translate(str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉"))
-    return f"{name[0]}\u0302{lowered}" if name[:1] in "PQR" else name
-
-
-def _region_traces(region: RegionPicture, opacity: float, legend: bool) -> list[Trace]:
-    mesh = region.mesh
-    traces: list[Trace] = []
-    for index in sorted(set(mesh.owner.tolist())):
-        used, flat = np.unique(mesh.faces[mesh.owner == index], return_inverse=True)
-        i, j, k = flat.reshape(-1, 3).T.tolist()
-        x, y, z = mesh.vertices[used].T
-        trace: Trace = {"type": "mesh3d", "x": _short(x), "y": _short(y), "z": _short(z), "i": i, "j": j, "k": k}
-        trace["color"] = region.colour(index)
-        trace |= {"opacity": opacity, "name": _boundary(region.labels[index]), "showlegend": legend}
-        trace["hoverinfo"] = "name"
-        trace["lighting"] = {"ambient": 0.68, "diffuse": 0.5, "specular": 0.08, "roughness": 0.9}
-        trace["flatshading"] = False
-        traces.append(trace)
-    for edge in mesh.edges:
-        traces.append(_line(edge[::4] if len(edge) > 40 else edge, INK, 3))
-    return traces
-
-
-def _obstacle_trace(obstacle: ObstaclePicture) -> Trace:
-    x, y, z = obstacle.vertices.T
-    trace: Trace = {"x": _short(x), "y": _short(y), "z": _short(z), "name": obstacle.name, "showlegend": True}
-    trace["hoverinfo"] = "name"
-    if obstacle.faces is None:
-        return trace | {"type": "scatter3d", "mode": "markers", "marker": {"size": 2, "color": obstacle.colour}}
-    i, j, k = obstacle.faces.T.tolist()
-    return trace | {"type": "mesh3d", "i": i, "j": j, "k": k, "color": obstacle.colour, "opacity": 0.45}
-
-
-def _boundary(label: str) -> str:
-    if label.endswith(".z"):
-        return f"{hatted(label[:-2])} on the table"
-    return f"‖{hatted(label)}‖ = r" if len(label) == 2 else label
-
-
-def _workspace_traces(picture: PathPicture) -> list[Trace]:
-    angle = np.linspace(0, 2 * np.pi, 73)
-    low = 0.0 if picture.has_floor else -np.pi / 2
-    rings: list[Array] = []
-    for height in np.linspace(low, np.pi / 2, 4 if picture.has_floor else 7)[:-1]:
-        ring = np.stack([np.cos(height) * np.cos(angle), np.cos(height) * np.sin(angle), 0 * angle + np.sin(height)])
-        rings.append(ring.T)
-    arc = np.linspace(low, np.pi / 2, 37)
-    for turn in np.radians(np.arange(0, 360, 30)):
-        rings.append(np.stack([np.cos(arc) * np.cos(turn), np.cos(arc) * np.sin(turn), np.sin(arc)]).T)
-    gap = np.full((1, 3), np.nan)
-    joined = np.concatenate([part for ring in rings for part in (ring * picture.radius, gap)])
-    grid = _line(joined, PALE, 1) | {"opacity": 0.6, "name": "workspace", "showlegend": True}
-    return [grid, _marks({"O": np.zeros(3)}, size=3)]
-
-
-def _line(points: Array, colour: str, width: int, dash: str = "solid") -> Trace:
-    x, y, z = points.T
-    line = {"color": colour, "width": width, "dash": dash}
+    ``track``: the motion along it, in seconds if ``timed``; None: nothing moves. ``given``: the points of the problem
+    by the words to be shown, in place of their names in ``picture.marks``.
+    """
+    marks = [[name, _flat(point, picture.radius), 1] for name, point in given.items()]
+    near, named = 1e-6 * picture.radius, list(given.values())
+    for name, point in picture.marks.items():
+        if all(np.abs(point - other).max() > near for other in named):
+            named.append(point)
+            label = written(name) if picture.hatted_names else written(name).replace("\u0302", "")
+            marks.append([label, _flat(point, picture.radius), 0])
     return {
-        "type": "scatter3d",
-        "mode": "lines",
-        "x": _short(x),
-        "y": _short(y),
-        "z": _short(z),
-        "line": line,
-        "hoverinfo": "skip",
-        "showlegend": False,
+        "reach": float(picture.radius),
+        "floor": picture.has_floor,
+        "view": VIEW,
+        "bodies": [_body(o, picture.radius) for o in picture.obstacles if o.faces is not None],
+        "clouds": [
+            {"colour": o.colour, "v": _flat(o.vertices, picture.radius)} for o in picture.obstacles if o.faces is None
+        ],
+        "curves": [_curve(c, picture.radius) for c in picture.curves],
+        "marks": marks,
+        "motion": None if track is None else _motion(track, picture.radius, timed),
+        "arm": None,
     }
 
 
-def _marks(marks: Any, size: int) -> Trace:
-    points = np.array(list(marks.values()))
-    x, y, z = points.T
+def with_arm(scene: Scene, arm: Mapping[str, Any]) -> Scene:
+    """The scene with an arm that follows the path: its frames, which then are the moments shown."""
+    return {**scene, "arm": {key: arm[key] for key in ("names", "moving", "frames")}}
+
+
+def arm_scene(arm: Mapping[str, Any]) -> Scene:
+    """An arm and the path it follows, and nothing else."""
+    path = np.array(arm["path"], dtype=float)
+    size = float(np.abs(path).max()) or 1.0
+    line = {"tone": "r", "colour": "#2e9e6b", "v": _flat(path, size), "polygon": []}
+    scene: Scene = {"reach": None, "floor": True, "view": VIEW, "bodies": [], "clouds": [], "curves": [line]}
+    return with_arm({**scene, "marks": [], "motion": None}, arm)
+
+
+def region_scene(region: RegionPicture, seen_as: RegionPicture | None = None) -> Scene:
+    """A region with the point chosen in it; seen from where ``seen_as`` is seen best."""
+    mesh, size = region.mesh, float(np.abs(region.mesh.vertices).max())
+    owners = sorted(set(mesh.owner.tolist()))
+    body = {
+        "alpha": 1,
+        "v": _flat(mesh.vertices, size),
+        "f": mesh.faces.reshape(-1).tolist(),
+        "n": np.round(mesh.normals, 2).reshape(-1).tolist(),
+        "c": [owners.index(owner) for owner in mesh.owner.tolist()],
+        "colours": [region.colour(k) for k in owners],
+        "edges": [_flat(edge[::6] if len(edge) > 60 else edge, size) for edge in mesh.edges],
+    }
+    marks = [] if region.chosen is None else [["the best one", _flat(region.chosen, size), 1]]
+    scene: Scene = {"reach": None, "floor": False, "view": best_view((seen_as or region).mesh), "bodies": [body]}
+    return scene | {"clouds": [], "curves": [], "marks": marks, "motion": None, "arm": None}
+
+
+def region_legend(region: RegionPicture) -> list[tuple[str, str]]:
+    """The boundary surfaces that are seen: what each is, and its colour."""
+    return [(boundary(region.labels[k]), region.colour(k)) for k in sorted(set(region.mesh.owner.tolist()))]
+
+
+def text(scene: Scene) -> str:
+    """The scene as JSON that may stand inside a page."""
+    return json.dumps(scene, separators=(",", ":"), allow_nan=False).replace("</", "<\\/")
+
+
+def _curve(curve: CurvePicture, size: float) -> dict[str, Any]:
+    tone = {"P": "p", "Q": "q", "R": "r"}.get(curve.name, "ink")
+    return {"tone": tone, "colour": curve.colour, "v": _flat(curve.points, size), "polygon": _flat(curve.polygon, size)}
+
+
+def _body(obstacle: ObstaclePicture, size: float) -> dict[str, Any]:
+    assert obstacle.faces is not None
+    faces = obstacle.faces.reshape(-1).tolist()
+    return {"alpha": 0.62, "v": _flat(obstacle.vertices, size), "f": faces, "colours": [obstacle.colour]}
+
+
+def _motion(track: Track, size: float, timed: bool) -> dict[str, Any]:
+    times = np.linspace(0.0, track.end, FRAMES)
+    speed = np.linalg.norm(track.derivative.at(times), axis=1)
+    unit = ("s", "mm/s") if timed else ("units of time", "mm per unit of time")
+    top = float(speed.max()) or 1.0
     return {
-        "type": "scatter3d",
-        "mode": "markers+text",
-        "x": _short(x),
-        "y": _short(y),
-        "z": _short(z),
-        "text": [hatted(name) for name in marks],
-        "textposition": "top center",
-        "textfont": {"color": INK, "size": 14},
-        "marker": {"size": size, "color": INK},
-        "hovertemplate": "%{text}: (%{x:.4f}, %{y:.4f}, %{z:.4f})<extra></extra>",
-        "showlegend": False,
+        "t": _flat(times, track.end),
+        "p": _flat(track.at(times), size),
+        "speed": _flat(speed, top),
+        "unit": unit[0],
+        "per": unit[1],
     }
 
 
-def _short(values: Array) -> list[float | None]:
-    return [None if v != v else round(float(v), 6) for v in values]
-
-
-def _figure(traces: list[Trace], frame: Array, view: tuple[float, float] = (22.0, -62.0)) -> dict[str, Any]:
-    """``frame``: points that fill the axes; ``view``: elevation and azimuth of the first look, in degrees."""
-    eye = 1.75 * direction(view)
-    low, high = frame.min(axis=0), frame.max(axis=0)
-    pad = 0.04 * (high - low).max()
-    shape = high - low + 2 * pad
-    axis = {"backgroundcolor": "#f6f8fa", "gridcolor": "#dde3e8", "showbackground": True, "zerolinecolor": "#c5ced6"}
-    ranges = zip("xyz", _short(low - pad), _short(high + pad), strict=True)
-    scene: dict[str, Any] = {f"{n}axis": axis | {"title": {"text": n}, "range": [a, b]} for n, a, b in ranges}
-    scene["aspectmode"] = "manual"
-    scene["aspectratio"] = dict(zip("xyz", _short(shape / shape.max()), strict=True))
-    scene |= {"camera": {"eye": dict(zip("xyz", _short(eye), strict=True))}}
-    layout = {
-        "scene": scene,
-        "margin": {"l": 0, "r": 0, "t": 0, "b": 0},
-        "legend": {"x": 0.01, "y": 0.99, "bgcolor": "rgba(255,255,255,0.7)"},
-        "font": {"family": "system-ui, sans-serif", "color": INK},
-        "paper_bgcolor": "rgba(0,0,0,0)",
-        "uirevision": "keep",
-    }
-    return {"data": traces, "layout": layout, "config": {"responsive": True, "displaylogo": False}}
+def _flat(values: NDArray[np.float64], size: float) -> list[float]:
+    """All numbers in a row, rounded to five digits of ``size``."""
+    digits = 5 - int(np.ceil(np.log10(size)))
+    found: list[float] = np.round(np.asarray(values, dtype=float).reshape(-1), digits).tolist()
+    return found

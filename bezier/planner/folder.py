@@ -47,5 +47,5 @@ def _with_clearances(drawing: Drawing, made: Plan, folder: FilePath) -> Drawing:
     """The drawing with the chart of heights and distances to the obstacles."""
     from bezier.pictures.plot_clearance import save_chart
 
-    chart = save_chart(made.findings, drawing.picture.obstacles, folder / CLEARANCE)
-    return replace(drawing, clearance=chart, files=(*drawing.files, CLEARANCE))
+    charts = save_chart(made.findings, drawing.picture.obstacles, folder / CLEARANCE)
+    return replace(drawing, clearance=charts, files=(*drawing.files, CLEARANCE))

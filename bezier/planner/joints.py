@@ -53,12 +53,10 @@ def joints(channel: Channel, request: Request) -> tuple[str, int]:
 
 def render(plan: JointPlan, file: str) -> str:
     """The page of ``bezier joints``: one file that needs nothing from elsewhere."""
-    from bezier.report.joints import sections
-    from bezier.report.page import package_version, template
+    from bezier.report.html import document
+    from bezier.report.joints import page
 
-    verdict = "every point is reached, proved" if plan.path.is_reachable else "the path leaves what the arm can reach"
-    told = {"file": file, "verdict": verdict, "version": package_version()}
-    return template("joints.html.j2").render(told | sections(plan))
+    return document(page(plan, file))
 
 
 def write(plan: JointPlan, folder: Path) -> bool:

@@ -1,43 +1,71 @@
-"""The joints of an arm on a page: the moving picture, and what is proved about their motion."""
+"""The joints of an arm on a page: what is proved about their motion, and the page of ``bezier joints``."""
 
 from __future__ import annotations
 
+import json
 from typing import Any
-
-from markupsafe import Markup
 
 from bezier.arm import joint_plan as plans
 from bezier.arm.joint_plan import JointPlan
 from bezier.arm.motion import JointMotion
+from bezier.report import html
+from bezier.report.first import scene_box
+from bezier.report.html import Page, Section, Text, toned
 
 WORDS = {True: "kept", False: "EXCEEDED", None: "not proved"}
 
 
-def sections(plan: JointPlan | None) -> dict[str, Any]:
-    """What the templates about the joints show; ``arm_data`` is empty where nothing moves."""
-    if plan is None:
-        return {"arm_data": "", "joints": None}
-    data = plans.animation(plan).replace("</", "<\\/") if plan.sequence is not None else ""
+def moving(plan: JointPlan | None) -> dict[str, Any] | None:
+    """The arm's frames for a scene; None where nothing moves."""
+    if plan is None or plan.sequence is None:
+        return None
+    found: dict[str, Any] = json.loads(plans.animation(plan))
+    return found
+
+
+def section(plan: JointPlan) -> Section:
+    """What is proved about the joints."""
     path = plan.path
-    intervals = [
-        {"curve": name, "low": f"{float(p.low):.9g}", "high": f"{float(p.high):.9g}", "count": p.count}
+    rows = [
+        (name, f"{float(p.low):.9g}", f"{float(p.high):.9g}", str(p.count))
         for name, studied in zip(path.curves, path.studies, strict=True)
         for p in studied.stretches
     ]
     special = [
-        f"{name}, s = {float(p.s):.12g}: {' and '.join(r.value for r in p.reasons)}"
+        f"{name}, s = {float(p.s):.12g}: {' and '.join(r.value for r in p.reasons)}."
         for name, studied in zip(path.curves, path.studies, strict=True)
         for p in studied.specials
         if p.reasons
     ]
-    facts = {
-        "arm": path.arm.name,
-        "intervals": intervals,
-        "special": special,
-        "extremes": [] if plan.motion is None else _extremes(plan.motion),
-        "notes": [_motions(plan), *plan.remarks],
-    }
-    return {"arm_data": Markup(data), "joints": facts}
+    head = ("curve", "from s", "to s", "solutions for every s between")
+    content: list[Text] = [html.table(head, rows, numbers=(1, 2)), *map(html.paragraph, special)]
+    if plan.motion is not None:
+        head = ("joint", "velocity at all times (rad/s)", "acceleration at all times (rad/s²)", "limits")
+        content.append(html.table(head, _extremes(plan.motion)))
+        content.append(html.note("Proved over the whole path by interval enclosures of the joint velocities."))
+    content += [html.note(f"{line}.") for line in (_motions(plan), *plan.remarks)]
+    return Section("joints", f"The joints of {path.arm.name}", html.joined(*content), short="joints")
+
+
+def page(plan: JointPlan, file: str) -> Page:
+    """The page of ``bezier joints``."""
+    verdict = "every point is reached, proved" if plan.path.is_reachable else "the path leaves what the arm can reach"
+    arm, first = moving(plan), None
+    if arm is not None:
+        from bezier.pictures import scene
+
+        words, legend = (
+            f"{plan.path.arm.name} following the path",
+            [("the path", "var(--r)"), ("the arm", "var(--ink)")],
+        )
+        first = scene_box(scene.text(scene.arm_scene(arm)), words, "", legend, moving=True)
+    return Page(
+        title=plan.path.arm.name,
+        lead=f"{file}: {verdict}",
+        first=first,
+        sections=[section(plan)],
+        footer=f"Made by bezier-qe {html.package_version()}.",
+    )
 
 
 def _motions(plan: JointPlan) -> str:
@@ -46,20 +74,14 @@ def _motions(plan: JointPlan) -> str:
     return told + (f"; motion {run} has the least total change" if run else "")
 
 
-def _extremes(motion: JointMotion) -> list[dict[str, str]]:
-    rows = []
+def _extremes(motion: JointMotion) -> list[tuple[Text, ...]]:
+    rows: list[tuple[Text, ...]] = []
     for joint, v, a in zip(motion.joints, motion.speeds, motion.accelerations, strict=True):
         kept = [
             motion.kept[key] for key in (f"{joint.name} velocity", f"{joint.name} acceleration") if key in motion.kept
         ]
         worst = next((k for k in (False, None) if k in kept), True)
-        rows.append(
-            {
-                "name": joint.name,
-                "velocity": f"{float(v.high) * (1 + 1e-5):.5g}",
-                "acceleration": f"{float(a.high) * (1 + 1e-5):.5g}",
-                "limits": WORDS[worst] if kept else "none given",
-                "tone": "bad" if worst is not True else "good" if kept else "",
-            }
-        )
+        said = toned(WORDS[worst], worst is True) if kept else "none given"
+        bounds = (f"at most {float(v.high) * (1 + 1e-5):.5g}", f"at most {float(a.high) * (1 + 1e-5):.5g}")
+        rows.append((joint.name, *bounds, said))
     return rows

@@ -43,7 +43,7 @@ def _indexed(letter: str, index: str) -> str:
 
 def without_hats(page: str) -> str:
     """A page with the names of points as in the paper's formula (7), where only the quadratic curves have hats."""
-    return _HATTED.sub(r"<mi>\1</mi>", page).replace("\\u0302", "")
+    return _HATTED.sub(r"<mi>\1</mi>", page).replace("\\u0302", "").replace("\u0302", "")
 
 
 def number(value: Any) -> str:

@@ -38,6 +38,8 @@ _PREFIX = {
 
 DISPLAY_AFTER = 0.4
 """Seconds before a progress display appears: quick answers stay quiet."""
+LINES_APART = 2.0
+"""Seconds between two lines of progress where there is no terminal."""
 
 
 def enter(app: typer.Typer, argv: Sequence[str] | None, *, name: str) -> int:
@@ -172,10 +174,12 @@ def _one_line_hook(name: str) -> Callable[[type[BaseException], BaseException, T
 
 
 class Display:
-    """A progress line on stderr; silent where stderr is not a terminal."""
+    """A progress line on stderr; where that is no terminal, with ``lines`` a line now and then, else nothing."""
 
-    def __init__(self, *, wanted: bool = True) -> None:
+    def __init__(self, *, wanted: bool = True, lines: bool = False) -> None:
         self._wanted = wanted and sys.stderr.isatty()
+        self._lines = wanted and lines and not self._wanted
+        self._said = -LINES_APART
         self._start = time.monotonic()
         self._status: Any = None
 
@@ -189,6 +193,9 @@ class Display:
     def __call__(self, event: Event) -> None:
         """A progress listener."""
         elapsed = time.monotonic() - self._start
+        if self._lines and elapsed >= self._said + LINES_APART:
+            self._said = elapsed
+            print(f"{event.phase} ... ({elapsed:.1f} s)", file=sys.stderr, flush=True)
         if not self._wanted or elapsed < DISPLAY_AFTER:
             return
         if self._status is None:
@@ -202,14 +209,20 @@ class Display:
 
 
 def limited(
-    work: Callable[[Channel], T], *, timeout: float | None, memory: int | None, plain: bool, known: Known | None = None
+    work: Callable[[Channel], T],
+    *,
+    timeout: float | None,
+    memory: int | None,
+    plain: bool,
+    known: Known | None = None,
+    lines: bool = False,
 ) -> T:
-    """Do the work in a worker under hard limits, with a progress display.
+    """Do the work in a worker under hard limits, with a progress display; ``lines``: also where there is no terminal.
 
     The time limit is the user's, for the whole command: what start-up has taken of it is gone.
     """
     grace = 0.0 if timeout is None else remaining(timeout) - timeout + GRACE
-    with Display(wanted=not plain) as display:
+    with Display(wanted=not plain, lines=lines) as display:
         return run(work, timeout=timeout, memory=memory, progress=display, known=known, grace=grace)
 
 

@@ -22,7 +22,7 @@ from qe.exact.algebraic import RealAlgebraic
 from qe.exact.ring import Poly, Ring
 from qe.exact.sample import Point
 from qe.execution import Budgets, Limits, perform
-from qe.extras import lacking
+from qe.extras import wanted
 from qe.formula.build import conj, convert
 from qe.formula.evaluate import truth_under
 from qe.formula.normal import nnf
@@ -308,8 +308,9 @@ class Region(SetOperations):
         on new ones of pyplot's. ``timeout`` (seconds) limits the exact part, not the painting. Raises ``InputError`` in
         more variables and for a file that cannot be written, ``Unable`` where matplotlib or plotly is not installed.
         """
-        from qe.regions.picture import check_ending, show, write
-        from qe.regions.sketch import sketch
+        with wanted():
+            from qe.regions.picture import check_ending, show, write
+            from qe.regions.sketch import sketch
 
         target = None if path is None else name_of_file(path)
         if target is not None:
@@ -318,11 +319,10 @@ class Region(SetOperations):
             check_ending(target)
         drawn = self._asked(lambda: sketch(self), seconds(timeout), at_once=True)
         try:
-            return show(drawn, ax) if target is None else write(drawn, target)
+            with wanted():
+                return show(drawn, ax) if target is None else write(drawn, target)
         except OSError as error:
             raise InputError(f"{target}: cannot be written: {error.strerror}") from None
-        except ImportError as error:
-            raise lacking(error) or error from None
 
     def __repr__(self) -> str:
         return f"Region({', '.join(self.order)}: {self.formula.brief()})"

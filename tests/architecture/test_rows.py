@@ -64,6 +64,7 @@ ROWS = {
     "bezier.arm": 16,
     "bezier.problem": 16,
     "bezier.pictures": 17,
+    "bezier.report.html": 17,
     "bezier.plans": 18,
     "bezier.methods.control": 19,
     "bezier.report": 20,

@@ -64,16 +64,13 @@ def test_all_files_are_there(main_example: Path) -> None:
 
 def test_the_page_is_whole_and_needs_nothing_else(main_example: Path) -> None:
     page = (main_example / "report.html").read_text()
-    script = page.index("<script>")
-    head = page[:script]
-    for heading in ("The problem", "The question", "quantifier-free answer", "The region", "Exact bounds", "The best"):
+    head = page[: page.rindex("<script>")]
+    for heading in ("The problem", "The question", "quantifier-free answer", "The region", "Bounds", "The best"):
         assert heading in head
     for part in ("Cylindrical description", "Above the table?", "What was certified", "Timings", "<svg", "<math"):
         assert part in head
     assert not re.search(r"""<(script|link|img)[^>]+(src|href)\s*=\s*["']?(https?:)?//""", page)
-    assert "Plotly.newPlot" in page and page.count("plotly.js v") == 1
-    for figure in ("plot-region", "plot-path"):
-        assert f'id="{figure}"' in head
+    assert head.count("<canvas") == 2 and len(page) < 1_500_000
 
 
 def test_the_certificates_hold(main_example: Path) -> None:
@@ -135,7 +132,7 @@ def test_no_control_point(root: Path, tmp_path: Path) -> None:
     assert code == 3 and found["status"] == "infeasible" and found["points"] == {}
     assert "at least 6" in found["reason"] and "cubic" in found["suggestion"]
     page = (out / "report.html").read_text()
-    assert "No solution" in page and "multiplier" in page
+    assert "Why there is no path" in page and "multiplier" in page
     assert not (out / "path.csv").exists()
     assert "no control point exists" in run("check", out).stdout
     words = run("plan", root / "examples" / "no_control_point.toml", "--out", out, "--no-plots")

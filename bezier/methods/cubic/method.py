@@ -52,16 +52,16 @@ def draw(plan: CubicPlan, folder: FilePath) -> Drawing:
         conditions = plan.system.seen_by("Q1", plan.path.points)
         region = region_picture(conditions, conditions, plan.path.points["Q1"])
     picture = path_picture(plan.problem, plan.path, plan.system.given, region=region, hatted_names=False)
-    title = r"Where $Q_1$ may be while $Q_2$ stays at its optimum: a slice of the region of formula (7)"
+    title = "Where Q₁ may be while Q₂ stays at its optimum: a slice of the region of formula (7)"
     plot.save_region(picture, folder / "region.png", title)
     plot.save_path(picture, folder / "path.png")
     written = ("region.png", "path.png")
     if plan.path is None:
-        return Drawing(picture, plot.views_svg(picture), written)
+        return Drawing(picture, written, plot.views(picture))
     from bezier.pictures import plot_motion
 
     plot_motion.save(plan.path, folder / "motion.png")
-    return Drawing(picture, plot.views_svg(picture), (*written, "motion.png"), plot_motion.svg(plan.path))
+    return Drawing(picture, (*written, "motion.png"), plot.views(picture), plot_motion.charts(plan.path))
 
 
 def restore(problem: Problem, certificate: Certificate, stated: Stated) -> Restored[CubicPlan]:
@@ -84,7 +84,6 @@ CUBIC: Method[CubicPlan] = Method(
     files=files,
     draw=draw,
     hatted_names=False,
-    template="cubic.html.j2",
-    sections=cubic_report.sections,
+    story=cubic_report.story,
     restore=restore,
 )

@@ -3,40 +3,56 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
+from typing import TYPE_CHECKING
+
+from markupsafe import Markup
 
 from bezier.methods.control.terms import named_multipliers
 from bezier.methods.cubic.plan import CubicPlan
 from bezier.paths.speed import Slowest
-from bezier.report import mathml, parts
-from bezier.report.parts import Row, shown, tone
+from bezier.plans import Story
+from bezier.report import html, mathml, parts
+from bezier.report.facts import curve_name
+from bezier.report.first import region_box
+from bezier.report.html import Section, toned
+from bezier.report.parts import shown
+
+if TYPE_CHECKING:
+    from bezier.pictures.picture import Drawing
 
 NAMES = ("P0", "Q0", "R0", "R3")
+REPORTED = (
+    "The paper reports that quantifier elimination for formula (7) was computationally expensive and had not yet been"
+    " successful."
+)
 INTERIOR = "the unconstrained minimum, Q1 = (2 Q0 + R0)/3 and Q2 = (Q0 + 2 R0)/3"
 
 
-def sections(plan: CubicPlan) -> dict[str, Any]:
-    """What the page shows beyond the parts of every method."""
-    solved = plan.path is not None
-    claims = {
-        "optimum": "The chosen Q1 and Q2 are the global optimum"
-        if solved
-        else "The conditions on Q1 and Q2 contradict each other"
-    }
-    return {
-        "title": "Three cubic Bézier curves over an obstacle",
-        "subtitle": "exact best control points, C² joins, proved path",
-        "given": parts.given(plan, NAMES),
-        "infeasible": None if solved else parts.contradiction(plan.system, plan.optimum, reason(plan)),
-        "question": parts.question(plan, plan.system),
-        "further_conditions": len(plan.system.conditions) - len(plan.system.shape.inner),
-        "ratio": None if plan.problem.ratio == 1 else parts.exact(plan.problem.ratio),
-        "optimum": parts.optimum(plan, plan.system, plan.optimum, INTERIOR),
-        "speeds": _speeds(plan.slowest),
-        "required_speed": str(plan.problem.join_speed) if plan.problem.join_speed else "",
-        "trivial": _trivial(plan),
-        "certificates": parts.certificates(plan, claims),
-    }
+def story(plan: CubicPlan, drawing: Drawing | None) -> Story:
+    """What the page says in this method's own words."""
+    solved, names = plan.path is not None, parts.names()
+    further = len(plan.system.conditions) - len(plan.system.shape.inner)
+    counts = "18 variables, 12 of them quantified, 12 equations, 6 norm conditions"
+    more = f", {further} further conditions" if further else ""
+    asked = parts.asked(parts.question(plan, plan.system), counts + more, plan.formula, plan.answer.formula)
+    title = Markup("The best {} and {}").format(names["Q1"], names["Q2"])
+    sections = (
+        Section("question", "The question", _intro(plan) + asked),
+        _region(drawing),
+        parts.optimum(plan, plan.system, plan.optimum, title, INTERIOR),
+        _stops(plan, drawing) if solved else None,
+        _cusp(plan),
+    )
+    claim = "The chosen Q1 and Q2 are the global optimum"
+    return Story(
+        kind="three cubic Bézier curves",
+        place="4.2",
+        given=NAMES,
+        claims={"optimum": claim if solved else "The conditions on Q1 and Q2 contradict each other"},
+        none=None if solved else parts.contradiction(plan.system, plan.optimum, reason(plan)),
+        sections=tuple(section for section in sections if section is not None),
+        reported=REPORTED,
+    )
 
 
 def reason(plan: CubicPlan) -> str:
@@ -53,18 +69,54 @@ def speed_text(slow: Slowest) -> str:
     return f"never slower than {slow.least.to_json(6)['low']}"
 
 
-def _speeds(found: Mapping[str, Slowest]) -> list[Row]:
-    return [
-        {
-            "curve": shown(mathml.name(name) + "<mo>(</mo><mi>t</mi><mo>)</mo>"),
-            "result": speed_text(slow),
-            "tone": tone(not slow.stops),
-        }
-        for name, slow in found.items()
-    ]
+def _intro(plan: CubicPlan) -> Markup:
+    text = Markup(
+        "Formula (7) of the paper: which {Q1} and {Q2} leave room for {P1}, {P2}, {R1} and {R2} such that both joins"
+        " are C² and all six control points stay in the workspace?"
+    ).format(**parts.names())
+    if plan.problem.ratio != 1:
+        text += Markup(
+            " The outer curves take {} of the time of the middle one; velocity and acceleration with respect to time"
+            " are what agrees at the joins."
+        ).format(parts.number(plan.problem.ratio))
+    return html.paragraph(text)
 
 
-def _trivial(plan: CubicPlan) -> Row:
+def _region(drawing: Drawing | None) -> Section | None:
+    if drawing is None or drawing.picture.region is None:
+        return None
+    names = parts.names()
+    said = Markup(
+        "The conditions leave a convex set of pairs ({Q1}, {Q2}) in six dimensions. Its slice with {Q2} at the optimum"
+        " is a set of {Q1}, bounded by spheres and planes:"
+    ).format(**names)
+    box = region_box(drawing.picture.region, "the places of the first free control point, seen in space")
+    return Section(
+        "region", Markup("Room around the best {}").format(names["Q1"]), html.paragraph(said) + box, "region"
+    )
+
+
+def _stops(plan: CubicPlan, drawing: Drawing | None) -> Section:
+    said = (
+        'Where a path stops, it may turn on the spot, and "C²" says nothing about its direction. Least speed of each'
+        " curve, proved for all t (mm per unit of time):"
+    )
+    content = [html.paragraph(said), _speeds(plan.slowest)]
+    if plan.problem.join_speed:
+        required = Markup(
+            "Required at both joins: a speed of at least {} in the direction from {} to {}, hence at least this speed."
+        ).format(plan.problem.join_speed, parts.names()["Q0"], parts.names()["R0"])
+        content.append(html.paragraph(required))
+    content.append(html.figures(drawing.charts if drawing else (), wide=True))
+    return Section("stops", "Does it ever stop?", html.joined(*content), "stops")
+
+
+def _speeds(found: Mapping[str, Slowest]) -> Markup:
+    rows = [(curve_name(name), toned(speed_text(slow), not slow.stops)) for name, slow in found.items()]
+    return html.table(("curve", "least speed"), rows)
+
+
+def _cusp(plan: CubicPlan) -> Section:
     """The choice Q1 = Q0, Q2 = R0 with this problem's numbers."""
     found = plan.trivial
     if found.violated:
@@ -73,12 +125,19 @@ def _trivial(plan: CubicPlan) -> Row:
         allowed = f"Here it satisfies every condition, and in part it is forced: {plan.radius_rule.in_words()}."
     else:
         allowed = "Here it satisfies every condition, so control points exist; the objective is what avoids it."
-    return {
-        "allowed": allowed,
-        "points": [
-            {"name": shown(mathml.name(name)), "point": shown(mathml.vector(found.path.points[name]))}
-            for name in plan.system.shape.inner
-        ],
-        "smoothness": parts.SMOOTHNESS[found.path.smoothness],
-        "speeds": _speeds(found.slowest),
-    }
+    said = Markup(
+        "With {Q1} = {Q0} and {Q2} = {R0} all other control points are {Q0}, {R0} or lie between them (for outer curves"
+        " that do not take longer than the middle one), so formula (7) as printed always has a solution. But then the"
+        " velocity vanishes at both joins: the first curve comes back to {Q0} from the direction of {R0}, stops there,"
+        " and the second one leaves in the direction of {R0} again. Value and both derivatives agree, and yet the path"
+        " turns round: a cusp."
+    ).format(**parts.names())
+    points = [(shown(mathml.name(name)), parts.point(found.path.points[name])) for name in plan.system.shape.inner]
+    content = (
+        html.paragraph(said),
+        html.paragraph(html.strong(allowed)),
+        html.table(("control point", "in the trivial choice"), points),
+        html.note(f"Joins: {parts.SMOOTHNESS[found.path.smoothness]}."),
+        _speeds(found.slowest),
+    )
+    return Section("cusp", "Why the objective matters: the cusp", html.joined(*content), "cusp")

@@ -67,9 +67,9 @@ def draw(plan: QuadraticPlan, folder: FilePath) -> Drawing:
         if printed is not None and corrected is not None:
             extra = {"printed": printed, "corrected": corrected}
     picture = path_picture(plan.problem, plan.path, plan.system.given, region=region, extra=extra)
-    plot.save_region(picture, folder / "region.png", r"Where $\hat{Q}_1$ may be: the region of formula (8)")
+    plot.save_region(picture, folder / "region.png", "Where Q\u0302₁ may be: the region of formula (8)")
     plot.save_path(picture, folder / "path.png")
-    return Drawing(picture, plot.views_svg(picture), ("region.png", "path.png"))
+    return Drawing(picture, ("region.png", "path.png"), plot.views(picture))
 
 
 def restore(problem: Problem, certificate: Certificate, stated: Stated) -> Restored[QuadraticPlan]:
@@ -87,7 +87,6 @@ QUADRATIC: Method[QuadraticPlan] = Method(
     files=files,
     draw=draw,
     hatted_names=True,
-    template="quadratic.html.j2",
-    sections=quadratic_report.sections,
+    story=quadratic_report.story,
     restore=restore,
 )

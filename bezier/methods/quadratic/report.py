@@ -3,39 +3,58 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from typing import Any
+from typing import TYPE_CHECKING
+
+from markupsafe import Markup
 
 from bezier.curves.containment import Leaves
 from bezier.curves.scalar import decimal_text, with_decimal
 from bezier.curves.workspace import root_text
 from bezier.methods.quadratic import formula as quadratic
 from bezier.methods.quadratic.plan import QuadraticPlan
-from bezier.report import mathml, parts
-from bezier.report.parts import Row, exact, norm, shown
+from bezier.plans import Story
+from bezier.report import html, mathml, parts
+from bezier.report.first import region_box
+from bezier.report.html import Section, Text, toned
+from bezier.report.parts import norm, shown
 
+if TYPE_CHECKING:
+    from bezier.pictures.picture import Drawing
+
+REPORTED = (
+    "The paper reports about 15.4 s for formula (8) with a general computer algebra system on a laptop of 2018 (other"
+    " points, other machine)."
+)
 NAMES = ("P0", "Q0", "R0", "R2")
 
 
-def sections(plan: QuadraticPlan) -> dict[str, Any]:
-    """What the page shows beyond the parts of every method."""
-    return {
-        "title": "Three quadratic Bézier curves over an obstacle",
-        "subtitle": "exact region, best control point, proved path",
-        "given": parts.given(plan, NAMES),
-        "infeasible": _infeasibility(plan),
-        "question": parts.question(plan, plan.system),
-        "further_conditions": len(plan.system.conditions) - len(quadratic.SHAPE.inner),
-        "region": {
-            "sentence": _region_sentence(plan),
-            "bounds": parts.bounds(plan.region, quadratic.FREE),
-            "cells": parts.cells(plan.region),
-        },
-        "optimum": parts.optimum(
-            plan, plan.system, plan.optimum, "the unconstrained minimum, the midpoint of the via points"
-        ),
-        "gap": _gap(plan),
-        "certificates": parts.certificates(plan, _claims(plan)),
-    }
+def story(plan: QuadraticPlan, drawing: Drawing | None) -> Story:
+    """What the page says in this method's own words."""
+    names = parts.names()
+    further = len(plan.system.conditions) - len(quadratic.SHAPE.inner)
+    counts = "9 variables, 6 of them quantified, 6 equations, 3 norm conditions"
+    more = f", {further} further conditions" if further else ""
+    intro = Markup(
+        "Formula (8) of the paper: which {Q1} leave room for {P1} and {R1} such that both joins are C¹ and all three"
+        " control points stay in the workspace?"
+    ).format(**names)
+    asked = parts.asked(parts.question(plan, plan.system), counts + more, plan.formula, plan.answer.formula)
+    title, free = Markup("The best {}").format(names["Q1"]), "the unconstrained minimum, the midpoint of the via points"
+    sections = (
+        Section("question", "The question", html.paragraph(intro) + asked),
+        _region(plan, drawing),
+        parts.optimum(plan, plan.system, plan.optimum, title, free),
+        _table(plan, drawing),
+    )
+    return Story(
+        kind="three quadratic Bézier curves",
+        place="4.2.1",
+        given=NAMES,
+        claims=_claims(plan),
+        none=None if plan.path else _infeasibility(plan),
+        sections=tuple(section for section in sections if section is not None),
+        reported=REPORTED,
+    )
 
 
 def reason(plan: QuadraticPlan) -> str:
@@ -71,6 +90,25 @@ def _claims(plan: QuadraticPlan) -> dict[str, str]:
     }
 
 
+def _region(plan: QuadraticPlan, drawing: Drawing | None) -> Section:
+    """The region of Q1: its picture, its bounds and its cells."""
+    name = parts.names()["Q1"]
+    content: list[Text] = [html.paragraph(_region_sentence(plan))]
+    if drawing is not None and drawing.picture.region is not None:
+        content.append(region_box(drawing.picture.region, "the possible places of Q1, seen in space"))
+    bounds, cells = parts.bounds(plan.region, quadratic.FREE), parts.cells(plan.region)
+    if bounds:
+        content += [html.heading("Bounds"), bounds]
+    if cells:
+        said = (
+            f"Every point of the region lies in exactly one of these {len(cells)} cells; each bound depends only on the"
+            " variables above it."
+        )
+        count = f"{len(cells)} cell{'s' * (len(cells) != 1)}"
+        content += [html.heading("Cylindrical description"), html.folded(count, html.note(said), *cells)]
+    return Section("region", Markup("The region of {}").format(name), html.joined(*content), "region")
+
+
 def _region_sentence(plan: QuadraticPlan) -> str:
     """What kind of set the region is."""
     region = plan.region
@@ -84,19 +122,14 @@ def _region_sentence(plan: QuadraticPlan) -> str:
     )
 
 
-def _infeasibility(plan: QuadraticPlan) -> Row | None:
+def _infeasibility(plan: QuadraticPlan) -> Section:
     """Why there is no control point."""
-    if plan.path is not None:
-        return None
     balls = plan.balls
     labels = ("|Q0|²", "|R0|²", "|Q0 − R0|²")
-    rows = [
-        {"label": label, "value": exact(v), "decimal": decimal_text(v, 8)}
-        for label, v in zip(labels, balls.sides_squared, strict=True)
-    ]
+    rows = [(label, parts.number(v)) for label, v in zip(labels, balls.sides_squared, strict=True)]
     for label, square in (("radius r", balls.radius_squared), ("least radius that would do", balls.needed_squared)):
-        value = shown(mathml.number_text(root_text(square)))
-        rows.append({"label": label, "value": value, "decimal": f"{float(square) ** 0.5:.8g}"})
+        exact = shown(mathml.number_text(root_text(square)))
+        rows.append((label, html.folded(f"{float(square) ** 0.5:.8g}", exact)))
     text = (
         "Q1 has to lie in the three balls of radius r about O, 2 Q0 and 2 R0. They have a common point exactly when the"
         " smallest circle around the triangle O, Q0, R0 has a radius of at most r/2. "
@@ -104,7 +137,7 @@ def _infeasibility(plan: QuadraticPlan) -> Row | None:
     text += (
         "The triangle is acute, so that circle goes through all three corners."
         if balls.is_acute
-        else ("The triangle has no acute shape, so its longest side is the diameter of that circle.")
+        else "The triangle has no acute shape, so its longest side is the diameter of that circle."
     )
     if balls.meet:
         text = "The three balls of radius r about O, 2 Q0 and 2 R0 meet, but not where the other conditions hold."
@@ -112,32 +145,49 @@ def _infeasibility(plan: QuadraticPlan) -> Row | None:
         'Try method = "cubic": with three cubic curves, formula (7), control points always exist (Q1 = Q0, Q2 = R0 is'
         " one choice)."
     )
-    contradiction = parts.contradiction(plan.system, plan.optimum, reason(plan))
-    return contradiction | {"explanation": text, "ball_rows": rows, "suggestion": suggestion}
+    more = (html.paragraph(suggestion), html.paragraph(text), html.table(("", "value"), rows))
+    return parts.contradiction(plan.system, plan.optimum, reason(plan), *more)
 
 
-def _gap(plan: QuadraticPlan) -> Row:
+def _table(plan: QuadraticPlan, drawing: Drawing | None) -> Section:
     """The hemisphere question."""
-    found = plan.gap
-    radius = plan.problem.workspace.radius_text
+    found, names = plan.gap, parts.names()
+    content: list[Text] = [
+        html.paragraph(
+            "The printed formula keeps the control points in the ball, not in the hemisphere: it has no condition on z."
+        )
+    ]
     if found.example is None:
-        allowed = (
+        said = (
             "For this problem it makes no difference: no allowed control point lies below the table"
             " (decided by elimination)."
         )
-        rows: list[Row] = []
+        content.append(html.paragraph(html.strong(said)))
     else:
-        allowed = f"For this problem that matters: with r = {radius}, it allows control points below the table."
+        radius = plan.problem.workspace.radius_text
+        said = f"For this problem that matters: with r = {radius}, it allows control points below the table."
         rows = [
-            {
-                "name": shown(mathml.name(name)),
-                "point": shown(mathml.vector(point)),
-                "norm": norm(point),
-                "tone": "bad" if float(point[2]) < 0 else "",
-            }
-            for name, point in found.example.items()
+            (shown(mathml.name(name)), toned(parts.point(p), False if float(p[2]) < 0 else None), norm(p))
+            for name, p in found.example.items()
         ]
-    return {"allowed": allowed, "example": rows, "chosen": _chosen(plan), "region": _corrected(plan)}
+        content += [
+            html.paragraph(html.strong(said)),
+            html.table(("example", "coordinates (mm)", "distance from the origin (mm)"), rows),
+        ]
+    content.append(html.paragraph(_chosen(plan)) if _chosen(plan) else "")
+    if _corrected(plan):
+        content += [html.heading("The corrected region"), html.paragraph(_corrected(plan))]
+    extra = {} if drawing is None else drawing.picture.extra
+    if "corrected" in extra and "printed" in extra:
+        above = Markup("with z ≥ 0 for {P1}, {Q1} and {R1}").format(**names)
+        pair = [
+            region_box(
+                extra["printed"], "the region as printed, seen in space", "the ball conditions only, as printed"
+            ),
+            region_box(extra["corrected"], "the corrected region, seen from the same side", above, extra["printed"]),
+        ]
+        content.append(Markup('<div class="views wide">{}</div>').format(html.joined(*pair)))
+    return Section("table", "Above the table?", html.joined(*content), "table")
 
 
 def _chosen(plan: QuadraticPlan) -> str:

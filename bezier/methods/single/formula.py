@@ -6,6 +6,7 @@ from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from enum import Enum
 from fractions import Fraction
+from functools import lru_cache
 from math import comb
 
 import qe
@@ -82,8 +83,9 @@ def _between(first: Term, last: Term, t: Term) -> Term:
     return Sum((Product((difference(number(1), t), first)), Product((t, last))))
 
 
+@lru_cache(maxsize=32)
 def identities_hold(degree: int) -> bool:
-    """Whether the engine proves (2) for this degree and (3)."""
+    """Whether the engine proves (2) for this degree and (3), asked once for each degree."""
     return qe.decide(linearity(degree).formula) and qe.decide(inverse().formula)
 
 

@@ -91,8 +91,8 @@ def draw(plan: SinglePlan, folder: FilePath) -> Drawing:
     elif plan.printed is not None and plan.printed.allowed:
         curves["allowed by (4), same sum"] = plan.printed.lowest
     plot_profile.save(plan.task, curves, folder / "profile.png")
-    charts = plot_profile.svg(plan.task, curves)
-    return Drawing(picture, plot.views_svg(picture), ("path.png", "profile.png"), charts)
+    charts = plot_profile.charts(plan.task, curves)
+    return Drawing(picture, ("path.png", "profile.png"), plot.views(picture), charts)
 
 
 def restore(problem: Problem, certificate: Certificate, stated: Stated) -> Restored[SinglePlan]:
@@ -114,7 +114,6 @@ SINGLE: Method[SinglePlan] = Method(
     files=files,
     draw=draw,
     hatted_names=False,
-    template="single.html.j2",
-    sections=single_report.sections,
+    story=single_report.story,
     restore=restore,
 )

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from functools import lru_cache
 
 import qe
 from bezier.curves.containment import Inside, Leaves, examine_closely
@@ -102,7 +103,6 @@ def make(problem: Problem, clock: Clock) -> SinglePlan:
             raise InternalError("identity (2) or (3) was refuted")
     with clock.step("elimination"):
         answer = answered(qe.eliminate(question.formula, timeout=clock.remaining()))
-        pieces = _pieces(given, clock)
     clock.learn(f"attainable sums of {given.raised[0].name}", str(answer.formula))
     with clock.step("linear problem (4)"):
         chosen = tuple(choose(given, axis) for axis in given.raised)
@@ -136,7 +136,7 @@ def make(problem: Problem, clock: Clock) -> SinglePlan:
         chosen=chosen,
         printed=printed,
         closed=closed,
-        pieces=pieces,
+        pieces=Pieces(given),
         attainable=attainable,
         above=above,
     )
@@ -149,13 +149,27 @@ def task_of(problem: Problem) -> Task:
     return problem.single.task
 
 
-def _pieces(given: Task, clock: Clock) -> dict[str, Piecewise]:
+@dataclass(frozen=True, slots=True)
+class Pieces(Mapping[str, Piecewise]):
+    """The least sum for every height, by axis; eliminated when it is asked for: the path does not need it."""
+
+    task: Task
+
+    def __getitem__(self, name: str) -> Piecewise:
+        return _least_sums(self.task)[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(_least_sums(self.task))
+
+    def __len__(self) -> int:
+        return len(self.task.raised) if self.task.degree <= PIECEWISE_DEGREE else 0
+
+
+@lru_cache(maxsize=8)
+def _least_sums(given: Task) -> dict[str, Piecewise]:
     if given.degree > PIECEWISE_DEGREE:
         return {}
-    return {
-        axis.name: single_formula.eliminate(given, axis, {Symbol.HEIGHT}, timeout=clock.remaining())
-        for axis in given.raised
-    }
+    return {axis.name: single_formula.eliminate(given, axis, {Symbol.HEIGHT}) for axis in given.raised}
 
 
 def _attainable(problem: Problem, given: Task, clock: Clock) -> str:

@@ -3,39 +3,56 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from typing import Any
+from typing import TYPE_CHECKING
+
+from markupsafe import Markup
 
 from bezier.curves.containment import Leaves
 from bezier.curves.scalar import brief, decimal_text
 from bezier.input.task import Axis, Task
 from bezier.methods.single.closed import ProvedCurve
 from bezier.methods.single.plan import CLOSED, SinglePlan, above_label, of_axis
-from bezier.methods.single.program import TIE_BREAK, Chosen, Dip
+from bezier.methods.single.program import TIE_BREAK, Dip
 from bezier.methods.single.simplex import Contradiction, LinearOptimum
-from bezier.report import mathml, parts
-from bezier.report.parts import Row, shown, tone
+from bezier.plans import Story
+from bezier.report import html, mathml, parts
+from bezier.report.html import Section, Text
+from bezier.report.parts import shown
+
+if TYPE_CHECKING:
+    from bezier.pictures.picture import Drawing
 
 
-def sections(plan: SinglePlan) -> dict[str, Any]:
-    """What the page shows beyond the parts of every method."""
-    given, names = plan.task, ("P0", "(a, h)", "(b, h)", f"P{plan.task.degree}")
-    return {
-        "title": "One Bézier curve over an obstacle",
-        "subtitle": "exact linear problem, proved heights, proved path",
-        "given": parts.given(plan, names),
-        "infeasible": None if plan.path else _infeasible(plan),
-        "question": [shown(line) for axis in given.raised for line in _question(given, axis)],
-        "further_conditions": 0,
-        "indices": f"n = {given.degree}, p = {given.p}, q = {given.q}",
-        "times": [parts.exact(t) for t in given.times],
-        "optimum": _optimum(plan),
-        "problems": [_problem(given, item) for item in plan.chosen],
-        "pieces": [{"axis": name, "text": str(piece.least)} for name, piece in plan.pieces.items()],
-        "tie_break": TIE_BREAK,
-        "holes": [line[0].upper() + line[1:] for line in holes(plan)],
-        "closed": _closed(plan),
-        "certificates": parts.certificates(plan, _claims(plan)),
-    }
+def story(plan: SinglePlan, drawing: Drawing | None) -> Story:
+    """What the page says in this method's own words."""
+    given = plan.task
+    lines = [shown(line) for axis in given.raised for line in _question(given, axis)]
+    counts = "linear equations and bounds for each coordinate; v stands for the sum"
+    asked = parts.asked(lines, counts, plan.formula, plan.answer.formula)
+    sections = (
+        Section("question", "The question", _intro(given) + asked),
+        _programs(plan),
+        _open(plan, drawing),
+        _proved_curve(plan),
+        _optimum(plan),
+    )
+    return Story(
+        kind=f"one Bézier curve of degree {given.degree}",
+        place="4.1",
+        given=("P0", "(a, h)", "(b, h)", f"P{given.degree}"),
+        claims=_claims(plan),
+        none=None if plan.path else _none(plan),
+        sections=tuple(section for section in sections if section is not None),
+    )
+
+
+def _intro(given: Task) -> Markup:
+    said = Markup(
+        "Method 1 of the paper: one curve of degree n with equally spaced x-coordinates, so that x is linear in t."
+        " Problem (4) asks for the other coordinates of its control points (n = {}, p = {}, q = {}); t<sub>a</sub> = {}"
+        " and t<sub>b</sub> = {} belong to x = a and x = b."
+    )
+    return html.paragraph(said.format(given.degree, given.p, given.q, *map(brief, given.times)))
 
 
 def holes(plan: SinglePlan) -> list[str]:
@@ -85,16 +102,12 @@ def reason(plan: SinglePlan) -> str:
     )
 
 
-def _infeasible(plan: SinglePlan) -> Row:
+def _none(plan: SinglePlan) -> Section:
     stated = reason(plan)
-    return {
-        "reason": stated[0].upper() + stated[1:],
-        "explanation": "A higher degree may help.",
-        "ball_rows": [],
-        "multipliers": [],
-        "multiplier_text": "",
-        "suggestion": "",
-    }
+    content = html.paragraph(html.strong(f"{stated[0].upper()}{stated[1:]}.")) + html.paragraph(
+        "A higher degree may help."
+    )
+    return Section("none", "Why there is no path", content)
 
 
 def _question(given: Task, axis: Axis) -> list[str]:
@@ -123,57 +136,74 @@ def _indexed(name: str, i: int) -> str:
     return f"<msub><mi>{name}</mi><mn>{i}</mn></msub>"
 
 
-def _optimum(plan: SinglePlan) -> Row | None:
+def _optimum(plan: SinglePlan) -> Section | None:
     if plan.path is None:
         return None
     total = "<mo>+</mo>".join(_indexed(axis.name, i) for axis in plan.task.raised for i in plan.task.middle)
-    points = [
-        {"name": shown(mathml.name(name)), "exact": parts.exact_point(point), "decimal": parts.decimal_point(point)}
-        for name, point in plan.path.points.items()
-    ]
     bounds = ", ".join(plan.active)
-    return {
-        "objective": shown(total),
-        "value": parts.exact(plan.objective),
-        "decimal": decimal_text(plan.objective),
-        "points": points,
-        "active": f"Lower bounds of (4) that hold with equality there: {bounds}." if bounds else "",
-        "multipliers": [],
-        "field": "",
-    }
+    active = f"Lower bounds of (4) that hold with equality there: {bounds}." if bounds else ""
+    content = (
+        html.paragraph(Markup("The paper asks for the least {}.").format(shown(total))),
+        parts.least(plan),
+        parts.control_points(plan.path),
+        html.paragraph(active) if active else None,
+    )
+    return Section("best", "The control points", html.joined(*content), "optimum")
 
 
-def _problem(given: Task, item: Chosen) -> Row:
-    """Problem (4) of one axis with its dual proof."""
-    labels = [f"P_{item.axis.name}(t_{end}) = h" for end in ("a", "b")]
-    labels += [f"{name} >= {low}" for name, low in zip(item.program.names, item.program.lower, strict=True)]
-    duals = (*item.outcome.duals.rows, *item.outcome.duals.bounds)
-    return {
-        "axis": item.axis.name,
-        "value": parts.exact(item.outcome.value) if isinstance(item.outcome, LinearOptimum) else "",
-        "result": "the least sum" if isinstance(item.outcome, LinearOptimum) else "no solution",
-        "rows": [
-            {"label": label, "value": parts.exact(dual), "decimal": decimal_text(dual, 8)}
-            for label, dual in zip(labels, duals, strict=True)
-            if dual
-        ],
-    }
+def _programs(plan: SinglePlan) -> Section:
+    """Problem (4) of each axis with its dual proof."""
+    content: list[Text] = []
+    for item in plan.chosen:
+        labels = [f"P_{item.axis.name}(t_{end}) = h" for end in ("a", "b")]
+        labels += [f"{name} >= {low}" for name, low in zip(item.program.names, item.program.lower, strict=True)]
+        duals = (*item.outcome.duals.rows, *item.outcome.duals.bounds)
+        result = (
+            f"the least sum {brief(item.outcome.value)}" if isinstance(item.outcome, LinearOptimum) else "no solution"
+        )
+        rows = [(label, parts.number(dual)) for label, dual in zip(labels, duals, strict=True) if dual]
+        content.append(html.heading(Markup("{}: {}").format(item.axis.name, result)))
+        content.append(html.table(("condition", "multiplier of the dual proof"), rows))
+    said = "The maximum norm keeps this choice linear and all numbers rational."
+    content.append(html.note(f"Where several points have the least sum: {TIE_BREAK}. {said}"))
+    if plan.pieces:
+        pieces = [html.paragraph(f"{name}:") + html.pre(str(piece.least)) for name, piece in plan.pieces.items()]
+        none = html.note("For heights h without such a v, no curve satisfies (4).")
+        content += [html.folded("The least sum v for every height h", none, *pieces)]
+    return Section("linear", "The linear problem, solved exactly", html.joined(*content), "linear problem")
 
 
-def _closed(plan: SinglePlan) -> Row | None:
+def _open(plan: SinglePlan, drawing: Drawing | None) -> Section:
+    content = [html.paragraph("(4) says nothing about the heights between a and b, nor about the workspace.")]
+    content += [html.paragraph(html.strong(f"{line[0].upper()}{line[1:]}.")) for line in holes(plan)]
+    content.append(html.figures(drawing.charts if drawing else (), wide=True))
+    return Section("open", "What (4) leaves open", html.joined(*content), "heights")
+
+
+def _proved_curve(plan: SinglePlan) -> Section | None:
     closed = plan.closed
     if not isinstance(closed, ProvedCurve):
         return None
     gap: Fraction = plan.gap
-    return {
-        "value": parts.exact(closed.value),
-        "bound": decimal_text(closed.bound, 10),
-        "gap": decimal_text(gap, 4) if gap else "",
-        "cuts": [
-            {"kind": cut.kind.value, "axis": cut.axis, "t": brief(cut.t), "tone": tone(True)} for cut in closed.cuts
-        ],
-        "attainable": plan.attainable,
-    }
+    said = Markup(
+        "(4) together with: not below the heights for all t from t<sub>a</sub> to t<sub>b</sub>, and in the workspace"
+        " for all t. The sum of the curve is {}; a linear program with the cuts below proves that no curve has a sum"
+        " below {}{}."
+    ).format(
+        decimal_text(closed.value, 10),
+        decimal_text(closed.bound, 10),
+        f", so it is at most {decimal_text(gap, 4)} too large" if gap else "",
+    )
+    content: list[Text] = [
+        html.paragraph(said),
+        html.folded("the sum exactly", html.formula([shown(mathml.number(closed.value))])),
+    ]
+    if plan.attainable:
+        content.append(html.paragraph("Exact elimination of t gives all sums v that curves of this degree have:"))
+        content.append(html.pre(str(plan.attainable)))
+    cuts = [(cut.kind.value, cut.axis, brief(cut.t)) for cut in closed.cuts]
+    content.append(html.folded("the cuts", html.table(("condition", "axis", "t"), cuts, numbers=(2,))))
+    return Section("closed", "Method 1*: the conditions for all t", html.joined(*content), "method 1*")
 
 
 def _claims(plan: SinglePlan) -> dict[str, str]:

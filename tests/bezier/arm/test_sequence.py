@@ -145,7 +145,7 @@ def test_numbers_of_samples(count: int) -> None:
 def test_the_page_is_whole(plan: JointPlan) -> None:
     page = render(plan, "line.toml")
     assert "http" not in page.replace("http://www.w3.org", "")
-    frames = json.loads(page.split("const data = ")[1].split(";\n")[0])["frames"]
+    frames = json.loads(page.split('type="application/json">')[1].split("</script>")[0])["arm"]["frames"]
     tips = [frame["p"][-1] for frame in frames]
     assert np.allclose(tips, positions(ARM, [frame["q"] for frame in frames]), atol=0.02)
 

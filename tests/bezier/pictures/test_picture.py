@@ -6,17 +6,21 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from bezier.curves.workspace import Ball, HalfSpace
 from bezier.methods.quadratic import formula as quadratic
-from bezier.pictures import mesh, scene
-from bezier.pictures.picture import PathPicture, curve_pictures, numbers, region_picture
+from bezier.pictures import labels, mesh, plot, scene
+from bezier.pictures.picture import INK, PathPicture, RegionPicture, curve_pictures, numbers, region_picture
 from bezier.problem import load_problem
 from bezier.report import mathml
+from bezier.report.parts import GIVEN
 from bezier.report.recognise import as_conditions
 from qe.io import text
 
 ORIGIN = (Fraction(0),) * 3
+HALF_SPACES = [HalfSpace((Fraction(0), Fraction(0), Fraction(k)), Fraction(1)) for k in range(1, 6)]
 
 
 @pytest.fixture(scope="module")
@@ -77,9 +81,67 @@ def test_labels_and_colours(picture):
     assert len({picture.region.colour(k) for k in range(3)}) == 3
 
 
-def test_figures_are_json_without_nan(picture):
-    for figure in (scene.region_figure(picture), scene.path_figure(picture)):
-        assert json.loads(json.dumps(figure, allow_nan=False))["data"]
+def test_every_boundary_surface_has_its_own_colour(example):
+    conditions = [*quadratic.as_conditions_on_q1(quadratic.system(example)), *HALF_SPACES]
+    labels = ("P1", "Q1", "R1", "P1.z", "Q1.z", "R1.z", "roof", "wall")
+    surface = RegionPicture(mesh.region_mesh(conditions[:3], 1), labels)
+    colours = [surface.colour(k) for k in range(len(labels))]
+    assert len(set(colours)) == len(colours)
+
+
+def test_normals_point_outwards_and_are_those_of_the_surface(example):
+    conditions = quadratic.as_conditions_on_q1(quadratic.system(example))
+    surface = mesh.region_mesh(conditions, 2)
+    middles = surface.vertices[surface.faces].mean(axis=1)
+    assert np.allclose(np.linalg.norm(surface.normals, axis=1), 1)
+    assert ((middles - middles.mean(axis=0)) * surface.normals).sum(axis=1).min() > 0
+    for k, condition in enumerate(conditions):
+        away = middles[surface.owner == k] - np.array([float(c) for c in condition.centre])
+        assert np.abs(np.cross(away, surface.normals[surface.owner == k])).max() < 1e-9
+
+
+def test_scenes_hold_the_numbers_that_are_drawn(picture):
+    given = dict(zip(GIVEN, (picture.marks[name] for name in ("P0", "Q0", "R0", "R2")), strict=True))
+    shown = json.loads(scene.text(scene.path_scene(picture, None, timed=False, given=given)))
+    assert [name for name, _, main in shown["marks"] if main] == [*GIVEN]
+    minor = {name for name, _, main in shown["marks"] if not main}
+    assert minor == {"P\u0302₁", "Q\u0302₁", "R\u0302₁"}, "a place has one name"
+    for curve, drawn in zip(picture.curves, shown["curves"], strict=True):
+        assert np.allclose(np.array(drawn["v"]).reshape(-1, 3), curve.points, atol=1e-4 * picture.radius)
+    region = json.loads(scene.text(scene.region_scene(picture.region)))["bodies"][0]
+    assert len(region["f"]) == 3 * len(region["c"]) == len(region["n"])
+    assert max(region["f"]) < len(region["v"]) // 3 and set(region["c"]) == set(range(len(region["colours"])))
+
+
+@pytest.mark.parametrize("size", [1e-7, 1.0, 3e8])
+def test_scenes_of_any_size_keep_their_shape(size):
+    marks = {"P0": np.array([0.3, -0.2, 0.1]) * size}
+    shown = scene.path_scene(PathPicture(size, True, (), marks), None, timed=False, given={"start": marks["P0"]})
+    assert np.allclose(np.array(shown["marks"][0][1]), marks["P0"], rtol=1e-3)
+
+
+def crossing(boxes):
+    return [(a, b) for i, a in enumerate(boxes) for b in boxes[i + 1 :] if a.overlaps(b)]
+
+
+@settings(max_examples=12, deadline=None)
+@given(st.lists(st.tuples(st.integers(0, 12), st.integers(0, 12)), min_size=1, max_size=7, unique=True))
+def test_names_cover_neither_each_other_nor_the_frame(points):
+    figure = plot.new_figure(5, 4)
+    axis = figure.add_axes((0.1, 0.1, 0.85, 0.85))
+    axis.set(xlim=(-1, 13), ylim=(-1, 13))
+    labels.place(axis, [(f"Q{i}", point) for i, point in enumerate(points)], np.array(points, dtype=float))
+    texts = [text for text in axis.texts if text.get_text()]
+    boxes = [text.get_window_extent() for text in texts]
+    assert len(boxes) == len(points) and not crossing(boxes)
+    frame = axis.get_window_extent()
+    assert all(frame.x0 <= b.x0 and b.x1 <= frame.x1 and frame.y0 <= b.y0 and b.y1 <= frame.y1 for b in boxes)
+
+
+def test_drawings_take_the_colours_of_the_page(picture):
+    for svg, words in plot.views(picture):
+        assert words and ElementTree.fromstring(svg).tag.endswith("svg")
+        assert "var(--ink)" in svg and "var(--p)" in svg and INK not in svg
 
 
 @pytest.mark.parametrize(

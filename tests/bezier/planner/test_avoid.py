@@ -76,7 +76,7 @@ def test_what_is_said_about_it(over_the_crate, tmp_path):
     told = summary(over_the_crate, [], 1.0)
     assert told["status"] == "solved" and len(told["clearance"]) == 3 and told["attempts"][0]["outcome"] == "solved"
     page = render(over_the_crate, method_of(over_the_crate.problem.method), None)
-    assert "<h2>Obstacles</h2>" in page and "clear for all t" in page and "Quality of the path" in page
+    assert "<h2>Obstacles</h2>" in page and "clear for all t" in page and "Length, curvature and motion" in page
 
 
 @pytest.mark.parametrize("method", ["cubic", "single"])

@@ -1,6 +1,7 @@
 """Planning with Method 1: the examples, what the table [single] may say, and folders that must be rejected."""
 
 import json
+import pickle
 from dataclasses import replace
 from fractions import Fraction
 
@@ -11,7 +12,7 @@ from bezier.curves.scalar import dot
 from bezier.methods.single.closed import NoCurve, close
 from bezier.methods.single.cuts import Model
 from bezier.methods.single.method import SINGLE
-from bezier.methods.single.plan import CLOSED, task_of
+from bezier.methods.single.plan import CLOSED, PIECEWISE_DEGREE, _least_sums, task_of
 from bezier.methods.single.program import choose, curve
 from bezier.methods.single.restore import certified_curve
 from bezier.methods.single.simplex import certificate, solve
@@ -266,3 +267,12 @@ def test_a_bad_degree_gets_one_message(root, stated, expected):
     text = (root / "examples" / "single_leaves.toml").read_text().replace("degree = 6", f"degree = {stated}")
     with pytest.raises(InputError, match=rf"^p.toml:\d+: single.degree: expected {expected}[^:]*$"):
         read_problem(text, "p.toml")
+
+
+def test_the_least_sums_for_every_height_are_found_when_they_are_asked_for(plans):
+    plan = next(p for p in plans.values() if p.task.degree <= PIECEWISE_DEGREE)
+    _least_sums.cache_clear()
+    assert len(plan.pieces) == len(plan.task.raised) and not _least_sums.cache_info().currsize
+    assert list(plan.pieces) == [axis.name for axis in plan.task.raised]
+    assert _least_sums.cache_info().currsize == 1 and all(piece.least for piece in plan.pieces.values())
+    assert pickle.loads(pickle.dumps(plan.pieces)) == plan.pieces
