@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from qe.cli.numbers import shown
-from qe.cli.work import Reply, Request, read_formula
+from qe.cli.work import Reply, Request, certificate_text, read_formula
 from qe.errors import InputError
 from qe.spelling import quoted
 from qe.worker import Channel

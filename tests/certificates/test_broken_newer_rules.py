@@ -8,7 +8,7 @@ from fractions import Fraction
 
 import pytest
 
-import qe.engine.finish as finish
+import qe.engine.untangle as untangle
 import qe.rules.gather as gather
 import qe.rules.rotation as rotation
 import qe.rules.structural as structural
@@ -167,14 +167,14 @@ def test_equations_of_which_one_is_lost(monkeypatch: pytest.MonkeyPatch) -> None
     assert accepted(untangling(given))
     from qe.simplify.simplify import simplify
 
-    monkeypatch.setattr(finish, "simplify", lambda formula: conj(simplify(formula).args[:1]))  # type: ignore[attr-defined]
+    monkeypatch.setattr(untangle, "simplify", lambda formula: conj(simplify(formula).args[:1]))  # type: ignore[attr-defined]
     assert not accepted(untangling(given))
 
 
 def untangling(given: Formula) -> Step:
     """The step of the rule that takes the equations of an answer apart."""
     log = RunLog()
-    finish.untangled(given, Context(Options(), Budget(20), log))
+    untangle.untangled(given, Context(Options(), Budget(20), log))
     (step,) = log.steps()
     assert step.rule == "equations taken apart"
     return step

@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from qe.elimination.protocol import Context
-from qe.engine.finish import untangled
+from qe.engine.untangle import untangled
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj, disj, exists, forall
 from qe.formula.syntax import Formula, Relation

@@ -6,6 +6,7 @@ import qe
 from qe import api
 from qe.engine.constant import constant_value
 from qe.formula.syntax import FALSE, TRUE
+from qe.io import formats
 
 BALLS = "(x+2)^2 + (y-6)^2 + (z-6)^2 <= 27 and x^2 + y^2 + z^2 <= 27 and (x-2)^2 + (y-6)^2 + (z-6)^2 <= 27"
 
@@ -35,8 +36,8 @@ def test_a_far_exception_is_found():
 
 def test_text_is_read_once(monkeypatch):
     read = []
-    original = api.read_formula
-    monkeypatch.setattr(api, "read_formula", lambda *given: read.append(given) or original(*given))
+    original = formats.read
+    monkeypatch.setattr(formats, "read", lambda *given, **keywords: read.append(given) or original(*given, **keywords))
     assert str(qe.eliminate("ex x. x^2 = a").formula) == "a >= 0"
     assert len(read) == 1
 
