@@ -72,9 +72,9 @@ def _become(program: str, words: list[str], cwd: Path | None, streams: Sequence[
         status = PROGRAMS[program](words)
     except SystemExit as end:
         status = end.code if isinstance(end.code, int) else int(end.code is not None)
-    except BaseException:  # noqa: BLE001 - nothing may return into the test process
-        traceback.print_exc()
     finally:
+        if sys.exception() is not None:  # nothing may return into the test process
+            traceback.print_exc()
         sys.stdout.flush()
         sys.stderr.flush()
         os._exit(status)

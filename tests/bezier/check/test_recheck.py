@@ -339,7 +339,7 @@ def check_any(text: str, folder: Path) -> bool:
     return True
 
 
-@settings(max_examples=6)
+@settings(max_examples=4)
 @given(st.data())
 def test_any_plan_is_found_again(tmp_path_factory, data):
     check_any(data.draw(plan_texts()), tmp_path_factory.getbasetemp() / "any")

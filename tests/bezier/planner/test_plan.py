@@ -33,7 +33,7 @@ def problem_of(q0, r0, r2, kind=WorkspaceKind.BALL, method=PlanMethod.QUADRATIC)
     return Problem(method, Workspace(kind, Fraction(r2)), start, (q0, r0), goal, False)
 
 
-@settings(max_examples=25)
+@settings(max_examples=12)
 @given(POINT, POINT, st.integers(1, 24), st.lists(points(), min_size=8, max_size=8), st.sampled_from(WorkspaceKind))
 def test_the_answer_is_the_conditions(q0, r0, r2, candidates, kind):
     problem = problem_of(q0, r0, r2, kind)
@@ -44,7 +44,7 @@ def test_the_answer_is_the_conditions(q0, r0, r2, candidates, kind):
         assert holds_at(answer, dict(zip(quadratic.FREE, q1, strict=True))) == expected
 
 
-@settings(max_examples=12)
+@settings(max_examples=6)
 @given(POINT, POINT, st.integers(0, 6))
 def test_plans_exist_exactly_when_the_balls_meet(q0, r0, more):
     least = max(dot(q0, q0), dot(r0, r0), Fraction(2))

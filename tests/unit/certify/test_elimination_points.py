@@ -117,6 +117,11 @@ def test_settled_atoms(coefficients: list[str], shift: int, settled: tuple[str, 
     assert reason in found and bool(found) is bool(reason)
 
 
+def test_nothing_is_settled_where_the_problem_is_kept() -> None:
+    kept = point(None, settled=("x > a",))
+    assert "strict conjuncts" in objection(RULE, "ex x. x > a and x < b", "ex x. x > a and x < b", by(kept))
+
+
 LOW = "x < root(1, x^2 - 100)"
 
 

@@ -143,7 +143,7 @@ def systems(draw: st.DrawFn) -> list[Poly]:
     return [RING.from_terms(t) for t in found]
 
 
-@settings(max_examples=40)
+@settings(max_examples=20)
 @given(systems(), ORDERS, st.randoms(use_true_random=False))
 def test_segments_are_disjoint_cover_and_specialise(polys: list[Poly], order: MonomialOrder, random) -> None:
     name = {MonomialOrder.LEX: "lex", MonomialOrder.DEGLEX: "grlex"}.get(order, "grevlex")

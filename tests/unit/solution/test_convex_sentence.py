@@ -22,7 +22,7 @@ LINE = st.tuples(SMALL, SMALL, SMALL, st.sampled_from(["<", "<=", "="])).map(
 )
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=30, deadline=None)
 @given(st.lists(st.one_of(DISC, DISC, LINE), min_size=2, max_size=4))
 def test_agrees_with_decomposition(parts: list[str]) -> None:
     text = "ex x, y. " + " and ".join(parts)

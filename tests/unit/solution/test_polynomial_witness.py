@@ -75,7 +75,7 @@ def test_a_method_asked_for_is_used() -> None:
 numbers = st.fractions(min_value=-3, max_value=3, max_denominator=4)
 
 
-@settings(max_examples=40)
+@settings(max_examples=25)
 @given(numbers, numbers, numbers, numbers)
 def test_substitution_multiplies_by_a_positive_number(a: Fraction, b: Fraction, u: Fraction, v: Fraction) -> None:
     """f[x := u a + v b] holds at (a, b) iff f holds at (a, b, u a + v b)."""

@@ -125,7 +125,7 @@ def test_elimination_and_the_linear_program_agree(given_task):
     assert qe.decide(f"all {VALUE}. ({found.least}) -> {VALUE} = {outcome.value}")
 
 
-@settings(max_examples=15)
+@settings(max_examples=8)
 @given(tasks(3, 6), HEIGHTS)
 def test_symbols_give_the_optimum_of_every_number(given_task, height):
     (of,) = given_task.raised

@@ -58,6 +58,8 @@ def test_residues_are_in_lowest_terms() -> None:
         ((-2, 0, 1), 2, 1, "above the upper"),
         ((-2, 0, 1), 2, 3, "does not change sign"),
         ((-2, 0, 1), -2, 2, "does not change sign"),
+        ((-4, 0, 1), 2, 3, "does not change sign"),  # the root is an end
+        ((-4, 0, 1), 1, 2, "does not change sign"),
         ((0, -1, 0, 1), -2, 2, "one simple root"),  # three roots
         ((-1, 3, -3, 1), 0, 2, "one simple root"),  # a triple root
         ((-2, 0, 1), 1, 1, "not a root"),

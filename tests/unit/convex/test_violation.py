@@ -1,0 +1,71 @@
+"""How far constraints are from being satisfied together: what is proposed is checked exactly here."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from qe.convex.violation import height, proposed, violation_form, violation_forms
+from qe.exact.quadratic_form import Quadratic, combine, solve_linear
+
+ZERO = Fraction(0)
+
+
+def ball(x: Fraction, y: Fraction, square: Fraction) -> Quadratic:
+    """(u - x)^2 + (v - y)^2 - square."""
+    two = Fraction(2)
+    return Quadratic(((two, ZERO), (ZERO, two)), (-2 * x, -2 * y), x * x + y * y - square)
+
+
+def line(a: int, b: int, c: int) -> Quadratic:
+    return Quadratic(((ZERO, ZERO), (ZERO, ZERO)), (Fraction(a), Fraction(b)), Fraction(c))
+
+
+POINTS = [(Fraction(x), Fraction(y)) for x in (-1, 0, 3) for y in (-2, 0, 1)]
+
+
+@pytest.mark.parametrize("form", [ball(Fraction(1), Fraction(2), Fraction(5)), line(3, -6, 4), line(0, 0, 5)])
+def test_the_violation_is_the_scaled_form_less_the_height(form: Quadratic) -> None:
+    found, scale = violation_form(form)
+    assert scale > 0
+    for x, y in POINTS:
+        for t in (Fraction(-1), Fraction(5, 2)):
+            assert found.value((x, y, t)) == scale * form.value((x, y)) - t
+    largest = [abs(v) for row in found.hessian for v in row] if not form.is_linear else [abs(v) for v in found.gradient]
+    assert max(largest) == 1
+
+
+def test_the_height_is_bounded_below() -> None:
+    forms, scales = violation_forms([line(1, 0, 0), line(0, 1, 0)], 2)
+    assert len(forms) == 3 and len(scales) == 2
+    assert forms[-1].value((ZERO, ZERO, Fraction(-3))) == 2  # -1 - t <= 0 is violated below -1
+    assert height(2).value((Fraction(7), Fraction(8), Fraction(9))) == 9
+
+
+NUMBERS = st.integers(-4, 4).map(Fraction)
+
+
+@settings(max_examples=30)
+@given(st.lists(st.tuples(NUMBERS, NUMBERS, st.integers(1, 9).map(Fraction)), min_size=1, max_size=3))
+def test_proposals_prove_themselves(balls: list[tuple[Fraction, Fraction, Fraction]]) -> None:
+    """A point inside all balls, or weights with which the sum of the forms is positive everywhere."""
+    forms = [ball(*b) for b in balls]
+    witness, weights = proposed(forms)
+    assert witness is None or weights is None
+    if witness is not None:
+        assert all(form.value(witness) < 0 for form in forms)
+    if weights is not None:
+        assert all(w >= 0 for w in weights) and any(weights)
+        total = combine(weights, forms)
+        least = solve_linear(total.hessian, [-b for b in total.gradient], 2)
+        assert least is not None and total.value(least.particular) > 0
+
+
+def test_what_is_clear_is_found() -> None:
+    inside, none = proposed([ball(ZERO, ZERO, Fraction(4)), ball(Fraction(1), ZERO, Fraction(4))])
+    assert inside is not None and none is None
+    none, weights = proposed([ball(ZERO, ZERO, Fraction(1)), ball(Fraction(5), ZERO, Fraction(1))])
+    assert none is None and weights is not None

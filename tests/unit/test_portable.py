@@ -1,0 +1,57 @@
+"""Errors from one process to another: they come out as they went in."""
+
+from __future__ import annotations
+
+import pickle
+
+import pytest
+
+from qe.errors import BudgetExceeded, InputError, InternalError, ParseError, QEError, Unable
+from qe.portable import portable, rebuilt
+
+
+def sent(error: BaseException) -> QEError:
+    return rebuilt(pickle.loads(pickle.dumps(portable(error))))
+
+
+def raised(error: BaseException) -> BaseException:
+    try:
+        raise error
+    except (QEError, ZeroDivisionError) as found:
+        return found
+
+
+@pytest.mark.parametrize("error", [InputError("x: expected a number"), Unable("too hard"), QEError("so")])
+def test_our_errors_keep_class_and_message(error: QEError) -> None:
+    found = sent(raised(error))
+    assert type(found) is type(error) and str(found) == str(error)
+
+
+def test_attributes_come_along_and_messages_are_formatted_once() -> None:
+    import qe
+
+    with pytest.raises(ParseError) as caught:
+        qe.eliminate("ex x. x + > 1")
+    found = sent(caught.value)
+    assert type(found) is ParseError and str(found) == str(caught.value)
+    assert vars(found) == vars(caught.value)
+
+
+def test_what_cannot_be_pickled_is_left_behind() -> None:
+    error = Unable("so")
+    error.kept, error.left = 7, lambda: None  # type: ignore[attr-defined]
+    found = sent(error)
+    assert found.kept == 7 and not hasattr(found, "left")  # type: ignore[attr-defined]
+
+
+def test_limits_of_the_machine() -> None:
+    memory = sent(MemoryError())
+    assert type(memory) is BudgetExceeded and memory.limit == "memory"  # type: ignore[attr-defined]
+    assert type(sent(RecursionError("deep"))) is Unable
+
+
+def test_a_foreign_exception_is_a_bug_with_its_place() -> None:
+    found = sent(raised(ZeroDivisionError("two\nlines")))
+    assert type(found) is InternalError
+    assert "ZeroDivisionError at unit/test_portable.py:" in str(found) and "\n" not in str(found)
+    assert "Traceback" in found.trace  # type: ignore[attr-defined]
