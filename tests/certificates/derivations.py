@@ -44,7 +44,7 @@ CASES = {
     "roots": "x < root(2, x^2 - y)",
     "nonzero shift": "ex x. x^2 = a and x /= 0 and x^4 /= 9*b",
     "discs": "ex x, y. (x - a)^2 + (y - b)^2 <= 1 and x^2 + y^2 <= 4",
-    "nowhere": "(ex x, y, z. x + a = 4 and y + b = 9 and z + c = 9 and x^2 + y^2 + z^2 <= 9) and a^2 + b^2 + c^2 <= 9",
+    "nowhere": "a^2 + b^2 + c^2 <= 9 and (ex x, y, z. x + a = 4 and y + b = 9 and z + c = 9 and x^2 + y^2 + z^2 <= 9)",
     "intervals": "all x. x > 3 -> x^2 - 2 > 0 and x /= 1",
 }
 
