@@ -190,7 +190,7 @@ def count_refused(text: str, changes: list[Callable[[dict[str, Any]], object]]) 
     return rejected
 
 
-@pytest.mark.parametrize("text", [DISC, ELLIPSE, LENS])
+@pytest.mark.parametrize("text", [DISC, ELLIPSE, pytest.param(LENS, marks=pytest.mark.deep)])
 def test_chains(text: str) -> None:
     """No set of active conditions may be left out, nor the end of a chain that leads to what no other row does.
 
