@@ -22,8 +22,8 @@ from qe.errors import Unable
 from qe.exact.ring import Poly, Ring
 from qe.proof.entry import Entry
 
-MOST_SETS, MOST_TERMS = 5_000, 200_000
-"""Sets that may be active, and terms of a product, at most."""
+MOST_SETS, MOST_TERMS, MOST_VARIABLES = 5_000, 200_000, 6
+"""Sets that may be active, terms of a product, and variables of the block (of determinants), at most."""
 
 
 def active_sets(inequalities: Sequence[Poly], equations: Sequence[Poly], free: int) -> Iterator[list[Poly]]:
@@ -33,6 +33,8 @@ def active_sets(inequalities: Sequence[Poly], equations: Sequence[Poly], free: i
     yield from ([g] for g in alone)
     size = (others or equations)[0].ring.size if others or equations else free
     bound, sets = range(free, size), 0
+    if len(bound) > MOST_VARIABLES:
+        raise Unable(f"critical points in more than {MOST_VARIABLES} variables")
     for count in range(min(max(0, len(bound) + 1 - len(equations)), len(others)) + 1):
         for chosen in combinations(others, count) if count or equations else ():
             sets += 1

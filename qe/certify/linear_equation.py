@@ -76,6 +76,11 @@ class Pivot:
     sign: int | None
     others: Formula
 
+    @property
+    def equation(self) -> Poly:
+        """The polynomial that is 0."""
+        return self.lead * self.lead.ring.gen(self.x) + self.rest
+
 
 def _block(claim: Claim) -> tuple[tuple[str, ...], Formula]:
     if not isinstance(claim.before, Exists):
@@ -98,6 +103,19 @@ def _pivot(entry: Entry, block: Sequence[str], body: Formula, claim: Claim) -> P
         raise parts[2].fail("not the sign of this number")
     others = conj(p for p in conjuncts(body) if p != Atom(equation, Relation.EQ))
     return Pivot(x, name, lead, rest, sign if isinstance(sign, int) else None, others)
+
+
+def term(entry: Entry, names: Sequence[str], others: Formula, claim: Claim) -> Pivot:
+    """The substitution that an equation [variable, polynomial] gives whose coefficient is a number."""
+    parts = list(entry.items())
+    if len(parts) != 2 or parts[0].text() not in names:
+        raise entry.fail("expected [variable, equation]")
+    name, equation = parts[0].text(), polynomial_from_json(parts[1], claim.ring)
+    x = claim.ring.index[name]
+    if equation.degree(x) != 1 or not equation.leading(x).is_constant:
+        raise parts[1].fail("expected an equation that is linear in the variable, with a number as its coefficient")
+    rest, lead = equation.coefficients(x)
+    return Pivot(x, name, lead, rest, 1 if lead.constant_value() > 0 else -1, others)
 
 
 def _solved(pivot: Pivot, claim: Claim) -> Formula:

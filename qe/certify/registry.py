@@ -10,6 +10,7 @@ from qe.certify.block import check_block
 from qe.certify.constant import check_constant
 from qe.certify.covering import check_covering
 from qe.certify.critical_values import check_critical_values
+from qe.certify.degenerate_truth_set import check_degenerate_truth_set
 from qe.certify.degree_shift import check_degree_shift
 from qe.certify.distribution import check_distribution
 from qe.certify.elimination_set import check_elimination_set
@@ -63,6 +64,7 @@ RULES: Mapping[str, Check] = {
     "only asked to be no root": check_only_nonzero,
     "virtual substitution": check_replayed_block,
     "critical values": check_critical_values,
+    "degenerate truth set": check_degenerate_truth_set,
     "elimination set": check_elimination_set,
     "alternatives": check_alternatives,
     "independent parts": check_independent_parts,

@@ -33,20 +33,20 @@ def check_regular(table: CellTable, limits: Limits, path: str) -> None:
     if len(table.order) > 2 or table.root.stack is None or any(table.constraints):
         raise CertificateRejected(path, "expected a decomposition of the line or the plane")
     if len(table.order) == 1:
-        _check_sections(table.root.stack, path)
+        _check_sections(table.root, path)
         return
     first = table.root.stack
     for cell in first.cells[::2]:
-        if cell.stack is not None:
-            _check_sections(cell.stack, path)
+        _check_sections(cell, path)
     for k in range(len(first.sections)):
         limits.tick()
         _Section(table, first, k, limits, path).check()
 
 
-def _check_sections(stack: Stack, path: str) -> None:
-    for left, section, right in zip(stack.cells[::2], stack.cells[1::2], stack.cells[2::2], strict=False):
-        if section.truth is not (left.truth or right.truth):
+def _check_sections(cell: Cell, path: str) -> None:
+    truths = _truths(cell, path)
+    for left, section, right in zip(truths[::2], truths[1::2], truths[2::2], strict=False):
+        if section is not (left or right):
             raise CertificateRejected(path, "not the closure of its interior")
 
 
@@ -67,7 +67,7 @@ class _Section:
         self._narrow(samples)
         sides = ((self.left, self.low), (self.right, self.high))
         beside = [_Side(cell, at, self.factors[1], samples, self.path) for cell, at in sides]
-        truths = _truths(self.over)
+        truths = _truths(self.over, self.path)
         for i in range(len(samples)):
             if truths[2 * i] is not any(side.between(i, i) for side in beside):
                 raise CertificateRejected(self.path, "not the closure of its interior over a section")
@@ -104,7 +104,7 @@ class _Side:
     def __init__(
         self, cell: Cell, at: Fraction, factors: Sequence[Poly], samples: Sequence[Fraction], path: str
     ) -> None:
-        self.truths = _truths(cell)
+        self.truths = _truths(cell, path)
         polys = [factors[j].at_rational(0, at).to_univariate(1) for j in _used(cell)]
         if 2 * sum(map(count_real_roots, polys)) + 1 != len(self.truths):
             raise CertificateRejected(path, "a stack with another number of sections at a point of its interval")
@@ -119,5 +119,10 @@ def _used(cell: Cell) -> tuple[int, ...]:
     return () if cell.stack is None else cell.stack.used
 
 
-def _truths(cell: Cell) -> list[bool | None]:
-    return [cell.truth] if cell.stack is None else [c.truth for c in cell.stack.cells]
+def _truths(cell: Cell, path: str) -> list[bool]:
+    """The truth on the cells of a stack; on the whole line over a cell without one."""
+    found = [c.truth for c in ((cell,) if cell.stack is None else cell.stack.cells)]
+    known = [truth for truth in found if truth is not None]
+    if len(known) < len(found):
+        raise CertificateRejected(path, "a cell without a truth value")
+    return known

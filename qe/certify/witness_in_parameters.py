@@ -10,11 +10,10 @@ Evidence: ``equations``: [variable, equation c*x + r = 0 with a number c] in the
 from __future__ import annotations
 
 from qe.certify.boolean import ByLemmas, Goal
-from qe.certify.linear_equation import Pivot, substituted
+from qe.certify.linear_equation import substituted, term
 from qe.certify.negation import negation
 from qe.certify.step import Claim, Context, only
-from qe.formula.syntax import TRUE, Exists, Formula
-from qe.proof.entry import Entry, polynomial_from_json
+from qe.formula.syntax import TRUE, Exists
 
 
 def witness_goals(claim: Claim, context: Context) -> list[Goal]:
@@ -24,22 +23,10 @@ def witness_goals(claim: Claim, context: Context) -> list[Goal]:
         raise claim.fail("expected an existential block that holds")
     body, names = block.body, set(block.variables)
     for entry in equations.items():
-        body = substituted(_term(entry, block, body, claim), claim)
+        body = substituted(term(entry, block.variables, body, claim), claim)
     if names & set(body.free):
         raise equations.fail("a variable of the block is left")
     return [(*(f for f in context if not names & set(f.free)), negation(body))]
 
 
 check_witness_in_parameters = ByLemmas(witness_goals)
-
-
-def _term(entry: Entry, block: Exists, body: Formula, claim: Claim) -> Pivot:
-    parts = list(entry.items())
-    if len(parts) != 2 or parts[0].text() not in block.variables:
-        raise entry.fail("expected [variable of the block, equation]")
-    name, equation = parts[0].text(), polynomial_from_json(parts[1], claim.ring)
-    x = claim.ring.index[name]
-    if equation.degree(x) != 1 or not equation.leading(x).is_constant:
-        raise parts[1].fail("expected an equation that is linear in the variable, with a number as its coefficient")
-    rest, lead = equation.coefficients(x)
-    return Pivot(x, name, lead, rest, 1 if lead.constant_value() > 0 else -1, body)

@@ -40,7 +40,7 @@ from qe.proof.entry import Json, poly_to_text
 Values = tuple[Fraction, ...]
 
 
-def critical_evidence(claim: Claim, order: Sequence[str], options: Options, budget: Budget) -> Json:
+def critical_evidence(claim: Claim, order: Sequence[str], options: Options, budget: Budget) -> dict[str, Json]:
     """The evidence for a step, with the parameters in this order.
 
     Raises ``CertificateRejected`` where the rule does not apply, or some of the evidence is not found.

@@ -42,7 +42,7 @@ def formulas_within(value: object) -> Iterator[Formula]:
             yield from (step.before, step.after, step.context)
 
 
-def proved_inside(checker: Check, claim: Claim, context: Context, limits: Limits, prove: Prove) -> Json:
+def proved_inside(checker: Check, claim: Claim, context: Context, limits: Limits, prove: Prove) -> dict[str, Json]:
     """The claim's evidence with the steps of its derivations. Raises as the checker and ``prove`` do."""
     found: dict[int, list[Json]] = {}
 
@@ -62,4 +62,5 @@ def proved_inside(checker: Check, claim: Claim, context: Context, limits: Limits
             return {name: filled(part) for name, part in value.items()}
         return [filled(part) for part in value] if isinstance(value, list) else value  # type: ignore[return-value]
 
-    return filled(claim.evidence.value)
+    assert isinstance(claim.evidence.value, dict)  # the checker has read it
+    return {name: filled(part) for name, part in claim.evidence.value.items()}

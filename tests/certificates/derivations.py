@@ -45,7 +45,6 @@ CASES = {
     "roots": "x < root(2, x^2 - y)",
     "nonzero shift": "ex x. x^2 = a and x /= 0 and x^4 /= 9*b",
     "discs": "ex x, y. (x - a)^2 + (y - b)^2 <= 1 and x^2 + y^2 <= 4",
-    "nowhere": "(ex x, y, z. x + a = 4 and y + b = 9 and z + c = 9 and x^2 + y^2 + z^2 <= 9) and a^2 + b^2 + c^2 <= 9",
     "gathered": "ex x. x > a and ex y. x*y = 1 and y > 2",
     "gathered all": "all x. x > a or (all y. x*y > 1 or y > x)",
     "turned": "ex x, y. x^2 + y^2 = a and (x^2 + y^2)^2 > b",
@@ -57,6 +56,7 @@ CASES = {
     "zeros": "ex x, y. (x /= 0 or y /= 0) and x^2 - 3*y^2 > a^2 and x + y > b",
     "balls": "s > 0 and ex x, y. (x - a)^2 + y^2 <= 4 and x^2 + y^2 < s^2",
     "radicands": "ex x, y. 2*x^2 + 2*y^2 - x <= a and x^2 + y^2 < b",
+    "nowhere": "a^2 + b^2 + c^2 <= 9 and (ex x, y, z. x + a = 4 and y + b = 9 and z + c = 9 and x^2 + y^2 + z^2 <= 9)",
     "intervals": "all x. x > 3 -> x^2 - 2 > 0 and x /= 1",
 }
 

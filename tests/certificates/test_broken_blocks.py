@@ -7,14 +7,16 @@ from typing import Any
 
 import pytest
 
+import qe.elimination.critical.degenerate as degenerate
 import qe.elimination.vs.infinity_first as infinity_first
 import qe.elimination.witness as witness
 import qe.engine.run as run
 import qe.formula.counting as counting
 from qe.api_input import read_formula
-from qe.elimination.protocol import Context, Problem
+from qe.elimination.critical.method import ConvexUniversal
+from qe.elimination.protocol import Context, Outcome, Problem
 from qe.engine.proving import Prover
-from qe.formula.syntax import FALSE, TRUE, Formula, Relation
+from qe.formula.syntax import FALSE, TRUE, ForAll, Formula, Relation
 from qe.formula.traverse import conjuncts
 from qe.io.names import names_in
 from qe.options import Budget, Options
@@ -61,6 +63,16 @@ def roots(text: str) -> set[str]:
     given, log = read_formula(text), RunLog()
     plain = log.step("roots counted", given, counting.without_root_atoms(given))
     return unproved(given, log, plain)
+
+
+def thin(text: str) -> set[str]:
+    """By the rule "degenerate truth set" alone."""
+    given, log = read_formula(text), RunLog()
+    problem = Problem.of(given)
+    assert problem is not None
+    found = ConvexUniversal().run(problem, Context(Options(), Budget(), log))
+    assert found is not None
+    return unproved(given, log, found.formula)
 
 
 def whole(text: str, *, certify: bool = False) -> set[str]:
@@ -122,6 +134,32 @@ def no_exception(m: pytest.MonkeyPatch) -> None:
     m.setattr("qe.engine.constant.holds_at", lambda formula, point: False)
 
 
+def no_solution(m: pytest.MonkeyPatch) -> None:
+    """The necessary conditions count as contradictory."""
+    m.setattr(ConvexUniversal, "run", _thin_run)
+    m.setattr(degenerate, "implied_equations", lambda conditions, budget: None)
+
+
+def another_equation(m: pytest.MonkeyPatch) -> None:
+    """An equation counts as implied that is not."""
+    m.setattr(ConvexUniversal, "run", _thin_run)
+    m.setattr(
+        degenerate,
+        "implied_equations",
+        lambda conditions, budget: [conditions.ring.var("x") + conditions.ring.var("y")],
+    )
+
+
+def _thin_run(self: ConvexUniversal, problem: Problem, context: Context) -> Outcome | None:
+    """As if the set had no interior points."""
+    block = problem.formula
+    assert isinstance(block, ForAll)
+    found = degenerate.thin_universal(block, problem.positive, problem.free, context.budget)
+    assert found is not None
+    proof = {"proof": found.evidence}
+    return Outcome(context.log.step("degenerate truth set", block, found.formula, evidence=proof))
+
+
 BROKEN: dict[str, tuple[Patch, Callable[[str], set[str]], str, str]] = {
     "no other sign": (no_other_sign, infinity, "ex x. a*x^4 + b*x + c < 0 and x > d", "infinity first"),
     "one end": (one_end, infinity, "ex x. a*x^3 + b*x^2 + c < 0", "infinity first"),
@@ -129,8 +167,29 @@ BROKEN: dict[str, tuple[Patch, Callable[[str], set[str]], str, str]] = {
     "weakly": (weakly, roots, "x > root(1, x^2 - y)", "roots counted"),
     "vanishing": (never_zero, roots, "x > root(1, a*x^2 - y)", "roots counted"),
     "fewer": (one_root_fewer, roots, "x <= root(2, x^2 - y)", "roots counted"),
+    "no solution": (no_solution, thin, "all t. 0 <= t and t <= 1 -> x^2 + (y - t)^2 <= 1/4", "degenerate truth set"),
+    "equation": (another_equation, thin, "all t. 0 <= t and t <= 1 -> x^2 + (y - t)^2 <= 1/4", "degenerate truth set"),
     "constant": (no_exception, whole, "a^2 + b^2 < 1 and a^4 + b > 0", "constant"),
 }
+
+
+THIN = ("all t. 0 <= t and t <= 1 -> x^2 + (y - t^3)^2 <= 1/4", "all t. 0 <= t and t <= 1 -> x^2 + y^2 + t^3 <= t - 1")
+
+
+@pytest.mark.parametrize("text", THIN)
+def test_every_entry_of_the_evidence_of_a_thin_set(text: str) -> None:
+    made = data(text)
+    (k,) = (k for k, step in enumerate(made["payload"]["steps"]) if step["rule"] == "degenerate truth set")
+    evidence = made["payload"]["steps"][k]["evidence"]
+    for name in evidence:
+        for other in (None, "x", 3, [], [["x", "x + y"]], ["x", "x + y"]):
+            if other == evidence[name]:
+                continue
+
+            def change(payload: dict[str, Any], name: str = name, other: object = other) -> None:
+                payload["steps"][k]["evidence"][name] = other
+
+            refused(altered(made, change), k)
 
 
 @pytest.mark.parametrize("name", BROKEN)
@@ -147,6 +206,8 @@ def test_with_their_side_conditions_they_are() -> None:
     for relation in ("=", "/=", "<", "<=", ">", ">="):
         for k in (1, 2, -1, -2):
             assert roots(f"ex a. not x {relation} root({k}, x^3 - a*x + y) or a = 1") == set()
+    assert thin("all t. 0 <= t and t <= 1 -> x^2 + y^2 + t^3 <= t - 1") == set()
+    assert thin("all t. 0 <= t and t <= 1 -> x^2 + (y - t^3)^2 <= 1/4") == set()
     assert whole("a^2 + b^2 < 1 and a*b > 1", certify=True) == set()
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import dataclasses
 import functools
 from collections.abc import Callable
 from typing import Any
@@ -16,6 +17,7 @@ from qe.api_input import read_formula
 from qe.certify.critical_values import check_critical_values
 from qe.certify.derivation import limits_of
 from qe.certify.registry import RULES
+from qe.certify.regular_set import check_regular
 from qe.certify.step import Claim
 from qe.certify.verify import check_certificate
 from qe.elimination.cad import certificate_for
@@ -29,6 +31,7 @@ from qe.formula.syntax import Exists, Formula
 from qe.formula.traverse import free_variables
 from qe.io.names import names_in
 from qe.options import Budget, Options
+from qe.proof.cells_json import CellEvidence
 from qe.proof.derivation import moved
 from qe.proof.entry import Entry, Json
 from qe.proof.run_log import RunLog
@@ -187,7 +190,7 @@ def count_refused(text: str, changes: list[Callable[[dict[str, Any]], object]]) 
     return rejected
 
 
-@pytest.mark.parametrize("text", [DISC, ELLIPSE, LENS])
+@pytest.mark.parametrize("text", [DISC, ELLIPSE, pytest.param(LENS, marks=pytest.mark.deep)])
 def test_chains(text: str) -> None:
     """No set of active conditions may be left out, nor the end of a chain that leads to what no other row does.
 
@@ -253,6 +256,24 @@ def test_a_table_of_something_else() -> None:
     other = example(LENS)[2]["regular"]
     assert other is not None
     refused(ELLIPSE, lambda e: e.update(regular=other), "another formula")
+
+
+def test_a_table_with_a_cell_undecided() -> None:
+    holds = read_formula("a^2 <= 2")
+    made = certificate_for(holds, holds, Options(), Budget(60))
+    assert made is not None
+    assert isinstance(made.payload, CellEvidence)
+    table = made.payload.table
+    stack = table.root.stack
+    assert stack is not None
+    check_regular(table, LIMITS, "regular")
+    for k, cell in enumerate(stack.cells):
+        for truth in (None, not cell.truth):
+            cells = (*stack.cells[:k], dataclasses.replace(cell, truth=truth), *stack.cells[k + 1 :])
+            root = dataclasses.replace(table.root, stack=dataclasses.replace(stack, cells=cells))
+            if truth is None or k % 2:
+                with pytest.raises(CertificateRejected):
+                    check_regular(dataclasses.replace(table, root=root), LIMITS, "regular")
 
 
 # --- broken producers -----------------------------------------------------------------------------

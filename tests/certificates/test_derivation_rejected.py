@@ -44,7 +44,7 @@ def steps(first: int = 0, without: Collection[str] = ()) -> list[Any]:
 
 
 RELATIONS = ("=", "/=", "<", "<=", ">", ">=")
-LARGE = {"guarded", "shorter", "constant", "basis"}
+LARGE = {"guarded", "shorter", "constant", "basis", "nowhere"}
 """Cases with long cell tables, whose alterations the tests of tables make."""
 
 

@@ -2,34 +2,50 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 
 from qe.convex.facial_reduction import implied_equations
+from qe.convex.optimum import decide
 from qe.convex.system import NotConvex
 from qe.elimination.critical import necessary_conditions
-from qe.formula.build import atom, conj, convert
+from qe.errors import Unable
+from qe.formula.build import atom, conj, convert, exists
 from qe.formula.syntax import FALSE, ForAll, Formula, Relation
 from qe.options import Budget
+from qe.proof.step import Nested, Step
 from qe.rules.linear import Pivot, substitute
 
 
-def thin_universal(formula: ForAll, negated: Formula, parameters: Sequence[str], budget: Budget) -> Formula | None:
+@dataclass(frozen=True, slots=True)
+class Thin:
+    """``formula`` is the block's; ``evidence``: what shows it (see ``qe.certify.degenerate_truth_set``)."""
+
+    formula: Formula
+    evidence: Mapping[str, object]
+
+
+def thin_universal(formula: ForAll, negated: Formula, parameters: Sequence[str], budget: Budget) -> Thin | None:
     """The formula of a universal block, where necessary conditions at a few values of its variable contradict each
     other or imply a linear equation of the parameters; None elsewhere.
 
     The block is then equivalent to that equation together with the block with a parameter put in, which stays
     quantified.
     """
-    conditions = necessary_conditions(formula.variables, negated, parameters)
-    if conditions is None or conditions == FALSE:
-        return conditions
+    found = necessary_conditions(formula.variables, negated, parameters)
+    if found is None:
+        return None
+    conditions, values = found
+    evidence: dict[str, object] = {"variable": formula.variables[0], "values": list(values), "equation": None}
     try:
-        implied = implied_equations(conditions, budget=budget)
+        implied = None if conditions == FALSE else implied_equations(conditions, budget=budget)
+        if not implied:
+            parts = [_contradiction(conditions, budget)]
+            return Thin(FALSE, {**evidence, "parts": parts}) if implied is None else None
+        equation = implied[0]
+        sides = [_contradiction(conj((conditions, atom(equation, r))), budget) for r in (Relation.LT, Relation.GT)]
     except NotConvex:
         return None
-    if not implied:
-        return FALSE if implied is None else None
-    equation = implied[0]
     i = equation.variables[0]
     constant, lead = equation.coefficients(i)
     pivot = Pivot(0, i, lead, constant, 1 if lead.constant_value() > 0 else -1, False)
@@ -37,4 +53,19 @@ def thin_universal(formula: ForAll, negated: Formula, parameters: Sequence[str],
     if rest is None:
         return None
     ring = formula.ring or equation.ring
-    return conj(convert(part, ring) for part in (atom(equation, Relation.EQ), rest))
+    whole = conj(convert(part, ring) for part in (atom(equation, Relation.EQ), rest))
+    return Thin(whole, {**evidence, "equation": [equation.ring.names[i], equation], "parts": sides})
+
+
+def _contradiction(conditions: Formula, budget: Budget) -> Nested:
+    """That conditions have no common solution, with multipliers that show it where there are some."""
+    sentence = exists(conditions.free, conditions)
+    if sentence == FALSE:
+        return Nested(sentence, (), FALSE)
+    evidence: dict[str, object] = {}
+    try:
+        found = decide(conditions, budget=budget)
+        evidence = {"proof": {"certificate": found.certificate}} if found.values is None else {}
+    except Unable:
+        budget.check("multipliers")
+    return Nested(sentence, (Step("convex", sentence, FALSE, evidence=evidence),), FALSE)

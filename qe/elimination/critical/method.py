@@ -84,7 +84,10 @@ class ConvexUniversal:
         found = eliminate_universal(problem.variables, negated, order, procedures=procedures(budget), budget=budget)
         if found is None:
             thin = thin_universal(ForAll(problem.variables, problem.body), negated, order, budget)
-            return None if thin is None else Outcome(context.log.step("degenerate truth set", problem.formula, thin))
+            if thin is None:
+                return None
+            known = {"proof": thin.evidence}
+            return Outcome(context.log.step("degenerate truth set", problem.formula, thin.formula, evidence=known))
         assert isinstance(found.found, ConvexBody)
         answer = _of_open_cells(found.found, order, budget)
         if answer is None:  # in the plane the table of a convex set settles every cell

@@ -101,14 +101,18 @@ def _somewhere_negative(poly: Poly, inside: tuple[Condition, ...], procedures: P
     return Fibres(system, procedures).hold_at(())
 
 
-def necessary_conditions(variables: Sequence[str], negated: Formula, parameters: Sequence[str]) -> Formula | None:
-    """Conditions g_j(p, y) <= 0 at some values of the one quantified variable; they hold wherever the block does.
+def necessary_conditions(
+    variables: Sequence[str], negated: Formula, parameters: Sequence[str]
+) -> tuple[Formula, tuple[Fraction, ...]] | None:
+    """Conditions g_j(p, y) <= 0 at some values of the one quantified variable, and these values; the conditions hold
+    wherever the block does.
 
     By continuity that is so also at an end of the interval D which does not belong to D. None for several quantified
     variables, and where D is not an interval with rational ends.
     """
     ring = Ring.of((*parameters, *variables))
     found: list[Formula] = []
+    used: dict[Fraction, None] = {}
     for part in systems(convert(negated, ring), ring, len(parameters)):
         domain = [c for c in part.conditions if min(c.poly.variables) >= part.free]
         others = [c for c in part.conditions if c not in domain]
@@ -117,8 +121,9 @@ def necessary_conditions(variables: Sequence[str], negated: Formula, parameters:
             return None
         low, high = ends
         values = [low + (high - low) * k / SAMPLES for k in range(SAMPLES + 1)] if low < high else []
+        used |= dict.fromkeys(values)
         found += [atom(others[0].poly.at_rational(part.free, value), Relation.GE) for value in values]
-    return conj(found)
+    return conj(found), tuple(used)
 
 
 def _interval(domain: Sequence[Condition], variable: int) -> tuple[Fraction, Fraction] | None:
