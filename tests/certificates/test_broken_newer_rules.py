@@ -164,16 +164,24 @@ def test_variables_of_different_quantifiers() -> None:
     """All polynomials are constant along the rotations, but the inner variable cannot be chosen with the outer one."""
     lengths = "ex x. all y. x^2 + y^2 > a or x^2 + y^2 < b"
     assert not claimed(TURNED, lengths, "ex x. x >= 0 and (x^2 > a or x^2 < b)", turned("y", "x", "xy"))
-    for inner, right in (("ex u, v, x. (ex y. u*x + v*y > a)", False), ("ex u, v, x, y. u*x + v*y > a", True)):
-        after = "ex u, x, y. u >= 0 and u*x > a" if right else "ex u, x. u >= 0 and (ex y. u*x > a)"
-        assert claimed(TURNED, inner, after, turned("v", "u", "uv", "xy")) is right
+    inside, after = "ex u, v, x. (all y. u*x + v*y > a)", "ex u, x. u >= 0 and (all y. u*x > a)"
+    assert not claimed(TURNED, inside, after, turned("v", "u", "uv", "xy"))
+    together, after = "ex u, v, x, y. u*x + v*y > a", "ex u, x, y. u >= 0 and u*x > a"
+    assert claimed(TURNED, together, after, turned("v", "u", "uv", "xy"))
+
+
+def test_an_equation_that_is_not_constant() -> None:
+    """Equations side by side count by the sum of their squares, which one of them alone does not keep constant."""
+    for left, right in (("x - y = 0 and x + y = 0", "x = 0"), ("x - y = 0", "x = 0")):
+        before, after = f"ex x, y. {left} and x^2 + y^2 > b", f"ex x. x >= 0 and {right} and x^2 > b"
+        assert claimed(TURNED, before, after, turned("y", "x", "xy")) is ("and" in left)
 
 
 def test_one_name_bound_twice_or_free_and_bound() -> None:
     body, turn = "u^2 + v^2 < a and (ex x, y. x^2 + y^2 > b) and (ex {}. {}^2 + {}^2 > b)", turned("v", "u", "uv")
     half = body.replace("u^2 + v^2", "u^2")
-    for names, right in (("zw", True), ("yz", False), ("az", False)):
-        inner = [", ".join(names), *names]
+    for names, right in (("z", "w"), True), (("y", "z"), False), (("a", "z"), False):
+        inner = [", ".join(names), names[0], names[1]]
         before, after = f"ex u, v. {body.format(*inner)}", f"ex u. u >= 0 and {half.format(*inner)}"
         assert claimed(TURNED, before, after, turn) is right, names
 
