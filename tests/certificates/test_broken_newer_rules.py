@@ -157,7 +157,7 @@ def claimed(kind: StepKind, before: str, after: str, proof: dict[str, object]) -
 
 def turned(zero: str, half: str, *pairs: str) -> dict[str, object]:
     """The evidence of one turn that joins these pairs of variables with the number 1."""
-    return {"turns": [{"zero": zero, "half": half, "plane": [(a, b, Fraction(1)) for a, b in pairs]}]}
+    return {"turns": [{"zero": zero, "half": half, "plane": [(a, b, Fraction(1)) for a, b in map(tuple, pairs)]}]}
 
 
 def test_variables_of_different_quantifiers() -> None:
