@@ -8,7 +8,6 @@ cases and "negation normal form". It says one of three things: accepted; rejecte
 not decided, where a certificate is beyond what is read here. Exit status: 0, 4, 3, and 2 for what is no certificate.
 
 A polynomial is a dict from exponents to integers; one in a single variable is a list of fractions from degree 0 up.
-It is one file on purpose: it can be taken elsewhere and read on its own.
 """
 
 from __future__ import annotations
@@ -95,17 +94,17 @@ def polynomial(value: Any, names: Sequence[str], where: str) -> Poly:
         term = _TERM.match(value, start)
         if term is None or bool(term[1]) is not bool(start) or (start and term[2]):
             raise Rejected(where, "expected a polynomial")
-        exponents, coefficient = (
-            [0] * len(names),
-            int(term[3] or term[5] or 1) * (-1 if "-" in (term[1], term[2]) else 1),
-        )
+        exponents = [0] * len(names)
+        coefficient = int(term[3] or term[5] or 1) * (-1 if "-" in (term[1], term[2]) else 1)
         for quoted, exponent in _POWER.findall(term[4] or ""):
             name = quoted[1:-1].replace("``", "`") if quoted.startswith("`") else quoted
-            require(name in names and len(exponent) < 6, where, f"unknown variable {name}")
+            right = name in names and len(exponent) < 6 and exponent != "1" and not any(exponents[names.index(name) :])
+            require(right, where, f"an unknown variable, or one out of order: {name}")
             exponents[names.index(name)] += int(exponent or 1)
         key, start = tuple(exponents), term.end()
         require(key not in found and coefficient, where, "a repeated or empty term")
         found[key] = coefficient
+    require(list(found) == sorted(found, key=lambda e: (sum(e), e), reverse=True), where, "terms out of order")
     return found
 
 
@@ -119,15 +118,16 @@ def formula(value: Any, names: Sequence[str], where: str, depth: int = 0) -> For
         return value
     require(isinstance(value, list) and value and depth < NESTING, where, "expected a formula")
     kind, rest = value[0], value[1:]
-    if kind in ("and", "or"):
+    if kind in ("and", "or") and len(rest) > 1:
         return (kind, *(formula(v, names, f"{where}[{k + 1}]", depth + 1) for k, v in enumerate(rest)))
     if kind == "not" and len(rest) == 1:
         return ("not", formula(rest[0], names, f"{where}[1]", depth + 1))
     if kind == "atom" and len(rest) == 2:
         require(rest[1] in _RELATIONS, where, "unknown relation")
-        found = comparison(polynomial(rest[0], names, where), rest[1])
-        require(not isinstance(found, bool), where, "a constant in place of a polynomial")
-        return found
+        p = polynomial(rest[0], names, where)
+        primitive = any(map(any, p)) and gcd(*p.values()) == 1 and p[max(p, key=lambda e: e[::-1])] > 0
+        require(primitive, where, "expected a primitive polynomial with positive leading coefficient")
+        return comparison(p, rest[1])
     if kind in ("exists", "forall") and len(rest) == 2:
         bound = _variables(rest[0], where)
         require(bound and set(bound) <= set(names), where, "unknown variable")
@@ -514,15 +514,16 @@ class Field:
         whole = all(c.denominator == 1 for c in p) and gcd(*(c.numerator for c in p)) == 1
         require(p and whole and p[-1] > 0, where, "expected a primitive polynomial")
         low, high = (number(e, where) for e in _pair(ends, where))
-        if len(p) == 2:
-            theta = -p[0] / p[1]
-            require(low < theta < high or low == theta == high, where, "the root is outside the interval")
-            low, high = theta - 1, theta + 1
-        self.degree, self.root = len(p) - 1, Root(p, low, high, where)
+        self.degree = len(p) - 1
+        if self.degree == 1 or low == high:
+            theta = low if low == high else -p[0] / p[1]
+            require((low < theta < high or low == high) and not _at(p, theta), where, "no root in the interval")
+            p, low, high = [-theta, Fraction(1)], theta - 1, theta + 1
+        self.root = Root(p, low, high, where)
 
     def read(self, value: Any, where: str) -> Line:
         found = [number(c, where) for c in _members(value, where)]
-        require(1 <= len(found) <= self.degree, where, "expected an element of the field")
+        require(1 <= len(found) <= self.degree and (found[-1] or not found[1:]), where, "no element of the field")
         return _trimmed(found)
 
     def row(self, value: Any, count: int, where: str) -> list[Line]:
@@ -1437,9 +1438,7 @@ _CHECKS |= {"optimum": _check_optimum, "cells": lambda p: Table(p).check(), "der
 
 
 def check(text: str) -> None:
-    """Return if the certificate proves what it says. Raises ``Rejected`` or ``Undecided``; ``ValueError`` for what is
-    no certificate.
-    """
+    """Return if it proves what it says; raise ``Rejected``, ``Undecided``, or ``ValueError`` for other text."""
     whole = json.loads(text, parse_float=str, parse_constant=str, object_pairs_hook=_once)
     if not isinstance(whole, dict) or whole.get("format") != FORMAT or whole.get("version") not in (1, 2):
         raise ValueError(f"not a certificate of the format {FORMAT!r}, version 1 or 2")
@@ -1458,6 +1457,7 @@ def _check(value: Any, where: str, labelled: bool = False) -> None:
     kind = value.get("kind") if isinstance(value, dict) else None
     if kind == "bundle":
         inner = fields(value, where or "certificate", "kind certificates" + label)[1]
+        require(inner, f"{where}certificates", "an empty bundle proves nothing")
         for k, member in enumerate(_members(inner, "certificates")):
             _check(member, f"{where}certificates[{k}].", True)
         return

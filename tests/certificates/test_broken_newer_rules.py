@@ -20,6 +20,7 @@ from qe.exact.ring import Poly
 from qe.formula.build import conj
 from qe.formula.syntax import And, Formula, Or, Relation
 from qe.options import Budget, Options
+from qe.proof.derivation import moved
 from qe.proof.run_log import RunLog
 from qe.proof.step import Step
 from qe.rules.preparation import prepare
@@ -147,19 +148,49 @@ def test_signs_of_variables_that_move(careless: bool, monkeypatch: pytest.Monkey
     assert accepted(step) is not careless
 
 
+def claimed(kind: StepKind, before: str, after: str, proof: dict[str, object]) -> bool:
+    """Whether a step made by hand is accepted."""
+    given = read_formula(before)
+    assert given.ring is not None
+    return accepted(Step(kind.value, given, moved(read_formula(after), given.ring), evidence={"proof": proof}))
+
+
+def turned(zero: str, half: str, *pairs: str) -> dict[str, object]:
+    """The evidence of one turn that joins these pairs of variables with the number 1."""
+    return {"turns": [{"zero": zero, "half": half, "plane": [(a, b, Fraction(1)) for a, b in map(tuple, pairs)]}]}
+
+
 def test_variables_of_different_quantifiers() -> None:
-    """x^2 + y^2 is constant along the rotation, but only one of them can be chosen freely."""
-    before = read_formula("ex x. all y. x^2 + y^2 > a or x^2 + y^2 < b")
-    after = read_formula("ex x. x >= 0 and (x^2 > a or x^2 < b)")
-    turn = {"zero": "y", "half": "x", "plane": (("x", "y", Fraction(1)),)}
-    assert not accepted(Step(TURNED.value, before, after, evidence={"proof": {"turns": [turn]}}))
+    """All polynomials are constant along the rotations, but the inner variable cannot be chosen with the outer one."""
+    lengths = "ex x. all y. x^2 + y^2 > a or x^2 + y^2 < b"
+    assert not claimed(TURNED, lengths, "ex x. x >= 0 and (x^2 > a or x^2 < b)", turned("y", "x", "xy"))
+    inside, after = "ex u, v, x. (all y. u*x + v*y > a)", "ex u, x. u >= 0 and (all y. u*x > a)"
+    assert not claimed(TURNED, inside, after, turned("v", "u", "uv", "xy"))
+    together, after = "ex u, v, x, y. u*x + v*y > a", "ex u, x, y. u >= 0 and u*x > a"
+    assert claimed(TURNED, together, after, turned("v", "u", "uv", "xy"))
 
 
-def test_one_name_bound_twice() -> None:
-    before = read_formula("ex u, v. u^2 + v^2 < a and (ex x, y. x^2 + y^2 > b) and (ex y, z. y^2 + z^2 > b)")
-    after = read_formula("ex u. u >= 0 and u^2 < a and (ex x, y. x^2 + y^2 > b) and (ex y, z. y^2 + z^2 > b)")
-    turn = {"zero": "v", "half": "u", "plane": (("u", "v", Fraction(1)),)}
-    assert not accepted(Step(TURNED.value, before, after, evidence={"proof": {"turns": [turn]}}))
+def test_an_equation_that_is_not_constant() -> None:
+    """Equations side by side count by the sum of their squares, which one of them alone does not keep constant."""
+    for left, right in (("x - y = 0 and x + y = 0", "x = 0"), ("x - y = 0", "x = 0")):
+        before, after = f"ex x, y. {left} and x^2 + y^2 > b", f"ex x. x >= 0 and {right} and x^2 > b"
+        assert claimed(TURNED, before, after, turned("y", "x", "xy")) is ("and" in left)
+
+
+def test_one_name_bound_twice_or_free_and_bound() -> None:
+    body, turn = "u^2 + v^2 < a and (ex x, y. x^2 + y^2 > b) and (ex {}. {}^2 + {}^2 > b)", turned("v", "u", "uv")
+    half = body.replace("u^2 + v^2", "u^2")
+    for names, right in (("z", "w"), True), (("y", "z"), False), (("a", "z"), False):
+        inner = [", ".join(names), names[0], names[1]]
+        before, after = f"ex u, v. {body.format(*inner)}", f"ex u. u >= 0 and {half.format(*inner)}"
+        assert claimed(TURNED, before, after, turn) is right, names
+
+
+def test_a_variable_of_two_conjuncts_takes_no_value() -> None:
+    met: dict[str, object] = {"variable": "x"}
+    assert claimed(TAKEN, "ex x. x^3 + x = a and b > 0", "b > 0", met)
+    assert not claimed(TAKEN, "ex x. x^3 + x = a and b > 0 and x > b", "b > 0", met)
+    assert not claimed(TAKEN, "ex x. (x^3 + x = a or x > b) and b > 0", "b > 0", met)
 
 
 def test_equations_of_which_one_is_lost(monkeypatch: pytest.MonkeyPatch) -> None:

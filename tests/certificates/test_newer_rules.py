@@ -106,7 +106,7 @@ MADE = {
 
 
 @pytest.mark.parametrize("kind", MADE)
-@settings(deadline=None, max_examples=40, derandomize=True)
+@settings(deadline=None, max_examples=20, derandomize=True)
 @given(seed=st.integers(0, 10**9))
 def test_what_the_rule_does_is_accepted(kind: StepKind, seed: int) -> None:
     for step in steps(MADE[kind](random.Random(seed)), kind):
@@ -115,11 +115,11 @@ def test_what_the_rule_does_is_accepted(kind: StepKind, seed: int) -> None:
 
 @pytest.mark.parametrize("kind", MADE)
 def test_the_rules_find_something_to_do(kind: StepKind) -> None:
-    found = sum(1 for seed in range(40) for _ in steps(MADE[kind](random.Random(seed)), kind))
-    assert found >= 10
+    found = sum(1 for seed in range(25) for _ in steps(MADE[kind](random.Random(seed)), kind))
+    assert found >= 8
 
 
-@settings(deadline=None, max_examples=25, derandomize=True)
+@settings(deadline=None, max_examples=15, derandomize=True)
 @given(seed=st.integers(0, 10**9))
 def test_equations_of_answers(seed: int) -> None:
     """Linear equations and products, as they come out of eliminations: each small step has evidence."""
