@@ -133,7 +133,8 @@ def value(p: Poly, point: Sequence[Residue], field: RootField) -> Residue:
 
 
 def _indicator(relation: str, sign: int) -> bool:
-    return sum(w * sign**k for k, w in enumerate(INDICATORS[relation])) == 1
+    weights = INDICATORS[relation]
+    return weights[0] + weights[1] * sign + weights[2] * sign * sign == 1
 
 
 def _count(

@@ -119,4 +119,5 @@ def _is_steep(coefficients: Sequence[int], low: Fraction, high: Fraction) -> boo
     slope = [k * c for k, c in enumerate(coefficients)][1:]
     middle, reach = (low + high) / 2, int(max(abs(low), abs(high))) + 1
     value = sum(c * middle**k for k, c in enumerate(slope))
-    return abs(value) > (high - low) * sum(k * abs(c) * reach ** (k - 1) for k, c in enumerate(slope) if k)
+    bound = sum(k * abs(c) * reach ** (k - 1) for k, c in enumerate(slope) if k)
+    return bool(abs(value) > (high - low) * bound)
