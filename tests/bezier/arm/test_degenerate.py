@@ -49,7 +49,7 @@ CURVES = {
 }
 
 
-@pytest.mark.parametrize("name", CURVES)
+@pytest.mark.parametrize("name", ["conic", pytest.param("out and in again", marks=pytest.mark.deep)])
 def test_curves_of_any_degree(name: str) -> None:
     """The square root of x² + y² is no polynomial along these; the counts are those of single points."""
     curve = Bezier.of(CURVES[name])
