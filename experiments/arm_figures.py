@@ -29,6 +29,7 @@ from bezier.arm.pose import rotation_of, solve_pose
 from bezier.arm.reader import load_arm
 from bezier.arm.study import study
 from bezier.curves.curve import Bezier
+from bezier.curves.scalar import exactly
 from bezier.motion.timelaw import Law, TimeLaw
 
 POINTS = 100
@@ -131,7 +132,7 @@ def _sequence(arm: Arm) -> object:
 
 
 def _moment(tau: Fraction) -> Point:
-    x, y, z = STRAIGHT.point(6 * tau**5 - 15 * tau**4 + 10 * tau**3)
+    x, y, z = (exactly(c) for c in STRAIGHT.point(6 * tau**5 - 15 * tau**4 + 10 * tau**3))
     return x, y, z
 
 

@@ -23,7 +23,7 @@ from bezier.arm.ratio import Ratio, constant, reduced
 from bezier.curves.curve import Bezier
 from bezier.curves.scalar import exactly, rational
 from qe.errors import InputError, Unable
-from qe.exact.algebraic import RealAlgebraic
+from qe.exact.algebraic import RealAlgebraic, irreducible_roots
 from qe.exact.point_values import roots_between
 from qe.exact.ring import Poly, Ring
 from qe.exact.sample import Point
@@ -147,7 +147,21 @@ class AlongCurve:
         field = self.arm.field
         minimal = p.ring.from_terms({(k, 0, 0, 0): c for k, c in enumerate(field.minimal_polynomial) if c})
         norm = p if field.degree == 1 else minimal.resultant(p, 0)
-        return [s for s in roots_between(norm, S) if self.place(s).sign(p) == 0]
+        return [s for s in roots_between(norm, S) if self._vanishes(p, s)]
+
+    def _vanishes(self, p: Poly, s: Number) -> bool:
+        """Whether p vanishes at a zero s of its norm, the product of the conjugates of p over the rationals: if balls
+        exclude zero for all the others, p is the one that vanishes."""
+        if self.place(s).apparent_sign(p):
+            return False
+        others = [Point.of(p.ring, [w, s]) for w in self._conjugates]
+        return all(other.apparent_sign(p) for other in others) or self.place(s).sign(p) == 0
+
+    @cached_property
+    def _conjugates(self) -> list[RealAlgebraic]:
+        """The other roots of the minimal polynomial of the generator: all real, as the fields of arms are."""
+        theta = self.arm.field.theta
+        return [w for w in irreducible_roots(theta.poly) if w != theta] if self.arm.field.degree > 1 else []
 
 
 def powers(b: list[Fraction]) -> list[Fraction]:

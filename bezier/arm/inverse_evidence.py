@@ -44,7 +44,8 @@ def inverse_certificate(found: Inverse) -> Certificate:
             t = [_tangent(s, turn, bits) for s in found.solutions]
             if any(abs(v) > FAR for v in t):
                 continue
-            payload = {"arm": arm_json(found.arm), "point": point, "turn": [str(v) for v in turn]}
+            angle: list[Json] = [str(v) for v in turn]
+            payload: dict[str, Json] = {"arm": arm_json(found.arm), "point": point, "turn": angle}
             roots: list[Json] = list(_roots(found.solutions, t, bits, places))
             certificate = Certificate(Kind.INVERSE, {**payload, "count": len(found.solutions), "roots": roots})
             verdict = verify(certificate)
@@ -59,7 +60,7 @@ def _tangent(solution: Solution, turn: tuple[Fraction, Fraction], bits: int) -> 
     """About tan((θ3 - φ)/2)."""
     value = solution.refined(2, bits + 20)
     assert value is not None and value.cosine is not None and value.sine is not None, "no joint is free"
-    c, s = (sum(ends) / 2 for ends in (value.cosine, value.sine))
+    c, s = ((low + high) / 2 for low, high in (value.cosine, value.sine))
     cosine, sine = c * turn[0] + s * turn[1], s * turn[0] - c * turn[1]
     return sine / (1 + cosine) if 1 + cosine > Fraction(1, FAR**3) else Fraction(FAR * FAR)
 

@@ -330,7 +330,7 @@ def _number(entry: Entry) -> Fraction:
 
 def _surd(entry: Entry) -> Surd:
     """A list of [q, d]: the sum of q √d, d squarefree."""
-    pairs = []
+    pairs = list[tuple[int, Fraction]]()
     for item in entry.items():
         parts = list(item.items())
         if len(parts) != 2 or len(pairs) == MOST_TERMS:
