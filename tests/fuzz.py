@@ -1,7 +1,7 @@
 """Every reader against damaged texts, for as long as wanted: ``python -m tests.fuzz --seconds 60``.
 
 A reader answers with a value or with one line that says what is wrong (``InputError``, ``Unable``,
-``CertificateRejected``). Anything else is a finding: the text is printed before the traceback, and the exit status is 1.
+``CertificateRejected``). Anything else is a finding: the text is printed before the traceback, the exit status is 1.
 With ``--guided`` atheris, where it is installed, chooses the texts by what they cover; otherwise seeds are cut, joined
 and changed at random, the same for the same ``--seed``.
 """
