@@ -28,3 +28,7 @@ def test_a_failing_reader_is_found(monkeypatch, capsys) -> None:
 def test_the_number_of_texts(monkeypatch, capsys) -> None:
     monkeypatch.setattr("sys.argv", ["fuzz", "--inputs", "50"])
     assert fuzz.main() == 0 and capsys.readouterr().out == "50 texts read\n"
+
+
+def test_a_line_break_in_a_word_of_latex() -> None:
+    fuzz.examine("latex", "\\forall x \\lnot \\mathrm{a\nc} = x")
