@@ -4,6 +4,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 OUT ?= out
 WORKERS ?= 2
+SECONDS ?= 60
 export PIP_CONSTRAINT := $(CURDIR)/constraints.txt
 export PIP_BUILD_CONSTRAINT := $(CURDIR)/constraints.txt
 PIP := $(BIN)/python -m pip --disable-pip-version-check -qq
@@ -14,7 +15,7 @@ CORE := $(VENV)/.core-installed
 DEV := $(VENV)/.dev-installed
 DOCS := $(VENV)/.docs-installed
 
-.PHONY: help setup plan paper test docs deep lint bench clean
+.PHONY: help setup plan paper test docs deep fuzz lint bench clean
 .DEFAULT_GOAL := help
 
 help: ## list the targets
@@ -51,6 +52,9 @@ docs: $(DOCS) ## build the documentation site: open build/site/index.html
 
 deep: $(DEV) ## the long randomised tests
 	HYPOTHESIS_PROFILE=explore $(BIN)/python -m pytest -n $(WORKERS) -q -m deep
+
+fuzz: $(DEV) ## damaged texts for every reader, SECONDS=60 (by atheris where it is installed)
+	$(BIN)/python -m tests.fuzz --seconds $(SECONDS) --guided
 
 lint: $(DEV) ## ruff, and mypy --strict on all packages
 	$(BIN)/ruff check .

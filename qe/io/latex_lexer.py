@@ -12,6 +12,7 @@ from collections.abc import Generator, Iterator
 from qe.io.lalr import Token
 from qe.io.text_errors import SyntaxFailure
 from qe.io.text_lexer import OPERAND_ENDS, Make, State
+from qe.spelling import visible
 
 _COMMANDS = {
     **dict.fromkeys(("land", "wedge"), ("AND", "and")),
@@ -111,7 +112,7 @@ class _Source:
         while at < end:
             found = _TOKEN.match(self.text, at, end)
             if found is None:
-                raise SyntaxFailure(f"'{self.text[at]}' cannot be read in LaTeX", at)
+                raise SyntaxFailure(f"'{visible(self.text[at])}' cannot be read in LaTeX", at)
             kind, value, after = found.lastgroup, found.group(), found.end()
             match kind:
                 case "COMMAND":
@@ -202,7 +203,7 @@ class _Source:
         elif font == "text" and word in _WORDS:
             yield from self.plain(_WORDS[word], word, at)
         elif not re.fullmatch(r"[^\W\d_]\w*", word):
-            raise SyntaxFailure(f"'{word}' cannot be read in LaTeX", at)
+            raise SyntaxFailure(f"'{visible(word)}' cannot be read in LaTeX", at)
         else:
             behind = yield from self.name(word, at, behind)
         return behind

@@ -113,7 +113,8 @@ def test_pipes() -> None:
     done = subprocess.run([QE, "prompt"], input="x > 1\n:quit\n", capture_output=True, text=True, timeout=60)
     assert (done.returncode, done.stdout, done.stderr) == (0, "x - 1 > 0\n", "")
     bare = subprocess.run([QE], input="", capture_output=True, text=True, timeout=60)
-    assert bare.returncode == 0 and bare.stdout.startswith("Usage: qe") and "...\n" not in bare.stdout.partition("\n")[2]
+    first, _, rest = bare.stdout.partition("\n")
+    assert bare.returncode == 0 and first.startswith("Usage: qe") and "...\n" not in rest
 
 
 @pytest.mark.skipif(not hasattr(os, "openpty"), reason="no terminals here")

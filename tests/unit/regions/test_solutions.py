@@ -31,6 +31,12 @@ def test_cases(text: str, variables: object, lines: list[str]) -> None:
     assert qe.equivalent(str(found), text) and qe.equivalent(found.formula, text)
 
 
+def test_double_roots_are_counted_once() -> None:
+    found = qe.solve("x*y^2 - y - 1 >= 0")  # at x = -1/4 both roots are y = -2
+    assert qe.equivalent(str(found), "x*y^2 - y - 1 >= 0")
+    assert qe.equivalent(f"x = -1/4 and y = -2 and ({found})", "x = -1/4 and y = -2")
+
+
 def test_the_object() -> None:
     found = qe.reduce("x^2 + b*x + c = 0", "x")
     assert found.order == ("b", "c", "x") and len(found) == len(list(found)) == 3 and str(found[0]) in str(found)
