@@ -129,7 +129,7 @@ def crossing(boxes):
 def test_names_cover_neither_each_other_nor_the_frame(points):
     figure = plot.new_figure(5, 4)
     axis = figure.add_axes((0.1, 0.1, 0.85, 0.85))
-    axis.set(xlim=(-1, 13), ylim=(-1, 13))
+    axis.set(xlim=(-13, 27), ylim=(-13, 27))
     labels.place(axis, [(f"Q{i}", point) for i, point in enumerate(points)], np.array(points, dtype=float))
     texts = [text for text in axis.texts if text.get_text()]
     boxes = [text.get_window_extent() for text in texts]

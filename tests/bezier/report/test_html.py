@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from html.parser import HTMLParser
 
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from markupsafe import Markup
 
@@ -48,6 +48,8 @@ def read(page: str) -> Reader:
     return reader
 
 
+@example(SPITEFUL)
+@example("a < b & c")
 @settings(max_examples=60, deadline=None)
 @given(st.text(alphabet=st.characters(exclude_categories=("Cs", "Cc")), max_size=30))
 def test_text_comes_out_as_it_went_in(text: str) -> None:
