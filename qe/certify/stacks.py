@@ -265,7 +265,7 @@ def have_common_root(f: Fibre, g: Fibre, point: Point, ends: Values) -> bool:
     """Whether two polynomials over the point, each with one root between two numbers, have it in common."""
     if isinstance(f, RationalFibre) != isinstance(g, RationalFibre):
         f, g = lift_up(f, point), lift_up(g, point)
-    common = f.gcd(g)  # type: ignore[arg-type]
+    common = f.gcd(g)
     if common.degree < 1:
         return False
     low, high = common.signs(ends)
