@@ -67,9 +67,10 @@ def render(entries: Sequence[Entry], made: str) -> str:
     environment.filters["math"] = lambda text: Markup(tex.inline(text))
     article, overview = (environment.get_template(f"{name}.html.j2") for name in ("article", "overview"))
     shown = {heading: [_shown(e) for e in members] for heading, members in by_section(entries).items()}
+    keys = {entry.claim.key for entry in entries}
     sections = [Section("overview", "Overview", Markup(overview.render(sections=shown, seconds=_seconds(entries))))]
     for heading, members in shown.items():
-        articles = Markup("\n").join(Markup(article.render(entry=entry)) for entry in members)
+        articles = Markup("\n").join(Markup(article.render(entry=entry, keys=keys)) for entry in members)
         number = heading.partition(" ")[0]
         sections.append(Section(f"section-{number}", heading, articles, short=number, bare=True))
     page = Page(

@@ -27,15 +27,8 @@ from qe.options import Method, Stage
 from qe.sympy_form import written_by
 
 if TYPE_CHECKING:
-    from qe.api import (
-        check_witness,
-        decide,
-        eliminate,
-        equivalent,
-        find_instance,
-        region,
-        verify,
-    )
+    from qe.api import eliminate, region, verify
+    from qe.api_decide import check_witness, decide, equivalent, find_instance
     from qe.api_groebner import comprehensive_groebner, real_root_classification
     from qe.api_optimum import maximize, minimize
     from qe.api_solve import find_instances, parametric_witnesses, reduce, solve
@@ -65,6 +58,7 @@ _ELSEWHERE = {
     "RealRootClassification": "qe.groebner.counting",
     "comprehensive_groebner": "qe.api_groebner",
     "real_root_classification": "qe.api_groebner",
+    **dict.fromkeys(("check_witness", "decide", "equivalent", "find_instance"), "qe.api_decide"),
     **dict.fromkeys(("maximize", "minimize"), "qe.api_optimum"),
     **dict.fromkeys(("find_instances", "parametric_witnesses", "reduce", "solve"), "qe.api_solve"),
     "Exists": "qe.io.sympy",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from importlib import import_module
 from typing import TypeVar
@@ -21,6 +22,8 @@ Reader = Callable[[AnyFormula, str, bool], Formula]
 
 MOST_WORKERS = 256
 """Processes that one call starts at most."""
+
+_ADDRESS = re.compile(r"(?:[a-z]+://)?[^\s:/]+:[0-9]{1,5}")
 
 MOSTLY_NEEDED = ("qe.engine.run", "qe.rules.block", "qe.elimination.vs.block", "qe.elimination.vs.witness")
 """The parts of the engine that nearly every problem with a quantifier needs."""
@@ -52,7 +55,9 @@ def cluster_of(workers: int, address: str | None) -> Cluster | None:
         raise InputError("workers, cluster: one of them expected, both found")
     if address is None and not count:
         return None
-    return Cluster(count, None if address is None else arguments.text(address, "cluster"))
+    if address is not None and not _ADDRESS.fullmatch(arguments.text(address, "cluster")):
+        raise arguments.wrong("cluster", "an address such as tcp://host:8786", address)
+    return Cluster(count, address)
 
 
 def reading(

@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any
 
-from qe import api, arguments
+from qe import api, api_decide, arguments
 from qe.cells.pieces import RootFunction
 from qe.errors import InputError, Unable
 from qe.formula.build import conj, forall
@@ -96,7 +96,7 @@ def is_true_for_all(condition: Condition, *, timeout: float | None = None) -> bo
     symbols, parts = _symbols_of(condition), [_boolean(part) for part in _conditions(condition)]
     whole = sympy.And(*parts, evaluate=False) if len(parts) > 1 else parts[0]
     formula = ForAll(list(symbols.values()), whole).formula() if symbols else from_sympy(whole)
-    return api.decide(forall(free_variables(formula), formula), timeout=timeout)
+    return api_decide.decide(forall(free_variables(formula), formula), timeout=timeout)
 
 
 def _conditions(given: Condition) -> list[Any]:

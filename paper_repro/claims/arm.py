@@ -39,8 +39,8 @@ CORNER = (199, 199, 1)
     "where two solutions share the sine of the last joint; nothing happens to the arm there.",
 )
 def four_solutions() -> Iterator[Evidence]:
-    """The number of solutions is constant between exact critical parameters; branches are chains of "
-    "Krawczyk boxes."""
+    """The number of solutions is constant between exact critical parameters; branches are chains of
+    Krawczyk boxes."""
     arm = load_arm("ev3-120")
     for start, published in zip(STARTS, SHARED, strict=True):
         line = Bezier.of([start, GOAL])

@@ -1,7 +1,10 @@
 """Rule "degree shift": all exponents of a variable share a divisor.
 
-The theorem stands in ``lowered_degree``. That x >= 0 wherever the formula holds, where the sign of x is asked for, is
-shown by lemmas. Evidence: ``variable``, ``exponent``, ``theory`` (for x >= 0).
+THEOREM. Let every exponent of x in f be a multiple of k > 1, f(x) = g(x^k). Then ex x f iff ex x (x >= 0 and g) for
+even k, and iff ex x g for odd k, since x^k takes all non-negative (all) real values. Comparisons of x itself with 0 may
+stay for odd k, and for even k where f implies x >= 0; x = 0 and x /= 0 may stay in any case. See ``lowered_degree``.
+
+Evidence: ``variable``, ``exponent``, ``theory`` (for x >= 0).
 """
 
 from __future__ import annotations

@@ -36,6 +36,13 @@ _PREFIX = {
 }
 """What an error's line begins with, by its status."""
 
+_PREFIX = {
+    "unable": "unable: ",
+    "rejected": "certificate rejected: ",
+    "internal_error": "internal error, please report: ",
+}
+"""What an error's line begins with, by its status."""
+
 DISPLAY_AFTER = 0.4
 """Seconds before a progress display appears: quick answers stay quiet."""
 LINES_APART = 2.0
@@ -54,9 +61,7 @@ def enter(app: typer.Typer, argv: Sequence[str] | None, *, name: str) -> int:
     words = sys.argv[1:] if argv is None else argv
 
     def told(status: str, message: str, code: int) -> int:
-        lost = (
-            _put({"status": status, "message": " ".join(message.split()), "exit": code}) if "--json" in words else None
-        )
+        lost = _put({"status": status, "message": " ".join(message.split()), "exit": code}) if "--json" in words else None
         if lost is not None:
             return _unheard(name, lost)
         return fail(name, _PREFIX.get(status, "") + message, code)

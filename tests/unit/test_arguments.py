@@ -68,6 +68,9 @@ EVERYWHERE = {
     **{name: {"bool"} for name in ("root_atoms", "explain", "check", "process", "total_division")},
     "order": {"none", "list"},
     "without": {"list", "dict"},
+    "race": {"list", "dict"},
+    "workers": {"int", "zero"},
+    "cluster": {"none"},
 }
 """What is no mistake for an argument of this name, unless a door says otherwise."""
 

@@ -202,5 +202,6 @@ def test_every_kind_is_drawn_where_it_is():
 
 def test_the_chart_of_clearances(over_the_crate, tmp_path):
     pictures = obstacle_pictures(over_the_crate.problem.obstacles, 6.0)
-    text = save_chart(over_the_crate.findings, pictures, tmp_path / "clearance.png")
-    assert text.startswith("<svg") and (tmp_path / "clearance.png").stat().st_size > 5000
+    charts = save_chart(over_the_crate.findings, pictures, tmp_path / "clearance.png")
+    assert charts and all(text.startswith("<svg") and words for text, words in charts)
+    assert (tmp_path / "clearance.png").stat().st_size > 5000

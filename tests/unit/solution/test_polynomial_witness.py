@@ -10,7 +10,9 @@ from hypothesis import strategies as st
 
 import qe
 from qe.elimination.witness import find, instantiate, substituted
+from qe.formula.build import forall, implies
 from qe.formula.evaluate import holds_at
+from qe.formula.traverse import free_variables
 from qe.options import Budget
 
 TRUE = [
@@ -21,6 +23,8 @@ TRUE = [
     " (ex x, y. x^2 + y^2 + d <= 900 and (2*a - x)^2 + (2*b - y)^2 <= 900)",
     "all a, b. (ex x. (x - a)^2 + (x - b)^2 <= (a - b)^2) and (ex y. (y - a)^2 < 1)",
 ]
+ELLIPSES = "all a, b, r. a^2 + 2*b^2 <= r^2 -> (ex x, y. x^2 + 2*y^2 <= r^2 and (2*a - x)^2 + 2*(2*b - y)^2 <= r^2)"
+TRUE.append(ELLIPSES)
 FALSE = [
     "all a, r. ex x. x^2 <= r^2 and (3*a - x)^2 <= r^2",
     "all a, b. ex x. (x - a)^2 <= 1 and (x - b)^2 <= 1",
@@ -35,19 +39,18 @@ def read(text: str) -> qe.api.Formula:
 @pytest.mark.parametrize("text", TRUE)
 def test_witnesses_are_found_and_the_sentence_is_true(text: str) -> None:
     found = find(read(text), budget=Budget(20))
-    assert found, text
+    assert found is not None, text
     for witness in found:
-        assert qe.decide(qe.api.forall(free(witness), witness_claim(witness))) is True
+        assert qe.decide(forall(free(witness), witness_claim(witness))) is True
 
 
 def witness_claim(witness: object) -> qe.api.Formula:
-    from qe.formula.build import implies
 
     return implies(witness.assumptions, substituted(witness.claim, witness.terms))  # type: ignore[attr-defined]
 
 
 def free(witness: object) -> tuple[str, ...]:
-    return qe.api.free_variables(witness_claim(witness))
+    return free_variables(witness_claim(witness))
 
 
 @pytest.mark.parametrize("text", FALSE)
@@ -57,7 +60,7 @@ def test_nothing_false_is_proved(text: str) -> None:
 
 
 def test_the_engine_uses_and_tells_them() -> None:
-    answer = qe.eliminate(TRUE[1])
+    answer = qe.eliminate(ELLIPSES)
     assert answer.truth is True
     assert "witness in the parameters: x = a, y = b" in answer.stats["plan"]
     assert "cad" not in answer.stats and "vs" not in answer.stats

@@ -8,6 +8,8 @@ from collections.abc import Sequence
 import pytest
 
 import qe
+from qe.formula.build import convert
+from qe.formula.traverse import ring_of
 
 AXES = "xyz"
 
@@ -53,8 +55,8 @@ def test_answer_as_printed(q0: Sequence[object], r0: Sequence[object], square: s
     answer = qe.eliminate(printed(q0, r0, square))
     assert answer.formula is not None
     expected = qe.api.read_formula(six_norms(q0, r0, square))
-    ring = qe.api.ring_of(expected)
-    assert set(qe.api.convert(answer.formula, ring).args) == set(expected.args)
+    ring = ring_of(expected)
+    assert set(convert(answer.formula, ring).args) == set(expected.args)
 
 
 def existence(n: int, *, factor: int = 1) -> str:

@@ -1,0 +1,188 @@
+"""The public functions that decide: sentences, instances, witnesses, equivalence. All of them ask ``eliminate``."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from fractions import Fraction
+from typing import Any
+
+from qe import arguments
+from qe.api import Order, Progress, eliminate
+from qe.api_input import AnyFormula, read_formula, read_polynomial, together
+from qe.errors import InputError, Unable
+from qe.exact.number import Assignment
+from qe.formula.build import convert, exists, forall, iff
+from qe.formula.counting import without_root_atoms
+from qe.formula.features import features
+from qe.formula.traverse import free_variables, ring_of
+from qe.options import Method, Stage
+from qe.progress import silent
+
+
+def decide(
+    formula: AnyFormula,
+    *,
+    format: str = "text",
+    total_division: bool = False,
+    timeout: float | None = None,
+    memory: int | None = None,
+    method: str | Method = Method.AUTO,
+    order: Order = None,
+    progress: Progress = silent,
+    root_atoms: bool = False,
+    without: Iterable[str | Stage] | str | Stage = (),
+    explain: bool = False,
+    check: bool = False,
+    process: bool = True,
+) -> bool:
+    """The truth of a sentence; the keywords are those of ``eliminate``.
+
+    Raises ``InputError`` for free variables and ``Unable`` at a limit.
+    """
+    given = read_formula(formula, format, total_division)
+    free = free_variables(given)
+    if free:
+        raise InputError(f"a sentence expected; free: {', '.join(free)}")
+    answer = eliminate(
+        given,
+        timeout=timeout,
+        memory=memory,
+        method=method,
+        order=order,
+        progress=progress,
+        root_atoms=root_atoms,
+        without=without,
+        explain=explain,
+        check=check,
+        process=process,
+    )
+    if answer.truth is None:
+        raise Unable(answer.reason or "no decision was reached")
+    return answer.truth
+
+
+def find_instance(
+    formula: AnyFormula,
+    *,
+    format: str = "text",
+    total_division: bool = False,
+    timeout: float | None = None,
+    memory: int | None = None,
+    method: str | Method = Method.AUTO,
+    order: Order = None,
+    progress: Progress = silent,
+    root_atoms: bool = False,
+    without: Iterable[str | Stage] | str | Stage = (),
+    explain: bool = False,
+    check: bool = False,
+    process: bool = True,
+) -> Assignment | None:
+    """Exact values of the free variables that satisfy the formula, or None if there are none.
+
+    The keywords are those of ``eliminate``. Raises ``Unable`` at a limit.
+    """
+    given = read_formula(formula, format, total_division)
+    free = free_variables(given)
+    answer = eliminate(
+        exists(free, given),
+        timeout=timeout,
+        memory=memory,
+        method=method,
+        order=order,
+        progress=progress,
+        root_atoms=root_atoms,
+        without=without,
+        explain=explain,
+        check=check,
+        process=process,
+    )
+    if answer.truth is None:
+        raise Unable(answer.reason or "no decision was reached")
+    if answer.truth is False:
+        return None
+    if answer.witness is None and free:
+        raise Unable("the formula is satisfiable, but no witness was found")
+    return {name: (answer.witness or {}).get(name, Fraction(0)) for name in free}
+
+
+def check_witness(
+    sentence: AnyFormula,
+    witness: Mapping[Any, AnyFormula],
+    *,
+    format: str = "text",
+    timeout: float | None = None,
+    memory: int | None = None,
+    method: str | Method = Method.AUTO,
+    order: Order = None,
+    progress: Progress = silent,
+    root_atoms: bool = False,
+    without: Iterable[str | Stage] | str | Stage = (),
+    explain: bool = False,
+    check: bool = False,
+    process: bool = True,
+) -> bool:
+    """Whether existential variables can be given by these polynomials in the variables quantified further outside.
+
+    The polynomials (text, ``Poly`` or SymPy) are put in and the stronger sentence is decided: True proves the
+    sentence, False says only that this witness does not work everywhere. Raises ``InputError`` for a name that is not
+    existentially quantified, or a polynomial in variables that are not known at its place.
+    """
+    from qe.elimination.witness import Term, instantiate
+    from qe.exact.ring import Ring
+
+    given = without_root_atoms(read_formula(sentence, format))
+    offered, known = arguments.by_name(witness, "witness"), features(given).bound
+    read = {name: read_polynomial(term, f"witness: {name}", known=known) for name, term in offered.items()}
+    rings = [r for r in (ring_of(given), *(poly.ring for poly, _ in read.values())) if r is not None]
+    ring = Ring.of(dict.fromkeys(name for r in rings for name in r.names))
+    terms = {name: Term.of(poly.convert(ring), scale) for name, (poly, scale) in read.items()}
+    return decide(
+        instantiate(convert(given, ring), terms),
+        timeout=timeout,
+        memory=memory,
+        method=method,
+        order=order,
+        progress=progress,
+        root_atoms=root_atoms,
+        without=without,
+        explain=explain,
+        check=check,
+        process=process,
+    )
+
+
+def equivalent(
+    left: AnyFormula,
+    right: AnyFormula,
+    *,
+    format: str = "text",
+    timeout: float | None = None,
+    memory: int | None = None,
+    method: str | Method = Method.AUTO,
+    order: Order = None,
+    progress: Progress = silent,
+    root_atoms: bool = False,
+    without: Iterable[str | Stage] | str | Stage = (),
+    explain: bool = False,
+    check: bool = False,
+    process: bool = True,
+) -> bool:
+    """Whether two formulas have the same solutions in all their free variables together.
+
+    The keywords are those of ``eliminate``. Raises ``Unable`` at a limit.
+    """
+    f, g = together(read_formula(left, format), read_formula(right, format))
+    free = dict.fromkeys((*free_variables(f), *free_variables(g)))
+    return decide(
+        forall(free, iff(f, g)),
+        timeout=timeout,
+        memory=memory,
+        method=method,
+        order=order,
+        progress=progress,
+        root_atoms=root_atoms,
+        without=without,
+        explain=explain,
+        check=check,
+        process=process,
+    )
