@@ -12,7 +12,6 @@ import shlex
 import sys
 from collections.abc import Callable
 from contextlib import suppress
-from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any

@@ -61,7 +61,8 @@ def enter(app: typer.Typer, argv: Sequence[str] | None, *, name: str) -> int:
     words = sys.argv[1:] if argv is None else argv
 
     def told(status: str, message: str, code: int) -> int:
-        lost = _put({"status": status, "message": " ".join(message.split()), "exit": code}) if "--json" in words else None
+        data = {"status": status, "message": " ".join(message.split()), "exit": code}
+        lost = _put(data) if "--json" in words else None
         if lost is not None:
             return _unheard(name, lost)
         return fail(name, _PREFIX.get(status, "") + message, code)
