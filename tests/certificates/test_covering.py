@@ -26,7 +26,7 @@ from qe.formula.normal import nnf
 from qe.formula.syntax import FALSE, TRUE, And, Atom, Constant, Formula, Or
 from qe.io import formats
 from qe.options import Budget, Options
-from qe.proof.entry import Entry
+from qe.proof.entry import Entry, formula_to_json
 from tests.unit.coverings.test_cover import random_body
 
 BODIES = [
@@ -234,3 +234,53 @@ def test_only_closed_blocks_without_solutions_are_proved(before: str, after: For
     claim = Claim("covering", formula, after, formula.ring, Entry(given, "evidence"), "step")
     with pytest.raises(CertificateRejected, match=message):
         check_covering(claim, (), limits_of(Budget(60), RULES, check_certificate))
+
+
+# --- evidence forged by hand for sentences that are true ----------------------------------------------
+def interval(first: int, last: int, at: int, own: list[int], ends: tuple[int | None, int | None], **reason: Any) -> Any:
+    return {"first": first, "last": last, "at": at, "own": own, "lower": ends[0], "upper": ends[1], **reason}
+
+
+def line(used: list[int], sectors: list[str], sections: list[list[int]], *intervals: Any) -> Any:
+    return {"used": used, "sectors": sectors, "sections": sections, "intervals": list(intervals)}
+
+
+def forged(body: Formula, factors: list[list[str]], first: Any) -> str:
+    return verdict(body, {"order": list(body.free), "factors": factors, "line": first})
+
+
+def one(text: str, body: Formula) -> list[Any]:
+    assert body.ring is not None
+    return [formula_to_json(convert(read(text), body.ring))]
+
+
+def test_an_interval_over_a_root_of_its_factor_is_rejected() -> None:
+    body = read("x^2 < 1")
+    whole = interval(0, 4, 4, [0, 1], (None, None), false=one("x^2 < 1", body))
+    assert "contains a root" in forged(body, [["x - 1", "x + 1"]], line([0, 1], ["-2", "0", "2"], [[1], [0]], whole))
+
+
+def test_a_factor_of_lower_level_that_is_left_out_is_missed() -> None:
+    body = read("x > 0 and y > x")
+    above = line([], ["0"], [], interval(0, 0, 0, [], (None, None), false=one("x > 0", body)))
+    first = line([], ["-1"], [], interval(0, 0, 0, [], (None, None), line=above))
+    assert "own" in forged(body, [["x"], []], first)
+
+
+def test_a_factor_that_is_zero_on_a_line_beside_the_sample_is_rejected() -> None:
+    """x*z + y has no root over (0, 1), and is zero on the whole line over (0, 0)."""
+    body = read("x = 0 and x*z + y = 0")
+    top = line([0], ["0"], [], interval(0, 0, 0, [0], (None, None), false=one("x*z + y = 0", body)))
+    middle = line([], ["1"], [], interval(0, 0, 0, [], (None, None), line=top))
+    outside = one("x = 0", body)
+    parts = (
+        interval(0, 0, 0, [0], (None, 0), false=outside),
+        interval(1, 1, 1, [0], (0, 0), line=middle),
+        interval(2, 2, 2, [0], (0, None), false=outside),
+    )
+    order = {
+        "order": ["x", "y", "z"],
+        "factors": [["x"], [], ["x*z + y"]],
+        "line": line([0], ["-1", "1"], [[0]], *parts),
+    }
+    assert "whole line" in verdict(body, order)
