@@ -120,7 +120,7 @@ def parametric_witnesses(
 
     def work(budgets: Budgets) -> ParametricWitnesses:
         from qe.api_verify import with_verdict
-        from qe.engine.run import derived
+        from qe.proving.certificates import derived
 
         log, options, budget = RunLog(), Options(certify=check), budgets()
         block = log.step("roots counted", given, without_root_atoms(given))

@@ -14,7 +14,6 @@ from fractions import Fraction
 
 from qe.elimination.protocol import Context, Outcome, Problem
 from qe.engine.finish import settled, shortened
-from qe.engine.linear_proof import substitution_certificate
 from qe.engine.strategy import Attempt, Scope, alone, attempts
 from qe.errors import Unable
 from qe.exact.number import Values
@@ -26,11 +25,10 @@ from qe.formula.normal import nnf, rename_apart
 from qe.formula.syntax import FALSE, TRUE, And, Constant, Exists, ForAll, Formula, Not, Or
 from qe.options import Budget, Options, Stage
 from qe.proof.answer import Answer, Status
-from qe.proof.certificate import Certificate, Kind, Proof, written
-from qe.proof.derivation import negated, put_together
-from qe.proof.entry import Json
+from qe.proof.derivation import negated
 from qe.proof.run_log import RunLog
 from qe.proof.step import Nested
+from qe.proving.certificates import certificate_of
 from qe.rules.preparation import Prepared, prepare
 from qe.rules.step import ALL_STEPS, EQUATION_STEPS, SYMMETRY_STEPS, StepKind
 from qe.simplify.simplify import simplify
@@ -46,16 +44,6 @@ SWITCHED = {
 }
 """The steps of preparation that a stage left out switches off."""
 
-CERTIFY_WORK = 200_000
-"""Units of work that a decomposition may take for nothing but a certificate (the longest in the corpus: 90 000)."""
-
-CERTIFY_SHARE = 0.4
-"""Where the caller limits the time, the share of what is left that it may take: the answer has to get home."""
-
-
-PROOF_SHARE = 0.55
-"""The share of the time left after the answer that finding evidence for its steps may take."""
-
 
 def solve(formula: Formula, options: Options, budget: Budget) -> Outcome:
     """A quantifier-free formula equivalent to ``formula`` over R, with what is known beside it.
@@ -69,7 +57,7 @@ def solve(formula: Formula, options: Options, budget: Budget) -> Outcome:
     question = run.log.step("renaming", plain, rename_apart(plain))
     found = run.question(question)
     answer = convert(found.formula, Ring.of(free)) if free else found.formula
-    proof = run.certificate(formula, question, replace(found, formula=answer))
+    proof = certificate_of(formula, question, replace(found, formula=answer), run.log, options, budget)
     run.log.seconds = round(time.perf_counter() - started, 6)
     return replace(found, formula=answer, certificate=proof.certificate, unchecked=proof.unchecked, log=run.log)
 
@@ -148,39 +136,6 @@ class _Run:
     def apart(self, sentence: Formula, budget: Budget) -> Outcome:
         """The outcome for a sentence, found in a run of its own."""
         return _Run(self.options.with_(certify=False, root_atoms=False), budget).question(sentence)
-
-    # --- certificates --------------------------------------------------------------------------
-    def certificate(self, asked: Formula, question: Formula, found: Outcome) -> Proof:
-        """The certificate that a method made if it is about this very question and answer; else one by a witness or
-        by linear equations. Where one was asked for also: the derivation, or a decomposition if time allows."""
-        problem = Problem.of(question)
-        if found.certificate is not None:
-            from qe.elimination.cad import claims
-
-            if claims(found.certificate, question, found.formula):
-                return Proof(as_asked(found.certificate, problem, found.formula))
-        if found.witness is not None and problem is not None and problem.is_flat and not problem.free:
-            return Proof(as_asked(problem.witnessed(found.witness), problem, found.formula))
-        linear = substitution_certificate(question, found.formula)
-        if linear is not None or not self.options.certify:
-            return Proof(linear)
-        proof = self.proof(asked, found.formula)
-        if proof.certificate is not None:
-            return proof
-        self.log.switch("derivation", f"no checked evidence for: {', '.join(proof.unchecked)}")
-        from qe.elimination.cad import certificate_for
-
-        try:
-            budget = self.budget.share(CERTIFY_SHARE).part(CERTIFY_WORK)
-            table = certificate_for(question, found.formula, self.options, budget)
-        except Unable as error:
-            self.log.switch("no certificate", error)
-            return proof
-        return replace(proof, certificate=table)
-
-    def proof(self, asked: Formula, answer: Formula) -> Proof:
-        """The derivation with evidence for each step, within a share of the time."""
-        return derived(asked, self.log, answer, self.options, self.budget)
 
     # --- preparation ---------------------------------------------------------------------------
     def prepared(self, formula: Formula) -> Prepared:
@@ -302,17 +257,6 @@ class _Run:
         return found if simple == found.formula else replace(found, formula=simple)
 
 
-def derived(asked: Formula, log: RunLog, answer: Formula, options: Options, budget: Budget) -> Proof:
-    """The steps of the log from a formula to its answer with evidence for each, within a share of the time."""
-    from qe.engine.proving import proved
-
-    derivation = put_together(asked, log.steps(), answer)
-    try:
-        return proved(derivation, answer, options, budget.share(PROOF_SHARE).part(CERTIFY_WORK))
-    except Unable as error:
-        return Proof(None, (f"all ({error})",))
-
-
 def answer_to(question: Formula, found: Outcome) -> Answer:
     """What was found as an answer, nothing verified yet."""
     return Answer(
@@ -324,17 +268,6 @@ def answer_to(question: Formula, found: Outcome) -> Answer:
         question=question,
         log=found.log,
     )
-
-
-def as_asked(certificate: Certificate, problem: Problem | None, answer: Formula) -> Certificate:
-    """A certificate about a universal sentence itself, where a method made one about its negation."""
-    if problem is None or not problem.universal or certificate.kind not in (Kind.WITNESS, Kind.OPTIMUM):
-        return certificate
-    ring = problem.body.ring
-    assert ring is not None
-    evidence: dict[str, Json] = {"certificate": certificate.to_data()}
-    step = written("point or multipliers", (), problem.formula, answer, (), evidence)
-    return Certificate.derivation(ring.names, problem.formula, [step], answer)
 
 
 def gathered_block(formula: Formula) -> Problem | None:

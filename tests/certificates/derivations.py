@@ -7,12 +7,12 @@ import json
 from typing import Any
 
 from qe.api_input import read_formula
-from qe.engine.proving import proved
 from qe.engine.run import solve
 from qe.formula.syntax import Formula
 from qe.options import Budget, Options
 from qe.proof.certificate import Certificate
 from qe.proof.derivation import Derivation, put_together
+from qe.proving.prover import proved
 
 CASES = {
     "names": "(ex x. x = a) and (ex x. x = b)",

@@ -18,7 +18,6 @@ from qe.certify.step import Claim, Limits
 from qe.certify.verify import check_certificate
 from qe.elimination.vs.block import eliminate_block
 from qe.elimination.vs.trace import Substituted
-from qe.engine.test_points import Points
 from qe.errors import CertificateRejected, Unable
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj, disj
@@ -27,6 +26,7 @@ from qe.formula.syntax import TRUE, Exists, Formula, Relation
 from qe.formula.traverse import polynomials
 from qe.options import Budget
 from qe.proof.entry import Entry, formula_to_json
+from qe.proving.test_points import Points
 from tests.unit.vs.line import holds, samples, specialise
 
 RING = Ring.of(("a", "b", "x"))

@@ -20,7 +20,6 @@ from qe.certify.claims import claim_of
 from qe.certify.sentence import RELATIONS, read_polynomial
 from qe.convex.optimum import NotConvex, minimize
 from qe.elimination.cad import certificate_for
-from qe.engine.linear_proof import substitution_certificate
 from qe.engine.run import solve
 from qe.errors import InputError, QEError, Unable
 from qe.exact.ring import Poly, Ring
@@ -30,6 +29,7 @@ from qe.formula.syntax import TRUE, Constant, Formula, Relation
 from qe.options import Budget, Options
 from qe.proof.certificate import Certificate, Kind, digest
 from qe.proof.entry import Entry, formula_from_json, formula_to_json, poly_to_text
+from qe.proving.linear import substitution_certificate
 from tests.bezier.bodies import ball
 from tests.certificates.mutation import Path, leaves, lists
 from tests.certificates.test_false_steps import altered, differs, eliminated, formula, question, simple

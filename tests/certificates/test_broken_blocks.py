@@ -15,7 +15,6 @@ import qe.formula.counting as counting
 from qe.api_input import read_formula
 from qe.elimination.critical.method import ConvexUniversal
 from qe.elimination.protocol import Context, Outcome, Problem
-from qe.engine.proving import Prover
 from qe.formula.syntax import FALSE, TRUE, ForAll, Formula, Relation
 from qe.formula.traverse import conjuncts
 from qe.io.names import names_in
@@ -23,6 +22,7 @@ from qe.options import Budget, Options
 from qe.proof.derivation import moved, put_together
 from qe.proof.run_log import RunLog
 from qe.proof.step import Nested, Step
+from qe.proving.prover import Prover
 from tests.certificates.derivations import CASES, data
 from tests.certificates.test_derivation_rejected import altered, at, entries, others, refused
 
@@ -232,6 +232,6 @@ def test_names_inside_the_evidence() -> None:
     """Variables that occur in nested derivations alone belong to the ring too."""
     given = read_formula("ex x. a*x^3 + b*x + c < 0")
     inner = Nested(given, (Step("renaming", given, read_formula("ex t. a*t^3 + b*t + c < 0")),), TRUE)
-    from qe.engine.nested import formulas_within
+    from qe.proving.nested import formulas_within
 
     assert {n for f in formulas_within({"proof": [inner]}) for n in names_in(f)} == {"a", "b", "c", "x", "t"}

@@ -20,7 +20,6 @@ import qe.rules.translation as translation
 import qe.simplify.factors as factors
 from qe.api_input import read_formula
 from qe.elimination.protocol import Context, Problem
-from qe.engine.proving import Prover
 from qe.formula.build import conj
 from qe.formula.normal import nnf, rename_apart
 from qe.formula.syntax import FALSE, TRUE, Exists, Formula
@@ -28,6 +27,7 @@ from qe.formula.traverse import conjuncts
 from qe.options import Budget, Options
 from qe.proof.run_log import RunLog
 from qe.proof.step import Step
+from qe.proving.prover import Prover
 
 Patch = Callable[[pytest.MonkeyPatch], None]
 

@@ -18,7 +18,6 @@ from qe.certify.verify import check_certificate
 from qe.coverings import cover
 from qe.coverings.cover import Cover, Search
 from qe.coverings.evidence import evidence
-from qe.engine.proving import Prover
 from qe.errors import CertificateRejected, InternalError, NotWellOriented, Unable
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import convert, exists, forall
@@ -27,6 +26,7 @@ from qe.formula.syntax import FALSE, TRUE, And, Atom, Constant, Formula, Or
 from qe.io import formats
 from qe.options import Budget, Options
 from qe.proof.entry import Entry, formula_to_json
+from qe.proving.prover import Prover
 from tests.unit.coverings.test_cover import random_body
 
 BODIES = [

@@ -224,10 +224,10 @@ def test_a_broken_producer_is_caught(breaking: Break, text: str, monkeypatch: py
 def _unchecked(text: str) -> tuple[str, ...]:
     """The steps of ``ex x. F`` as virtual substitution does it, without other steps before it."""
     from qe.elimination.vs.block import eliminate_block
-    from qe.engine.proving import proved
     from qe.options import Budget, Options
     from qe.proof.derivation import put_together
     from qe.proof.step import Step
+    from qe.proving.prover import proved
     from qe.simplify.simplify import simplify
 
     formula = read(text)

@@ -15,7 +15,6 @@ import pytest
 
 from qe.certify.registry import RULES
 from qe.certify.step import Claim
-from qe.engine.proving import Prover
 from qe.engine.run import solve
 from qe.errors import BudgetExceeded, CertificateRejected, InternalError, Unable
 from qe.exact.ring import Poly, Ring
@@ -26,6 +25,7 @@ from qe.options import Budget, Options
 from qe.proof.derivation import moved, put_together
 from qe.proof.entry import Entry
 from qe.proof.step import Step
+from qe.proving.prover import Prover
 
 NAMES = ("a", "b", "x", "y")
 GRID = (-3, -2, -1, 0, 1, 2, 3)

@@ -10,7 +10,7 @@ from fractions import Fraction
 import pytest
 
 import qe
-import qe.engine.proving as proving
+import qe.proving.prover as proving
 from qe.certify.verify import verify_json
 from qe.cli.region import _in_words
 from qe.convex.optimum import Optimum

@@ -5,9 +5,9 @@ from __future__ import annotations
 from hypothesis import given
 from hypothesis import strategies as st
 
-from qe.engine.cofactors import cofactors
 from qe.exact.ring import Poly, Ring
 from qe.options import Budget
+from qe.proving.cofactors import cofactors
 
 R = Ring.of(("x", "y"))
 X, Y = R.gen(0), R.gen(1)

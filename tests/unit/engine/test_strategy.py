@@ -98,7 +98,7 @@ def test_a_certificate_is_looked_for_with_limited_work(monkeypatch: pytest.Monke
     question = QUESTIONS["critical"]
     given = qe.eliminate(question, check=True)
     assert given.guarantee is qe.Guarantee.CHECKED
-    monkeypatch.setattr("qe.engine.run.CERTIFY_WORK", 5)
+    monkeypatch.setattr("qe.proving.certificates.CERTIFY_WORK", 5)
     short = qe.eliminate(question, check=True)
     assert short.guarantee is qe.Guarantee.DERIVED and short.certificate is None
     assert str(short.formula) == str(given.formula) and "limit of 5 units" in short.explanation

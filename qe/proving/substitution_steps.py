@@ -23,7 +23,6 @@ from qe.elimination.vs.trace import (
     Unchanged,
     without,
 )
-from qe.engine.test_points import Point, Points
 from qe.errors import CertificateRejected
 from qe.exact.ring import Ring
 from qe.formula.build import conj, disj
@@ -32,6 +31,7 @@ from qe.formula.traverse import conjuncts
 from qe.proof.certificate import Certificate, Root
 from qe.proof.derivation import moved
 from qe.proof.entry import Json, formula_to_json
+from qe.proving.test_points import Point, Points
 
 Simplified = Callable[[Formula, Formula], Json]
 """A step of the rule "simplification" with its evidence; raises ``CertificateRejected`` where none is found."""

@@ -24,7 +24,6 @@ from qe.elimination.cad import certificate_for
 from qe.elimination.critical.boundary import critical_hypersurfaces
 from qe.elimination.critical.method import procedures
 from qe.elimination.critical.system import systems
-from qe.engine.elimination_chain import Row, chain
 from qe.errors import CertificateRejected
 from qe.exact.fibre_stack import isolate_over
 from qe.exact.quadratic_form import Quadratic as Form
@@ -36,6 +35,7 @@ from qe.formula.syntax import Exists, Formula
 from qe.formula.traverse import polynomials
 from qe.options import Budget, Options, Projection
 from qe.proof.entry import Json, poly_to_text
+from qe.proving.elimination_chain import Row, chain
 
 Values = tuple[Fraction, ...]
 

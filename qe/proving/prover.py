@@ -17,9 +17,6 @@ from qe.certify.step import Claim, Context, Limits
 from qe.certify.verify import check_certificate
 from qe.elimination.cad import certificate_for
 from qe.elimination.vs.trace import Eliminated
-from qe.engine.lemmas import EMPTY, refuting
-from qe.engine.nested import derivations_within, formulas_within, proved_inside
-from qe.engine.substitution_steps import steps
 from qe.errors import CertificateRejected, Unable
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import conj, disj
@@ -33,6 +30,9 @@ from qe.proof.entry import Entry, Json, formula_to_json, poly_to_text
 from qe.proof.on_demand import OnDemand
 from qe.proof.run_log import RunLog
 from qe.proof.step import Nested, Place, Step
+from qe.proving.lemmas import EMPTY, refuting
+from qe.proving.nested import derivations_within, formulas_within, proved_inside
+from qe.proving.substitution_steps import steps
 
 TABLE_WORK = 3_000
 """Units of work for a decomposition that proves a single step."""
@@ -277,7 +277,7 @@ class Prover:
 
     def _critical(self, step: Step) -> Json | None:
         """The evidence for a step by critical values, accepted."""
-        from qe.engine.critical_proof import critical_evidence
+        from qe.proving.critical import critical_evidence
 
         order, claim = step.evidence.get("order"), self._claim(step.rule, step, {})
         try:

@@ -15,7 +15,6 @@ from qe.certify.boolean import Theory
 from qe.certify.negation import normal
 from qe.certify.signs import read_lemma
 from qe.certify.step import Limits
-from qe.engine.cofactors import cofactors
 from qe.exact.algebraic import real_roots
 from qe.exact.nearby import rational_between
 from qe.exact.ring import Poly, Ring
@@ -23,6 +22,7 @@ from qe.formula.syntax import FALSE, Atom, Exists, ForAll, Formula, Relation
 from qe.formula.traverse import children, conjuncts
 from qe.options import Budget
 from qe.proof.entry import Entry, Json, poly_to_text
+from qe.proving.cofactors import cofactors
 from qe.simplify.facts import factor_list, key_of
 from qe.simplify.minima import minimum
 

@@ -12,10 +12,10 @@ from fractions import Fraction
 from itertools import combinations_with_replacement
 from math import lcm
 
-from qe.engine.elimination_chain import member
 from qe.exact.quadratic_form import solve_linear
 from qe.exact.ring import Poly
 from qe.options import Budget
+from qe.proving.elimination_chain import member
 
 MOST_UNKNOWNS, SLACK = 300, 2
 """Coefficients to be found at most; how far the degree may lie above those of the polynomials."""

@@ -1,0 +1,1 @@
+"""From what was found to certificates: evidence for the steps of a derivation. Nothing made here is trusted."""

@@ -1,0 +1,83 @@
+"""The certificate of an answer: a method's own, a witness, linear equations, the derivation, or a decomposition."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from qe.elimination.protocol import Outcome, Problem
+from qe.errors import Unable
+from qe.formula.syntax import Formula
+from qe.options import Budget, Options
+from qe.proof.certificate import Certificate, Kind, Proof, written
+from qe.proof.derivation import put_together
+from qe.proof.entry import Json
+from qe.proof.run_log import RunLog
+from qe.proving.linear import substitution_certificate
+
+CERTIFY_WORK = 200_000
+"""Units of work that a decomposition may take for nothing but a certificate (the longest in the corpus: 90 000)."""
+
+CERTIFY_SHARE = 0.4
+"""Where the caller limits the time, the share of what is left that it may take: the answer has to get home."""
+
+PROOF_SHARE = 0.55
+"""The share of the time left after the answer that finding evidence for its steps may take."""
+
+
+def certificate_of(
+    asked: Formula, question: Formula, found: Outcome, log: RunLog, options: Options, budget: Budget
+) -> Proof:
+    """The certificate that a method made if it is about this very question and answer; else one by a witness or by
+    linear equations. Where one was asked for also: the derivation, or a decomposition if time allows.
+
+    ``asked``: the formula of the caller; ``question``: the same with its root atoms counted and its variables renamed.
+    """
+    problem = Problem.of(question)
+    if found.certificate is not None:
+        from qe.elimination.cad import claims
+
+        if claims(found.certificate, question, found.formula):
+            return Proof(_as_asked(found.certificate, problem, found.formula))
+    if found.witness is not None and problem is not None and problem.is_flat and not problem.free:
+        return Proof(_as_asked(problem.witnessed(found.witness), problem, found.formula))
+    linear = substitution_certificate(question, found.formula)
+    if linear is not None or not options.certify:
+        return Proof(linear)
+    proof = derived(asked, log, found.formula, options, budget)
+    if proof.certificate is not None:
+        return proof
+    log.switch("derivation", f"no checked evidence for: {', '.join(proof.unchecked)}")
+    return replace(proof, certificate=_table(question, found.formula, log, options, budget))
+
+
+def derived(asked: Formula, log: RunLog, answer: Formula, options: Options, budget: Budget) -> Proof:
+    """The steps of the log from a formula to its answer with evidence for each, within a share of the time."""
+    from qe.proving.prover import proved
+
+    derivation = put_together(asked, log.steps(), answer)
+    try:
+        return proved(derivation, answer, options, budget.share(PROOF_SHARE).part(CERTIFY_WORK))
+    except Unable as error:
+        return Proof(None, (f"all ({error})",))
+
+
+def _table(question: Formula, answer: Formula, log: RunLog, options: Options, budget: Budget) -> Certificate | None:
+    """A decomposition of the whole question, made for its certificate only; None where it does not end."""
+    from qe.elimination.cad import certificate_for
+
+    try:
+        return certificate_for(question, answer, options, budget.share(CERTIFY_SHARE).part(CERTIFY_WORK))
+    except Unable as error:
+        log.switch("no certificate", error)
+        return None
+
+
+def _as_asked(certificate: Certificate, problem: Problem | None, answer: Formula) -> Certificate:
+    """A certificate about a universal sentence itself, where a method made one about its negation."""
+    if problem is None or not problem.universal or certificate.kind not in (Kind.WITNESS, Kind.OPTIMUM):
+        return certificate
+    ring = problem.body.ring
+    assert ring is not None
+    evidence: dict[str, Json] = {"certificate": certificate.to_data()}
+    step = written("point or multipliers", (), problem.formula, answer, (), evidence)
+    return Certificate.derivation(ring.names, problem.formula, [step], answer)
