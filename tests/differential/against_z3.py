@@ -1,0 +1,82 @@
+"""The engine against z3 alone, on as many random formulas as asked: ``python -m tests.differential.against_z3 100000``.
+
+A formula with free variables is compared at one random point, which z3 is given and the engine's answer, too. Blocks
+of formulas run in processes of their own, since a call of z3 may not end at its limit.
+"""
+
+from __future__ import annotations
+
+import random
+import sys
+from collections import Counter
+from multiprocessing import get_context
+from multiprocessing.connection import Connection
+
+from experiments import z3_oracle
+from qe.engine.run import solve
+from qe.errors import Unable
+from qe.formula.evaluate import holds_at
+from qe.formula.syntax import TRUE, Constant
+from qe.options import Budget, Options
+from tests.differential.generate import LARGE, NESTED, SMALL, at_point, random_formula, random_point
+
+ENGINE_SECONDS, Z3_SECONDS, BLOCK, BLOCK_SECONDS = 2.0, 0.25, 100, 120.0
+
+
+def verdict(seed: str) -> str:
+    """What came of the random formula of this seed: agree, wrong, or who has no answer."""
+    rng = random.Random(seed)
+    formula = random_formula(rng, rng.choice((*SMALL, *NESTED, *LARGE)))
+    point = random_point(rng, formula)
+    try:
+        answer = solve(formula, Options(), Budget(ENGINE_SECONDS)).formula
+    except Unable:
+        return "engine unable"
+    ours = answer == TRUE if isinstance(answer, Constant) else holds_at(answer, point)
+    sentence = at_point(formula, point)
+    theirs = sentence.value if isinstance(sentence, Constant) else z3_oracle.decide(sentence, seconds=Z3_SECONDS)
+    if theirs is None:
+        return "z3 unknown"
+    return "agree" if ours == theirs else "wrong"
+
+
+def _block(seeds: list[str], out: Connection) -> None:
+    for seed in seeds:
+        out.send((seed, verdict(seed)))
+    out.close()
+
+
+def block(seeds: list[str]) -> tuple[Counter[str], list[str]]:
+    """How often each verdict came, and the seeds of wrong answers."""
+    receive, send = get_context("fork").Pipe(duplex=False)
+    child = get_context("fork").Process(target=_block, args=(seeds, send))
+    child.start()
+    send.close()
+    counts: Counter[str] = Counter()
+    wrong = []
+    try:
+        while receive.poll(BLOCK_SECONDS):
+            seed, found = receive.recv()
+            counts[found] += 1
+            wrong += [seed] if found == "wrong" else []
+    except EOFError:
+        pass
+    child.kill()
+    child.join()
+    counts["not reached"] = len(seeds) - counts.total()
+    return counts, wrong
+
+
+def main(count: int, start: int = 0) -> int:
+    total: Counter[str] = Counter()
+    wrong: list[str] = []
+    for first in range(start, start + count, BLOCK):
+        counts, bad = block([f"z3 {i}" for i in range(first, min(first + BLOCK, start + count))])
+        total += counts
+        wrong += bad
+        print(first + BLOCK - start, dict(total), *wrong, flush=True)
+    return len(wrong)
+
+
+if __name__ == "__main__":
+    sys.exit(main(*map(int, sys.argv[1:])))

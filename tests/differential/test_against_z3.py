@@ -1,0 +1,24 @@
+"""The whole engine against z3 on random formulas; ``make deep`` offers a hundred thousand."""
+
+from __future__ import annotations
+
+import pytest
+
+pytest.importorskip("z3")
+
+from tests.differential.against_z3 import block
+
+
+@pytest.mark.parametrize("first", [0, 40])
+def test_no_answer_differs(first: int) -> None:
+    counts, wrong = block([f"z3 {i}" for i in range(first, first + 40)])
+    assert not wrong
+    assert counts["agree"] >= 15
+
+
+@pytest.mark.deep
+@pytest.mark.parametrize("first", range(0, 100_000, 1000))
+def test_no_answer_differs_in_a_hundred_thousand(first: int) -> None:
+    counts, wrong = block([f"z3 {i}" for i in range(first, first + 1000)])
+    assert not wrong
+    assert counts["agree"] >= 300
