@@ -6,6 +6,7 @@ from __future__ import annotations
 import random
 from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
+from functools import partial
 from itertools import pairwise, product
 from math import cos, hypot, pi, sin
 from typing import Any
@@ -74,7 +75,7 @@ def _angle(given: Any) -> tuple[float, float]:
 
 def end_point(arm: Data, joints: Sequence[float]) -> Vector:
     """The end point: every row turns and slides along z, and along x."""
-    values, place = iter(joints), [0.0, 0.0, 0.0]
+    values = iter(joints)
     moves: list[Callable[[Vector], Vector]] = []
     for row in arm["rows"]:
         q = next(values) if row["joint"] else 0.0
@@ -84,12 +85,20 @@ def end_point(arm: Data, joints: Sequence[float]) -> Vector:
         elif row["joint"] == "prismatic":
             d += q
         (u, v), a = _angle(row["alpha"]), float(Fraction(row["a"]))
-        along = lambda p, c=c, s=s, d=d: [c * p[0] - s * p[1], s * p[0] + c * p[1], p[2] + d]
-        across = lambda p, u=u, v=v, a=a: [p[0] + a, u * p[1] - v * p[2], v * p[1] + u * p[2]]
+        along, across = partial(_along, c, s, d), partial(_across, u, v, a)
         moves += [across, along] if arm["convention"] == "modified" else [along, across]
+    place = [0.0, 0.0, 0.0]
     for move in reversed(moves):
         place = move(place)
     return place
+
+
+def _along(c: float, s: float, d: float, p: Vector) -> Vector:
+    return [c * p[0] - s * p[1], s * p[0] + c * p[1], p[2] + d]
+
+
+def _across(u: float, v: float, a: float, p: Vector) -> Vector:
+    return [p[0] + a, u * p[1] - v * p[2], v * p[1] + u * p[2]]
 
 
 def _newton(arm: Data, goal: Sequence[float], start: Sequence[float]) -> Vector | None:
