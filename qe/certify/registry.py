@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from qe.certify.alternatives import check_alternatives
 from qe.certify.balls import check_balls
 from qe.certify.block import check_block
+from qe.certify.boolean_search import check_boolean_search
 from qe.certify.constant import check_constant
 from qe.certify.covering import check_covering
 from qe.certify.critical_values import check_critical_values
@@ -76,6 +77,7 @@ RULES: Mapping[str, Check] = {
     "shorter": check_table,
     "covering": check_covering,
     "constant": check_constant,
+    "Boolean search": check_boolean_search,
     "convex": check_sentence,
     "point or multipliers": check_sentence,
     "comprehensive Gröbner system": check_no_solutions,

@@ -63,8 +63,8 @@ def inner_blocks(problem: Problem, options: Options) -> str | None:
 
 
 def many_cases(problem: Problem, options: Options) -> str | None:
-    """A sentence with ``CASES_FROM`` disjunctions or more; not where a proof is asked for: there is no checker."""
-    if problem.free or not problem.is_flat or options.certify or Stage.SEARCH in options.without:
+    """A sentence with ``CASES_FROM`` disjunctions or more."""
+    if problem.free or not problem.is_flat or Stage.SEARCH in options.without:
         return None
     kind = And if problem.universal else Or
     cases = sum(1 for f in subformulas(problem.body) if isinstance(f, kind))

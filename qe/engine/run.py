@@ -134,8 +134,9 @@ class _Run:
         return Context(self.options, budget or self.budget, self.log, self.apart)
 
     def apart(self, sentence: Formula, budget: Budget) -> Outcome:
-        """The outcome for a sentence, found in a run of its own."""
-        return _Run(self.options.with_(certify=False, root_atoms=False), budget).question(sentence)
+        """The outcome for a sentence, found in a run of its own, with its log."""
+        run = _Run(self.options.with_(root_atoms=False), budget)
+        return replace(run.question(sentence), log=run.log)
 
     # --- preparation ---------------------------------------------------------------------------
     def prepared(self, formula: Formula) -> Prepared:

@@ -46,6 +46,8 @@ RULES: Mapping[str, str] = {
     "critical values": "The truth of a block over bounded fibres changes only at critical values.",
     "degenerate truth set": "A convex truth set without interior points lies on a hyperplane.",
     "covering": "Intervals on each of which the formula is false cover the line, over a sample and near it.",
+    "Boolean search": "Every choice of cases contains comparisons that no point satisfies together "
+    "(Nieuwenhuis, Oliveras, Tinelli 2006).",
     "convex": "A convex set has a point, or multipliers combine its conditions to a contradiction.",
     "point or multipliers": "A universal sentence is false if it fails at a point, and true if its negation has none.",
     "witness in the parameters": "Polynomials in the universal variables satisfy the inner blocks.",

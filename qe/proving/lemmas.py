@@ -5,7 +5,7 @@ What is found here is checked where it is read: nothing depends on its being rig
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from itertools import pairwise
@@ -15,10 +15,13 @@ from qe.certify.boolean import Theory
 from qe.certify.negation import normal
 from qe.certify.signs import read_lemma
 from qe.certify.step import Limits
+from qe.elimination.search.monomial_bounds import MonomialBounds, is_square
+from qe.proving.cofactors import cofactors
 from qe.exact.algebraic import real_roots
 from qe.exact.nearby import rational_between
+from qe.exact.quadratic_form import solve_linear
 from qe.exact.ring import Poly, Ring
-from qe.formula.syntax import FALSE, Atom, Exists, ForAll, Formula, Relation
+from qe.formula.syntax import FALSE, Atom, Exists, ForAll, Formula, Or, Relation
 from qe.formula.traverse import children, conjuncts
 from qe.options import Budget
 from qe.proof.entry import Entry, Json, poly_to_text
@@ -29,7 +32,8 @@ from qe.simplify.minima import minimum
 Term = tuple[int, tuple[tuple[Poly, int], ...]]
 """A coefficient, and polynomials with exponents."""
 
-MOST_POLYNOMIALS, MOST_PAIRS, MOST_MONOMIALS, MOST_TRIED, MOST_TARGETS = 120, 400, 24, 16, 8
+MOST_POLYNOMIALS, MOST_PAIRS, MOST_MONOMIALS, MOST_TRIED = 120, 400, 24, 16
+MOST_TARGETS, MOST_CHAINED, MOST_CASES = 8, 12, 40
 
 
 @dataclass(slots=True)
@@ -126,16 +130,18 @@ def refuting(goals: Sequence[Sequence[Formula]], ring: Ring, limits: Limits) -> 
     if len(polys) > MOST_POLYNOMIALS:
         return None
     found = Lemmas(ring)
-    for stage in range(5):
+    stages: list[Callable[[], None]] = [
+        lambda: None,
+        lambda: _bounds(found, goals, limits),
+        lambda: _algebra(found, polys),
+        lambda: _lines(found, polys),
+        lambda: _ranges(found, polys),
+        lambda: _chained(found, polys),
+        lambda: _combinations(found, goals, limits.budget),
+    ]
+    for stage, search in enumerate(stages):
         count = len(found.lemmas)
-        if stage == 1:
-            _algebra(found, polys)
-        elif stage == 2:
-            _lines(found, polys)
-        elif stage == 3:
-            _ranges(found, polys)
-        elif stage == 4:
-            _combinations(found, goals, limits.budget)
+        search()
         if stage and count == len(found.lemmas):
             continue
         used = _used(found.theory(limits), goals)
@@ -165,6 +171,46 @@ def _used(theory: Theory, goals: Sequence[Sequence[Formula]]) -> set[int] | None
     return used
 
 
+def _bounds(found: Lemmas, goals: Sequence[Sequence[Formula]], limits: Limits) -> None:
+    """Linear combinations of comparisons, and of squares, by which the goals fail, one of a disjunction at a time."""
+    bounds = MonomialBounds(found.ring)
+    for goal in goals:
+        parts = [part for f in goal for part in conjuncts(normal(f))]
+        known = [a for a in parts if isinstance(a, Atom)]
+        cases: list[list[Atom]] = [[]]
+        for part in (f for f in parts if isinstance(f, Or)):
+            cases += [[a for a in conjuncts(case) if isinstance(a, Atom)] for case in part.args]
+        for case in cases[:MOST_CASES]:
+            conflict = bounds.conflict([*known, *case], limits.tick)
+            if conflict is not None:
+                _combined_bounds(found, [a.poly for a in (*known, *case) if a in conflict], None in conflict)
+                if not case:
+                    break
+
+
+def _combined_bounds(found: Lemmas, polys: Sequence[Poly], squares: bool) -> None:
+    """A combination of the polynomials, with squares of monomials where these take part, that is constant."""
+    first, *others = dict.fromkeys(polys)
+    ring = first.ring
+    monomials = list(dict.fromkeys(e for p in (first, *others) for e, _ in p.terms() if any(e)))
+    columns = [dict(p.terms()) for p in others]
+    even = [e for e in monomials if is_square(e)] if squares else []
+    columns += [{e: 1} for e in even]
+    rows = [[Fraction(column.get(e, 0)) for column in columns] for e in monomials]
+    wanted = dict(first.terms())
+    solution = solve_linear(rows, [Fraction(-wanted.get(e, 0)) for e in monomials], len(columns))
+    if solution is None:
+        return
+    weights = [Fraction(1), *solution.particular]
+    scale = lcm(*(w.denominator for w in weights))
+    members: list[tuple[tuple[Poly, int], ...]] = [((p, 1),) for p in (first, *others)]
+    members += [tuple((ring.gen(i), k) for i, k in enumerate(e) if k) for e in even]
+    terms = [(int(w * scale), powers) for w, powers in zip(weights, members, strict=True) if w]
+    constants = [dict(p.terms()).get((0,) * ring.size, 0) for p in (first, *others)]
+    total = sum((w * c for w, c in zip(weights, constants)), Fraction(0)) * scale
+    found.identity([*terms, (-int(total), ())] if total else terms)
+
+
 def _algebra(found: Lemmas, polys: dict[Poly, bool]) -> None:
     """Factors, equations put into the others, differences that are constant, squares."""
     pool: dict[Poly, None] = dict.fromkeys(polys)
@@ -177,6 +223,32 @@ def _algebra(found: Lemmas, polys: dict[Poly, bool]) -> None:
     _differences(found, pool)
     for poly in pool:
         _squares(found, poly)
+
+
+def _chained(found: Lemmas, polys: dict[Poly, bool]) -> None:
+    """Linear equations put into all others, also those that appear only then: a = 1 makes 3*x^2 - 2*x - a a product, a
+    factor of which gives x, and so on. What may be zero is put in as if it were; the identities hold in any case."""
+    pool = dict.fromkeys(polys)
+    maybe = {p for p, is_equation in polys.items() if is_equation}
+    for poly in list(polys):
+        parts = _factored(found, poly)
+        pool.update(dict.fromkeys(parts))
+        maybe.update(parts if poly in maybe else ())
+    used: set[Poly] = set()
+    for _ in range(MOST_CHAINED):
+        left = [p for p in maybe - used if any(p.degree(i) == 1 and p.leading(i).is_constant for i in p.variables)]
+        if not left:
+            break
+        equation = min(left, key=lambda p: (p.total_degree, p.term_count(), poly_to_text(p)))
+        used.add(equation)
+        for poly in [p for p in pool if p != equation]:
+            parts = _reduced(found, poly, equation)
+            pool.update(dict.fromkeys(parts))
+            maybe.update(parts if poly in maybe else ())
+    _differences(found, pool)
+    for poly in pool:
+        _squares(found, poly)
+    _lines(found, pool)
 
 
 def _factored(found: Lemmas, poly: Poly) -> list[Poly]:
@@ -264,7 +336,7 @@ def _monomials(poly: Poly) -> list[Term]:
     return [(c, tuple((ring.gen(i), k) for i, k in enumerate(exponents) if k)) for exponents, c in poly.terms()]
 
 
-def _lines(found: Lemmas, polys: dict[Poly, bool]) -> None:
+def _lines(found: Lemmas, polys: Iterable[Poly]) -> None:
     """All polynomials in one variable alone, by variable."""
     groups: dict[int, list[Poly]] = {}
     for poly in dict.fromkeys((*found.numbers, *polys)):

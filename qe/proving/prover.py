@@ -40,7 +40,7 @@ TABLE_WORK = 3_000
 SIMPLIFYING = ("simplification", "standard simplification")
 """Rules whose steps go on under quantifiers."""
 
-CRITICAL = "critical values"
+CRITICAL, SEARCH = "critical values", "Boolean search"
 
 UNRECORDED = "steps that are not recorded"
 
@@ -236,6 +236,11 @@ class Prover:
             return self._refuted(step, refuted)
         given = step.evidence.get("proof")
         evidence = self._plain(given) if isinstance(given, Mapping) else {}
+        if step.rule == SEARCH:
+            completed = self._searched(step, evidence)
+            if completed is None:
+                return None
+            evidence = completed
         own = self._tried(step.rule, step, context, evidence)
         return None if own is None else (step.rule, own)
 
@@ -310,6 +315,15 @@ class Prover:
             return None
         own = self._tried(step.rule, step, (), evidence)
         return None if own is None else (step.rule, own)
+
+    def _searched(self, step: Step, evidence: dict[str, Json]) -> dict[str, Json] | None:
+        """The evidence for a refutation by a Boolean search, with the clauses that lead to a contradiction."""
+        from qe.engine.search_proof import with_clauses
+
+        try:
+            return with_clauses(self._claim(step.rule, step, evidence), self.limits)
+        except CertificateRejected:
+            return None
 
     def _simplified(self, before: Formula, after: Formula) -> Json:
         """A step of simplification inside another one; ``CertificateRejected`` where it is not proved."""

@@ -140,7 +140,8 @@ def clearance(rng: random.Random) -> Certificate | None:
 
 
 # --- what is false -----------------------------------------------------------------------------------
-def _not_equivalent(rng: random.Random, data: Data) -> bool:
+def not_equivalent(rng: random.Random, data: Data) -> bool:
+    """Whether question and answer are seen to differ at some point."""
     claim = claim_of(Certificate.from_json(text_of(data)))
     if claim.question is None or claim.answer is None or not claim.answer.is_quantifier_free:
         return False
@@ -172,10 +173,11 @@ def _not_the_optimum(rng: random.Random, data: Data) -> bool:
         return True
     if true.value is None or true.attained is not payload["attained"]:
         return true.value is not None
-    return abs(_number(payload["value"], payload["field"]) - float(true.value)) > 1e-6
+    return abs(number(payload["value"], payload["field"]) - float(true.value)) > 1e-6
 
 
-def _number(coefficients: list[str], field: Data) -> float:
+def number(coefficients: list[str], field: Data) -> float:
+    """A number of a field, about."""
     low, high = (Fraction(end) for end in field["interval"])
     minimal = [Fraction(c) for c in field["minimal_polynomial"]]
 
@@ -237,9 +239,9 @@ def _at(points: list[list[list[str]]], t: Fraction) -> list[Fraction]:
 
 
 KINDS: dict[str, tuple[Callable[[random.Random], Certificate | None], IsFalse]] = {
-    "derivation": (derivation, _not_equivalent),
-    "cells": (cells, _not_equivalent),
-    "substitution": (substitution, _not_equivalent),
+    "derivation": (derivation, not_equivalent),
+    "cells": (cells, not_equivalent),
+    "substitution": (substitution, not_equivalent),
     "witness": (witness, _not_a_solution),
     "optimum": (optimum, _not_the_optimum),
     "containment": (containment, _leaves_the_set),

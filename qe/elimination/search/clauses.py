@@ -20,11 +20,13 @@ Clause = list[int]
 
 
 class Clauses:
-    """The clauses of one formula; ``literal`` gives the number of an atom."""
+    """The clauses of one formula; ``literal`` gives the number of an atom. ``orders``: the pairs of bounds of one
+    linear form that the clauses exclude."""
 
     def __init__(self, formula: Formula) -> None:
         self.formula = formula
         self.clauses: list[Clause] = []
+        self.orders: list[tuple[Atom, Atom]] = []
         self._signs: dict[Poly, tuple[int, int, int]] = {}
         self._nodes: dict[Formula, int] = {}
         self._count = 0
@@ -129,17 +131,22 @@ class Clauses:
 
     def _order(self) -> None:
         """What bounds of one linear form say about each other: form > 3 implies form > 2."""
-        bounds: defaultdict[object, list[tuple[Fraction, int, int]]] = defaultdict(list)
-        for poly, (positive, negative, _) in self._signs.items():
+        bounds: defaultdict[object, list[tuple[Fraction, Poly, bool]]] = defaultdict(list)
+        for poly in self._signs:
             form = over_monomials(poly)
-            above, below = (positive, negative) if form.scale > 0 else (negative, positive)
-            bounds[form.direction].append((form.bound, above, below))
+            bounds[form.direction].append((form.bound, poly, form.scale > 0))
         for same in bounds.values():
-            self.clauses += _chain(sorted(same))
+            for lower, higher in pairwise(sorted(same, key=lambda bound: bound[0])):
+                self.orders += _excluded(lower[1:], higher[1:])
+        self.clauses += [[-self.literal(a), -self.literal(b)] for a, b in self.orders]
 
 
-def _chain(bounds: list[tuple[Fraction, int, int]]) -> Iterator[Clause]:
-    for (_, above, below), (_, next_above, next_below) in pairwise(bounds):
-        yield [-next_above, above]
-        yield [-below, next_below]
-        yield [above, next_below]
+def _excluded(lower: tuple[Poly, bool], higher: tuple[Poly, bool]) -> Iterator[tuple[Atom, Atom]]:
+    """What cannot hold of two bounds of one form, the lower one first: form <= 2 with form >= 3, and so on."""
+
+    def compared(side: tuple[Poly, bool], relation: Relation) -> Atom:
+        return Atom(side[0], relation if side[1] else relation.flipped)
+
+    yield compared(lower, Relation.LE), compared(higher, Relation.GT)
+    yield compared(lower, Relation.LT), compared(higher, Relation.GE)
+    yield compared(lower, Relation.LE), compared(higher, Relation.GE)

@@ -9,6 +9,8 @@ made at most once (Nieuwenhuis, Oliveras, Tinelli 2006: DPLL(T)).
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from fractions import Fraction
 
 from qe.elimination.protocol import Context, Outcome, Problem
@@ -17,9 +19,13 @@ from qe.elimination.search.theory import Theory
 from qe.errors import Unable
 from qe.exact.number import Values
 from qe.extras import lacking
-from qe.formula.syntax import FALSE, TRUE, Formula, RootAtom
-from qe.formula.traverse import atoms
+from qe.formula.build import conj, exists
+from qe.formula.syntax import FALSE, TRUE, Atom, Exists, Formula, RootAtom
+from qe.formula.traverse import atoms, conjuncts
 from qe.options import Budget, Options
+from qe.proof.step import Nested, Step
+
+RULE = "Boolean search"
 
 _UNITS = 60
 """Units of work of one round of the search."""
@@ -41,43 +47,66 @@ class BooleanSearch:
         if context.decide is None:
             return None
         dual = problem.dual
-        values = found_point(dual.positive, context)
-        truth = FALSE if values is None else TRUE
-        context.log.step(self.name, problem.formula, problem.asked(truth))
-        if values is None:
-            return Outcome(problem.asked(truth))
-        return Outcome(problem.asked(truth), {name: values.get(name, Fraction(0)) for name in dual.variables})
+        found = found_point(dual.positive, context)
+        if isinstance(found, Refuted):
+            evidence = {"proof": {"refuted": found.evidence()}}
+            context.log.step(RULE, problem.formula, problem.asked(FALSE), evidence=evidence)
+            return Outcome(problem.asked(FALSE))
+        context.log.step(RULE, problem.formula, problem.asked(TRUE))
+        return Outcome(problem.asked(TRUE), {name: found.get(name, Fraction(0)) for name in dual.variables})
 
 
-def found_point(body: Formula, context: Context) -> Values | None:
-    """Values that make a formula in negation normal form true, or None where there are none."""
+@dataclass(frozen=True, slots=True)
+class Refuted:
+    """Atoms that cannot hold together, for every choice of cases some; ``decided``: how the engine refuted those that
+    it was asked about, as sets of atoms. The others contradict each other by linear combinations, or at sight."""
+
+    conflicts: tuple[tuple[Atom, ...], ...]
+    decided: Mapping[frozenset[Formula], Nested]
+
+    def evidence(self) -> list[dict[str, object]]:
+        """The conflicts with the derivation that refutes each of them."""
+        return [{"atoms": atoms, "steps": self._steps(atoms)} for atoms in self.conflicts]
+
+    def _steps(self, atoms: Sequence[Atom]) -> Nested:
+        together = conj(atoms)
+        sentence = exists(together.free, together)
+        known = self.decided.get(frozenset(atoms))
+        return known or Nested(sentence, (Step("simplification", sentence, FALSE),), FALSE)
+
+
+def found_point(body: Formula, context: Context) -> Values | Refuted:
+    """Values that make a formula in negation normal form true, or that there are none."""
     try:
         from pysat.solvers import Solver
     except ImportError as error:
         raise lacking(error) or error from None
     ring, decide = body.ring, context.decide
     if ring is None or decide is None:
-        return {} if body == TRUE else None
+        return {} if body == TRUE else Refuted((), {})
+    refutations: dict[frozenset[Formula], Nested] = {}
 
     def decided(sentence: Formula, budget: Budget) -> Values | None:
         outcome = decide(sentence, budget)
         if outcome.formula == FALSE:
+            body = sentence.body if isinstance(sentence, Exists) else sentence
+            refutations[frozenset(conjuncts(body))] = Nested(sentence, tuple(outcome.log.steps()), FALSE)
             return None
         if outcome.witness is None:
             raise Unable("a conjunction is satisfiable, but no point was found")
         return outcome.witness
 
     clauses, theory = Clauses(body), Theory(ring, decided, context.budget)
-    rounds = 0
+    conflicts: list[tuple[Atom, ...]] = []
     with Solver(name="cadical153", bootstrap_with=clauses.clauses) as solver:
         while solver.solve():
-            rounds += 1
             context.budget.spend(_UNITS)
-            context.budget.check("search", rounds)
+            context.budget.check("search", len(conflicts) + 1)
             found = theory.look(clauses.chosen(solver.get_model()))
             if isinstance(found, dict):
-                context.log.work("search", {"clauses": len(clauses.clauses), "refuted": rounds - 1})
+                context.log.work("search", {"clauses": len(clauses.clauses), "refuted": len(conflicts)})
                 return found
+            conflicts.append(tuple(found))
             solver.add_clause([-clauses.literal(a) for a in found])
-    context.log.work("search", {"clauses": len(clauses.clauses), "refuted": rounds})
-    return None
+    context.log.work("search", {"clauses": len(clauses.clauses), "refuted": len(conflicts)})
+    return Refuted((*clauses.orders, *conflicts), refutations)

@@ -1,22 +1,19 @@
 """Whether atoms can hold together: linear bounds of monomials first, then the engine on parts that share variables.
 
-Every answer comes with a reason: a point, or atoms of which it is proved that they cannot hold together. A monomial
-counts as a variable of its own for the linear bounds (at least 0 if it is a square), so that what is refuted is refuted
-for the true monomials, too, and a point is tried where the variables have their values.
+Every answer comes with a reason: a point, or atoms of which it is proved that they cannot hold together. Where the
+bounds of monomials can hold together, the point is tried at which the variables have their values.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Sequence
-from fractions import Fraction
+from collections.abc import Callable, Sequence
 
-from qe.elimination.search.linear_forms import Monomial, over_monomials
+from qe.elimination.search.monomial_bounds import MonomialBounds
 from qe.errors import Unable
-from qe.exact.linear_bounds import LinearBounds
 from qe.exact.number import Values
 from qe.exact.ring import Ring
 from qe.formula.build import conj, exists
-from qe.formula.syntax import FALSE, Atom, Formula, Relation
+from qe.formula.syntax import FALSE, Atom, Formula
 from qe.formula.traverse import connected
 from qe.options import Budget
 from qe.rules.lift import holds_at
@@ -35,26 +32,21 @@ _MOST = 80
 _GROWTH = 8
 """Sets of atoms that the engine is asked about before it gets all that share variables."""
 
-_UP = (Relation.GT, Relation.GE, Relation.EQ)
-_DOWN = (Relation.LT, Relation.LE, Relation.EQ)
-
 
 class Theory:
     """Asked about one conjunction after another over one ring; what was refuted or found is remembered."""
 
     def __init__(self, ring: Ring, decide: Decide, budget: Budget) -> None:
         self.ring, self.decide, self.budget = ring, decide, budget
-        self.bounds = LinearBounds()
-        self.monomials: dict[Monomial, int] = {}
-        self.forms: dict[object, int] = {}
+        self.bounds = MonomialBounds(ring)
         self.known: dict[frozenset[Atom], Values | None] = {}
 
     def look(self, atoms: Sequence[Atom]) -> Values | list[Atom]:
         """Values for the variables of the atoms, or some of the atoms that cannot hold together."""
-        conflict = self._linear(atoms)
+        conflict = self.bounds.conflict(atoms, lambda: self.budget.check("search: bounds"))
         if conflict is not None:
             return [a for a in atoms if a in conflict]
-        point: Values = dict(self._point())
+        point: Values = dict(self.bounds.point())
         if all(holds_at(a, point) for a in atoms):
             return dict(point)
         values: Values = dict(point)
@@ -84,52 +76,6 @@ class Theory:
             values = {**point, **found}
         everything = self._part(frozenset(part))
         return part if everything is None else everything
-
-    # --- linear -----------------------------------------------------------------------------------------
-    def _linear(self, atoms: Sequence[Atom]) -> set[Hashable] | None:
-        """Atoms whose linear bounds contradict each other, or None."""
-        self.bounds.clear()
-        conflict: set[Hashable] | None = None
-        for monomial, x in self.monomials.items():
-            if not any(power % 2 for power in monomial):
-                self.bounds.at_least(x, Fraction(0), strict=False, reason=None)
-        for given in atoms:
-            if given.relation is Relation.NE:
-                continue
-            form = over_monomials(given.poly)
-            x = self._form(form.direction)
-            relation = given.relation if form.scale > 0 else given.relation.flipped
-            strict = relation.is_strict
-            if relation in _UP:
-                conflict = self.bounds.at_least(x, form.bound, strict=strict, reason=given)
-            if relation in _DOWN and conflict is None:
-                conflict = self.bounds.at_most(x, form.bound, strict=strict, reason=given)
-            if conflict is not None:
-                return conflict
-        return self.bounds.conflict(lambda: self.budget.check("search: bounds"))
-
-    def _form(self, direction: tuple[tuple[Monomial, Fraction], ...]) -> int:
-        found = self.forms.get(direction)
-        if found is None:
-            columns = {self._monomial(m): c for m, c in direction}
-            found = next(iter(columns)) if len(columns) == 1 else self.bounds.form(columns)
-            self.forms[direction] = found
-        return found
-
-    def _monomial(self, monomial: Monomial) -> int:
-        found = self.monomials.get(monomial)
-        if found is None:
-            found = self.monomials[monomial] = self.bounds.variable()
-            if not any(power % 2 for power in monomial):
-                self.bounds.at_least(found, Fraction(0), strict=False, reason=None)
-        return found
-
-    def _point(self) -> dict[str, Fraction]:
-        values, point = self.bounds.point(), dict.fromkeys(self.ring.names, Fraction(0))
-        for monomial, x in self.monomials.items():
-            if sum(monomial) == 1:
-                point[self.ring.names[monomial.index(1)]] = values[x]
-        return point
 
     # --- whatever else ------------------------------------------------------------------------------------
     def _part(self, part: frozenset[Atom], work: int | None = None) -> Values | None:

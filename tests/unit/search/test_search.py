@@ -14,7 +14,7 @@ import qe
 from qe.elimination.protocol import Context, Outcome, Problem
 from qe.elimination.search.clauses import Clauses
 from qe.elimination.search.linear_forms import over_monomials
-from qe.elimination.search.method import BooleanSearch, found_point
+from qe.elimination.search.method import BooleanSearch, Refuted, found_point
 from qe.elimination.search.theory import Theory
 from qe.engine.conditions import CASES_FROM, many_cases
 from qe.engine.run import solve
@@ -61,7 +61,7 @@ def context() -> Context:
 def test_the_search_decides_what_other_methods_decide(body: Formula) -> None:
     found = found_point(nnf(body), context())
     sentence = exists(body.free, body)
-    if found is None:
+    if isinstance(found, Refuted):
         assert decide(sentence, Budget(60)).formula == FALSE
     else:
         assert holds_at(body, found)
@@ -140,12 +140,12 @@ def test_a_universal_sentence_is_searched_for_a_counterexample() -> None:
     assert found is not None and found.formula == TRUE
 
 
-def test_few_cases_and_proofs_are_for_others() -> None:
+def test_few_cases_are_for_others() -> None:
     sentence = many(14, "x < 1")
     problem = Problem.of(sentence)
     assert problem is not None
     assert many_cases(problem, Options()) is not None
-    assert many_cases(problem, Options(certify=True)) is None
+    assert many_cases(problem, Options(certify=True)) is not None
     assert many_cases(problem, WITHOUT) is None
     few = Problem.of(many(CASES_FROM - 1, "x < 1"))
     assert few is not None and many_cases(few, Options()) is None

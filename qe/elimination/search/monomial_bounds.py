@@ -1,0 +1,79 @@
+"""Atoms as linear bounds of their monomials: whether these can hold together.
+
+A monomial counts as a variable of its own, at least 0 if it is a square; so atoms whose bounds contradict each other
+cannot hold together at any point.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Hashable, Iterable
+from fractions import Fraction
+
+from qe.elimination.search.linear_forms import Monomial, over_monomials
+from qe.exact.linear_bounds import LinearBounds
+from qe.exact.ring import Ring
+from qe.formula.syntax import Atom, Relation
+
+_UP = (Relation.GT, Relation.GE, Relation.EQ)
+_DOWN = (Relation.LT, Relation.LE, Relation.EQ)
+
+
+def is_square(monomial: Monomial) -> bool:
+    """Whether all exponents are even."""
+    return not any(power % 2 for power in monomial)
+
+
+class MonomialBounds:
+    """Asked about one conjunction after another over one ring; what the simplex method has learnt is kept."""
+
+    def __init__(self, ring: Ring) -> None:
+        self.ring = ring
+        self.bounds = LinearBounds()
+        self.monomials: dict[Monomial, int] = {}
+        self.forms: dict[object, int] = {}
+
+    def conflict(self, atoms: Iterable[Atom], check: Callable[[], object]) -> set[Hashable] | None:
+        """Atoms whose linear bounds contradict each other, with None where squares take part; or None."""
+        self.bounds.clear()
+        for monomial, x in self.monomials.items():
+            if is_square(monomial):
+                self.bounds.at_least(x, Fraction(0), strict=False, reason=None)
+        for given in atoms:
+            if given.relation is Relation.NE:
+                continue
+            form = over_monomials(given.poly)
+            x = self._form(form.direction)
+            relation = given.relation if form.scale > 0 else given.relation.flipped
+            strict = relation.is_strict
+            conflict: set[Hashable] | None = None
+            if relation in _UP:
+                conflict = self.bounds.at_least(x, form.bound, strict=strict, reason=given)
+            if relation in _DOWN and conflict is None:
+                conflict = self.bounds.at_most(x, form.bound, strict=strict, reason=given)
+            if conflict is not None:
+                return conflict
+        return self.bounds.conflict(check)
+
+    def point(self) -> dict[str, Fraction]:
+        """Values of the variables, after ``conflict`` found none: those that they have as monomials."""
+        values, point = self.bounds.point(), dict.fromkeys(self.ring.names, Fraction(0))
+        for monomial, x in self.monomials.items():
+            if sum(monomial) == 1:
+                point[self.ring.names[monomial.index(1)]] = values[x]
+        return point
+
+    def _form(self, direction: tuple[tuple[Monomial, Fraction], ...]) -> int:
+        found = self.forms.get(direction)
+        if found is None:
+            columns = {self._monomial(m): c for m, c in direction}
+            found = next(iter(columns)) if len(columns) == 1 else self.bounds.form(columns)
+            self.forms[direction] = found
+        return found
+
+    def _monomial(self, monomial: Monomial) -> int:
+        found = self.monomials.get(monomial)
+        if found is None:
+            found = self.monomials[monomial] = self.bounds.variable()
+            if is_square(monomial):
+                self.bounds.at_least(found, Fraction(0), strict=False, reason=None)
+        return found
