@@ -15,7 +15,7 @@ from fractions import Fraction
 from qe.elimination.protocol import Context, Outcome, Problem
 from qe.engine.finish import settled, shortened
 from qe.engine.linear_proof import substitution_certificate
-from qe.engine.strategy import Attempt, Scope, alone, attempts
+from qe.engine.strategy import SPARE, Attempt, Scope, alone, attempts, complete
 from qe.errors import Unable
 from qe.exact.number import Values
 from qe.exact.ring import Ring
@@ -30,7 +30,7 @@ from qe.proof.certificate import Certificate, Kind, Proof, written
 from qe.proof.derivation import negated, put_together
 from qe.proof.entry import Json
 from qe.proof.run_log import RunLog
-from qe.proof.step import Nested
+from qe.proof.step import Nested, Step
 from qe.rules.preparation import Prepared, prepare
 from qe.rules.step import ALL_STEPS, EQUATION_STEPS, SYMMETRY_STEPS, StepKind
 from qe.simplify.simplify import simplify
@@ -72,6 +72,16 @@ def solve(formula: Formula, options: Options, budget: Budget) -> Outcome:
     proof = run.certificate(formula, question, replace(found, formula=answer))
     run.log.seconds = round(time.perf_counter() - started, 6)
     return replace(found, formula=answer, certificate=proof.certificate, unchecked=proof.unchecked, log=run.log)
+
+
+@dataclass(frozen=True, slots=True)
+class _Spare:
+    """A complete outcome that was too long to be taken at once, with its steps."""
+
+    outcome: Outcome
+    attempt: Attempt
+    name: str
+    steps: tuple[Step, ...]
 
 
 @dataclass(slots=True)
@@ -270,10 +280,11 @@ class _Run:
     def first_of(self, scope: Scope, problem: Problem) -> Outcome | None:
         """What the first attempt gives that comes to an end; None if there is none."""
         last: Unable | None = None
+        spare: _Spare | None = None
         for attempt, method, reason in attempts(scope, problem, self.options):
-            mark = self.log.mark()
+            mark, found = self.log.mark(), None
             try:
-                found = method.run(problem, self.context(self.budget.part(attempt.work)))
+                found = method.run(problem, self.context(self.budget.part(SPARE if spare else attempt.work)))
                 if found is not None and attempt.keep(found, problem):
                     self.log.choice(method.name, problem.variables, reason, mark)
                     return self.whole_of(found, problem, attempt, method.name)
@@ -283,7 +294,13 @@ class _Run:
                 self.budget.check("switch")
                 self.log.switch(method.name, error)
                 last = error
-            self.log.forget_steps(mark)
+            steps = self.log.forget_steps(mark)
+            if spare is not None:
+                self.log.choice(spare.name, problem.variables, "its answer is long, but known")
+                self.log.take_up(spare.steps)
+                return self.whole_of(spare.outcome, problem, spare.attempt, spare.name)
+            if found is not None and attempt.spare and complete(found, problem):
+                spare = _Spare(found, attempt, method.name, steps)
         if last is not None and scope in (Scope.BLOCK, Scope.NESTED):
             raise last
         return None
