@@ -23,6 +23,7 @@ from qe.formula.syntax import FALSE, Atom, Exists, ForAll, Formula, Relation
 from qe.formula.traverse import children, conjuncts
 from qe.options import Budget
 from qe.proof.entry import Entry, Json, poly_to_text
+from qe.rules.cancelling import difference
 from qe.simplify.facts import factor_list, key_of
 from qe.simplify.minima import minimum
 
@@ -174,6 +175,7 @@ def _algebra(found: Lemmas, polys: dict[Poly, bool]) -> None:
         for poly in list(polys):
             if poly != equation:
                 pool.update(dict.fromkeys(_reduced(found, poly, equation)))
+                pool.update(dict.fromkeys(_cancelled(found, poly, equation)))
     _differences(found, pool)
     for poly in pool:
         _squares(found, poly)
@@ -211,6 +213,17 @@ def _reduced(found: Lemmas, poly: Poly, equation: Poly) -> list[Poly]:
         return []
     primitive = image.normal()[1]
     return [primitive, *_factored(found, primitive)] if factors else [primitive]
+
+
+def _cancelled(found: Lemmas, poly: Poly, equation: Poly) -> list[Poly]:
+    """a * poly = b * equation + r, where that makes a product r."""
+    known = difference(poly, equation)
+    if known is None:
+        return []
+    a, b, rest = known
+    found.identity([(a, ((poly, 1),)), (-b, ((equation, 1),)), (-1, ((rest, 1),))])
+    primitive = rest.normal()[1]
+    return [primitive, *_factored(found, primitive)]
 
 
 def _differences(found: Lemmas, pool: Iterable[Poly]) -> None:

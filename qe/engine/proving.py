@@ -37,7 +37,12 @@ from qe.proof.step import Nested, Place, Step
 TABLE_WORK = 3_000
 """Units of work for a decomposition that proves a single step."""
 
-SIMPLIFYING = ("simplification", "standard simplification")
+SIMPLIFYING = (
+    "simplification",
+    "standard simplification",
+    "Groebner basis of the equations",
+    "multiple of an equation subtracted",
+)
 """Rules whose steps go on under quantifiers."""
 
 CRITICAL = "critical values"
