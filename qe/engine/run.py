@@ -13,9 +13,10 @@ from dataclasses import dataclass, field, replace
 from fractions import Fraction
 
 from qe.elimination.protocol import Context, Outcome, Problem
+from qe.engine.early import early_parts, equations
 from qe.engine.finish import settled, shortened
 from qe.engine.linear_proof import substitution_certificate
-from qe.engine.strategy import SPARE, Attempt, Scope, alone, attempts, complete
+from qe.engine.strategy import SHORTCUT, SPARE, Attempt, Scope, alone, attempts, complete
 from qe.errors import Unable
 from qe.exact.number import Values
 from qe.exact.ring import Ring
@@ -117,7 +118,10 @@ class _Run:
         if ready.formula == dual.formula and dual.is_flat:
             self.log.forget_steps(mark)
             return self.block(problem)
-        found = self.decided(ready.formula)
+        return self.lifted(ready, self.decided(ready.formula), problem)
+
+    def lifted(self, ready: Prepared, found: Outcome, problem: Problem) -> Outcome:
+        """The answer to a problem from that to its prepared dual, with the values of its variables."""
         truth = problem.asked(found.formula)
         if found.formula != TRUE or found.witness is None:
             return Outcome(truth)
@@ -256,10 +260,38 @@ class _Run:
 
     def eliminated(self, problem: Problem) -> Outcome:
         """The block without quantifiers."""
+        early = self.by_early_equations(problem)
+        if early is not None:
+            return early
         reduced = self.reduced(problem)
         if not isinstance(reduced, Problem):
             return Outcome(reduced, {} if reduced == (FALSE if problem.universal else TRUE) else None)
         return self.block(reduced)
+
+    def by_early_equations(self, problem: Problem) -> Outcome | None:
+        """The block by equations that some of its parts amount to (``qe.engine.early``), which prepare the others."""
+        dual = problem.dual
+        parts = None if problem.is_flat or Stage.EQUATIONS in self.options.without else early_parts(dual.body)
+        if parts is None:
+            return None
+        inner, (early, rest) = _Run(self.options.with_(certify=False), self.budget.part(SHORTCUT)), parts
+        try:
+            known = inner.question(early).formula
+        except Unable as error:
+            self.budget.check("switch")
+            self.log.switch("parts first", error)
+            return None
+        if not isinstance(known, Constant) and not any(equations(known, dual.variables)):
+            self.log.switch("parts first", "they give no equations")
+            return None
+        if problem.universal:
+            self.log.step("duality", problem.formula, negated(dual.formula))
+        self.log.take_up(tuple(inner.log.steps()))
+        ready = self.prepared(exists(dual.variables, conj((known, rest))))
+        found = Outcome(self.without_quantifiers(ready.formula)) if dual.free else self.decided(ready.formula)
+        if problem.universal:
+            self.log.step("negation normal form", negated(found.formula), problem.asked(found.formula))
+        return self.lifted(ready, found, problem)
 
     def block(self, problem: Problem) -> Outcome:
         """One block by the strategy; raises ``Unable`` where no attempt ends."""
