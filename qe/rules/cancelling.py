@@ -2,7 +2,7 @@
 (y - x)*(x^2 + x*y + y^2 + p) = 0.
 
 Theorem. Where q = 0 holds and a > 0, the polynomials p and (a*p - b*q)/c, c > 0, have the same sign.
-The equation stays. What is replaced is irreducible, and all factors of what replaces it have lower degree, so this ends.
+The equation stays. What is replaced is irreducible, and the factors of what replaces it have lower degree: this ends.
 """
 
 from __future__ import annotations

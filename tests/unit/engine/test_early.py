@@ -40,7 +40,7 @@ def test_the_small_blocks_come_first() -> None:
         f"ex a, b, c. c > 0 and {ONTO} and {REST}",  # one block alone
         f"ex a, b, c. {ONTO} and {REST} and (all x. x > a or x < b)",  # two about different variables
         "ex a, b, c, d. (all x. a*x > b or c*x < d) and (all x. a*x + b*x > c + d) and (ex u, v, w. u*v*w = a)",  # four
-        "ex a. (all x, y, z. x*y*z > a) and (ex x, y, z. x + y + z > a) and (ex u. all v. u*v > a)",  # of three variables
+        "ex a. (all x, y, z. x*y*z > a) and (ex x, y, z. x + y + z > a) and (ex u. all v. u*v > a)",  # of three
         "ex a. (all x. x > 1 or x < 2) and (ex x. x > 3) and (ex u. all v. u*v > a)",  # about nothing
     ],
 )
