@@ -11,6 +11,7 @@ from qe.cad.projection import factor_lists
 from qe.errors import NotWellOriented
 from qe.exact.ring import Poly, Ring
 from qe.exact.sample import Point
+from qe.exact.watch import Watch
 from qe.formula.build import convert
 from qe.formula.syntax import Formula
 from qe.formula.traverse import polynomials
@@ -121,7 +122,7 @@ class _Job:
             self.thom_levels,
         )
         lifter = Lifter(plan, self.budget)
-        root = lifter.run(Point(Ring.of(self.order)), compile_matrix(strong, places))
+        root = lifter.run(Point(Ring.of(self.order), watch=Watch(self.budget.check)), compile_matrix(strong, places))
         if lifter.lacking:
             return self.attempt(projection, nullified=nullified, added=(*added, *lifter.lacking))
         restricted = tuple(tuple(sorted(indices.get(k, ()))) for k in range(size)) if indices else ()

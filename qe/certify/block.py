@@ -1,6 +1,6 @@
 """Rules that keep the quantifiers of a block and change what stands under them: "simplification", "standard
 simplification", "case split on factors", "boundary apart", "vanishing sum of squares split", "Groebner basis of the
-equations".
+equations", "multiple of an equation subtracted".
 
 THEOREM. ex v (A or B) iff ex v A or ex v B. So if a body is equivalent to the disjunction of m_1, ..., m_k, then
 ex v body iff ex v_1 m_1 or ... or ex v_k m_k, where v_i are variables of v, all that are free in m_i. A universal block

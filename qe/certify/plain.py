@@ -1346,6 +1346,7 @@ def _impossible(f: Formula, signs: dict[Any, Signs]) -> bool:
 
 _BLOCK: tuple[str, ...] = ("simplification", "standard simplification", "case split on factors", "boundary apart")
 _BLOCK += ("vanishing sum of squares split", "Groebner basis of the equations")
+_BLOCK += ("multiple of an equation subtracted",)
 
 
 def _check_derivation(payload: Any) -> None:

@@ -48,6 +48,7 @@ RULES: Mapping[str, Check] = {
     "boundary apart": check_block,
     "vanishing sum of squares split": check_block,
     "Groebner basis of the equations": check_block,
+    "multiple of an equation subtracted": check_block,
     "two balls": check_balls,
     "conditions on zeros that follow": check_zeros,
     "independent parts and miniscoping": check_miniscoping,

@@ -26,6 +26,7 @@ from qe.errors import InternalError, NotWellOriented
 from qe.exact.fibre_stack import Isolation, isolate_over
 from qe.exact.ring import Poly, Ring
 from qe.exact.sample import Point
+from qe.exact.watch import Watch
 from qe.formula.syntax import Atom, Formula
 from qe.formula.traverse import atoms
 from qe.options import Budget, Projection
@@ -103,7 +104,7 @@ class Search:
 
         Raises ``BudgetExceeded``, and ``NotWellOriented`` where a polynomial is zero on a whole line.
         """
-        return self._over(Point(self.ring), {})
+        return self._over(Point(self.ring, watch=Watch(self.budget.check)), {})
 
     def _over(self, point: Point, decided: Decided) -> Point | Cover:
         level = point.depth

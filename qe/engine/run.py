@@ -13,8 +13,9 @@ from dataclasses import dataclass, field, replace
 from fractions import Fraction
 
 from qe.elimination.protocol import Context, Outcome, Problem
+from qe.engine.early import early_parts, equations
 from qe.engine.finish import settled, shortened
-from qe.engine.strategy import Attempt, Scope, alone, attempts
+from qe.engine.strategy import SHORTCUT, SPARE, Attempt, Scope, alone, attempts, complete
 from qe.errors import Unable
 from qe.exact.number import Values
 from qe.exact.ring import Ring
@@ -27,7 +28,7 @@ from qe.options import Budget, Options, Stage
 from qe.proof.answer import Answer, Status
 from qe.proof.derivation import negated
 from qe.proof.run_log import RunLog
-from qe.proof.step import Nested
+from qe.proof.step import Nested, Step
 from qe.proving.certificates import certificate_of
 from qe.rules.preparation import Prepared, prepare
 from qe.rules.step import ALL_STEPS, EQUATION_STEPS, SYMMETRY_STEPS, StepKind
@@ -60,6 +61,16 @@ def solve(formula: Formula, options: Options, budget: Budget) -> Outcome:
     proof = certificate_of(formula, question, replace(found, formula=answer), run.log, options, budget)
     run.log.seconds = round(time.perf_counter() - started, 6)
     return replace(found, formula=answer, certificate=proof.certificate, unchecked=proof.unchecked, log=run.log)
+
+
+@dataclass(frozen=True, slots=True)
+class _Spare:
+    """A complete outcome that was too long to be taken at once, with its steps."""
+
+    outcome: Outcome
+    attempt: Attempt
+    name: str
+    steps: tuple[Step, ...]
 
 
 @dataclass(slots=True)
@@ -95,7 +106,10 @@ class _Run:
         if ready.formula == dual.formula and dual.is_flat:
             self.log.forget_steps(mark)
             return self.block(problem)
-        found = self.decided(ready.formula)
+        return self.lifted(ready, self.decided(ready.formula), problem)
+
+    def lifted(self, ready: Prepared, found: Outcome, problem: Problem) -> Outcome:
+        """The answer to a problem from that to its prepared dual, with the values of its variables."""
         truth = problem.asked(found.formula)
         if found.formula != TRUE or found.witness is None:
             return Outcome(truth)
@@ -202,10 +216,38 @@ class _Run:
 
     def eliminated(self, problem: Problem) -> Outcome:
         """The block without quantifiers."""
+        early = self.by_early_equations(problem)
+        if early is not None:
+            return early
         reduced = self.reduced(problem)
         if not isinstance(reduced, Problem):
             return Outcome(reduced, {} if reduced == (FALSE if problem.universal else TRUE) else None)
         return self.block(reduced)
+
+    def by_early_equations(self, problem: Problem) -> Outcome | None:
+        """The block by equations that some of its parts amount to (``qe.engine.early``), which prepare the others."""
+        dual = problem.dual
+        parts = None if problem.is_flat or Stage.EQUATIONS in self.options.without else early_parts(dual.body)
+        if parts is None:
+            return None
+        inner, (early, rest) = _Run(self.options.with_(certify=False), self.budget.part(SHORTCUT)), parts
+        try:
+            known = inner.question(early).formula
+        except Unable as error:
+            self.budget.check("switch")
+            self.log.switch("parts first", error)
+            return None
+        if not isinstance(known, Constant) and not any(equations(known, dual.variables)):
+            self.log.switch("parts first", "they give no equations")
+            return None
+        if problem.universal:
+            self.log.step("duality", problem.formula, negated(dual.formula))
+        self.log.take_up(tuple(inner.log.steps()))
+        ready = self.prepared(exists(dual.variables, conj((known, rest))))
+        found = Outcome(self.without_quantifiers(ready.formula)) if dual.free else self.decided(ready.formula)
+        if problem.universal:
+            self.log.step("negation normal form", negated(found.formula), problem.asked(found.formula))
+        return self.lifted(ready, found, problem)
 
     def block(self, problem: Problem) -> Outcome:
         """One block by the strategy; raises ``Unable`` where no attempt ends."""
@@ -226,10 +268,11 @@ class _Run:
     def first_of(self, scope: Scope, problem: Problem) -> Outcome | None:
         """What the first attempt gives that comes to an end; None if there is none."""
         last: Unable | None = None
+        spare: _Spare | None = None
         for attempt, method, reason in attempts(scope, problem, self.options):
-            mark = self.log.mark()
+            mark, found = self.log.mark(), None
             try:
-                found = method.run(problem, self.context(self.budget.part(attempt.work)))
+                found = method.run(problem, self.context(self.budget.part(SPARE if spare else attempt.work)))
                 if found is not None and attempt.keep(found, problem):
                     self.log.choice(method.name, problem.variables, reason, mark)
                     return self.whole_of(found, problem, attempt, method.name)
@@ -239,7 +282,13 @@ class _Run:
                 self.budget.check("switch")
                 self.log.switch(method.name, error)
                 last = error
-            self.log.forget_steps(mark)
+            steps = self.log.forget_steps(mark)
+            if spare is not None:
+                self.log.choice(spare.name, problem.variables, "its answer is long, but known")
+                self.log.take_up(spare.steps)
+                return self.whole_of(spare.outcome, problem, spare.attempt, spare.name)
+            if found is not None and attempt.spare and complete(found, problem):
+                spare = _Spare(found, attempt, method.name, steps)
         if last is not None and scope in (Scope.BLOCK, Scope.NESTED):
             raise last
         return None

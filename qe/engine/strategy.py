@@ -87,7 +87,8 @@ SMALL_ATOMS = 30
 @dataclass(frozen=True, slots=True)
 class Attempt:
     """``when``: the reason to try, or None. ``work``: the limit, None for none. ``keep``: which outcomes are taken.
-    ``shorten``: the answer is long where it could be short, and worth another look.
+    ``shorten``: the answer is long where it could be short, and worth another look. ``spare``: a complete outcome that
+    is not kept is taken after all where the next attempt does not end within ``SPARE`` units of work.
     """
 
     scope: Scope
@@ -96,6 +97,7 @@ class Attempt:
     work: int | None = None
     keep: Callable[[Outcome, Problem], bool] = any_outcome
     shorten: bool = False
+    spare: bool = False
 
     def load(self) -> EliminationMethod:
         """The method itself."""
@@ -104,8 +106,9 @@ class Attempt:
         return found
 
 
-SHORTCUT, FIRST, PROBE = 20_000, 60_000, 1_000
-"""Units of work of shortcuts; of a first method while another could take over; of a short try before decomposition.
+SHORTCUT, FIRST, PROBE, SPARE = 20_000, 60_000, 1_000, 60_000
+"""Units of work of shortcuts; of a first method while another could take over; of a short try before decomposition; of
+whatever might give a shorter answer than the one that is known.
 
 A unit is one cell, or about the time of one (a tenth of a millisecond); see ``Budget.spend``.
 """
@@ -121,7 +124,7 @@ STRATEGY: tuple[Attempt, ...] = (
     Attempt(Scope.BLOCK, "infinity first", on.one_variable_and_parameters),
     Attempt(Scope.BLOCK, "critical", on.convex_conditions, FIRST),
     Attempt(Scope.BLOCK, "vs", on.low_degrees, FIRST, complete_if_closed, shorten=True),
-    Attempt(Scope.BLOCK, "vs", on.worth_a_short_try, PROBE, complete_and_small, shorten=True),
+    Attempt(Scope.BLOCK, "vs", on.worth_a_short_try, PROBE, complete_and_small, shorten=True, spare=True),
     Attempt(Scope.BLOCK, "cad", on.complete),
     Attempt(Scope.BLOCK, "vs", on.always, None, complete_if_closed, shorten=True),
     Attempt(Scope.INNER, "vs", on.always, FIRST, complete),

@@ -8,24 +8,27 @@ coefficients proved not to vanish at the point, which changes no roots; only zer
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import reduce
 
 from qe.exact.ring import Poly
+from qe.exact.watch import IDLE, Watch, watched_product
 
 Coefficients = tuple[Poly, ...]
 
 
-def squarefree_coefficients(f: Coefficients, vanishes: Callable[[Poly], bool]) -> Coefficients:
+def squarefree_coefficients(f: Coefficients, vanishes: Callable[[Poly], bool], watch: Watch = IDLE) -> Coefficients:
     """The coefficients (low to high) of a polynomial with the same roots at the point, all simple.
 
-    ``f``: coefficients of a polynomial of degree at least 1 whose leading one does not vanish at the point.
+    ``f``: coefficients of a polynomial of degree at least 1 whose leading one does not vanish at the point. ``watch``
+    is asked between products.
     """
     slope = tuple(k * c for k, c in enumerate(f))[1:]
-    common = common_coefficients(f, slope, vanishes)
-    return f if len(common) == 1 else _primitive(_pseudo_divide(f, common)[0])
+    common = common_coefficients(f, slope, vanishes, watch)
+    return f if len(common) == 1 else _primitive(_pseudo_divide(f, common, watch)[0], watch)
 
 
-def common_coefficients(f: Coefficients, g: Coefficients, vanishes: Callable[[Poly], bool]) -> Coefficients:
+def common_coefficients(
+    f: Coefficients, g: Coefficients, vanishes: Callable[[Poly], bool], watch: Watch = IDLE
+) -> Coefficients:
     """A greatest common divisor at the point (Euclid), with a leading coefficient that does not vanish there.
 
     ``f`` and ``g``: coefficients low to high, not all vanishing.
@@ -34,20 +37,20 @@ def common_coefficients(f: Coefficients, g: Coefficients, vanishes: Callable[[Po
     if len(f) < len(g):
         f, g = g, f
     while len(g) > 1:
-        f, g = g, _primitive(_trimmed(_pseudo_divide(f, g)[1], vanishes))
+        f, g = g, _primitive(_trimmed(_pseudo_divide(f, g, watch)[1], vanishes), watch)
     return g or f
 
 
-def _pseudo_divide(f: Coefficients, g: Coefficients) -> tuple[Coefficients, Coefficients]:
+def _pseudo_divide(f: Coefficients, g: Coefficients, watch: Watch) -> tuple[Coefficients, Coefficients]:
     """(q, r) with lc(g)^k * f = q*g + r and r of lower degree than g."""
     rest, quotient = list(f), [f[0].ring.constant(0)] * max(0, len(f) - len(g) + 1)
     for k in range(len(quotient) - 1, -1, -1):
         lead = rest.pop()
-        quotient = [c * g[-1] for c in quotient]
+        quotient = [watched_product(c, g[-1], watch) for c in quotient]
         quotient[k] = quotient[k] + lead
-        rest = [c * g[-1] for c in rest]
+        rest = [watched_product(c, g[-1], watch) for c in rest]
         for i, c in enumerate(g[:-1]):
-            rest[k + i] = rest[k + i] - lead * c
+            rest[k + i] = rest[k + i] - watched_product(lead, c, watch)
     return tuple(quotient), tuple(rest)
 
 
@@ -58,9 +61,12 @@ def _trimmed(f: Coefficients, vanishes: Callable[[Poly], bool]) -> Coefficients:
     return f
 
 
-def _primitive(f: Coefficients) -> Coefficients:
+def _primitive(f: Coefficients, watch: Watch) -> Coefficients:
     """Divided by a common factor of the coefficients; it does not vanish at the point, as the leading one does not."""
     if not f:
         return f
-    shared = reduce(Poly.gcd, f)
+    shared = f[-1]
+    for c in f[:-1]:
+        watch()
+        shared = shared.gcd(c)
     return f if shared.is_constant and abs(shared.constant_value()) == 1 else tuple(c.exact_divide(shared) for c in f)

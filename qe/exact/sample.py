@@ -20,6 +20,7 @@ from qe.exact.remainder import common_coefficients, squarefree_coefficients
 from qe.exact.ring import Poly, Ring
 from qe.exact.tower import Tower
 from qe.exact.univariate import from_univariate
+from qe.exact.watch import Watch
 
 SMALL = 100
 """Zero tests use remainder sequences up to this degree, and normal forms in the tower of fields above (measured)."""
@@ -28,9 +29,10 @@ Coordinate = "fmpq | RealAlgebraic | FibreRoot"
 
 
 class Point:
-    """A point of R^depth; immutable apart from caches."""
+    """A point of R^depth; immutable apart from caches. Long arithmetic at it and above asks its ``watch``."""
 
-    __slots__ = ("_balls", "_reduced", "_tower", "_vanishing", "algebraic", "depth", "parent", "ring", "value", "zeros")
+    __slots__ = ("_balls", "_reduced", "_tower", "_vanishing", "algebraic", "depth")
+    __slots__ += ("parent", "ring", "value", "watch", "zeros")
 
     def __init__(
         self,
@@ -38,8 +40,10 @@ class Point:
         parent: Point | None = None,
         value: fmpq | RealAlgebraic | FibreRoot | None = None,
         zeros: tuple[Poly, ...] = (),
+        watch: Watch | None = None,
     ) -> None:
         self.ring, self.parent, self.zeros = ring, parent, zeros
+        self.watch: Watch = parent.watch if parent is not None else watch or Watch()
         self._vanishing: tuple[Poly, ...] | None = None
         if isinstance(value, RealAlgebraic) and value.is_rational:
             value = value.as_fmpq()
@@ -154,6 +158,7 @@ class Point:
                 sign = ball_sign(self.enclose(g, bits))
             if sign is not None:
                 return sign
+            self.watch()
             bits *= 2
         return None
 
@@ -161,6 +166,7 @@ class Point:
         """Whether a polynomial in the algebraic coordinates vanishes, by exact arithmetic alone."""
         if g.is_constant:
             return not g
+        self.watch()
         at = self.ancestor(g.level + 1)
         if any(divides(f, g) for f in at.vanishing):
             return True
@@ -305,7 +311,7 @@ class Fibre:
             if self.point.vanishes(c1 * c1 - 4 * (c2 * c0)):
                 self.coefficients = (c1, 2 * c2)
             return
-        self.coefficients = squarefree_coefficients(self.coefficients, self.point.vanishes)
+        self.coefficients = squarefree_coefficients(self.coefficients, self.point.vanishes, self.point.watch)
 
     def element(self) -> fmpq_mpoly:
         """The polynomial over the point's tower, reduced, with a provably nonzero leading coefficient."""
@@ -382,5 +388,5 @@ def divides(f: Poly, g: Poly) -> bool:
 
 def common_fibre(f: Fibre, g: Fibre) -> Fibre | None:
     """The greatest common divisor of two fibres over one point, not both zero, or None if it is constant."""
-    common = common_coefficients(f.coefficients, g.coefficients, f.point.vanishes)
+    common = common_coefficients(f.coefficients, g.coefficients, f.point.vanishes, f.point.watch)
     return None if len(common) == 1 else Fibre(f.point, f.var, common)

@@ -80,9 +80,18 @@ class RunLog:
         """A place to which ``forget_steps`` goes back."""
         return len(self.entries)
 
-    def forget_steps(self, mark: int) -> None:
-        """Leave out the steps since a mark: the attempt was given up. Choices, switches and figures stay."""
+    def forget_steps(self, mark: int) -> tuple[Step, ...]:
+        """Leave out the steps since a mark: the attempt was given up. Choices, switches and figures stay.
+
+        The steps are returned, for ``take_up``.
+        """
+        left_out = tuple(e for e in self.entries[mark:] if isinstance(e, Step))
         self.entries[mark:] = [e for e in self.entries[mark:] if not isinstance(e, Step)]
+        return left_out
+
+    def take_up(self, steps: tuple[Step, ...]) -> None:
+        """Record steps that were left out: the attempt that gave them is taken after all."""
+        self.entries.extend(steps)
 
     def __repr__(self) -> str:
         return f"RunLog({len(self.entries)} entries)"

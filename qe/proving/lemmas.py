@@ -16,7 +16,6 @@ from qe.certify.negation import normal
 from qe.certify.signs import read_lemma
 from qe.certify.step import Limits
 from qe.elimination.search.monomial_bounds import MonomialBounds, is_square
-from qe.proving.cofactors import cofactors
 from qe.exact.algebraic import real_roots
 from qe.exact.nearby import rational_between
 from qe.exact.quadratic_form import solve_linear
@@ -26,6 +25,7 @@ from qe.formula.traverse import children, conjuncts
 from qe.options import Budget
 from qe.proof.entry import Entry, Json, poly_to_text
 from qe.proving.cofactors import cofactors
+from qe.rules.cancelling import difference
 from qe.simplify.facts import factor_list, key_of
 from qe.simplify.minima import minimum
 
@@ -220,6 +220,7 @@ def _algebra(found: Lemmas, polys: dict[Poly, bool]) -> None:
         for poly in list(polys):
             if poly != equation:
                 pool.update(dict.fromkeys(_reduced(found, poly, equation)))
+                pool.update(dict.fromkeys(_cancelled(found, poly, equation)))
     _differences(found, pool)
     for poly in pool:
         _squares(found, poly)
@@ -283,6 +284,17 @@ def _reduced(found: Lemmas, poly: Poly, equation: Poly) -> list[Poly]:
         return []
     primitive = image.normal()[1]
     return [primitive, *_factored(found, primitive)] if factors else [primitive]
+
+
+def _cancelled(found: Lemmas, poly: Poly, equation: Poly) -> list[Poly]:
+    """a * poly = b * equation + r, where that makes a product r."""
+    known = difference(poly, equation)
+    if known is None:
+        return []
+    a, b, rest = known
+    found.identity([(a, ((poly, 1),)), (-b, ((equation, 1),)), (-1, ((rest, 1),))])
+    primitive = rest.normal()[1]
+    return [primitive, *_factored(found, primitive)]
 
 
 def _differences(found: Lemmas, pool: Iterable[Poly]) -> None:

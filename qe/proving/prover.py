@@ -37,7 +37,12 @@ from qe.proving.substitution_steps import steps
 TABLE_WORK = 3_000
 """Units of work for a decomposition that proves a single step."""
 
-SIMPLIFYING = ("simplification", "standard simplification")
+SIMPLIFYING = (
+    "simplification",
+    "standard simplification",
+    "Groebner basis of the equations",
+    "multiple of an equation subtracted",
+)
 """Rules whose steps go on under quantifiers."""
 
 CRITICAL, SEARCH = "critical values", "Boolean search"
@@ -318,7 +323,7 @@ class Prover:
 
     def _searched(self, step: Step, evidence: dict[str, Json]) -> dict[str, Json] | None:
         """The evidence for a refutation by a Boolean search, with the clauses that lead to a contradiction."""
-        from qe.engine.search_proof import with_clauses
+        from qe.proving.search import with_clauses
 
         try:
             return with_clauses(self._claim(step.rule, step, evidence), self.limits)

@@ -8,6 +8,7 @@ from qe.formula.build import exists
 from qe.formula.syntax import FALSE, Formula
 from qe.rules.balls import two_balls
 from qe.rules.block_context import BlockContext, Rule
+from qe.rules.cancelling import cancel_equations
 from qe.rules.cases import groebner_equations, split_factors, split_squares
 from qe.rules.degree_shift import shift_degree
 from qe.rules.generic import drop_inequations
@@ -27,6 +28,7 @@ RULES: tuple[Rule, ...] = (
     fix_origin,
     drop_inequations,
     split_squares,
+    cancel_equations,
     groebner_equations,
     shift_degree,
     split_factors,

@@ -105,12 +105,17 @@ def _block(formula: Exists | ForAll, context: BlockContext) -> Node:
 def _reduced(formula: And | Or, assumed: tuple[Formula, ...], context: BlockContext) -> tuple[Formula, ...]:
     """The parts, those with quantifiers reduced by the equations assumed inside them: what these say need not be found
     out once more where it cannot be seen."""
-    from qe.rules.equations import reduce_by_equations
+    from qe.rules.cancelling import cancel_by
+    from qe.rules.equations import reduce_by_equations, split_equations
 
-    if StepKind.GROEBNER not in context.enabled:
-        return formula.args
-    parts = reduce_by_equations(assumed, formula.args)
-    context.step(StepKind.GROEBNER.value, formula, (conj if isinstance(formula, And) else disj)(parts))
+    join, parts = conj if isinstance(formula, And) else disj, formula.args
+    if StepKind.GROEBNER in context.enabled:
+        parts = reduce_by_equations(assumed, parts)
+        context.step(StepKind.GROEBNER.value, formula, join(parts))
+    if StepKind.CANCELLING in context.enabled:
+        equations, before = split_equations(assumed)[0], parts
+        parts = tuple(p if p.is_quantifier_free else cancel_by(equations, p) for p in parts)
+        context.step(StepKind.CANCELLING.value, join(before), join(parts))
     return parts
 
 

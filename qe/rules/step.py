@@ -23,13 +23,14 @@ class StepKind(Enum):
     ROTATION = "rotation of the axes"
     SCALING = "homogeneous scaling"
     GROEBNER = "Groebner basis of the equations"
+    CANCELLING = "multiple of an equation subtracted"
     FACTOR_SPLIT = "case split on factors"
     DISTRIBUTION = "disjuncts with equations apart"
     SUM_OF_SQUARES = "vanishing sum of squares split"
 
 
 ALL_STEPS = frozenset(StepKind)
-EQUATION_STEPS = frozenset({StepKind.LINEAR, StepKind.GUARDED_LINEAR, StepKind.GROEBNER})
+EQUATION_STEPS = frozenset({StepKind.LINEAR, StepKind.GUARDED_LINEAR, StepKind.GROEBNER, StepKind.CANCELLING})
 SYMMETRY_STEPS = frozenset({StepKind.TRANSLATION, StepKind.ROTATION, StepKind.SCALING})
 POINTWISE_STEPS = frozenset(
     {StepKind.SIMPLIFY, StepKind.MINISCOPE, StepKind.GROEBNER, StepKind.FACTOR_SPLIT, StepKind.SUM_OF_SQUARES}

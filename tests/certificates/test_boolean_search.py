@@ -15,7 +15,6 @@ from qe.elimination.protocol import Context, Outcome, Problem
 from qe.elimination.search.clauses import Clauses
 from qe.elimination.search.method import RULE, BooleanSearch
 from qe.elimination.search.theory import Theory
-from qe.proving.prover import Prover
 from qe.engine.run import _Run
 from qe.errors import InternalError
 from qe.formula.build import conj, exists, forall
@@ -25,6 +24,7 @@ from qe.io.text import read
 from qe.options import Budget, Options
 from qe.proof.run_log import RunLog
 from qe.proof.step import Step
+from qe.proving.prover import Prover
 from tests.unit.certify.claims import objection
 from tests.unit.search.test_search import FORMULAS, RING, WITHOUT, many
 

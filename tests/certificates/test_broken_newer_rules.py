@@ -9,6 +9,7 @@ from fractions import Fraction
 import pytest
 
 import qe.engine.untangle as untangle
+import qe.rules.cancelling as cancelling
 import qe.rules.gather as gather
 import qe.rules.rotation as rotation
 import qe.rules.structural as structural
@@ -28,11 +29,12 @@ from qe.rules.step import StepKind
 from qe.rules.tree import Any, Node
 from tests.certificates.test_broken_producers import Patch, accepted
 
-GATHERED, TURNED, APART, TAKEN = (
+GATHERED, TURNED, APART, TAKEN, CANCELLED = (
     StepKind.GATHERING,
     StepKind.ROTATION,
     StepKind.DISTRIBUTION,
     StepKind.TAKES_VALUE,
+    StepKind.CANCELLING,
 )
 
 
@@ -106,7 +108,25 @@ def only_equations(m: pytest.MonkeyPatch) -> None:
     m.setattr(takes_value, "free_variables", lambda part: part.free if part.relation is Relation.EQ else ())
 
 
+def wrong_side(m: pytest.MonkeyPatch) -> None:
+    """The sign of what remains is not looked at."""
+    real = cancelling.difference
+
+    def flipped(poly: Poly, equation: Poly) -> tuple[int, int, Poly] | None:
+        known = real(poly, equation)
+        return None if known is None else (known[0], known[1], -known[2])
+
+    m.setattr(cancelling, "difference", flipped)
+
+
+def equation_lost(m: pytest.MonkeyPatch) -> None:
+    """The equation that was subtracted does not stay."""
+    m.setattr(cancelling, "conj", lambda parts: conj(parts[1:]))
+
+
 CASES: dict[str, tuple[Patch, str, StepKind]] = {
+    "wrong side": (wrong_side, "ex x, y. x^3 + a*x + b = 0 and y^3 + a*y + b > 0", CANCELLED),
+    "equation lost": (equation_lost, "ex x, y. x^3 + a*x + b = 0 and y^3 + a*y + b = 0", CANCELLED),
     "captured": (captured, "ex x. x > y and ex y. x*y > 1", GATHERED),
     "captured, dual": (captured, "all x. x > y or (all y. x*y > 1)", GATHERED),
     "disjunction": (under_or, "ex x. x > a or ex y. x*y > 1", GATHERED),

@@ -23,7 +23,6 @@ from qe.certify.verify import check_certificate
 from qe.elimination.cad import certificate_for
 from qe.elimination.critical.method import by_critical_values
 from qe.elimination.protocol import Context
-from qe.engine import critical_proof
 from qe.errors import CertificateRejected, Unable
 from qe.exact.ring import Ring
 from qe.formula.build import conj, convert, disj
@@ -35,6 +34,7 @@ from qe.proof.cells_json import CellEvidence
 from qe.proof.derivation import moved
 from qe.proof.entry import Entry, Json
 from qe.proof.run_log import RunLog
+from qe.proving import critical as critical_proof
 
 DISC = "ex x, y. (x - a)^2 + (y - b)^2 <= 1 and x^2 + y^2 <= 4"
 ELLIPSE = "ex x, y. (x - a)^2 + (y - b)^2 <= 1 and x^2 + 4*y^2 <= 1"

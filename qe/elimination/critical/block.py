@@ -20,6 +20,7 @@ from qe.exact.nearby import nearby
 from qe.exact.quadratic_form import quadratic
 from qe.exact.ring import Poly, Ring
 from qe.exact.sample import Point
+from qe.exact.watch import Watch
 from qe.formula.build import convert
 from qe.formula.syntax import TRUE, Formula
 from qe.options import Budget, Projection
@@ -143,7 +144,7 @@ class Run:
         begins in it: then all of (p, c] is interior (Rockafellar 1970, Theorem 6.1), and otherwise p has a
         neighbourhood outside.
         """
-        origin = Point(self.system.ring)
+        origin = Point(self.system.ring, watch=Watch(self.budget.check))
         exploration = OpenCells(self._levels(surfaces), self.fibres.hold_at, self.budget, hint)
         exploration.explore(origin)
         self.stats.update({"hypersurfaces": len(surfaces), "cells decided": exploration.decided})
@@ -193,7 +194,7 @@ class Run:
             levels = self.procedures.project(boundary, size, projection, self.budget, closed)
             known = Shape.CLOSED if shape is Shape.CONVEX and size > 2 and projection is Projection.LAZARD else shape
             builder = TableBuilder(levels, projection, boundary, known, truth, self.budget)
-            root = builder.run(Point(self.system.ring))
+            root = builder.run(Point(self.system.ring, watch=Watch(self.budget.check)))
             outer = Ring.of(self.system.ring.names[:size])
             factors = tuple(tuple(f.convert(outer) for f in level) for level in levels)
             table = CellTable(outer.names, ("",) * size, TRUE, projection, factors, root)

@@ -9,7 +9,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from qe.elimination.search.monomial_bounds import MonomialBounds
-from qe.proving.prover import Prover
 from qe.exact.ring import Ring
 from qe.formula.build import atom, conj, convert
 from qe.formula.syntax import FALSE, Atom, Formula, Relation
@@ -17,6 +16,7 @@ from qe.formula.traverse import conjuncts
 from qe.io.text import read
 from qe.options import Budget, Options
 from qe.proof.step import Step
+from qe.proving.prover import Prover
 
 RING = Ring.of(("a", "b", "s", "t", "x", "y", "z"))
 

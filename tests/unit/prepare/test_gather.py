@@ -30,7 +30,12 @@ def blocks(formula: Formula) -> list[tuple[str, ...]]:
         ("all x. x > a or (all y. x*y > 1)", [("x", "y")]),
         ("ex x. x > a and (all y. x*y > 1)", [("x",), ("y",)]),
         ("ex x. x > a or ex y. x*y > 1", [("x",), ("y",)]),
-        ("ex x. (all y. x*y > 1) and ex z. x*z^3 > a", [("x", "z"), ("y",)]),
+        ("ex x. (all y. x*y > 1) and ex z. x*z^3 > a", [("x",), ("y",), ("z",)]),  # inner blocks go first
+        ("ex x. (all y. x*y > 1) and ex z. x*z^3 = a", [("x", "z"), ("y",)]),  # but for an equation to solve
+        ("all x. (ex y. x*y > 1) or (all z. x*z^3 = a)", [("x",), ("y",), ("z",)]),
+        ("all x. (ex y. x*y > 1) or (all z. x*z^3 /= a)", [("x", "z"), ("y",)]),
+        ("ex x. x^3 = 1 and (all y. x*y > 1) and ex z. z > a", [("x", "z"), ("y",)]),
+        ("ex x. a^3 = 1 and (all y. x*y > 1) and ex z. z > a", [("x",), ("y",), ("z",)]),
     ],
 )
 def test_blocks_of_one_kind_are_one_block(text: str, left: list[tuple[str, ...]]) -> None:

@@ -1,0 +1,49 @@
+"""A complete answer that is long is taken after all where the next method does not end in little work."""
+
+from __future__ import annotations
+
+import pytest
+
+import qe
+from qe.engine import run as engine
+from qe.io.text import read
+from qe.proof.run_log import RunLog
+
+QUESTION = (
+    "all p, q. a^2 + b^2 <= 1 and a >= 0 and b >= 0 and ((a - p)^2 + (b - q)^2 <= 1 and (a + p)^2 + (b + q)^2 <= 1 and"
+    " a - p >= 0 and a + p >= 0 and b - q >= 0 and b + q >= 0 -> p = 0 and q = 0)"
+)
+EXTREME = "a >= 0 and b >= 0 and (a^2 + b^2 = 1 or a = 0 and b = 0)"
+"""The extreme points of a quarter of a disc: the points that are no midpoint of two others."""
+
+
+@pytest.mark.parametrize("work", [50, engine.SPARE])
+def test_extreme_points_of_a_quarter_disc(monkeypatch: pytest.MonkeyPatch, work: int) -> None:
+    """Decomposition would need 300,000 cells; substitution ends in 200 units of work with 40 atoms."""
+    monkeypatch.setattr(engine, "SPARE", work)
+    answer = qe.eliminate(QUESTION, process=False)
+    assert qe.decide(f"all a, b. ({answer.formula}) <-> ({EXTREME})")
+    assert "vs for p, q: its answer is long, but known" in answer.explanation
+    assert [step.rule for step in answer.derivation.steps].count("elimination set") == 1
+
+
+def test_the_next_method_is_taken_where_it_ends(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The same long answer stays unused if decomposition ends, and none of its steps is left."""
+    monkeypatch.setattr("qe.engine.strategy.SMALL_ATOMS", 0)
+    answer = qe.eliminate("ex x, y. x^2 + y^2 < 1 and x*y > a and x + y > b", process=False)
+    assert "its answer is long" in answer.explanation
+    assert "elimination set" not in [step.rule for step in answer.derivation.steps]
+
+
+def test_steps_are_left_out_and_taken_up_again() -> None:
+    log = RunLog()
+    one, two = read("x > 0"), read("x > 1")
+    mark = log.mark()
+    log.step("first", one, two)
+    log.switch("first", "why not")
+    left_out = log.forget_steps(mark)
+    assert [s.rule for s in left_out] == ["first"]
+    assert not list(log.steps())
+    log.take_up(left_out)
+    assert [s.rule for s in log.steps()] == ["first"]
+    assert len(log.entries) == 2
