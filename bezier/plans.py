@@ -21,6 +21,7 @@ from bezier.paths.heights import Heights
 from bezier.paths.path import Path
 from bezier.problem import PlanMethod, Problem
 from qe.errors import BudgetExceeded
+from qe.formula.syntax import Formula
 from qe.progress import Event, Listener, silent
 from qe.proof.certificate import Certificate
 
@@ -58,8 +59,9 @@ class Attempt:
 @dataclass(frozen=True, slots=True)
 class RadiusRule:
     """``forced``: the via points on the sphere with the free points that must equal them; ``sentences``: what the
-    engine decided to be true; ``solvable``: whether the problem has a solution all the same; ``larger``: a radius with
-    which the best path does not stop at a via point, None when none was found up to three times the radius.
+    engine decided to be true, ``answers``: how, by what was asked; ``solvable``: whether the problem has a solution all
+    the same; ``larger``: a radius with which the best path does not stop at a via point, None when none was found up to
+    three times the radius.
     """
 
     method: PlanMethod
@@ -67,6 +69,7 @@ class RadiusRule:
     sentences: tuple[str, ...]
     solvable: bool
     larger: Fraction | None
+    answers: Mapping[str, Any] = field(default_factory=dict, compare=False)
 
     def in_words(self) -> str:
         """What the rule forces, and the way out, as one sentence."""
@@ -95,6 +98,26 @@ class RadiusRule:
         }
 
 
+@dataclass(frozen=True, slots=True)
+class Derived:
+    """An elimination with a certificate of its derivation that was accepted; ``answer`` is None in a plan that was
+    found again from its files."""
+
+    certificate: Certificate
+    answer: Any = None
+
+    @property
+    def rules(self) -> tuple[str, ...]:
+        """The rules of its steps, in their order."""
+        payload: Any = self.certificate.payload
+        return tuple(step["rule"] for step in payload["steps"])
+
+
+def derivation_page(number: int) -> str:
+    """The name of the file with the derivation of this number, counted from 1, as a page."""
+    return f"derivation_{number}.html"
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Plan:
     """What every method finds out. ``path`` and ``objective`` are None exactly when the problem is infeasible.
@@ -105,6 +128,9 @@ class Plan:
     ``findings``: each curve and each obstacle; ``attempts``: what was tried to get around the obstacles;
     ``quality``: lengths, curvatures and the motion in time. ``heights``: the height condition, decided for all curves.
     ``radius_rule``: what the radius forces where a via point lies on the sphere. ``joints``: of the arm.
+    ``eliminations``: the answers of the engine that the plan rests on, by what was asked; ``derivations``: those of
+    them (and of what else was eliminated for the plan) whose every step was checked, where that was asked for;
+    ``unproved``: why others were not.
     """
 
     problem: Problem
@@ -124,6 +150,9 @@ class Plan:
     heights: Heights | None = None
     radius_rule: RadiusRule | None = None
     joints: JointPlan | None = None
+    eliminations: Mapping[str, Any] = field(default_factory=dict)
+    derivations: Mapping[str, Derived] = field(default_factory=dict)
+    unproved: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def unit(self) -> str:
@@ -136,6 +165,11 @@ class Plan:
         found = ("seconds", "attempts") if len(self.attempts) > 1 else ("seconds",)
         has_radius = self.radius_rule is not None and self.radius_rule.larger is not None
         return (*found, "radius_rule.larger_radius") if has_radius else found
+
+    @property
+    def derivation_pages(self) -> dict[str, str]:
+        """The files with the derivations as pages, by what was asked."""
+        return {name: derivation_page(k) for k, name in enumerate(self.derivations, start=1)}
 
     @property
     def certified(self) -> bool:
@@ -235,7 +269,8 @@ class Method(Generic[P]):
     name. ``draw``: writes the pictures into a folder. ``hatted_names``: whether the paper writes its points with hats.
     ``story``: what its page says beyond what every page says, with the drawing if there is one.
     ``restore``: the plan that the certificates in a folder prove, without any search; ``CertificateRejected`` where
-    they are not about the problem.
+    they are not about the problem. ``questions``: what it may ask the engine about a problem, by the names that its
+    plan has for the answers in ``eliminations``.
     """
 
     make: Callable[[Problem, Clock], P]
@@ -247,3 +282,4 @@ class Method(Generic[P]):
     hatted_names: bool
     story: Callable[[P, Drawing | None], Story]
     restore: Callable[[Problem, Certificate, Stated], Restored[P]]
+    questions: Callable[[Problem], Mapping[str, Formula]]

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from qe.certify.verify import verify as checked
 from qe.errors import InternalError, Unable
 from qe.formula.syntax import Formula
-from qe.options import VERIFY_SECONDS, Budget
+from qe.options import VERIFY_SECONDS, Budget, Options
 from qe.proof.answer import Answer, Guarantee
 from qe.proof.cells_json import CellEvidence
 from qe.proof.certificate import Certificate, Labelled
@@ -68,6 +68,25 @@ def with_verdict(answer: Answer, budget: Budget) -> Answer:
         return replace(answer, guarantee=guarantee)
     answer.log.switch("certificate", reason)
     return replace(answer, certificate=None, guarantee=guarantee, reason=reason)
+
+
+def with_derivation(answer: Answer, timeout: float | None = None) -> Answer:
+    """The answer with its own derivation as its certificate, evidence for each step found now and verified.
+
+    Nothing is eliminated again: the steps are those that led to the answer, whether or not a check was asked for then.
+    Where a step has no accepted evidence, or ``timeout`` (seconds) is over, the answer has no certificate and the
+    guarantee ``DERIVED``; ``unchecked_steps`` and ``reason`` say why. Raises ``Unable`` for what is no answer.
+    """
+    from qe.engine.run import derived
+
+    if answer.formula is None or answer.question is None:
+        raise Unable(f"there is no derivation: {answer.reason or 'nothing was asked'}")
+    budget = Budget(timeout)
+    found = derived(answer.question, answer.log, answer.formula, Options(certify=True), budget)
+    proof = replace(answer, certificate=found.certificate, unchecked_steps=found.unchecked)
+    if found.certificate is None:
+        return replace(proof, guarantee=Guarantee.DERIVED, reason=proof.why_unchecked)
+    return with_verdict(proof, budget)
 
 
 def judged(certificate: Certificate | None, budget: Budget) -> tuple[Guarantee, str]:

@@ -10,11 +10,11 @@ summary) is only read.
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path as FilePath
-from typing import Any
+from typing import Any, TypeVar
 
 from bezier.check.agreement import same_data, same_rows
 from bezier.check.stated import stated_problem
@@ -22,6 +22,7 @@ from bezier.input import stored
 from bezier.obstacles import survey
 from bezier.planner import avoid
 from bezier.planner.arm import with_joints
+from bezier.planner.derivations import with_stated
 from bezier.planner.outputs import COMPARISON, DATA, LISTED_IN, PICTURES, PROBLEM, REPORT, SUMMARY, data_texts, facts
 from bezier.planner.planning import with_findings, with_quality
 from bezier.planner.radius_rule import stated_rule
@@ -36,6 +37,7 @@ from qe.proof.certificate import Certificate
 from qe.worker import Channel
 
 CERTIFICATE, PATH = "certificate.json", "path.json"
+T = TypeVar("T")
 ROUNDING = Fraction(1, 10**6)
 """Times are rounded to microseconds."""
 
@@ -62,17 +64,29 @@ def recheck(channel: Channel, folder: FilePath) -> list[str]:
 
 def restored(problem: Problem, certificate: Certificate, stated: Stated) -> tuple[Plan, tuple[str, ...]]:
     """The plan that the certificates and the stated path prove, and what was checked for that."""
-    try:
-        found = method_of(problem.method).restore(problem, certificate, stated)
-    except CertificateRejected as error:
-        step = error.step if ".json" in error.step else f"{CERTIFICATE}: {error.step}"
-        raise CertificateRejected(step, error.reason) from None
+    found = _of_certificate(lambda: method_of(problem.method).restore(problem, certificate, stated))
     plan: Plan = found.plan
     if problem.obstacles:
         plan = avoid.with_stated_attempts(avoid.examined(plan), stated.summary.get("attempts"))
     larger = stated_radius(stated.summary)
     plan = with_findings(plan, lambda solvable: stated_rule(problem, solvable, larger))
-    return with_joints(with_quality(plan)), found.lines
+    moving = with_joints(with_quality(plan))
+    whole = _of_certificate(lambda: with_stated(moving, certificate))
+    return whole, (*found.lines, *_derived(whole))
+
+
+def _of_certificate(work: Callable[[], T]) -> T:
+    """What ``work`` finds; what it rejects is in the certificate, where it does not name another file."""
+    try:
+        return work()
+    except CertificateRejected as error:
+        step = error.step if ".json" in error.step else f"{CERTIFICATE}: {error.step}"
+        raise CertificateRejected(step, error.reason) from None
+
+
+def _derived(plan: Plan) -> list[str]:
+    count = len(plan.derivations)
+    return [f"the derivation{'s' * (count > 1)} of {', '.join(plan.derivations)}: every step"] if count else []
 
 
 def stated_radius(summary: Mapping[str, Any]) -> Fraction | None:
@@ -156,7 +170,8 @@ def _check_summary(plan: Plan, summary: Mapping[str, Any], folder: FilePath) -> 
     expected = _data(facts(plan))
     rest = {key: value for key, value in summary.items() if key not in ("files", "seconds")}
     same_data(SUMMARY, rest, expected)
-    _check_listing(stored.entry(summary, "files", list, f"{SUMMARY}: "), [*data_texts(plan), REPORT, SUMMARY], folder)
+    written = [*data_texts(plan), *plan.derivation_pages.values(), REPORT, SUMMARY]
+    _check_listing(stored.entry(summary, "files", list, f"{SUMMARY}: "), written, folder)
     _check_times(stored.entry(summary, "seconds", dict, f"{SUMMARY}: "))
 
 

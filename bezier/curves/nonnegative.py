@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from math import lcm
 from typing import Any
 
 from bezier.curves import bernstein as bs
@@ -199,6 +200,8 @@ def located(b: bs.Coefficients, interval: Interval) -> Interval:
 def refine(b: Sequence[Any], interval: Interval, width: Fraction) -> Interval:
     """Bisect an isolating interval of a simple root down to at most ``width``."""
     low, high = interval
+    if 0 <= low < high <= 1 and all(isinstance(c, (int, Fraction)) for c in b):
+        return _refined(bs.to_power(bs.restrict(b, low, high)), low, high, width)
     below = sign(bs.value(b, low))
     while high - low > width:
         middle = (low + high) / 2
@@ -207,3 +210,28 @@ def refine(b: Sequence[Any], interval: Interval, width: Fraction) -> Interval:
             return middle, middle
         low, high = (middle, high) if here == below else (low, middle)
     return low, high
+
+
+def _refined(power: Sequence[Any], low: Fraction, high: Fraction, width: Fraction) -> Interval:
+    """The same for a polynomial over Q on an interval that is mapped to [0, 1]: signs at k/2^n, by integers alone."""
+    common = lcm(*(c.denominator for c in power))
+    numbers = [c.numerator * (common // c.denominator) for c in reversed(power)]
+    left, depth, wide = 0, 0, high - low
+    below = sign(numbers[-1]) if numbers else 0
+    while wide > width * (1 << depth):
+        left, depth = 2 * left, depth + 1
+        here = _sign_at_dyadic(numbers, left + 1, depth)
+        if here == 0:
+            middle = low + wide * Fraction(left + 1, 1 << depth)
+            return middle, middle
+        left += here == below
+    return low + wide * Fraction(left, 1 << depth), low + wide * Fraction(left + 1, 1 << depth)
+
+
+def _sign_at_dyadic(numbers: Sequence[int], at: int, depth: int) -> int:
+    """The sign of a polynomial, its leading coefficient first, at ``at`` / 2^``depth``."""
+    total, shift = 0, 0
+    for c in numbers:
+        total = total * at + (c << shift)
+        shift += depth
+    return (total > 0) - (total < 0)

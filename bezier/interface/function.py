@@ -70,6 +70,7 @@ def plan(
     join_speed: object = None,
     single: Mapping[str, object] | None = None,
     arm: object = None,
+    proofs: bool = False,
     timeout: float | None = None,
     memory: int | None = None,
     progress: Listener = silent,
@@ -81,6 +82,9 @@ def plan(
     max_acceleration), each a mapping with their keys; ``arm`` names an arm that has to follow the path. Numbers may
     be ints, floats, fractions, decimals, texts such as "3/4" or "sqrt(27)" for the radius, numpy's, SymPy's; a
     float is the decimal number that it prints. Lengths in mm.
+
+    With ``proofs`` every elimination that the plan rests on comes with its derivation (``plan.derivations``), of which
+    each step is checked; they are part of ``plan.certificate``, and ``plan.save`` writes them as pages, too.
 
     With ``timeout`` (seconds) or ``memory`` (MiB) the work runs in a process that is killed at the limit, as for
     ``qe.eliminate``; ``progress`` is told each step.
@@ -107,7 +111,7 @@ def plan(
         "arm": arm,
     }
     bounds = Limits(arguments.seconds(timeout), arguments.mebibytes(memory), arguments.listener(progress))
-    made = _made(problem_from(given), bounds)
+    made = _made(problem_from(given), bounds, proofs=arguments.flag(proofs, "proofs"))
     planned = Planned(made, time.perf_counter() - begin)
     reason = why_not(made)
     if reason is not None:
@@ -123,15 +127,15 @@ def problem_from(given: Mapping[str, object]) -> Problem:
     return problem_of(Table(values, SOURCE, names=NAMES))
 
 
-def _made(problem: Problem, limits: Limits) -> Plan:
+def _made(problem: Problem, limits: Limits, *, proofs: bool = False) -> Plan:
     """The plan under the limits; where there are any, in a process that can be killed."""
 
     def work(budgets: Callable[[], Budget]) -> Plan:
         budget = budgets()
-        return make_plan(problem, Clock(limit=budget.remaining(), listener=budget.listener))
+        return make_plan(problem, Clock(limit=budget.remaining(), listener=budget.listener), proofs=proofs)
 
     if limits.timeout is None and limits.memory is None:
-        return make_plan(problem, Clock(listener=limits.progress))
+        return make_plan(problem, Clock(listener=limits.progress), proofs=proofs)
     found: Any = perform(work, limits, at_once=True)
     assert isinstance(found, Plan)
     return found

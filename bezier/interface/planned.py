@@ -19,7 +19,7 @@ from bezier.obstacles.survey import Finding
 from bezier.paths.path import Path
 from bezier.planner import outputs, words
 from bezier.planner.folder import write_folder
-from bezier.plans import Clock, Outcome, Plan
+from bezier.plans import Clock, Derived, Outcome, Plan
 from bezier.problem import Problem
 from qe import arguments
 from qe.errors import InputError, Unable
@@ -105,6 +105,11 @@ class Planned:
     def certificate(self) -> Certificate:
         """For ``qe.verify`` and ``qe check``: everything about the plan, labelled."""
         return self.found.certificate
+
+    @property
+    def derivations(self) -> Mapping[str, Derived]:
+        """The derivations of the eliminations that the plan rests on, by what was asked; empty without ``proofs``."""
+        return self.found.derivations
 
     @property
     def certified(self) -> bool:

@@ -22,10 +22,11 @@ ELIMINATION_SECONDS = 20.0
 Constraints = tuple[Constraint, ...]
 
 
-def formula_pieces(table: Table) -> tuple[Piece, ...]:
+def formula_pieces(table: Table) -> tuple[tuple[Piece, ...], Any]:
     """The pieces of the obstacle ``formula = "..."``. Raises ``InputError`` naming the key.
 
-    Quantifiers are eliminated first; then the disjunctive normal form gives the pieces.
+    Quantifiers are eliminated first (the answer is the second result, None without any); then the disjunctive normal
+    form gives the pieces.
     """
     raw = table.required("formula", "a formula in x, y, z")
     if not isinstance(raw, str):
@@ -38,22 +39,20 @@ def formula_pieces(table: Table) -> tuple[Piece, ...]:
     if others:
         raise table.error("formula", "no free variables but x, y, z", shorten(", ".join(others)))
     try:
-        pieces = _pieces(nnf(_quantifier_free(formula)))
+        answer = None if is_quantifier_free(formula) else _answer(formula)
+        pieces = _pieces(nnf(formula if answer is None else answer.formula))
     except (InputError, Unable) as error:
         raise table.error("formula", "a formula that can be used", str(error)) from None
     if not pieces:
         raise table.error("formula", "a set that is not empty", "one that no point satisfies")
-    return tuple(Piece(piece) for piece in pieces)
+    return tuple(Piece(piece) for piece in pieces), answer
 
 
-def _quantifier_free(formula: Formula) -> Formula:
-    if is_quantifier_free(formula):
-        return formula
-    answer: Any = qe.eliminate(formula, timeout=ELIMINATION_SECONDS)
+def _answer(formula: Formula) -> Any:
+    answer = qe.eliminate(formula, timeout=ELIMINATION_SECONDS)
     if answer.formula is None:
         raise Unable(answer.reason or "its quantifiers were not eliminated")
-    found: Formula = answer.formula
-    return found
+    return answer
 
 
 def _pieces(formula: Formula) -> list[Constraints]:

@@ -77,7 +77,7 @@ class Obstacle:
     """The union of ``pieces``. ``body``: the convex body it is, where it is one; ``box``: a box around everything.
 
     ``margin`` is already included in the pieces and in the body. ``stated``: the table of the problem file, with exact
-    numbers.
+    numbers. ``elimination``: the engine's answer to the formula that it is given by, where that has quantifiers.
     """
 
     name: str
@@ -87,6 +87,7 @@ class Obstacle:
     box: Box | None = None
     margin: Fraction = ZERO
     stated: Mapping[str, Any] = field(default_factory=dict, compare=False)
+    elimination: Any = field(default=None, compare=False, repr=False)
 
     @property
     def top(self) -> Fraction | None:

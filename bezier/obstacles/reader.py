@@ -66,7 +66,8 @@ def _obstacle(table: Table, index: int) -> Obstacle:
     if build is None:
         if margin:
             raise table.error("margin", "no margin for a formula (write it into the formula)", shorten(str(margin)))
-        return Obstacle(name, kind, formula_pieces(table), stated=_stated(table.values))
+        pieces, elimination = formula_pieces(table)
+        return Obstacle(name, kind, pieces, stated=_stated(table.values), elimination=elimination)
     return from_body(name, kind, build(table, margin), margin, _stated(table.values))
 
 

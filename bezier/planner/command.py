@@ -39,7 +39,7 @@ class Request:
 def plan(channel: Channel, request: Request) -> Reply:
     """``bezier plan``: all files into ``request.folder``, and what to print."""
     clock = Clock(limit=request.timeout, listener=channel.event, note=channel.fact)
-    made = make_plan(request.problem, clock)
+    made = make_plan(request.problem, clock, proofs=True)
     files, told = write_folder(made, request.folder, request.target, clock, plots=request.plots)
     text = json.dumps(told, indent=1, ensure_ascii=False)
     code = OK if made.outcome is Outcome.SOLVED else UNABLE

@@ -8,6 +8,7 @@ from dataclasses import replace
 from pathlib import Path as FilePath
 from typing import TYPE_CHECKING, Any
 
+from bezier.planner import derivations
 from bezier.planner.outputs import REPORT, SUMMARY, summary, write_data
 from bezier.planner.table import method_of
 from bezier.plans import Clock, Plan
@@ -36,7 +37,10 @@ def write_folder(
 
         page = render(made, method, drawing)
         (folder / REPORT).write_text(page, encoding="utf-8")
-    files = sorted([*files, REPORT, SUMMARY])
+        pages = derivations.pages(made)
+        for name, text in pages.items():
+            (folder / name).write_text(text, encoding="utf-8")
+    files = sorted([*files, *pages, REPORT, SUMMARY])
     told = summary(made, [str(target / name) for name in files], time.perf_counter() - clock.start)
     text = json.dumps(told, indent=1, ensure_ascii=False)
     (folder / SUMMARY).write_text(text + "\n", encoding="utf-8")

@@ -9,6 +9,7 @@ from __future__ import annotations
 import contextlib
 import json
 import os
+import re
 import shutil
 import tempfile
 from collections.abc import Iterator
@@ -23,10 +24,12 @@ from bezier.paths import heights
 from bezier.paths.path import Path
 from bezier.planner import arm, avoid
 from bezier.planner.table import method_of
-from bezier.plans import Outcome, Plan
+from bezier.plans import Outcome, Plan, derivation_page
 from bezier.problem import Problem, to_json
 from qe.errors import InputError
 
+DERIVATION = re.compile(re.escape(derivation_page(0)).replace("0", "[1-9][0-9]*"))
+"""The names of pages with derivations."""
 SAMPLES = 51
 """Rows per curve in ``path.csv``."""
 FIELD_BITS = 64
@@ -95,7 +98,8 @@ def _stale(fresh: FilePath, target: FilePath) -> list[str]:
     for listing, names in LISTED_IN.items():
         if (fresh / listing).is_file():
             listed = _listed(target / listing)
-            found += [name for name in names if name in listed and not (fresh / name).exists()]
+            own = {*names, *(name for name in listed if DERIVATION.fullmatch(name))}
+            found += [name for name in sorted(own & listed) if not (fresh / name).exists()]
     return found
 
 
@@ -139,6 +143,8 @@ def facts(plan: Plan) -> dict[str, Any]:
         "notes": [*problem.notes, *plan.remarks],
         "not_certified": list(plan.not_certified),
     }
+    if plan.derivations:
+        found["derivations"] = {name: list(item.rules) for name, item in plan.derivations.items()}
     if plan.outcome is Outcome.INFEASIBLE:
         found["reason"] = method.reason(plan)
     return found

@@ -10,14 +10,18 @@ from bezier.paths import heights, origin
 from bezier.planner import radius_rule
 from bezier.planner.arm import check_arm, with_joints
 from bezier.planner.avoid import avoiding
+from bezier.planner.derivations import with_derivations
 from bezier.planner.table import method_of
 from bezier.plans import Clock, Outcome, Plan, RadiusRule
 from bezier.problem import Problem
 from qe.errors import BudgetExceeded, Unable
 
 
-def make_plan(problem: Problem, clock: Clock | None = None) -> Plan:
-    """Plan a path. Raises ``Unable`` where no answer is reached, at limits with what is known by then."""
+def make_plan(problem: Problem, clock: Clock | None = None, *, proofs: bool = False) -> Plan:
+    """Plan a path; with ``proofs`` also the derivations of all eliminations.
+
+    Raises ``Unable`` where no answer is reached, at limits with what is known by then.
+    """
     problem = check_arm(problem)
     watch = clock or Clock()
     try:
@@ -29,6 +33,9 @@ def make_plan(problem: Problem, clock: Clock | None = None) -> Plan:
         if problem.arm is not None:
             with watch.step("joints"):
                 plan = with_joints(plan)
+        if proofs:
+            with watch.step("derivations"):
+                plan = with_derivations(plan, watch)
         return plan
     except Unable as error:
         limit = error.limit if isinstance(error, BudgetExceeded) else "time" if watch.is_over else None

@@ -82,14 +82,22 @@ def radius_rule(problem: Problem, solvable: bool, remaining: Limit = unlimited) 
     forced = on_sphere(problem)
     if not forced:
         return None
-    sentences = tuple(sentence(problem, via, free) for via, free in forced.items())
-    for asked in sentences:
-        truth = qe.eliminate(asked.formula, timeout=remaining()).truth
-        if truth is False:
+    asked, answers = questions(problem), {}
+    for name, statement in asked.items():
+        answers[name] = qe.eliminate(statement.formula, timeout=remaining())
+        if answers[name].truth is False:
             raise InternalError("the engine refutes that a via point on the sphere forces its neighbour")
-        if truth is None:
+        if answers[name].truth is None:
             raise Unable("the engine did not decide what the radius forces")
-    return RadiusRule(problem.method, forced, tuple(map(str, sentences)), solvable, larger_radius(problem, remaining))
+    told = tuple(map(str, asked.values()))
+    return RadiusRule(problem.method, forced, told, solvable, larger_radius(problem, remaining), answers)
+
+
+def questions(problem: Problem) -> dict[str, Statement]:
+    """What is asked of the engine, by name."""
+    return {
+        f"what the radius forces at {via}": sentence(problem, via, free) for via, free in on_sphere(problem).items()
+    }
 
 
 def stated_rule(problem: Problem, solvable: bool, larger: Fraction | None) -> RadiusRule | None:
@@ -97,7 +105,7 @@ def stated_rule(problem: Problem, solvable: bool, larger: Fraction | None) -> Ra
     forced = on_sphere(problem)
     if not forced:
         return None
-    sentences = tuple(str(sentence(problem, via, free)) for via, free in forced.items())
+    sentences = tuple(map(str, questions(problem).values()))
     return RadiusRule(problem.method, forced, sentences, solvable, larger)
 
 

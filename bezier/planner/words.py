@@ -32,6 +32,9 @@ def lines(made: Plan) -> list[str]:
     found += arm.summary_lines(made)
     accepted = all(verdict.accepted for verdict in made.checks.values())
     found.append(f"certificates: {'accepted' if accepted else 'REJECTED'}")
+    if made.derivations:
+        found.append(f"derivations: every step checked of {', '.join(made.derivations)}")
+    found += [f"derivation of {name}: not every step checked: {why}" for name, why in made.unproved.items()]
     return found
 
 

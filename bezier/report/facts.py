@@ -20,7 +20,7 @@ from bezier.plans import Attempt, Outcome, Plan
 from bezier.report import html, mathml
 from bezier.report.first import duration
 from bezier.report.html import Section, Text, toned
-from bezier.report.parts import SMOOTHNESS, condition_name, decimal_point, shown
+from bezier.report.parts import SMOOTHNESS, condition_name, decimal_point, derivation_link, shown
 
 if TYPE_CHECKING:
     from bezier.pictures.picture import Drawing
@@ -126,6 +126,11 @@ def certificates(plan: Plan, claims: Mapping[str, str]) -> Section:
     for name, verdict in plan.checks.items():
         result = "accepted" if verdict.accepted else f"rejected at {verdict.step}: {verdict.reason}"
         rows.append((told.get(name, name), CHECKER, toned(result, verdict.accepted)))
+    for name in plan.derivations:
+        claim = html.joined(f"The elimination of {name}:", derivation_link(plan, name))
+        rows.append((claim, CHECKER, toned("accepted", True)))
+    for name, why in plan.unproved.items():
+        rows.append((f"The elimination of {name}, step by step", "nobody", toned(f"not checked: {why}", None)))
     if plan.path is not None:
         inside = plan.path.is_inside
         claim = "The whole path stays in the workspace (see the proofs above)"

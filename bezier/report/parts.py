@@ -234,8 +234,10 @@ def condition_name(condition: Condition) -> str:
     return {"ball": "‖·‖ ≤ r", "floor": "z ≥ 0"}.get(condition.name, condition.name)
 
 
-def asked(lines: Iterable[Text], counts: str, formula: str, answer: Any) -> Markup:
-    """The question in the paper's notation and the quantifier-free answer, both also as text."""
+def asked(plan: Plan, name: str, lines: Iterable[Text], counts: str) -> Markup:
+    """The question in the paper's notation and the quantifier-free answer, both also as text, with a link to its
+    derivation; ``name``: what the plan calls the question."""
+    formula, answer = plan.formula, plan.answer.formula
     parts = [Markup(line) for line in mathml.conjunction_lines(answer)]
     linked = [part + Markup(" <math><mo>∧</mo></math>") for part in parts[:-1]] + parts[-1:]
     return html.joined(
@@ -245,7 +247,22 @@ def asked(lines: Iterable[Text], counts: str, formula: str, answer: Any) -> Mark
         html.heading("The quantifier-free answer"),
         html.formula(linked),
         html.folded("as text", html.pre(str(answer))),
+        derived(plan, name),
     )
+
+
+def derived(plan: Plan, name: str) -> Markup | None:
+    """The line that links to the derivation of an answer; None where there is none."""
+    if name not in plan.derivations:
+        return None
+    return html.paragraph(html.joined("How it was found:", derivation_link(plan, name)))
+
+
+def derivation_link(plan: Plan, name: str) -> Markup:
+    """A link to the page with the derivation of an answer."""
+    count = len(plan.derivations[name].rules)
+    words = f"{count} step{'s' * (count != 1)}, each with its theorem, all checked"
+    return Markup('<a href="{}">{}</a>').format(plan.derivation_pages[name], words)
 
 
 def cells(region: Any) -> list[Markup]:

@@ -29,7 +29,7 @@ def centred_frame(flat: Flat, forms: Sequence[Quadratic]) -> Flat:
 
 def lies_far(flat: Flat, forms: Sequence[Quadratic]) -> bool:
     """Whether floats lose the constraints of a flat in the coordinates that it has."""
-    numbers = [v for form in forms for row in (*form.hessian, form.gradient, (form.constant,)) for v in row]
+    numbers = [v for form in forms for row in (*form.hessian, form.gradient, (form.constant,)) for v in row if v]
     numbers += [v for row in (flat.origin, *flat.basis) for v in row]
     if all(max(v.numerator.bit_length(), v.denominator.bit_length()) <= _STRANGE for v in numbers):
         return False
@@ -101,8 +101,8 @@ def _unit(forms: Sequence[Quadratic]) -> Fraction:
     """
     sizes = []
     for form in forms:
-        bend = max((abs(h) for row in form.hessian for h in row), default=_ZERO)
-        slope = max(map(abs, form.gradient), default=_ZERO)
+        bend = max((abs(h) for row in form.hessian for h in row if h), default=_ZERO)
+        slope = max((abs(b) for b in form.gradient if b), default=_ZERO)
         if bend and (slope or form.constant):
             sizes.append(max(_binary(slope / bend), _binary(abs(form.constant) / bend) // 2))
     exponent = min(sizes, key=abs, default=0)

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import random
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
+from math import prod
 
 from qe.formula.build import exists
 from qe.formula.evaluate import holds_at
 from qe.formula.features import features
 from qe.formula.normal import nnf
-from qe.formula.syntax import FALSE, TRUE, Formula
-from qe.formula.traverse import atoms
+from qe.formula.syntax import FALSE, TRUE, Atom, Formula, Relation
+from qe.formula.traverse import atoms, conjuncts
 
 PATTERNS = ((0,), (1,), (-1,), (1, -2, 3, -5), (-3, 2, -1, 4), (Fraction(1, 7), 2), (9, Fraction(-1, 3)), (1, 8, 64))
 """Coordinates of the points that are tried, repeated as far as needed: signs and sizes in several combinations."""
@@ -27,6 +28,15 @@ DEGREES = {1: 40, 2: 8, 3: 3, 4: 2}
 
 MANY = 20
 """The closure of a question in more variables is not asked for: a chain of 300 differences took minutes."""
+
+ROUNDS = 30
+"""How often all conditions pull a point that might satisfy them."""
+
+BEYOND, INSIDE = 1.7, 1e-4
+"""How far they pull: so many times as far as to where they would hold if they were linear, and a little further."""
+
+FINE = 10**6
+"""The denominators of the place where that ends."""
 
 ATOMS, LONG = 40, 1000
 """A formula of more atoms is not decided; one of more than ``LONG`` is not even evaluated."""
@@ -55,6 +65,8 @@ def constant_value(
     if holds_at(formula, _middle(formula, names)) is not always:
         return None
     if not cheap and any(_at(formula, names, pattern) for pattern in _scattered(len(names))):
+        return None
+    if not always and (reached := _pulled(formula, names)) is not None and holds_at(formula, reached):
         return None
     exception = nnf(formula, negate=always)
     if question is not None and not always and (not cheap or _size(question) < _size(formula)):
@@ -91,6 +103,60 @@ def _middle(formula: Formula, names: tuple[str, ...]) -> dict[str, Fraction]:
             if 2 in slope:
                 vertices[ring.names[index]].append(Fraction(-slope.get(1, 0), 2 * slope[2]))
     return {name: (min(v) + max(v)) / 2 if v else Fraction(0) for name, v in vertices.items()}
+
+
+def _pulled(formula: Formula, names: tuple[str, ...]) -> dict[str, Fraction] | None:
+    """Where the inequalities of a conjunction pull the point in the middle, about; None for other formulas.
+
+    The relaxation method (Agmon 1954; Motzkin, Schoenberg 1954) in floats: a point where f > 0 although f <= 0 is asked
+    for moves against the gradient, further than to where f would vanish were it linear. In a convex set with interior
+    points this mostly ends after a few rounds; what it ends at is only a proposal.
+    """
+    conditions = [_as_floats(part, names) for part in conjuncts(formula)]
+    start = _middle(formula, names)
+    try:
+        point = [float(start[name]) for name in names]
+        for _ in range(ROUNDS):
+            before = list(point)
+            for terms in conditions:
+                if terms is None:
+                    return None
+                _pull(terms, point)
+            if point == before:
+                break
+        return {name: Fraction(x).limit_denominator(FINE) for name, x in zip(names, point, strict=True)}
+    except (OverflowError, ValueError):  # beyond the range of floats
+        return None
+
+
+def _as_floats(part: Formula, names: tuple[str, ...]) -> list[tuple[float, list[tuple[int, int]]]] | None:
+    """The terms of f in a condition f <= 0 or f < 0: a coefficient, and variables with their exponents."""
+    if not isinstance(part, Atom) or part.relation in (Relation.EQ, Relation.NE):
+        return None
+    side = -1 if part.relation in (Relation.GE, Relation.GT) else 1
+    places = [names.index(name) if name in names else -1 for name in part.poly.ring.names]
+    try:
+        return [
+            (float(side * c), [(places[i], e) for i, e in enumerate(exponents) if e])
+            for exponents, c in part.poly.terms()
+        ]
+    except OverflowError:
+        return None
+
+
+def _pull(terms: Sequence[tuple[float, list[tuple[int, int]]]], point: list[float]) -> None:
+    """Move the point against the gradient of f where f is not clearly negative."""
+    total, slope = 0.0, [0.0] * len(point)
+    for coefficient, powers in terms:
+        values = [point[i] ** e for i, e in powers]
+        total += coefficient * prod(values)
+        for k, (i, e) in enumerate(powers):
+            slope[i] += coefficient * e * point[i] ** (e - 1) * prod(values[:k] + values[k + 1 :])
+    length = sum(s * s for s in slope)
+    if total >= 0 and length:
+        step = (BEYOND * total + INSIDE * length) / length
+        for i, s in enumerate(slope):
+            point[i] -= step * s
 
 
 def _closes(question: Formula) -> bool:

@@ -41,12 +41,13 @@ class Derivation:
 
         return writing.latex(self.start, self.steps)
 
-    def to_html(self) -> str:
+    def to_html(self, *, title: str = "Derivation", note: str = "") -> str:
         """The derivation as one page that needs nothing from elsewhere: formulas in MathML, each step with the theorem
-        of its rule, as the checker states it, and its evidence folded."""
+        of its rule, as the checker states it, and its evidence folded. ``note``: a sentence below what is claimed."""
         from qe.proof import writing
 
-        return writing.page(self.start, self.steps, self.answer, is_complete=self.is_complete)
+        complete = self.is_complete
+        return writing.page(self.start, self.steps, self.answer, is_complete=complete, title=title, note=note)
 
     @property
     def answer(self) -> Formula:

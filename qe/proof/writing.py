@@ -68,14 +68,23 @@ def latex(start: Formula, steps: Sequence[Step]) -> str:
     return "\\begin{align*}\n" + " \\\\\n".join(lines) + "\n\\end{align*}"
 
 
-def page(start: Formula, steps: Sequence[Step], answer: Formula, *, is_complete: bool) -> str:
-    """One self-contained page."""
-    note = "" if is_complete else "<p>Some steps are not recorded one by one.</p>"
+def page(
+    start: Formula,
+    steps: Sequence[Step],
+    answer: Formula,
+    *,
+    is_complete: bool,
+    title: str = "Derivation",
+    note: str = "",
+) -> str:
+    """One self-contained page. ``note``: a sentence below the claim."""
+    notes = [*([note] if note else []), *([] if is_complete else ["Some steps are not recorded one by one."])]
+    said, name = "".join(f"<p>{escape(text)}</p>" for text in notes), escape(title)
     return (
-        '<!doctype html>\n<html lang="en"><head><meta charset="utf-8"><title>Derivation</title>'
+        f'<!doctype html>\n<html lang="en"><head><meta charset="utf-8"><title>{name}</title>'
         "<meta name=viewport content='width=device-width, initial-scale=1'>"
-        f"<style>{STYLE}</style></head>\n<body><h1>Derivation</h1>\n"
-        f"<p>{_math(start)}</p><p>⟺ {_math(answer)}</p>{note}\n<h2>Steps</h2>\n{_list(steps, 'step-')}\n"
+        f"<style>{STYLE}</style></head>\n<body><h1>{name}</h1>\n"
+        f"<p>{_math(start)}</p><p>⟺ {_math(answer)}</p>{said}\n<h2>Steps</h2>\n{_list(steps, 'step-')}\n"
         "</body></html>\n"
     )
 

@@ -86,4 +86,5 @@ CUBIC: Method[CubicPlan] = Method(
     hatted_names=False,
     story=cubic_report.story,
     restore=restore,
+    questions=cubic_plan.questions,
 )

@@ -25,7 +25,11 @@ from bezier.paths.path import Path
 from bezier.paths.speed import Slowest, slowest_of
 from bezier.plans import Clock
 from bezier.problem import Problem
+from qe.formula.syntax import Formula
 from qe.proof.certificate import Certificate
+
+FORMULA = "formula (7)"
+"""What the engine is asked."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,8 +67,19 @@ def make(problem: Problem, clock: Clock) -> CubicPlan:
     with clock.step("verification"):
         certificate, checks = verified([elimination(system), (OPTIMUM, optimum.certificate)], fields["path"])
     return CubicPlan(
-        **fields, answer=answer, optimum=optimum, certificate=certificate, checks=checks, seconds=clock.seconds
+        **fields,
+        answer=answer,
+        optimum=optimum,
+        certificate=certificate,
+        checks=checks,
+        seconds=clock.seconds,
+        eliminations={FORMULA: answer},
     )
+
+
+def questions(problem: Problem) -> dict[str, Formula]:
+    """What is asked of the engine about a problem."""
+    return {FORMULA: cubic.system(problem).statement().formula}
 
 
 def restore(problem: Problem, certificate: Certificate) -> CubicPlan:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from markupsafe import Markup
 
 from bezier.methods.control.terms import named_multipliers
-from bezier.methods.cubic.plan import CubicPlan
+from bezier.methods.cubic.plan import FORMULA, CubicPlan
 from bezier.paths.speed import Slowest
 from bezier.plans import Story
 from bezier.report import html, mathml, parts
@@ -34,7 +34,7 @@ def story(plan: CubicPlan, drawing: Drawing | None) -> Story:
     further = len(plan.system.conditions) - len(plan.system.shape.inner)
     counts = "18 variables, 12 of them quantified, 12 equations, 6 norm conditions"
     more = f", {further} further conditions" if further else ""
-    asked = parts.asked(parts.question(plan, plan.system), counts + more, plan.formula, plan.answer.formula)
+    asked = parts.asked(plan, FORMULA, parts.question(plan, plan.system), counts + more)
     title = Markup("The best {} and {}").format(names["Q1"], names["Q2"])
     sections = (
         Section("question", "The question", _intro(plan) + asked),

@@ -89,4 +89,5 @@ QUADRATIC: Method[QuadraticPlan] = Method(
     hatted_names=True,
     story=quadratic_report.story,
     restore=restore,
+    questions=quadratic_plan.questions,
 )

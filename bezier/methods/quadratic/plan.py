@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any
 
@@ -29,9 +29,12 @@ from bezier.paths.path import Path, Proof, prove
 from bezier.plans import Clock
 from bezier.problem import Problem
 from qe.errors import InternalError
+from qe.formula.syntax import Formula
 
 REGION, BELOW = "region", "below the table"
 """Labels of certificates."""
+FORMULA, TABLE, CORRECTED = "formula (8)", "the question of the table", "formula (8) with z >= 0"
+"""What the engine is asked."""
 EXAMPLE_ORDER = (*quadratic.SHAPE.free, *quadratic.SHAPE.follows)
 """The control points in the order of the variables of the question about the table."""
 
@@ -48,13 +51,14 @@ class Gap:
     ``example``: control points that the formula allows, one of them below the table, or None when there are none.
     ``region``: the region with z >= 0 added for all control points, where there is a gap. ``chosen``: what was
     found out about z >= 0 along the curves of the chosen path. ``certificates``: of the example, or that the formula
-    keeps each control point above the table.
+    keeps each control point above the table. ``answers``: of the engine, by what was asked.
     """
 
     example: Mapping[str, Vector] | None
     region: Any | None
     chosen: tuple[Proof, ...]
     certificates: tuple[tuple[str, qe.Certificate], ...] = ()
+    answers: Mapping[str, Any] = field(default_factory=dict)
 
     @property
     def can_leave(self) -> bool:
@@ -91,8 +95,21 @@ def make(problem: Problem, clock: Clock) -> QuadraticPlan:
         members = certificates(system, region, optimum, gap)
         certificate, checks = verified(members, fields["path"])
     return QuadraticPlan(
-        **fields, answer=answer, optimum=optimum, certificate=certificate, checks=checks, seconds=clock.seconds
+        **fields,
+        answer=answer,
+        optimum=optimum,
+        certificate=certificate,
+        checks=checks,
+        seconds=clock.seconds,
+        eliminations={FORMULA: answer, **gap.answers},
     )
+
+
+def questions(problem: Problem) -> dict[str, Formula]:
+    """What is asked of the engine about a problem."""
+    asked = {FORMULA: quadratic.system(problem).statement(), TABLE: quadratic.leaving(problem)}
+    asked[CORRECTED] = quadratic.corrected(problem).statement()
+    return {name: statement.formula for name, statement in asked.items()}
 
 
 def certificates(system: System, region: qe.Region, optimum: Any, gap: Gap) -> Members:
@@ -110,7 +127,7 @@ def _gap(problem: Problem, region: Any, path: Path | None, clock: Clock) -> Gap:
     floor = Workspace(WorkspaceKind.HEMISPHERE, problem.workspace.radius_squared).floor
     chosen = prove(path.curves, (floor,)) if path else ()
     if asked.truth is False:
-        return Gap(None, None, chosen, tuple(above_certificates(problem, clock)))
+        return Gap(None, None, chosen, tuple(above_certificates(problem, clock)), {TABLE: asked})
     if asked.truth is not True or asked.witness is None:
         raise InternalError("the hemisphere question got neither a witness nor a refutation")
     printed = quadratic.printed(problem)
@@ -120,10 +137,10 @@ def _gap(problem: Problem, region: Any, path: Path | None, clock: Clock) -> Gap:
         raise InternalError("the engine's example does not show what it should")
     shown = ((BELOW, example_certificate(problem, example, asked.certificate)),)
     if problem.workspace.kind is WorkspaceKind.HEMISPHERE:
-        return Gap(example, region, chosen, shown)
+        return Gap(example, region, chosen, shown, {TABLE: asked})
     answer = answered(qe.eliminate(quadratic.corrected(problem).statement().formula, timeout=clock.remaining()))
     smaller = qe.region(answer.formula, order=quadratic.FREE, timeout=clock.remaining())
-    return Gap(example, smaller, chosen, shown)
+    return Gap(example, smaller, chosen, shown, {TABLE: asked, CORRECTED: answer})
 
 
 def above_certificates(problem: Problem, clock: Clock) -> Iterator[tuple[str, qe.Certificate]]:

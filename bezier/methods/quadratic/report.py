@@ -11,7 +11,7 @@ from bezier.curves.containment import Leaves
 from bezier.curves.scalar import decimal_text, with_decimal
 from bezier.curves.workspace import root_text
 from bezier.methods.quadratic import formula as quadratic
-from bezier.methods.quadratic.plan import QuadraticPlan
+from bezier.methods.quadratic.plan import FORMULA, QuadraticPlan
 from bezier.plans import Story
 from bezier.report import html, mathml, parts
 from bezier.report.first import region_box
@@ -38,7 +38,7 @@ def story(plan: QuadraticPlan, drawing: Drawing | None) -> Story:
         "Formula (8) of the paper: which {Q1} leave room for {P1} and {R1} such that both joins are C¹ and all three"
         " control points stay in the workspace?"
     ).format(**names)
-    asked = parts.asked(parts.question(plan, plan.system), counts + more, plan.formula, plan.answer.formula)
+    asked = parts.asked(plan, FORMULA, parts.question(plan, plan.system), counts + more)
     title, free = Markup("The best {}").format(names["Q1"]), "the unconstrained minimum, the midpoint of the via points"
     sections = (
         Section("question", "The question", html.paragraph(intro) + asked),

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from enum import Enum
 from fractions import Fraction
 from functools import lru_cache
 from math import comb
+from typing import Any
 
 import qe
 from bezier.curves.workspace import Workspace, WorkspaceKind
@@ -83,10 +84,20 @@ def _between(first: Term, last: Term, t: Term) -> Term:
     return Sum((Product((difference(number(1), t), first)), Product((t, last))))
 
 
+def identities(degree: int) -> dict[str, Statement]:
+    """(2) for this degree and (3), by name."""
+    return {"identity (2)": linearity(degree), "identity (3)": inverse()}
+
+
 @lru_cache(maxsize=32)
+def proved_identities(degree: int) -> Mapping[str, Any]:
+    """The engine's answers to (2) for this degree and (3), asked once for each degree."""
+    return {name: answered(statement.formula, None) for name, statement in identities(degree).items()}
+
+
 def identities_hold(degree: int) -> bool:
-    """Whether the engine proves (2) for this degree and (3), asked once for each degree."""
-    return qe.decide(linearity(degree).formula) and qe.decide(inverse().formula)
+    """Whether the engine proves them."""
+    return all(answer.truth is True for answer in proved_identities(degree).values())
 
 
 def constraints(given: Task, axis: Axis, symbols: Collection[Symbol] = ()) -> list[Statement]:
@@ -152,20 +163,20 @@ def eliminate(given: Task, axis: Axis, symbols: Collection[Symbol] = (), *, time
 
     Raises ``Unable`` at a limit.
     """
-    values = answered(attainable(given, axis, symbols).formula, timeout)
+    values = answered(attainable(given, axis, symbols).formula, timeout).formula
     other = rename(values, {VALUE: OTHER})
     ring = Ring.of(dict.fromkeys((VALUE, *free_variables(values), OTHER)))
     no_less = atom(ring.var(OTHER) - ring.var(VALUE), Relation.GE)
     smallest = forall((OTHER,), implies(convert(other, ring), no_less))
-    return Piecewise(values, answered(conj((convert(values, ring), smallest)), timeout))
+    return Piecewise(values, answered(conj((convert(values, ring), smallest)), timeout).formula)
 
 
-def answered(question: Formula, timeout: float | None) -> Formula:
-    """The quantifier-free equivalent. Raises ``Unable`` when none is reached."""
+def answered(question: Formula, timeout: float | None) -> Any:
+    """The answer with a quantifier-free equivalent. Raises ``Unable`` when none is reached."""
     answer = qe.eliminate(question, timeout=timeout)
     if answer.formula is None:
         raise Unable(answer.reason or "no answer was reached")
-    return answer.formula
+    return answer
 
 
 def closed(given: Task, workspace: Workspace) -> Statement:

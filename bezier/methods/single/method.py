@@ -116,4 +116,5 @@ SINGLE: Method[SinglePlan] = Method(
     hatted_names=False,
     story=single_report.story,
     restore=restore,
+    questions=single_plan.questions,
 )

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import lru_cache
+from typing import Any
 
 import qe
 from bezier.curves.containment import Inside, Leaves, examine_closely
@@ -24,9 +25,12 @@ from bezier.paths.path import Path, Proof, assemble, prove
 from bezier.plans import Clock, Outcome, Plan
 from bezier.problem import Problem
 from qe.errors import InternalError
+from qe.formula.syntax import Formula
 
 NAME = "P"
 CLOSED = "Method 1*"
+SUMS, CLOSED_SUMS = "the sums of (4)", "the sums of Method 1*"
+"""What the engine is asked."""
 PIECEWISE_DEGREE = 8
 """Up to this degree the plan tells the least sum for every height."""
 ELIMINATION_DEGREE = 4
@@ -111,7 +115,7 @@ def make(problem: Problem, clock: Clock) -> SinglePlan:
     with clock.step(CLOSED):
         needed = printed is not None and not printed.holds
         closed = close(given, problem.workspace, check=clock.remaining) if needed else None
-        attainable = _attainable(problem, given, clock) if needed else ""
+        attainable = _attainable(problem, given, clock) if needed else None
     found = closed.values if isinstance(closed, ProvedCurve) else None
     if printed is not None and printed.holds:
         found = dict(printed.values)
@@ -137,9 +141,23 @@ def make(problem: Problem, clock: Clock) -> SinglePlan:
         printed=printed,
         closed=closed,
         pieces=Pieces(given),
-        attainable=attainable,
+        attainable="" if attainable is None else str(attainable.formula),
         above=above,
+        eliminations={
+            SUMS: answer,
+            **single_formula.proved_identities(given.degree),
+            **({} if attainable is None else {CLOSED_SUMS: attainable}),
+        },
     )
+
+
+def questions(problem: Problem) -> dict[str, Formula]:
+    """What may be asked of the engine about a problem."""
+    given = task_of(problem)
+    asked = {SUMS: single_formula.attainable(given, given.raised[0]), **single_formula.identities(given.degree)}
+    if _is_eliminated(given):
+        asked[CLOSED_SUMS] = single_formula.closed(given, problem.workspace)
+    return {name: statement.formula for name, statement in asked.items()}
 
 
 def task_of(problem: Problem) -> Task:
@@ -172,10 +190,15 @@ def _least_sums(given: Task) -> dict[str, Piecewise]:
     return {axis.name: single_formula.eliminate(given, axis, {Symbol.HEIGHT}) for axis in given.raised}
 
 
-def _attainable(problem: Problem, given: Task, clock: Clock) -> str:
-    if len(given.raised) > 1 or given.degree > ELIMINATION_DEGREE:
-        return ""
-    return str(single_formula.answered(single_formula.closed(given, problem.workspace).formula, clock.remaining()))
+def _is_eliminated(given: Task) -> bool:
+    """Whether t is eliminated from Method 1*."""
+    return len(given.raised) == 1 and given.degree <= ELIMINATION_DEGREE
+
+
+def _attainable(problem: Problem, given: Task, clock: Clock) -> Any:
+    if not _is_eliminated(given):
+        return None
+    return single_formula.answered(single_formula.closed(given, problem.workspace).formula, clock.remaining())
 
 
 def _printed(problem: Problem, given: Task, chosen: tuple[Chosen, ...]) -> Printed | None:

@@ -11,7 +11,7 @@ from bezier.curves.containment import Leaves
 from bezier.curves.scalar import brief, decimal_text
 from bezier.input.task import Axis, Task
 from bezier.methods.single.closed import ProvedCurve
-from bezier.methods.single.plan import CLOSED, SinglePlan, above_label, of_axis
+from bezier.methods.single.plan import CLOSED, SUMS, SinglePlan, above_label, of_axis
 from bezier.methods.single.program import TIE_BREAK, Dip
 from bezier.methods.single.simplex import Contradiction, LinearOptimum
 from bezier.plans import Story
@@ -28,7 +28,7 @@ def story(plan: SinglePlan, drawing: Drawing | None) -> Story:
     given = plan.task
     lines = [shown(line) for axis in given.raised for line in _question(given, axis)]
     counts = "linear equations and bounds for each coordinate; v stands for the sum"
-    asked = parts.asked(lines, counts, plan.formula, plan.answer.formula)
+    asked = parts.asked(plan, SUMS, lines, counts)
     sections = (
         Section("question", "The question", _intro(given) + asked),
         _programs(plan),

@@ -72,6 +72,30 @@ def test_refine():
     assert low**2 < Fraction(1, 2) < high**2 and high - low <= Fraction(1, 10**12)
 
 
+def bisected(b, interval, width):
+    """By values of the polynomial alone."""
+    low, high = interval
+    below = sign(bs.value(b, low))
+    while high - low > width:
+        middle = (low + high) / 2
+        here = sign(bs.value(b, middle))
+        if here == 0:
+            return middle, middle
+        low, high = (middle, high) if here == below else (low, middle)
+    return low, high
+
+
+@given(
+    st.lists(st.fractions(-9, 9, max_denominator=7), min_size=2, max_size=7).filter(any),
+    st.sampled_from([Fraction(1, 2**50), Fraction(1, 3), Fraction(1, 1000), Fraction(5, 4)]),
+)
+def test_integers_bisect_to_the_same_interval(numbers, width):
+    b = tuple(numbers)
+    for interval in isolate(b):
+        if interval[0] < interval[1]:
+            assert refine(b, interval, width) == bisected(b, interval, width)
+
+
 @given(control_points(1, 4, dimension=2), st.fractions(min_value=1, max_value=20, max_denominator=4))
 def test_ball_against_dense_sampling(control, r2):
     curve, ball = Bezier.of(control), Ball((Fraction(0),) * 2, r2)

@@ -68,3 +68,22 @@ def test_equations_of_an_answer_are_taken_apart():
     assert str(answer.formula) == "2*a - 1 = 0 and 4*b^2 - 3 = 0"
     kept = qe.eliminate("x*y = 0 and x + y > 1")
     assert qe.equivalent(kept.formula, "x*y = 0 and x + y > 1")
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "x^2 + y^2 + z^2 <= 25 and (x - 7)^2 + y^2 + (z - 1)^2 <= 9 and (x - 5)^2 + (y - 5)^2 + z^2 < 16",
+        "(x - 100)^2 + (y + 70)^2 <= 4 and (x - 103)^2 + (y + 70)^2 <= 4 and 10*y + 703 < 0",
+        "x >= 1000 and y >= 1000 and x + y <= 2001",
+    ],
+)
+def test_the_conditions_pull_a_point_into_a_convex_set(text):
+    assert constant_value(formats.read(text), never) is None
+
+
+@pytest.mark.parametrize(
+    "text", ["x^2 + y^2 <= 1 and (x - 3)^2 + y^2 <= 1", "x > 5*10^400 and x < 0", "x^2 + y^2 < 0 and x > 7"]
+)
+def test_nothing_pulls_a_point_into_an_empty_set(text):
+    assert constant_value(formats.read(text), lambda sentence: False) is FALSE

@@ -1,0 +1,117 @@
+"""Derivations of the eliminations that a plan rests on: each step with evidence, checked, in the plan's certificate.
+
+The steps are those that led to the engine's answers when the plan was made; nothing is eliminated a second time. In
+``certificate.json`` each is a member of its own, of the kind ``derivation``, beside the certificates of the plan.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
+from typing import Any
+
+from bezier.obstacles.obstacle import Obstacle
+from bezier.planner import radius_rule
+from bezier.planner.table import method_of
+from bezier.plans import Clock, Derived, Plan
+from qe.api_verify import with_derivation
+from qe.certify.claims import is_about
+from qe.errors import CertificateRejected
+from qe.formula.syntax import Formula
+from qe.proof.certificate import Certificate, Kind, Labelled
+
+CHECKED = "Every step was checked: the evidence is in certificate.json, and qe check certificate.json checks it again."
+PREFIX = "derivation of "
+"""How the labels of the members of a bundle begin."""
+
+
+def label(name: str) -> str:
+    """The label of the member that has the derivation of what ``name`` says."""
+    return PREFIX + name
+
+
+def with_derivations(plan: Plan, clock: Clock) -> Plan:
+    """The plan with the derivations of all its eliminations, in its certificate too, as far as each step is checked."""
+    found, unproved = proved({**plan.eliminations, **_of_radius(plan), **of_obstacles(plan.problem.obstacles)}, clock)
+    return replace(_with(plan, found), unproved=unproved)
+
+
+def proved(answers: Mapping[str, Any], clock: Clock) -> tuple[dict[str, Derived], dict[str, str]]:
+    """The derivations of answers by their names, checked; for the others why they are not."""
+    found, unproved = {}, {}
+    for name, answer in answers.items():
+        checked = with_derivation(answer, clock.remaining("derivations"))
+        if checked.certificate is None:
+            unproved[name] = checked.why_unchecked
+        else:
+            found[name] = Derived(checked.certificate, answer)
+    return found, unproved
+
+
+def pages(plan: Plan) -> dict[str, str]:
+    """The derivations as pages, by the names of their files."""
+    files = plan.derivation_pages
+    return {files[name]: page(name, item) for name, item in plan.derivations.items() if item.answer is not None}
+
+
+def page(name: str, item: Derived) -> str:
+    """A derivation as a page."""
+    found: str = item.answer.derivation.to_html(title=f"The elimination of {name}", note=CHECKED)
+    return found
+
+
+def members(derivations: Mapping[str, Derived]) -> list[tuple[str, Certificate]]:
+    """The derivations as members of a bundle."""
+    return [(label(name), item.certificate) for name, item in derivations.items()]
+
+
+def of_obstacles(obstacles: Iterable[Obstacle]) -> dict[str, Any]:
+    """The answers that obstacles given by formulas with quantifiers rest on."""
+    return {_obstacle(o): o.elimination for o in obstacles if o.elimination is not None}
+
+
+def _obstacle(item: Obstacle) -> str:
+    return f"the obstacle {item.name}"
+
+
+def _of_radius(plan: Plan) -> Mapping[str, Any]:
+    return {} if plan.radius_rule is None else plan.radius_rule.answers
+
+
+def _with(plan: Plan, found: Mapping[str, Derived]) -> Plan:
+    """The plan with these derivations, in its certificate too."""
+    own = plan.certificate.payload
+    listed = [(m.label, m.certificate) for m in own] if isinstance(own, tuple) else [("plan", plan.certificate)]
+    return replace(plan, derivations=found, certificate=Certificate.bundle([*listed, *members(found)]))
+
+
+# --- found again from a folder -------------------------------------------------------------------------------------
+
+
+def with_stated(plan: Plan, certificate: Certificate) -> Plan:
+    """The plan with the derivations that the certificate of its folder has, which are about what this plan asks.
+
+    The derivations themselves are accepted with the certificate. Raises ``CertificateRejected`` for one about another
+    question.
+    """
+    asked, found = questions(plan), {}
+    for member in certificate.payload if isinstance(certificate.payload, tuple) else ():
+        if member.label.startswith(PREFIX):
+            name = member.label.removeprefix(PREFIX)
+            _check_question(member, asked.get(name))
+            found[name] = Derived(member.certificate)
+    return _with(plan, found)
+
+
+def questions(plan: Plan) -> dict[str, Formula]:
+    """Everything that may be eliminated for a plan, by name."""
+    radius = {name: statement.formula for name, statement in radius_rule.questions(plan.problem).items()}
+    obstacles = {name: answer.question for name, answer in of_obstacles(plan.problem.obstacles).items()}
+    return {**method_of(plan.problem.method).questions(plan.problem), **radius, **obstacles}
+
+
+def _check_question(member: Labelled, question: Formula | None) -> None:
+    if question is None:
+        raise CertificateRejected(member.label, "nothing of this name is asked about this problem")
+    if member.certificate.kind is not Kind.DERIVATION or is_about(member.certificate, question) is None:
+        raise CertificateRejected(member.label, "expected a derivation that begins with the question of this problem")
