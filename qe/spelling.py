@@ -54,6 +54,11 @@ def visible(name: str) -> str:
     return "".join(c if c.isprintable() else f"\\u{{{ord(c):x}}}" for c in name)
 
 
+def on_one_line(message: str) -> str:
+    """A message that may quote what somebody typed, on one line without characters that cannot be seen."""
+    return message if message.isprintable() else visible(re.sub(r"\s*[\n\r\t\v\f]\s*", " ", message))
+
+
 def unquoted(text: str) -> str:
     """The name that stands between these backquotes; ``ValueError`` for an escape that means nothing."""
     body = text[1:-1]

@@ -92,6 +92,17 @@ def show(expression: Expression) -> str:
     return expression.text
 
 
+def symbols(expression: Expression) -> Iterator[str]:
+    """The symbols of an expression."""
+    stack = [expression]
+    while stack:
+        part = stack.pop()
+        if isinstance(part, Listing):
+            stack += part.items
+        elif part.kind == "SYMBOL":
+            yield part.text
+
+
 @cache
 def _parser() -> Parser:
     return parser("smtlib", GRAMMAR, _tokens, _Builder())

@@ -10,7 +10,7 @@ from qe.errors import InputError
 from qe.formula.relation import Relation
 from qe.io import surface as s
 from qe.io.names import check_name
-from qe.io.smtlib_parser import Expression, Listing, Word
+from qe.io.smtlib_parser import Expression, Listing, Word, show, symbols
 from qe.io.terms import TermError, decimal
 from qe.io.text_errors import way_out
 
@@ -31,7 +31,13 @@ class Macro(NamedTuple):
     scope: Scope
 
 
-Scope: TypeAlias = Mapping[str, "Meaning | Macro"]
+class Foreign(NamedTuple):
+    """A symbol that was declared, but not read: only the sort of its values is known."""
+
+    sort: str
+
+
+Scope: TypeAlias = Mapping[str, "Meaning | Macro | Foreign"]
 
 
 def is_real(meaning: Meaning) -> bool:
@@ -41,7 +47,11 @@ def is_real(meaning: Meaning) -> bool:
 
 class Terms:
     """Reads terms. ``names``: the variables, declared ones first; bound variables get names of their own here, so
-    nothing is captured when a definition is expanded. ``bound``: those. ``shared``: definitions, in order."""
+    nothing is captured when a definition is expanded. ``bound``: those. ``shared``: definitions, in order.
+
+    ``lenient``: a value that is not read (of ``tanh``, of an integer or a declared function) gets a name of its own,
+    which is free. ``fixed`` are such names where no variable stands inside, ``varying`` the others.
+    """
 
     def __init__(self, fail: s.Fail) -> None:
         self.fail = fail
@@ -50,7 +60,10 @@ class Terms:
         self.taken: set[str] = set()
         self.reserved: set[str] = set()
         self.shared: list[s.Part] = []
-        self.globals: dict[str, Meaning | Macro] = {}
+        self.globals: dict[str, Meaning | Macro | Foreign] = {}
+        self.lenient = False
+        self.fixed: set[str] = set()
+        self.varying: set[str] = set()
 
     def error(self, message: str, at: int) -> Never:
         raise self.fail(message, at)
@@ -140,7 +153,22 @@ class Terms:
             self.error(f"the symbol {word.text} is not declared", word.at)
         if isinstance(found, Macro):
             self.error(f"{word.text} needs {len(found.parameters)} arguments", word.at)
+        if isinstance(found, Foreign):
+            return self.unread(word, scope, found.sort, f"the declaration of {word.text} was not read")
         return found
+
+    def unread(self, expression: Expression, scope: Scope, sort: str, message: str) -> Meaning:
+        """A value that is not read: a name of its own, the same for the same text, where that is allowed."""
+        head = expression.items[0] if isinstance(expression, Listing) else expression
+        inside = [text for text in symbols(expression) if text in scope and not isinstance(scope[text], Foreign)]
+        if not self.lenient or any(scope[text] is not self.globals.get(text) for text in inside):
+            self.error(message, head.at)
+        key = f"|{show(expression)}|"  # no symbol contains a bar
+        if (known := self.globals.get(key)) is None:
+            name = self.fresh("unread")
+            (self.varying if inside else self.fixed).add(name)
+            known = self.globals[key] = self.variable(name, sort, expression.at)
+        return cast(Meaning, known)
 
     def let(self, expression: Listing, scope: Scope) -> tuple[Expression, Scope]:
         self.arity(expression, 2)
@@ -161,6 +189,8 @@ class Terms:
         macro = scope.get(head.text)
         if isinstance(macro, Macro):
             return self.expand(macro, listing, scope)
+        if isinstance(macro, Foreign):
+            return self.unread(listing, scope, macro.sort, f"the declaration of {head.text} was not read")
         if macro is not None:
             self.error(f"{head.text} takes no arguments", head.at)
         if head.text in ("exists", "forall"):
@@ -186,9 +216,12 @@ class Terms:
         if head.text in _RELATIONS or head.text == "distinct":
             return self.relation(head, arguments, scope)
         if head.text in _INTEGERS:
-            self.error(f"{head.text} needs integers; all numbers are real here", head.at)
+            sort = "Bool" if head.text in ("is_int", "divisible") else "Real"
+            return self.unread(listing, scope, sort, f"{head.text} needs integers; all numbers are real here")
         message = way_out(head.text)
-        return self.error(message if "algebraic" in message else f"the function {head.text} is not supported", head.at)
+        if "algebraic" in message:
+            return self.unread(listing, scope, "Real", message)
+        return self.error(f"the function {head.text} is not supported", head.at)
 
     def apply(self, head: Word, arguments: list[s.Term]) -> s.Term:
         least, most = s.FUNCTIONS[head.text]
