@@ -19,12 +19,12 @@ KEYWORDS = frozenset(
     (
         *("ex", "exists", "Ex", "Exists", "EXISTS", "all", "forall", "All", "ForAll", "Forall", "FORALL"),
         *("and", "AND", "or", "OR", "not", "NOT", "implies", "iff", "in", "if", "then", "else", "Reals", "ℝ"),
-        *("true", "True", "TRUE", "false", "False", "FALSE", "oo", "infinity", "Infinity"),
+        *("true", "True", "TRUE", "false", "False", "FALSE", "oo", "infinity", "Infinity", "inf", "Inf"),
     )
 )
 """Words that mean something else in the text syntax."""
 
-CONSTANTS = frozenset(("pi", "π", "e"))
+CONSTANTS = frozenset(("pi", "Pi", "π", "e", "nan", "NaN"))
 """Words that mathematics reads as numbers: the text syntax takes them as free variables only between backquotes."""
 
 _PLAIN = re.compile(WORD)
