@@ -104,10 +104,8 @@ def _hint(text: str, before: str, kind: str, value: str, at: int, expected: Coll
         return "a name with a dot stands between backquotes, as in `a.b`"
     if value in ("/", "*") and previous == "/":
         return "a comment starts with # and goes to the end of the line"
-    if value == ",":
-        return (
-            "several conditions are joined by and, or stand in braces {…, …}" if {"AND", "$END"} & {*expected} else ""
-        )
+    if value == "," and not {"NUMBER", "NAME", "DOT", "PLUS", "CLOSE"} & {*expected}:
+        return "several conditions are joined by and, or stand in braces {…, …}"
     if kind == "POWER" and "POWER" not in expected and "TIMES" in expected and previous not in "*^":
         return "a^b^c is ambiguous; use brackets"
     behind_a_term = "TIMES" in expected or ("PLUS" in expected and "NUMBER" not in expected)
