@@ -6,8 +6,10 @@ Every command is answered before the next one is read, so that programs can driv
 
 from __future__ import annotations
 
+import re
 import sys
 from collections.abc import Callable, Iterable, Sequence
+from itertools import pairwise
 from typing import cast
 
 import qe
@@ -18,7 +20,7 @@ from qe.errors import InputError, ParseError, Unable
 from qe.io import smtlib
 from qe.io import surface as s
 from qe.io.grammar import Failing
-from qe.io.smtlib_parser import Expression, Listing, Word, complete, parse, show
+from qe.io.smtlib_parser import Expression, Listing, Word, complete, ends, parse, show
 from qe.io.smtlib_script import Script
 from qe.io.smtlib_terms import is_real
 from qe.io.total import Fill, Total
@@ -62,31 +64,39 @@ class Solver(Checks):
     # --- input -----------------------------------------------------------------------------------------------
     def run(self, lines: Iterable[str], source: str) -> None:
         """Answer the commands as they come in."""
-        text, line = "", 0
+        text, line, column = "", 0, 0
         for piece in lines:
             text += piece
             if end := complete(text):
-                self.execute(text[:end], source, line)
-                line += text.count("\n", 0, end)
+                self.execute(text[:end], source, line, column)
+                line, column = _behind(text[:end], line, column)
                 text = text[end:]
             if self.done:
                 return
         if text.strip():
-            self.execute(text, source, line)
+            self.execute(text, source, line, column)
 
-    def execute(self, text: str, source: str, line: int = 0) -> None:
-        """Answer the commands of a text whose first line has this number (from 0) in ``source``."""
+    def execute(self, text: str, source: str, line: int = 0, column: int = 0) -> None:
+        """Answer the commands of a text that starts at this line and column (from 0) of ``source``."""
         place = Failing(text, source)
 
         def fail(message: str, at: int) -> ParseError:
             error = place(message, at)
-            error.line = (error.line or 1) + line
+            if error.line == 1:
+                error.column += column
+            error.line += line
             return error
 
         self.script.fail = fail
         try:
             commands = parse(text, fail)
         except InputError as error:
+            if max(pieces := [0, *ends(text)]) and len(pieces) > 2:  # only the bad ones are left out
+                for start, end in pairwise(pieces):
+                    if not self.done:
+                        self.execute(text[start:end], source, *_behind(text[:start], line, column))
+                return
+            self.lost[-1] = self.lost[-1] or re.match(r"\s*\(\s*assert\b", text) is not None
             self.error(error)
             return
         for command in commands:
@@ -315,6 +325,12 @@ def command_name(command: Expression) -> str:
     """The first word of a command."""
     head = command.items[0] if isinstance(command, Listing) and command.items else None
     return head.text if isinstance(head, Word) else ""
+
+
+def _behind(text: str, line: int, column: int) -> tuple[int, int]:
+    """Line and column (from 0) behind a text that starts at these."""
+    count = text.count("\n")
+    return line + count, len(text) - text.rfind("\n") - 1 if count else column + len(text)
 
 
 def _word(items: Sequence[Expression], k: int) -> str:

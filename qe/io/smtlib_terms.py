@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping
 from itertools import combinations, pairwise
 from typing import NamedTuple, Never, TypeAlias, cast
@@ -19,6 +20,7 @@ Meaning: TypeAlias = s.Term | s.Node
 _RELATIONS = {"<": Relation.LT, "<=": Relation.LE, ">": Relation.GT, ">=": Relation.GE, "=": Relation.EQ}
 _CONNECTIVES = frozenset(("not", "and", "or", "xor", "=>", "implies"))
 _ARITHMETIC = frozenset(("+", "-", "*", "/", "^"))
+_INFIX = frozenset((*_RELATIONS, *_CONNECTIVES, *_ARITHMETIC))
 _INTEGERS = frozenset(("div", "mod", "rem", "to_int", "is_int", "divisible"))
 
 
@@ -85,7 +87,7 @@ class Terms:
         return word.text
 
     def sort(self, word: Expression) -> str:
-        name = word.text if isinstance(word, Word) else "…"
+        name = show(word)[:40]
         if name not in ("Real", "Bool"):
             hint = "; all numbers are real here" if name == "Int" else ""
             self.error(f"sort Real or Bool expected, {name} found{hint}", word.at)
@@ -150,7 +152,9 @@ class Terms:
             return s.Truth(word.text == "true")
         found = scope.get(word.text)
         if found is None:
-            self.error(f"the symbol {word.text} is not declared", word.at)
+            number = re.fullmatch(r"-([0-9.]+)|\.[0-9]+", word.text)
+            hint = "" if number is None else f"; write (- {number[1]})" if number[1] else f"; write 0{word.text}"
+            self.error(f"the symbol {word.text} is not declared{hint}", word.at)
         if isinstance(found, Macro):
             self.error(f"{word.text} needs {len(found.parameters)} arguments", word.at)
         if isinstance(found, Foreign):
@@ -192,7 +196,9 @@ class Terms:
         if isinstance(macro, Foreign):
             return self.unread(listing, scope, macro.sort, f"the declaration of {head.text} was not read")
         if macro is not None:
-            self.error(f"{head.text} takes no arguments", head.at)
+            operator = arguments[0].text if arguments and isinstance(arguments[0], Word) else ""
+            hint = f"; an operator stands first: ({operator} {head.text} …)" if operator in _INFIX else ""
+            self.error(f"{head.text} takes no arguments{hint}", head.at)
         if head.text in ("exists", "forall"):
             self.arity(listing, 2)
             return self.quantified(head.text == "forall", arguments[0], arguments[1], scope)

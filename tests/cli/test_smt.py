@@ -113,6 +113,27 @@ def test_values_that_are_not_read_may_be_any(script: str, expected: list[str]) -
     assert [line for line in answers(XY + script) if not line.startswith("(error")] == expected
 
 
+@pytest.mark.parametrize(
+    ("lines", "expected"),
+    [
+        (["(declare-const x Real)(assert (= x 1.))(check-sat)"], ["column 36: malformed", "unknown"]),
+        (["(assert (> 1/2 0))\n", "(check-sat)\n", "(exit)\n"], ["column 12: malformed", "unknown"]),
+        (["(push)\n (check-sat) # (echo a)(check-sat)"], ["sat", "line 2 column 14: unknown character", "a", "sat"]),
+        (["(check-sat))\n", "(echo b)\n"], ["sat", "column 12: unbalanced", "b"]),
+        (["(echo |a\n", "b|)(check-sat)\n"], ["|a b|", "sat"]),
+        (["(assert (> .5 0))(assert (< -2 0))(assert (x > 1))"], ["write 0.5", "write (- 2)", "is not supported"]),
+        (["(declare-const x Real)(assert (x > 1))"], ["stands first: (> x …)"]),
+        (["(declare-const x (_ BitVec 8))"], ["(_ BitVec 8) found"]),
+    ],
+)
+def test_after_text_that_cannot_be_read_the_next_command_is_answered(lines: list[str], expected: list[str]) -> None:
+    found: list[str] = []
+    Solver(found.append, found.append).run(lines, "-")
+    found = [line.replace("\n", " ") for line in found]
+    assert len(found) == len(expected), found
+    assert all(part in line for part, line in zip(expected, found, strict=True)), found
+
+
 def test_places_are_counted_through_all_lines() -> None:
     lines: list[str] = []
     Solver(lines.append, lines.append).run(
