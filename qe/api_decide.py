@@ -34,6 +34,9 @@ def decide(
     explain: bool = False,
     check: bool = False,
     process: bool = True,
+    workers: int = 0,
+    cluster: str | None = None,
+    race: Iterable[str | Method] | str | Method = (),
 ) -> bool:
     """The truth of a sentence; the keywords are those of ``eliminate``.
 
@@ -55,6 +58,9 @@ def decide(
         explain=explain,
         check=check,
         process=process,
+        workers=workers,
+        cluster=cluster,
+        race=race,
     )
     if answer.truth is None:
         raise Unable(answer.reason or "no decision was reached")
@@ -76,6 +82,9 @@ def find_instance(
     explain: bool = False,
     check: bool = False,
     process: bool = True,
+    workers: int = 0,
+    cluster: str | None = None,
+    race: Iterable[str | Method] | str | Method = (),
 ) -> Assignment | None:
     """Exact values of the free variables that satisfy the formula, or None if there are none.
 
@@ -95,6 +104,9 @@ def find_instance(
         explain=explain,
         check=check,
         process=process,
+        workers=workers,
+        cluster=cluster,
+        race=race,
     )
     if answer.truth is None:
         raise Unable(answer.reason or "no decision was reached")
@@ -120,6 +132,9 @@ def check_witness(
     explain: bool = False,
     check: bool = False,
     process: bool = True,
+    workers: int = 0,
+    cluster: str | None = None,
+    race: Iterable[str | Method] | str | Method = (),
 ) -> bool:
     """Whether existential variables can be given by these polynomials in the variables quantified further outside.
 
@@ -148,6 +163,9 @@ def check_witness(
         explain=explain,
         check=check,
         process=process,
+        workers=workers,
+        cluster=cluster,
+        race=race,
     )
 
 
@@ -166,6 +184,9 @@ def equivalent(
     explain: bool = False,
     check: bool = False,
     process: bool = True,
+    workers: int = 0,
+    cluster: str | None = None,
+    race: Iterable[str | Method] | str | Method = (),
 ) -> bool:
     """Whether two formulas have the same solutions in all their free variables together.
 
@@ -185,4 +206,7 @@ def equivalent(
         explain=explain,
         check=check,
         process=process,
+        workers=workers,
+        cluster=cluster,
+        race=race,
     )

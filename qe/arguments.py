@@ -165,16 +165,21 @@ def name(value: object, what: str) -> str:
 
 
 def names(value: object, what: str = "order") -> tuple[str, ...] | None:
-    """Names in order: ``"y,x"``, ``"y x"``, a list of names or SymPy symbols; or None."""
+    """Names in order: ``"y,x"``, ``"y x"``, a list of names or SymPy symbols, each once; or None."""
     if value is None:
         return None
     if isinstance(value, str):
-        return _split(value, what)
-    if getattr(value, "is_Symbol", False) is True:
+        found = _split(value, what)
+    elif getattr(value, "is_Symbol", False) is True:
         return (name(value, what),)
-    if not isinstance(value, Iterable) or isinstance(value, bytes | bytearray | Mapping | set | frozenset):
+    elif not isinstance(value, Iterable) or isinstance(value, bytes | bytearray | Mapping | set | frozenset):
         raise wrong(what, "names of variables in order, as in 'y, x' or ('y', 'x'),", value)
-    return tuple(name(item, what) for item in value)
+    else:
+        found = tuple(name(item, what) for item in value)
+    if len(set(found)) < len(found):
+        twice = next(item for item in found if found.count(item) > 1)
+        raise InputError(f"{what}: each name once expected, {twice} found twice")
+    return found
 
 
 def _split(given: str, what: str) -> tuple[str, ...]:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from qe.spelling import on_one_line
+
 
 class QEError(Exception):
     """Base class of every error this package raises on purpose."""
@@ -9,6 +11,9 @@ class QEError(Exception):
 
 class InputError(QEError):
     """The caller's input cannot be understood; the message is one line saying what was expected."""
+
+    def __init__(self, message: str = "") -> None:
+        super().__init__(on_one_line(message))
 
 
 class ParseError(InputError):
@@ -20,6 +25,7 @@ class ParseError(InputError):
     def __init__(
         self, message: str, *, source: str = "<text>", line: int = 1, column: int = 1, expected: str = ""
     ) -> None:
+        message = on_one_line(message)
         self.message, self.source, self.line, self.column, self.expected = message, source, line, column, expected
         tail = f" (expected {expected})" if expected else ""
         super().__init__(f"{source}:{line}:{column}: {message}{tail}")

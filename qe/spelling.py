@@ -19,12 +19,12 @@ KEYWORDS = frozenset(
     (
         *("ex", "exists", "Ex", "Exists", "EXISTS", "all", "forall", "All", "ForAll", "Forall", "FORALL"),
         *("and", "AND", "or", "OR", "not", "NOT", "implies", "iff", "in", "if", "then", "else", "Reals", "ℝ"),
-        *("true", "True", "TRUE", "false", "False", "FALSE", "oo", "infinity", "Infinity"),
+        *("true", "True", "TRUE", "false", "False", "FALSE", "oo", "infinity", "Infinity", "inf", "Inf"),
     )
 )
 """Words that mean something else in the text syntax."""
 
-CONSTANTS = frozenset(("pi", "π", "e"))
+CONSTANTS = frozenset(("pi", "Pi", "π", "e", "nan", "NaN"))
 """Words that mathematics reads as numbers: the text syntax takes them as free variables only between backquotes."""
 
 _PLAIN = re.compile(WORD)
@@ -52,6 +52,11 @@ def visible(name: str) -> str:
     if name.isprintable():
         return name
     return "".join(c if c.isprintable() else f"\\u{{{ord(c):x}}}" for c in name)
+
+
+def on_one_line(message: str) -> str:
+    """A message that may quote what somebody typed, on one line without characters that cannot be seen."""
+    return message if message.isprintable() else visible(re.sub(r"\s*[\n\r\t\v\f]\s*", " ", message))
 
 
 def unquoted(text: str) -> str:

@@ -56,12 +56,20 @@ def solve_region(condition: Condition, symbol: Any = None, *, timeout: float | N
 def function_range(
     function: Any, symbols: Iterable[Any] | Any = None, condition: Condition = True, *, timeout: float | None = None
 ) -> Any:
-    """The set of all values of an expression in real ``symbols`` (all it has) under a condition, as a SymPy set."""
+    """The set of all values of an expression in real ``symbols`` (all it has) under a condition, as a SymPy set.
+
+    For one symbol the condition may be its domain, a SymPy set.
+    """
     import sympy
 
+    function = sympy.sympify(function)
     names = _listed(symbols) if symbols is not None else sorted(function.free_symbols, key=str)
+    if isinstance(condition, sympy.Set):
+        if len(names) != 1:
+            raise InputError(f"condition: a domain goes with one symbol, {len(names)} found")
+        condition = sympy.Contains(names[0], condition)
     value = sympy.Dummy("value").name
-    while value in {symbol.name for symbol in sympy.sympify(function).free_symbols}:
+    while value in {symbol.name for symbol in function.free_symbols}:
         value += "_"
     equation = sympy.Eq(sympy.Symbol(value, real=True), function, evaluate=False)
     parts = [equation] if condition is True else [equation, *_conditions(condition)]

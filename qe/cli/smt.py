@@ -6,31 +6,26 @@ Every command is answered before the next one is read, so that programs can driv
 
 from __future__ import annotations
 
+import re
 import sys
-import time
 from collections.abc import Callable, Iterable, Sequence
-from typing import NamedTuple, cast
+from itertools import pairwise
+from typing import cast
 
 import qe
 from qe import api
+from qe.cli.smt_check import Checks, Result
 from qe.cli.smt_values import Evaluation, Number, written
 from qe.errors import InputError, ParseError, Unable
-from qe.execution import Limits, perform
-from qe.formula.build import exists
-from qe.formula.syntax import Formula
-from qe.formula.traverse import free_variables
 from qe.io import smtlib
 from qe.io import surface as s
 from qe.io.grammar import Failing
-from qe.io.smtlib_parser import Expression, Listing, Word, complete, parse, show
+from qe.io.smtlib_parser import Expression, Listing, Word, complete, ends, parse, show
 from qe.io.smtlib_script import Script
 from qe.io.smtlib_terms import is_real
 from qe.io.total import Fill, Total
 
 MOST_LEVELS = 10_000
-MOST_PARTS = 300
-"""Parts of a script up to which it is read at once, in this process."""
-
 _INFO = {
     ":name": '"bezier-qe"',
     ":version": f'"{qe.__version__}"',
@@ -39,17 +34,7 @@ _INFO = {
 }
 
 
-class Result(NamedTuple):
-    """The answer of a check: ``reason`` for unknown, ``point`` (by name in formulas) and ``total`` for sat."""
-
-    answer: str
-    reason: str = ""
-    point: dict[str, Number] | None = None
-    total: Total | None = None
-    asked: tuple[Expression, ...] = ()
-
-
-class Solver:
+class Solver(Checks):
     """The state of a solver. ``put`` takes the answers, ``warn`` what is only for people.
 
     ``timeout``: seconds for the whole run, or (``each``) for every check.
@@ -64,8 +49,8 @@ class Solver:
         memory: int | None = None,
         each: bool = False,
     ) -> None:
-        self.put, self.warn, self.timeout, self.memory = put, warn, timeout, memory
-        self.until = None if timeout is None or each else time.monotonic() + timeout
+        super().__init__(timeout, memory, each)
+        self.put, self.warn = put, warn
         self.failed, self.done = False, False
         self.options: dict[str, str] = {}
         self.restart()
@@ -79,31 +64,39 @@ class Solver:
     # --- input -----------------------------------------------------------------------------------------------
     def run(self, lines: Iterable[str], source: str) -> None:
         """Answer the commands as they come in."""
-        text, line = "", 0
+        text, line, column = "", 0, 0
         for piece in lines:
             text += piece
             if end := complete(text):
-                self.execute(text[:end], source, line)
-                line += text.count("\n", 0, end)
+                self.execute(text[:end], source, line, column)
+                line, column = _behind(text[:end], line, column)
                 text = text[end:]
             if self.done:
                 return
         if text.strip():
-            self.execute(text, source, line)
+            self.execute(text, source, line, column)
 
-    def execute(self, text: str, source: str, line: int = 0) -> None:
-        """Answer the commands of a text whose first line has this number (from 0) in ``source``."""
+    def execute(self, text: str, source: str, line: int = 0, column: int = 0) -> None:
+        """Answer the commands of a text that starts at this line and column (from 0) of ``source``."""
         place = Failing(text, source)
 
         def fail(message: str, at: int) -> ParseError:
             error = place(message, at)
-            error.line = (error.line or 1) + line
+            if error.line == 1:
+                error.column += column
+            error.line += line
             return error
 
         self.script.fail = fail
         try:
             commands = parse(text, fail)
         except InputError as error:
+            if max(pieces := [0, *ends(text)]) and len(pieces) > 2:  # only the bad ones are left out
+                for start, end in pairwise(pieces):
+                    if not self.done:
+                        self.execute(text[start:end], source, *_behind(text[:start], line, column))
+                return
+            self.lost[-1] = self.lost[-1] or re.match(r"\s*\(\s*assert\b", text) is not None
             self.error(error)
             return
         for command in commands:
@@ -124,7 +117,8 @@ class Solver:
             head = self.script.head(command).text
             reply = self.reply(head, cast(Listing, command))
         except InputError as error:
-            self.lost[-1] = self.lost[-1] or command_name(command) == "assert"
+            kept = self.script.keep(cast(Listing, command)) if command_name(command) else True
+            self.lost[-1] = self.lost[-1] or not kept
             self.error(error)
         except Unable as error:
             self.error(InputError(f"unable: {error}"))
@@ -244,51 +238,6 @@ class Solver:
         nodes = [self.script.formula(item, self.script.globals) for item in literals.items]
         return self.check(nodes, tuple(literals.items))
 
-    def left(self) -> float | None:
-        """Seconds that a check may still take."""
-        return self.timeout if self.until is None else self.until - time.monotonic()
-
-    def solved(self, nodes: Sequence[s.Node]) -> Result:
-        """Whether the nodes can hold together."""
-        found = self.attempt(nodes, Total(fill=Fill.ANY))
-        if found.answer == "sat" and found.total is not None and found.total.weakened:
-            for fill in (Fill.CONSTANT, Fill.ARGUMENT):
-                other = self.attempt(nodes, Total(fill=fill))
-                if other.answer == "sat":
-                    return other
-            return Result("unknown", "incomplete")
-        if found.answer == "unsat" and found.total is not None and found.total.unclear:
-            return Result("unknown", "incomplete")
-        return found
-
-    def attempt(self, nodes: Sequence[s.Node], total: Total) -> Result:
-        start, left = time.monotonic(), self.left()
-        if left is not None and left <= 0:
-            return Result("unknown", "timeout")
-        try:
-            formula, total = self.formula(nodes, total, left)
-        except Unable:
-            return Result("unknown", "timeout")
-        closed = exists(free_variables(formula), formula)
-        rest = None if left is None else max(left - (time.monotonic() - start), 0.01)
-        answer = api.eliminate(closed, timeout=rest, memory=self.memory)
-        if answer.truth is None:
-            return Result("unknown", "timeout" if "time" in answer.reason else "incomplete")
-        if not answer.truth:
-            return Result("unsat", total=total)
-        point = dict(answer.witness) if answer.witness is not None else ({} if not free_variables(formula) else None)
-        return Result("sat", point=point, total=total)
-
-    def formula(self, nodes: Sequence[s.Node], total: Total, seconds: float | None) -> tuple[Formula, Total]:
-        """What the nodes mean together; a large script is read in a process of its own, which a limit ends."""
-
-        def read(_: object = None) -> tuple[Formula, Total]:
-            return self.script.formula_of(nodes, total), total
-
-        if len(self.script.shared) <= MOST_PARTS:
-            return read()
-        return perform(read, Limits(seconds, self.memory), at_once=True)
-
     def last(self, answer: str) -> Result:
         """The last check, which must have had this answer."""
         if self.result is None or self.result.answer != answer:
@@ -376,6 +325,12 @@ def command_name(command: Expression) -> str:
     """The first word of a command."""
     head = command.items[0] if isinstance(command, Listing) and command.items else None
     return head.text if isinstance(head, Word) else ""
+
+
+def _behind(text: str, line: int, column: int) -> tuple[int, int]:
+    """Line and column (from 0) behind a text that starts at these."""
+    count = text.count("\n")
+    return line + count, len(text) - text.rfind("\n") - 1 if count else column + len(text)
 
 
 def _word(items: Sequence[Expression], k: int) -> str:

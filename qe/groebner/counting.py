@@ -6,7 +6,8 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-from qe.errors import InputError, InternalError, Unable
+from qe import arguments
+from qe.errors import InternalError, Unable
 from qe.exact.ring import Poly
 from qe.formula.build import conj, convert, disj
 from qe.formula.evaluate import truth_under
@@ -100,9 +101,9 @@ class RealRootClassification:
     def condition(self, count: int | None) -> Formula:
         """Where there are so many real solutions. ``InputError`` for a count that occurs nowhere."""
         for found in self.classes:
-            if found.count == count:
+            if found.count == count and not isinstance(count, bool):
                 return found.condition
-        raise InputError(f"count: one of {', '.join(str(c.count) for c in self.classes)} expected, {count} found")
+        raise arguments.wrong("count", f"one of {', '.join(str(c.count) for c in self.classes)}", count)
 
     def at(self, point: Mapping[str, object] | Sequence[object]) -> int | None:
         """The number of distinct real solutions at a point, exactly."""

@@ -124,8 +124,10 @@ class ComprehensiveGroebnerSystem:
         Kind "solutions", for ``qe.verify`` and ``qe check``; the checker works from the given polynomials, not from the
         segments. Arguments and errors as for ``solutions_at``.
         """
-        values = self._values(point)
-        return _within(timeout, lambda: self._certificate_at(values, positive))
+        values, signed = self._values(point), arguments.by_place(positive, "positive")
+        for poly in signed:
+            arguments.instance(poly, Poly, "positive", "polynomials of this system's kind")
+        return _within(timeout, lambda: self._certificate_at(values, signed))
 
     def _certificate_at(self, values: Mapping[str, Number], positive: Sequence[Poly]) -> Certificate:
         special = [_specialised(p, values, self._names) for p in self.polys]
@@ -146,7 +148,7 @@ class ComprehensiveGroebnerSystem:
 
     def contains(self, poly: Poly, point: Mapping[str, object] | Sequence[object]) -> bool:
         """Whether a polynomial in variables and parameters is in the ideal at a point, exactly."""
-        values = self._values(point)
+        values, poly = self._values(point), arguments.instance(poly, Poly, "poly", "a polynomial of this system's kind")
         _, rest = self.at(values).reduce(poly)
         place = self._place(values)
         return all(place.sign(c) == 0 for c in self.block.terms(rest).values())
@@ -178,7 +180,7 @@ class ComprehensiveGroebnerSystem:
     # --- written -----------------------------------------------------------------------------
     def condition(self, segment: Segment) -> Formula:
         """The segment as a formula between parameters (and constants)."""
-        return condition_of(segment)
+        return condition_of(arguments.instance(segment, Segment, "segment", "a segment of the system"))
 
     def to_dict(self) -> dict[str, object]:
         """The system as plain data: polynomials as text."""
@@ -208,6 +210,8 @@ class ComprehensiveGroebnerSystem:
 
     def to_json(self, *, indent: int | None = None) -> str:
         """``to_dict`` as JSON."""
+        if indent is not None:
+            arguments.whole(indent, "indent", 80)
         return json.dumps(self.to_dict(), indent=indent, ensure_ascii=False)
 
     def to_latex(self) -> str:

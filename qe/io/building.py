@@ -12,8 +12,8 @@ from qe.io.text_errors import SyntaxFailure, UnknownFunction
 RELATIONS = {
     **{relation.value: relation for relation in Relation},
     **dict.fromkeys(("==", "\\[Equal]", "Eq", "Equal"), Relation.EQ),
-    **dict.fromkeys(("!=", "~=", "<>", "≠", "\\[NotEqual]", "Ne", "Unequal"), Relation.NE),
-    **dict.fromkeys(("≤", "⩽", "\\[LessEqual]", "Le", "LessEqual"), Relation.LE),
+    **dict.fromkeys(("!=", "~=", "<>", "=/=", "=!=", "≠", "\\[NotEqual]", "Ne", "Unequal"), Relation.NE),
+    **dict.fromkeys(("=<", "≤", "⩽", "\\[LessEqual]", "Le", "LessEqual"), Relation.LE),
     **dict.fromkeys(("≥", "⩾", "\\[GreaterEqual]", "Ge", "GreaterEqual"), Relation.GE),
     **dict.fromkeys(("Lt", "Less"), Relation.LT),
     **dict.fromkeys(("Gt", "Greater"), Relation.GT),
@@ -21,6 +21,7 @@ RELATIONS = {
 FUNCTIONS = {
     **{name: name for name in s.FUNCTIONS},
     **{name.capitalize(): name for name in s.FUNCTIONS},
+    **{name.upper(): name for name in s.FUNCTIONS},
     **dict.fromkeys(("sgn", "Sgn"), "sign"),
     "CubeRoot": "cbrt",
 }

@@ -32,6 +32,8 @@ _COMMANDS = {
     "exists": ("QUANTIFIER", "ex"),
     "forall": ("QUANTIFIER", "all"),
     "in": ("IN", "in"),
+    "notin": ("NOTIN", "∉"),
+    "cup": ("UNION", "∪"),
     "infty": ("INFINITY", "oo"),
     "top": ("TRUE", "true"),
     "bot": ("FALSE", "false"),
@@ -79,8 +81,10 @@ _MARK = re.compile(
 
 
 def is_latex(text: str) -> bool:
-    """Whether commands of LaTeX occur that nothing else can be."""
-    return "\\" in text and _MARK.search(text) is not None
+    """Whether commands or groups of LaTeX occur that nothing else can be."""
+    if "\\" in text and _MARK.search(text) is not None:
+        return True
+    return "`" not in text and re.search(r"[_^]\{", text) is not None
 
 
 def tokens(text: str, token: Make) -> Iterator[Token]:
@@ -151,7 +155,7 @@ class _Source:
         elif name in _FUNCTIONS:
             yield from self.put("NAME", name, at)
             self.state.last = "FUNCTION"
-        elif name not in _SKIPPED:
+        elif name not in _SKIPPED and name not in "()[]":
             after = yield from self.name(name, at, after)
         return after
 
@@ -200,6 +204,8 @@ class _Source:
         behind = end + 1 if self.text[inner - 1 : inner] == "{" else end
         if font == "mathbb" and word == "R":
             yield from self.plain("REALS", "Reals", at)
+        elif font == "mathbb" and self.state.last == "IN":
+            yield from self.plain(self.state.set_named(word, at), word, at)
         elif font == "text" and word in _WORDS:
             yield from self.plain(_WORDS[word], word, at)
         elif not re.fullmatch(r"[^\W\d_]\w*", word):

@@ -70,17 +70,25 @@ def parse(text: str, fail: Fail) -> list[Expression]:
 
 def complete(text: str) -> int:
     """The offset behind the last whole expression of a text that may go on."""
-    at, depth, end = 0, 0, 0
-    while at < len(text) and (found := _TOKEN.match(text, at)) is not None:
-        kind, at = found.lastgroup, found.end()
+    return max(ends(text), default=0)
+
+
+def ends(text: str) -> Iterator[int]:
+    """The offsets behind the whole expressions of a text that may go on; what is no token counts as one character.
+
+    A bracket that closes nothing ends an expression.
+    """
+    at, depth = 0, 0
+    while at < len(text):
+        found = _TOKEN.match(text, at)
+        if found is None and text[at] in '|"':  # it may be closed by what follows
+            return
+        kind, at = (None, at + 1) if found is None else (found.lastgroup, found.end())
         if kind == "SPACE" or (at == len(text) and kind not in ("CLOSE", "OPEN")):
             continue
-        depth += {"OPEN": 1, "CLOSE": -1}.get(str(kind), 0)
-        if depth < 0:
-            return len(text)
+        depth = max(depth + {"OPEN": 1, "CLOSE": -1}.get(str(kind), 0), 0)
         if depth == 0:
-            end = at
-    return end
+            yield at
 
 
 def show(expression: Expression) -> str:
@@ -90,6 +98,17 @@ def show(expression: Expression) -> str:
     if expression.kind == "SYMBOL" and not _SYMBOL.fullmatch(expression.text):
         return f"|{expression.text}|"
     return expression.text
+
+
+def symbols(expression: Expression) -> Iterator[str]:
+    """The symbols of an expression."""
+    stack = [expression]
+    while stack:
+        part = stack.pop()
+        if isinstance(part, Listing):
+            stack += part.items
+        elif part.kind == "SYMBOL":
+            yield part.text
 
 
 @cache
@@ -105,7 +124,7 @@ def _tokens(text: str, token: Callable[..., Token]) -> Iterator[Token]:
             if text[at] in '|"':
                 raise _Bad(f"this {text[at]} is never closed", at)
             if text[at].isdigit():
-                raise _Bad("malformed number", at)
+                raise _Bad("malformed number; write 1.0 for 1., (/ 1 2) for 1/2", at)
             raise _Bad(f"unknown character {text[at]!r}", at)
         if found.lastgroup != "SPACE":
             yield token(found.lastgroup, found.group(), at)

@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import NamedTuple, cast
 
+from qe.errors import InputError
 from qe.formula.syntax import Formula
 from qe.io import surface as s
 from qe.io.lowering import lower
 from qe.io.smtlib_parser import Expression, Listing, Word
-from qe.io.smtlib_terms import Macro, Meaning, Terms
+from qe.io.smtlib_terms import Foreign, Macro, Meaning, Terms
 from qe.io.total import Fill, Total
 
 
@@ -24,7 +25,7 @@ class Assertion(NamedTuple):
 class Level(NamedTuple):
     """What there was when ``push`` was said."""
 
-    globals: dict[str, Meaning | Macro]
+    globals: dict[str, Meaning | Macro | Foreign]
     constants: dict[str, tuple[str, str]]
     names: int
     shared: int
@@ -76,6 +77,25 @@ class Script(Terms):
                 return False
         return True
 
+    def keep(self, command: Listing) -> bool:
+        """What is left of a command that was not read; whether all that it asserts is kept.
+
+        A declared symbol is known as one whose values are not known, and in an assertion such values get names.
+        """
+        match [item.text if isinstance(item, Word) else "" for item in command.items]:
+            case ["declare-const" | "declare-fun", symbol, *_, sort] if symbol and symbol not in self.globals:
+                if sort in ("Real", "Int", "Bool"):
+                    self.globals[symbol] = Foreign("Bool" if sort == "Bool" else "Real")
+            case ["assert" | "define-fun" | "define-const", *_]:
+                self.lenient = True
+                try:
+                    self.change(command)
+                except InputError:
+                    return False
+                finally:
+                    self.lenient = False
+        return True
+
     def declare(self, name: Expression, sort: Expression) -> None:
         symbol, kind = self.symbol(name), self.sort(sort)
         self.fresh_global(symbol, name.at)
@@ -118,6 +138,8 @@ class Script(Terms):
             self.globals, self.constants = level.globals, level.constants
             self.taken.difference_update(self.names[level.names :])
             del self.names[level.names :], self.shared[level.shared :], self.assertions[level.assertions :]
+        self.fixed.intersection_update(self.names)
+        self.varying.intersection_update(self.names)
 
     # --- questions -------------------------------------------------------------------------------------------
     def formula_of(self, nodes: Sequence[s.Node], total: Total) -> Formula:

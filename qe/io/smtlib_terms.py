@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping
 from itertools import combinations, pairwise
 from typing import NamedTuple, Never, TypeAlias, cast
@@ -10,7 +11,7 @@ from qe.errors import InputError
 from qe.formula.relation import Relation
 from qe.io import surface as s
 from qe.io.names import check_name
-from qe.io.smtlib_parser import Expression, Listing, Word
+from qe.io.smtlib_parser import Expression, Listing, Word, show, symbols
 from qe.io.terms import TermError, decimal
 from qe.io.text_errors import way_out
 
@@ -19,6 +20,7 @@ Meaning: TypeAlias = s.Term | s.Node
 _RELATIONS = {"<": Relation.LT, "<=": Relation.LE, ">": Relation.GT, ">=": Relation.GE, "=": Relation.EQ}
 _CONNECTIVES = frozenset(("not", "and", "or", "xor", "=>", "implies"))
 _ARITHMETIC = frozenset(("+", "-", "*", "/", "^"))
+_INFIX = frozenset((*_RELATIONS, *_CONNECTIVES, *_ARITHMETIC))
 _INTEGERS = frozenset(("div", "mod", "rem", "to_int", "is_int", "divisible"))
 
 
@@ -31,7 +33,13 @@ class Macro(NamedTuple):
     scope: Scope
 
 
-Scope: TypeAlias = Mapping[str, "Meaning | Macro"]
+class Foreign(NamedTuple):
+    """A symbol that was declared, but not read: only the sort of its values is known."""
+
+    sort: str
+
+
+Scope: TypeAlias = Mapping[str, "Meaning | Macro | Foreign"]
 
 
 def is_real(meaning: Meaning) -> bool:
@@ -41,7 +49,11 @@ def is_real(meaning: Meaning) -> bool:
 
 class Terms:
     """Reads terms. ``names``: the variables, declared ones first; bound variables get names of their own here, so
-    nothing is captured when a definition is expanded. ``bound``: those. ``shared``: definitions, in order."""
+    nothing is captured when a definition is expanded. ``bound``: those. ``shared``: definitions, in order.
+
+    ``lenient``: a value that is not read (of ``tanh``, of an integer or a declared function) gets a name of its own,
+    which is free. ``fixed`` are such names where no variable stands inside, ``varying`` the others.
+    """
 
     def __init__(self, fail: s.Fail) -> None:
         self.fail = fail
@@ -50,7 +62,10 @@ class Terms:
         self.taken: set[str] = set()
         self.reserved: set[str] = set()
         self.shared: list[s.Part] = []
-        self.globals: dict[str, Meaning | Macro] = {}
+        self.globals: dict[str, Meaning | Macro | Foreign] = {}
+        self.lenient = False
+        self.fixed: set[str] = set()
+        self.varying: set[str] = set()
 
     def error(self, message: str, at: int) -> Never:
         raise self.fail(message, at)
@@ -72,7 +87,7 @@ class Terms:
         return word.text
 
     def sort(self, word: Expression) -> str:
-        name = word.text if isinstance(word, Word) else "…"
+        name = show(word)[:40]
         if name not in ("Real", "Bool"):
             hint = "; all numbers are real here" if name == "Int" else ""
             self.error(f"sort Real or Bool expected, {name} found{hint}", word.at)
@@ -137,10 +152,27 @@ class Terms:
             return s.Truth(word.text == "true")
         found = scope.get(word.text)
         if found is None:
-            self.error(f"the symbol {word.text} is not declared", word.at)
+            number = re.fullmatch(r"-([0-9.]+)|\.[0-9]+", word.text)
+            hint = "" if number is None else f"; write (- {number[1]})" if number[1] else f"; write 0{word.text}"
+            self.error(f"the symbol {word.text} is not declared{hint}", word.at)
         if isinstance(found, Macro):
             self.error(f"{word.text} needs {len(found.parameters)} arguments", word.at)
+        if isinstance(found, Foreign):
+            return self.unread(word, scope, found.sort, f"the declaration of {word.text} was not read")
         return found
+
+    def unread(self, expression: Expression, scope: Scope, sort: str, message: str) -> Meaning:
+        """A value that is not read: a name of its own, the same for the same text, where that is allowed."""
+        head = expression.items[0] if isinstance(expression, Listing) else expression
+        inside = [text for text in symbols(expression) if text in scope and not isinstance(scope[text], Foreign)]
+        if not self.lenient or any(scope[text] is not self.globals.get(text) for text in inside):
+            self.error(message, head.at)
+        key = f"|{show(expression)}|"  # no symbol contains a bar
+        if (known := self.globals.get(key)) is None:
+            name = self.fresh("unread")
+            (self.varying if inside else self.fixed).add(name)
+            known = self.globals[key] = self.variable(name, sort, expression.at)
+        return cast(Meaning, known)
 
     def let(self, expression: Listing, scope: Scope) -> tuple[Expression, Scope]:
         self.arity(expression, 2)
@@ -161,8 +193,12 @@ class Terms:
         macro = scope.get(head.text)
         if isinstance(macro, Macro):
             return self.expand(macro, listing, scope)
+        if isinstance(macro, Foreign):
+            return self.unread(listing, scope, macro.sort, f"the declaration of {head.text} was not read")
         if macro is not None:
-            self.error(f"{head.text} takes no arguments", head.at)
+            operator = arguments[0].text if arguments and isinstance(arguments[0], Word) else ""
+            hint = f"; an operator stands first: ({operator} {head.text} …)" if operator in _INFIX else ""
+            self.error(f"{head.text} takes no arguments{hint}", head.at)
         if head.text in ("exists", "forall"):
             self.arity(listing, 2)
             return self.quantified(head.text == "forall", arguments[0], arguments[1], scope)
@@ -186,9 +222,12 @@ class Terms:
         if head.text in _RELATIONS or head.text == "distinct":
             return self.relation(head, arguments, scope)
         if head.text in _INTEGERS:
-            self.error(f"{head.text} needs integers; all numbers are real here", head.at)
+            sort = "Bool" if head.text in ("is_int", "divisible") else "Real"
+            return self.unread(listing, scope, sort, f"{head.text} needs integers; all numbers are real here")
         message = way_out(head.text)
-        return self.error(message if "algebraic" in message else f"the function {head.text} is not supported", head.at)
+        if "algebraic" in message:
+            return self.unread(listing, scope, "Real", message)
+        return self.error(f"the function {head.text} is not supported", head.at)
 
     def apply(self, head: Word, arguments: list[s.Term]) -> s.Term:
         least, most = s.FUNCTIONS[head.text]

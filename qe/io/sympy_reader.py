@@ -31,7 +31,8 @@ def symbol_name(symbol: Any) -> str:
 
     if isinstance(symbol, sympy.Dummy | sympy.Wild):
         raise InputError(f"{symbol} is a {type(symbol).__name__}, which is no variable with a name; use a Symbol")
-    known = sympy.Symbol("x", real=True).assumptions0
+    sign = next((key for key in _ASSUMED if getattr(symbol, f"is_{key}") is True), "real")
+    known = sympy.Symbol("x", **{sign: True}).assumptions0  # a negative number is no prime number either
     extra = [key for key, value in symbol.assumptions0.items() if known.get(key) is not value]
     refused = [key for key in extra if key.removeprefix("extended_") not in _ASSUMED]
     if refused and symbol.is_zero is not True:

@@ -11,7 +11,13 @@ _QUOTED = re.compile(QUOTED)
 
 _CHARACTERS = {
     "`": "a name between backquotes needs both of them, on one line, and is not empty",
-    ";": "no end mark is needed",
+    ";": "several conditions are joined by and, or stand in braces {…, …}",
+    '"': "a formula is written without quotes",
+    "'": "a formula is written without quotes",
+    "%": "a comment starts with #",
+    "?": "a choice is written if c then a else b",
+    "⌊": "all variables are real, integers cannot be asked for",
+    "⌈": "all variables are real, integers cannot be asked for",
     "$": "formulas are plain text",
     "\\": "'or' is written or, 'and' is written and",
 }
@@ -39,6 +45,10 @@ class UnknownFunction(SyntaxFailure):
     def about(self, text: str) -> str:
         """The message, with the whole application that cannot be read."""
         depth = 0
+        if text[self.at :].partition("(")[0].count("[") and "unknown function" in self.message:
+            name = text[self.at :].partition("[")[0]
+            hint = f"a variable with an index is written {name}1 or {name}_i, or `{name}[1]` between backquotes"
+            return f"{name}[…] is no function; {hint}"
         for end in range(self.at, min(len(text), self.at + 60)):
             depth += {"(": 1, "[": 1, ")": -1, "]": -1}.get(text[end], 0)
             if text[end] in ")]" and depth == 0:
@@ -64,10 +74,12 @@ def unexpected_token(text: str, kind: str, value: str, at: int, expected: Collec
         opening = _unmatched_opening(text)
         if opening is not None and "CLOSE" in expected:
             return SyntaxFailure("unbalanced brackets: this '(' is never closed", opening)
+        if re.search(r"\bthen\b(?!.*\belse\b)", before, re.DOTALL) and {"AND", "ELSE"} & {*expected}:
+            return SyntaxFailure("if … then … needs else …; an implication is written p -> q", len(before))
         return SyntaxFailure("the text ends too early", len(before), wanted)
     if kind == "CLOSE" and "CLOSE" not in expected and _unmatched_opening(text[:at]) is None:
         return SyntaxFailure("unbalanced brackets: this ')' has no partner", at)
-    hint = _hint(text, before, kind, value, at, expected)
+    hint = _word_hint(text, before, kind, value, expected) or _hint(text, before, kind, value, at, expected)
     if hint:
         return SyntaxFailure(hint, at)
     return SyntaxFailure(f"unexpected '{value}'", at, wanted)
@@ -80,20 +92,57 @@ def _hint(text: str, before: str, kind: str, value: str, at: int, expected: Coll
         return "'===' is not used here; an equation is written with one ="
     if value in ("|", "||") or (previous == "|" and kind != "$END"):
         return f"the bars near '{value}' are ambiguous; write abs(x) for an absolute value, or for 'or'"
+    if kind == "NOT" and value == "!" and previous in ("∃", "x", "s") and "NAME" in expected and "PLUS" not in expected:
+        return "there is no ∃!; write ex x. f and all y. … -> y = x"
     if kind == "NOT" and value == "!":
         return "'!' stands before the formula that it negates; it is no factorial"
     if value == ">" and previous == "=":
         return "'=>' is not used here; write >= for a comparison or -> for an implication"
     if value == "=" and previous in "<>" and previous:
         return f"write {previous}= without a space"
-    if kind == "POWER" and previous not in "*^":
+    if value == "." and before[-1:].isalnum() and text[at + 1 : at + 2].isalpha():
+        return "a name with a dot stands between backquotes, as in `a.b`"
+    if value in ("/", "*") and previous == "/":
+        return "a comment starts with # and goes to the end of the line"
+    if value == "," and not {"NUMBER", "NAME", "DOT", "PLUS", "CLOSE"} & {*expected}:
+        return "several conditions are joined by and, or stand in braces {…, …}"
+    if kind == "POWER" and "POWER" not in expected and "TIMES" in expected and previous not in "*^":
         return "a^b^c is ambiguous; use brackets"
-    if kind in ("NAME", "NUMBER", "OPEN", "OPENBAR", "RADICAL") and "TIMES" in expected:
+    behind_a_term = "TIMES" in expected or ("PLUS" in expected and "NUMBER" not in expected)
+    if kind in ("NAME", "NUMBER", "OPEN", "OPENBAR", "RADICAL") and behind_a_term:
         left = _last_word(before)
         right = "(…)" if kind == "OPEN" else value
         return f"an operator is missing; a product is written {left}*{right}"
     if kind == "RELATION" and previous == ")" and "AND" in expected:
         return f"'{value}' compares terms, but a formula stands left of it; two formulas are compared with <->"
+    return ""
+
+
+_COMMANDS = re.compile(
+    r"\s*(Resolve|Reduce|Solve|FindInstance|CylindricalDecomposition|Minimize|Maximize|rlqe|rlsimpl|QuantifierElimination"
+    r"|solve|reduce|assert|print|Assume|Piecewise|let)\b\s*[\[({]?"
+)
+_WORDS = {
+    "xor": "write Xor(p, q)",
+    "nand": "write not (p and q)",
+    "nor": "write not (p or q)",
+    "mod": "mod needs integers, and all variables are real",
+    "div": "div needs integers, and all variables are real",
+    "where": "put the term in the place of its name, or write ex y. y = … and …",
+}
+
+
+def _word_hint(text: str, before: str, kind: str, value: str, expected: Collection[str]) -> str:
+    """What helps where words of other systems stand."""
+    if kind == "NAME" and value in _WORDS and "TIMES" in expected:
+        return f"an operator is missing in front of {value}; {_WORDS[value]}"
+    if "Piecewise" in before:
+        return "a choice between cases is written if c then a else b"
+    command = _COMMANDS.match(before)
+    if command is not None and command[1] == "let":
+        return "definitions are not read; put the term in the place of its name, or write ex y. y = … and …"
+    if command is not None and command[1] != "Piecewise" and (kind != "$END" or "$END" not in expected):
+        return f"{command[1]} is a command of another system; give the formula alone"
     return ""
 
 

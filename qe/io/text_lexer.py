@@ -13,12 +13,18 @@ from collections.abc import Callable, Iterator
 from qe.errors import InputError
 from qe.io.lalr import Token
 from qe.io.names import check_name
+from qe.io.surface import FUNCTIONS
 from qe.io.text_errors import SyntaxFailure, unknown_character
 from qe.spelling import QUOTED, WORD, unquoted
 
 _LIST = rf"(?:{WORD}|{QUOTED})"
+_PREFIXES = r"(?:(?:E|A|ex|all|exists|forall)\s+|[∃∀]\s*|[EA](?=[a-z][0-9]*\s*\)))"
 _TOKEN = re.compile(
-    rf"(?P<SPACE>\s+|\#[^\n]*)"
+    rf"(?P<SPACE>\s+|\#[^\n]*|[Tt]here\s+(?=exists\b))"
+    rf"|(?P<PREFIX>\(\s*{_PREFIXES}{_LIST}\s*(?:,\s*{_LIST}\s*)*\)(?=\s*[(\[]))"
+    r"|(?P<EVERY>[Ff]or\s+(?:all|every|each|any)\b)"
+    r"|(?P<THAT>such\s+that\b|s\.\s?t\.)"
+    r"|(?P<NOTIN>not\s+in\b|∉)"
     rf"|(?P<QUANTIFIER>[EA](?=\s+{_LIST}\s*(?:,\s*{_LIST}\s*)*[.:]))\b"
     r"|(?P<CALL>(?:And|Or|Not|Implies|Equivalent|Xor|Eq|Equal|Ne|Unequal|Lt|Less|Le|LessEqual|Gt|Greater|Ge|GreaterEqual"
     r"|Element|If|ITE|ite)(?=\s*[(\[]))\b"
@@ -26,8 +32,8 @@ _TOKEN = re.compile(
     r"|(?P<NUMBER>(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]+)?)"
     rf"|(?P<QUOTED>{QUOTED})"
     r"|(?P<RAISED>⁻?[⁰¹²³⁴-⁹]+)"
-    r"|(?P<OPERATOR><==>|<->|<=>|==>|->|<=|>=|==|/=|!=|~=|<>|/\\|\\/|&&|\|\||\*\*|\\\[\w+\]"
-    r"|[-+*/^()=<>~,.:∃∀∧∨¬→↔⇒⇔≤≥⩽⩾≠−·×⋅÷∈∞√&|!{}]|\[|\])"
+    r"|(?P<OPERATOR><==>|<->|<=>|==>|=>|->|=<|=/=|=!=|<=|>=|==|/=|!=|~=|<>|/\\|\\/|&&|\|\||\*\*|\\\[\w+\]"
+    r"|[-+*/^()=<>~,.:∃∀∧∨¬→↔⇒⇔≤≥⩽⩾≠−·×⋅÷∈∞√∛∪&|!{}]|\[|\])"
 )
 KEYWORDS = {
     **dict.fromkeys(("ex", "exists", "Ex", "Exists", "EXISTS", "all", "forall", "All"), "QUANTIFIER"),
@@ -37,7 +43,7 @@ KEYWORDS = {
     **dict.fromkeys(("not", "NOT"), "NOT"),
     **dict.fromkeys(("true", "True", "TRUE"), "TRUE"),
     **dict.fromkeys(("false", "False", "FALSE"), "FALSE"),
-    **dict.fromkeys(("oo", "infinity", "Infinity"), "INFINITY"),
+    **dict.fromkeys(("oo", "infinity", "Infinity", "inf", "Inf"), "INFINITY"),
     "implies": "IMPLIES",
     "iff": "IFF",
     "in": "IN",
@@ -48,7 +54,8 @@ KEYWORDS = {
 }
 _OPERATORS = {
     **dict.fromkeys(("∃", "∀"), "QUANTIFIER"),
-    **dict.fromkeys(("=", "==", "/=", "!=", "~=", "<>", "≠", "<", "<=", "≤", "⩽", ">", ">=", "≥", "⩾"), "RELATION"),
+    **dict.fromkeys(("=", "==", "/=", "=/=", "!=", "=!=", "~=", "<>", "≠"), "RELATION"),
+    **dict.fromkeys(("<", "<=", "=<", "≤", "⩽", ">", ">=", "≥", "⩾"), "RELATION"),
     "+": "PLUS",
     **dict.fromkeys(("-", "−"), "MINUS"),
     **dict.fromkeys(("*", "·", "×", "⋅"), "TIMES"),
@@ -65,11 +72,12 @@ _OPERATORS = {
     **dict.fromkeys(("/\\", "∧", "&", "&&"), "AND"),
     **dict.fromkeys(("\\/", "∨", "||"), "OR"),
     **dict.fromkeys(("~", "¬", "!"), "NOT"),
-    **dict.fromkeys(("->", "==>", "→", "⇒"), "IMPLIES"),
+    **dict.fromkeys(("->", "==>", "→", "⇒", "=>"), "IMPLIES"),
     **dict.fromkeys(("<->", "<=>", "<==>", "↔", "⇔"), "IFF"),
     "∈": "IN",
     "∞": "INFINITY",
-    "√": "RADICAL",
+    **dict.fromkeys(("√", "∛"), "RADICAL"),
+    "∪": "UNION",
     "|": "BAR",
 }
 _NAMED = {
@@ -94,15 +102,24 @@ _RAISED = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
 OPERAND_ENDS = frozenset(("NAME", "NUMBER", "CLOSE", "RIGHT", "END", "CLOSEBAR", "INFINITY", "REALS", "TRUE", "FALSE"))
 """Tokens after which a term or a formula may be complete."""
 
+_HEXADECIMAL = re.compile(r"0[xX][0-9a-fA-F]")
+_NEXT_NAME = re.compile(rf"\s*({_LIST})\s*(?=[,.:(\[∈∃∀]|{_LIST})")
+_SHORT = frozenset(("ex", "Ex", "all", "All", "E", "A"))
+"""Quantifiers whose variables end with a dot; behind the others a comma may end them too: ``forall x, x^2 >= 0``."""
+_NO_REALS = frozenset(("Z", "N", "Q", "C", "ℤ", "ℕ", "ℚ", "ℂ", "Integers", "Rationals", "Complexes", "Naturals"))
+_ALSO_REALS = frozenset(("R", "RR", "Real", "reals", "real"))
+
 Make = Callable[..., Token]
 
 
 def tokens(text: str, token: Make) -> Iterator[Token]:
     """The tokens of a text. Raises ``SyntaxFailure`` where there is none."""
     state = State(text, token)
-    at, end, match = 0, len(text), _TOKEN.match
+    at, end, match = 0, len(text.rstrip("; \t\r\n")), _TOKEN.match
+    if end and text[end - 1] == ".":
+        end -= 1  # a full stop
     while at < end:
-        found = match(text, at)
+        found = match(text, at, end)
         if found is None:
             raise unknown_character(text, at)
         kind, value = found.lastgroup, found.group()
@@ -111,12 +128,14 @@ def tokens(text: str, token: Make) -> Iterator[Token]:
         elif kind == "OPERATOR":
             yield from state.put(_operator(value, at), value, at)
         elif kind == "NUMBER":
-            if value[0] == "." and state.header:  # the dot ends the quantifier
+            if value[0] == "." and state.header and state.last != "RELATION":  # the dot ends the quantifier
                 yield from state.put("DOT", ".", at)
                 at += 1
                 continue
-            if value[-1] == "." and text.startswith(".", at + len(value)):
+            if value[-1] == "." and (state.header or text.startswith(".", at + len(value))):
                 value = value[:-1]
+            if value == "0" and _HEXADECIMAL.match(text, at):
+                raise SyntaxFailure("numbers are decimal; a product with zero is written 0*x", at)
             yield from state.put("NUMBER", value, at)
         elif kind == "QUOTED":
             yield from state.put("NAME", quoted_name(value, at), at)
@@ -124,6 +143,14 @@ def tokens(text: str, token: Make) -> Iterator[Token]:
             yield from state.raised(value.translate(_RAISED), at)
         elif kind == "CALL":
             yield from state.put(_CALLS[value], value, at)
+        elif kind == "PREFIX":
+            yield from state.prefix(value, at)
+        elif kind == "EVERY":
+            yield from state.put("QUANTIFIER", "forall", at)
+        elif kind == "THAT" and state.header:
+            yield from state.put("DOT", ".", at)
+        elif kind == "THAT":
+            raise SyntaxFailure(f"'{value}' stands only behind the variables of a quantifier", at)
         elif kind != "SPACE":
             yield from state.put(str(kind), value, at)
         at += len(value) if kind == "NUMBER" else len(found.group())
@@ -153,16 +180,18 @@ def quoted_name(text: str, at: int) -> str:
 class State:
     """What stands before the next token: ``end`` is the offset where the last one ends.
 
-    ``header``: inside a quantifier, before its body. For every level of brackets: the bars that are open, and whether
-    there was a comparison since the last connective.
+    ``header``: inside a quantifier, before its body, which may follow a comma where ``spoken``; ``within``: the level
+    of brackets at which the set ends that its variables lie in. For every level of brackets: the bars that are open,
+    and whether there was a comparison since the last connective.
     """
 
     def __init__(self, text: str, token: Make) -> None:
         self.text, self.token, self.end = text, token, 0
         self.last = ""
-        self.header = False
+        self.header, self.spoken = False, False
         self.divided = False
         self.bars, self.compared = [0], [False]
+        self.within = 0
 
     def put(self, kind: str, value: str, at: int) -> Iterator[Token]:
         """The token, with the sign of a product in front of it where that is left out."""
@@ -170,6 +199,15 @@ class State:
             for k in range(len(value)):
                 yield from self.bar(at + k)
             return
+        if kind == "NAME" and self.last == "IN":
+            kind = self.set_named(value, at)
+        if kind == "COMMA" and self.header and self.spoken and not self.goes_on(at + 1):
+            kind = "DOT"
+        if value == "=>" and not self.compared[-1]:
+            message = "'=>' is not used here; write >= for a comparison or -> for an implication"
+            raise SyntaxFailure(message, at + 1)
+        if kind == "QUANTIFIER":
+            self.spoken = value not in _SHORT
         if kind in ("NAME", "OPEN") and self.last == "NUMBER" and self.end == at and not self.header:
             if self.divided:
                 shown = f"{self.text[:at].split()[-1]}{value}"
@@ -178,6 +216,31 @@ class State:
             yield from self.put("TIMES", "*", at)
         self.note(kind)
         yield self.token(kind, value, at)
+
+    def prefix(self, value: str, at: int) -> Iterator[Token]:
+        """``(E x, y)``, as in front of a formula in brackets."""
+        quantifier = re.compile(r"\(\s*([EA]|[∃∀]|\w+)").match(value)
+        assert quantifier is not None
+        head = quantifier[1]
+        if head[0] in "EA" and len(head) > 1:
+            head = head[0]
+        yield from self.put("QUANTIFIER", head, at)
+        for found in re.compile(rf"({_LIST})|,").finditer(value, value.index(head) + len(head)):
+            name = found[1]
+            shown = "," if name is None else quoted_name(name, at) if name[0] == "`" else name
+            self.note("NAME" if name else "COMMA")
+            yield self.token("NAME" if name else "COMMA", shown, at + found.start())
+
+    def set_named(self, name: str, at: int) -> str:
+        """The kind of a set that is named."""
+        if name in _NO_REALS:
+            raise SyntaxFailure(f"all variables are real, {name} cannot be asked for", at)
+        return "REALS" if name in _ALSO_REALS else "NAME"
+
+    def goes_on(self, at: int) -> bool:
+        """Whether another variable of the quantifier comes here, not its body."""
+        found = _NEXT_NAME.match(self.text, at)
+        return found is not None and found[1] not in KEYWORDS and found[1].lower() not in FUNCTIONS
 
     def raised(self, digits: str, at: int) -> Iterator[Token]:
         """A raised number is an exponent."""
@@ -188,11 +251,11 @@ class State:
 
     def note(self, kind: str) -> None:
         """Keep the state up to date."""
-        self.last = kind
+        last, self.last = self.last, kind
         if kind == "QUANTIFIER":
             self.header = True
         elif kind in ("DOT", "OPEN", "LEFT"):
-            self.header = False
+            self.header, self.within = False, len(self.bars) if self.header and last in ("IN", "UNION") else self.within
         if kind == "OVER":
             self.divided = True
         elif kind not in ("NAME", "NUMBER", "POWER", "CLOSE", "RIGHT"):
@@ -205,6 +268,8 @@ class State:
                 self.bars.pop()
                 inner = self.compared.pop()
                 self.compared[-1] = self.compared[-1] or inner
+                if self.within == len(self.bars):  # the set that a quantifier ranges over is complete
+                    self.header, self.within = True, 0
         elif kind in ("RELATION", "IN", "TRUE", "FALSE"):
             self.compared[-1] = True
         elif kind in ("AND", "OR", "IMPLIES", "IFF", "DOT", "COMMA", "THEN", "ELSE"):

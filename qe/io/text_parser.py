@@ -20,7 +20,7 @@ _UNIVERSAL = frozenset(("all", "forall", "All", "A", "∀", "ForAll", "Forall", 
 _FORMULAS = """
 %declare QUANTIFIER NAME NUMBER RELATION PLUS MINUS TIMES OVER POWER OPEN CLOSE COMMA DOT
 %declare AND OR NOT IMPLIES IFF TRUE FALSE LEFT RIGHT BEGIN END OPENBAR CLOSEBAR IN REALS INFINITY RADICAL
-%declare IF THEN ELSE CONNECTIVE COMPARE CHOICE ELEMENT
+%declare IF THEN ELSE CONNECTIVE COMPARE CHOICE ELEMENT NOTIN UNION
 ?start: c4 | o4
 ?c4: c3 | c4 IFF c3             -> iff
 ?o4: o3 | c4 IFF o3             -> iff
@@ -34,21 +34,26 @@ _FORMULAS = """
 ?o0: quantified | NOT o0        -> negation
      | IF start THEN start ELSE start -> either
 quantified: QUANTIFIER bound DOT start | QUANTIFIER bound quantified -> quantified_again
+closed: QUANTIFIER bound OPEN start CLOSE -> quantified_closed
+     | QUANTIFIER bound LEFT start RIGHT -> quantified_closed
+     | QUANTIFIER bound closed  -> quantified_again
 ?bound: names | names IN set    -> bounded
+     | names RELATION sum       -> bounded_by
 names: NAME | names COMMA NAME | names NAME -> names_side_by_side
 ?base: comparison | TRUE        -> true
      | FALSE                    -> false
      | OPEN start CLOSE         -> brackets
-     | LEFT start RIGHT         -> brackets
+     | LEFT formulas RIGHT      -> listed
      | BEGIN formulas END       -> listed
      | sum IN set               -> member
+     | sum NOTIN set            -> outside
      | ELEMENT OPEN term COMMA set CLOSE -> element
      | ELEMENT LEFT term COMMA set RIGHT -> element
      | CONNECTIVE OPEN formulas CLOSE -> connective
      | CONNECTIVE LEFT formulas RIGHT -> connective
      | COMPARE OPEN arguments CLOSE -> compared
      | COMPARE LEFT arguments RIGHT -> compared
-     | QUANTIFIER bound OPEN start CLOSE -> quantified_closed
+     | closed
      | QUANTIFIER OPEN group COMMA formulas CLOSE -> quantified_call
      | QUANTIFIER LEFT group COMMA formulas RIGHT -> quantified_call
 ?group: NAME                    -> names
@@ -56,7 +61,8 @@ names: NAME | names COMMA NAME | names NAME -> names_side_by_side
      | LEFT names RIGHT         -> brackets
      | BEGIN names END          -> brackets
 formulas: start | formulas COMMA start -> more
-set: (OPEN | LEFT) term COMMA term (CLOSE | RIGHT) -> interval
+?set: simple | set UNION simple -> union
+simple: (OPEN | LEFT) term COMMA term (CLOSE | RIGHT) -> interval
      | BEGIN arguments END      -> finite
      | REALS                    -> reals
 """
@@ -87,7 +93,7 @@ def text_parser(start: str = "start") -> Parser:
 
 def _tokens(text: str, token: Make) -> Iterator[Token]:
     """The tokens of a text, which may be LaTeX."""
-    if "\\" in text:
+    if "\\" in text or "{" in text:
         from qe.io import latex_lexer
 
         if latex_lexer.is_latex(text):
@@ -139,6 +145,12 @@ class TextBuilder(Builder):
     def bounded(self, c: list[Any]) -> Any:
         return c[0], c[2]
 
+    def bounded_by(self, c: list[Any]) -> Any:
+        return c[0], lambda term, at: s.Comparison([term, c[2]], [RELATIONS[c[1]]], at)
+
+    def closed(self, c: list[Any]) -> s.Node:
+        return c[0]  # type: ignore[no-any-return]
+
     def names_side_by_side(self, c: list[Any]) -> list[str]:
         return [*c[0], str(c[1])]
 
@@ -152,7 +164,7 @@ class TextBuilder(Builder):
         return [*c[0], c[2]]
 
     def listed(self, c: list[Any]) -> s.Node:
-        return s.Every(c[1])
+        return s.Every(c[1]) if len(c[1]) > 1 else c[1][0]
 
     def connective(self, c: list[Any]) -> s.Node:
         name, parts = str(c[0]), c[2]
@@ -192,6 +204,12 @@ class TextBuilder(Builder):
     def reals(self, c: list[Any]) -> Any:
         return lambda term, at: s.Comparison([term, term], [Relation.EQ], at)
 
+    def union(self, c: list[Any]) -> Any:
+        return lambda term, at: s.Some([c[0](term, at), c[2](term, at)])
+
+    def outside(self, c: list[Any]) -> s.Node:
+        return s.Negation(c[2](c[0], c[1].start_pos))
+
     def member(self, c: list[Any]) -> s.Node:
         return c[2](c[0], c[1].start_pos)  # type: ignore[no-any-return]
 
@@ -212,4 +230,4 @@ class TextBuilder(Builder):
         return s.Apply("abs", [c[1]], c[0].start_pos)
 
     def radical(self, c: list[Any]) -> s.Term:
-        return s.Apply("sqrt", [c[1]], c[0].start_pos)
+        return s.Apply("cbrt" if c[0] == "∛" else "sqrt", [c[1]], c[0].start_pos)

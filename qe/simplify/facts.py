@@ -17,7 +17,7 @@ from functools import lru_cache
 from qe.exact.ring import Poly, Ring
 from qe.formula.syntax import Atom, Formula, Relation, RootAtom
 from qe.simplify.minima import minimum
-from qe.simplify.ranges import EVERYTHING, Range, add, compare, meet, multiply, power, scale
+from qe.simplify.ranges import EVERYTHING, Range, add, compare, make, meet, multiply, power, scale
 
 _ENCLOSED_TERMS = 24  # term count up to which ranges of the variables are propagated through a polynomial
 _FACTORED_TERMS = 400  # above this many terms a polynomial is taken as one factor
@@ -60,6 +60,33 @@ def factor_list(poly: Poly) -> tuple[tuple[Poly, int], ...]:
     return primitive.factors()[1]
 
 
+def _one_sided(key: Poly, gens: Mapping[int, Range]) -> Range:
+    """The range above or below zero of a polynomial whose terms all have one sign; it ends at the first that has not.
+
+    The sum is zero only where all terms are, so one term that is not zero keeps the end of the range open.
+    """
+    signs = {i: _sign(found) for i, found in gens.items()}
+    common, strict = 0, False
+    for powers, coefficient in key.sparse_terms():
+        sign, apart = (1 if coefficient > 0 else -1), True
+        for i, k in powers:
+            known, nonzero = signs[i]
+            if k % 2:
+                sign *= known
+            apart = apart and nonzero
+        if not sign or common == -sign:
+            return EVERYTHING
+        common, strict = sign, strict or apart
+    zero = Fraction(0)
+    return make(zero, None, strict, True) if common > 0 else make(None, zero, True, strict)
+
+
+def _sign(found: Range) -> tuple[int, bool]:
+    """1 for a quantity >= 0, -1 for one <= 0, 0 where neither is known; and whether it is known not to be zero."""
+    above, below = found.lo is not None and found.lo >= 0, found.hi is not None and found.hi <= 0
+    return (1 if above else -1 if below else 0), not found.admits(Fraction(0))
+
+
 @dataclass(frozen=True, slots=True)
 class Facts:
     """What is known to hold: ranges by key polynomial, and literals that are opaque to ranges.
@@ -80,11 +107,11 @@ class Facts:
 
     def enclose(self, key: Poly) -> Range:
         """The range that follows term by term from the ranges of the variables."""
-        if key.term_count() > _ENCLOSED_TERMS:
-            return EVERYTHING
         gens = {i: self.ranges.get(generator(key.ring, i), EVERYTHING) for i in key.variables}
         if all(r is EVERYTHING for r in gens.values()):
             return EVERYTHING
+        if key.term_count() > _ENCLOSED_TERMS:
+            return _one_sided(key, gens)
         total: Range | None = None
         for powers, coefficient in key.sparse_terms():
             term: Range | None = None

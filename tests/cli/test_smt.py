@@ -91,6 +91,49 @@ def test_after_an_assertion_that_was_not_understood_the_answer_is_never_sat() ->
     assert answers(script.format("(assert (< x x))"))[1:] == ["unsat", "sat"]
 
 
+@pytest.mark.parametrize(
+    ("script", "expected"),
+    [
+        ("(declare-const n Int)(assert (> n 0))(check-sat)(assert (< n 0))(check-sat)", ["unknown", "unsat"]),
+        ("(declare-const n Int)(assert (or (> n 0) (> x 1)))(assert (< x 5))(check-sat)", ["sat"]),
+        ("(declare-fun f (Real Int) Bool)(assert (or (f x 1) (> x 1)))(check-sat)", ["sat"]),
+        ("(declare-fun f (Real) Real)(assert (> (f 1) 0))(assert (< (f 1) 0))(check-sat)", ["unsat"]),
+        ("(assert (xor p (< (tanh 1) x)))(check-sat)", ["sat"]),
+        ("(assert (= x (tanh 1)))(check-sat)", ["sat"]),  # whatever tanh(1) is
+        ("(assert (= x (tanh x)))(check-sat)", ["unknown"]),
+        ("(assert (= x (tanh y)))(check-sat)", ["unknown"]),  # x is chosen before the value is known
+        ("(define-fun t () Real (tanh 1))(assert (and (> x t) (< x (+ t 1))))(check-sat)", ["sat"]),
+        ("(assert (forall ((z Real)) (or p (> (tanh z) 2))))(check-sat)", ["unknown"]),
+        ("(push)(assert (> x (tanh 1)))(pop)(declare-const unread Real)(assert (< unread 0))(check-sat)", ["sat"]),
+        ("(push)(declare-const n Int)(pop)(declare-const n Real)(assert (< n 0))(check-sat)", ["sat"]),
+        ("(assert (> x (to_int y)))(push)(assert (< x (to_int y)))(check-sat)(pop)(check-sat)", ["unsat", "unknown"]),
+    ],
+)  # fmt: skip
+def test_values_that_are_not_read_may_be_any(script: str, expected: list[str]) -> None:
+    assert [line for line in answers(XY + script) if not line.startswith("(error")] == expected
+
+
+@pytest.mark.parametrize(
+    ("lines", "expected"),
+    [
+        (["(declare-const x Real)(assert (= x 1.))(check-sat)"], ["column 36: malformed", "unknown"]),
+        (["(assert (> 1/2 0))\n", "(check-sat)\n", "(exit)\n"], ["column 12: malformed", "unknown"]),
+        (["(push)\n (check-sat) # (echo a)(check-sat)"], ["sat", "line 2 column 14: unknown character", "a", "sat"]),
+        (["(check-sat))\n", "(echo b)\n"], ["sat", "column 12: unbalanced", "b"]),
+        (["(echo |a\n", "b|)(check-sat)\n"], ["|a b|", "sat"]),
+        (["(assert (> .5 0))(assert (< -2 0))(assert (x > 1))"], ["write 0.5", "write (- 2)", "is not supported"]),
+        (["(declare-const x Real)(assert (x > 1))"], ["stands first: (> x …)"]),
+        (["(declare-const x (_ BitVec 8))"], ["(_ BitVec 8) found"]),
+    ],
+)
+def test_after_text_that_cannot_be_read_the_next_command_is_answered(lines: list[str], expected: list[str]) -> None:
+    found: list[str] = []
+    Solver(found.append, found.append).run(lines, "-")
+    found = [line.replace("\n", " ") for line in found]
+    assert len(found) == len(expected), found
+    assert all(part in line for part, line in zip(expected, found, strict=True)), found
+
+
 def test_places_are_counted_through_all_lines() -> None:
     lines: list[str] = []
     Solver(lines.append, lines.append).run(

@@ -48,6 +48,10 @@ WITNESS = qe.parametric_witnesses("ex x. x > a and x < b")[0]
 SQUARE_ROOT = qe.RealAlgebraic.from_root([-2, 0, 1], 1, 2)
 
 
+SYSTEM = qe.comprehensive_groebner(["a*x - 1"], "x", "a")
+COUNTED = qe.real_root_classification(["a*x - 1"], "x", "a")
+(X,) = qe.variables("x y")[:1]
+
 HOLDS = SimpleNamespace(assertions=(), to_smt2=lambda: "(declare-const x Real)(assert (> x 0))")
 """What a solver of z3 tells of itself."""
 
@@ -208,6 +212,35 @@ DOORS = {
         qe.RealAlgebraic.rational, {"value": 1}, {"value": {*NUMBERS, "float", "digits", "bool"}}
     ),
     "RealAlgebraic.interval": Door(SQUARE_ROOT.interval, {"bits": 8}, {"bits": {"int", "zero"}}),
+    "ComprehensiveGroebnerSystem.at": Door(SYSTEM.at, {"point": {"a": 2}}),
+    "ComprehensiveGroebnerSystem.basis_at": Door(SYSTEM.basis_at, {"point": {"a": 2}}),
+    "ComprehensiveGroebnerSystem.certificate_at": Door(
+        SYSTEM.certificate_at, {"point": {"a": 2}, "positive": []}, {"positive": {"list"}}
+    ),
+    "ComprehensiveGroebnerSystem.condition": Door(SYSTEM.condition, {"segment": SYSTEM.at({"a": 2})}),
+    "ComprehensiveGroebnerSystem.contains": Door(
+        SYSTEM.contains, {"poly": SYSTEM.basis_at({"a": 2})[0], "point": {"a": 2}}
+    ),
+    "ComprehensiveGroebnerSystem.place": Door(SYSTEM.place, {"point": {"a": 2}}),
+    "ComprehensiveGroebnerSystem.place value": Door(
+        SYSTEM.place, {"point": 2}, {"point": {*NUMBERS, "float", "digits"}}, {"point": lambda v: {"a": v}}
+    ),
+    "ComprehensiveGroebnerSystem.solutions_at": Door(SYSTEM.solutions_at, {"point": {"a": 2}}),
+    "ComprehensiveGroebnerSystem.to_json": Door(SYSTEM.to_json, {"indent": 1}, {"indent": {"int", "zero", "none"}}),
+    "RealRootClassification.at": Door(COUNTED.at, {"point": {"a": 2}}),
+    "RealRootClassification.certificate_at": Door(COUNTED.certificate_at, {"point": {"a": 2}}),
+    "RealRootClassification.condition": Door(
+        COUNTED.condition, {"count": 1}, {"count": {"zero"}}
+    ),
+    "Expression.equals": Door(X.equals, {"other": 1}, {"other": {*NUMBERS, "float", "digits"}}),
+    "Expression.differs": Door(X.differs, {"other": 1}, {"other": {*NUMBERS, "float", "digits"}}),
+    "Statement.substitute": Door((X > 0).substitute, {"values": {"x": 1}}, {"values": {"dict"}}),
+    "Statement.substitute value": Door(
+        (X > 0).substitute,
+        {"values": 1},
+        {"values": {*NUMBERS, "float", "digits"}},
+        {"values": lambda value: {"x": value}},
+    ),
     "formats.read": Door(formats.read, {"text": "x > 0"}, {"total_division": {"bool"}}),
     "formats.write": Door(formats.write, {"formula": REGION.formula}),
 }  # fmt: skip
@@ -280,12 +313,18 @@ def test_the_table_knows_every_public_function() -> None:
     assert functions <= set(DOORS)
 
 
+ENGINE = {"of", "cells", "bundle", "witness", "substitution", "derivation", "ball", "compare", "compare_rational"}
+"""Methods that take values of the engine."""
+
+
 def test_the_table_knows_every_method_that_takes_something() -> None:
     known = {title.split()[0] for title in DOORS}
-    for kind in (qe.Region, qe.Certificate, qe.ParametricWitness, qe.Optimum, qe.Answer, qe.Verdict):
+    for kind in [getattr(qe, name) for name in qe.__all__]:
+        if not inspect.isclass(kind) or issubclass(kind, Exception):
+            continue
         for name, member in inspect.getmembers(kind, inspect.isfunction):
             taken = [p for p in inspect.signature(member).parameters if p != "self"]
-            made_by_the_engine = name in ("of", "cells", "bundle", "witness", "substitution", "derivation")
+            made_by_the_engine = name in ENGINE
             if taken and not name.startswith("_") and not made_by_the_engine:
                 assert f"{kind.__name__}.{name}" in known
 

@@ -83,7 +83,7 @@ def test_meaning_and_printing(text: str, printed: str) -> None:
         ("(x = 1", 1, "never closed"),
         ("x = 1)", 6, "no partner"),
         ("x === 1", 5, "one ="),
-        ("ex x, x = 0", 9, "'.' or ','"),
+        ("ex x, x = 0", 12, "'.' or ','"),
         ("sin(x) = 0", 1, "sin(x): sin is not algebraic; put c and s"),
         ("2 < ln[x + (1)] + 1", 5, "ln[x + (1)]: ln is not algebraic"),
         ("floor(x) = 0", 1, "needs integers"),

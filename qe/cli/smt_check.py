@@ -1,0 +1,110 @@
+"""Whether the assertions of an SMT-LIB script can hold together."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterable, Sequence
+from typing import NamedTuple, TypeAlias
+
+from qe import api
+from qe.cli.smt_values import Number
+from qe.errors import Unable
+from qe.execution import Limits, perform
+from qe.formula.build import exists, forall
+from qe.formula.syntax import Formula
+from qe.formula.traverse import free_variables
+from qe.io import surface as s
+from qe.io.smtlib_parser import Expression
+from qe.io.smtlib_script import Script
+from qe.io.total import Fill, Total
+
+MOST_PARTS = 300
+"""Parts of a script up to which it is read at once, in this process."""
+
+Closing: TypeAlias = Callable[[Iterable[str], Formula], Formula]
+"""Makes a sentence of a formula with these free variables."""
+
+
+class Result(NamedTuple):
+    """The answer of a check: ``reason`` for unknown, ``point`` (by name in formulas) and ``total`` for sat."""
+
+    answer: str
+    reason: str = ""
+    point: dict[str, Number] | None = None
+    total: Total | None = None
+    asked: tuple[Expression, ...] = ()
+
+
+class Checks:
+    """Checks of a script under limits: ``timeout`` seconds for the whole run, or (``each``) for every check."""
+
+    script: Script
+
+    def __init__(self, timeout: float | None, memory: int | None, each: bool) -> None:
+        self.timeout, self.memory = timeout, memory
+        self.until = None if timeout is None or each else time.monotonic() + timeout
+
+    def left(self) -> float | None:
+        """Seconds that a check may still take."""
+        return self.timeout if self.until is None else self.until - time.monotonic()
+
+    def solved(self, nodes: Sequence[s.Node]) -> Result:
+        """Whether the nodes can hold together.
+
+        What was not read may have any value: without a solution for any of them there is none, and where there
+        is one for each of them, there is one, which is not known.
+        """
+        found = self.completed(nodes, exists)
+        if found.answer != "sat" or not (self.script.fixed or self.script.varying):
+            return found
+        found = self.completed(nodes, self.whatever)
+        if found.answer == "sat":
+            return found._replace(point=None)
+        return Result("unknown", found.reason or "(an assertion was not understood)")
+
+    def whatever(self, names: Iterable[str], formula: Formula) -> Formula:
+        """Whether there is a solution whatever the values are that were not read."""
+        fixed, varying = self.script.fixed, self.script.varying
+        values = [name for name in names if name not in fixed and name not in varying]
+        return forall(sorted(fixed), exists(values, forall(sorted(varying), formula)))
+
+    def completed(self, nodes: Sequence[s.Node], close: Closing) -> Result:
+        """The answer for the functions that are not defined everywhere made total."""
+        found = self.attempt(nodes, Total(fill=Fill.ANY), close)
+        if found.answer == "sat" and found.total is not None and found.total.weakened:
+            for fill in (Fill.CONSTANT, Fill.ARGUMENT):
+                other = self.attempt(nodes, Total(fill=fill), close)
+                if other.answer == "sat":
+                    return other
+            return Result("unknown", "incomplete")
+        if found.answer == "unsat" and found.total is not None and found.total.unclear:
+            return Result("unknown", "incomplete")
+        return found
+
+    def attempt(self, nodes: Sequence[s.Node], total: Total, close: Closing) -> Result:
+        start, left = time.monotonic(), self.left()
+        if left is not None and left <= 0:
+            return Result("unknown", "timeout")
+        try:
+            formula, total = self.formula(nodes, total, left)
+        except Unable:
+            return Result("unknown", "timeout")
+        closed = close(free_variables(formula), formula)
+        rest = None if left is None else max(left - (time.monotonic() - start), 0.01)
+        answer = api.eliminate(closed, timeout=rest, memory=self.memory)
+        if answer.truth is None:
+            return Result("unknown", "timeout" if "time" in answer.reason else "incomplete")
+        if not answer.truth:
+            return Result("unsat", total=total)
+        point = dict(answer.witness) if answer.witness is not None else ({} if not free_variables(formula) else None)
+        return Result("sat", point=point, total=total)
+
+    def formula(self, nodes: Sequence[s.Node], total: Total, seconds: float | None) -> tuple[Formula, Total]:
+        """What the nodes mean together; a large script is read in a process of its own, which a limit ends."""
+
+        def read(_: object = None) -> tuple[Formula, Total]:
+            return self.script.formula_of(nodes, total), total
+
+        if len(self.script.shared) <= MOST_PARTS:
+            return read()
+        return perform(read, Limits(seconds, self.memory), at_once=True)
