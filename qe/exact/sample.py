@@ -19,6 +19,7 @@ from qe.exact.balls import EXACT_FROM, FIRST_PRECISION, ball_sign, lower_end, pr
 from qe.exact.remainder import common_coefficients, squarefree_coefficients
 from qe.exact.ring import Poly, Ring
 from qe.exact.tower import Tower
+from qe.exact.translate import put_in
 from qe.exact.univariate import from_univariate
 
 SMALL = 100
@@ -30,7 +31,19 @@ Coordinate = "fmpq | RealAlgebraic | FibreRoot"
 class Point:
     """A point of R^depth; immutable apart from caches."""
 
-    __slots__ = ("_balls", "_reduced", "_tower", "_vanishing", "algebraic", "depth", "parent", "ring", "value", "zeros")
+    __slots__ = (
+        "_balls",
+        "_reduced",
+        "_tower",
+        "_vanishing",
+        "algebraic",
+        "depth",
+        "given",
+        "parent",
+        "ring",
+        "value",
+        "zeros",
+    )
 
     def __init__(
         self,
@@ -51,6 +64,7 @@ class Point:
         self._reduced: dict[Poly, Poly] = {}
         self._tower: Tower | None = None
         self._balls: dict[tuple[int, int], arb] = {}
+        self.given: dict[int, Fraction] | None = None  # all rational coordinates, where they are put in at once
 
     @staticmethod
     def of(ring: Ring, values: Iterable[Fraction | int | RealAlgebraic]) -> Point:
@@ -58,6 +72,10 @@ class Point:
         point = Point(ring)
         for value in values:
             point = point.extend(value if isinstance(value, RealAlgebraic) else RealAlgebraic.rational(value))
+        # nothing else stands over the points on the way: no step of a substitution would be used again
+        coordinates = ((i, point.number(i)) for i in range(point.depth) if i not in point.algebraic)
+        if not ring.is_wide:
+            point.given = {i: value for i, value in coordinates if isinstance(value, Fraction)}
         return point
 
     def extend(self, value: fmpq | RealAlgebraic | FibreRoot, zeros: tuple[Poly, ...] = ()) -> Point:
@@ -92,6 +110,8 @@ class Point:
         if self.parent is None:
             return f
         stored = self._reduced.get(f)
+        if stored is None and self.given is not None:
+            stored = self._reduced[f] = put_in(f, self.given)
         if stored is None:
             stored = self.parent.reduce(f)
             i = self.depth - 1
