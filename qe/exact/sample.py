@@ -25,25 +25,12 @@ from qe.exact.univariate import from_univariate
 SMALL = 100
 """Zero tests use remainder sequences up to this degree, and normal forms in the tower of fields above (measured)."""
 
-Coordinate = "fmpq | RealAlgebraic | FibreRoot"
-
 
 class Point:
     """A point of R^depth; immutable apart from caches."""
 
-    __slots__ = (
-        "_balls",
-        "_reduced",
-        "_tower",
-        "_vanishing",
-        "algebraic",
-        "depth",
-        "given",
-        "parent",
-        "ring",
-        "value",
-        "zeros",
-    )
+    __slots__ = ("_balls", "_given", "_reduced", "_tower", "_vanishing", "algebraic", "depth", "parent", "ring", "value",
+                 "zeros")  # fmt: skip
 
     def __init__(
         self,
@@ -64,7 +51,7 @@ class Point:
         self._reduced: dict[Poly, Poly] = {}
         self._tower: Tower | None = None
         self._balls: dict[tuple[int, int], arb] = {}
-        self.given: dict[int, Fraction] | None = None  # all rational coordinates, where they are put in at once
+        self._given: dict[int, Fraction] | None = None  # where all rational coordinates are put in at once
 
     @staticmethod
     def of(ring: Ring, values: Iterable[Fraction | int | RealAlgebraic]) -> Point:
@@ -72,10 +59,9 @@ class Point:
         point = Point(ring)
         for value in values:
             point = point.extend(value if isinstance(value, RealAlgebraic) else RealAlgebraic.rational(value))
-        # nothing else stands over the points on the way: no step of a substitution would be used again
-        coordinates = ((i, point.number(i)) for i in range(point.depth) if i not in point.algebraic)
-        if not ring.is_wide:
-            point.given = {i: value for i, value in coordinates if isinstance(value, Fraction)}
+        if not ring.is_wide:  # nothing else stands over the points on the way: no step would be used again
+            numbers = enumerate(map(point.number, range(point.depth)))
+            point._given = {i: value for i, value in numbers if isinstance(value, Fraction)}
         return point
 
     def extend(self, value: fmpq | RealAlgebraic | FibreRoot, zeros: tuple[Poly, ...] = ()) -> Point:
@@ -110,11 +96,9 @@ class Point:
         if self.parent is None:
             return f
         stored = self._reduced.get(f)
-        if stored is None and self.given is not None:
-            stored = self._reduced[f] = put_in(f, self.given)
         if stored is None:
-            stored = self.parent.reduce(f)
             i = self.depth - 1
+            stored = self.parent.reduce(f) if self._given is None else put_in(f, self._given)
             if isinstance(self.value, fmpq) and stored.degree(i):
                 stored = stored.at_rational(i, Fraction(int(self.value.p), int(self.value.q)))
             self._reduced[f] = stored
