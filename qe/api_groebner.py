@@ -89,20 +89,28 @@ def real_root_classification(
     memory: int | None = None,
     progress: Any = silent,
     process: bool = True,
+    check: bool = False,
 ) -> RealRootClassification:
     """The partition of parameter space by the number of distinct real solutions of polys = 0, as formulas.
 
     ``positive``: only solutions at which all of these polynomials are positive count. Signatures of Hermite's trace
     forms over the segments of a comprehensive Gröbner system (Weispfenning 1998; Fukasaku, Iwane, Sato 2015); where
-    the system has infinitely many complex solutions the count is None. Other arguments and errors as for
+    the system has infinitely many complex solutions the count is None. With ``check`` the partition as a whole comes
+    with a certificate that the checker has accepted, or ``Unable`` is raised. Other arguments and errors as for
     ``comprehensive_groebner``.
     """
-    start = time.monotonic()
+    start, check = time.monotonic(), arguments.flag(check, "check")
     limits = _limits(timeout, memory, progress, process).begun(start)
     asked = read_system(polys, variables, parameters, MonomialOrder.DEGREVLEX, constants, equal, nonzero, positive)
 
     def work(budgets: Budgets) -> RealRootClassification:
-        return classified(*asked, budgets())
+        budget = budgets()
+        found = classified(*asked, budget)
+        if not check:
+            return found
+        from qe.api_classified import certified
+
+        return certified(asked[0], found, budget)
 
     return perform(work, limits, at_once=timeout is not None)
 

@@ -127,4 +127,4 @@ def in_words(found: Inverse) -> list[str]:
 
 def _told(value: Value) -> str:
     number = float(value)
-    return f"{number:.9f} mm" if value.cosine is None else f"{number:.12f} ({degrees(number):.4f}°)"
+    return f"{number:.9f} mm" if value.pair is None else f"{number:.12f} ({degrees(number):.4f}°)"

@@ -31,7 +31,7 @@ from bezier.arm.model import Arm, Motion, apply, inverse
 from bezier.arm.ratio import Ratio, constant
 from bezier.curves.scalar import dot, is_zero
 from qe.errors import Unable
-from qe.exact.point_values import Evaluation
+from qe.exact.point_values import Ball, Evaluation
 from qe.exact.ring import Poly, Ring
 
 Vector = tuple[Any, ...]
@@ -56,8 +56,8 @@ class Quotient:
     bottom: Poly
     scale: Fraction
 
-    def ends(self, here: Evaluation, bits: int) -> tuple[Fraction, Fraction]:
-        """An interval around its value at a point, at most 2^-bits wide."""
+    def at(self, here: Evaluation, bits: int) -> Ball:
+        """Its value at a point, in a ball at most 2^-bits wide."""
         return here.quotient(self.top, self.bottom, self.scale, bits)
 
 

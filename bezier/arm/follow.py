@@ -32,6 +32,9 @@ ZERO, ONE = Fraction(0), Fraction(1)
 SPARE = Fraction(5, 4)
 """What links leave to a checker that computes with other roundings."""
 
+ROUNDING = 1e-12
+"""Much more than what sums of a few numbers lose in floating point, relative to their sizes."""
+
 Box = tuple[tuple[Fraction, Fraction], ...]
 Note = Callable[[], None]
 
@@ -58,18 +61,23 @@ class Branch:
 
     def at(self, s: Fraction) -> tuple[float, ...]:
         """The joint values at s, to about the width of the boxes (rad or mm)."""
-        return tuple(map(float, self.piece(s).at(s)))
+        return self.piece(s).near(s)
 
     def contains(self, s: Fraction, solution: Solution) -> bool:
         """Whether the branch takes this solution at s, exactly: its only solution in the box there is this one."""
         if not self.low <= s <= self.high:
             return False
-        piece = self.piece(s)
-        near = [float(v) for v in piece.at(s)]
-        for value, other, size in zip(solution.values, near, piece.radius, strict=True):
-            if value is None or abs(_gap(value, other)) > 2 * size + 1e-6:
-                return False  # far away, as most are
-        return _inside(_turned(solution, near), piece, s)
+        piece, is_close = self.piece(s), False
+        near = piece.near(s)
+        for k, (value, other, size) in enumerate(zip(solution.values, near, piece.radius, strict=True)):
+            if value is None:
+                return False
+            gap = abs(_gap(value, other))
+            lost = ROUNDING * (1 + abs(piece.centre[k]) + abs(piece.slope[k]) + abs(float(value)))
+            if gap > size + lost:
+                return False
+            is_close = is_close or gap > size - lost
+        return not is_close or _inside(_turned(solution, near), piece, s)
 
 
 @lru_cache(maxsize=64)
@@ -166,11 +174,11 @@ def _turned(solution: Solution, near: Sequence[float]) -> Box:
     found = []
     for value, other in zip(solution.values, near, strict=True):
         assert value is not None, "a branch is followed where no angle is free"
-        turns = 0 if value.cosine is None else round((other - float(value)) / 6.283185307179586)
+        turns = 0 if value.pair is None else round((other - float(value)) / 6.283185307179586)
         low, high = pi_ends(96) if turns >= 0 else pi_ends(96)[::-1]
         found.append((value.ends[0] + 2 * turns * low, value.ends[1] + 2 * turns * high))
     return tuple(found)
 
 
 def _gap(value: Value, other: float) -> float:
-    return float(value) - other if value.cosine is None else wrapped(float(value) - other)
+    return float(value) - other if value.pair is None else wrapped(float(value) - other)

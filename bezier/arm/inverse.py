@@ -21,7 +21,7 @@ from bezier.arm.substitute_back import confirm
 from bezier.curves.scalar import rational
 from qe.errors import InputError, InternalError
 from qe.exact.algebraic import RealAlgebraic
-from qe.exact.point_values import Evaluation, angle_ends, multiple_roots, roots_above
+from qe.exact.point_values import Ball, Evaluation, angle, multiple_roots, roots_above
 from qe.exact.ring import Poly, Ring
 from qe.exact.sample import FibreRoot, Point
 
@@ -32,19 +32,31 @@ BITS = 64
 NAMES = ("w", "x", "y", "z", "t", "m")
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Value:
-    """One joint of one solution: an interval around its angle in (-pi, pi] (rad) or its length (mm), at most 2^-60
-    wide, with those around cosine and sine of an angle; ``number``: about the middle.
-    """
+    """One joint of one solution: its angle in (-pi, pi] (rad) or its length (mm), in a ball at most 2^-60 wide, and
+    cosine and sine of an angle."""
 
-    ends: Ends
-    number: float
-    cosine: Ends | None = None
-    sine: Ends | None = None
+    ball: Ball
+    pair: tuple[Ball, Ball] | None = None
 
     def __float__(self) -> float:
-        return self.number
+        return float(self.ball)
+
+    @property
+    def ends(self) -> Ends:
+        """An interval around the angle or the length."""
+        return self.ball.ends
+
+    @property
+    def cosine(self) -> Ends | None:
+        """An interval around the cosine; None for a length."""
+        return None if self.pair is None else self.pair[0].ends
+
+    @property
+    def sine(self) -> Ends | None:
+        """An interval around the sine; None for a length."""
+        return None if self.pair is None else self.pair[1].ends
 
 
 @dataclass(frozen=True, eq=False)
@@ -215,11 +227,9 @@ def _solution(arm: Arm, here: Evaluation, reduction: Reduction, on_axis: bool, m
 def value_of(here: Evaluation, quotients: tuple[Quotient, ...], bits: int) -> Value:
     """A joint at a point: from its cosine and sine, or from its length alone."""
     if len(quotients) == 1:
-        ends = quotients[0].ends(here, bits)
-        return Value(ends, float((ends[0] + ends[1]) / 2))
-    cosine, sine = (q.ends(here, bits) for q in quotients)
-    angle = angle_ends(cosine, sine, bits)
-    return Value(angle, float((angle[0] + angle[1]) / 2), cosine, sine)
+        return Value(quotients[0].at(here, bits))
+    pair = quotients[0].at(here, bits), quotients[1].at(here, bits)
+    return Value(angle(*pair, bits), pair)
 
 
 def _isolated(here: Point, reduction: Reduction) -> list[FibreRoot] | None:

@@ -61,6 +61,8 @@ def claim_of(certificate: Certificate) -> Claim:
             return _of_optimum(entry)
         case Kind.SOLUTIONS:
             return _of_solutions(entry)
+        case Kind.CLASSIFICATION:
+            return _of_classification(entry)
         case Kind.INVERSE:
             count = entry.fields("arm", "point", "turn", "count", "roots")[3].integer()
             return Claim(
@@ -170,6 +172,32 @@ def _of_solutions(entry: Entry) -> Claim:
     number = ("no real solution", "exactly 1 real solution")[count] if count < 2 else f"exactly {count} real solutions"
     words = (f"the system  {where}", f"has {number}", "by signatures of trace forms")
     return Claim(words, question, TRUE if count else FALSE)
+
+
+def _of_classification(entry: Entry) -> Claim:
+    variables, parameters, constants, *lists, classes, _ = entry.fields(
+        *("variables", "parameters", "constants", "polynomials", "positive", "equal", "nonzero", "classes", "proofs")
+    )
+    fixed = [[part.text() for part in constant.items()] for constant in constants.items()]
+    ring = _ring(Entry([*(parts[0] for parts in fixed), *_texts(parameters)], parameters.path))
+    signs = (" = 0", " > 0", " = 0", " /= 0")
+    polys, positive, equal, nonzero = (
+        [text + sign for text in _texts(group)] for group, sign in zip(lists, signs, strict=True)
+    )
+    given = [*equal, *nonzero, *(f"{name} is the root of {p} in [{low}, {high}]" for name, p, low, high in fixed)]
+    words = [
+        f"the system  {' and '.join([*polys, *positive])}  in {', '.join(_texts(variables))}",
+        f"for all real values of {', '.join(_texts(parameters))}" + "".join(f", where {text}" for text in given),
+    ]
+    for pair in classes.items():
+        count, condition = pair.items()
+        many = "infinitely many complex" if count.value is None else f"exactly {count.integer()} real"
+        words.append(f"has {many} solutions iff  {formula_from_json(condition, ring)}")
+    return Claim((*words, "and no other number, by signatures of trace forms"))
+
+
+def _texts(entry: Entry) -> list[str]:
+    return [item.text() for item in entry.items()]
 
 
 def _of_optimum(entry: Entry) -> Claim:

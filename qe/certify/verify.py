@@ -5,6 +5,7 @@ from __future__ import annotations
 from qe.arguments import shown
 from qe.certify.branch import check_branch
 from qe.certify.cells import check_cells
+from qe.certify.classification import check_classification
 from qe.certify.clearance import check_clearance
 from qe.certify.containment import check_containment
 from qe.certify.derivation import check_derivation
@@ -77,6 +78,8 @@ def check_certificate(certificate: Certificate, budget: Budget) -> None:
         check_cells(payload, budget)
     elif isinstance(payload, dict) and certificate.kind is Kind.DERIVATION:
         check_derivation(payload, budget, RULES, check_certificate)
+    elif isinstance(payload, dict) and certificate.kind is Kind.CLASSIFICATION:
+        check_classification(payload, budget, check_certificate)
     elif isinstance(payload, dict) and certificate.kind in _CHECKERS:
         _CHECKERS[certificate.kind](payload, budget)
     elif isinstance(payload, tuple) and certificate.kind is Kind.BUNDLE:

@@ -53,6 +53,11 @@ class Piece:
         step = s - (self.low + self.high) / 2
         return tuple(Fraction(c) + Fraction(v) * step for c, v in zip(self.centre, self.slope, strict=True))
 
+    def near(self, s: Fraction) -> tuple[float, ...]:
+        """The same in floating point."""
+        step = float(s - (self.low + self.high) / 2)
+        return tuple(c + v * step for c, v in zip(self.centre, self.slope, strict=True))
+
 
 class MotionChain:
     """constants[0] M(q_1) constants[1] … M(q_n) constants[n] applied to the origin, n = 3 for ``piece``.

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from fractions import Fraction
 
-from flint import arb, fmpq
+from flint import arb, arb_poly, fmpq
 
 from qe.exact.algebraic import RealAlgebraic, irreducible_roots
 from qe.exact.balls import EXACT_FROM, lower_end, precision, upper_end
@@ -58,16 +59,33 @@ def roots_between(f: Poly, var: int) -> list[Fraction | RealAlgebraic]:
     return [r.as_fraction() if r.is_rational else r for r in sorted(found)]
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class Ball:
+    """A number known to a ball; ``float``: about its middle. Its ends are worked out where they are asked for."""
+
+    ball: arb
+
+    @property
+    def ends(self) -> Ends:
+        """The rational ends, exactly."""
+        return _ends(self.ball)
+
+    def __float__(self) -> float:
+        return float(self.ball.mid())
+
+
 class Evaluation:
     """Balls around polynomials at a point, rational coordinates included (``Point.reduce`` keeps signs, not values).
 
     What the coordinates below have given is remembered, so that many points over one share it.
     """
 
-    __slots__ = ("_known", "_parent", "point")
+    __slots__ = ("_known", "_parent", "_polynomials", "_powers", "point")
 
     def __init__(self, point: Point, parent: Evaluation | None = None) -> None:
         self.point, self._known = point, dict[tuple[Poly, int], arb]()
+        self._polynomials: dict[tuple[Poly, int], arb_poly] = {}
+        self._powers: dict[tuple[int, int, int], arb] = {}
         self._parent = Evaluation(point.parent) if parent is None and point.parent is not None else parent
 
     def extend(self, value: FibreRoot) -> Evaluation:
@@ -76,23 +94,47 @@ class Evaluation:
 
     def enclose(self, f: Poly, bits: int) -> arb:
         """A ball around f, at FLINT's working precision."""
-        i = f.level
-        if i < 0:
-            return arb(f.constant_value())
-        if i < self.point.depth - 1 and self._parent is not None:
+        if self._parent is not None and f.level < self.point.depth - 1 and isinstance(self.point.value, FibreRoot):
             return self._parent.enclose(f, bits)
         found = self._known.get((f, bits))
         if found is None:
-            value, found = self.point.value, arb(0)
-            x = arb(value) if isinstance(value, fmpq) else self.point.ball(i, bits)
-            for c in reversed(f.coefficients(i)):
-                found = found * x + self.enclose(c, bits)
-            self._known[f, bits] = found
+            shared = isinstance(self.point.value, FibreRoot)
+            found = self._known[f, bits] = self._over_parent(f, bits) if shared else self._sum(f, bits)
         return found
 
-    def quotient(self, top: Poly, bottom: Poly, scale: Fraction, bits: int) -> Ends:
-        """An interval around ``scale * top / bottom``, at most 2^-bits wide; ``bottom`` does not vanish at the
-        point."""
+    def _over_parent(self, f: Poly, bits: int) -> arb:
+        """The coordinates below are put in once for all roots over them."""
+        i, parent = self.point.depth - 1, self._parent
+        assert parent is not None, "a root lies over a point"
+        found = parent._polynomials.get((f, bits))
+        if found is None:
+            found = arb_poly([parent.enclose(c, bits) for c in f.coefficients(i)])
+            parent._polynomials[f, bits] = found
+        return found(self._power(i, 1, bits))
+
+    def _sum(self, f: Poly, bits: int) -> arb:
+        """Term by term: the lists of terms are made once for each polynomial, the powers once for each point."""
+        terms = f.__dict__.get("sparse")
+        if terms is None:
+            terms = f.__dict__["sparse"] = f.sparse_terms()
+        total = arb(0)
+        for powers, c in terms:
+            term = arb(c)
+            for i, k in powers:
+                term = term * self._power(i, k, bits)
+            total += term
+        return total
+
+    def _power(self, i: int, k: int, bits: int) -> arb:
+        found = self._powers.get((i, k, bits))
+        if found is None:
+            value = self.point.coordinate(i)
+            x = arb(value) if isinstance(value, fmpq) else self.point.ball(i, bits)
+            found = self._powers[i, k, bits] = x**k
+        return found
+
+    def quotient(self, top: Poly, bottom: Poly, scale: Fraction, bits: int) -> Ball:
+        """``scale * top / bottom`` in a ball at most 2^-bits wide; ``bottom`` does not vanish at the point."""
         factor, working = fmpq(scale.numerator, scale.denominator), bits + 16
         while True:
             with precision(working + 16):
@@ -100,31 +142,26 @@ class Evaluation:
                 if not below.contains(0):
                     value = self.enclose(top, working) / below * factor
                     if 2 * value.rad() < arb(2) ** -bits:
-                        return _ends(value)
+                        return Ball(value)
             working *= 2
 
 
-def angle_ends(cosine: Ends, sine: Ends, bits: int) -> Ends:
-    """An interval around the angle in (-pi, pi] with cosine and sine in these intervals, not both of which contain 0.
+def angle(cosine: Ball, sine: Ball, bits: int) -> Ball:
+    """The angle in (-pi, pi] with cosine and sine in these balls, not both of which contain 0.
 
-    Where the angle pi cannot be told from -pi the interval is around pi.
+    Where the angle pi cannot be told from -pi the ball is around pi.
     """
     with precision(bits + 16):
-        c, s = _hull(cosine), _hull(sine)
+        c, s = cosine.ball, sine.ball
         if c > 0 or s > 0 or s < 0:
-            return _ends(arb.atan2(s, c))
-        return _ends(arb.pi() - (s / -c).atan())
+            return Ball(arb.atan2(s, c))
+        return Ball(arb.pi() - (s / -c).atan())
 
 
 def pi_ends(bits: int) -> Ends:
     """An interval around pi."""
     with precision(bits):
         return _ends(arb.pi())
-
-
-def _hull(ends: Ends) -> arb:
-    low, high = (arb(fmpq(e.numerator, e.denominator)) for e in ends)
-    return low.union(high)
 
 
 def _ends(x: arb) -> Ends:

@@ -19,19 +19,18 @@ from qe.exact.balls import EXACT_FROM, FIRST_PRECISION, ball_sign, lower_end, pr
 from qe.exact.remainder import common_coefficients, squarefree_coefficients
 from qe.exact.ring import Poly, Ring
 from qe.exact.tower import Tower
+from qe.exact.translate import put_in
 from qe.exact.univariate import from_univariate
 from qe.exact.watch import Watch
 
 SMALL = 100
 """Zero tests use remainder sequences up to this degree, and normal forms in the tower of fields above (measured)."""
 
-Coordinate = "fmpq | RealAlgebraic | FibreRoot"
-
 
 class Point:
     """A point of R^depth; immutable apart from caches. Long arithmetic at it and above asks its ``watch``."""
 
-    __slots__ = ("_balls", "_reduced", "_tower", "_vanishing", "algebraic", "depth")
+    __slots__ = ("_balls", "_given", "_reduced", "_tower", "_vanishing", "algebraic", "depth")
     __slots__ += ("parent", "ring", "value", "watch", "zeros")
 
     def __init__(
@@ -55,6 +54,7 @@ class Point:
         self._reduced: dict[Poly, Poly] = {}
         self._tower: Tower | None = None
         self._balls: dict[tuple[int, int], arb] = {}
+        self._given: dict[int, Fraction] | None = None  # where all rational coordinates are put in at once
 
     @staticmethod
     def of(ring: Ring, values: Iterable[Fraction | int | RealAlgebraic]) -> Point:
@@ -62,6 +62,9 @@ class Point:
         point = Point(ring)
         for value in values:
             point = point.extend(value if isinstance(value, RealAlgebraic) else RealAlgebraic.rational(value))
+        if not ring.is_wide:  # nothing else stands over the points on the way: no step would be used again
+            numbers = enumerate(map(point.number, range(point.depth)))
+            point._given = {i: value for i, value in numbers if isinstance(value, Fraction)}
         return point
 
     def extend(self, value: fmpq | RealAlgebraic | FibreRoot, zeros: tuple[Poly, ...] = ()) -> Point:
@@ -97,8 +100,8 @@ class Point:
             return f
         stored = self._reduced.get(f)
         if stored is None:
-            stored = self.parent.reduce(f)
             i = self.depth - 1
+            stored = self.parent.reduce(f) if self._given is None else put_in(f, self._given)
             if isinstance(self.value, fmpq) and stored.degree(i):
                 stored = stored.at_rational(i, Fraction(int(self.value.p), int(self.value.q)))
             self._reduced[f] = stored

@@ -88,12 +88,13 @@ class RootClass:
 class RealRootClassification:
     """A partition of parameter space by the number of distinct real solutions; ``classes``: by count, None last;
     ``positive``: only solutions with these positive count. Conditions may hold the names of constants, which stand for
-    their numbers.
+    their numbers. ``certificate``: of the whole partition, where one was asked for.
     """
 
     system: ComprehensiveGroebnerSystem
     classes: tuple[RootClass, ...]
     positive: tuple[Poly, ...] = ()
+    certificate: Certificate | None = None
 
     def __iter__(self) -> Iterator[RootClass]:
         return iter(self.classes)

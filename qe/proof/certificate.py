@@ -36,7 +36,8 @@ class Kind(Enum):
     CONTAINMENT: that a Bezier curve stays in a ball or half-space. CLEARANCE: that one never meets an obstacle, or
     where it first does. DERIVATION: that a formula is equivalent to another, step by step. BRANCH: that an arm follows
     curves continuously. INVERSE: all joint positions of an arm at a point. SOLUTIONS: that a system has these real
-    solutions, and no others. BUNDLE: several certificates with labels.
+    solutions, and no others. CLASSIFICATION: where a parametric system has how many. BUNDLE: several certificates with
+    labels.
     """
 
     CELLS = "cells"
@@ -49,6 +50,7 @@ class Kind(Enum):
     BRANCH = "branch"
     SOLUTIONS = "solutions"
     INVERSE = "inverse"
+    CLASSIFICATION = "classification"
     BUNDLE = "bundle"
 
 

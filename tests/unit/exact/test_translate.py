@@ -1,4 +1,4 @@
-"""Polynomials in coordinates counted from another point."""
+"""Polynomials in coordinates counted from another point, and with numbers put in."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from qe.exact.ring import Poly, Ring
-from qe.exact.translate import translated
+from qe.exact.translate import put_in, translated
 from tests.strategies import polynomials, rationals
 
 RING = Ring.of(("x", "y", "z"))
@@ -30,3 +30,12 @@ def test_a_sign_is_kept() -> None:
     assert translated(-x * y, [Fraction(1), Fraction(0), Fraction(0)]) == -(x + 1) * y
     assert translated(2 * x - 1, [Fraction(1, 2)] * 3) == x
     assert translated(x, [Fraction(1, 3)] * 3) == 3 * x + 1
+
+
+@given(polynomials(RING, max_degree=3), st.dictionaries(st.integers(0, 2), rationals()), POINT)
+def test_numbers_put_in_at_once(p: Poly, values: dict[int, Fraction], at: tuple[Fraction, ...]) -> None:
+    found = put_in(p, values)
+    there = p.evaluate([values.get(i, v) for i, v in enumerate(at)])
+    here = found.evaluate(list(at))
+    assert (here > 0) - (here < 0) == (there > 0) - (there < 0)
+    assert not {*values} & {*found.variables}
