@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Container
+from collections.abc import Container, Iterable
 from decimal import Decimal
 from fractions import Fraction
 from numbers import Real
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from qe import arguments
 from qe.errors import InputError
@@ -15,6 +15,9 @@ from qe.formula.build import conj, convert
 from qe.formula.syntax import Constant, Exists, ForAll, Formula
 from qe.formula.traverse import ring_of
 from qe.proof.answer import Answer
+
+if TYPE_CHECKING:
+    from qe.optimization.values import Objective
 
 AnyFormula = Any
 """A ``Formula``, text, or a SymPy object."""
@@ -111,4 +114,43 @@ def read_polynomial(given: AnyFormula, what: str, *, known: Container[str] = ())
         raise InputError(f"{what}: a polynomial expected: {error}") from None
 
 
-__all__ = ["AnyFormula", "read_block", "read_constraints", "read_formula", "read_polynomial", "together"]
+def read_objective(given: AnyFormula, taken: Iterable[str]) -> Objective:
+    """A term to be optimised, polynomial or not (quotients, roots, ``abs``, ``min``, ``max``).
+
+    ``taken``: the names of the rest of the problem. Raises ``InputError`` for what is no term.
+    """
+    from qe.optimization.values import Objective, new_name
+
+    is_term = isinstance(given, str) or hasattr(given, "free_symbols") or hasattr(given, "term")
+    try:
+        poly, scale = read_polynomial(given, "objective")
+        return Objective.of(poly, scale, new_name(poly.ring.names, taken))
+    except InputError:
+        if not is_term:
+            raise
+    value = new_name(taken)
+    while value in str(given):
+        value += "_"
+    try:
+        if isinstance(given, str):
+            from qe.io.text import read_graph
+
+            graph = read_graph(value, given)
+        else:
+            from qe.io.expressions import graph_of
+
+            graph = graph_of(value, given)
+    except InputError as error:
+        raise InputError(f"objective: {error}") from None
+    return Objective(graph, value, tuple(name for name in graph.free if name != value))
+
+
+__all__ = [
+    "AnyFormula",
+    "read_block",
+    "read_constraints",
+    "read_formula",
+    "read_objective",
+    "read_polynomial",
+    "together",
+]

@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Literal, overload
 
 from qe import arguments
-from qe.api_input import AnyFormula, read_constraints, read_polynomial
+from qe.api_input import AnyFormula, read_constraints, read_objective
 from qe.api_limits import Progress, limits_of, performed
 from qe.errors import InputError
 from qe.execution import Budgets, Limits
@@ -72,13 +72,15 @@ def minimize(
     check: bool = False,
     process: bool = True,
 ) -> Optimum | GlobalOptimum | ParametricOptimum:
-    """The exact global minimum of a polynomial where the constraints hold.
+    """The exact global minimum of a term where it has a value and the constraints hold.
 
-    ``objective``: text, ``Poly``, a pair of p and a rational s for s p, or a SymPy expression; ``constraints``: a
-    formula, or a list of formulas to be conjoined. Convex quadratic (or linear) problems get an ``Optimum`` with
-    multipliers; all others are solved by elimination, with quantifiers in the constraints if need be, and get a
-    ``GlobalOptimum`` with all minimisers. ``method``: "convex" or "elimination" takes that way only.
-    ``parameters``: variables that are not optimised over; the answer is a ``ParametricOptimum``, their function.
+    ``objective``: text, ``Poly``, a pair of p and a rational s for s p, or a SymPy expression; a polynomial, or made
+    with quotients, roots, ``abs``, ``min`` and ``max``. ``constraints``: a formula, or a list of them to be conjoined.
+    Convex quadratic (or linear) problems get an ``Optimum`` with multipliers; all others are solved by elimination,
+    with quantifiers in the constraints if need be, and get a ``GlobalOptimum`` with all minimisers. ``method``:
+    "convex" or "elimination" takes that way only.
+    ``parameters``: variables that are not optimised over; the answer is a ``ParametricOptimum``: value and points as
+    functions of them.
     With ``check`` its certificate is verified: ``guarantee`` is ``CHECKED``, or ``reason`` says why not; an elimination
     comes with its derivation (``answer``).
     Raises ``Unable`` where no proof was found, ``BudgetExceeded`` at a limit; see ``eliminate`` for the limits.
@@ -150,10 +152,13 @@ def _best(
 ) -> Optimum | GlobalOptimum | ParametricOptimum:
     """The optimum of a convex problem by its method, of any other by elimination."""
     from qe.convex.optimum import NotConvex, Optimum, maximize, minimize
+    from qe.formula.traverse import ring_of
+    from qe.optimization.values import Goal
 
-    poly, scale = read_polynomial(objective, "objective")
     conditions = read_constraints(constraints)
     given, check = arguments.names(parameters, "parameters"), arguments.flag(check, "check")
+    ring = ring_of(conditions)
+    term = read_objective(objective, (*(ring.names if ring is not None else ()), *(given or ())))
     if not isinstance(method, str) or method not in ("auto", "convex", "elimination"):
         raise arguments.wrong("method", "auto, convex or elimination", method)
     if given is not None and method == "convex":
@@ -178,17 +183,21 @@ def _best(
         return replace(found, guarantee=guarantee, reason=reason)
 
     def search(budget: Budget) -> Optimum | GlobalOptimum | ParametricOptimum:
-        from qe.optimization.global_optimum import best
-        from qe.optimization.parametric_optimum import optimum_of
-
         if given is not None:
-            return optimum_of(sign, poly, conditions, given, scale=scale, budget=budget, check=check)
-        if method != "elimination":
+            from qe.optimization.parametric_optimum import optimum_of
+
+            return optimum_of(sign, Goal.of(term, conditions, given), budget=budget, check=check)
+        if term.polynomial is not None and method != "elimination":
+            poly, scale = term.polynomial
             try:
                 return (minimize if sign > 0 else maximize)(poly, conditions, scale=scale, budget=budget)
             except NotConvex:
                 if method == "convex":
                     raise
-        return best(sign, poly, conditions, scale=scale, budget=budget, check=check)
+        elif method == "convex":
+            raise NotConvex("the objective is no polynomial")
+        from qe.optimization.global_optimum import best
+
+        return best(sign, Goal.of(term, conditions), budget=budget, check=check)
 
     return performed(work, conditions, limits)

@@ -147,6 +147,7 @@ def distance(region: Region, point: object, timeout: float | None) -> Number:
     """The infimum of the distances of a point from the points of a region."""
     from qe.convex.optimum import exact, minimize
     from qe.optimization.global_optimum import best
+    from qe.optimization.values import Goal, Objective, new_name
     from qe.proof.multipliers import OptimumStatus
 
     given = _numbers(region, arguments.point(point, region.order), "point")
@@ -172,7 +173,8 @@ def distance(region: Region, point: object, timeout: float | None) -> Number:
         except Unable as error:
             if isinstance(error, BudgetExceeded):
                 raise
-            found = best(1, square, conditions, scale=factor, budget=budget)
+            goal = Goal.of(Objective.of(square, factor, new_name(square.ring.names, ring.names)), conditions)
+            found = best(1, goal, budget=budget)
             status, value = found.status, found.value
         if status is OptimumStatus.INFEASIBLE:
             raise InputError("an empty region has no distance from a point")

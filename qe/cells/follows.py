@@ -7,7 +7,7 @@ from qe.exact.ring import Ring
 from qe.formula.build import convert
 from qe.formula.syntax import Formula
 from qe.formula.traverse import has_root_atoms, polynomials
-from qe.proof.cells import Cell, CellTable
+from qe.proof.cells import Cell, CellTable, Stack
 
 _VALUE = {"+": 1, "-": -1, "0": 0}
 
@@ -35,14 +35,18 @@ def follows(answer: Formula, table: CellTable) -> bool:
     return _agrees(table.root, compile_matrix(convert(answer, Ring.of(table.order)), places), 0, free)
 
 
+def signs_of(stack: Stack, cell: Cell) -> dict[int, int]:
+    """The signs of the level's factors, by their numbers, on a cell of the stack; without those that are open."""
+    return {j: _VALUE[c] for j, c in zip(stack.used, cell.signs, strict=True) if c != "?"}
+
+
 def _agrees(cell: Cell, node: Node, level: int, free: int) -> bool:
     if cell.stack is None or level == free:
         return node is cell.truth
     known: dict[str, Node] = {}  # neighbours often have the same signs
     for below in cell.stack.cells:
         if below.signs not in known:
-            signs = {j: _VALUE[c] for j, c in zip(cell.stack.used, below.signs, strict=True) if c != "?"}
-            known[below.signs] = specialise(node, level, signs)
+            known[below.signs] = specialise(node, level, signs_of(cell.stack, below))
         if not _agrees(below, known[below.signs], level + 1, free):
             return False
     return True

@@ -49,23 +49,32 @@ class RootFunction:
     def __str__(self) -> str:
         if self.value is not None:
             return str(self.value)
-        i = self.poly.level
-        c = self.poly.coefficients(i)
+        written = self.written
+        if written is None:
+            return f"root({self.k}, {format_poly(self.poly)}, {quoted(self.poly.ring.names[self.poly.level])})"
+        front, inside, bottom = written
+        if inside is None:
+            return _quotient(format_poly(front), format_poly(bottom))
+        shown = f"{'-' if self.k == 1 else '+'} " if front else "-" if self.k == 1 else ""
+        return _quotient(
+            f"{format_poly(front) + ' ' if front else ''}{shown}sqrt({format_poly(inside)})", format_poly(bottom)
+        )
+
+    @property
+    def written(self) -> tuple[Poly, Poly | None, Poly] | None:
+        """a, b, c of the root a/c (b is None) or (a ± sqrt(b))/c, with the minus where ``k`` is 1; None: it is no such.
+
+        c is a constant where there is a square root.
+        """
+        c = self.poly.coefficients(self.poly.level)
         if len(c) == 2:
-            return _quotient(format_poly(-c[0]), format_poly(c[1]))
-        if len(c) == 3 and c[2].is_constant:
-            discriminant = c[1] * c[1] - 4 * (c[2] * c[0])
-            unit, inside, half = 1, discriminant, 2 * c[2].constant_value()
-            content = discriminant.normal()[0]
-            if c[1].normal()[0] % 2 == 0 and content % 4 == 0:
-                half //= 2
-                inside = discriminant.exact_divide(4)
-                unit = 2
-            sign = "-" if self.k == 1 else "+"
-            front = format_poly((-c[1]).exact_divide(unit)) + " " if c[1] else ""
-            shown = f"{sign} " if front else "-" if sign == "-" else ""
-            return _quotient(f"{front}{shown}sqrt({format_poly(inside)})", str(half))
-        return f"root({self.k}, {format_poly(self.poly)}, {quoted(self.poly.ring.names[i])})"
+            return -c[0], None, c[1]
+        if len(c) > 3 or not c[2].is_constant:
+            return None
+        front, inside, bottom = -c[1], c[1] * c[1] - 4 * (c[2] * c[0]), 2 * c[2]
+        if front.normal()[0] % 2 == 0 and inside.normal()[0] % 4 == 0:
+            front, inside, bottom = front.exact_divide(2), inside.exact_divide(4), c[2]
+        return front, inside, bottom
 
 
 def _quotient(top: str, bottom: str) -> str:
@@ -94,6 +103,10 @@ class Range:
     @property
     def is_point(self) -> bool:
         return self.lower is not None and self.lower == self.upper
+
+    def end(self, *, lower: bool) -> tuple[RootFunction | None, bool]:
+        """One end (None: there is none), and whether it is included."""
+        return (self.lower, self.lower_closed) if lower else (self.upper, self.upper_closed)
 
     def __str__(self) -> str:
         return self._text(str)

@@ -41,7 +41,7 @@ def optimize(channel: Channel, request: Request, goal: Goal) -> Reply:
     best: Optimum | GlobalOptimum | ParametricOptimum = solve(goal.objective, constraints, **asked)
     files: dict[str, str | bytes] = {"certificate": certificate_text(best)} if request.certificate else {}
     if isinstance(best, ParametricOptimum):
-        data, lines = _cases(best), str(best).splitlines()
+        data, lines = {"status": "optimal", **best.to_dict()}, str(best).splitlines()
     elif best.value is None:
         raise Unable(f"{best.status.name.lower()}: no {'greatest' if goal.maximize else 'least'} value")
     else:
@@ -85,18 +85,3 @@ def _lines(best: Optimum | GlobalOptimum) -> list[str]:
     if best.attained is False:
         lines.append("not attained: the value is a limit")
     return lines
-
-
-def _cases(best: ParametricOptimum) -> dict[str, Any]:
-    return {
-        "status": "optimal",
-        "parameters": list(best.parameters),
-        "cases": [
-            {
-                "where": [str(r) for r in case.ranges],
-                "value": None if case.value is None else str(case.value),
-                "attained": case.attained,
-            }
-            for case in best
-        ],
-    }

@@ -260,6 +260,11 @@ def _compared(left: object, relation: Relation, right: object) -> Statement:
     return Statement(lower(s.Comparison([_term(left), _term(right)], [relation], -1), _fail))
 
 
+def graph_of(name: str, given: object) -> Formula:
+    """Where a variable of this name has the value of a term; what has no value has none."""
+    return lower(s.Comparison([s.Name(name, -1), _term(given)], [Relation.EQ], -1), _fail)
+
+
 def _term(given: object) -> s.Term:
     """A number, an expression, text, or a SymPy expression as a term."""
     if isinstance(given, Expression):

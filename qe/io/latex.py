@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 from qe.exact.ring import Poly
-from qe.formula.notation import Notation, polynomial, positive
+from qe.formula.notation import Notation, monomials, polynomial, positive
 from qe.formula.syntax import And, Exists, ForAll, Formula, Or, Relation
 from qe.spelling import visible
 
@@ -69,6 +69,11 @@ def name(variable: str) -> str:
     else:
         base = letters if len(letters) == 1 else rf"\mathrm{{{letters}}}"
     return base + (f"_{{{number}}}" if number else "") + primes
+
+
+def term(poly: Poly) -> str:
+    """A polynomial."""
+    return polynomial(monomials(poly), _NOTATION)
 
 
 def _power(base: str, k: int) -> str:

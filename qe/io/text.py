@@ -14,10 +14,10 @@ from fractions import Fraction
 from typing import cast
 
 from qe.exact.ring import Poly
-from qe.formula.syntax import Formula
+from qe.formula.syntax import Formula, Relation
 from qe.io.grammar import Failing, parse
 from qe.io.lowering import lower, lower_term
-from qe.io.surface import Meet, Quantification, Term
+from qe.io.surface import Comparison, Meet, Name, Quantification, Term
 from qe.io.text_parser import text_parser
 from qe.io.total import Total
 from qe.spelling import CONSTANTS as CONSTANTS
@@ -43,6 +43,14 @@ def read_polynomial(text: str, *, source: str = "<text>", known: Container[str] 
     term = parse(text_parser("term"), text, fail)
     value = lower_term(cast(Term, term), fail, meet=_no_constants(fail, known))
     return value.poly, Fraction(1, value.den)
+
+
+def read_graph(name: str, text: str, *, source: str = "<text>") -> Formula:
+    """Where a variable of this name has the value of the term that ``text`` is; names and errors as for ``read``."""
+    fail = Failing(text, source)
+    term = cast(Term, parse(text_parser("term"), text, fail))
+    equation = Comparison([Name(name, -1), term], [Relation.EQ], -1)
+    return lower(equation, fail, meet=_no_constants(fail, (name,)))
 
 
 def read_term(text: str, *, source: str = "<text>") -> Term:

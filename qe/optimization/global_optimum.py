@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from fractions import Fraction
 
 from qe.cad.decompose import decompose
@@ -12,11 +12,11 @@ from qe.elimination.protocol import Problem
 from qe.engine.run import solve
 from qe.errors import Unable
 from qe.exact.algebraic import RealAlgebraic
-from qe.exact.number import Values, point_text
+from qe.exact.number import Values, point_text, simplest
 from qe.exact.polynomial_system import solve_system
-from qe.exact.ring import Poly, Ring
+from qe.exact.ring import Ring
 from qe.formula.build import atom, conj, convert, exists
-from qe.formula.syntax import FALSE, TRUE, Constant, Formula, Relation
+from qe.formula.syntax import FALSE, Atom, Constant, Formula, Relation
 from qe.optimization.values import Goal
 from qe.options import Budget, Options
 from qe.proof.answer import Answer, Guarantee
@@ -38,10 +38,10 @@ class GlobalOptimum:
     and no point has it. ``point``: one point that has it, empty where none does. ``minimisers``: holds at exactly
     the points that have it (``qe.region`` of it lists or describes them); quantifiers of the constraints stand in
     it. INFEASIBLE: no point meets the constraints; UNBOUNDED: there is no bound. For both ``value`` and
-    ``attained`` are None. ``values``: a formula of ``variable``, the values that are taken (of the negative, for a
-    maximum). ``certificate``: a bundle that proves them, the least of them, and the point; None where the
-    elimination had no certificate. ``answer``: how the values were found. ``guarantee``: CHECKED where ``check`` was
-    asked for and separate code accepted the certificate; otherwise ``reason`` says why not.
+    ``attained`` are None. ``values``: a formula of ``variable``, the values that are taken. ``certificate``: a
+    bundle that proves them, the least of them, and the point; None where the elimination had no certificate.
+    ``answer``: how the values were found. ``guarantee``: CHECKED where ``check`` was asked for and separate code
+    accepted the certificate; otherwise ``reason`` says why not.
     """
 
     status: OptimumStatus
@@ -73,20 +73,12 @@ class GlobalOptimum:
         return self.status is OptimumStatus.OPTIMAL
 
 
-def minimize_globally(
-    objective: Poly,
-    constraints: Formula,
-    *,
-    scale: Fraction | int = 1,
-    budget: Budget | None = None,
-    check: bool = False,
-) -> GlobalOptimum:
-    """The minimum of ``scale * objective`` where ``constraints`` hold (they may have quantifiers).
+def best(sign: int, goal: Goal, *, budget: Budget | None = None, check: bool = False) -> GlobalOptimum:
+    """The minimum (``sign`` 1) or maximum (-1) of the objective where the conditions hold (they may have quantifiers).
 
     Raises ``Unable`` (``BudgetExceeded`` at a limit) where elimination does.
     """
     limits = budget or Budget()
-    goal = Goal.of(objective, Fraction(scale), constraints)
     taken, answer = goal.values(limits, check=check)
     members = [] if answer.certificate is None else [("values", answer.certificate)]
     if isinstance(taken, Constant):
@@ -96,27 +88,22 @@ def minimize_globally(
     members += [("least", Certificate.cells(table))] if members else []
     if not pieces:
         return _without(OptimumStatus.INFEASIBLE, goal, answer, members)
-    least = pieces[0].ranges[0]
-    if least.lower is None:
+    end, attained = pieces[0].ranges[0].end(lower=True) if sign > 0 else pieces[-1].ranges[0].end(lower=False)
+    if end is None:
         return _without(OptimumStatus.UNBOUNDED, goal, answer, members)
-    assert least.lower.value is not None
-    value = _plain(least.lower.value)
+    assert end.value is not None
+    value = simplest(end.value)
     point: Values = {}
-    if least.lower_closed:
-        known, place = _stationary(goal, value), exists((goal.value, *goal.variables), _place(goal, value))
-        if known is None:
-            found = solve(place, Options(progress=limits.listener), limits)
-            if found.witness is None:
-                raise Unable("the least value was found, but no point that has it")
-            known = found.witness
-        members += _proof_of(place, {**known, goal.value: value}) if members else []
-        point = {name: known.get(name, Fraction(0)) for name in goal.variables}
+    if attained:
+        point = point_of(goal, value, limits)
+        place = exists((goal.value, *goal.variables), _place(goal, value))
+        members += _proof_of(place, {**point, goal.value: value}) if members else []
     return GlobalOptimum(
         status=OptimumStatus.OPTIMAL,
         value=value,
-        attained=least.lower_closed,
+        attained=attained,
         point=point,
-        minimisers=_level_set(goal, value) if least.lower_closed else FALSE,
+        minimisers=level_set(goal, value, limits) if attained else FALSE,
         values=taken,
         variable=goal.value,
         answer=answer,
@@ -124,18 +111,16 @@ def minimize_globally(
     )
 
 
-def best(
-    sign: int,
-    objective: Poly,
-    constraints: Formula,
-    *,
-    scale: Fraction | int = 1,
-    budget: Budget | None = None,
-    check: bool = False,
-) -> GlobalOptimum:
-    """The minimum (``sign`` 1), or the maximum (-1): minus the minimum of the negative."""
-    found = minimize_globally(objective, constraints, scale=sign * Fraction(scale), budget=budget, check=check)
-    return found if sign > 0 or found.value is None else replace(found, value=-found.value)
+def point_of(goal: Goal, value: Number, budget: Budget) -> Values:
+    """A point with this value, which is the least or greatest one. Raises ``Unable`` where none is found."""
+    known = _stationary(goal, value)
+    if known is None:
+        place = exists((goal.value, *goal.parameters, *goal.variables), _place(goal, value))
+        found = solve(place, Options(progress=budget.listener), budget)
+        if found.witness is None:
+            raise Unable("the least value was found, but no point that has it")
+        known = found.witness
+    return {name: known.get(name, Fraction(0)) for name in goal.variables}
 
 
 def _without(status: OptimumStatus, goal: Goal, answer: Answer, members: Members) -> GlobalOptimum:
@@ -152,58 +137,62 @@ def _proof_of(place: Formula, known: Values) -> Members:
     return [(POINT, problem.witnessed({name: known.get(name, Fraction(0)) for name in problem.variables}))]
 
 
-def _plain(value: RealAlgebraic) -> Number:
-    return value.as_fraction() if value.is_rational else value
-
-
 def _stationary(goal: Goal, value: Number) -> Values | None:
     """Without constraints: a point with this least value among the zeros of the gradient, where they are finitely many.
 
     A point where a polynomial is least on all of space is a zero of its gradient (Fermat).
     """
-    if goal.conditions is not TRUE or not goal.variables:
-        return None
-    ring = goal.objective.ring
-    slopes = [goal.objective.derivative(ring.index[name]) for name in goal.variables]
-    try:
-        zeros = solve_system([*slopes, goal.equation], variables=[ring.index[goal.value]])
-    except Unable:
-        return None
-    for zero in zeros:
-        if zero.values[goal.value] == value:
-            return {name: _plain(zero.values[name].to_algebraic()) for name in goal.variables}
+    match goal:
+        case Goal(conditions=Constant(True), graph=Atom(equation), polynomial=(objective, _), variables=(_, *_)):
+            ring = goal.ring
+            slopes = [objective.derivative(ring.index[name]) for name in goal.variables]
+            try:
+                zeros = solve_system([*slopes, equation], variables=[ring.index[goal.value]])
+            except Unable:
+                return None
+            for zero in zeros:
+                if zero.values[goal.value] == value:
+                    return {name: simplest(zero.values[name].to_algebraic()) for name in goal.variables}
     return None
 
 
 def _place(goal: Goal, value: Number) -> Formula:
     """The constraints, the equation of the value, and which number the value is."""
-    number = goal.objective.ring.var(goal.value)
+    return conj((goal.conditions, goal.graph, *number_conditions(goal.ring, goal.value, value)))
+
+
+def number_conditions(ring: Ring, name: str, value: Number) -> list[Formula]:
+    """That a variable is this number: the only root of its minimal polynomial between two rational numbers."""
+    number = ring.var(name)
     if isinstance(value, Fraction):
-        known = [atom(number * value.denominator - value.numerator, Relation.EQ)]
-    else:
-        low, high = value.interval()
-        ring = Ring.of((goal.value,))
-        minimal = ring.from_terms({(k,): c for k, c in enumerate(value.minimal_polynomial) if c})
-        known = [
-            atom(minimal.convert(number.ring), Relation.EQ),
-            atom(number * low.denominator - low.numerator, Relation.GE),
-            atom(number * high.denominator - high.numerator, Relation.LE),
-        ]
-    return conj((goal.conditions, atom(goal.equation, Relation.EQ), *known))
+        return [atom(number * value.denominator - value.numerator, Relation.EQ)]
+    low, high = value.interval()
+    own = Ring.of((name,))
+    minimal = own.from_terms({(k,): c for k, c in enumerate(value.minimal_polynomial) if c})
+    return [
+        atom(minimal.convert(ring), Relation.EQ),
+        atom(number * low.denominator - low.numerator, Relation.GE),
+        atom(number * high.denominator - high.numerator, Relation.LE),
+    ]
 
 
-def _level_set(goal: Goal, value: Number) -> Formula:
+def level_set(goal: Goal, value: Number, budget: Budget) -> Formula:
     """Where the constraints hold and the objective has the value, without a name for the value.
 
     An irrational value is the only root of its minimal polynomial between two rational numbers, so the objective has
-    it exactly where it is a root of that polynomial and lies between them.
+    it exactly where it is a root of that polynomial and lies between them. Raises ``Unable`` where the name of another
+    objective's value is not eliminated.
     """
-    ring = Ring.of(tuple(name for name in goal.objective.ring.names if name != goal.value))
-    objective, conditions = goal.objective.convert(ring), convert(goal.conditions, ring)
+    if goal.polynomial is None:
+        having = exists((goal.value, *goal.parameters), _place(goal, value))
+        return solve(having, Options(progress=budget.listener), budget).formula
+    ring = Ring.of(tuple(name for name in goal.ring.names if name != goal.value))
+    (objective, scale), conditions = goal.polynomial, convert(goal.conditions, ring)
+    objective = objective.convert(ring)
     if isinstance(value, Fraction):
-        wanted = value / goal.scale
+        wanted = value / scale
         return conj((conditions, atom(objective * wanted.denominator - wanted.numerator, Relation.EQ)))
-    scaled, bottom = objective * goal.scale.numerator, goal.scale.denominator
+    scaled, bottom = objective * scale.numerator, scale.denominator
     low, high = value.interval()
     root, power = ring.constant(0), 1
     for c in reversed(value.minimal_polynomial):

@@ -2,19 +2,35 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass, field
+import json
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from itertools import groupby
 
+from qe.arguments import by_name, flag, seconds
 from qe.cad.decompose import decompose
-from qe.cells.pieces import Range, RootFunction, merge
-from qe.exact.ring import Poly
-from qe.formula.syntax import Formula
+from qe.cells.fibres import fibre_of
+from qe.cells.interval import Coordinate, number_of
+from qe.cells.pieces import Piece, Range, RootFunction, merge
+from qe.cells.sampled_cells import child, root_place
+from qe.engine.run import solve
+from qe.errors import InputError
+from qe.exact.number import Number, simplest
+from qe.execution import Limits, perform
+from qe.formula.build import conj, convert, exists
+from qe.formula.syntax import FALSE, Formula
+from qe.optimization import written
+from qe.optimization.global_optimum import GlobalOptimum, level_set, number_conditions, point_of
+from qe.optimization.minimisers import minimisers, points
 from qe.optimization.values import Goal
-from qe.options import Budget
+from qe.options import Budget, Options
 from qe.proof.answer import Answer, Guarantee
+from qe.proof.cells import CellTable
 from qe.proof.certificate import Certificate
+from qe.proof.multipliers import OptimumStatus
+
+Place = tuple[Range, ...]
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -22,11 +38,15 @@ class Case:
     """Where the parameters lie in ``ranges``, the optimum is ``value`` (None: unbounded), taken or only approached.
 
     ``value`` is a root function of the parameters: the k-th root of a polynomial in them and in the value.
+    ``minimisers``: all points that have it (for a maximum as well), in disjoint pieces: each variable a root function,
+    or between two, of the parameters, the value and the variables before it. Empty where the value is not attained or
+    nothing is optimised over; None where their description was too much work (see ``ParametricOptimum.minimisers``).
     """
 
-    ranges: tuple[Range, ...]
+    ranges: Place
     value: RootFunction | None
     attained: bool
+    minimisers: tuple[Place, ...] | None = ()
 
     def __repr__(self) -> str:
         return f"<{self}>"
@@ -34,6 +54,8 @@ class Case:
     def __str__(self) -> str:
         where = ", ".join(str(r) for r in self.ranges)
         what = "unbounded" if self.value is None else f"{self.value}{'' if self.attained else ' (not attained)'}"
+        if self.minimisers:
+            what += f" at {' or '.join(', '.join(map(str, place)) for place in self.minimisers)}"
         return f"{what} if {where}" if where else what
 
 
@@ -41,22 +63,32 @@ class Case:
 class ParametricOptimum:
     """The minimum or maximum as a function of the parameters: ``cases`` with disjoint conditions.
 
-    Where no case applies, no point meets the constraints. ``values``: the values that are taken, a formula of
-    ``variable`` and the parameters. ``certificate``: of the elimination and of the cells; None where it had none.
-    ``answer``: how the values were found. ``guarantee``, ``reason``: with ``check``, as in ``GlobalOptimum``.
+    Where no case applies, no point meets the constraints. ``at`` gives the optimum at numbers. ``minimisers``: holds
+    at exactly the parameters and points where the optimum is attained. ``values``: the values that are taken, a formula
+    of ``variable`` and the parameters. ``certificate``: of the elimination and of the cells that the values and their
+    ends are read from, not of the minimisers; None where it had none. ``answer``: how the values were found.
+    ``guarantee``, ``reason``: with ``check``, as in ``GlobalOptimum``. ``str`` writes one case a line; ``to_json`` and
+    ``to_latex`` write all cases.
     """
 
     cases: tuple[Case, ...]
     parameters: tuple[str, ...]
     values: Formula
     variable: str
+    minimisers: Formula
     answer: Answer = field(repr=False)
+    _goal: Goal = field(repr=False, compare=False)
+    _table: CellTable = field(repr=False, compare=False)
+    _sign: int = field(repr=False, compare=False)
     certificate: Certificate | None = None
     guarantee: Guarantee = Guarantee.DERIVED
     reason: str = ""
 
     def __iter__(self) -> Iterator[Case]:
         return iter(self.cases)
+
+    def __len__(self) -> int:
+        return len(self.cases)
 
     def __repr__(self) -> str:
         count = len(self.cases)
@@ -65,33 +97,121 @@ class ParametricOptimum:
     def __str__(self) -> str:
         return "\n".join(map(str, self.cases)) or "no point meets the constraints"
 
+    def at(
+        self, parameters: Mapping[str, Coordinate], *, timeout: float | None = None, process: bool = True
+    ) -> GlobalOptimum:
+        """The exact optimum at these values of the parameters, with a point that has it; limits as in ``qe.eliminate``.
 
-def optimum_of(
-    sign: int,
-    objective: Poly,
-    constraints: Formula,
-    parameters: tuple[str, ...],
-    *,
-    scale: Fraction | int = 1,
-    budget: Budget | None = None,
-    check: bool = False,
-) -> ParametricOptimum:
+        Raises ``InputError`` where a value is missing, of another name, or no exact number.
+        """
+        named = by_name(parameters, "parameters")
+        for name in (*self.parameters, *named):
+            if name not in named or name not in self.parameters:
+                raise InputError(f"parameters: a value for each of {', '.join(self.parameters)} expected ({name})")
+        given = {name: number_of(named[name], "parameters", f"an exact number for {name}") for name in self.parameters}
+        limits = Limits(seconds(timeout), process=flag(process, "process"))
+        return perform(lambda budgets: self._at(given, budgets()), limits, at_once=timeout is not None)
+
+    def _at(self, given: Mapping[str, Number], budget: Budget) -> GlobalOptimum:
+        fixed = [part for name, value in given.items() for part in number_conditions(self._goal.ring, name, value)]
+        place = replace(self._goal, conditions=conj((self._goal.conditions, *fixed)), polynomial=None)
+        here = exists(self.parameters, conj((convert(self.values, self._goal.ring), *fixed)))
+        taken = solve(here, Options(progress=budget.listener), budget).formula
+        found = fibre_of(self._table, list(given.values()), budget=budget)
+        if not found:
+            return GlobalOptimum(OptimumStatus.INFEASIBLE, None, None, {}, FALSE, taken, self.variable, self.answer)
+        end = found[0] if self._sign > 0 else found[-1]
+        value, attained = (end.lower, end.lower_closed) if self._sign > 0 else (end.upper, end.upper_closed)
+        if value is None:
+            return GlobalOptimum(OptimumStatus.UNBOUNDED, None, None, {}, FALSE, taken, self.variable, self.answer)
+        value = simplest(value)
+        point = point_of(place, value, budget) if attained else {}
+        having = level_set(place, value, budget) if attained else FALSE
+        optimal = OptimumStatus.OPTIMAL
+        return GlobalOptimum(optimal, value, attained, point, having, taken, self.variable, self.answer)
+
+    def to_dict(self) -> dict[str, object]:
+        """The cases as plain data: where, value, attained, minimisers, each as text that ``str`` writes."""
+        return {"parameters": list(self.parameters), "variable": self.variable, "cases": list(map(_data, self.cases))}
+
+    def to_json(self, *, indent: int | None = None) -> str:
+        """``to_dict`` as JSON."""
+        return json.dumps(self.to_dict(), indent=indent, ensure_ascii=False)
+
+    def to_latex(self) -> str:
+        """The function by cases, for math mode."""
+        return written.to_latex([(c.ranges, c.value, c.attained, c.minimisers or ()) for c in self.cases])
+
+    def _repr_latex_(self) -> str:
+        return f"$\\displaystyle {self.to_latex()}$"
+
+
+def optimum_of(sign: int, goal: Goal, *, budget: Budget | None = None, check: bool = False) -> ParametricOptimum:
     """The minimum (``sign`` 1) or maximum (-1) for all values of the parameters at once.
 
     Raises ``Unable`` (``BudgetExceeded`` at a limit) where elimination does.
     """
     limits = budget or Budget()
-    goal = Goal.of(objective, Fraction(scale), constraints, parameters)
+    if not goal.graph.is_quantifier_free:
+        goal = replace(goal, graph=solve(goal.graph, Options(progress=limits.listener), limits).formula)
     taken, answer = goal.values(limits, check=check)
     order = (*goal.parameters, goal.value)
     table = decompose(taken, order, ("",) * len(order), budget=limits).table
-    cases = []
-    for ranges, stack in groupby(merge(table, budget=limits), key=lambda piece: piece.ranges[:-1]):
-        values = [piece.ranges[-1] for piece in stack]
-        end = values[0] if sign > 0 else values[-1]
-        found, closed = (end.lower, end.lower_closed) if sign > 0 else (end.upper, end.upper_closed)
-        cases.append(Case(ranges, found, found is not None and closed))
+    cases = list(_by_value(merge(table, budget=limits), sign))
+    roots = list(dict.fromkeys(case.value.poly for _, case in cases if case.value is not None and case.attained))
+    if goal.variables:
+        pieces = points(goal, taken, roots, sign, limits)
+        if pieces is None:
+            cases = [(at, replace(case, minimisers=None if case.attained else ())) for at, case in cases]
+        else:
+            cases = [(at, case) for at, case in cases if not case.attained]
+            cases += _with_points(pieces, len(goal.parameters))
+            cases.sort(key=lambda pair: pair[0])
     proof = answer.certificate
     members = [] if proof is None else [("values", proof), ("cases", Certificate.cells(table))]
     certificate = Certificate.bundle(members) if members else None
-    return ParametricOptimum(tuple(cases), goal.parameters, taken, goal.value, answer, certificate)
+    return ParametricOptimum(
+        cases=tuple(case for _, case in cases),
+        parameters=goal.parameters,
+        values=taken,
+        variable=goal.value,
+        minimisers=minimisers(goal, taken, table, sign, limits),
+        answer=answer,
+        _goal=goal,
+        _table=table,
+        _sign=sign,
+        certificate=certificate,
+    )
+
+
+def _by_value(pieces: Iterable[Piece], sign: int) -> Iterator[tuple[Number, Case]]:
+    """The cases of the pieces of the values that are taken, each with its place."""
+    for ranges, stack in groupby(pieces, key=lambda piece: piece.ranges[:-1]):
+        values = list(stack)
+        end = values[0 if sign > 0 else -1].ranges[-1]
+        found, closed = end.end(lower=sign > 0)
+        yield _place(values[0]), Case(ranges, found, found is not None and closed)
+
+
+def _with_points(pieces: Iterable[Piece], size: int) -> Iterator[tuple[Number, Case]]:
+    """The cases of the pieces of the points that have the optimum, over ``size`` parameters and the value."""
+    for ranges, stack in groupby(pieces, key=lambda piece: piece.ranges[: size + 1]):
+        places = list(stack)
+        points = tuple(piece.ranges[size + 1 :] for piece in places)
+        yield _place(places[0]), Case(ranges[:-1], ranges[-1].lower, True, points)
+
+
+def _place(piece: Piece) -> Number:
+    """The first coordinate of a sample of a piece."""
+    first = root_place(piece.table)
+    return child(piece.table, first, piece.path[0]).point.number(0) if piece.path else Fraction(0)
+
+
+def _data(case: Case) -> dict[str, object]:
+    places = case.minimisers
+    return {
+        "where": [str(r) for r in case.ranges],
+        "value": None if case.value is None else str(case.value),
+        "attained": case.attained,
+        "minimisers": None if places is None else [[str(r) for r in place] for place in places],
+    }

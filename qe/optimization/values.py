@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 from fractions import Fraction
+from itertools import chain
 
 from qe.engine.run import answer_to, solve
 from qe.errors import InputError
@@ -24,45 +25,74 @@ VALUE = "value"
 
 
 @dataclass(frozen=True, slots=True)
-class Goal:
-    """The objective ``scale * objective`` on the set that ``conditions`` describe, over the ring of both and ``value``.
+class Objective:
+    """A term that has a value: ``graph`` holds where the variable ``value`` is that value, over a ring with it.
 
-    ``variables`` are optimised over, ``parameters`` are not; ``value`` names none of them.
+    Where the term has no value (as 1/x at 0) no value fits. ``polynomial``: p and s where the term is s*p.
     """
 
-    objective: Poly
-    scale: Fraction
+    graph: Formula
+    value: str
+    names: tuple[str, ...]
+    polynomial: tuple[Poly, Fraction] | None = None
+
+    @staticmethod
+    def of(poly: Poly, scale: Fraction | int, value: str) -> Objective:
+        """The polynomial ``scale * poly``; ``value`` names none of its variables."""
+        scale, names = Fraction(scale), tuple(poly.ring.names[i] for i in poly.variables)
+        ring = Ring.of((value, *poly.ring.names))
+        equation = ring.var(value) * scale.denominator - poly.convert(ring) * scale.numerator
+        return Objective(atom(equation, Relation.EQ), value, names, (poly, scale))
+
+
+def new_name(*taken: Iterable[str]) -> str:
+    """A name for the value of an objective that is none of these."""
+    names, value = set(chain(*taken)), VALUE
+    while value in names:
+        value += "_"
+    return value
+
+
+@dataclass(frozen=True, slots=True)
+class Goal:
+    """The ``graph`` of an objective and the set that ``conditions`` describe, both over ``ring``.
+
+    ``variables`` are optimised over, ``parameters`` are not; ``value`` names none of them. ``polynomial``: p over the
+    ring and s where the objective is s*p.
+    """
+
+    ring: Ring
+    graph: Formula
     conditions: Formula
     variables: tuple[str, ...]
     parameters: tuple[str, ...]
     value: str
+    polynomial: tuple[Poly, Fraction] | None
 
     @staticmethod
-    def of(objective: Poly, scale: Fraction, conditions: Formula, parameters: Iterable[str] = ()) -> Goal:
+    def of(objective: Objective, conditions: Formula, parameters: Iterable[str] = ()) -> Goal:
         """The goal with all names in one ring. Raises ``InputError`` for a parameter that is unknown or named twice."""
-        known = ring_of(conditions)
-        names = dict.fromkeys((*objective.ring.names, *(known.names if known is not None else ())))
-        given, value = tuple(parameters), VALUE
-        while value in names or value in given:
-            value += "_"
+        given, parts = tuple(parameters), (objective.graph, conditions)
+        rings = [ring.names for part in parts if (ring := ring_of(part)) is not None]
+        if objective.polynomial is not None:
+            rings.insert(0, objective.polynomial[0].ring.names)
+        names = [name for name in dict.fromkeys(chain(*rings)) if name != objective.value]
         strangers = [name for name in given if name not in names and conditions is not FALSE]
         if strangers or len(set(given)) < len(given):
             raise InputError(f"parameters: variables of the problem expected, each once, {', '.join(given)} found")
-        ring = Ring.of((*given, value, *(name for name in names if name not in given)))
-        used = {*conditions.free, *(objective.ring.names[i] for i in objective.variables)}
+        ring = Ring.of((*given, objective.value, *(name for name in names if name not in given)))
+        used = {*conditions.free, *objective.names}
         variables = tuple(name for name in names if name in used and name not in given)
-        return Goal(objective.convert(ring), scale, convert(conditions, ring), variables, given, value)
-
-    @property
-    def equation(self) -> Poly:
-        """Zero where the value is that of the objective."""
-        ring = self.objective.ring
-        return ring.var(self.value) * self.scale.denominator - self.objective * self.scale.numerator
+        polynomial = None
+        if objective.polynomial is not None:
+            polynomial = objective.polynomial[0].convert(ring), objective.polynomial[1]
+        graph, conditions = (convert(part, ring) for part in parts)
+        return Goal(ring, graph, conditions, variables, given, objective.value, polynomial)
 
     @property
     def taken(self) -> Formula:
         """That the value is taken somewhere."""
-        return exists(self.variables, conj((self.conditions, atom(self.equation, Relation.EQ))))
+        return exists(self.variables, conj((self.conditions, self.graph)))
 
     def values(self, budget: Budget, *, check: bool) -> tuple[Formula, Answer]:
         """The values that are taken, as a formula in ``value`` and the parameters, and how that was found."""

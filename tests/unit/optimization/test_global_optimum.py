@@ -20,6 +20,11 @@ CASES = [
     ("x + y", "x^2 + y^2 = 1 or x*y >= 3 and x > 0", "-sqrt(2)", True),
     ("x", "ex y. y^2 = x^3 - x", "-1", True),
     ("7", "x^3 > 2", "7", True),
+    ("x/(x^2 + 1)", "true", "-1/2", True),
+    ("x/y", "x > 1 and y > 0 and y < 3", "1/3", False),
+    ("max(x, 1 - x)", "x >= 0", "1/2", True),
+    ("abs(x) + 2/x", "x > 0", "2*sqrt(2)", True),
+    ("sqrt(x) + x", "x >= 1", "2", True),
     ("x*y*z", "x^2 + 2*y^2 + 3*z^2 <= 1", "-sqrt(2)/18", True),
 ]
 
@@ -59,6 +64,23 @@ def test_all_minimisers():
     assert [str(p) for p in points] == ["-sqrt(2)/2", "sqrt(2)/2"]
     assert qe.equivalent(qe.minimize("x*y", "x^2 + y^2 <= 1").minimisers, "2*x*y = -1 and x = -y")
     assert str(qe.minimize("x^3", "x > 1").minimisers) == "false"
+
+
+def test_the_points_of_a_term_that_is_no_polynomial():
+    found = qe.minimize("abs(x) + 2/x", "x > 0")
+    assert str(found.point["x"]) == "sqrt(2)"
+    assert qe.equivalent(str(found.minimisers), "x^2 = 2 and x > 0")
+    assert qe.equivalent(str(qe.maximize("min(x, 1 - x, 1/4)").minimisers), "4*x >= 1 and 4*x <= 3")
+
+
+def test_values_of_a_maximum_are_the_values():
+    assert qe.equivalent(str(qe.maximize("x^3", "x^4 <= 1").values), "value^2 <= 1")
+
+
+@pytest.mark.parametrize("given", ["sin(x)", "floor(x)", "1/0", "", "x = 1", "pi*x", b"x", ["x"], None, float("nan")])
+def test_objectives_that_are_no_terms(given):
+    with pytest.raises(qe.InputError, match=r"^objective: [^\n]*$"):
+        qe.minimize(given, "x > 0")
 
 
 def test_an_irrational_value_is_told_from_its_conjugates():

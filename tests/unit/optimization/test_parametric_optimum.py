@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import json
+from fractions import Fraction
+
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -12,12 +15,22 @@ import qe
 @pytest.mark.parametrize(
     ("objective", "constraints", "parameters", "printed"),
     [
-        ("x^2 + b*x + c", "true", "b, c", ["(-b^2 + 4*c)/4 if b any, c any"]),
-        ("a*x^2 + x", "true", "a", ["unbounded if a < 0", "unbounded if a = 0", "-1/(4*a) if 0 < a"]),
-        ("x", "x^2 + y^2 <= r", "r", ["-sqrt(r) if 0 <= r"]),
-        ("x^4 + a*x^2", "true", "a", ["-a^2/4 if a <= 0", "0 if 0 < a"]),
+        ("x^2 + b*x + c", "true", "b, c", ["(-b^2 + 4*c)/4 at x = -b/2 if b any, c any"]),
+        ("a*x^2 + x", "true", "a", ["unbounded if a < 0", "unbounded if a = 0", "-1/(4*a) at x = -1/(2*a) if 0 < a"]),
+        ("x", "x^2 + y^2 <= r", "r", ["-sqrt(r) at x = -sqrt(r), y = 0 if 0 <= r"]),
+        (
+            "x^4 + a*x^2",
+            "true",
+            "a",
+            ["-a^2/4 at x = (-sqrt(-2*a))/2 or x = (sqrt(-2*a))/2 if a < 0", "0 at x = 0 if 0 <= a"],
+        ),
         ("x", "x > a and x < 1", "a", ["a (not attained) if a < 1"]),
         ("x", "x^2 < 0 and a = a", "a", ["no point meets the constraints"]),
+        ("max(x, a)", "x >= 0", "a", ["0 at x = 0 if a <= 0", "a at 0 <= x <= value if 0 < a"]),
+        ("x/y", "x > a and y > 0", "a", ["unbounded if a < 0", "0 (not attained) if 0 <= a"]),
+        ("a*x", "true", "a", ["unbounded if a < 0", "0 at x any if a = 0", "unbounded if 0 < a"]),
+        ("a", "a > 0", "a", ["a if 0 < a"]),
+        ("abs(x - a)", "ex y. y^2 = x", "a", ["-a at x = 0 if a <= 0", "0 at x = a if 0 < a"]),
     ],
 )
 def test_cases(objective, constraints, parameters, printed):
@@ -26,32 +39,121 @@ def test_cases(objective, constraints, parameters, printed):
 
 def test_the_greatest_value():
     found = qe.maximize("x^3 - a*x", "x^2 <= 1", parameters="a")
-    assert [str(case.ranges[0]) for case in found] == ["a <= 3/4", "3/4 < a <= 3", "3 < a"]
-    assert [case.attained for case in found] == [True, True, True]
+    assert [str(case.ranges[0]) for case in found] == ["a < 3/4", "a = 3/4", "3/4 < a <= 3", "3 < a"]
+    assert [len(case.minimisers) for case in found] == [1, 2, 1, 1]
+    assert all(case.attained for case in found)
     assert qe.verify(found.certificate).accepted
 
 
-def is_in(one, number):
-    """Whether a number lies in the range of the only parameter, exactly."""
-    above = one.lower is None or one.lower.value < number or (one.lower_closed and one.lower.value == number)
-    below = one.upper is None or number < one.upper.value or (one.upper_closed and one.upper.value == number)
-    return above and below
+def value_of(text, **numbers):
+    """The number that a printed root function is at these parameters."""
+    fixed = " and ".join(f"{name} = {number}" for name, number in numbers.items())
+    (point,) = qe.region(f"{fixed} and result = {text}").sample_points()
+    return point["result"]
 
 
-@settings(max_examples=8, deadline=None)
-@given(st.integers(-3, 3), st.integers(-2, 2), st.integers(0, 2), st.fractions(-3, 3, max_denominator=4))
-def test_at_every_parameter_it_is_the_optimum_there(p, q, k, m):
+@settings(max_examples=4, deadline=None)
+@given(st.integers(-3, 3), st.integers(-2, 2), st.integers(0, 2), st.fractions(-3, 3, max_denominator=4), st.booleans())
+def test_at_every_parameter_it_is_the_optimum_there(p, q, k, m, least):
     objective = f"x^3 + ({p})*m*x + ({q})"
     constraints = f"{-k} <= x and x < 2 and x*m <= 1"
-    everywhere = qe.minimize(objective, constraints, parameters="m")
-    here = qe.minimize(objective.replace("m", f"({m})"), constraints.replace("m", f"({m})"))
-    values = qe.region(everywhere.values, order=("m", everywhere.variable)).fibre({"m": m})
+    optimum = qe.minimize if least else qe.maximize
+    everywhere = optimum(objective, constraints, parameters="m")
+    here = optimum(objective.replace("m", f"({m})"), constraints.replace("m", f"({m})"), method="elimination")
+    there = everywhere.at({"m": m})
+    assert (there.status, there.value, there.attained) == (here.status, here.value, here.attained)
+    fixed = f"m = {m}"
+    inside = [case for case in everywhere if qe.decide(f"ex m. {fixed} and ({' and '.join(map(str, case.ranges))})")]
     if here.value is None:
-        assert not values or values[0].lower is None
+        assert not inside or inside[0].value is None
         return
-    assert values[0].lower == here.value and values[0].lower_closed is here.attained
-    inside = [case for case in everywhere if is_in(case.ranges[0], m)]
     assert len(inside) == 1 and inside[0].attained is here.attained
+    assert value_of(str(inside[0].value), m=m) == here.value
+    # the pieces, their formula, and the minimisers at the number itself are the same points
+    given_by_pieces = " or ".join(" and ".join(map(str, place)) for place in inside[0].minimisers) or "false"
+    of_pieces = f"{fixed} and ({given_by_pieces})"
+    assert qe.equivalent(of_pieces, f"{fixed} and ({here.minimisers})")
+    assert qe.equivalent(f"{fixed} and ({everywhere.minimisers})", f"{fixed} and ({here.minimisers})")
+    assert qe.equivalent(str(there.minimisers), str(here.minimisers))
+    assert there.attained == bool(there.point)
+
+
+TERMS = ["abs(x - m)", "max(x, m*x)", "x/(x^2 + m^2 + 1)", "min(x^2, (x - m)^2 + 1)", "m*x^2 - x", "sqrt(x^2 + m^2)"]
+
+
+@settings(max_examples=4, deadline=None)
+@given(st.sampled_from(TERMS), st.integers(-2, 1), st.integers(1, 3), st.fractions(-2, 2, max_denominator=3))
+def test_terms_that_are_no_polynomials(term, low, width, m):
+    constraints = f"x > {low} and x <= {low + width}"
+    everywhere = qe.minimize(term, constraints, parameters="m")
+    here = qe.minimize(term.replace("m*", f"({m})*").replace("m^", f"({m})^").replace("- m", f"- ({m})"), constraints)
+    there = everywhere.at({"m": m})
+    assert (there.value, there.attained) == (here.value, here.attained)
+    if here.attained and not hasattr(here, "multipliers"):
+        assert qe.equivalent(str(there.minimisers), str(here.minimisers))
+
+
+def test_two_parameters():
+    found = qe.minimize("a*x + b*y", "x >= 0 and y >= 0 and x + y <= 1", parameters="a, b")
+    assert len(found) == 9
+    assert str(found.at({"a": -1, "b": -2})) == "GlobalOptimum(-2 at x = 0, y = 1)"
+    (edge,) = [case for case in found if [str(r) for r in case.ranges] == ["a < 0", "b = a"]]
+    assert [str(r) for r in edge.minimisers[0]] == ["0 <= x <= 1", "y = -x + 1"]
+
+
+def test_an_irrational_parameter():
+    root = qe.minimize("x", "x^2 = 2").value
+    found = qe.minimize("x^2 - a*x", "x >= 0", parameters="a")
+    assert (str(found.at({"a": -root}).value), str(found.at({"a": -root}).point["x"])) == ("-1/2", "sqrt(2)/2")
+    assert found.at({"a": root}).value == 0
+    assert str(found.at({"a": root}).minimisers) == "x = 0"
+
+
+def test_points_that_are_too_much_work_are_left_to_single_parameters(monkeypatch):
+    monkeypatch.setattr("qe.optimization.minimisers.MOST_WORK", 1)
+    found = qe.minimize("x^4 - a*x^2", parameters="a")
+    assert [str(case) for case in found] == ["0 if a <= 0", "-a^2/4 if 0 < a"]
+    assert [case.minimisers for case in found] == [None, None]
+    assert found.to_dict()["cases"][0]["minimisers"] is None
+    assert qe.equivalent(str(found.at({"a": 8}).minimisers), "x^2 = 4")
+
+
+def test_for_machines_and_for_print():
+    found = qe.minimize("x^2 - a*x", "x > 0", parameters="a")
+    assert json.loads(found.to_json()) == {
+        "parameters": ["a"],
+        "variable": "value",
+        "cases": [
+            {"where": ["a <= 0"], "value": "0", "attained": False, "minimisers": []},
+            {"where": ["0 < a"], "value": "-a^2/4", "attained": True, "minimisers": [["x = a/2"]]},
+        ],
+    }
+    assert found.to_latex() == (
+        "\\begin{cases}\n0\\ (\\text{not attained}) & a \\leq 0 \\\\\n"
+        "\\frac{-a^{2}}{4}\\ \\text{at}\\ x = \\frac{a}{2} & 0 < a\n\\end{cases}"
+    )
+    roots = qe.minimize("x", "x^2 - x <= r and x^3 < s", parameters="r, s").to_latex()
+    assert "\\frac{1 - \\sqrt{4\\,r + 1}}{2}" in roots
+    assert "\\operatorname{root}_{1}" in qe.minimize("x", "x^3 + x = c", parameters="c").to_latex()
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ({}, "a value for each of a expected"),
+        ({"a": 1, "b": 2}, "a value for each of a expected"),
+        ({"a": "x"}, "an exact number for a expected"),
+        (3, "a mapping from names to values expected"),
+    ],
+)
+def test_parameters_that_are_refused(given, message):
+    with pytest.raises(qe.InputError, match=message):
+        qe.minimize("x^2 - a*x", parameters="a").at(given)
+
+
+def test_limits_hold_at_a_point():
+    found = qe.minimize("x^2 - a*x", parameters="a")
+    assert found.at({"a": 3}, process=False).value == found.at({"a": 3}, timeout=60).value == Fraction(-9, 4)
 
 
 def test_a_parameter_twice_is_refused():
@@ -60,4 +162,5 @@ def test_a_parameter_twice_is_refused():
 
 
 def test_a_parameter_may_be_called_value():
-    assert str(qe.minimize("x", "x^3 >= value", parameters="value").cases[0].attained) == "True"
+    found = qe.minimize("1/x", "x^3 >= value and x > 0 and x <= 2", parameters="value")
+    assert (found.variable, str(found.cases[0])) == ("value_", "1/2 at x = 2 if value <= 8")

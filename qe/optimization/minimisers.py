@@ -1,0 +1,148 @@
+"""Where an optimum with parameters is attained: the points, as functions of the parameters.
+
+Let W(p, v) be the values v that are taken at the parameters p, and let the least (or greatest) ones that are attained
+be roots of polynomials q(p, v). THEOREM. In a decomposition for W, q and E(p, x): x in S and q(p, f(x)) = 0, with the
+variables in the order p, v, x, let C be a cell of (p, x) where E holds, over a cell of p. The real roots of q are
+continuous functions over the cell of p and nowhere meet, and f is continuous, so f(x) is the same one of them all over
+C: either all points of C have the optimum or none does. Likewise the same root of q is the optimum all over the cell of
+p. So one sample of each cell tells.
+
+For an objective that is no polynomial the graph v = f(x) is one of the conditions that the decomposition is for, and
+its cells of (p, v, x) are cells of the graph.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from fractions import Fraction
+
+from qe.cad.decompose import decompose
+from qe.cad.matrix import Node, compile_matrix, specialise
+from qe.cells.follows import signs_of
+from qe.cells.formulas import construct
+from qe.cells.pieces import Piece, merge
+from qe.cells.sampled_cells import Place, child, rational, root_place
+from qe.engine.run import solve
+from qe.errors import BudgetExceeded, Unable
+from qe.exact.ring import Poly, Ring
+from qe.exact.sample import Point
+from qe.formula.build import atom, conj, convert, disj, exists, forall, implies
+from qe.formula.evaluate import truth_under
+from qe.formula.syntax import FALSE, Formula, Relation
+from qe.io.substitution import over_one_ring, substitute
+from qe.io.surface import Name
+from qe.optimization.values import Goal, new_name
+from qe.options import Budget, Options
+from qe.proof.cells import Cell, CellTable
+
+MOST_WORK = 6_000
+"""Units of work (cells) that the description of the points may take."""
+_EXACT = 10  # units for the value of the objective at one sample
+
+
+def minimisers(goal: Goal, taken: Formula, table: CellTable, sign: int, budget: Budget) -> Formula:
+    """A formula of the parameters and the points at which the least (``sign`` 1) or greatest value (-1) is attained.
+
+    ``taken``: the values that are; ``table``: its cells over the parameters and the value. The formula has a quantifier
+    where the signs of the table's polynomials do not tell the ends.
+    """
+
+    def refined(levels: frozenset[int]) -> CellTable:
+        raise Unable("the signs do not tell which value is the end")
+
+    try:
+        end = construct(_only_ends(table, sign), refined)[0]
+    except Unable:
+        other = new_name(goal.ring.names)
+        others = substitute(taken, {goal.value: Name(other, -1)})
+        ring = Ring.of((*goal.ring.names, other))
+        beyond = (ring.var(goal.value) - ring.var(other)) * sign
+        others, bound = over_one_ring(others, atom(beyond, Relation.LE))
+        end = forall((other,), implies(others, bound))
+    parts = over_one_ring(goal.conditions, goal.graph, end)
+    having = exists((goal.value,), conj(parts))
+    return solve(having, Options(progress=budget.listener), budget).formula if end.is_quantifier_free else having
+
+
+def points(goal: Goal, taken: Formula, roots: list[Poly], sign: int, budget: Budget) -> list[Piece] | None:
+    """The pieces of the points that have the optimum, over the parameters, the value and the variables.
+
+    ``roots``: polynomials in the parameters and the value; every attained optimum is a root of one. None where the
+    pieces are more work than ``MOST_WORK``.
+    """
+    ends = disj(atom(q.convert(goal.ring), Relation.EQ) for q in roots)
+    having = exists((goal.value,), conj((goal.conditions, goal.graph, ends)))
+    part = budget.part(MOST_WORK)
+    try:
+        place = solve(having, Options(progress=budget.listener), part).formula
+        if place == FALSE:
+            return []
+        order = (*goal.parameters, goal.value, *goal.variables)
+        ring = Ring.of(order)
+        values, ends, place, graph = (convert(f, ring) for f in (taken, ends, place, goal.graph))
+        known = (values, ends, place) if goal.polynomial is not None else (values, ends, place, graph)
+        table = decompose(conj(known), order, ("",) * len(order), budget=part).table
+        root = _Labels(table, goal.value, values, graph, sign, part).of(root_place(table))
+        return merge(replace(table, root=root), budget=part)
+    except Unable as error:
+        if isinstance(error, BudgetExceeded):
+            budget.check("minimisers")
+        return None
+
+
+def _only_ends(table: CellTable, sign: int) -> CellTable:
+    """True on the cells of the least (or greatest) value that is taken, over each cell of the parameters."""
+    depth = len(table.order) - 1
+
+    def ends(cell: Cell, level: int) -> Cell:
+        if cell.stack is None:  # any value is taken, or none
+            return replace(cell, truth=False)
+        if level < depth:
+            cells = tuple(ends(c, level + 1) for c in cell.stack.cells)
+        else:
+            taken = [k for k, c in enumerate(cell.stack.cells) if c.truth]
+            end = taken[0 if sign > 0 else -1] if taken else 0  # a sector has no least value
+            cells = tuple(replace(c, truth=k == end and k % 2 == 1) for k, c in enumerate(cell.stack.cells))
+        return replace(cell, stack=replace(cell.stack, cells=cells))
+
+    return replace(table, root=ends(table.root, 0))
+
+
+class _Labels:
+    """The cells of a decomposition with the truth of "the optimum is attained here".
+
+    ``values``: which values are taken, whose polynomials are among the factors; ``graph``: that of the objective.
+    """
+
+    def __init__(
+        self, table: CellTable, value: str, values: Formula, graph: Formula, sign: int, budget: Budget
+    ) -> None:
+        self.table, self.value, self.graph, self.sign, self.budget = table, value, graph, sign, budget
+        places = {f: (k, j) for k, level in enumerate(table.factors) for j, f in enumerate(level)}
+        self.values = compile_matrix(values, places)
+
+    def of(self, place: Place, values: Node | None = None) -> Cell:
+        """The cell with its truth, and those above it. ``values``: what the signs below say of which are taken."""
+        self.budget.check("minimisers")
+        cell, known = place.cell, self.values if values is None else values
+        if cell.stack is None:
+            return replace(cell, truth=bool(cell.truth) and self.has_value(place))
+        above = [specialise(known, place.depth, signs_of(cell.stack, c)) for c in cell.stack.cells]
+        wanted = [c.truth is not False or c.stack is not None for c in cell.stack.cells]
+        if self.table.order[place.depth] == self.value:
+            taken = [k for k, node in enumerate(above) if node is True]
+            end = taken[0 if self.sign > 0 else -1] if taken else 0  # a sector has no least value
+            wanted = [k == end and k % 2 == 1 for k in range(len(above))]
+        cells = [
+            self.of(child(self.table, place, k), above[k]) if wanted[k] else Cell(below.signs, False)
+            for k, below in enumerate(cell.stack.cells)
+        ]
+        return replace(cell, stack=replace(cell.stack, cells=tuple(cells)))
+
+    def has_value(self, place: Place) -> bool:
+        """Whether the objective has the value, at the sample of a cell."""
+        self.budget.spend(_EXACT)
+        point: Point = place.point
+        for _ in range(place.depth, len(self.table.order)):
+            point = point.extend(rational(Fraction(0)))
+        return bool(truth_under(self.graph, point.sign))
