@@ -12,7 +12,7 @@ from fractions import Fraction
 from functools import total_ordering
 from typing import Any
 
-from flint import arb, fmpq, fmpz, fmpz_mpoly_ctx, fmpz_poly
+from flint import arb, fmpq, fmpz, fmpz_mpoly, fmpz_mpoly_ctx, fmpz_poly
 
 from qe import arguments
 from qe.arguments import shown
@@ -244,11 +244,11 @@ class RealAlgebraic(SymPyForm):
     def __pow__(self, exponent: int) -> RealAlgebraic:
         if not isinstance(exponent, int):
             return NotImplemented
-        base = self if exponent >= 0 else self.inverse()
-        result = RealAlgebraic.rational(1)
-        for _ in range(abs(exponent)):
-            result = result * base
-        return result
+        if exponent < 0:
+            return self.inverse() ** -exponent
+        if self.is_rational or exponent < 2:
+            return self if exponent == 1 else RealAlgebraic.rational(self.as_fmpq() ** exponent if exponent else 1)
+        return _image(self, lambda p: _power_polynomial(p, exponent), lambda x: x**exponent)
 
     def __reduce__(self) -> tuple[object, tuple[object, ...]]:
         return _restore, (self.minimal_polynomial, self.index)
@@ -328,7 +328,7 @@ def select_root(p: fmpz_poly, enclosure: Callable[[int], arb]) -> RealAlgebraic:
 
 
 def _image(a: RealAlgebraic, transform: Callable[[fmpz_poly], fmpz_poly], value: Callable[[arb], arb]) -> RealAlgebraic:
-    """The number value(a), a root of the transformed (again irreducible) polynomial."""
+    """The number value(a), a root of the transformed polynomial."""
 
     def enclosure(bits: int) -> arb:
         with precision(bits + 16):
@@ -370,6 +370,17 @@ def _combined_polynomial(p: fmpz_poly, q: fmpz_poly, operation: str) -> fmpz_pol
     for i, c in enumerate(p.coeffs()):
         if c:
             first += c * (base**i if operation != "*" else z**i * y ** (n - i))
+    return _eliminated(first, second)
+
+
+def _power_polynomial(p: fmpz_poly, exponent: int) -> fmpz_poly:
+    """A polynomial in z with root x^exponent for every root x of p: Res_y(z - y^exponent, p(y))."""
+    y, z = _PAIR.gens()
+    return _eliminated(z - y**exponent, sum((c * y**i for i, c in enumerate(p.coeffs())), _PAIR.constant(0)))
+
+
+def _eliminated(first: fmpz_mpoly, second: fmpz_mpoly) -> fmpz_poly:
+    """Their resultant with respect to y, a polynomial in z."""
     resultant = first.resultant(second, 0)
     out = [fmpz(0)] * (int(resultant.degrees()[1]) + 1)
     for exponents, c in resultant.terms():

@@ -14,7 +14,7 @@ from math import prod
 from typing import Protocol
 
 from qe.errors import Unable
-from qe.exact.algebraic import RealAlgebraic, real_roots
+from qe.exact.algebraic import RealAlgebraic, irreducible_roots, real_roots
 from qe.exact.fibre_stack import isolate_over
 from qe.exact.field import NumberField
 from qe.exact.ring import Poly, Ring
@@ -145,11 +145,12 @@ def root(value: Value, degree: int) -> Value:
         if degree % 2 == 0:
             raise Unable("a negative number has no even root")
         return -root(-value, degree)
-    minimal = (-value.numerator, value.denominator) if isinstance(value, Fraction) else value.minimal_polynomial
+    number = value if isinstance(value, RealAlgebraic) else RealAlgebraic.rational(value)
     line = Ring.of(("t",))
-    spread = line.from_terms({(degree * k,): int(c) for k, c in enumerate(minimal)})
-    candidates = real_roots(spread.to_univariate(0))
-    return simplest(next(r for r in candidates if r.sign() > 0 and r**degree == value))
+    spread = line.from_terms({(degree * k,): c for k, c in enumerate(number.minimal_polynomial)})
+    # t -> t^degree keeps the order of positive numbers: the place among the positive roots is the same
+    above = sum(1 for r in irreducible_roots(number.poly) if r >= number)
+    return simplest(real_roots(spread.to_univariate(0))[-above])
 
 
 def perturb(variables: tuple[str, ...], body: Formula, start: Assignment) -> dict[str, Value]:

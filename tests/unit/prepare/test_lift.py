@@ -3,14 +3,21 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from functools import reduce
+from operator import mul
 
 import pytest
+from flint import fmpz_poly
+from hypothesis import given
+from hypothesis import strategies as st
 
+from qe.api import eliminate
 from qe.errors import Unable
-from qe.exact.algebraic import RealAlgebraic
+from qe.exact.algebraic import RealAlgebraic, real_roots
 from qe.exact.ring import Ring
+from qe.formula.syntax import TRUE
 from qe.io.text import read
-from qe.rules.lift import Solve, holds_at, perturb, root, sign_at, value_at
+from qe.rules.lift import Solve, holds_at, perturb, root, sign_at, simplest, value_at
 
 RING = Ring.of(("x", "y"))
 x, y = RING.gen(0), RING.gen(1)
@@ -50,6 +57,24 @@ def test_rational_and_odd_roots() -> None:
     assert root(Fraction(0), 4) == 0
     with pytest.raises(Unable):
         root(Fraction(-1), 2)
+
+
+@given(st.lists(st.integers(-6, 6), min_size=2, max_size=5), st.integers(2, 4))
+def test_powers_are_repeated_products_and_roots_undo_them(coefficients: list[int], degree: int) -> None:
+    for value in real_roots(fmpz_poly([*coefficients, 1])):
+        product = reduce(mul, [value] * degree)
+        assert value**degree == product
+        assert value.sign() == 0 or value**-degree == product.inverse()
+        if degree % 2 or value.sign() >= 0:
+            assert root(simplest(product), degree) == simplest(value)
+
+
+def test_a_tower_of_square_roots_without_signs_has_a_witness() -> None:
+    """The way back squares a number of degree 32 and takes roots of its powers: no resultant of degree 32 by 32."""
+    parts = ["a^2 = 2", "b^2 = 3 + a", "c^2 = 5 + b", "d^2 = 7 + c", "e^2 = 11 + d"]
+    answer = eliminate("ex a, b, c, d, e: " + " and ".join(parts), method="cad", timeout=60)
+    assert answer.formula == TRUE and answer.witness is not None
+    assert isinstance(answer.witness["e"], RealAlgebraic) and answer.witness["e"].degree == 32
 
 
 def test_nudges_stay_in_the_open_part() -> None:
