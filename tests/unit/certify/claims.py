@@ -15,7 +15,7 @@ from qe.formula.syntax import Formula
 from qe.formula.traverse import conjuncts
 from qe.io.text import read
 from qe.options import Budget
-from qe.proof.entry import Entry, formula_to_json
+from qe.proof.entry import Entry, formula_to_json, poly_to_text
 
 RING = Ring.of(("a", "b", "c", "x", "y", "z"))
 NO_LEMMAS: dict[str, Any] = {"polynomials": [], "lemmas": []}
@@ -29,6 +29,11 @@ def formula(text: str | Formula) -> Formula:
 def poly(text: str) -> Poly:
     found = formula(f"{text} = 0")
     return found.poly  # type: ignore[attr-defined,no-any-return]
+
+
+def line(text: str) -> str:
+    """A polynomial as certificates hold it."""
+    return poly_to_text(poly(text))
 
 
 def written(text: str | Formula) -> Any:
