@@ -60,8 +60,8 @@ def combinations(operands: Sequence[Cases]) -> Iterator[tuple[tuple[Formula, ...
 
 
 def _joined(left: Sequence[Formula], right: Sequence[Formula]) -> tuple[Formula, ...] | None:
-    """The guards of both together; None where one is false or the negation of another."""
-    found = dict.fromkeys(left)
+    """The guards of both together, without those that say nothing; None where one is false or another's negation."""
+    found = dict.fromkeys(guard for guard in left if guard != TRUE)
     for guard in right:
         if guard == FALSE or neg(guard) in found:
             return None

@@ -6,7 +6,7 @@ from typing import Any
 
 from qe.certify.derivation import limits_of
 from qe.certify.registry import RULES
-from qe.certify.step import Claim, Limits
+from qe.certify.step import Check, Claim, Limits
 from qe.certify.verify import check_certificate
 from qe.errors import CertificateRejected
 from qe.exact.ring import Poly, Ring
@@ -15,7 +15,7 @@ from qe.formula.syntax import Formula
 from qe.formula.traverse import conjuncts
 from qe.io.text import read
 from qe.options import Budget
-from qe.proof.entry import Entry, formula_to_json
+from qe.proof.entry import Entry, formula_to_json, poly_to_text
 
 RING = Ring.of(("a", "b", "c", "x", "y", "z"))
 NO_LEMMAS: dict[str, Any] = {"polynomials": [], "lemmas": []}
@@ -29,6 +29,11 @@ def formula(text: str | Formula) -> Formula:
 def poly(text: str) -> Poly:
     found = formula(f"{text} = 0")
     return found.poly  # type: ignore[attr-defined,no-any-return]
+
+
+def line(text: str) -> str:
+    """A polynomial as certificates hold it."""
+    return poly_to_text(poly(text))
 
 
 def written(text: str | Formula) -> Any:
@@ -53,13 +58,17 @@ def limits() -> Limits:
     return limits_of(Budget(60), RULES, check_certificate)
 
 
-def objection(rule: str, before: str | Formula, after: str | Formula, evidence: Any = None, given: str = "true") -> str:
+def objection(
+    rule: str | Check, before: str | Formula, after: str | Formula, evidence: Any = None, given: str = "true"
+) -> str:
     """Why the checker of a rule rejects a step, with the place in its evidence; nothing where it accepts it."""
     left, right = formula(before), formula(after)
-    claim = Claim(rule, left, right, RING, Entry(evidence or {}, "evidence"), "step")
+    name = rule if isinstance(rule, str) else "rule"
+    claim = Claim(name, left, right, RING, Entry(evidence or {}, "evidence"), "step")
     known = formula(given)
+    check = RULES[rule] if isinstance(rule, str) else rule
     try:
-        RULES[rule](claim, conjuncts(known) if given != "true" else (), limits())
+        check(claim, conjuncts(known) if given != "true" else (), limits())
     except CertificateRejected as error:
         return f"{error.step}: {error.reason}"
     return ""

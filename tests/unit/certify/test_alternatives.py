@@ -6,9 +6,10 @@ from typing import Any
 
 import pytest
 
+from qe.certify.alternatives import check_alternatives
 from tests.unit.certify.claims import NO_LEMMAS, objection, step, written
 
-RULE = "alternatives"
+RULE = check_alternatives
 
 
 def solved(piece: str, variable: str, equation: str, sign: int, after: str) -> list[Any]:

@@ -6,6 +6,7 @@ from typing import Any
 
 import pytest
 
+from qe.certify.block import check_block
 from tests.unit.certify.claims import NO_LEMMAS, objection
 
 NONE = {"theory": NO_LEMMAS}
@@ -30,7 +31,7 @@ PRODUCT = {
     ],
 )
 def test_cases_of_a_body(before: str, after: str, evidence: Any) -> None:
-    assert objection("simplification", before, after, evidence) == ""
+    assert objection(check_block, before, after, evidence) == ""
 
 
 @pytest.mark.parametrize(
@@ -48,22 +49,22 @@ def test_cases_of_a_body(before: str, after: str, evidence: Any) -> None:
     ],
 )
 def test_other_bodies(before: str, after: str, evidence: Any) -> None:
-    assert "do not exclude that it is wrong" in objection("simplification", before, after, evidence)
+    assert "do not exclude that it is wrong" in objection(check_block, before, after, evidence)
 
 
 def test_a_variable_of_the_block_is_not_let_out() -> None:
     """ex x (x > 0 and a > 0) is no condition on the x outside."""
-    found = objection("simplification", "ex x. x > 0 and a > 0", "x > 0 and a > 0", NONE)
+    found = objection(check_block, "ex x. x > 0 and a > 0", "x > 0 and a > 0", NONE)
     assert "free in what becomes of it" in found
 
 
 def test_what_is_known_of_the_same_name_outside_says_nothing_inside() -> None:
     """The x that is known to be negative is not the one that is sought."""
     before, after = "ex x. x > 0 or a > 0", "a > 0"
-    assert objection("simplification", before, after, NONE, given="x < 0")
-    assert objection("simplification", "ex x. x > b or a > 0", "ex x. x > b", NONE, given="a < 0") == ""
+    assert objection(check_block, before, after, NONE, given="x < 0")
+    assert objection(check_block, "ex x. x > b or a > 0", "ex x. x > b", NONE, given="a < 0") == ""
 
 
 @pytest.mark.parametrize("evidence", [{}, {"theory": NO_LEMMAS, "more": 1}, {"theory": None}, {"theory": {}}])
 def test_the_evidence_is_a_theory(evidence: Any) -> None:
-    assert objection("simplification", "a > 0", "a >= 0 and a /= 0", evidence)
+    assert objection(check_block, "a > 0", "a >= 0 and a /= 0", evidence)

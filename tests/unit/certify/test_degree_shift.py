@@ -6,9 +6,10 @@ from typing import Any
 
 import pytest
 
+from qe.certify.degree_shift import check_degree_shift
 from tests.unit.certify.claims import NO_LEMMAS, objection
 
-RULE = "degree shift"
+RULE = check_degree_shift
 
 
 def by(exponent: Any, variable: Any = "x") -> dict[str, Any]:

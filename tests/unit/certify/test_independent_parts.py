@@ -6,9 +6,10 @@ from typing import Any
 
 import pytest
 
+from qe.certify.independent_parts import check_independent_parts
 from tests.unit.certify.claims import NO_LEMMAS, objection, step, written
 
-RULE = "independent parts"
+RULE = check_independent_parts
 
 
 def piece(body: str, *steps: Any, together: Any = False) -> dict[str, Any]:

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import pytest
 
+from qe.certify.inequations import check_inequations, check_only_nonzero
 from tests.unit.certify.claims import NO_LEMMAS, objection
 
-RULE, ONLY = "inequations that remove no interior", "only asked to be no root"
+RULE, ONLY = check_inequations, check_only_nonzero
 
 
 @pytest.mark.parametrize(

@@ -6,9 +6,10 @@ from typing import Any
 
 import pytest
 
+from qe.certify.linear_equation import check_guarded_linear, check_linear
 from tests.unit.certify.claims import NO_LEMMAS, objection
 
-RULE, GUARDED = "linear equation solved", "linear equation solved under a guard"
+RULE, GUARDED = check_linear, check_guarded_linear
 
 
 def by(*solved: list[Any]) -> dict[str, Any]:

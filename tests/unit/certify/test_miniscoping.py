@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import pytest
 
+from qe.certify.miniscoping import check_miniscoping
 from tests.unit.certify.claims import objection
 
-RULE = "independent parts and miniscoping"
+RULE = check_miniscoping
 
 
 @pytest.mark.parametrize(

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
+from qe.certify.replayed_block import check_replayed_block
 from tests.unit.certify.claims import NO_LEMMAS, objection, step
 
-RULE = "virtual substitution"
+RULE = check_replayed_block
 
 
 def solved(before: str, after: str) -> dict[str, Any]:

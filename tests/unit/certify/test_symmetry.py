@@ -6,9 +6,10 @@ from typing import Any
 
 import pytest
 
+from qe.certify.symmetry import check_scaling, check_translation
 from tests.unit.certify.claims import NO_LEMMAS, objection
 
-TRANSLATION, SCALING = "translation of the origin", "homogeneous scaling"
+TRANSLATION, SCALING = check_translation, check_scaling
 
 
 def along(variable: str, *weights: tuple[str, str]) -> dict[str, Any]:

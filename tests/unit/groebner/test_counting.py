@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from fractions import Fraction
 from itertools import product
 
@@ -10,11 +11,16 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import qe
+from qe.exact.block_order import Block
 from qe.exact.quotient import PositiveDimensional
 from qe.exact.ring import Poly, Ring
-from qe.formula.evaluate import truth_under
+from qe.formula.evaluate import holds_at, truth_under
+from qe.formula.syntax import Relation
+from qe.groebner.counting import SolutionCount
+from qe.groebner.segment import Segment
 from qe.groebner.signs import SignatureConditions
 from qe.groebner.trace_form import row_scales
+from qe.options import Budget
 
 ROOT_2 = qe.RealAlgebraic.from_root([-2, 0, 1], 1, 2)
 
@@ -147,3 +153,26 @@ def test_sign_conditions_of_matrices(size: int, data: st.DataObject) -> None:
 
 def _sign_of(poly: Poly, signs: dict[Poly, int]) -> int:
     return signs[poly] if poly in signs else -signs[-poly]
+
+
+CONDITIONS = [(Relation.GT, lambda v: v > 0), (Relation.GE, lambda v: v >= 0), (Relation.NE, lambda v: v != 0)]
+
+
+@pytest.mark.parametrize(("relation", "holds"), CONDITIONS)
+@pytest.mark.parametrize("a", range(-2, 4))
+def test_solutions_with_a_condition(relation: Relation, holds: Callable[[int], bool], a: int) -> None:
+    """x^2 = a^2 with x - 1 compared with 0: -|a| and |a|, one solution for a = 0."""
+    ring = Ring.of(("a", "x"))
+    segment = Segment(Block((1,), (0,)), (), (), (), (ring.var("x") ** 2 - ring.var("a") ** 2,))
+    number = SolutionCount(segment, [(ring.var("x") - 1, relation)], Budget(60))
+    expected = sum(holds(x - 1) for x in {-a, a})
+    assert [k for k in range(number.most + 1) if holds_at(number.is_in({k}), {"a": a, "x": 0})] == [expected]
+    assert holds_at(number.is_positive, {"a": a, "x": 0}) is (expected > 0)
+
+
+def test_too_many_conditions_are_refused() -> None:
+    ring = Ring.of(("a", "x"))
+    x, a = ring.var("x"), ring.var("a")
+    segment = Segment(Block((1,), (0,)), (), (), (), (x**3 - a,))
+    with pytest.raises(qe.Unable, match="too many inequalities"):
+        SolutionCount(segment, [(x - k, Relation.GT) for k in range(4)], Budget(60))

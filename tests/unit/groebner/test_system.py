@@ -16,6 +16,8 @@ from qe.exact.groebner import MonomialOrder
 from qe.exact.ideals import in_ideal
 from qe.exact.quotient import PositiveDimensional
 from qe.exact.ring import Poly, Ring
+from qe.formula.evaluate import holds_at
+from qe.groebner.system import condition_of, exact_number
 from tests.unit.groebner.support import Place, places
 
 ROOT_2 = qe.RealAlgebraic.from_root([-2, 0, 1], 1, 2)
@@ -167,3 +169,16 @@ def test_the_order_of_the_variables_is_checked_on_each_basis() -> None:
     # y^40 < x in the lexicographic order, whatever weights would say
     basis = parametric_basis([x - a * y**40, y**41 - a], block)
     assert {block.lead(p)[0] for p in basis} == {(1, 0), (0, 41)}
+
+
+def test_conditions_and_numbers() -> None:
+    system = qe.comprehensive_groebner(TWO_LINES, "x, y", "a")
+    assert {str(condition_of(s)) for s in system} == {str(system.condition(s)) for s in system}
+    for a in range(-3, 4):
+        assert [holds_at(condition_of(s), dict.fromkeys(system.polys[0].ring.names, a)) for s in system].count(
+            True
+        ) == 1
+    assert exact_number(ROOT_2, "it") == ROOT_2 and exact_number(ROOT_2 * ROOT_2, "it") == Fraction(2)
+    assert isinstance(exact_number(ROOT_2 * ROOT_2, "it"), Fraction) and exact_number("1/3", "it") == Fraction(1, 3)
+    with pytest.raises(qe.InputError, match="it"):
+        exact_number(object(), "it")

@@ -24,6 +24,7 @@ from qe.io.text import read, write
         ("-x^2 <= -4", "x^2 - 4 >= 0"),
         ("2*-x = --1", "2*x + 1 = 0"),
         ("x^0 = 1", "true"),
+        ("x^abs(-2) = y^max(1, 3)", "y^3 - x^2 = 0"),
         ("1 < 0", "false"),
         ("x = x and y > 0", "y > 0"),
         ("0 < x <= 1", "x > 0 and x - 1 <= 0"),

@@ -1,0 +1,45 @@
+"""Elements of the given ideal with the values of a segment's basis on the segment."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from qe.exact.block_order import Block
+from qe.exact.ideals import in_ideal
+from qe.exact.ring import Poly, Ring
+from qe.groebner.faithful import with_faithful
+from qe.groebner.kapur_sun_wang import segments
+from qe.options import Budget
+
+RING = Ring.of(("a", "b", "x", "y"))
+A, B, X, Y = (RING.var(name) for name in RING.names)
+BLOCK = Block((2, 3), (0, 1))
+
+
+@pytest.mark.parametrize(
+    "polys",
+    [(A * X - B, B * Y - A), (A * X**2 + B * X + 1,), (A * X + Y - 1, X + A * Y - 1), (A * X, B * Y, X * Y - 1)],
+    ids=str,
+)
+def test_faithful_elements(polys: tuple[Poly, ...]) -> None:
+    for segment in segments(polys, BLOCK, Budget(60)):
+        found = with_faithful(segment, polys, Budget(60)).faithful
+        assert found is not None and len(found) == len(segment.elements)
+        for f, g in zip(found, segment.elements):
+            assert in_ideal(f, polys)
+            assert in_ideal(f, (*segment.equal, g)) if segment.equal else f == g
+
+
+def test_they_differ_from_the_elements_where_the_equations_were_used() -> None:
+    polys = (A * X - B, B * Y - A)
+    found = [with_faithful(s, polys, Budget(60)) for s in segments(polys, BLOCK, Budget(60))]
+    assert any(s.faithful != s.elements for s in found)
+
+
+def test_without_equations_or_polynomials_the_elements_are_faithful() -> None:
+    (segment,) = segments([X - Y], BLOCK, Budget(60))
+    assert with_faithful(segment, (X - Y,), Budget(60)).faithful == segment.elements
+    bound = replace(segment, equal=(A,))
+    assert with_faithful(bound, (RING.constant(0),), Budget(60)).faithful == segment.elements
