@@ -25,7 +25,7 @@ LONG, LONG_WORK = 40, 12_000
 """An answer of so many terms is worth more work: up to a second."""
 
 SHORTEN_DEGREE = {**SMALL_DEGREE, 3: 6}
-"""A shorter form is looked for up to these total degrees: it may well be found, and giving up costs no more than work."""
+"""A shorter form is looked for up to these total degrees: it may well be found, and giving up costs little work."""
 
 
 def shortened(formula: Formula, context: Context) -> Formula:

@@ -35,7 +35,7 @@ def features(formula: Formula) -> Features:
 
 
 def is_small(formula: Formula, degrees: Mapping[int, int] = SMALL_DEGREE) -> bool:
-    """Whether a shorter equivalent is easily found: few variables and low ``degrees``. Conjunctions are short enough."""
+    """Whether a shorter equivalent is easily found: few variables and low ``degrees``. Conjunctions are short."""
     if not any(isinstance(part, Or) for part in subformulas(formula)):
         return False
     degree = max((a.poly.total_degree for a in atoms(formula)), default=0)
