@@ -31,7 +31,13 @@ def untangled(formula: Formula, context: Context) -> Formula:
     """
     if sum(1 for _ in atoms(formula)) > UNTANGLED_ATOMS or Stage.EQUATIONS in context.options.without:
         return formula
-    rules, steps = BlockContext(context.budget.part(UNTANGLE_WORK), POINTWISE_STEPS), RunLog()
+    whole = _attempt(formula, context, POINTWISE_STEPS)
+    return whole if whole != formula else _attempt(formula, context, POINTWISE_STEPS - {StepKind.FACTOR_SPLIT})
+
+
+def _attempt(formula: Formula, context: Context, enabled: frozenset[StepKind]) -> Formula:
+    """As ``untangled``, by these rules."""
+    rules, steps = BlockContext(context.budget.part(UNTANGLE_WORK), enabled), RunLog()
     try:
         apart = _matrix(reduce_block(free_variables(formula), formula, rules))
         shorter = simplify(apart)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from qe.formula.syntax import Formula, Or
@@ -33,12 +34,12 @@ def features(formula: Formula) -> Features:
     )
 
 
-def is_small(formula: Formula) -> bool:
-    """Whether a shorter equivalent is easily found: few variables and low degrees. Conjunctions are short enough."""
+def is_small(formula: Formula, degrees: Mapping[int, int] = SMALL_DEGREE) -> bool:
+    """Whether a shorter equivalent is easily found: few variables and low ``degrees``. Conjunctions are short."""
     if not any(isinstance(part, Or) for part in subformulas(formula)):
         return False
     degree = max((a.poly.total_degree for a in atoms(formula)), default=0)
-    return degree <= SMALL_DEGREE.get(len(formula.free), 0)
+    return degree <= degrees.get(len(formula.free), 0)
 
 
 def length(formula: Formula) -> tuple[int, int]:
