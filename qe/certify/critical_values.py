@@ -1,5 +1,7 @@
 """Rule "critical values": a block over bounded fibres whose truth set is convex, decided on open cells.
 
+In what follows the inequalities are weak; strict ones are treated below.
+
 THEOREM. Let T be the set of parameters p for which some y satisfies inequalities g_i(p, y) <= 0, convex of degree at
 most 2, and linear equations; let a sum of nonnegative multiples of the g_i be, for fixed p, a polynomial of degree 2 in
 y with one positive definite Hessian for all p. Then T is closed and convex. Its boundary lies over critical points
@@ -13,14 +15,23 @@ PROOF. A bound of y by p: the sum of the g_i is <= 0. So T, the projection of a 
 bounded locally uniformly, is closed and convex. A closed convex set with interior points is the closure of its
 interior, and that of all but a nowhere dense part of the interior (Rockafellar 1970, Theorem 6.3).
 
+THEOREM (strict). Let all inequalities be strict, T' the truth set, and T that of the weak ones. Off the critical points
+T' agrees with T: there every point of T has strict solutions near by, for all parameters near by (``critical_points``).
+Let T' and S agree in the same way at all samples, one of them in T', and let the complement of S be the closure of its
+interior. Then S = T'.
+PROOF. T' is the projection of a relatively open convex set, so convex and relatively open (Rockafellar 1970, Theorem
+6.6); it has interior points, so it is open. Open convex sets are the interiors of their closures, as S is by
+assumption; T' and S agree on a dense open set, so their closures are the same.
+
 A sample is in T by a point y that satisfies the conditions, and is not by numbers w_i, nonnegative for inequalities,
 such that the sum of all w_i g_i is positive everywhere. S is the closure of its interior if it is convex, as a
-conjunction of convex inequalities, or by a cell table (``regular_set``).
+conjunction of convex inequalities, or by a cell table (``regular_set``); for strict inequalities S is an open convex
+set, as a conjunction of strict ones, or the table is one of its complement.
 
 Evidence: ``order`` (the parameters), ``bound`` (weights of the conditions), ``chains`` for the sets of conditions that
 may be active, ``factors`` (lists by level, closed under projection), ``stacks`` (``open_cells``; of a cell: the
-number k of a point, or -1 - k for weights number k), ``points``, ``weights``, ``regular`` (a cell table of S; null
-where S is convex).
+number k of a point, or -1 - k for weights number k), ``points``, ``weights``, ``regular`` (a cell table of S, or of its
+complement; null where S is convex).
 """
 
 from __future__ import annotations
@@ -35,7 +46,7 @@ from qe.certify.block import existential
 from qe.certify.closure import check_closure
 from qe.certify.convex_problem import read_row
 from qe.certify.critical_points import active_sets, vanishing
-from qe.certify.negation import normal
+from qe.certify.negation import negation, normal
 from qe.certify.open_cells import open_cells
 from qe.certify.regular_set import check_regular
 from qe.certify.step import Claim, Context, Limits, only
@@ -85,7 +96,8 @@ def check_critical_values(claim: Claim, context: Context, limits: Limits) -> Non
     if not set(block.free) | set(after.free) <= set(names):
         raise order.fail("a parameter is missing")
     ring, outer = Ring.of((*names, *block.variables)), Ring.of(names)
-    conditions, free, holds = read_conditions(block.body, ring, claim), len(names), convert(after, outer)
+    strict, free, holds = is_strict(block.body), len(names), convert(after, outer)
+    conditions = read_conditions(block.body, ring, claim, strict=strict)
     if has_root_atoms(after):
         raise claim.fail("a root atom")
     _check_bound(conditions, free, bound)
@@ -107,19 +119,27 @@ def check_critical_values(claim: Claim, context: Context, limits: Limits) -> Non
     if not inside:
         raise claim.fail("no open cell on which it holds")
     if regular.value is None:
-        read_conditions(after, outer, claim)
+        shape = read_conditions(after, outer, claim, strict=strict)
+        if strict and any(c.is_equation for c in shape):
+            raise claim.fail("a set with equations is not open")
     else:
-        _check_regular(regular, holds, limits)
+        _check_regular(regular, negation(holds) if strict else holds, limits)
 
 
-def read_conditions(formula: Formula, ring: Ring, claim: Claim) -> list[Quadratic]:
-    """The conjuncts as convex conditions; ``CertificateRejected`` where one is none."""
+def is_strict(formula: Formula) -> bool:
+    """Whether inequalities of a conjunction are strict; then all of them have to be."""
+    return any(isinstance(part, Atom) and part.relation in (Relation.LT, Relation.GT) for part in conjuncts(formula))
+
+
+def read_conditions(formula: Formula, ring: Ring, claim: Claim, *, strict: bool) -> list[Quadratic]:
+    """The conjuncts as convex conditions, strict ones as weak; ``CertificateRejected`` where one is none."""
     found = []
+    down, up = (Relation.LT, Relation.GT) if strict else (Relation.LE, Relation.GE)
     for part in conjuncts(formula):
-        if not isinstance(part, Atom) or part.relation not in (Relation.LE, Relation.GE, Relation.EQ):
-            raise claim.fail("expected a conjunction of weak inequalities and equations")
+        if not isinstance(part, Atom) or part.relation not in (down, up, Relation.EQ):
+            raise claim.fail("expected a conjunction of equations and inequalities, all weak or all strict")
         poly = part.poly.convert(ring)
-        poly = -poly if part.relation is Relation.GE else poly
+        poly = -poly if part.relation is up else poly
         if poly.total_degree > (1 if part.relation is Relation.EQ else 2):
             raise claim.fail("expected inequalities of degree at most 2, and linear equations")
         condition = Quadratic(poly, _matrix(poly), part.relation is Relation.EQ)

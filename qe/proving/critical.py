@@ -14,10 +14,12 @@ from qe.certify.critical_values import (
     are_weights,
     common,
     is_positive,
+    is_strict,
     over,
     read_conditions,
     weighted,
 )
+from qe.certify.negation import negation
 from qe.certify.step import Claim
 from qe.convex.violation import proposed
 from qe.elimination.cad import certificate_for
@@ -50,8 +52,9 @@ def critical_evidence(claim: Claim, order: Sequence[str], options: Options, budg
         raise claim.fail("expected a block")
     names = tuple(order)
     ring, outer = Ring.of((*names, *block.variables)), Ring.of(names)
-    conditions, holds = read_conditions(block.body, ring, claim), convert(after, outer)
-    regular = _table(after, outer, claim, options, budget)
+    strict, holds = is_strict(block.body), convert(after, outer)
+    conditions = read_conditions(block.body, ring, claim, strict=strict)
+    regular = _table(after, outer, strict, claim, options, budget)
     (system,) = systems(convert(block.body, ring), ring, len(names))
     surfaces = critical_hypersurfaces(system, thin_parts=False, procedures=procedures(budget), budget=budget)
     walls = {f.convert(outer).normal()[1] for f in surfaces}
@@ -82,12 +85,13 @@ def critical_evidence(claim: Claim, order: Sequence[str], options: Options, budg
     }
 
 
-def _table(after: Formula, outer: Ring, claim: Claim, options: Options, budget: Budget) -> Json:
-    """A cell table of the answer; none where it is seen to be convex."""
+def _table(after: Formula, outer: Ring, strict: bool, claim: Claim, options: Options, budget: Budget) -> Json:
+    """A cell table of the answer, or of its complement; none where it is seen to be convex."""
     try:
-        read_conditions(after, outer, claim)
+        read_conditions(after, outer, claim, strict=strict)
     except CertificateRejected:
-        table = certificate_for(after, after, options, budget)
+        closed = negation(after) if strict else after
+        table = certificate_for(closed, closed, options, budget)
         if table is None:
             raise claim.fail("no table of the answer") from None
         return table.to_data()

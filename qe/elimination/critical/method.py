@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from fractions import Fraction
 from itertools import permutations
 
@@ -27,6 +28,7 @@ from qe.elimination.critical import (
 )
 from qe.elimination.critical.degenerate import thin_universal
 from qe.elimination.protocol import Context, Outcome, Problem
+from qe.errors import Unable
 from qe.exact.fibre_stack import isolate_over
 from qe.exact.nearby import approximation, rational_values
 from qe.exact.ring import Poly, Ring
@@ -34,10 +36,12 @@ from qe.exact.sample import Point
 from qe.formula.build import atom, conj, convert, disj, exists
 from qe.formula.evaluate import substituted, truth_under
 from qe.formula.syntax import FALSE, TRUE, ForAll, Formula, Relation
-from qe.formula.traverse import polynomials
+from qe.formula.traverse import conjuncts, polynomials
 from qe.options import Budget, Options, Projection, Stage
 from qe.proof.cells import FreeCell
 from qe.simplify.simplify import simplify
+
+RULE = "critical values"
 
 MOST_CUTS = 4
 """How often stray points of a formula read from open cells are cut away before the whole table is made."""
@@ -58,9 +62,35 @@ class CriticalValues:
         Raises ``Unable`` where the method's side conditions are not met.
         """
         dual = problem.dual
-        formula, order = by_critical_values(dual.variables, dual.body, context)
-        answer = context.log.step("critical values", problem.formula, problem.asked(formula), evidence={"order": order})
-        return Outcome(answer, order=order)
+        found = by_critical_values(dual.variables, dual.body, context)
+        answer = problem.asked(found.formula)
+        if len(found.parts) < 2:
+            context.log.step(RULE, problem.formula, answer, evidence={"order": found.order})
+            return Outcome(answer, order=found.order)
+        blocks = [(problem.asked(part.block), problem.asked(part.formula)) for part in found.parts]
+        context.log.step("simplification", problem.formula, problem.asked(disj(p.block for p in found.parts)))
+        for block, formula in blocks:
+            context.log.step(RULE, block, formula, evidence={"order": found.order})
+        context.log.step("simplification", problem.asked(disj(p.formula for p in found.parts)), answer)
+        return Outcome(answer, order=found.order)
+
+
+@dataclass(frozen=True, slots=True)
+class Part:
+    """The block over one disjunct, and the formula that was found for it."""
+
+    block: Formula
+    formula: Formula
+
+
+@dataclass(frozen=True, slots=True)
+class Found:
+    """The formula of a block, the order of the parameters in which it was found, and its disjuncts (none where
+    equations that follow were put in first)."""
+
+    formula: Formula
+    order: tuple[str, ...] | None
+    parts: tuple[Part, ...] = ()
 
 
 class ConvexUniversal:
@@ -94,25 +124,29 @@ class ConvexUniversal:
             whole = found.found.tabulate()
             answer = construct(whole.table, whole.refine)[0]
         formula = _logged(simplify(answer), negated, order, [found], context, start)
-        return Outcome(context.log.step("critical values", problem.formula, formula), order=order)
+        return Outcome(context.log.step(RULE, problem.formula, formula), order=order)
 
 
-def by_critical_values(
-    variables: Sequence[str], body: Formula, context: Context
-) -> tuple[Formula, tuple[str, ...] | None]:
-    """``exists variables. body`` (quantifier-free, positive), and the order of the parameters in which it was found."""
+def by_critical_values(variables: Sequence[str], body: Formula, context: Context) -> Found:
+    """``exists variables. body`` (quantifier-free, positive)."""
     start = time.perf_counter()
     budget = context.budget
     flat = on_flat(variables, body, budget=budget)
     if flat is not None:
         outside, rest = flat
         left = [v for v in variables if v in rest.free]
-        inside, order = by_critical_values(left, rest, context) if left else (rest, None)
-        return simplify(conj((*outside, inside))), order
+        inside = by_critical_values(left, rest, context) if left else Found(rest, None)
+        return Found(simplify(conj((*outside, inside.formula))), inside.order)
     parameters = _order(variables, body, context.options)
     found = eliminate_block(variables, body, parameters, procedures=procedures(budget), budget=budget)
-    parts = [_formula(variables, parameters, part, budget) for part in found]
-    return _logged(simplify(disj(parts)), body, parameters, found, context, start), parameters
+    formulas = [_formula(variables, parameters, part, budget) for part in found]
+    ring = body.ring or Ring.of(parameters)
+    parts = [
+        Part(convert(exists(variables, part.body), ring), convert(formula, ring))
+        for part, formula in zip(found, formulas, strict=True)
+    ]
+    whole = _logged(simplify(disj(formulas)), body, parameters, found, context, start)
+    return Found(whole, parameters, tuple(parts))
 
 
 def _degree(formula: Formula, variables: Sequence[str]) -> int:
@@ -199,6 +233,8 @@ def _formula(
         if confirmed is not None:
             return confirmed
         found = found.tabulate()
+    if any(atom(f, Relation.EQ) in conjuncts(part.body) for f in found.unsettled):
+        raise Unable("critical-value elimination leaves a hypersurface open")
     formula, _ = construct(found.table, found.refine)
     surfaces = [exists(variables, conj((atom(f, Relation.EQ), part.body))) for f in found.unsettled]
     ring = part.body.ring or Ring.of(parameters)
