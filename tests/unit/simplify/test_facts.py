@@ -58,6 +58,11 @@ def test_long_sums_are_decided() -> None:
     squares = poly([1 if not any(k % 2 for k in powers) or powers[0] else 0 for powers in MONOMIALS])
     assert facts((0, Relation.GT), (1, Relation.NE)).signs(squares) == {-1, 0, 1}
     assert facts(*positive).signs(ones - 2 * poly([1] + [0] * (len(MONOMIALS) - 1))) == {-1, 0, 1}
+    with_x = poly([int(powers[0] > 0) for powers in MONOMIALS])
+    assert with_x.term_count() > 24
+    below = facts((0, Relation.LT), *positive[1:])
+    assert below.signs(with_x) == {-1, 0, 1}
+    assert below.signs(poly([powers[0] and (-1) ** powers[0] for powers in MONOMIALS])) == {1}
 
 
 def test_a_sentence_on_a_long_sum_needs_no_decomposition() -> None:
