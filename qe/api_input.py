@@ -39,6 +39,10 @@ def read_formula(given: AnyFormula, format: str = "text", total_division: bool =
         return given.formula
     if isinstance(given, str):
         return formats.read(given, chosen, total_division=total_division)
+    if type(given).__module__.partition(".")[0] == "z3":
+        from qe.io.z3_door import from_z3
+
+        return from_z3(given)
     from qe.io.sympy import from_sympy
 
     return from_sympy(given)

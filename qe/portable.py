@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import errno
 import pickle
+import re
 import traceback
 
 from qe.errors import BudgetExceeded, InternalError, QEError, Unable
@@ -17,7 +19,7 @@ def portable(error: BaseException) -> Parts:
 
     Pickling an exception calls its constructor again, which formats some of our messages twice.
     """
-    if isinstance(error, MemoryError):
+    if _out_of_memory(error):
         return BudgetExceeded, ("memory limit reached",), {"limit": "memory"}
     if isinstance(error, RecursionError):
         return Unable, ("the formula is nested too deeply",), {}
@@ -29,6 +31,13 @@ def portable(error: BaseException) -> Parts:
         text = f"{type(error).__name__}{place}: {error}".splitlines()[0]
         return InternalError, (text,), {"trace": "".join(traceback.format_exception(error))}
     return type(error), (str(error),), {k: v for k, v in vars(error).items() if _picklable(v)}
+
+
+def _out_of_memory(error: BaseException) -> bool:
+    """Whether memory was short, also where the system said so: for a file, or a library that finds no room."""
+    if isinstance(error, ImportError):
+        return re.search(r"failed to map segment|annot allocate memory", str(error)) is not None
+    return isinstance(error, MemoryError) or (isinstance(error, OSError) and error.errno == errno.ENOMEM)
 
 
 def rebuilt(parts: Parts) -> QEError:

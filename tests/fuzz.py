@@ -18,6 +18,7 @@ from random import Random
 import qe
 from qe import arguments
 from qe.cli.prompt import is_open
+from qe.cli.smt import Solver
 from qe.errors import CertificateRejected, InputError, Unable
 from qe.io import formats
 from qe.regions.region import Region
@@ -29,6 +30,7 @@ SEEDS = {
         "ForAll[{x, y}, x > 0 && y ∈ Reals, Implies[x² >= y, Abs[x] != 2]]",
         "∃x∀y: 2x³ ≤ y ∨ ¬(x = .5) # note",
         "(if x > 0 then min(x, y) else max(1e-3, `a b`)) = sign(x)^(1/2) and x in [0, oo)",
+        "(E x, y)(A z)[ x > z => y not in [0, 1) ∪ {2} ]. for all x, there exists y such that x =< ∛y;",
         r"\exists x\, \forall y\colon x^{2} \geq \frac{1}{2} \land 4ac \neq 0",
     ],
     "smtlib": [
@@ -51,8 +53,15 @@ DOORS: dict[str, Callable[[str], object]] = {
     "names": lambda text: arguments.names(text, "order"),
     "number": lambda text: arguments.rational(text, "number"),
     "prompt": is_open,
+    "solver": lambda text: Solver(len, len).run(text.replace("check-sat", "echo").splitlines(keepends=True), "<fuzz>"),
 }
 LONGEST = 2000
+SOLVER = (
+    "(declare-fun f (Int Real) Real)(declare-const n Int)(define-fun g ((a Real) (b Bool)) Real (ite b a (f n a)))\n"
+    "(assert (> (g (tanh 1) true) (to_int (f 1 2))))(push 2)(declare-const |a b| Real)"
+    "(assert (! (= |a b| 1.) :named q))"
+    "(pop)(get-assertions)(get-info :version)(set-option :print-success true)(reset-assertions)(get-value ((+ 1 2)))"
+)
 
 
 def seeds(door: str) -> list[str]:
@@ -61,6 +70,8 @@ def seeds(door: str) -> list[str]:
         return [qe.region("x^2 + y^2 <= 1").to_json(), qe.eliminate("ex x. x^2 = 2").certificate.to_json()]
     if door == "json":
         return [formats.write(formats.read(QUESTION.partition(" - |x|")[0] + ")"), "json")]
+    if door == "solver":
+        return [*SEEDS["smtlib"], SOLVER]
     return SEEDS.get(door, [*SEEDS["text"], "x, `y z` y", "-1.5e-3", "3/4"])
 
 

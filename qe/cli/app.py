@@ -17,9 +17,8 @@ import typer
 
 from qe import __version__, arguments
 from qe.cli.shell import check_writable, enter, limited, remaining, write_file
-from qe.cli.source import ProofFormat, read_source
+from qe.cli.source import ProofFormat, no_file, read_source
 from qe.cli.work import Reply, Request
-from qe.errors import InputError
 from qe.io.formats import READABLE, Format
 from qe.options import Method
 
@@ -101,7 +100,7 @@ def eliminate(
 
     asked = request(formula, format, timeout, memory, certificate, json, total_division)
     asked = replace(asked, method=method.value, order=names(order), root_atoms=root_atoms)
-    asked = replace(asked, workers=workers, cluster=cluster, race=names(race) or ())
+    asked = replace(asked, workers=workers, cluster=cluster, race=names(race, "--race") or ())
     work = partial(cli_work.eliminate, request=asked, output=output)
     reply = limited(work, timeout=timeout, memory=memory, plain=plain)
     return deliver(reply, {"certificate": certificate}, explain=explain)
@@ -127,7 +126,7 @@ def decide(
     from qe.cli import work as cli_work
 
     asked = request(formula, format, timeout, memory, certificate, json, total_division)
-    asked = replace(asked, method=method.value, workers=workers, cluster=cluster, race=names(race) or ())
+    asked = replace(asked, method=method.value, workers=workers, cluster=cluster, race=names(race, "--race") or ())
     reply = limited(partial(cli_work.decide, request=asked), timeout=timeout, memory=memory, plain=plain)
     return deliver(reply, {"certificate": certificate}, explain=explain)
 
@@ -173,7 +172,7 @@ def solve(
     from qe.cli import region as cli_region
 
     asked = request(formula, format, timeout, memory, certificate, json, total_division)
-    asked = replace(asked, order=names(variables))
+    asked = replace(asked, order=names(variables, "--variables"))
     reply = limited(partial(cli_region.solve, request=asked), timeout=timeout, memory=memory, plain=plain)
     return deliver(reply, {"certificate": certificate})
 
@@ -221,7 +220,7 @@ def check(
     check_limits(timeout, memory)
     source = read_source(certificate, Format.JSON)
     if source.name == "<argument>":
-        raise InputError(f"{certificate}: no such file")
+        raise no_file(certificate)
     seconds = VERIFY_SECONDS if timeout is None else timeout
     asked = None if formula is None else read_source(formula, None)
     work = partial(cli_work.check, text=source.text, asked=asked, seconds=remaining(seconds), as_json=json)
@@ -245,7 +244,7 @@ def export_proof(
     check_limits(timeout, memory)
     source = read_source(certificate, Format.JSON)
     if source.name == "<argument>":
-        raise InputError(f"{certificate}: no such file")
+        raise no_file(certificate)
     seconds = VERIFY_SECONDS if timeout is None else timeout
     work = partial(cli_work.export_proof, text=source.text, seconds=remaining(seconds))
     return deliver(limited(work, timeout=seconds, memory=memory, plain=True), {})
@@ -286,7 +285,7 @@ def smt(
     check_limits(timeout, memory)
     source = None if script == "-" else read_source(script, Format.SMTLIB)
     if source is not None and source.name == "<argument>":
-        raise InputError(f"{script}: no such file")
+        raise no_file(script)
     text, name = (None, "<stdin>") if source is None else (source.text, source.name)
     limit = timeout if timeout is None or interactive else remaining(timeout)
     return cli_smt.run(text, name, timeout=limit, memory=memory, interactive=interactive)
@@ -319,14 +318,9 @@ def request(
     return Request(source=given, timeout=soft(timeout), certificate=certificate is not None, json=json)
 
 
-def names(order: str | None) -> tuple[str, ...] | None:
-    """The variables of ``--order``."""
-    if order is None:
-        return None
-    parts = arguments.names(order, "--order") or ()
-    if len(set(parts)) < len(parts):
-        raise InputError(f"--order: distinct variables separated by commas expected, {order!r} found")
-    return parts
+def names(order: str | None, option: str = "--order") -> tuple[str, ...] | None:
+    """The variables of an option."""
+    return arguments.names(order, option)
 
 
 def check_limits(timeout: float | None, memory: int | None) -> None:

@@ -51,6 +51,19 @@ def read_source(argument: str, wanted: Format | None) -> Source:
     return Source(argument, wanted or Format.TEXT, "<argument>")
 
 
+def no_file(name: str) -> InputError:
+    """The error for a name at which there is no file to read."""
+    return InputError(f"{name}: {'a file expected, a folder found' if is_folder(name) else 'no such file'}")
+
+
+def is_folder(name: str) -> bool:
+    """Whether there is a folder of this name."""
+    try:
+        return Path(name).is_dir()
+    except (OSError, ValueError):
+        return False
+
+
 def is_file(path: Path) -> bool:
     """Whether the path names something to read; text that is no possible path is not one."""
     try:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from qe.errors import InputError
-from qe.formula.syntax import Formula
+from qe.formula.syntax import TRUE, Formula
 from qe.io import smtlib
 
 
@@ -16,7 +16,11 @@ def from_z3(given: Any) -> Formula:
     ``InputError`` for what is not about real numbers.
     """
     if hasattr(given, "assertions"):
-        return smtlib.read(given.to_smt2(), source="<z3>")
+        if hasattr(given, "to_smt2"):
+            return smtlib.read(given.to_smt2(), source="<z3>")
+        given = list(given.assertions())  # an optimiser
+        if not given:
+            return TRUE
     parts = list(given) if isinstance(given, list | tuple) else [given]
     if not parts or not all(hasattr(part, "sexpr") and hasattr(part, "ctx") for part in parts):
         raise InputError("from_z3: a Boolean expression of z3, a list of them, or a solver expected")

@@ -5,7 +5,7 @@ Their work stands where the engine is known, in ``qe.api_region``, which is reac
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Self
 
 from qe.later import later
@@ -24,6 +24,7 @@ class SetOperations:
 
     __slots__ = ()
     order: tuple[str, ...]
+    contains: Callable[..., bool]
 
     def __and__(self, other: object) -> Self:
         """The intersection."""
@@ -46,6 +47,11 @@ class SetOperations:
     def __xor__(self, other: object) -> Self:
         """The points of just one of both sets."""
         return self._joined("xor", other)
+
+    def __contains__(self, point: Any) -> bool:
+        """Whether a point lies in it, as ``contains`` takes it; on a line the number alone may be given."""
+        alone = len(self.order) == 1 and (isinstance(point, str) or not isinstance(point, Mapping | Iterable))
+        return self.contains([point] if alone else point)
 
     def __invert__(self) -> Self:
         """The complement."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -43,6 +44,59 @@ def test_every_outcome_is_an_object(words: list[str], status: str, code: int) ->
         assert data["exit"] == code and data["message"] in done.stderr and done.stderr.count("\n") == 1
     else:
         assert data["seconds"] >= 0 and "exit" not in data
+
+
+DOCUMENT = Path(__file__).resolve().parents[2] / "docs" / "formats.md"
+WITHOUT_ANSWER = {"status", "message", "exit"}
+BAD = {
+    "eliminate": "x <",
+    "decide": "x > 0",
+    "region": "x +",
+    "solve": "ex x x = 0",
+    "minimize": "x > 0",
+    "check": "no-such-file",
+}
+"""An input that each command refuses."""
+
+GOOD = {
+    "eliminate": [["ex x. x^2 = 2"], ["x > 0", "--output", "smtlib"]],
+    "decide": [["all x. x > 0"], ["(assert false)", "--format", "smtlib"]],
+    "solve": [["x*y = 1", "--variables", "y"]],
+    "minimize": [["x^2 - x"], ["x", "x > 0"], ["x^3 - x", "0 < x < 1"], ["x^2 - a*x", "--parameters", "a"]],
+}
+
+
+def documented(when: str) -> list[set[str]]:
+    """The keys of the table of the documentation, by row, where its second column says this."""
+    rows = re.findall(r"^\| ((?:`\w+`(?:, )?)+) \| (.*?) \|", DOCUMENT.read_text(encoding="utf-8"), re.MULTILINE)
+    return [set(re.findall(r"\w+", keys)) for keys, said in rows if re.search(when, said)]
+
+
+@pytest.mark.parametrize("command", GOOD)
+def test_answers_have_the_documented_keys(command: str) -> None:
+    rows = documented(rf"`{command}\b")
+    for words in GOOD[command]:
+        done = run(command, *words, "--json")
+        assert done.returncode == 0 and done.stderr == "", done.stderr
+        found = set(json.loads(done.stdout)) - {"status", "seconds"}
+        assert found and all(row <= found or not row & found for row in rows), (words, found)
+        assert found <= set().union(*rows), (words, found)
+
+
+@pytest.mark.parametrize("command", BAD)
+def test_refusals_and_limits_have_the_documented_keys(command: str) -> None:
+    assert {"status"}.union(*documented("^without an answer")) == WITHOUT_ANSWER
+    for words, code in (([BAD[command]], 2), ([HARD, "--timeout", "0.4"], 3)):
+        if command in ("check", "decide", "minimize") and code == 3:
+            continue
+        done = run(command, *words, "--json")
+        data = json.loads(done.stdout)
+        assert set(data) == WITHOUT_ANSWER and (data["exit"], done.returncode) == (code, code)
+
+
+def test_a_folder_is_no_file_and_options_are_named(tmp_path: Path) -> None:
+    assert "a folder found" in json.loads(run("check", str(tmp_path), "--json").stdout)["message"]
+    assert json.loads(run("solve", "x = y", "--variables", "x x", "--json").stdout)["message"].startswith("--variables")
 
 
 def test_checks_as_objects(tmp_path: Path) -> None:

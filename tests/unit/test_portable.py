@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import pickle
 
 import pytest
@@ -35,6 +36,25 @@ def test_attributes_come_along_and_messages_are_formatted_once() -> None:
     found = sent(caught.value)
     assert type(found) is ParseError and str(found) == str(caught.value)
     assert vars(found) == vars(caught.value)
+
+
+@pytest.mark.parametrize(
+    "error",
+    [
+        MemoryError(),
+        OSError(errno.ENOMEM, "Cannot allocate memory"),
+        ImportError("libflint.so: failed to map segment from shared object"),
+        ImportError("cannot allocate memory in static TLS block"),
+    ],
+)
+def test_little_memory_is_a_limit_whoever_notices(error: BaseException) -> None:
+    found = sent(error)
+    assert isinstance(found, BudgetExceeded) and found.limit == "memory"
+
+
+@pytest.mark.parametrize("error", [OSError(errno.ENOENT, "no such file"), ImportError("no module named x")])
+def test_other_errors_of_the_system_are_no_limit(error: BaseException) -> None:
+    assert isinstance(sent(error), InternalError)
 
 
 def test_what_cannot_be_pickled_is_left_behind() -> None:

@@ -107,6 +107,10 @@ def test_z3() -> None:
     solver = z3.Solver()
     solver.add(u > v)
     assert qe.equivalent(qe.from_z3(solver), "u > v")
+    optimiser = z3.Optimize()
+    assert qe.equivalent(optimiser, "true")
+    optimiser.add(u > v)
+    assert qe.equivalent(optimiser, u > v) and qe.equivalent(u > v, "u > v")
     with pytest.raises(qe.InputError, match="Int"):
         qe.from_z3(z3.Int("k") > 0)
     with pytest.raises(qe.InputError, match="Boolean"):
