@@ -15,6 +15,7 @@ from bezier.pictures.mesh import Array
 from bezier.pictures.picture import COLOURS, GRID, INK, PALE, Chart, curve_pictures, numbers
 from bezier.pictures.plot import new_figure, svg_text
 from bezier.problem import PlanMethod
+from qe.regions.region import Region
 
 REGION_COLOURS = {"(7)": "#2e9e6b", "(8*)": "#d1a03b", "(8)": "#2364aa"}
 LABELS = {
@@ -50,25 +51,18 @@ def charts(found: Comparison) -> dict[str, tuple[Chart, ...]]:
 
 def _regions(found: Comparison) -> Any:
     """Axes in mm along and across R0 - Q0."""
-    from qe.regions.sketch import bands
-
     figure = new_figure(9, 6.4)
     axis = figure.add_axes((0.08, 0.09, 0.6, 0.85))
     plane = found.planar.plane
     unit = [float(np.linalg.norm(np.array([float(c) for c in v]))) for v in (plane.first, plane.second)]
     for name, colour in REGION_COLOURS.items():
         region = found.planar.named[name].region
-        if region is None:
+        if region is None or region.is_empty:
             continue
-        along_first = region.order == plane_coordinates("Q1")
-        scales, fill = (unit, axis.fill_between) if along_first else (unit[::-1], axis.fill_betweenx)
-        for k, band in enumerate(bands(region)):
-            # right at the ends of a band two roots may coincide, where floating point finds none
-            inner = (np.array(row[8:-8]) for row in band)
-            values, low, high = (row * size for row, size in zip(inner, (*scales, scales[1]), strict=True))
-            fill(values, low, high, color=colour, alpha=0.3, linewidth=0, label=None if k else LABELS[name])
-            for end in (low, high):
-                axis.plot(*((values, end) if along_first else (end, values)), color=colour, linewidth=1.4)
+        across = outline(region) * (unit if region.order == plane_coordinates("Q1") else unit[::-1])
+        x, y = across.T if region.order == plane_coordinates("Q1") else across.T[::-1]
+        axis.fill(x, y, color=colour, alpha=0.3, linewidth=0, label=LABELS[name])
+        axis.plot(x, y, color=colour, linewidth=1.4)
     marks = []
     for text, point in _marks(found).items():
         u, v = (float(c) * s for c, s in zip(plane.place(point), unit, strict=True))
@@ -83,6 +77,23 @@ def _regions(found: Comparison) -> Any:
     labels.place(axis, marks, np.zeros((0, 2)), size=9)
     figure.legend(loc="upper left", bbox_to_anchor=(0.69, 0.94), frameon=False, fontsize=9)
     return figure
+
+
+def outline(region: Region) -> Array:
+    """The closed line around a bounded convex region in the plane: points in the order of its variables.
+
+    Out along the lower ends over the first variable and back along the upper ones. At a tip these meet between the
+    last samples, which the line joins.
+    """
+    from qe.regions.sketch import bands
+
+    found = [np.array(band) for band in bands(region)]
+    if not found:
+        return np.zeros((0, 2))
+    whole = np.concatenate([row[:, np.isfinite(row).all(axis=0)] for row in found], axis=1)
+    values, low, high = whole[:, np.argsort(whole[0], kind="stable")]
+    around = np.stack([np.concatenate([values, values[::-1]]), np.concatenate([low, high[::-1]])], axis=1)
+    return np.concatenate([around, around[:1]])
 
 
 def _marks(found: Comparison) -> dict[str, Any]:

@@ -106,15 +106,25 @@ def decimal_text(value: Any, digits: int = 12) -> str:
 
 
 def brief(value: Any) -> str:
-    """The exact text of a number as far as it is short, with a decimal."""
+    """A number as a decimal, with its exact text where that says more and is short."""
     return with_decimal(exact_text(value), decimal_text(value, 8))
 
 
 def with_decimal(exact: str, decimal: str) -> str:
-    """Exact text with a decimal where they differ, the decimal alone where the exact text would fill the line."""
+    """The decimal, with the exact text where they differ and where that would not fill the line."""
     if len(exact) > 40:
         return f"about {decimal}"
-    return exact if exact == decimal else f"{exact} (about {decimal})"
+    if exact == decimal or ("/" in exact and _is_fraction(exact, decimal)):
+        return decimal
+    return f"{decimal} (exactly {exact})"
+
+
+def _is_fraction(exact: str, decimal: str) -> bool:
+    """Whether exact text is a fraction and the decimal the same number."""
+    try:
+        return Fraction(exact) == Fraction(decimal)
+    except ValueError:
+        return False
 
 
 def described(value: Any) -> dict[str, str]:

@@ -23,7 +23,7 @@ from bezier.curves.enclosure import Enclosure
 from bezier.curves.events import Event, events_of
 from bezier.curves.halving import exact
 from bezier.curves.nonnegative import Interval
-from bezier.curves.scalar import decimal_text, sign
+from bezier.curves.scalar import brief, decimal_text, sign
 from bezier.obstacles.along import Along
 from bezier.obstacles.obstacle import Constraint
 from bezier.paths.path import Path
@@ -162,8 +162,8 @@ def summary_lines(found: Heights) -> list[str]:
     if found.strip is None:
         return []
     strip = found.strip
-    asked = " and ".join(f"{axis} >= {height}" for axis, height in strip.heights.items())
-    where = f"{asked} wherever {strip.low} <= x <= {strip.high}"
+    asked = " and ".join(f"{axis} >= {brief(height)}" for axis, height in strip.heights.items())
+    where = f"{asked} wherever {brief(strip.low)} <= x <= {brief(strip.high)}"
     if found.hold:
         return [f"heights: {where}: holds on all curves, for all t"]
     return [f"heights: {where}: DOES NOT HOLD", *(in_words(item) for item in found.below)]
@@ -174,13 +174,13 @@ def in_words(item: Below) -> str:
     begin, end = (_parameter(side.t) for side in (item.begin, item.end))
     span = f"at t = {begin}" if item.begin.t == item.end.t else f"for t from {begin} to {end}"
     ends = item.begin.at if item.begin.t == item.end.t else f"{item.begin.at} to {item.end.at}"
-    least = f"; at t = {item.sample[0]} {item.axis} is {decimal_text(item.sample[1], 6)}" if item.sample else ""
+    least = f"; at t = {brief(item.sample[0])} {item.axis} is {decimal_text(item.sample[1], 6)}" if item.sample else ""
     return f"{item.curve} is below the height in {item.axis} {span} ({ends}){least}"
 
 
 def _parameter(t: Interval) -> str:
     if t[0] == t[1]:
-        return str(t[0])
+        return brief(t[0])
     return f"about {float((t[0] + t[1]) / 2):.8g}"
 
 

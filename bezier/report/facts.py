@@ -31,6 +31,7 @@ TESTS = {
     Argument.ROOTS: "square-free part of the distance to the boundary: it touches zero but does not cross",
 }
 CLAIMS = {
+    "elimination": "The formula is equivalent to the conditions with the dependent points put in",
     "path": "Every curve stays in the workspace, by its Bernstein coefficients",
     "clearance": "Every curve stays clear of every obstacle, by Bernstein coefficients",
 }
@@ -48,7 +49,7 @@ def path(plan: Plan, drawing: Drawing | None) -> Section | None:
         content += [html.heading("Joins"), _joins(plan.path)]
     found = heights.summary_lines(plan.heights) if plan.heights else []
     if found and plan.heights is not None:
-        said = found[0].replace("heights: ", "")
+        said = found[0].replace("heights: ", "").replace(">=", "≥").replace("<=", "≤")
         content += [html.heading("The heights to keep"), html.paragraph(f"{said}.", html.tone(plan.heights.hold))]
         content.append(html.bullets(f"{line}." for line in found[1:]))
     content.append(html.figures(drawing.views if drawing else ()))

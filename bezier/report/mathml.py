@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from fractions import Fraction
 from html import escape
 from typing import Any
@@ -23,9 +23,42 @@ _HATTED = re.compile(r'<mover accent="true"><mi>(.)</mi><mo>\^</mo></mover>')
 _POINT = re.compile(r"([pqr])([0-9])([xyz])")
 
 
+_ROW = re.compile(r"<mrow>(?!<mo>\()(.*)</mrow>", re.DOTALL)
+_TAG = re.compile(r"<(/?)[a-z]+[^<>]*?(/?)>")
+_OPERATORS = ("<mo>+</mo>", "<mo>−</mo>", "<mo>∧</mo>")
+
+
 def math(body: str, *, block: bool = False) -> str:
     """A ``<math>`` element."""
     return f'<math display="{"block" if block else "inline"}" displaystyle="true">{body}</math>'
+
+
+def lines(body: str) -> str:
+    """Mathematics as several ``<math>`` elements between which a line may end, before each +, − and ∧ of its parts.
+
+    Browsers do not break lines inside of one.
+    """
+    pieces = [""]
+    for part in _parts(body):
+        if part in _OPERATORS and pieces[-1]:
+            pieces.append(part.replace("<mo>", '<mo form="infix">'))
+        else:
+            pieces[-1] += part
+    return "<wbr>".join(map(math, pieces))
+
+
+def _parts(body: str) -> Iterator[str]:
+    """The elements one after the other; the parts of a row that has no brackets around it instead of the row."""
+    depth = start = 0
+    for tag in _TAG.finditer(body):
+        depth += -1 if tag[1] else 0 if tag[2] else 1
+        if depth == 0:
+            part, start = body[start : tag.end()], tag.end()
+            row = _ROW.fullmatch(part)
+            if row is None:
+                yield part
+            else:
+                yield from _parts(row[1])
 
 
 def name(text: str) -> str:
@@ -117,8 +150,8 @@ def formula(node: Formula) -> str:
 
 
 def conjunction_lines(node: Formula) -> list[str]:
-    """The parts of a conjunction, one ``<math>`` element each; one element for anything else."""
-    return [math(formula(part)) for part in conjuncts(node)]
+    """The parts of a conjunction, each as mathematics between whose parts a line may end; or anything else as one."""
+    return [lines(formula(part)) for part in conjuncts(node)]
 
 
 def rational(value: Fraction) -> str:

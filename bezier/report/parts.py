@@ -100,7 +100,8 @@ def question(plan: Plan, system: System) -> list[Markup]:
     radius = mathml.number_text(plan.problem.workspace.radius_text)
     values = [f"{mathml.name(name)}<mo>=</mo>{mathml.vector(system.given[name])}" for name in ("Q0", "R0")]
     where = "<mo>,</mo><mspace width='0.8em'/>".join([*values, f"<mi>r</mi><mo>=</mo>{radius}"])
-    return [shown(f"<mrow>{bound}<mspace width='0.4em'/><mo>(</mo>{body}<mo>)</mo></mrow>"), shown(where)]
+    whole = Markup(mathml.lines(f"{bound}<mspace width='0.4em'/><mo>(</mo>{body}<mo>)</mo>"))
+    return [whole, shown(where)]
 
 
 def _combination(terms: Combination) -> str:
@@ -173,9 +174,11 @@ def optimum(plan: Plan, system: System, found: Any, title: Text, free_minimum: s
 
 def least(plan: Plan) -> Markup:
     """The value of the objective."""
-    return html.paragraph(Markup("It is {} {}.").format(decimal_text(plan.objective, 12), plan.unit)) + (
-        html.folded("exactly", html.formula([shown(mathml.number(plan.objective))]))
-    )
+    decimal = decimal_text(plan.objective, 12)
+    said = html.paragraph(Markup("It is {} {}.").format(decimal, plan.unit))
+    if _is_all(plan.objective, decimal):
+        return said
+    return said + html.folded("exactly", html.formula([shown(mathml.number(plan.objective))]))
 
 
 def control_points(path: Path) -> Markup:

@@ -91,7 +91,8 @@ def page(
 
 STYLE = (
     "body{font:16px/1.5 system-ui,sans-serif;max-width:60rem;margin:2rem auto;padding:0 1rem;color-scheme:light dark}"
-    "li{margin:1.2rem 0}.rule{font-weight:600}.says{opacity:.75}math{overflow-x:auto;max-width:100%}"
+    "li{margin:1.2rem 0}.rule{font-weight:600}.says{opacity:.75}p{overflow-x:auto}"
+    "math{width:fit-content;margin-left:0}mtd{text-align:left}"
     "details{margin:.4rem 0}details li{margin:.3rem 0;overflow-wrap:anywhere}summary{cursor:pointer}"
 )
 

@@ -11,7 +11,7 @@ from bezier.curves.containment import Leaves
 from bezier.curves.scalar import decimal_text, with_decimal
 from bezier.curves.workspace import root_text
 from bezier.methods.quadratic import formula as quadratic
-from bezier.methods.quadratic.plan import FORMULA, QuadraticPlan
+from bezier.methods.quadratic.plan import FORMULA, QuadraticPlan, above_label
 from bezier.plans import Story
 from bezier.report import html, mathml, parts
 from bezier.report.first import region_box
@@ -87,6 +87,7 @@ def _claims(plan: QuadraticPlan) -> dict[str, str]:
         "region": "The answer describes exactly the region: every cell has the truth value stated",
         "optimum": "The chosen Q1 is the global optimum" if plan.path else "The conditions on Q1 contradict each other",
         "below the table": "The printed formula allows the example below the table",
+        **{above_label(point): f"The printed formula keeps {point} above the table" for point in quadratic.SHAPE.inner},
     }
 
 
@@ -128,8 +129,9 @@ def _infeasibility(plan: QuadraticPlan) -> Section:
     labels = ("|Q0|²", "|R0|²", "|Q0 − R0|²")
     rows = [(label, parts.number(v)) for label, v in zip(labels, balls.sides_squared, strict=True)]
     for label, square in (("radius r", balls.radius_squared), ("least radius that would do", balls.needed_squared)):
-        exact = shown(mathml.number_text(root_text(square)))
-        rows.append((label, html.folded(f"{float(square) ** 0.5:.8g}", exact)))
+        exact, decimal = root_text(square), f"{float(square) ** 0.5:.8g}"
+        folded = html.folded(decimal, shown(mathml.number_text(exact)))
+        rows.append((label, decimal if exact == decimal else folded))
     text = (
         "Q1 has to lie in the three balls of radius r about O, 2 Q0 and 2 R0. They have a common point exactly when the"
         " smallest circle around the triangle O, Q0, R0 has a radius of at most r/2. "

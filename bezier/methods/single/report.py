@@ -11,7 +11,7 @@ from bezier.curves.containment import Leaves
 from bezier.curves.scalar import brief, decimal_text
 from bezier.input.task import Axis, Task
 from bezier.methods.single.closed import ProvedCurve
-from bezier.methods.single.plan import CLOSED, SUMS, SinglePlan, above_label, of_axis
+from bezier.methods.single.plan import CLOSED, SUMS, SinglePlan, above_label, lowest_label, of_axis
 from bezier.methods.single.program import TIE_BREAK, Dip
 from bezier.methods.single.simplex import Contradiction, LinearOptimum
 from bezier.plans import Story
@@ -212,6 +212,10 @@ def _claims(plan: SinglePlan) -> dict[str, str]:
         of_axis(item.axis.name): f"Problem (4) for {item.axis.name}: the sum is the least possible one"
         if isinstance(item.outcome, LinearOptimum)
         else f"Problem (4) for {item.axis.name} contradicts itself"
+        for item in plan.chosen
+    }
+    found |= {
+        lowest_label(item.axis.name): f"Another curve has the same least sum of problem (4) for {item.axis.name}"
         for item in plan.chosen
     }
     found |= {above_label(name): f"The curve is not below h in {name} from t_a to t_b" for name in plan.above}

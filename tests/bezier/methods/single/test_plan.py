@@ -64,7 +64,7 @@ def test_the_printed_curve_that_leaves(plans):
     assert [proof.condition.name for proof in plan.printed.leaving] == ["ball"] and not plan.printed.dips
     assert plan.objective == plan.closed.bound == F(2027, 160) and plan.gap == 0
     words = "\n".join(SINGLE.summary_lines(plan))
-    assert "LEAVES the ball" in words and "least possible sum, 2027/160" in words
+    assert "LEAVES the ball" in words and "least possible sum, 12.66875" in words
 
 
 def test_the_printed_curve_that_dips(plans):
