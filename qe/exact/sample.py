@@ -29,8 +29,8 @@ SMALL = 100
 class Point:
     """A point of R^depth; immutable apart from caches."""
 
-    __slots__ = ("_balls", "_given", "_reduced", "_tower", "_vanishing", "algebraic", "depth", "parent", "ring", "value",
-                 "zeros")  # fmt: skip
+    __slots__ = ("_balls", "_given", "_reduced", "_tower", "_vanishing", "algebraic", "depth", "parent", "ring",
+                 "value", "zeros")  # fmt: skip
 
     def __init__(
         self,
