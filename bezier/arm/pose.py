@@ -25,7 +25,10 @@ from bezier.arm.elimination import Quotient
 from bezier.arm.inverse import BITS, Inverse, Solution, exact_number, value_of
 from bezier.arm.limits import allowed
 from bezier.arm.model import Arm, Chain, Matrix, Motion, apply, inverse
+from bezier.arm.ratio import Ratio
 from bezier.arm.roots_of_squares import Rules, Scaled, fixed, turned
+from bezier.arm.wrist import ROOTS as WRIST_ROOTS
+from bezier.arm.wrist import Known, meeting, solve_wrist, wrist_of
 from bezier.curves.scalar import dot, is_zero, rational
 from qe.errors import InputError, InternalError, Unable
 from qe.exact.algebraic import RealAlgebraic
@@ -36,7 +39,6 @@ from qe.exact.sample import Point
 ROOTS = ("m1", "m2", "m3")
 ZERO = Fraction(0)
 Rotation = tuple[tuple[Any, ...], ...]
-Known = dict[int, tuple[Quotient, ...] | None]
 
 
 def rotation_of(quaternion: Sequence[Any]) -> Rotation:
@@ -67,19 +69,25 @@ def solve_pose(arm: Arm, point: Sequence[Any], rotation: Sequence[Sequence[Any]]
         raise InputError("pose: three coordinates and three rows of three numbers expected")
     numbers = tuple(exact_number(v, "point") for v in point)
     rows = tuple(tuple(exact_number(v, "rotation") for v in row) for row in rotation)
-    shape = shape_of(arm)
+    wrist = wrist_of(arm)
+    shape = shape_of(arm) if wrist is None else None
     given = (
         *zip(point, numbers, strict=True),
         *((v, w) for r, s in zip(rotation, rows, strict=True) for v, w in zip(r, s)),
     )
     # elements of the arm's own field need no variable of their own
-    rules, place = Rules.of(arm.field, ROOTS, [v if getattr(v, "field", None) == arm.field else w for v, w in given])
+    roots = WRIST_ROOTS if shape is None else ROOTS
+    rules, place = Rules.of(arm.field, roots, [v if getattr(v, "field", None) == arm.field else w for v, w in given])
     entries = rules.given
     pose: Matrix = tuple((*entries[3 * i + 3 : 3 * i + 6], entries[i]) for i in range(3))
     _check_rotation(pose, rules, place)
-    wanted = fixed(pose, rules) if not shape.is_reversed else fixed(inverse(pose), rules)
-    search = _Search(arm, shape, rules, wanted)
-    found = tuple(sorted(search.solutions(place), key=lambda s: [v for v in s.angles if v is not None]))
+    if shape is None:
+        assert wrist is not None, "one of the two shapes was found"
+        solutions = [_solution(arm, *leaf) for leaf in solve_wrist(wrist, rules, place, pose)]
+    else:
+        wanted = fixed(pose, rules) if not shape.is_reversed else fixed(inverse(pose), rules)
+        solutions = list(_Search(arm, shape, rules, wanted).solutions(place))
+    found = tuple(sorted(solutions, key=lambda s: [v for v in s.angles if v is not None]))
     names = [joint.name for joint in arm.joints]
     free = {name for s in found for name, v in zip(names, s.values, strict=True) if v is None}
     cases = ("two solutions meet: the arm is singular here",) * any(s.multiple for s in found)
@@ -108,7 +116,7 @@ class Shape:
 def shape_of(arm: Arm) -> Shape:
     """Raises ``Unable`` for an arm that the derivation does not fit."""
     chain = arm.chain
-    needed = "an arm with three parallel axes, alone or with two neighbouring axes that meet after one before them"
+    needed = "a spherical wrist, or three parallel axes, alone or with two neighbouring axes that meet after one before"
     refused = Unable(f"inverse kinematics at a pose needs {needed}; {arm.name} is none")
     if any(joint.motion is not Motion.REVOLUTE for joint in chain.joints):
         raise refused
@@ -133,23 +141,44 @@ def _are_parallel(chain: Chain, first: int) -> bool:
 def _meet(chain: Chain) -> tuple[Any, Any] | None:
     """Where axes 5 and 6 meet: heights along axis 6 and along axis 5; None where they do not, or where axis 1 is
     parallel to axis 2, or axis 4 to axis 5."""
-    last = chain.constants[5]
-    n, o = [row[2] for row in last], [row[3] for row in last]
-    size = n[0] * n[0] + n[1] * n[1]
     bent = [chain.constants[1][i][2] for i in range(2)], [chain.constants[4][2][i] for i in range(2)]
-    if is_zero(size) or any(all(map(is_zero, pair)) for pair in bent) or not is_zero(o[0] * n[1] - o[1] * n[0]):
-        return None
-    along = -(o[0] * n[0] + o[1] * n[1]) / size
-    return along, o[2] + along * n[2]
+    return None if any(all(map(is_zero, pair)) for pair in bent) else meeting(chain.constants[5])
+
+
+@dataclass(frozen=True, eq=False)
+class _Parallel:
+    """Where ``below`` vanishes the last axis is parallel to the three parallel ones, and its joint can be chosen.
+
+    Then four links close in a plane: the two between the parallel axes, and two of squared lengths A and B that the
+    last joint connects. With C, D those of the former, they close for some of its angles iff the longest is at most
+    the sum of the others, that is iff sqrt(AB) + sqrt(CD) >= |A + B - C - D|/2: iff ``gap`` <= 0 or ``room`` >= 0 for
+    gap = (A + B - C - D)²/4 - AB - CD and room = 4ABCD - gap².
+    """
+
+    below: Poly
+    gap: Poly
+    room: Poly
+
+    @staticmethod
+    def of(below: Ratio, sizes: Sequence[Ratio], rules: Rules) -> _Parallel:
+        """``sizes``: A, B, C, D, all times one positive number."""
+        a, b, c, d = sizes
+        half = (a + b - c - d) * Fraction(1, 2)
+        gap = rules.tidy(half * half - a * b - c * d)
+        return _Parallel(below.top, gap.top, rules.tidy(a * b * c * d * 4 - gap * gap).top)
+
+    def closes(self, place: Point) -> bool:
+        """Whether there is an angle of the last joint with a solution."""
+        return place.sign(self.gap) <= 0 or place.sign(self.room) >= 0
 
 
 @dataclass(frozen=True, eq=False)
 class _Tower:
-    """The solutions at one pose as functions of the roots. ``stages``: the name of a root, its square, and what must
-    not vanish where it is known; ``size``: the square of the length of Π's translation: where it vanishes, the first
-    and the last of the parallel joints are free."""
+    """The solutions at one pose as functions of the roots. ``stages``: the name of a root, its square, and what leaves
+    the last joint free where it is known; ``size``: the square of the length of Π's translation: where it vanishes, the
+    first and the last of the parallel joints are free."""
 
-    stages: tuple[tuple[str, Poly, Poly | None], ...]
+    stages: tuple[tuple[str, Poly, _Parallel | None], ...]
     joints: Mapping[int, tuple[Quotient, ...]]
     size: Poly
 
@@ -174,11 +203,13 @@ class _Search:
         for here, multiple in self._leaves(Evaluation(place), tower.stages):
             joints: Known = dict(tower.joints)
             first = self.shape.first
-            if here.point.sign(tower.size) == 0:
+            if here.point.depth < self.rules.ring.size:  # the last joint can be chosen, and the others follow it
+                joints |= dict.fromkeys((1, 2, 3, 5))
+            elif here.point.sign(tower.size) == 0:
                 joints |= {first: None, first + 2: None}
             elif any(here.point.sign(d) for d in defects):
                 raise InternalError("the solutions at a pose contradict the forward kinematics")
-            yield self._solution(here, joints, multiple)
+            yield _solution(self.arm, here, joints, multiple, self.shape.is_reversed)
 
     def _based(self) -> Scaled:
         constants = self.shape.chain.constants
@@ -223,16 +254,27 @@ class _Search:
         cosine = rules.tidy((u[0] * w[0] + u[1] * w[1]) * weight)
         sine = rules.tidy((w[1] * u[0] - w[0] * u[1]) * weight)
         turn6 = turned((cosine, sine), rules.tidy(below * fifth.scale))
-        found = fixed(inverse(constants[1]), rules) @ turn1.inverse() @ based @ turn6.inverse()
-        for back in (fixed(inverse(constants[5]), rules), fifth.motion.inverse(), fixed(inverse(constants[4]), rules)):
-            found = found @ back
+        near = fixed(inverse(constants[1]), rules) @ turn1.inverse() @ based
+        backs = fixed(inverse(constants[5]), rules), fifth.motion.inverse(), fixed(inverse(constants[4]), rules)
+        far = backs[0] @ backs[1] @ backs[2]
+        found = near @ turn6.inverse() @ backs[0] @ backs[1] @ backs[2]
+        parallel = _Parallel.of(below, self._links(near, far), rules)
         joints, size_of_plane, square = self._three(found)
         stages = (
             (ROOTS[0], first.square.top, None),
-            (ROOTS[1], fifth.square.top, below.top),
+            (ROOTS[1], fifth.square.top, parallel),
             (ROOTS[2], square, None),
         )
         return _Tower(stages, {0: first.pair, 4: fifth.pair, 5: turn6.pair, **joints}, size_of_plane)
+
+    def _links(self, near: Scaled, far: Scaled) -> list[Ratio]:
+        """The squared lengths of four links in the plane of the parallel axes, times one positive number."""
+        pair = self.shape.chain.constants[self.shape.first + 1 : self.shape.first + 3]
+        scales = [self.rules.tidy(m.scale * m.scale) for m in (near, far)]
+        a, b = (dot(v, v) for m in (near, far) for v in [[m.rows[i][3] for i in range(2)]])
+        c, d = (m[0][3] * m[0][3] + m[1][3] * m[1][3] for m in pair)
+        whole = scales[0] * scales[1]
+        return [self.rules.tidy(v) for v in (a * scales[1], b * scales[0], whole * c, whole * d)]
 
     def _three(self, found: Scaled) -> tuple[dict[int, tuple[Quotient, ...]], Poly, Poly]:
         """The three parallel joints with Π = ``found``, the square of the length of its shift, and m3²."""
@@ -255,9 +297,9 @@ class _Search:
         return {first: turn2.pair, first + 1: elbow.pair, first + 2: turn4.pair}, size.top, elbow.square.top
 
     def _leaves(
-        self, here: Evaluation, stages: Sequence[tuple[str, Poly, Poly | None]]
+        self, here: Evaluation, stages: Sequence[tuple[str, Poly, _Parallel | None]]
     ) -> Iterator[tuple[Evaluation, bool]]:
-        """The points of the tower, and whether two solutions meet in one."""
+        """The points of the tower, and whether two solutions meet in one. Shorter ones leave the last joint free."""
         if not stages:
             yield here, False
             return
@@ -266,19 +308,12 @@ class _Search:
         roots = roots_above(here.point, ring.index[name], ring.var(name) ** 2 - square) or []
         for root in roots:
             there = here.extend(root)
-            if guard is not None and there.point.sign(guard) == 0:
-                raise Unable("the last axis is parallel to the three parallel ones, so the last joint can be chosen")
+            if guard is not None and there.point.sign(guard.below) == 0:
+                if guard.closes(there.point):
+                    yield there, len(roots) == 1
+                continue
             for leaf, multiple in self._leaves(there, rest):
                 yield leaf, multiple or len(roots) == 1
-
-    def _solution(self, here: Evaluation, known: Known, multiple: bool) -> Solution:
-        listed = [known[k] for k in sorted(known)]
-        if self.shape.is_reversed:
-            listed = [None if p is None else (p[0], replace(p[1], scale=-p[1].scale)) for p in reversed(listed)]
-        values = tuple(None if p is None else value_of(here, p, BITS) for p in listed)
-        pairs = zip(self.arm.joints, listed, strict=True)
-        keeps = all(p is None or allowed(joint, here, p, value_of) for joint, p in pairs)
-        return Solution(values, multiple, keeps, here, tuple(listed))
 
     def _defects(self, joints: Mapping[int, tuple[Quotient, ...]]) -> list[Poly]:
         """What has to vanish at every solution: the forward kinematics minus the pose."""
@@ -293,6 +328,16 @@ class _Search:
             for v, w in zip(row, wanted, strict=True)
         ]
         return [rules.tidy(value * self.pose.scale - target * whole.scale).top for value, target in pairs]
+
+
+def _solution(arm: Arm, here: Evaluation, known: Known, multiple: bool, is_reversed: bool = False) -> Solution:
+    listed = [known[k] for k in sorted(known)]
+    if is_reversed:
+        listed = [None if p is None else (p[0], replace(p[1], scale=-p[1].scale)) for p in reversed(listed)]
+    values = tuple(None if p is None else value_of(here, p, BITS) for p in listed)
+    pairs = zip(arm.joints, listed, strict=True)
+    keeps = all(p is None or allowed(joint, here, p, value_of) for joint, p in pairs)
+    return Solution(values, multiple, keeps, here, tuple(listed))
 
 
 def _height(pair: Sequence[Matrix]) -> tuple[Any, Any]:

@@ -163,15 +163,36 @@ def test_a_free_pair_of_joints() -> None:
 
 
 def test_what_is_free_is_named() -> None:
-    """C on the first axis; the last axis parallel to the three."""
-    m = pose(SIX, {f"theta{k}": (0, -1) if k == 5 else (1, 0) for k in range(1, 7)})
-    with pytest.raises(Unable, match="last joint can be chosen"):
-        solve_pose(SIX, [row[3] for row in m], [row[:3] for row in m])
+    """C on the first axis."""
     with pytest.raises(Unable, match="first joint can be chosen"):
         solve_pose(SKEW_FREE, (0, 0, 150), rotation_of((1, 0, 0, 0)))
 
 
-SKEW_FREE = arm_of('alpha = "pi/2"; d = 90', "a = 60", "a = 55", 'alpha = "pi/2"', 'alpha = "-pi/2"; d = 0', "d = 30")
+@pytest.mark.parametrize("side", [-1, 1])
+@settings(max_examples=4)
+@given(st.lists(st.fractions(-4, 4, max_denominator=4), min_size=6, max_size=6))
+def test_a_last_axis_parallel_to_the_three(side: int, tangents: list[Fraction]) -> None:
+    pairs = [*pairs_of(tangents)]
+    pairs[4] = (Fraction(0), Fraction(side))
+    found = at_the_pose_of(SIX, pairs)
+    assert found.count is None and {"theta6", "theta3"} <= {*found.free}
+    (family,) = [s for s in found.solutions if s.angles[5] is None]
+    first, fifth = family.values[0], family.values[4]
+    assert first and first.cosine and first.sine and fifth and fifth.sine
+    assert first.cosine[0] <= pairs[0][0] <= first.cosine[1] and first.sine[0] <= pairs[0][1] <= first.sine[1]
+    assert fifth.sine[0] <= side <= fifth.sine[1] and family.angles[1:4] == (None, None, None)
+
+
+@pytest.mark.parametrize(("along", "closes"), [("281.45", True), ("281.46", False), ("0.01", True)])
+def test_four_links_that_close_or_not(along: str, closes: bool) -> None:
+    """Axis 6 is parallel to axis 2 at this distance; the links are 110.4, 96 and 75.05 long."""
+    m = pose(SIX, {f"theta{k}": (0, -1) if k == 5 else (1, 0) for k in range(1, 7)})
+    point = (Fraction(along), m[1][3], Fraction("131.22"))
+    found = solve_pose(SIX, point, [row[:3] for row in m])
+    assert ("theta6" in found.free) == closes
+
+
+SKEW_FREE = arm_of('alpha = "pi/2"; d = 90', "a = 60", "a = 55", 'alpha = "pi/2"', 'alpha = "-pi/2"; d = 7', "d = 30")
 
 
 def test_limits_and_offsets() -> None:

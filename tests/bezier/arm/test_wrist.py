@@ -1,0 +1,110 @@
+"""Inverse kinematics at a pose of arms with a spherical wrist, against the forward kinematics of random joints."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from bezier.arm.kinematics import pose
+from bezier.arm.pose import rotation_of, solve_pose
+from bezier.arm.reader import load_arm
+from bezier.arm.wrist import meeting, wrist_of
+from qe.errors import Unable
+from tests.bezier.arm.test_pose import SIX, SKEW, Pairs, arm_of, at_the_pose_of, frames, holds, pairs_of
+
+PUMA = load_arm("spherical-wrist")
+STANDARD = arm_of(
+    'alpha = "pi/2"; d = 40',
+    "a = 70",
+    'alpha = "pi/2"; a = 3',
+    'alpha = "-pi/2"; d = 60',
+    'alpha = {cos = "3/5", sin = "4/5"}; theta = "pi/2"',
+    "d = 17; a = 2",
+)
+"""The axes of the wrist are not orthogonal: not every rotation is in reach."""
+
+FLAT = arm_of('alpha = "pi/2"', "a = 70", 'alpha = "pi/2"', 'alpha = "-pi/2"; d = 60', 'alpha = "pi/2"', "d = 17")
+TANGENTS = st.lists(st.fractions(-4, 4, max_denominator=3), min_size=6, max_size=6)
+
+
+@pytest.mark.parametrize("arm", [PUMA, STANDARD], ids=["puma", "standard"])
+@settings(max_examples=3)
+@given(TANGENTS)
+def test_the_joints_that_made_the_pose_are_found(arm: object, tangents: list[Fraction]) -> None:
+    pairs = pairs_of(tangents)
+    try:
+        found = at_the_pose_of(arm, pairs)  # type: ignore[arg-type]
+    except Unable as error:
+        assert "can be chosen" in str(error)
+        return
+    if found.free:
+        return
+    assert found.count in range(1, 9) and holds(found, pairs)
+    for frame in frames(found.arm, found):
+        assert np.allclose(frame[:, 3], [float(c) for c in found.point], atol=1e-8)
+        assert np.allclose(frame[:, :3], [[float(c) for c in row] for row in found.rotation], atol=1e-11)
+
+
+def pairs_with(changed: dict[int, tuple[int, int]]) -> Pairs:
+    found = [*pairs_of([Fraction(k, 3) for k in (1, -2, 4, 5, -1, 2)])]
+    for k, (c, s) in changed.items():
+        found[k - 1] = (Fraction(c), Fraction(s))
+    return found
+
+
+@pytest.mark.parametrize("bent", [(1, 0), (-1, 0)])
+def test_axes_4_and_6_in_line(bent: tuple[int, int]) -> None:
+    found = at_the_pose_of(PUMA, pairs_with({5: bent}))
+    assert found.count is None and found.free == ("theta4", "theta6")
+    families = [s for s in found.solutions if s.angles[3] is None]
+    assert len(families) == 1 and families[0].angles[5] is None and families[0].multiple
+    assert len(found.solutions) == 7  # the other three positions of the arm bend the wrist
+
+
+def test_the_wrist_on_the_first_axis() -> None:
+    """Joint 1 can be chosen, and the wrist follows: orthogonal axes reach every rotation."""
+    found = solve_pose(FLAT, (0, 0, 100), rotation_of((1, 0, 0, 0)))
+    assert found.is_reachable is (found.free != ())
+    centre = solve_pose(FLAT, (0, 0, 100 + 17), rotation_of((1, 0, 0, 0)))
+    assert centre.free == ("q1", "q4", "q5", "q6") and len(centre.solutions) == 2
+    with pytest.raises(Unable, match="does not reach every rotation"):
+        solve_pose(
+            arm_of('alpha = "pi/2"', "a = 70", 'alpha = "pi/2"', 'alpha = "-pi/2"; d = 60', 'alpha = "pi/3"', "d = 17"),
+            (0, 0, 117),
+            rotation_of((1, 0, 0, 0)),
+        )
+
+
+def test_no_solution_where_the_wrist_is_out_of_reach() -> None:
+    assert solve_pose(PUMA, (2000, 0, 0), rotation_of((1, 2, 3, 4))).count == 0
+
+
+def test_a_rotation_that_a_skew_wrist_does_not_reach() -> None:
+    """Axis 6 is always 4/5 out of line with axis 5, and axis 5 orthogonal to axis 4."""
+    at = at_the_pose_of(STANDARD, pairs_with({}))
+    assert at.count
+    turned = rotation_of((1, 0, 0, 0)), rotation_of((1, 1, 0, 0)), at.rotation
+    counts = [solve_pose(STANDARD, (90, 30, 70), rotation).count or 0 for rotation in turned]
+    assert max(counts) <= 8 and len(set(counts)) > 1
+
+
+def test_shapes() -> None:
+    assert wrist_of(PUMA) is not None and wrist_of(SIX) is None and wrist_of(SKEW) is None
+    wrist = wrist_of(STANDARD)
+    assert wrist is not None and wrist.height == 0 and len(wrist.first.joints) == 3
+    parallel = ((1, 0, 0, 5), (0, 1, 0, 0), (0, 0, 1, 0))
+    assert meeting([[Fraction(v) for v in row] for row in parallel]) is None
+    across = ((1, 0, 0, 0), (0, 0, -1, 3), (0, 1, 0, 4))  # the axis (0, -1, 0) through (0, 3, 4)
+    assert meeting([[Fraction(v) for v in row] for row in across]) == (3, 4)
+
+
+def test_limits_of_the_wrist() -> None:
+    name = {j.name: j for j in PUMA.joints}
+    assert [*name] == [f"theta{k}" for k in range(1, 7)]
+    m = pose(PUMA, dict(zip(name, pairs_with({}), strict=True)))
+    found = solve_pose(PUMA, [row[3] for row in m], [row[:3] for row in m])
+    assert all(s.allowed for s in found.solutions)
