@@ -17,7 +17,7 @@ from qe.certify.step import Claim, Context, Limits
 from qe.certify.verify import check_certificate
 from qe.elimination.cad import certificate_for
 from qe.elimination.vs.trace import Eliminated
-from qe.engine.lemmas import EMPTY, refuting
+from qe.engine.lemmas import EMPTY, identities, refuting
 from qe.engine.nested import derivations_within, formulas_within, proved_inside
 from qe.engine.substitution_steps import steps
 from qe.errors import CertificateRejected, Unable
@@ -40,6 +40,7 @@ TABLE_WORK = 3_000
 SIMPLIFYING = ("simplification", "standard simplification")
 """Rules whose steps go on under quantifiers."""
 
+SQUARES = "signs by sums of squares"
 CRITICAL = "critical values"
 
 UNRECORDED = "steps that are not recorded"
@@ -235,6 +236,8 @@ class Prover:
         if isinstance(refuted, OnDemand):
             return self._refuted(step, refuted)
         given = step.evidence.get("proof")
+        if step.rule == SQUARES:
+            return self._positive(step, given, context)
         evidence = self._plain(given) if isinstance(given, Mapping) else {}
         own = self._tried(step.rule, step, context, evidence)
         return None if own is None else (step.rule, own)
@@ -258,6 +261,16 @@ class Prover:
             self.budget.check("prove")
             return None
         return evidence
+
+    def _positive(self, step: Step, given: object, context: Context) -> tuple[str, Json] | None:
+        """Signs that follow from identities, which the rule has found."""
+        assert isinstance(given, Mapping)
+        evidence: Json = {"theory": identities([*given["identities"]], self.ring)}
+        try:
+            RULES[step.rule](self._claim(step.rule, step, evidence), context, self.limits)
+        except CertificateRejected:
+            return None
+        return step.rule, evidence
 
     def _substituted(self, step: Step, trace: Eliminated) -> Json | None:
         """The steps of virtual substitution, all of them accepted."""

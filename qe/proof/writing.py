@@ -34,6 +34,7 @@ RULES: Mapping[str, str] = {
     "homogeneous scaling": "All polynomials are homogeneous: one coordinate may be -1, 0 or 1.",
     "Groebner basis of the equations": "The equations have the same common zeros as others (Buchberger 1965).",
     "case split on factors": "A product is zero if and only if a factor is.",
+    "signs by sums of squares": "A sum of squares, or of products of them with what is not negative, is not negative.",
     "vanishing sum of squares split": "A sum of squares is zero if and only if every square is.",
     "simplification": "Both sides have the same truth for all signs of the polynomials that are possible.",
     "elimination set": "A block holds somewhere if and only if it holds at one of finitely many test points "

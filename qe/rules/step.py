@@ -25,6 +25,7 @@ class StepKind(Enum):
     GROEBNER = "Groebner basis of the equations"
     FACTOR_SPLIT = "case split on factors"
     DISTRIBUTION = "disjuncts with equations apart"
+    SQUARES = "signs by sums of squares"
     SUM_OF_SQUARES = "vanishing sum of squares split"
 
 
