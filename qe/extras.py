@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from qe.errors import Unable
 
 _EXTRAS = {
-    "clarabel": "dev",
+    "clarabel": "squares",
     "dask": "sweep",
     "distributed": "sweep",
     "jinja2": "plan",

@@ -47,7 +47,7 @@ class Stage(Enum):
     blocks of one kind are prepared as one. ``DISTRIBUTION``: disjuncts with equations are solved apart. ``VALUES``:
     atoms that some value of a variable meets, whatever the rest is, are dropped. ``ZEROS``: conditions on which
     variables vanish are dropped where they follow from the others. ``BALLS``: whether two balls meet is a closed form.
-    ``SEARCH``: sentences with many cases are searched by a SAT solver.
+    ``SEARCH``: sentences with many cases are searched by a SAT solver. ``SQUARES``: signs that sums of squares prove.
     """
 
     EQUATIONS = "equations"
@@ -64,6 +64,7 @@ class Stage(Enum):
     ZEROS = "zeros"
     BALLS = "balls"
     SEARCH = "search"
+    SQUARES = "squares"
 
 
 @dataclass(slots=True)

@@ -1,13 +1,14 @@
 """Rules that keep the quantifiers of a block and change what stands under them: "simplification", "standard
-simplification", "case split on factors", "boundary apart", "vanishing sum of squares split", "Groebner basis of the
-equations", "multiple of an equation subtracted".
+simplification", "case split on factors", "boundary apart", "signs by sums of squares", "vanishing sum of squares
+split", "Groebner basis of the equations", "multiple of an equation subtracted".
 
 THEOREM. ex v (A or B) iff ex v A or ex v B. So if a body is equivalent to the disjunction of m_1, ..., m_k, then
 ex v body iff ex v_1 m_1 or ... or ex v_k m_k, where v_i are variables of v, all that are free in m_i. A universal block
 is the negation of an existential one. Without a block the formulas themselves are compared.
 
 So are checked: simplification, cases (a product that is 0; p >= 0 as p > 0 or p = 0), equations replaced by others with
-the same zeros (each of either side is a combination of the other side's, by an identity), sums of squares that vanish.
+the same zeros (each of either side is a combination of the other side's, by an identity), signs of polynomials that an
+identity says to be sums of squares, sums of squares that vanish.
 """
 
 from __future__ import annotations

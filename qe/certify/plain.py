@@ -1345,7 +1345,7 @@ def _impossible(f: Formula, signs: dict[Any, Signs]) -> bool:
 
 
 _BLOCK: tuple[str, ...] = ("simplification", "standard simplification", "case split on factors", "boundary apart")
-_BLOCK += ("vanishing sum of squares split", "Groebner basis of the equations")
+_BLOCK += ("signs by sums of squares", "vanishing sum of squares split", "Groebner basis of the equations")
 _BLOCK += ("multiple of an equation subtracted",)
 
 

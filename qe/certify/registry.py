@@ -46,6 +46,7 @@ RULES: Mapping[str, Check] = {
     "standard simplification": check_block,
     "case split on factors": check_block,
     "boundary apart": check_block,
+    "signs by sums of squares": check_block,
     "vanishing sum of squares split": check_block,
     "Groebner basis of the equations": check_block,
     "multiple of an equation subtracted": check_block,

@@ -42,6 +42,7 @@ SWITCHED = {
     Stage.VALUES: {StepKind.TAKES_VALUE},
     Stage.ZEROS: {StepKind.ZEROS},
     Stage.BALLS: {StepKind.BALLS},
+    Stage.SQUARES: {StepKind.SQUARES},
 }
 """The steps of preparation that a stage left out switches off."""
 

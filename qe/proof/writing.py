@@ -35,6 +35,7 @@ RULES: Mapping[str, str] = {
     "Groebner basis of the equations": "The equations have the same common zeros as others (Buchberger 1965).",
     "multiple of an equation subtracted": "Where q = 0, the polynomials p and p - c q have the same sign.",
     "case split on factors": "A product is zero if and only if a factor is.",
+    "signs by sums of squares": "A sum of squares, or of products of them with what is not negative, is not negative.",
     "vanishing sum of squares split": "A sum of squares is zero if and only if every square is.",
     "simplification": "Both sides have the same truth for all signs of the polynomials that are possible.",
     "elimination set": "A block holds somewhere if and only if it holds at one of finitely many test points "

@@ -87,6 +87,14 @@ class Lemmas:
 EMPTY: Json = {"polynomials": [], "lemmas": []}
 
 
+def identities(listed: Iterable[Sequence[Term]], ring: Ring) -> Json:
+    """Sums that are 0, as lemmas over the ring."""
+    found = Lemmas(ring)
+    for terms in listed:
+        found.identity([(c, tuple((p.convert(ring), e) for p, e in powers)) for c, powers in terms])
+    return found.only(range(len(found.lemmas)))
+
+
 def content_of(poly: Poly) -> tuple[int, Poly]:
     """(c, q) with poly = c * q, q primitive with positive leading coefficient."""
     primitive = poly.normal()[1]

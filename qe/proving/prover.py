@@ -30,7 +30,7 @@ from qe.proof.entry import Entry, Json, formula_to_json, poly_to_text
 from qe.proof.on_demand import OnDemand
 from qe.proof.run_log import RunLog
 from qe.proof.step import Nested, Place, Step
-from qe.proving.lemmas import EMPTY, refuting
+from qe.proving.lemmas import EMPTY, identities, refuting
 from qe.proving.nested import derivations_within, formulas_within, proved_inside
 from qe.proving.substitution_steps import steps
 
@@ -45,7 +45,7 @@ SIMPLIFYING = (
 )
 """Rules whose steps go on under quantifiers."""
 
-CRITICAL, SEARCH = "critical values", "Boolean search"
+CRITICAL, SEARCH, SQUARES = "critical values", "Boolean search", "signs by sums of squares"
 
 UNRECORDED = "steps that are not recorded"
 
@@ -240,6 +240,8 @@ class Prover:
         if isinstance(refuted, OnDemand):
             return self._refuted(step, refuted)
         given = step.evidence.get("proof")
+        if step.rule == SQUARES:
+            return self._positive(step, given, context)
         evidence = self._plain(given) if isinstance(given, Mapping) else {}
         if step.rule == SEARCH:
             completed = self._searched(step, evidence)
@@ -268,6 +270,16 @@ class Prover:
             self.budget.check("prove")
             return None
         return evidence
+
+    def _positive(self, step: Step, given: object, context: Context) -> tuple[str, Json] | None:
+        """Signs that follow from identities, which the rule has found."""
+        assert isinstance(given, Mapping)
+        evidence: Json = {"theory": identities([*given["identities"]], self.ring)}
+        try:
+            RULES[step.rule](self._claim(step.rule, step, evidence), context, self.limits)
+        except CertificateRejected:
+            return None
+        return step.rule, evidence
 
     def _substituted(self, step: Step, trace: Eliminated) -> Json | None:
         """The steps of virtual substitution, all of them accepted."""

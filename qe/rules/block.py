@@ -13,6 +13,7 @@ from qe.rules.cases import groebner_equations, split_factors, split_squares
 from qe.rules.degree_shift import shift_degree
 from qe.rules.generic import drop_inequations
 from qe.rules.scaling import fix_scale
+from qe.rules.squares import known_signs
 from qe.rules.step import StepKind
 from qe.rules.structural import guarded_linear_equation, independent_parts, linear_equation, solvable_disjuncts
 from qe.rules.takes_value import drop_what_can_be_met
@@ -24,6 +25,7 @@ RULES: tuple[Rule, ...] = (
     independent_parts,
     two_balls,
     linear_equation,
+    known_signs,
     drop_what_can_be_met,
     fix_origin,
     drop_inequations,

@@ -26,6 +26,7 @@ class StepKind(Enum):
     CANCELLING = "multiple of an equation subtracted"
     FACTOR_SPLIT = "case split on factors"
     DISTRIBUTION = "disjuncts with equations apart"
+    SQUARES = "signs by sums of squares"
     SUM_OF_SQUARES = "vanishing sum of squares split"
 
 

@@ -35,6 +35,7 @@ ROWS = {
     "qe.reference": 3,
     "qe.certify": 4,
     "qe.simplify": 4,
+    "qe.positivity": 4,
     "qe.rules": 5,
     "qe.cad": 5,
     "qe.groebner": 5,

@@ -24,6 +24,7 @@ CASES = {
     "translated": "ex x, y. (x - y)^4 + (x - y) < a",
     "scaled": "ex x, y. x^3 + y^3 > 0 and x^2*y > 0",
     "squares": "ex x, y. x^2 + y^2 = 0 and x*y = a",
+    "squares known": "ex x, y, z. x^4 + y^4 + z^4 + 2 > 4*x*y*z and x*y*z = a and x > b",
     "factors": "ex x. (x - a)*(x - b) = 0 and x > 0",
     "inequations": "ex x, y. x*y < 1 and a*x + b*y /= 0 and x > y",
     "nonzero": "ex x. a*x^2 + b*x + c /= 0 and x /= d",

@@ -33,6 +33,7 @@ ALWAYS = {
     "inequations that remove no interior",
     "case split on factors",
     "boundary apart",
+    "signs by sums of squares",
     "vanishing sum of squares split",
     "nested blocks of one kind gathered",
     "rotation of the axes",

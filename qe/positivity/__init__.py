@@ -1,0 +1,1 @@
+"""Polynomials that are nowhere negative, everywhere or where some variables are not, with identities that prove it."""

@@ -1,0 +1,31 @@
+"""Whether a polynomial is nowhere negative, by the first way that proves it."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+from qe.exact.ring import Poly
+from qe.positivity.binomials import binomial_squares
+from qe.positivity.gram import sum_of_squares
+from qe.positivity.identity import Positive
+from qe.positivity.ordered import ordered_differences
+from qe.positivity.samples import may_be_positive
+
+MOST_VARIABLES, MOST_DEGREE, MOST_TERMS = 6, 12, 60
+FEWEST_VARIABLES = 4
+"""Below this, decomposition decides sooner than the libraries of a semidefinite program are loaded."""
+
+
+@lru_cache(maxsize=5_000)
+def nowhere_negative(poly: Poly, orthant: frozenset[int]) -> Positive | None:
+    """That the polynomial is nowhere negative where the variables of ``orthant`` are not negative."""
+    used, degree = poly.variables, poly.total_degree
+    if not 2 <= degree <= MOST_DEGREE or len(used) > MOST_VARIABLES or poly.term_count() > MOST_TERMS:
+        return None
+    own = orthant.intersection(used)
+    if any(poly.degree(i) % 2 for i in used if i not in own) or not may_be_positive(poly, own):
+        return None
+    found = binomial_squares(poly, own)
+    if found is None and own:
+        found = ordered_differences(poly, own)
+    return found or (sum_of_squares(poly) if len(used) >= FEWEST_VARIABLES else None)

@@ -1,0 +1,63 @@
+"""Comparisons of polynomials that are nowhere negative, or nowhere positive, by an identity that says so.
+
+THEOREM. Where p is a sum of products that are nowhere negative (squares, and variables that the conditions beside it
+keep from being negative), p >= 0 holds, p < 0 does not, and p <= 0 says p = 0; if one of the products is a positive
+number, p > 0 holds. The identities are found in ``qe.positivity``.
+"""
+
+from __future__ import annotations
+
+from qe.exact.ring import Poly, format_poly
+from qe.formula.build import atom
+from qe.formula.syntax import FALSE, TRUE, Atom, Formula, Relation, RootAtom
+from qe.formula.traverse import conjuncts, is_quantifier_free, map_atoms, polynomials
+from qe.positivity.identity import Identity, Positive
+from qe.positivity.prove import nowhere_negative
+from qe.rules.block_context import BlockContext, Found
+from qe.rules.step import StepKind
+from qe.rules.tree import Leaf, Node, Pending
+from qe.simplify.facts import generator
+
+MOST_POLYNOMIALS, FEWEST_VARIABLES = 12, 3
+"""Polynomials of one block that are looked at, and variables of each: with fewer, other methods are as quick."""
+
+
+def known_signs(variables: tuple[str, ...], body: Formula, context: BlockContext) -> Found | None:
+    """Every comparison with a polynomial of a known sign replaced by what is left of it."""
+    if StepKind.SQUARES not in context.enabled or not is_quantifier_free(body):
+        return None
+    polys = [p for p in polynomials(body) if len(p.variables) >= FEWEST_VARIABLES and p.total_degree > 1]
+    if not polys or len(polys) > MOST_POLYNOMIALS:
+        return None
+    facts = context.facts.extended([p for p in conjuncts(body) if isinstance(p, Atom) and p.poly.total_degree == 1])
+    ring = polys[0].ring
+    orthant = frozenset(i for i in range(ring.size) if -1 not in facts.signs(generator(ring, i)))
+    signs: dict[Poly, frozenset[int]] = {}
+    proofs: list[Identity] = []
+
+    def replaced(found: Atom | RootAtom) -> Formula:
+        poly = found.poly
+        if isinstance(found, RootAtom) or poly not in signs:
+            return found
+        left = found.relation.signs & signs[poly]
+        if not left or left == signs[poly]:
+            return TRUE if left else FALSE
+        return atom(poly, Relation.EQ) if left == {0} else found
+
+    for poly in polys:
+        for sign in (1, -1):
+            proof: Positive | None = nowhere_negative(poly * sign, orthant)
+            if proof is None:
+                continue
+            signs[poly] = frozenset((sign,)) if proof.strict else frozenset((0, sign))
+            if map_atoms(body, replaced) == body:
+                del signs[poly]
+            else:
+                proofs += proof.identities
+            break
+    if not signs:
+        return None
+    after = map_atoms(body, replaced)
+    kept = tuple(v for v in variables if v in after.free)
+    node: Node = Pending(kept, after) if kept else Leaf((), after)
+    return Found(StepKind.SQUARES, ", ".join(map(format_poly, signs)), node, {"identities": [i.terms for i in proofs]})

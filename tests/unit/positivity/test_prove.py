@@ -1,0 +1,169 @@
+"""Polynomials that are nowhere negative: each way, its identities multiplied out, and what must not be claimed."""
+
+from __future__ import annotations
+
+import builtins
+import random
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from qe.exact.ring import Poly, Ring
+from qe.io.text import read_polynomial
+from qe.positivity import gram
+from qe.positivity.binomials import binomial_squares
+from qe.positivity.gram import sum_of_squares
+from qe.positivity.identity import Positive
+from qe.positivity.ordered import ordered_differences
+from qe.positivity.prove import nowhere_negative
+
+RING = Ring.of(("x", "y", "z"))
+EVERY = frozenset(range(3))
+NOWHERE: frozenset[int] = frozenset()
+
+
+def poly_of(text: str) -> Poly:
+    return read_polynomial(text)[0].convert(RING)
+
+
+def check(poly: Poly, proof: Positive, orthant: frozenset[int]) -> None:
+    """The identities are identities, and the polynomial stands in the first ones with a negative number alone."""
+    gens = {RING.gen(i) for i in orthant}
+    for identity in proof.identities:
+        total = RING.constant(0)
+        for c, powers in identity.terms:
+            term = RING.constant(c)
+            for base, exponent in powers:
+                term = term * base**exponent
+            total = total + term
+        assert not total
+    (c, powers), *rest = proof.identities[0].terms
+    assert c < 0 and powers == ((poly, 1),)
+    assert all(c > 0 for c, _ in rest)
+    if len(proof.identities) == 1:
+        assert all(e % 2 == 0 or base in gens for _, powers in rest for base, e in powers)
+        if proof.strict:
+            assert any(not powers for _, powers in rest)
+
+
+@pytest.mark.parametrize(
+    ("text", "orthant", "strict"),
+    [
+        ("x^4 + y^4 + z^4 + 1 - 4*x*y*z", NOWHERE, False),
+        ("x^4 + y^4 + z^4 + 2 - 4*x*y*z", NOWHERE, True),
+        ("x^4 - x^2 + 1", NOWHERE, True),
+        ("(x + y)*(y + z)*(z + x) - 8*x*y*z", EVERY, False),
+        ("x^3*z^2 + x - 2*x^2*z", frozenset({0}), False),
+        ("x^2 + 2*x*y + y^2", NOWHERE, False),
+    ],
+)
+def test_binomial_squares(text: str, orthant: frozenset[int], strict: bool) -> None:
+    poly = poly_of(text)
+    proof = binomial_squares(poly, orthant)
+    assert proof is not None and proof.strict is strict
+    check(poly, proof, orthant)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "x^3 + y^3 + z^3 - 3*x*y*z",
+        "x^2*(x - y)*(x - z) + y^2*(y - x)*(y - z) + z^2*(z - x)*(z - y)",
+        "x^2*y + y^2*z + z^2*x - 3*x*y*z",
+    ],
+)
+def test_ordered_differences(text: str) -> None:
+    poly = poly_of(text)
+    proof = ordered_differences(poly, EVERY)
+    assert proof is not None and not proof.strict and len(proof.identities) == 7
+    check(poly, proof, EVERY)
+    assert ordered_differences(poly, frozenset({0, 1})) is None
+    assert ordered_differences(poly - RING.gen(0) ** 3, EVERY) is None
+
+
+@pytest.mark.parametrize(
+    ("text", "strict"),
+    [
+        ("2*x^4 + 2*x^3*y - x^2*y^2 + 5*y^4", False),
+        ("(x^2 - y + 1)^2 + (x + y*z - 2)^2 + (z - 1)^2", False),
+        ("(x^2 - y + 1)^2 + (x + y*z - 2)^2 + (z - 1)^2 + 1", True),
+        ("(x^2 + y^2 + z^2)*(x^4*y^2 + x^2*y^4 + z^6 - 3*x^2*y^2*z^2)", False),
+        ("x^4 - x^2*y^2 + 1/4*y^4", False),
+    ],
+)
+def test_gram_matrices(text: str, strict: bool) -> None:
+    pytest.importorskip("clarabel")
+    poly = poly_of(text)
+    proof = sum_of_squares(poly)
+    assert proof is not None and proof.strict is strict
+    check(poly, proof, NOWHERE)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "x^4*y^2 + x^2*y^4 + 1 - 3*x^2*y^2 - 1/1000",  # below the Motzkin polynomial, which is 0 at (1, 1)
+        "x^4 - 2*x^2 + 999/1000",
+        "x*y*z",
+        "x^3 + y^3",
+        "-x^2 - y^2 - z^2",
+        "x^2*y^2 - x",
+    ],
+)
+def test_what_takes_negative_values(text: str) -> None:
+    poly = poly_of(text)
+    for prove in (lambda p: nowhere_negative(p, NOWHERE), sum_of_squares, lambda p: binomial_squares(p, NOWHERE)):
+        assert prove(poly) is None
+
+
+def test_the_motzkin_polynomial_is_no_sum_of_squares() -> None:
+    assert sum_of_squares(poly_of("x^4*y^2 + x^2*y^4 + z^6 - 3*x^2*y^2*z^2")) is None
+
+
+def test_without_the_library_the_exact_ways_are_left(monkeypatch: pytest.MonkeyPatch) -> None:
+    real = builtins.__import__
+
+    def absent(name: str, *rest: object) -> object:
+        if name == "clarabel":
+            raise ImportError(name=name)
+        return real(name, *rest)  # type: ignore[arg-type]
+
+    monkeypatch.setattr(builtins, "__import__", absent)
+    gram.sum_of_squares.cache_clear()
+    assert sum_of_squares(poly_of("2*x^4 + 2*x^3*y - x^2*y^2 + 5*y^4 + z^4")) is None
+    assert nowhere_negative(poly_of("x^4 + y^4 + z^4 + 5 - 4*x*y*z"), NOWHERE) is not None
+    gram.sum_of_squares.cache_clear()
+
+
+def random_poly(rng: random.Random, degree: int, terms: int) -> Poly:
+    exponents = [tuple(rng.randint(0, degree) for _ in range(3)) for _ in range(terms)]
+    return sum((RING.from_terms({e: rng.randint(-3, 3)}) for e in exponents if sum(e) <= degree), RING.constant(0))
+
+
+@given(st.integers(0, 10**6), st.sets(st.integers(0, 2)))
+def test_what_is_proved_has_no_negative_value(seed: int, orthant: set[int]) -> None:
+    rng = random.Random(seed)
+    squares = [random_poly(rng, 2, 3) ** 2 for _ in range(2)]
+    poly = sum(squares, RING.constant(rng.randint(-1, 1))) + random_poly(rng, 4, 2)
+    where = frozenset(orthant)
+    for proof in (binomial_squares(poly, where), ordered_differences(poly, where), nowhere_negative(poly, where)):
+        if proof is None:
+            continue
+        check(poly, proof, where)
+        for _ in range(20):
+            point = [rng.randint(-4, 4) for _ in range(3)]
+            value = poly.evaluate([abs(v) if i in where else v for i, v in enumerate(point)])
+            assert value > 0 if proof.strict else value >= 0
+
+
+@settings(max_examples=10)
+@given(st.integers(0, 10**6))
+def test_sums_of_squares_are_found(seed: int) -> None:
+    pytest.importorskip("clarabel")
+    rng = random.Random(seed)
+    poly = sum((random_poly(rng, 2, 4) ** 2 for _ in range(3)), RING.constant(1))
+    poly = poly + RING.gen(0) ** 4 + RING.gen(1) ** 4 + RING.gen(2) ** 4
+    proof = sum_of_squares(poly)
+    assert proof is not None
+    check(poly, proof, NOWHERE)
