@@ -1,12 +1,22 @@
-"""Real roots of polynomials with ball coefficients: disjoint balls, each with exactly one root, or None."""
+"""Roots of polynomials with ball coefficients: disjoint balls, each with exactly one distinct root, or None.
+
+THEOREM (Smith 1970, "Error bounds for zeros of a polynomial based upon Gerschgorin's theorems"). Let p have degree n,
+leading coefficient a, and let z_1, …, z_n be different complex numbers. The discs around z_i of radius
+n |p(z_i)| / |a prod_{j != i} (z_i - z_j)| hold all roots of p, and a connected component of m of them holds exactly m,
+counted with multiplicity. So every component holds a root, and where there are as many components as p is known to have
+distinct roots at most, each of them holds exactly one distinct root: a cluster that is a multiple root.
+"""
 
 from __future__ import annotations
 
 import itertools
 
-from flint import acb_poly, arb, arb_poly
+from flint import acb, acb_poly, arb, arb_poly
 
 from qe.exact.balls import ball_sign
+
+COARSE = 64
+"""Bits with which clusters are first looked for: FLINT takes longer to find closer roots, or does not."""
 
 
 def quadratic_roots(c: list[arb]) -> list[arb] | None:
@@ -31,13 +41,13 @@ def quadratic_roots(c: list[arb]) -> list[arb] | None:
     return pair if pair[0] < pair[1] else None
 
 
-def certified_roots(c: list[arb], bits: int) -> list[arb] | None:
-    """Real roots from isolating complex balls: a ball that meets its conjugate and no other holds a real root."""
-    try:
-        # Half the bits: cancellation in the coefficients costs some, and a tolerance out of reach at every
-        # precision would never end. ``FibreRoot.ball`` asks again with more bits where it needs them.
-        found = acb_poly(arb_poly(c)).roots(tol=arb(2) ** -(bits // 2))
-    except ValueError:
+def certified_roots(c: list[arb], bits: int, most: int | None = None) -> list[arb] | None:
+    """The real ones among ``distinct_roots``, ascending.
+
+    The roots come in pairs of conjugates; so one whose ball meets its mirror image and no other ball's is real.
+    """
+    found = distinct_roots(c, bits, most)
+    if found is None:
         return None
     real: list[arb] = []
     for i, z in enumerate(found):
@@ -48,3 +58,91 @@ def certified_roots(c: list[arb], bits: int) -> list[arb] | None:
             real.append(z.real)
     real.sort(key=arb.mid)
     return real if all(a < b for a, b in itertools.pairwise(real)) else None
+
+
+def distinct_roots(c: list[arb], bits: int, most: int | None = None) -> list[acb] | None:
+    """Disjoint balls, one for every distinct complex root of a polynomial that is known to have at most ``most`` of
+    them (None: its degree). The leading coefficient's ball does not contain zero.
+    """
+    if most is not None and most < len(c) - 1:
+        found = _clusters(c, bits)
+        return found if found is not None and len(found) == most else None
+    try:
+        # Half the bits: cancellation in the coefficients costs some, and a tolerance out of reach at every
+        # precision would never end. ``FibreRoot.ball`` asks again with more bits where it needs them.
+        return list(acb_poly(arb_poly(c)).roots(tol=arb(2) ** -(bits // 2)))
+    except ValueError:
+        return None
+
+
+def _clusters(c: list[arb], bits: int) -> list[acb] | None:
+    """Balls around the components of Smith's discs; the centres are good guesses, whose quality proves nothing."""
+    rough = _rough_roots(c)
+    if rough is None or len(rough) != len(c) - 1:
+        return None
+    p = acb_poly(arb_poly(c))
+    held = _merged(_discs(p, rough))
+    groups = [[z for z in rough if ball.overlaps(z)] for ball in held]
+    if sum(map(len, groups)) != len(rough):
+        return None
+    return _merged(_discs(p, [z for group in groups for z in _refined(p, group, bits)]))
+
+
+def _rough_roots(c: list[arb]) -> list[acb] | None:
+    """Different numbers near the roots: nearly every small change of one coefficient leaves simple roots, about
+    2^-(COARSE/m) apart where m coincide.
+    """
+    size = sum((abs(x.mid()) for x in c), arb(0))
+    near = [(c[0].mid() + size * arb(2) ** -COARSE).mid(), *(x.mid() for x in c[1:])]
+    try:
+        return [_exact(z) for z in acb_poly(arb_poly(near)).roots(tol=arb(2) ** -COARSE, maxprec=8 * COARSE)]
+    except ValueError:
+        return None
+
+
+def _refined(p: acb_poly, group: list[acb], bits: int) -> list[acb]:
+    """As many numbers around the root of a derivative, which a multiple root is a simple root of."""
+    size = len(group)
+    for _ in range(size - 1):
+        p = p.derivative()
+    slope, x = p.derivative(), _exact(sum(group, acb(0)) / size)
+    for _ in range(bits.bit_length()):
+        x = _exact(x - p(x) / slope(x))
+    if size == 1:
+        return [x]
+    reach = (1 + abs(x)) * arb(2) ** -(bits // size)
+    return [_exact(x + acb(arb(2 * k) / size).exp_pi_i() * reach) for k in range(size)]
+
+
+def _exact(z: acb) -> acb:
+    return acb(z.real.mid(), z.imag.mid())
+
+
+def _discs(p: acb_poly, centres: list[acb]) -> list[acb]:
+    """Squares around Smith's discs; infinite ones where centres coincide."""
+    degree, lead = p.degree(), abs(p[p.degree()])
+    found: list[acb] = []
+    for i, z in enumerate(centres):
+        apart = lead
+        for j, other in enumerate(centres):
+            if j != i:
+                apart = apart * abs(z - other)
+        reach = arb(0, (degree * abs(p(z)) / apart).upper())
+        found.append(acb(z.real + reach, z.imag + reach))
+    return found
+
+
+def _merged(balls: list[acb]) -> list[acb]:
+    """The hulls of overlapping balls, until none overlap."""
+    kept: list[acb] = []
+    for ball in balls:
+        grown = True
+        while grown:
+            grown = False
+            for other in kept:
+                if ball.overlaps(other):
+                    kept.remove(other)
+                    ball, grown = acb(ball.real.union(other.real), ball.imag.union(other.imag)), True
+                    break
+        kept.append(ball)
+    return kept

@@ -5,12 +5,12 @@ from __future__ import annotations
 from itertools import pairwise
 
 import pytest
-from flint import arb, fmpq, fmpz_poly
+from flint import acb, acb_poly, arb, fmpq, fmpz_poly
 from hypothesis import given
 from hypothesis import strategies as st
 
 from qe.exact.algebraic import real_roots
-from qe.exact.ball_roots import certified_roots, quadratic_roots
+from qe.exact.ball_roots import certified_roots, distinct_roots, quadratic_roots
 from qe.exact.balls import precision
 
 BITS = 128
@@ -69,3 +69,39 @@ def test_a_small_root_beside_a_huge_one_keeps_its_digits(coefficients: list[int]
         assert float(small.rad()) < abs(float(small)) * 1e-30
         root = min(real_roots(fmpz_poly(coefficients)), key=lambda r: abs(float(r)))
         assert small.overlaps(root.ball(4 * BITS))
+
+
+NUMBERS = [acb(arb(2)), acb(arb(-2.25)), acb(arb(1000)), acb(0, 1), acb(1, 2)]
+
+
+@given(
+    st.lists(st.tuples(st.sampled_from(NUMBERS), st.integers(1, 3)), min_size=1, max_size=3, unique_by=str),
+    st.booleans(),
+)
+def test_clusters_of_known_number_are_multiple_roots(given_roots: list[tuple[acb, int]], fine: bool) -> None:
+    bits = 512 if fine else BITS
+    with precision(bits + 16):
+        third = arb(1) / 3  # makes the coefficients balls, not numbers
+        p, distinct = acb_poly([third]), dict[str, acb]()
+        for root, times in given_roots:
+            both = [root] if root.imag == 0 else [root, root.conjugate()]
+            for z in both:
+                distinct[str(z)] = z
+                p *= acb_poly([-z, 1]) ** times
+        c = [x.real for x in p.coeffs()]
+        found = distinct_roots(c, bits, len(distinct))
+        assert found is not None and len(found) == len(distinct)
+        assert all(sum(z.overlaps(w) for w in found) == 1 for z in distinct.values())
+        real = certified_roots(c, bits, len(distinct))
+        assert real is not None and len(real) == sum(1 for z in distinct.values() if z.imag == 0)
+        if len(distinct) + 1 < len(c) - 1:
+            assert distinct_roots(c, bits, len(distinct) + 1) is None  # more are asked for than are seen
+
+
+def test_close_roots_are_no_double_root() -> None:
+    """Three roots, two of them 2^-100 apart, are not merged where nothing says that they are fewer."""
+    with precision(512 + 16):
+        near = arb(2) ** -100
+        c = [x.real for x in (acb_poly([-1, 1]) * acb_poly([-1 - near, 1]) * acb_poly([-5, 1])).coeffs()]
+        found = distinct_roots(c, 512)
+        assert found is not None and len(found) == 3
