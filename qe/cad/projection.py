@@ -15,6 +15,7 @@ from itertools import combinations
 from types import MappingProxyType
 
 from qe.errors import BudgetExceeded
+from qe.exact.from_projection import discriminant, resultant
 from qe.exact.ring import Poly
 from qe.options import Budget, Projection
 
@@ -74,12 +75,12 @@ def project(
             # over x = 0); with all of them in the list, a factor nullified anywhere on a cell is so at its sample.
             yield from coefficients[:-1]
         if f.degree(variable) >= 2:
-            yield f.discriminant(variable)
+            yield discriminant(f, variable)
     for f, g in combinations(core, 2):
-        yield f.resultant(g, variable)
+        yield resultant(f, g, variable)
     if constraint is not None:
         for e in core:
-            yield from (e.resultant(g, variable) for g in listing if g not in constraint)
+            yield from (resultant(e, g, variable) for g in listing if g not in constraint)
 
 
 def effort(polys: Iterable[Poly], variable: int) -> int:

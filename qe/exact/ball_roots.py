@@ -1,14 +1,24 @@
-"""Real roots of polynomials with ball coefficients: disjoint balls, each with exactly one root, or None."""
+"""Roots of polynomials with ball coefficients: disjoint balls, each with exactly one distinct root, or None.
+
+THEOREM (Smith 1970, "Error bounds for zeros of a polynomial based upon Gerschgorin's theorems"). Let p have degree n,
+leading coefficient a, and let z_1, …, z_n be different complex numbers. The discs around z_i of radius
+n |p(z_i)| / |a prod_{j != i} (z_i - z_j)| hold all roots of p, and a connected component of m of them holds exactly m,
+counted with multiplicity. So every component holds a root, and where there are as many components as p is known to have
+distinct roots at most, each of them holds exactly one distinct root: a cluster that is a multiple root.
+"""
 
 from __future__ import annotations
 
 import itertools
 from contextlib import suppress
 
-from flint import acb, acb_poly, arb, arb_mat, arb_poly, fmpq, fmpq_poly
+from flint import acb, acb_poly, arb, arb_poly
 
-from qe.exact.balls import EXACT_FROM, ball_sign, hull
-from qe.exact.isolate import isolate
+from qe.exact.balls import EXACT_FROM, ball_sign
+from qe.exact.counted_roots import counted_roots
+
+COARSE = 64
+"""Bits with which clusters are first looked for: FLINT takes longer to find closer roots, or does not."""
 
 
 def quadratic_roots(c: list[arb]) -> list[arb] | None:
@@ -33,17 +43,15 @@ def quadratic_roots(c: list[arb]) -> list[arb] | None:
     return pair if pair[0] < pair[1] else None
 
 
-def certified_roots(c: list[arb], bits: int) -> list[arb] | None:
-    """Real roots of a polynomial of higher degree (coefficients from degree 0 up, the last one not zero)."""
-    found = _by_complex_roots(arb_poly(c), bits)
-    return _by_counting(arb_poly(c), bits) if found is None and bits >= EXACT_FROM else found
+def certified_roots(c: list[arb], bits: int, most: int | None = None) -> list[arb] | None:
+    """The real ones among ``distinct_roots``, ascending.
 
-
-def _by_complex_roots(polynomial: arb_poly, bits: int) -> list[arb] | None:
-    """From isolating complex balls: a ball that meets its conjugate and no other holds a real root."""
-    found = _isolated(acb_poly(polynomial), bits)
+    The roots come in pairs of conjugates; so one whose ball meets its mirror image and no other ball's is real. Where
+    all are simple and not found, ``counted_roots`` may tell them apart.
+    """
+    found = distinct_roots(c, bits, most)
     if found is None:
-        return None
+        return counted_roots(c, bits) if bits >= EXACT_FROM and (most is None or most == len(c) - 1) else None
     real: list[arb] = []
     for i, z in enumerate(found):
         if z.imag.contains(0):
@@ -51,62 +59,94 @@ def _by_complex_roots(polynomial: arb_poly, bits: int) -> list[arb] | None:
             if any(mirror.overlaps(other) for j, other in enumerate(found) if j != i):
                 return None
             real.append(z.real)
-    return _ascending(real)
+    real.sort(key=arb.mid)
+    return real if all(a < b for a, b in itertools.pairwise(real)) else None
 
 
-def _isolated(polynomial: acb_poly, bits: int) -> list[acb] | None:
-    """Disjoint balls around all complex roots; None where the coefficients are not sharp enough for that.
-
-    The tolerance is absolute, and half the bits, since cancellation in the coefficients costs some. Roots that are
-    large for their coefficients do not reach it at any precision, and FLINT would try for ever: hence the bound on the
-    precision, and a second call without tolerance. ``FibreRoot.ball`` asks again with more bits where it needs them.
+def distinct_roots(c: list[arb], bits: int, most: int | None = None) -> list[acb] | None:
+    """Disjoint balls, one for every distinct complex root of a polynomial that is known to have at most ``most`` of
+    them (None: its degree). The leading coefficient's ball does not contain zero.
     """
+    if most is not None and most < len(c) - 1:
+        found = _clusters(c, bits)
+        return found if found is not None and len(found) == most else None
+    # The tolerance is absolute, and half the bits: cancellation in the coefficients costs some. Roots that are large for
+    # their coefficients do not reach it at any precision, and FLINT would try for ever: hence the bound on the
+    # precision, and a second call without tolerance. ``FibreRoot.ball`` asks again with more bits where it needs them.
     for tolerance in (arb(2) ** -(bits // 2), None):
         with suppress(ValueError):
-            return polynomial.roots(tol=tolerance, maxprec=2 * bits)
+            return list(acb_poly(arb_poly(c)).roots(tol=tolerance, maxprec=2 * bits))
     return None
 
 
-def _by_counting(polynomial: arb_poly, bits: int) -> list[arb] | None:
-    """By the number of real roots, which is the same for all polynomials in the balls if neither the leading
-    coefficient nor the discriminant vanishes for one of them: real roots could only appear or go in pairs, through a
-    double one. So the midpoints tell it; and where that many disjoint intervals show a change of sign, each of them
-    has one root. FLINT's iteration for complex roots does not end for roots much closer than they are large.
+def _clusters(c: list[arb], bits: int) -> list[acb] | None:
+    """Balls around the components of Smith's discs; the centres are good guesses, whose quality proves nothing."""
+    rough = _rough_roots(c)
+    if rough is None or len(rough) != len(c) - 1:
+        return None
+    p = acb_poly(arb_poly(c))
+    held = _merged(_discs(p, rough))
+    groups = [[z for z in rough if ball.overlaps(z)] for ball in held]
+    if sum(map(len, groups)) != len(rough):
+        return None
+    return _merged(_discs(p, [z for group in groups for z in _refined(p, group, bits)]))
+
+
+def _rough_roots(c: list[arb]) -> list[acb] | None:
+    """Different numbers near the roots: nearly every small change of one coefficient leaves simple roots, about
+    2^-(COARSE/m) apart where m coincide.
     """
-    if _discriminant(polynomial).contains(0):
+    size = sum((abs(x.mid()) for x in c), arb(0))
+    near = [(c[0].mid() + size * arb(2) ** -COARSE).mid(), *(x.mid() for x in c[1:])]
+    try:
+        return [_exact(z) for z in acb_poly(arb_poly(near)).roots(tol=arb(2) ** -COARSE, maxprec=8 * COARSE)]
+    except ValueError:
         return None
-    middle = fmpq_poly([x.mid().fmpq() for x in polynomial.coeffs()]).numer()
-    found = [_around(polynomial, lo, hi, bits) for lo, hi in isolate(middle)]
-    certain = [x for x in found if x is not None]
-    return _ascending(certain) if len(certain) == len(found) else None
 
 
-def _discriminant(polynomial: arb_poly) -> arb:
-    """The resultant with the derivative, which is the discriminant times the leading coefficient."""
-    n, slope = polynomial.degree(), polynomial.derivative()
-    rows = [[*([0] * k), *polynomial.coeffs()[::-1], *([0] * (n - 2 - k))] for k in range(n - 1)]
-    rows += [[*([0] * k), *slope.coeffs()[::-1], *([0] * (n - 1 - k))] for k in range(n)]
-    return arb_mat(rows).det()
+def _refined(p: acb_poly, group: list[acb], bits: int) -> list[acb]:
+    """As many numbers around the root of a derivative, which a multiple root is a simple root of."""
+    size = len(group)
+    for _ in range(size - 1):
+        p = p.derivative()
+    slope, x = p.derivative(), _exact(sum(group, acb(0)) / size)
+    for _ in range(bits.bit_length()):
+        x = _exact(x - p(x) / slope(x))
+    if size == 1:
+        return [x]
+    reach = (1 + abs(x)) * arb(2) ** -(bits // size)
+    return [_exact(x + acb(arb(2 * k) / size).exp_pi_i() * reach) for k in range(size)]
 
 
-def _around(polynomial: arb_poly, lo: fmpq, hi: fmpq, bits: int) -> arb | None:
-    """A ball inside the interval, with different signs at its ends; None where the balls do not tell them."""
-    if lo == hi:
-        margin = (abs(lo) if lo else fmpq(1)) / 2 ** (bits // 2)
-        lo, hi = lo - margin, hi + margin
-    left, right = (ball_sign(polynomial(arb(end))) for end in (lo, hi))
-    if not left or not right or left == right:
-        return None
-    for _ in range(bits):
-        middle = (lo + hi) / 2
-        sign = ball_sign(polynomial(arb(middle)))
-        if not sign:
-            break
-        lo, hi = (middle, hi) if sign == left else (lo, middle)
-    return hull(lo, hi)
+def _exact(z: acb) -> acb:
+    return acb(z.real.mid(), z.imag.mid())
 
 
-def _ascending(roots: list[arb]) -> list[arb] | None:
-    """The balls in their order if they are disjoint."""
-    roots.sort(key=arb.mid)
-    return roots if all(a < b for a, b in itertools.pairwise(roots)) else None
+def _discs(p: acb_poly, centres: list[acb]) -> list[acb]:
+    """Squares around Smith's discs; infinite ones where centres coincide."""
+    degree, lead = p.degree(), abs(p[p.degree()])
+    found: list[acb] = []
+    for i, z in enumerate(centres):
+        apart = lead
+        for j, other in enumerate(centres):
+            if j != i:
+                apart = apart * abs(z - other)
+        reach = arb(0, (degree * abs(p(z)) / apart).upper())
+        found.append(acb(z.real + reach, z.imag + reach))
+    return found
+
+
+def _merged(balls: list[acb]) -> list[acb]:
+    """The hulls of overlapping balls, until none overlap."""
+    kept: list[acb] = []
+    for ball in balls:
+        grown = True
+        while grown:
+            grown = False
+            for other in kept:
+                if ball.overlaps(other):
+                    kept.remove(other)
+                    ball, grown = acb(ball.real.union(other.real), ball.imag.union(other.imag)), True
+                    break
+        kept.append(ball)
+    return kept

@@ -8,6 +8,7 @@ factor over Q, or by a greatest common divisor over the tower), never by toleran
 from __future__ import annotations
 
 import itertools
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 
@@ -16,6 +17,7 @@ from flint import arb, fmpq, fmpz_poly
 from qe.errors import InternalError
 from qe.exact.algebraic import RealAlgebraic, irreducible_factors, irreducible_roots
 from qe.exact.balls import EXACT_FROM, FIRST_PRECISION, lower_end, precision, upper_end
+from qe.exact.coincidence import Shape, Side, seen_to_be_equal
 from qe.exact.isolate import simplest_between
 from qe.exact.lazard import lazard_evaluation
 from qe.exact.ring import Poly
@@ -33,9 +35,9 @@ class Section:
     members: list[int]
     bits: int = FIRST_PRECISION
 
-    def ball(self) -> arb:
+    def ball(self, bits: int | None = None) -> arb:
         value = self.value
-        return arb(value) if isinstance(value, fmpq) else value.ball(self.bits)
+        return arb(value) if isinstance(value, fmpq) else value.ball(bits or self.bits)
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,7 +105,7 @@ def isolate_over(point: Point, polys: tuple[Poly, ...], *, lazard: bool = False)
     evaluation (McCallum, Parusiński, Păunescu 2019); its sign is 0 all the same.
     """
     var = point.depth
-    shapes: list[fmpz_poly | Fibre | None] = []
+    shapes: list[Shape] = []
     nullified: list[int] = []
     sections: dict[tuple[object, int], Section] = {}
     loose: list[Section] = []
@@ -117,13 +119,13 @@ def isolate_over(point: Point, polys: tuple[Poly, ...], *, lazard: bool = False)
                 _collect(point, var, j, _specialise(point, residual, var), sections, loose)
         else:
             _collect(point, var, j, shape, sections, loose)
-    ordered = _separate(point, [*sections.values(), *loose])
+    ordered = _separate(point, [*sections.values(), *loose], polys, shapes)
     sectors = _sector_samples(ordered)
     signs = tuple(_signs(shape, j, sectors, ordered) for j, shape in enumerate(shapes))
     return Isolation(point, polys, tuple(ordered), tuple(sectors), signs, tuple(nullified))
 
 
-def _specialise(point: Point, f: Poly, var: int) -> fmpz_poly | Fibre | None:
+def _specialise(point: Point, f: Poly, var: int) -> Shape:
     """f over the point: integer univariate, a fibre with algebraic coefficients, or None if nullified."""
     g = point.reduce(f)
     if not g:
@@ -131,7 +133,7 @@ def _specialise(point: Point, f: Poly, var: int) -> fmpz_poly | Fibre | None:
     variables = g.variables
     if not variables or variables == (var,):
         return g.to_univariate(var)
-    fibre = Fibre(point, var, g.coefficients(var))
+    fibre = Fibre(point, var, g.coefficients(var), f)
     with precision(EXACT_FROM + 16):
         certain = any(not point.enclose(c, EXACT_FROM).contains(0) for c in fibre.coefficients)
     return fibre if certain or fibre.strip() else None
@@ -141,7 +143,7 @@ def _collect(
     point: Point,
     var: int,
     j: int,
-    shape: fmpz_poly | Fibre | None,
+    shape: Shape,
     sections: dict[tuple[object, int], Section],
     loose: list[Section],
 ) -> None:
@@ -161,24 +163,29 @@ def _collect(
                 sections[key] = Section(root.as_fmpq() if root.is_rational else root, [j])
 
 
-def _separate(point: Point, sections: list[Section]) -> list[Section]:
+def _separate(point: Point, sections: list[Section], polys: Sequence[Poly], shapes: Sequence[Shape]) -> list[Section]:
     """Sort, refining until neighbours are certainly apart, or merging where they are provably equal."""
     if len(sections) < 2:
         return sections
     apart: set[tuple[int, int]] = set()  # pairs proved different: only refine
+    balls: dict[int, arb] = {}
+    moved: Iterable[Section] = sections
     while True:
         with precision(max(s.bits for s in sections) + 16):
-            balls = {id(s): s.ball() for s in sections}
-            sections.sort(key=lambda s: balls[id(s)].mid())
-            clash = next(((a, b) for a, b in itertools.pairwise(sections) if not balls[id(a)] < balls[id(b)]), None)
+            balls |= {id(s): s.ball() for s in moved}
+        sections.sort(key=lambda s: balls[id(s)].mid())
+        clash = next(((a, b) for a, b in itertools.pairwise(sections) if not balls[id(a)] < balls[id(b)]), None)
         if clash is None:
             return sections
-        a, b = clash
+        a, b = moved = clash
         key = (id(a), id(b)) if id(a) < id(b) else (id(b), id(a))
         if min(a.bits, b.bits) >= EXACT_FROM and key not in apart:
-            if _equal(point, a, b):
-                sections.remove(b if _weight(a) <= _weight(b) else a)
-                kept = a if _weight(a) <= _weight(b) else b
+            i, j = a.members[0], b.members[0]
+            left, right = Side(a.ball, polys[i], shapes[i]), Side(b.ball, polys[j], shapes[j])
+            equal = seen_to_be_equal(point, left, right)
+            if equal or (equal is None and _equal(point, a, b)):
+                kept, lost = (a, b) if _weight(a) <= _weight(b) else (b, a)
+                sections.remove(lost)
                 kept.members = sorted({*a.members, *b.members})
                 continue
             apart.add(key)
@@ -284,7 +291,7 @@ def _sector_samples(sections: list[Section]) -> list[fmpq]:
     return samples
 
 
-def _signs(shape: fmpz_poly | Fibre | None, j: int, sectors: list[fmpq], sections: list[Section]) -> tuple[int, ...]:
+def _signs(shape: Shape, j: int, sectors: list[fmpq], sections: list[Section]) -> tuple[int, ...]:
     """The signs of polynomial j at the sector samples; between two of its own roots one evaluation is enough."""
     if shape is None:
         return (0,) * len(sectors)

@@ -70,3 +70,8 @@ def _primitive(f: Coefficients, watch: Watch) -> Coefficients:
         watch()
         shared = shared.gcd(c)
     return f if shared.is_constant and abs(shared.constant_value()) == 1 else tuple(c.exact_divide(shared) for c in f)
+
+
+def divides(f: Poly, g: Poly) -> bool:
+    """Whether a polynomial that is no constant divides another."""
+    return all(f.degree(i) <= g.degree(i) for i in f.variables) and f.gcd(g).normal()[1] == f.normal()[1]

@@ -11,12 +11,13 @@ from __future__ import annotations
 from collections.abc import Iterable
 from fractions import Fraction
 
-from flint import arb, arb_poly, fmpq, fmpq_mpoly
+from flint import acb, arb, arb_poly, fmpq, fmpq_mpoly
 
 from qe.exact.algebraic import RealAlgebraic, select_root
-from qe.exact.ball_roots import certified_roots, quadratic_roots
+from qe.exact.ball_roots import certified_roots, distinct_roots, quadratic_roots
 from qe.exact.balls import EXACT_FROM, FIRST_PRECISION, ball_sign, lower_end, precision, upper_end
-from qe.exact.remainder import common_coefficients, squarefree_coefficients
+from qe.exact.from_projection import COUNTED_TO, most_distinct
+from qe.exact.remainder import common_coefficients, divides, squarefree_coefficients
 from qe.exact.ring import Poly, Ring
 from qe.exact.tower import Tower
 from qe.exact.translate import put_in
@@ -232,17 +233,21 @@ class Point:
 
 
 class Fibre:
-    """A polynomial in variable ``var`` over an algebraic point: coefficients low to high, in algebraic coordinates."""
+    """A polynomial in variable ``var`` over an algebraic point: coefficients low to high, in algebraic coordinates.
 
-    __slots__ = ("_bits", "_roots", "_values", "coefficients", "exact", "point", "source", "var")
+    ``origin``: the polynomial of all variables that this is over the point, where it is one.
+    """
 
-    def __init__(self, point: Point, var: int, coefficients: tuple[Poly, ...]) -> None:
-        self.point, self.var, self.coefficients = point, var, coefficients
+    __slots__ = ("_bits", "_most", "_roots", "_values", "coefficients", "exact", "origin", "point", "source", "var")
+
+    def __init__(self, point: Point, var: int, coefficients: tuple[Poly, ...], origin: Poly | None = None) -> None:
+        self.point, self.var, self.coefficients, self.origin = point, var, coefficients, origin
         self.source = coefficients  # as given; ``coefficients`` may become the squarefree part
         self.exact = False  # whether the leading coefficient and squarefreeness have been proved
         self._roots: list[arb] | None = None
         self._bits = 0
         self._values: dict[int, arb_poly] = {}
+        self._most: int | None = None  # the number of distinct complex roots is at most this, if less than the degree
 
     def value_sign(self, q: fmpq) -> int:
         """The sign of the polynomial as given (``source``) at a rational number that is not a root of it."""
@@ -289,7 +294,15 @@ class Fibre:
             if bits >= EXACT_FROM and not self.exact:
                 self._make_exact()
             else:
+                if self._roots is None and self._most is not None and bits >= COUNTED_TO:
+                    self._make_squarefree()  # fewer distinct roots than one less than the degree
                 bits *= 2
+
+    def distinct_roots(self, bits: int) -> list[acb] | None:
+        """Disjoint balls around the distinct complex roots, one each, if so many bits tell them apart."""
+        with precision(bits + 16):
+            c = [self.point.enclose(a, bits) for a in self.coefficients]
+            return None if c[-1].contains(0) else distinct_roots(c, bits, self._most)
 
     def _attempt(self, bits: int) -> list[arb] | None:
         c = [self.point.enclose(a, bits) for a in self.coefficients]
@@ -301,19 +314,27 @@ class Fibre:
             return [] if len(c) == 1 else [-c[0] / c[1]]
         if len(c) == 3:
             return quadratic_roots(c)
-        return certified_roots(c, bits)
+        return certified_roots(c, bits, self._most)
 
     def _make_exact(self) -> None:
-        """Prove the degree, and replace the polynomial by one with the same roots, all simple."""
+        """Prove the degree. Then count the distinct roots, or make them all simple ones of another polynomial."""
         self.strip()
         self.exact = True
-        if len(self.coefficients) <= 2:
-            return
         if len(self.coefficients) == 3:
             c0, c1, c2 = self.coefficients
             if self.point.vanishes(c1 * c1 - 4 * (c2 * c0)):
                 self.coefficients = (c1, 2 * c2)
+        if len(self.coefficients) <= 3:
             return
+        degree = len(self.coefficients) - 1
+        most = None if self.origin is None else most_distinct(self.point.sign, self.origin, self.var, degree)
+        if most is None:
+            self._make_squarefree()
+        elif most < degree:
+            self._most = most
+
+    def _make_squarefree(self) -> None:
+        self._most = None
         self.coefficients = squarefree_coefficients(self.coefficients, self.point.vanishes, self.point.watch)
 
     def element(self) -> fmpq_mpoly:
@@ -382,11 +403,6 @@ class FibreRoot:
             factor = tower.irreducible_factor(element, fibre.var, self.ball, fibre.point.ball)
             self._number = select_root(tower.norm(factor, fibre.var), self.ball)
         return self._number
-
-
-def divides(f: Poly, g: Poly) -> bool:
-    """Whether a polynomial that is no constant divides another."""
-    return all(f.degree(i) <= g.degree(i) for i in f.variables) and f.gcd(g).normal()[1] == f.normal()[1]
 
 
 def common_fibre(f: Fibre, g: Fibre) -> Fibre | None:

@@ -5,12 +5,12 @@ from __future__ import annotations
 from itertools import pairwise
 
 import pytest
-from flint import arb, fmpq, fmpq_poly, fmpz_poly
+from flint import acb, acb_poly, arb, fmpq, fmpz_poly
 from hypothesis import given
 from hypothesis import strategies as st
 
 from qe.exact.algebraic import real_roots
-from qe.exact.ball_roots import certified_roots, quadratic_roots
+from qe.exact.ball_roots import certified_roots, distinct_roots, quadratic_roots
 from qe.exact.balls import precision
 
 BITS = 128
@@ -71,46 +71,37 @@ def test_a_small_root_beside_a_huge_one_keeps_its_digits(coefficients: list[int]
         assert small.overlaps(root.ball(4 * BITS))
 
 
-WIDE = [fmpq(656, 10**359), fmpq(27), fmpq(162, 10**60), fmpq(243, 10**120)]
-"""Roots of very different size: for FLINT's tolerance on the roots there is no precision."""
+NUMBERS = [acb(arb(2)), acb(arb(-2.25)), acb(arb(1000)), acb(0, 1), acb(1, 2)]
 
 
-@pytest.mark.parametrize("bits", [64, 128, 1024])
-def test_roots_of_very_different_sizes_are_found_at_each_precision(bits: int) -> None:
+@given(
+    st.lists(st.tuples(st.sampled_from(NUMBERS), st.integers(1, 3)), min_size=1, max_size=3, unique_by=str),
+    st.booleans(),
+)
+def test_clusters_of_known_number_are_multiple_roots(given_roots: list[tuple[acb, int]], fine: bool) -> None:
+    bits = 512 if fine else BITS
     with precision(bits + 16):
-        found = certified_roots([arb(c) for c in WIDE], bits)
-        assert found is None or len(found) in (1, 3)
+        third = arb(1) / 3  # makes the coefficients balls, not numbers
+        p, distinct = acb_poly([third]), dict[str, acb]()
+        for root, times in given_roots:
+            both = [root] if root.imag == 0 else [root, root.conjugate()]
+            for z in both:
+                distinct[str(z)] = z
+                p *= acb_poly([-z, 1]) ** times
+        c = [x.real for x in p.coeffs()]
+        found = distinct_roots(c, bits, len(distinct))
+        assert found is not None and len(found) == len(distinct)
+        assert all(sum(z.overlaps(w) for w in found) == 1 for z in distinct.values())
+        real = certified_roots(c, bits, len(distinct))
+        assert real is not None and len(real) == sum(1 for z in distinct.values() if z.imag == 0)
+        if len(distinct) + 1 < len(c) - 1:
+            assert distinct_roots(c, bits, len(distinct) + 1) is None  # more are asked for than are seen
 
 
-@given(st.integers(20, 60), st.integers(-3, 3), st.sampled_from([-1, 1]), st.integers(-30, 30))
-def test_roots_much_closer_than_they_are_large(size: int, root: int, sign: int, scale: int) -> None:
-    """((x - c)^2 -+ 10^-2k)(x - r), with x as a multiple of a power of ten: three real roots or one."""
-    close = fmpq_poly([fmpq(49), -14, 1]) - fmpq(sign, 10 ** (2 * size))
-    p = close * fmpq_poly([-root, 1])
-    unit = fmpq(10) ** scale
-    coefficients = [c * unit**k for k, c in enumerate(p.coeffs())]
-    expected = sorted(real_roots(fmpq_poly(coefficients).numer()))
-    assert len(expected) == (3 if sign > 0 else 1)
-    for bits in (128, 256, 512):
-        with precision(bits + 16):
-            found = certified_roots([arb(c) for c in coefficients], bits)
-        assert found is None or len(found) == len(expected)
-        if found is not None:
-            assert all(ball.overlaps(x.ball(bits)) for ball, x in zip(found, expected, strict=True))
-    assert found is not None
-
-
-@pytest.mark.parametrize("coefficients", [[0, 1, -2, 1], [4, -4, 1, 0, 1], [1, 0, 2, 0, 1]])
-def test_counting_says_nothing_about_double_roots(coefficients: list[int]) -> None:
-    with precision(272):
-        found = certified_roots(balls(coefficients), 256)
-    assert found is None or len(found) == len(real_roots(fmpz_poly(coefficients)))
-
-
-@pytest.mark.parametrize("shift", [fmpq(0), fmpq(1, 10**25), fmpq(-1, 10**25)])
-def test_balls_that_hold_a_polynomial_with_a_double_root_say_nothing(shift: fmpq) -> None:
-    """(x - 1)^2 (x - 3) with a constant term that is known to 10^-20 only, whatever its midpoint."""
-    with precision(272):
-        c = [arb(x) for x in (fmpz_poly([1, -2, 1]) * fmpz_poly([-3, 1])).coeffs()]
-        c[0] = arb((c[0].mid().fmpq() + shift), arb(10) ** -20)
-        assert certified_roots(c, 256) is None
+def test_close_roots_are_no_double_root() -> None:
+    """Three roots, two of them 2^-100 apart, are not merged where nothing says that they are fewer."""
+    with precision(512 + 16):
+        near = arb(2) ** -100
+        c = [x.real for x in (acb_poly([-1, 1]) * acb_poly([-1 - near, 1]) * acb_poly([-5, 1])).coeffs()]
+        found = distinct_roots(c, 512)
+        assert found is not None and len(found) == 3

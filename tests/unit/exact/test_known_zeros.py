@@ -5,8 +5,9 @@ from __future__ import annotations
 import pytest
 
 from qe.exact.fibre_stack import isolate_over
+from qe.exact.remainder import divides
 from qe.exact.ring import Poly, Ring
-from qe.exact.sample import Point, divides
+from qe.exact.sample import Point
 from qe.exact.tower import Tower
 
 RING = Ring.of(("x", "y", "z"))
