@@ -70,8 +70,8 @@ def distinct_roots(c: list[arb], bits: int, most: int | None = None) -> list[acb
     if most is not None and most < len(c) - 1:
         found = _clusters(c, bits)
         return found if found is not None and len(found) == most else None
-    # The tolerance is absolute, and half the bits: cancellation in the coefficients costs some. Roots that are large for
-    # their coefficients do not reach it at any precision, and FLINT would try for ever: hence the bound on the
+    # The tolerance is absolute, and half the bits: cancellation in the coefficients costs some. Roots that are large
+    # for their coefficients do not reach it at any precision, and FLINT would try for ever: hence the bound on the
     # precision, and a second call without tolerance. ``FibreRoot.ball`` asks again with more bits where it needs them.
     for tolerance in (arb(2) ** -(bits // 2), None):
         with suppress(ValueError):

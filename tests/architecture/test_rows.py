@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import re
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -108,8 +109,13 @@ def modules() -> Iterator[tuple[str, Path]]:
             yield name.removesuffix(".__init__"), path
 
 
-def imports(path: Path, module: str) -> Iterator[tuple[int, str]]:
+@cache
+def imports(path: Path, module: str) -> tuple[tuple[int, str], ...]:
     """(line, absolute module name) of every import statement, wherever it stands, type-checking ones included."""
+    return tuple(_imports(path, module))
+
+
+def _imports(path: Path, module: str) -> Iterator[tuple[int, str]]:
     is_package = path.name == "__init__.py"
     for node in ast.walk(ast.parse(path.read_text())):
         if isinstance(node, ast.Import):

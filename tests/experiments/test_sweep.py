@@ -100,7 +100,7 @@ def test_the_atlas_carries_the_data():
 
 def test_a_killed_worker_loses_nothing_and_repeats_nothing(tmp_path):
     """A local cluster of two processes; the one that gave the first outcome is killed at once."""
-    tasks = grid(values("1/8:2:8", "d"), values("1/8:2:5", "k"), values("3", "r"), [Method.CUBIC])
+    tasks = grid(values("1/8:2:4", "d"), values("1/8:2:4", "k"), values("3", "r"), [Method.CUBIC])
     store, seen, killed = Store(tmp_path), [], []
 
     def note(row):

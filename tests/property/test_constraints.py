@@ -91,7 +91,7 @@ def _flipped_leaves(cell: Cell) -> list[Cell]:
     return found[:6]
 
 
-@enough(9, 36, constrained(SPACE, max_degree=3), st.sampled_from(PREFIXES))
+@enough(5, 20, constrained(SPACE, max_degree=3), st.sampled_from(PREFIXES))
 def test_sentences_in_space(matrix: Formula, quantifiers: tuple[str, ...]) -> bool:
     found, plain = _decomposed(matrix, quantifiers), _decomposed(matrix, quantifiers, PLAIN)
     if found is None or plain is None:
@@ -103,7 +103,7 @@ def test_sentences_in_space(matrix: Formula, quantifiers: tuple[str, ...]) -> bo
     return True
 
 
-@enough(9, 36, constrained(PLANE, max_degree=2), st.sampled_from([("E", "E"), ("A", "A"), ("A", "E"), ("E", "A")]))
+@enough(5, 20, constrained(PLANE, max_degree=2), st.sampled_from([("E", "E"), ("A", "A"), ("A", "E"), ("E", "A")]))
 def test_sentences_in_the_plane_against_the_reference(matrix: Formula, quantifiers: tuple[str, ...]) -> bool:
     found = _decomposed(matrix, quantifiers)
     if found is None:
@@ -118,7 +118,7 @@ def test_sentences_in_the_plane_against_the_reference(matrix: Formula, quantifie
     return True
 
 
-@enough(16, 60, nested(), st.sampled_from([("E", "E"), ("A", "A"), ("A", "E"), ("E", "A")]))
+@enough(8, 32, nested(), st.sampled_from([("E", "E"), ("A", "A"), ("A", "E"), ("E", "A")]))
 def test_constraints_of_disjunctions(matrix: Formula, quantifiers: tuple[str, ...]) -> bool:
     found, plain = _decomposed(matrix, quantifiers), _decomposed(matrix, quantifiers, PLAIN)
     if found is None or plain is None:
@@ -128,7 +128,7 @@ def test_constraints_of_disjunctions(matrix: Formula, quantifiers: tuple[str, ..
     return True
 
 
-@enough(6, 24, constrained(SPACE, max_degree=2), st.sampled_from(["E", "A"]), st.sampled_from([1, 2]))
+@enough(4, 15, constrained(SPACE, max_degree=2), st.sampled_from(["E", "A"]), st.sampled_from([1, 2]))
 def test_answers_over_free_variables(matrix: Formula, kind: str, free: int) -> bool:
     """The formula agrees with the reference at rational points; also where a free level is restricted."""
     quantifiers = ("",) * free + (kind,) * (3 - free)

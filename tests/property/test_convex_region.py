@@ -44,7 +44,7 @@ def ends(intervals: list[Interval]) -> list[tuple[object, ...]]:
     return [(i.lower, i.upper, i.lower_closed, i.upper_closed) for i in intervals]
 
 
-@settings(max_examples=4, deadline=None)
+@settings(max_examples=3, deadline=None)
 @given(bodies(), st.lists(st.tuples(QUARTERS, QUARTERS), max_size=4))
 def test_formula_and_optimisation_agree(body: Formula, at: list[tuple[F, F]]) -> None:
     shadow = qe.region(exists(("y0", "y1"), body), order=("p0", "p1"))
@@ -89,7 +89,7 @@ def contains(region: Region, point: tuple[F, ...]) -> bool:
 POINTS = st.tuples(st.integers(-4, 4), st.integers(-4, 4)).map(lambda p: (F(p[0]), F(p[1])))
 
 
-@settings(max_examples=10, deadline=None)
+@settings(max_examples=6, deadline=None)
 @given(POINTS, POINTS, st.integers(0, 6), st.lists(POINTS, min_size=2, max_size=2))
 def test_membership_under_rotation_and_in_space(
     q0: tuple[F, F], r0: tuple[F, F], slack: int, at: list[tuple[F, F]]
@@ -109,7 +109,7 @@ def test_membership_under_rotation_and_in_space(
 
 
 @pytest.mark.deep
-@settings(max_examples=15, deadline=None)
+@settings(max_examples=9, deadline=None)
 @given(POINTS, POINTS, st.integers(0, 9), st.lists(POINTS, min_size=3, max_size=3))
 def test_region_of_random_cubic_curves(q0: tuple[F, F], r0: tuple[F, F], slack: int, at: list[tuple[F, F]]) -> None:
     r2 = int(max(q0[0] ** 2 + q0[1] ** 2, r0[0] ** 2 + r0[1] ** 2)) + max(1, slack)

@@ -75,7 +75,7 @@ def _check(found: Optimum) -> None:
     assert verdict.accepted, verdict
 
 
-@settings(max_examples=25)
+@settings(max_examples=16)
 @given(via_points(), st.booleans(), st.sampled_from([cubic, quadratic]), st.data())
 def test_planning_optima_are_proved_and_not_beaten(points, hemisphere, family, data) -> None:
     q0, r0, r2 = points
@@ -123,7 +123,7 @@ def test_random_problems_agree_with_a_numerical_solver(problem, data) -> None:
             assert found.value is None or objective.evaluate(point) >= found.value
 
 
-@settings(max_examples=15)
+@settings(max_examples=10)
 @given(via_points((2,)), st.sampled_from([(3, 4, 5), (5, 12, 13), (-8, 15, 17)]))
 def test_rotation_into_space_keeps_the_optimum(points, triple) -> None:
     q0, r0, r2 = points
@@ -136,7 +136,7 @@ def test_rotation_into_space_keeps_the_optimum(points, triple) -> None:
     assert space.point["a0"] == plane.point["a0"] and space.point["a2"] * a == space.point["a1"] * b
 
 
-@settings(max_examples=12)
+@settings(max_examples=8)
 @given(via_points(), st.sampled_from([2, 3, F(1, 2)]))
 def test_scaling_and_exchange(points, factor) -> None:
     q0, r0, r2 = points

@@ -85,7 +85,7 @@ def consistent(formula: Formula) -> bool:
 def test_questions_agree_with_the_decomposition_in_any_order() -> None:
     asked: list[bool] = []
 
-    @settings(max_examples=7)
+    @settings(max_examples=5)
     @given(shadows())
     def law(formula: Formula) -> None:
         asked.append(consistent(formula))
@@ -103,7 +103,7 @@ def test_questions_agree_with_the_decomposition_deep(formula: Formula) -> None:
         assert "degree above" in str(reason)
 
 
-@settings(max_examples=7)
+@settings(max_examples=5)
 @given(st.integers(1, 40), st.sampled_from((2, 3, 5)), st.booleans())
 def test_a_narrow_hidden_variable_changes_nothing(digits: int, square: int, weak: bool) -> None:
     """The range of the hidden variable is as small as 1/10^40, the ends of x irrational."""

@@ -47,7 +47,7 @@ def matrices(draw: st.DrawFn, ring: Ring = RING, depth: int = 2, degree: int = 2
 
 
 @given(matrices(), st.lists(PARAMETERS, min_size=4, max_size=4), st.sampled_from((simplify, identity)))
-@settings(max_examples=70)
+@settings(max_examples=28)
 def test_one_variable(matrix: Formula, points: list[dict[str, Fraction]], tidy) -> None:  # type: ignore[no-untyped-def]
     """(exists x. F) iff the result, at random rational parameter values, with and without a simplifier."""
     result = eliminate_block(("x",), matrix, budget=budget(), simplify=tidy)
@@ -96,7 +96,7 @@ def convex_families(draw: st.DrawFn) -> Formula:
 
 
 @given(convex_families(), st.lists(PARAMETERS, min_size=4, max_size=4))
-@settings(max_examples=70)
+@settings(max_examples=28)
 def test_convex_family(matrix: Formula, points: list[dict[str, Fraction]]) -> None:
     """The elimination set of vertices and crossings, without square roots."""
     result = eliminate_block(("x",), matrix, budget=budget(), simplify=identity)
@@ -132,7 +132,7 @@ def lone_quadratics(draw: st.DrawFn) -> Formula:
 
 
 @given(lone_quadratics(), st.lists(PARAMETERS, min_size=4, max_size=4))
-@settings(max_examples=70)
+@settings(max_examples=28)
 def test_lone_quadratic(matrix: Formula, points: list[dict[str, Fraction]]) -> None:
     """The elimination set without square roots: both infinities, the linear roots, the vertex."""
     result = eliminate_block(("x",), matrix, budget=budget(), simplify=identity)
@@ -141,7 +141,7 @@ def test_lone_quadratic(matrix: Formula, points: list[dict[str, Fraction]]) -> N
 
 
 @given(open_matrices(), st.lists(VALUES, min_size=3, max_size=3))
-@settings(max_examples=40)
+@settings(max_examples=28)
 def test_open_blocks(matrix: Formula, points: list[Fraction]) -> None:
     """exists x, y over strict atoms: conditions of measure zero in the block are left out, truth stays."""
     result = eliminate_block(("x", "y"), matrix, budget=budget(), simplify=simplify)
@@ -154,7 +154,7 @@ def test_open_blocks(matrix: Formula, points: list[Fraction]) -> None:
 
 
 @given(matrices(TWO, 2, 2), st.lists(VALUES, min_size=3, max_size=3))
-@settings(max_examples=40)
+@settings(max_examples=28)
 def test_two_variables(matrix: Formula, points: list[Fraction]) -> None:
     """exists x, y: answers are solutions; and eliminating one after the other gives the same truth."""
     result = eliminate_block(("x", "y"), matrix, budget=budget(), simplify=simplify)
@@ -168,7 +168,7 @@ def test_two_variables(matrix: Formula, points: list[Fraction]) -> None:
                 check_witness(matrix, values, witness(answer, values, budget=budget()))
 
 
-@enough(12, 50, matrices(Ring.of(("x", "y", "z")), 2, 2))
+@enough(7, 28, matrices(Ring.of(("x", "y", "z")), 2, 2))
 def test_sentences_against_z3(matrix: Formula) -> bool:
     z3 = pytest.importorskip("z3")
     from qe.io.smtlib import write
@@ -188,7 +188,7 @@ def test_sentences_against_z3(matrix: Formula) -> bool:
     return True
 
 
-@enough(6, 25, matrices(Ring.of(("x", "y")), 1, 2))
+@enough(4, 15, matrices(Ring.of(("x", "y")), 1, 2))
 def test_sentences_against_the_reference(matrix: Formula) -> bool:
     """exists x, y: the same truth as the textbook procedure, which shares no code with the engine."""
     result = eliminate_block(("x", "y"), matrix, budget=budget(), simplify=simplify)
@@ -203,7 +203,7 @@ def test_sentences_against_the_reference(matrix: Formula) -> bool:
 
 
 @given(matrices(RING, 2, 4), st.lists(PARAMETERS, min_size=3, max_size=3))
-@settings(max_examples=40)
+@settings(max_examples=28)
 def test_what_stays_too_high_is_still_equivalent(matrix: Formula, points: list[dict[str, Fraction]]) -> None:
     """Degree up to 4: leftover existential parts are kept, and the whole is equivalent."""
     result = eliminate_block(("x",), matrix, budget=budget(), simplify=simplify)

@@ -168,6 +168,7 @@ def test_a_hard_region_ends_soon_after_its_limit():
 
 def test_what_a_volume_is_known_to_be_is_told_at_the_limit():
     region = qe.region("x^2 + y^2 + z^2 <= 1 and x*y*z >= 1/50")
+    assert not region.is_empty  # decomposed, so that the limit is met in the measure on a slow machine, too
     with pytest.raises(BudgetExceeded, match=r"volume known only between [\d.]+ and \d"):
         region.volume(1e-9, timeout=1)
 

@@ -137,7 +137,7 @@ def test_arguments_are_named_by_what_was_needed():
     assert argument(ball((0, 0, 0), 1)) is Argument.SUBDIVISION
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=35, deadline=None)
 @given(bodies, control_points(1, 4))
 def test_proofs_agree_with_dense_exact_sampling(body, points):
     agrees_with_sampling(body, points, GRID)
@@ -167,7 +167,7 @@ def agrees_with_sampling(body, points, grid):
         clearance_certificate(curve, thing)
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=20, deadline=None)
 @given(bodies, control_points(1, 4), st.integers(1, 3))
 def test_degree_elevation_changes_nothing(body, points, more):
     curve, thing = Bezier.of(points), obstacle(body)
@@ -178,7 +178,7 @@ def test_degree_elevation_changes_nothing(body, points, more):
         assert found.t[0] <= raised.t[1] and raised.t[0] <= found.t[1]
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=20, deadline=None)
 @given(bodies, control_points(2, 4))
 def test_running_backwards_meets_the_same_obstacles(body, points):
     curve, thing = Bezier.of(points), obstacle(body)

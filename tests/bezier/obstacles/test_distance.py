@@ -52,7 +52,7 @@ def test_a_curve_over_a_number_field():
     assert encloses(distance_enclosure(curve, Rounded(point(at(0, 0, 0)), Fraction(1))), 2**0.5 - 1)
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=25, deadline=None)
 @given(bodies, control_points(1, 4))
 def test_no_sample_is_nearer_than_the_enclosure_says(body, points):
     curve = Bezier.of(points)

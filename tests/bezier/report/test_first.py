@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import json
 import re
+from dataclasses import replace
 from fractions import Fraction
+from functools import cache
 from pathlib import Path as FilePath
 
 import pytest
@@ -24,7 +26,9 @@ LIMITS = "[timing]\nmax_speed = 2\n"
 GOING_ROUND = '[[obstacle]]\nname = "pole"\nkind = "ball"\ncentre = [0, -3, 1]\nradius = 1\n'
 
 
+@cache
 def planned(*tables: str) -> Plan:
+    """Planned once; tests leave it as it is."""
     return make_plan(read_problem("\n".join(tables), "problem.toml"), Clock())
 
 
@@ -61,9 +65,7 @@ def test_cards_are_those_of_the_problem() -> None:
 
 
 def test_solving_and_drawing_are_told_apart() -> None:
-    plan = planned(START)
-    plan.seconds.clear()  # type: ignore[attr-defined]
-    plan.seconds.update({"elimination": 1.0, "pictures": 2.0, "report": 0.5})  # type: ignore[attr-defined]
+    plan = replace(planned(START), seconds={"elimination": 1.0, "pictures": 2.0, "report": 0.5})
     card = first.cards(plan)[-1]
     assert (card.value, card.note) == ("1.00 s solving", "2.50 s drawing")
 

@@ -55,7 +55,7 @@ def possible(conditions: list[Condition]) -> bool:
     return qe.decide(exists(RING.names, conj(parts)), timeout=60)
 
 
-@settings(max_examples=80, deadline=None)
+@settings(max_examples=45, deadline=None)
 @given(st.lists(st.lists(CONDITION, min_size=1, max_size=9), min_size=1, max_size=4))
 def test_points_keep_bounds_and_reasons_contradict(questions: list[list[Condition]]) -> None:
     asked = Asked()

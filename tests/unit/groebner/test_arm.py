@@ -11,6 +11,7 @@ from typing import Any
 import pytest
 
 import qe
+from qe.api_input import read_polynomial
 from qe.exact.fglm import changed_order
 from qe.exact.groebner import MonomialOrder, groebner_basis
 from qe.exact.polynomial_system import LIMITS
@@ -57,7 +58,7 @@ def compared(ours: qe.ComprehensiveGroebnerSystem, published: list[dict[str, Any
 
 def read(text: str, ours: qe.ComprehensiveGroebnerSystem) -> Poly:
     ring = ours.polys[0].ring
-    return qe.api.read_polynomial(text, "entry", known=ring.names)[0].convert(ring)
+    return read_polynomial(text, "entry", known=ring.names)[0].convert(ring)
 
 
 def leading(place: Place, ours: qe.ComprehensiveGroebnerSystem) -> set[str]:

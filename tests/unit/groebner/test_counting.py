@@ -80,14 +80,14 @@ def systems(draw: st.DrawFn) -> list[Poly]:
 POINTS = [(Fraction(a, 2), Fraction(b)) for a in (-2, 0, 3) for b in (-1, 0, 3)]
 
 
-@settings(max_examples=5)
+@settings(max_examples=4)
 @given(systems())
 def test_the_count_is_that_of_isolation(polys: list[Poly]) -> None:
     counts_agree(polys)
 
 
 @pytest.mark.deep
-@settings(max_examples=100)
+@settings(max_examples=50)
 @given(systems())
 def test_the_count_is_that_of_isolation_often(polys: list[Poly]) -> None:
     counts_agree(polys)

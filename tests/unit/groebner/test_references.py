@@ -11,6 +11,7 @@ import pytest
 
 import qe
 from qe.api_groebner import ComprehensiveGroebnerSystem
+from qe.api_input import read_polynomial
 from qe.exact.ring import Poly
 from tests.unit.groebner.support import Place, places
 
@@ -26,7 +27,7 @@ def agrees(record: dict[str, Any]) -> int:
     random = Random(record["name"])
 
     def read(texts: list[str]) -> list[Poly]:
-        return [qe.api.read_polynomial(t.replace("**", "^"), "entry", known=ring.names)[0].convert(ring) for t in texts]
+        return [read_polynomial(t.replace("**", "^"), "entry", known=ring.names)[0].convert(ring) for t in texts]
 
     theirs = [(read(b["eq"]), read(b["ne"]), read(b["basis"])) for b in record["branches"]]
     within = (read(record["null"]), read(record["nonnull"]))

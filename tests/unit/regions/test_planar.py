@@ -51,13 +51,13 @@ def test_components_of_more_variables_are_refused() -> None:
         qe.region("x*y*z > 1").components()
 
 
-@settings(max_examples=8)
+@settings(max_examples=6)
 @given(formulas(names=("x",), max_degree=3))
 def test_closure_and_interior_on_the_line(formula) -> None:
     _agrees(formula, ("x",))
 
 
-@settings(max_examples=8)
+@settings(max_examples=6)
 @given(formulas(names=("x", "y"), max_degree=1))
 def test_closure_and_interior_in_the_plane(formula) -> None:
     _agrees(formula, ("x", "y"))

@@ -113,7 +113,7 @@ sizes = st.integers(1, 6)
 places = st.integers(-4, 4)
 
 
-@settings(max_examples=12, deadline=None)
+@settings(max_examples=7, deadline=None)
 @given(places, places, sizes, sizes, sizes, sizes)
 def test_two_boxes(a: int, b: int, p: int, q: int, r: int, s: int) -> None:
     """A union of two boxes, by the volumes of both and of what they share."""
@@ -125,7 +125,7 @@ def test_two_boxes(a: int, b: int, p: int, q: int, r: int, s: int) -> None:
     assert volume(shape) == pytest.approx(p * q * r + s * p * (q - 0.5) - shared, rel=1e-3)
 
 
-@settings(max_examples=6, deadline=None)
+@settings(max_examples=4, deadline=None)
 @given(places, places, st.integers(1, 4), sizes, st.integers(-8, 8))
 def test_caps_of_balls(u: int, v: int, w: int, radius: int, cut: int) -> None:
     """A ball cut by a plane in any direction: the volume of the cap in closed form."""

@@ -56,7 +56,7 @@ def context() -> Context:
     return Context(Options(), Budget(60), RunLog(), decide)
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=35, deadline=None)
 @given(st.lists(FORMULAS, min_size=1, max_size=4).map(conj))
 def test_the_search_decides_what_other_methods_decide(body: Formula) -> None:
     found = found_point(nnf(body), context())
@@ -67,7 +67,7 @@ def test_the_search_decides_what_other_methods_decide(body: Formula) -> None:
         assert holds_at(body, found)
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=35, deadline=None)
 @given(st.lists(ATOMS.filter(lambda a: isinstance(a, Atom)), min_size=1, max_size=8, unique=True))
 def test_a_reason_is_a_part_that_cannot_hold(chosen: Sequence[Atom]) -> None:
     found = Theory(RING, values, Budget(60)).look(chosen)
@@ -79,7 +79,7 @@ def test_a_reason_is_a_part_that_cannot_hold(chosen: Sequence[Atom]) -> None:
         assert decide(exists(RING.names, conj(found)), Budget(60)).formula == FALSE
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=35, deadline=None)
 @given(FORMULAS)
 def test_what_is_chosen_from_a_model_makes_the_formula_true(body: Formula) -> None:
     from pysat.solvers import Solver

@@ -163,7 +163,7 @@ def feasible_points(system, seed, count=6):
     return found
 
 
-@settings(max_examples=10)
+@settings(max_examples=5)
 @given(POINT, POINT, st.integers(0, 8), st.sampled_from(WorkspaceKind), RATIO)
 @example(at(3, 0, 0), at(3, 0, 0), 0, WorkspaceKind.BALL, Fraction(1))
 @example(at(0, 0, 0), at(1, 2, 2), 0, WorkspaceKind.HEMISPHERE, Fraction(1))
@@ -216,7 +216,7 @@ def test_a_numerical_solver_agrees(q0, r0, more):
     assert float(plan.objective) == pytest.approx(found.fun, abs=1e-5)
 
 
-@settings(max_examples=3)
+@settings(max_examples=2)
 @given(POINT, POINT, st.integers(0, 6), st.sampled_from([Fraction(3), Fraction(1, 2)]))
 def test_scaling_and_rotation(q0, r0, more, factor):
     asked = problem(q0, r0, max(dot(q0, q0), dot(r0, r0), Fraction(1)) + more)

@@ -110,7 +110,7 @@ def test_the_linear_program_against_a_numerical_solver(given_task):
     assert numerical.status == 0 and abs(numerical.fun - float(chosen.outcome.value)) < 1e-6
 
 
-@settings(max_examples=30)
+@settings(max_examples=18)
 @given(tasks(3, 5))
 def test_elimination_and_the_linear_program_agree(given_task):
     (of,) = given_task.raised
@@ -125,7 +125,7 @@ def test_elimination_and_the_linear_program_agree(given_task):
     assert qe.decide(f"all {VALUE}. ({found.least}) -> {VALUE} = {outcome.value}")
 
 
-@settings(max_examples=8)
+@settings(max_examples=6)
 @given(tasks(3, 6), HEIGHTS)
 def test_symbols_give_the_optimum_of_every_number(given_task, height):
     (of,) = given_task.raised
