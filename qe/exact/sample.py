@@ -31,8 +31,19 @@ Coordinate = "fmpq | RealAlgebraic | FibreRoot"
 class Point:
     """A point of R^depth; immutable apart from caches. Long arithmetic at it and above asks its ``watch``."""
 
-    __slots__ = ("_balls", "_reduced", "_tower", "_vanishing", "algebraic", "depth")
-    __slots__ += ("parent", "ring", "value", "watch", "zeros")
+    __slots__ = (
+        "_balls",
+        "_reduced",
+        "_tower",
+        "_vanishing",
+        "algebraic",
+        "depth",
+        "parent",
+        "ring",
+        "value",
+        "watch",
+        "zeros",
+    )
 
     def __init__(
         self,
