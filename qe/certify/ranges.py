@@ -121,11 +121,16 @@ def _least(terms: list[tuple[tuple[int, ...], int]], ranges: dict[int, Ends], po
 
 def _powers(ends: Ends, k: int) -> Ends:
     """The range of x^k."""
-    low, high = (end if isinstance(end, float) else end**k for end in ends)
+    low, high = (_raised(end, k) for end in ends)
     if k % 2:
         return low, high
-    sizes = [abs(low), abs(high)]  # infinities stay what they are
+    sizes = [abs(low), abs(high)]
     return (Fraction(0) if ends[0] <= 0 <= ends[1] else min(sizes)), max(sizes)
+
+
+def _raised(end: Number, k: int) -> Number:
+    """The power of an end; infinities stay what they are."""
+    return end**k if isinstance(end, Fraction) else end
 
 
 def _product(a: Ends, b: Ends) -> Ends:

@@ -43,6 +43,7 @@ SWITCHED = {
     Stage.DISTRIBUTION: {StepKind.DISTRIBUTION},
     Stage.VALUES: {StepKind.TAKES_VALUE},
     Stage.ZEROS: {StepKind.ZEROS},
+    Stage.RANGES: {StepKind.RANGES},
     Stage.BALLS: {StepKind.BALLS},
 }
 """The steps of preparation that a stage left out switches off."""

@@ -31,19 +31,8 @@ Coordinate = "fmpq | RealAlgebraic | FibreRoot"
 class Point:
     """A point of R^depth; immutable apart from caches. Long arithmetic at it and above asks its ``watch``."""
 
-    __slots__ = (
-        "_balls",
-        "_reduced",
-        "_tower",
-        "_vanishing",
-        "algebraic",
-        "depth",
-        "parent",
-        "ring",
-        "value",
-        "watch",
-        "zeros",
-    )
+    __slots__ = ("_balls", "_reduced", "_tower", "_vanishing", "algebraic", "depth",
+                 "parent", "ring", "value", "watch", "zeros")  # fmt: skip
 
     def __init__(
         self,
