@@ -1344,9 +1344,8 @@ def _impossible(f: Formula, signs: dict[Any, Signs]) -> bool:
     return not signs.get(key, ALL) & allowed
 
 
-_BLOCK: tuple[str, ...] = ("simplification", "standard simplification", "case split on factors", "boundary apart")
-_BLOCK += ("vanishing sum of squares split", "Groebner basis of the equations")
-_BLOCK += ("multiple of an equation subtracted",)
+_BLOCK = {"simplification", "standard simplification", "boundary apart", "multiple of an equation subtracted"}
+_BLOCK |= {"case split on factors", "vanishing sum of squares split", "Groebner basis of the equations"}
 
 
 def _check_derivation(payload: Any) -> None:

@@ -124,7 +124,7 @@ def _powers(ends: Ends, k: int) -> Ends:
     low, high = (_raised(end, k) for end in ends)
     if k % 2:
         return low, high
-    sizes = [abs(low), abs(high)]
+    sizes: list[Number] = [max(low, -low), max(high, -high)]
     return (Fraction(0) if ends[0] <= 0 <= ends[1] else min(sizes)), max(sizes)
 
 
