@@ -47,7 +47,8 @@ class Stage(Enum):
     blocks of one kind are prepared as one. ``DISTRIBUTION``: disjuncts with equations are solved apart. ``VALUES``:
     atoms that some value of a variable meets, whatever the rest is, are dropped. ``ZEROS``: conditions on which
     variables vanish are dropped where they follow from the others. ``BALLS``: whether two balls meet is a closed form.
-    ``SEARCH``: sentences with many cases are searched by a SAT solver. ``SQUARES``: signs that sums of squares prove.
+    ``RANGES``: conditions that ranges of variables exclude are refuted. ``SEARCH``: sentences with many cases are
+    searched by a SAT solver. ``SQUARES``: signs that sums of squares prove.
     """
 
     EQUATIONS = "equations"
@@ -63,6 +64,7 @@ class Stage(Enum):
     VALUES = "values"
     ZEROS = "zeros"
     BALLS = "balls"
+    RANGES = "ranges"
     SEARCH = "search"
     SQUARES = "squares"
 

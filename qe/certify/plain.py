@@ -1344,9 +1344,9 @@ def _impossible(f: Formula, signs: dict[Any, Signs]) -> bool:
     return not signs.get(key, ALL) & allowed
 
 
-_BLOCK: tuple[str, ...] = ("simplification", "standard simplification", "case split on factors", "boundary apart")
-_BLOCK += ("signs by sums of squares", "vanishing sum of squares split", "Groebner basis of the equations")
-_BLOCK += ("multiple of an equation subtracted",)
+_BLOCK = {"simplification", "standard simplification", "boundary apart", "signs by sums of squares"}
+_BLOCK |= {"case split on factors", "vanishing sum of squares split", "Groebner basis of the equations"}
+_BLOCK |= {"multiple of an equation subtracted"}
 
 
 def _check_derivation(payload: Any) -> None:

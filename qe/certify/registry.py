@@ -25,6 +25,7 @@ from qe.certify.miniscoping import check_miniscoping
 from qe.certify.negation import check_negation
 from qe.certify.no_solutions import check_no_solutions
 from qe.certify.open_block import check_open_block
+from qe.certify.ranges import check_ranges
 from qe.certify.renaming import check_renaming
 from qe.certify.replayed_block import check_replayed_block
 from qe.certify.roots_counted import check_roots_counted
@@ -51,6 +52,7 @@ RULES: Mapping[str, Check] = {
     "Groebner basis of the equations": check_block,
     "multiple of an equation subtracted": check_block,
     "two balls": check_balls,
+    "ranges that exclude each other": check_ranges,
     "conditions on zeros that follow": check_zeros,
     "independent parts and miniscoping": check_miniscoping,
     "linear equation solved": check_linear,

@@ -41,6 +41,7 @@ SWITCHED = {
     Stage.DISTRIBUTION: {StepKind.DISTRIBUTION},
     Stage.VALUES: {StepKind.TAKES_VALUE},
     Stage.ZEROS: {StepKind.ZEROS},
+    Stage.RANGES: {StepKind.RANGES},
     Stage.BALLS: {StepKind.BALLS},
     Stage.SQUARES: {StepKind.SQUARES},
 }

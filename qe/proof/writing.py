@@ -34,6 +34,7 @@ RULES: Mapping[str, str] = {
     "homogeneous scaling": "All polynomials are homogeneous: one coordinate may be -1, 0 or 1.",
     "Groebner basis of the equations": "The equations have the same common zeros as others (Buchberger 1965).",
     "multiple of an equation subtracted": "Where q = 0, the polynomials p and p - c q have the same sign.",
+    "ranges that exclude each other": "Conditions bound variables one after the other; within these one cannot hold.",
     "case split on factors": "A product is zero if and only if a factor is.",
     "signs by sums of squares": "A sum of squares, or of products of them with what is not negative, is not negative.",
     "vanishing sum of squares split": "A sum of squares is zero if and only if every square is.",

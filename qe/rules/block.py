@@ -12,6 +12,7 @@ from qe.rules.cancelling import cancel_equations
 from qe.rules.cases import groebner_equations, split_factors, split_squares
 from qe.rules.degree_shift import shift_degree
 from qe.rules.generic import drop_inequations
+from qe.rules.ranges import excluded_by_ranges
 from qe.rules.scaling import fix_scale
 from qe.rules.squares import known_signs
 from qe.rules.step import StepKind
@@ -22,6 +23,7 @@ from qe.rules.tree import NEVER, All, Any, Leaf, Lifted, Node, Pending, Perturbe
 from qe.simplify.simplify import simplify_under
 
 RULES: tuple[Rule, ...] = (
+    excluded_by_ranges,
     independent_parts,
     two_balls,
     linear_equation,

@@ -17,6 +17,7 @@ class StepKind(Enum):
     BALLS = "two balls"
     ZEROS = "conditions on zeros that follow"
     TAKES_VALUE = "value that is taken"
+    RANGES = "ranges that exclude each other"
     GENERIC = "inequations that remove no interior"
     BOUNDARY = "boundary apart"
     TRANSLATION = "translation of the origin"

@@ -58,6 +58,7 @@ CASES = {
     "balls": "s > 0 and ex x, y. (x - a)^2 + y^2 <= 4 and x^2 + y^2 < s^2",
     "cancelled": "ex x, y. x^3 + a*x = b and y^3 + a*y = b and x < y and a*x*y > 1",
     "cancelled inside": "ex x. x^4 + a*x^2 = b and x > 0 and (all y. y^4 + a*y^2 /= b or y = x or y = -x)",
+    "ranges": "ex x, y, z. x^2 + y^2 + z^2 < 1 and x*y*z > 1 and x + a > b",
     "radicands": "ex x, y. 2*x^2 + 2*y^2 - x <= a and x^2 + y^2 < b",
     "nowhere": "a^2 + b^2 + c^2 <= 9 and (ex x, y, z. x + a = 4 and y + b = 9 and z + c = 9 and x^2 + y^2 + z^2 <= 9)",
     "intervals": "all x. x > 3 -> x^2 - 2 > 0 and x /= 1",

@@ -1,0 +1,169 @@
+"""Ranges of variables that exclude a condition: x^2 + y^2 < 1 leaves no room for x*y > 1.
+
+Theorem. Let p <= 0 hold, let c*x^k be a term of p, and let all other terms together be at least -m for all values in
+the ranges known so far. Then c*x^k <= m, which bounds x. A conjunction is false if within the ranges that follow one of
+its polynomials keeps the wrong sign. (Interval arithmetic, term by term; Davis 1987.)
+
+The evidence is the list of bounds that were used and the condition that fails; the checker works out each again.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
+from math import inf
+
+from qe.exact.ring import Poly
+from qe.formula.syntax import Atom, Formula, Relation
+from qe.formula.traverse import conjuncts
+from qe.rules.block_context import BlockContext, Found
+from qe.rules.step import StepKind
+from qe.rules.tree import NEVER
+
+ROUNDS, MOST_TERMS, BITS = 3, 400, 16
+"""How often all conditions are gone through; terms in all, at most; binary places of a root that is not rational."""
+
+Number = Fraction | float
+"""A rational number, or an infinity."""
+
+Bound = tuple[int, str, int, int, Fraction]
+"""Condition, variable, power of the term that gives it, side (1: from above), value."""
+
+_UP = {Relation.LE, Relation.LT, Relation.EQ}
+_DOWN = {Relation.GE, Relation.GT, Relation.EQ}
+
+
+def excluded_by_ranges(variables: tuple[str, ...], body: Formula, context: BlockContext) -> Found | None:
+    """The theorem on the comparisons of the conjunction."""
+    if StepKind.RANGES not in context.enabled:
+        return None
+    parts = conjuncts(body)
+    found = [(k, a) for k, a in enumerate(parts) if isinstance(a, Atom) and a.relation is not Relation.NE]
+    if len(found) < 2 or sum(a.poly.term_count() for _, a in found) > MOST_TERMS:
+        return None
+    if all(a.poly.total_degree < 2 for _, a in found):
+        return None  # linear conditions have methods of their own
+    search = _Search([(k, p, a) for k, a in found for p in _at_most_zero(a)])
+    failing = search.failing()
+    if failing is None:
+        return None
+    bounds = [[k, name, power, side, value] for k, name, power, side, value in search.bounds]
+    return Found(StepKind.RANGES, str(parts[failing]), NEVER, {"bounds": bounds, "fails": failing})
+
+
+def _at_most_zero(a: Atom) -> Iterator[Poly]:
+    """The polynomials that the comparison says are at most 0."""
+    if a.relation in _UP:
+        yield a.poly
+    if a.relation in _DOWN:
+        yield -a.poly
+
+
+@dataclass(slots=True)
+class _Search:
+    conditions: Sequence[tuple[int, Poly, Atom]]
+    low: dict[int, Number] = field(default_factory=dict)
+    high: dict[int, Number] = field(default_factory=dict)
+    bounds: list[Bound] = field(default_factory=list)
+
+    def failing(self) -> int | None:
+        """The position of a condition that cannot hold, once some bounds are found."""
+        for _ in range(ROUNDS):
+            before = len(self.bounds)
+            for k, poly, found in self.conditions:
+                least = [self.least(exponents, c) for exponents, c in poly.terms()]
+                total = _sum(least)
+                if total > 0 or (total == 0 and found.relation in (Relation.LT, Relation.GT)):
+                    return k
+                self._bound(k, poly, least)
+            if len(self.bounds) == before:
+                return None
+        return None
+
+    def least(self, exponents: tuple[int, ...], c: int) -> Number:
+        """A lower bound of c * x^e over the ranges."""
+        low: Number = Fraction(c)
+        high: Number = low
+        for i, k in enumerate(exponents):
+            if k:
+                a, b = self.low.get(i, -inf), self.high.get(i, inf)
+                ends = [_power(a, k), _power(b, k)]
+                if k % 2 == 0 and a < 0 < b:
+                    ends.append(Fraction(0))
+                products = [_times(u, v) for u in (low, high) for v in (min(ends), max(ends))]
+                low, high = min(products), max(products)
+        return low
+
+    def _bound(self, position: int, poly: Poly, least: list[Number]) -> None:
+        """The bounds that a condition p <= 0 gives by its terms in one variable alone."""
+        for k, (exponents, c) in enumerate(poly.terms()):
+            inside = [i for i, e in enumerate(exponents) if e]
+            rest = _sum(least[:k] + least[k + 1 :])
+            if len(inside) != 1 or rest == -inf:
+                continue
+            (i,), most = inside, Fraction(-rest) / c  # c*x^e <= -rest
+            power = exponents[i]
+            if c < 0 and power % 2 == 0:
+                continue
+            size = _root_above(abs(most), power)
+            if power % 2 == 0:
+                if most >= 0:
+                    self._cut(position, poly, i, power, 1, size)
+                    self._cut(position, poly, i, power, -1, -size)
+            elif c > 0:
+                self._cut(position, poly, i, power, 1, size if most >= 0 else -_root_below(-most, power))
+            else:
+                self._cut(position, poly, i, power, -1, -size if most <= 0 else _root_below(most, power))
+
+    def _cut(self, position: int, poly: Poly, i: int, power: int, side: int, value: Fraction) -> None:
+        """A bound, if it says more than what is known."""
+        if side > 0 and value < self.high.get(i, inf):
+            self.high[i] = value
+        elif side < 0 and value > self.low.get(i, -inf):
+            self.low[i] = value
+        else:
+            return
+        self.bounds.append((position, poly.ring.names[i], power, side, value))
+
+
+def _sum(values: Sequence[Number]) -> Number:
+    """The sum of lower bounds."""
+    return -inf if -inf in values else sum(values, Fraction(0))
+
+
+def _power(a: Number, k: int) -> Number:
+    return (a if k % 2 else inf) if isinstance(a, float) else a**k
+
+
+def _times(a: Number, b: Number) -> Number:
+    """The product, where zero times anything is zero."""
+    if a == 0 or b == 0:
+        return Fraction(0)
+    if isinstance(a, float) or isinstance(b, float):
+        return inf if (a > 0) is (b > 0) else -inf
+    return a * b
+
+
+def _root_below(value: Fraction, k: int) -> Fraction:
+    """The k-th root of a number that is not negative, or a little less."""
+    top, bottom = _whole_root(value.numerator, k), _whole_root(value.denominator, k)
+    if (top**k, bottom**k) == (value.numerator, value.denominator):
+        return Fraction(top, bottom)
+    scale = 1 << BITS
+    return Fraction(_whole_root(value.numerator * scale**k // value.denominator, k), scale)
+
+
+def _root_above(value: Fraction, k: int) -> Fraction:
+    """The k-th root, or a little more."""
+    root = _root_below(value, k)
+    return root if root**k == value else root + Fraction(1, 1 << BITS)
+
+
+def _whole_root(n: int, k: int) -> int:
+    """The greatest whole number whose k-th power is at most n."""
+    low, high = 0, 1 << (n.bit_length() // k + 1)
+    while high - low > 1:
+        middle = (low + high) // 2
+        low, high = (middle, high) if middle**k <= n else (low, middle)
+    return low

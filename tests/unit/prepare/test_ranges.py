@@ -1,0 +1,195 @@
+"""Ranges that exclude a condition: what is found, that it is right, and what the checker refuses."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from fractions import Fraction
+from itertools import product
+from typing import Any
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import qe
+import qe.rules.ranges as ranges
+from qe.certify.ranges import check_ranges
+from qe.certify.registry import RULES
+from qe.certify.step import Claim
+from qe.engine.proving import Prover
+from qe.errors import CertificateRejected
+from qe.formula.evaluate import holds_at
+from qe.formula.syntax import FALSE, Exists, Formula
+from qe.io.text import read
+from qe.options import Budget, Options
+from qe.proof.entry import Entry
+from qe.proof.run_log import RunLog
+from qe.proof.step import Step
+from qe.rules.preparation import prepare
+from qe.rules.step import StepKind
+
+ONLY = frozenset({StepKind.RANGES})
+RULE = StepKind.RANGES.value
+
+
+def steps(formula: Formula) -> list[Step]:
+    log = RunLog()
+    prepare(formula, enabled=ONLY, log=log)
+    return [step for step in log.steps() if step.rule == RULE]
+
+
+def prover(step: Step) -> Prover:
+    assert step.before.ring is not None
+    return Prover(step.before.ring, Options(), Budget(), tables=False)
+
+
+def accepted(step: Step) -> bool:
+    return prover(step).own(step, ()) is not None
+
+
+def small_product(size: int, sphere: str = "< 1", above: str = "> 1") -> str:
+    """A ball and a product of all coordinates that is too large for it (Hong 1991)."""
+    names = [f"x{i}" for i in range(size)]
+    return f"ex {', '.join(names)}. {' + '.join(f'{x}^2' for x in names)} {sphere} and {'*'.join(names)} {above}"
+
+
+FALSE_ONES = (
+    small_product(2),
+    small_product(16),
+    small_product(5, "<= 4", "> 32"),
+    "ex x, y. x^3 - y >= 8 and y >= 0 and x + z^2 < 2",
+    "ex x, y. x*y > 1 and x^2 + y^4 <= 1/2 and a > 0",
+    "ex x, y. x + y^2 <= 3 and -x <= -4",
+    "ex x, y. 2*x^3 + y^2 = -5 and x^5 > 0",
+    "ex x, y. x^2 + y^2 = 2 and x^4*y^2 = 9",
+    "ex x, y. x - y^2 >= 0 and x <= 1/7 and y^3 > 1",
+    "ex x, y. -x^3 - y^2 >= 27 and x + 3 > 0",
+)
+
+
+@pytest.mark.parametrize("text", FALSE_ONES)
+def test_what_is_false_by_ranges(text: str) -> None:
+    (step,) = steps(read(text))
+    assert step.after == FALSE
+    assert accepted(step)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        small_product(3, "<= 3", ">= 1"),  # at one point
+        "ex x, y. x^2 + y^2 <= 2 and x*y >= 1",
+        "ex x, y. x^2 - y^2 <= 1 and x > 5",  # nothing bounds y
+        "ex x, y. x^2 + y^2 <= 1 and x*y /= 5",
+        "ex x, y. x < 1 and x > 2 + y and y > 0",  # linear: left to others
+        "ex x, y. x^2 + y^2 <= 1 or x*y > 3",
+    ],
+)
+def test_what_is_left_to_others(text: str) -> None:
+    assert not steps(read(text))
+
+
+def test_sentences_are_decided_with_a_certificate() -> None:
+    answer = qe.eliminate(small_product(16), check=True)
+    assert answer.truth is False
+    assert [step.rule for step in answer.derivation.steps] == [RULE]
+    assert answer.certificate is not None
+    assert qe.verify(answer.certificate).accepted
+    assert qe.eliminate("all x, y. x^2 + y^2 <= 2 -> x*y^3 < 5").truth is True
+
+
+POLYS = ("x^2 + y^2", "x*y", "x^3", "x + y^2", "x^2*y", "-x^2 + y", "2*x - y^3", "x^4", "y", "x*y^2 - x^2")
+
+
+@settings(deadline=None, max_examples=100)
+@given(
+    st.lists(
+        st.tuples(st.sampled_from(POLYS), st.sampled_from(["<", "<=", "=", ">=", ">"]), st.integers(-4, 4)),
+        min_size=2,
+        max_size=5,
+    )
+)
+def test_no_point_is_lost(conditions: list[tuple[str, str, int]]) -> None:
+    """Where the rule says false, the checker agrees and none of many points satisfies all conditions."""
+    found = steps(read("ex x, y. " + " and ".join(f"{p} {r} {c}" for p, r, c in conditions)))
+    if not found:
+        return
+    (step,) = found
+    assert accepted(step)
+    assert isinstance(step.before, Exists)
+    values = [Fraction(k, 2) for k in range(-8, 9)]
+    names = step.before.body.free
+    assert not any(
+        holds_at(step.before.body, dict(zip(names, point, strict=True))) for point in product(values, repeat=len(names))
+    )
+
+
+def claim(text: str, change: Callable[[dict[str, Any]], None] = lambda evidence: None) -> Claim:
+    (step,) = steps(read(text))
+    evidence = prover(step)._plain(step.evidence["proof"])  # type: ignore[arg-type]
+    change(evidence)
+    assert step.before.ring is not None
+    return Claim(RULE, step.before, step.after, step.before.ring, Entry(evidence, "step"), "step")
+
+
+def test_the_evidence_as_it_is() -> None:
+    limits = prover(steps(read(FALSE_ONES[0]))[0]).limits
+    assert RULES[RULE] is check_ranges
+    check_ranges(claim(FALSE_ONES[0]), (), limits)
+
+
+CHANGES: dict[str, Callable[[dict[str, Any]], None]] = {
+    "tighter": lambda e: e["bounds"][0].__setitem__(4, "1/2"),
+    "no bounds": lambda e: e.__setitem__("bounds", []),
+    "other condition": lambda e: e["bounds"][0].__setitem__(0, 1),
+    "other condition fails": lambda e: e.__setitem__("fails", 0),
+    "no such condition": lambda e: e.__setitem__("fails", 7),
+    "negative": lambda e: e.__setitem__("fails", -1),
+    "other variable": lambda e: e["bounds"][0].__setitem__(1, "nobody"),
+    "other power": lambda e: e["bounds"][0].__setitem__(2, 1),
+    "huge power": lambda e: e["bounds"][0].__setitem__(2, 10**9),
+    "other side": lambda e: e["bounds"][0].__setitem__(3, -e["bounds"][0][3]),
+    "no side": lambda e: e["bounds"][0].__setitem__(3, 0),
+    "not a number": lambda e: e["bounds"][0].__setitem__(4, 1),
+    "short": lambda e: e["bounds"][0].pop(),
+    "more": lambda e: e.__setitem__("other", 1),
+}
+
+
+@pytest.mark.parametrize("name", CHANGES)
+def test_what_the_checker_refuses(name: str) -> None:
+    limits = prover(steps(read(FALSE_ONES[0]))[0]).limits
+    with pytest.raises(CertificateRejected):
+        check_ranges(claim(FALSE_ONES[0], CHANGES[name]), (), limits)
+
+
+def test_only_a_block_that_becomes_false() -> None:
+    limits = prover(steps(read(FALSE_ONES[0]))[0]).limits
+    own = claim(FALSE_ONES[0])
+    for before, after in ((own.before, read("x0 > 1")), (read("x0*x1 > 1"), FALSE)):
+        with pytest.raises(CertificateRejected):
+            check_ranges(Claim(RULE, before, after, own.ring, own.evidence, "step"), (), limits)
+
+
+BROKEN: dict[str, tuple[str, Callable[..., Any], str]] = {
+    "root too small": (
+        "_root_above",
+        lambda value, k: ranges._root_below(value, k) - 1,
+        "ex x, y. x^3 + y^2 <= 7 and x^5 > 20",
+    ),
+    "infinite times anything": ("_times", lambda a, b: Fraction(0), "ex x, y. x^2 + y^2 <= 3 and x*y >= 1"),
+    "nothing is unbounded": (
+        "_sum",
+        lambda values: sum((v for v in values if v != -ranges.inf), Fraction(0)),
+        "ex x, y. x^2 + y <= 3 and x >= 5",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", BROKEN)
+def test_a_broken_search_is_not_believed(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    function, broken, text = BROKEN[name]
+    assert not steps(read(text))
+    monkeypatch.setattr(ranges, function, broken)
+    (step,) = steps(read(text))
+    assert not accepted(step)
