@@ -19,7 +19,7 @@ from qe.certify.boolean import ByLemmas, Goal, equivalence
 from qe.certify.negation import negation, normal
 from qe.certify.step import Claim, Context, only
 from qe.formula.build import disj, exists
-from qe.formula.syntax import Exists, ForAll, Formula
+from qe.formula.syntax import FALSE, Exists, ForAll, Formula
 from qe.formula.traverse import disjuncts
 
 
@@ -42,6 +42,14 @@ def existential(claim: Claim) -> tuple[Formula, Formula]:
     if isinstance(claim.before, ForAll):
         return negation(claim.before), negation(claim.after)
     return normal(claim.before), normal(claim.after)
+
+
+def refuted_block(claim: Claim) -> Exists:
+    """The block of a sentence that is claimed to be false (or true, if it is universal: then that of its negation)."""
+    before, after = existential(claim)
+    if not isinstance(before, Exists) or before.free or not before.body.is_quantifier_free or after != FALSE:
+        raise claim.fail("expected a sentence of one block, which is false")
+    return before
 
 
 def opened(piece: Formula, names: Sequence[str], claim: Claim) -> Formula:

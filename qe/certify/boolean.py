@@ -117,10 +117,16 @@ class _Search:
     start: Domains = field(default_factory=list)
     used: set[int] = field(default_factory=set)
     nodes: int = 0
+    about: list[tuple[int, ...]] = field(init=False)
+    touching: dict[int, dict[int, None]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         for poly in self.theory.polynomials:
             self._number(poly, ANY)
+        self.about = [lemma.polynomials for lemma in self.theory.lemmas]
+        for k, polys in enumerate(self.about):
+            for i in polys:
+                self.touching.setdefault(i, {})[k] = None
 
     def _number(self, key: object, signs: int) -> int:
         """The variable of a polynomial, or of a condition that is no comparison: positive where it holds."""
@@ -146,31 +152,33 @@ class _Search:
                 return _Literal(self._number(shape(formula), NEGATIVE | POSITIVE), POSITIVE)
         return _Literal(self._number(formula, NEGATIVE | POSITIVE), POSITIVE)
 
-    def refuted(self, domains: Domains, pending: Sequence[_Node]) -> bool:
-        """Whether no signs in the domains make all pending conditions true."""
+    def refuted(self, domains: Domains, pending: Sequence[_Node], fixed: Sequence[int] = ()) -> bool:
+        """Whether no signs in the domains make all pending conditions true.
+
+        ``fixed``: domains from which the lemmas take nothing away; none are known where it is empty.
+        """
         self.nodes += 1
         if self.nodes > NODES:
             raise Unable(f"more than {NODES} cases of signs")
         self.theory.limits.tick()
-        left = self._settled(domains, list(pending))
+        left = self._settled(domains, list(pending), fixed)
         if left is None:
             return True
         if left:
             chosen = min(left, key=lambda join: len(join.parts))
             rest = [join for join in left if join is not chosen]
-            return all(self.refuted(list(domains), [*rest, part]) for part in chosen.parts)
+            return all(self.refuted(list(domains), [*rest, part], domains) for part in chosen.parts)
         return self._split(domains)
 
     def _split(self, domains: Domains) -> bool:
         """Cases on a sign on which lemmas depend."""
-        about = dict.fromkeys(i for lemma in self.theory.lemmas for i in lemma.polynomials)
-        for i in about:
+        for i in self.touching:
             if domains[i] not in (NEGATIVE, ZERO, POSITIVE):
                 signs = [s for s in (NEGATIVE, ZERO, POSITIVE) if domains[i] & s]
-                return all(self.refuted([*domains[:i], s, *domains[i + 1 :]], []) for s in signs)
+                return all(self.refuted([*domains[:i], s, *domains[i + 1 :]], [], domains) for s in signs)
         return False
 
-    def _settled(self, domains: Domains, pending: list[_Node]) -> list[_Join] | None:
+    def _settled(self, domains: Domains, pending: list[_Node], fixed: Sequence[int]) -> list[_Join] | None:
         """What is left to decide after all that follows at once; None for a contradiction."""
         while True:
             before = list(domains)
@@ -191,23 +199,30 @@ class _Search:
                         pending += parts or [False]
                 elif not node:
                     return None
-            if not all(domains) or not self._cut(domains):
+            if not all(domains) or not self._cut(domains, fixed):
                 return None
             if domains == before:
                 return left
-            pending = list(left)
+            pending, fixed = list(left), list(domains)
 
-    def _cut(self, domains: Domains) -> bool:
-        """All lemmas applied until nothing changes; whether signs are left."""
-        changed = True
-        while changed:
-            changed = False
-            for k, lemma in enumerate(self.theory.lemmas):
-                if lemma.cut(domains):
-                    changed = True
-                    self.used.add(k)
-                    if not all(domains):
-                        return False
+    def _cut(self, domains: Domains, fixed: Sequence[int]) -> bool:
+        """All lemmas about signs that are not as they were applied until nothing changes; whether signs are left."""
+        pending = {} if fixed else dict.fromkeys(range(len(self.about)))
+        for i, signs in enumerate(fixed):
+            if domains[i] != signs:
+                pending |= self.touching.get(i, {})
+        while pending:
+            k = next(iter(pending))
+            del pending[k]
+            before = [domains[i] for i in self.about[k]]
+            if not self.theory.lemmas[k].cut(domains):
+                continue
+            self.used.add(k)
+            if not all(domains):
+                return False
+            for i, signs in zip(self.about[k], before, strict=True):
+                if domains[i] != signs:
+                    pending |= self.touching[i]
         return True
 
 

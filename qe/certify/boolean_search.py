@@ -15,12 +15,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from qe.certify.block import existential
+from qe.certify.block import refuted_block
 from qe.certify.step import Claim, Context, Limits, only
 from qe.certify.unit_propagation import Clauses
 from qe.exact.ring import Poly
 from qe.formula.build import conj, exists
-from qe.formula.syntax import FALSE, And, Atom, Constant, Exists, Formula, Or, Relation
+from qe.formula.syntax import FALSE, And, Atom, Constant, Formula, Or, Relation
 from qe.proof.entry import Entry, formula_from_json
 
 
@@ -85,9 +85,7 @@ _LITERALS = {
 def check_boolean_search(claim: Claim, context: Context, limits: Limits) -> None:
     """Every conjunction is refuted, every clause follows, and so does a contradiction."""
     refuted, learnt = only(claim, "refuted", "learnt")
-    before, after = existential(claim)
-    if not isinstance(before, Exists) or before.free or not before.body.is_quantifier_free or after != FALSE:
-        raise claim.fail("expected a sentence of one block, which is false")
+    before = refuted_block(claim)
     cases = Cases(before.body, limits.tick)
     for entry in refuted.items():
         atoms, steps = entry.fields("atoms", "steps")

@@ -10,7 +10,7 @@ compares the result with the answer as a set of conjuncts.
 
 from __future__ import annotations
 
-from qe.certify.limits import check_power
+from qe.certify.substitution import quotient
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj
 from qe.formula.syntax import Atom, Formula, Relation, RootAtom
@@ -72,14 +72,8 @@ def _without(body: Formula, i: int, equation: Poly, entry: Entry) -> Formula:
 def _replaced(poly: Poly, i: int, equation: Poly) -> Poly:
     """A positive multiple of ``poly`` at x_i = -p/c, for the equation c*x_i + p = 0."""
     p, lead = equation.coefficients(i)
-    c = lead.constant_value()
-    top, bottom = (-p, c) if c > 0 else (p, -c)
-    parts = poly.coefficients(i)
-    check_power(top, len(parts) - 1)
-    result = poly.ring.constant(0)
-    for power, part in enumerate(parts):
-        result = result + part * top**power * bottom ** (len(parts) - 1 - power)
-    return result
+    top, bottom = (-p, lead) if lead.constant_value() > 0 else (p, -lead)
+    return quotient(poly, i, top, bottom)
 
 
 def _conjuncts(formula: Formula) -> frozenset[Formula]:

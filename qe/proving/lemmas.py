@@ -33,7 +33,7 @@ Term = tuple[int, tuple[tuple[Poly, int], ...]]
 """A coefficient, and polynomials with exponents."""
 
 MOST_POLYNOMIALS, MOST_PAIRS, MOST_MONOMIALS, MOST_TRIED = 120, 400, 24, 16
-MOST_TARGETS, MOST_CHAINED, MOST_CASES = 8, 12, 40
+MOST_TARGETS, MOST_CHAINED, MOST_BOUNDS = 8, 12, 400
 
 
 @dataclass(slots=True)
@@ -188,7 +188,7 @@ def _bounds(found: Lemmas, goals: Sequence[Sequence[Formula]], limits: Limits) -
         cases: list[list[Atom]] = [[]]
         for part in (f for f in parts if isinstance(f, Or)):
             cases += [[a for a in conjuncts(case) if isinstance(a, Atom)] for case in part.args]
-        for case in cases[:MOST_CASES]:
+        for case in cases[: max(1, MOST_BOUNDS // (len(known) + 1))]:
             conflict = bounds.conflict([*known, *case], limits.tick)
             if conflict is not None:
                 _combined_bounds(found, [a.poly for a in (*known, *case) if a in conflict], None in conflict)

@@ -5,12 +5,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from qe.certify.block import existential
+from qe.certify.block import refuted_block
 from qe.certify.boolean_search import Cases
 from qe.certify.step import Claim, Limits
 from qe.errors import Unable
 from qe.extras import lacking
-from qe.formula.syntax import Atom, Exists
+from qe.formula.syntax import Atom
 from qe.proof.entry import Json, formula_from_json
 
 MOST_LEARNT = 20_000
@@ -22,10 +22,7 @@ def with_clauses(claim: Claim, limits: Limits) -> dict[str, Json]:
     Raises ``CertificateRejected`` where the conflicts do not exclude all cases.
     """
     entry = claim.evidence.fields("refuted")[0]
-    before, _ = existential(claim)
-    if not isinstance(before, Exists):
-        raise claim.fail("expected a sentence of one block")
-    cases, numbers = Cases(before.body, limits.tick), []
+    cases, numbers = Cases(refuted_block(claim).body, limits.tick), []
     for refuted in entry.items():
         listed = refuted.fields("atoms", "steps")[0]
         cases.exclude([a for e in listed.items() if isinstance(a := formula_from_json(e, claim.ring), Atom)])

@@ -39,6 +39,7 @@ class MonomialBounds:
             if is_square(monomial):
                 self.bounds.at_least(x, Fraction(0), strict=False, reason=None)
         for given in atoms:
+            check()
             if given.relation is Relation.NE:
                 continue
             form = over_monomials(given.poly)
