@@ -112,7 +112,12 @@ def read_polynomial(given: AnyFormula, what: str, *, known: Container[str] = ())
             return value.poly, Fraction(1, value.den)
         return polynomial_from_sympy(given)
     except InputError as error:
-        raise InputError(f"{what}: a polynomial expected: {error}") from None
+        hint = (
+            "; minimize v with the constraint v = … instead"
+            if what == "objective" and "roots and cases" in str(error)
+            else ""
+        )
+        raise InputError(f"{what}: a polynomial expected: {error}{hint}") from None
 
 
 __all__ = ["AnyFormula", "read_block", "read_constraints", "read_formula", "read_polynomial", "together"]
