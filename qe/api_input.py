@@ -12,7 +12,7 @@ from qe import arguments
 from qe.errors import InputError
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import conj, convert
-from qe.formula.syntax import Constant, Exists, ForAll, Formula
+from qe.formula.syntax import TRUE, Constant, Exists, ForAll, Formula
 from qe.formula.traverse import ring_of
 from qe.proof.answer import Answer
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from qe.optimization.values import Objective
 
 AnyFormula = Any
-"""A ``Formula``, text, or a SymPy object."""
+"""A ``Formula``, text, an object of SymPy or z3, or a list of these, which hold together."""
 
 
 def read_formula(given: AnyFormula, format: str = "text", total_division: bool = False) -> Formula:
@@ -39,6 +39,8 @@ def read_formula(given: AnyFormula, format: str = "text", total_division: bool =
         return given.formula
     if isinstance(given, str):
         return formats.read(given, chosen, total_division=total_division)
+    if isinstance(given, list | tuple) and given:  # conditions that hold together
+        return conj(together(*(read_formula(part, format, total_division) for part in given)))
     if type(given).__module__.partition(".")[0] == "z3":
         from qe.io.z3_door import from_z3
 
@@ -82,9 +84,7 @@ def together(*parts: Formula) -> tuple[Formula, ...]:
 
 def read_constraints(given: AnyFormula) -> Formula:
     """One formula, or the conjunction of a list of formulas."""
-    if isinstance(given, list | tuple):
-        return conj(together(*(read_formula(g) for g in given)))
-    return read_formula(given)
+    return TRUE if isinstance(given, list | tuple) and not given else read_formula(given)
 
 
 def read_polynomial(given: AnyFormula, what: str, *, known: Container[str] = ()) -> tuple[Poly, Fraction]:
@@ -115,7 +115,12 @@ def read_polynomial(given: AnyFormula, what: str, *, known: Container[str] = ())
             return value.poly, Fraction(1, value.den)
         return polynomial_from_sympy(given)
     except InputError as error:
-        raise InputError(f"{what}: a polynomial expected: {error}") from None
+        hint = (
+            "; minimize v with the constraint v = … instead"
+            if what == "objective" and "roots and cases" in str(error)
+            else ""
+        )
+        raise InputError(f"{what}: a polynomial expected: {error}{hint}") from None
 
 
 def read_objective(given: AnyFormula, taken: Iterable[str]) -> Objective:

@@ -66,7 +66,7 @@ class Solver(Checks):
         """Answer the commands as they come in."""
         text, line, column = "", 0, 0
         for piece in lines:
-            text += piece
+            text += piece if text or line or column else piece.removeprefix("\ufeff")
             if end := complete(text):
                 self.execute(text[:end], source, line, column)
                 line, column = _behind(text[:end], line, column)
@@ -187,7 +187,7 @@ class Solver(Checks):
         if self.script.change(command):
             self.result = None
             return None
-        raise InputError(f"the command {head} is not supported")
+        return self.script.error(f"the command {head} is not supported", command.at)
 
     def move(self, head: str, command: Listing) -> None:
         """``push`` and ``pop``."""

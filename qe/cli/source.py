@@ -38,7 +38,7 @@ def read_source(argument: str, wanted: Format | None) -> Source:
     """
     if argument == "-":
         try:
-            return Source(sys.stdin.read(), wanted or Format.TEXT, "<stdin>")
+            return Source(sys.stdin.read().removeprefix("\ufeff"), wanted or Format.TEXT, "<stdin>")
         except UnicodeDecodeError:
             raise InputError("<stdin>: UTF-8 text expected, other bytes found") from None
     if argument.startswith("--"):
@@ -75,7 +75,7 @@ def is_file(path: Path) -> bool:
 def read_text(path: Path) -> str:
     """The content of a UTF-8 file, or ``InputError``."""
     try:
-        return path.read_text(encoding="utf-8")
+        return path.read_text(encoding="utf-8-sig")  # editors may put a mark in front of the text
     except OSError as error:
         raise InputError(f"{path}: cannot be read: {error.strerror}") from None
     except UnicodeDecodeError:

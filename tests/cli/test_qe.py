@@ -170,6 +170,12 @@ def test_bad_file_names_the_place(tmp_path: Path) -> None:
     refused(run("eliminate", "bad.txt", cwd=tmp_path), 2, "bad.txt:2:")
 
 
+def test_a_file_may_begin_with_a_mark_of_its_encoding(tmp_path: Path) -> None:
+    (tmp_path / "marked.txt").write_bytes(b"\xef\xbb\xbfex x.\r\n x^2 = a\r\n")
+    done = run("eliminate", "marked.txt", cwd=tmp_path)
+    assert (done.returncode, done.stdout.strip()) == (0, "a >= 0")
+
+
 def test_unreadable_files(tmp_path: Path) -> None:
     refused(run("eliminate", "missing.smt2", cwd=tmp_path), 2, "missing.smt2", "no such file")
     (tmp_path / "binary.txt").write_bytes(b"\xff\xfe\x00\x80")

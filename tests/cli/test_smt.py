@@ -120,6 +120,7 @@ def test_values_that_are_not_read_may_be_any(script: str, expected: list[str]) -
         (["(assert (> 1/2 0))\n", "(check-sat)\n", "(exit)\n"], ["column 12: malformed", "unknown"]),
         (["(push)\n (check-sat) # (echo a)(check-sat)"], ["sat", "line 2 column 14: unknown character", "a", "sat"]),
         (["(check-sat))\n", "(echo b)\n"], ["sat", "column 12: unbalanced", "b"]),
+        (["\ufeff(check-sat)\n", "(foo)"], ["sat", "line 2 column 1"]),
         (["(echo |a\n", "b|)(check-sat)\n"], ["|a b|", "sat"]),
         (["(assert (> .5 0))(assert (< -2 0))(assert (x > 1))"], ["write 0.5", "write (- 2)", "is not supported"]),
         (["(declare-const x Real)(assert (x > 1))"], ["stands first: (> x …)"]),

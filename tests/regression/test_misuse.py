@@ -92,6 +92,17 @@ def test_the_answer_that_was_meant(typed: str, meant: str) -> None:
     assert qe.equivalent(typed, meant)
 
 
+def test_a_list_holds_together() -> None:
+    assert qe.equivalent([X > 0, sympy.Eq(X + Y, 1)], "x > 0 and x + y = 1")
+    assert qe.equivalent(("x > 0", X < Y), "0 < x and x < y")
+    assert qe.find_instance(["x > 2", "x < 3", ["x^2 = 5"]]) is not None
+    assert str(qe.solve([X + Y > 0, Y < 1], X)) == "y < 1 and -y < x"
+    assert qe.region(["x > 0", "x < 1"]).volume(0.5)
+    for wrong in ([], [[]], ["x > 0", 3], [None]):
+        with pytest.raises(qe.InputError):
+            qe.eliminate(wrong)
+
+
 @pytest.mark.parametrize(
     ("misuse", "hint"),
     [
@@ -140,6 +151,12 @@ def test_the_answer_that_was_meant(typed: str, meant: str) -> None:
         (lambda: qe.eliminate("x > 0", order="z"), "variables of the formula"),
         (lambda: qe.decide("x > 0"), "a sentence expected; free: x"),
         (lambda: qe.minimize("x^2 > 0", "true"), "a polynomial expected"),
+        (lambda: qe.minimize("abs(x - 1) + x^2"), "constraint v = …"),
+        (lambda: qe.solve("x < 1", "x x"), "variables: each name once"),
+        (lambda: qe.eliminate("x < y", order="x x"), "order: each name once"),
+        (lambda: qe.find_instance("x < 1", workers=-1), "workers: a natural number"),
+        (lambda: qe.decide("ex x. x > 1", race="fastest"), "race: "),
+        (lambda: qe.equivalent("x > 1", "x > 1", cluster="here"), "cluster: "),
         (lambda: qe.region("x > 0").contains({"y": 1}), "x"),
         (lambda: qe.variables("x")**2 == Fraction(1), "x.equals"),
     ],

@@ -107,6 +107,7 @@ def test_z3() -> None:
     solver = z3.Solver()
     solver.add(u > v)
     assert qe.equivalent(qe.from_z3(solver), "u > v")
+    assert qe.equivalent([u > 0, v < u], "u > 0 and v < u")
     optimiser = z3.Optimize()
     assert qe.equivalent(optimiser, "true")
     optimiser.add(u > v)
