@@ -113,9 +113,9 @@ class Derived:
         return tuple(step["rule"] for step in payload["steps"])
 
 
-def derivation_page(number: int) -> str:
+def derivation_page(number: int, first: str = "") -> str:
     """The name of the file with the derivation of this number, counted from 1, as a page."""
-    return f"derivation_{number}.html"
+    return f"{first}derivation_{number}.html"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

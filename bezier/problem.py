@@ -13,7 +13,7 @@ from typing import Any
 from bezier.curves.scalar import Vector, dot, exactly, is_zero, same
 from bezier.curves.workspace import HalfSpace, Workspace, WorkspaceKind, root_text
 from bezier.input.files import read_text
-from bezier.input.numbers import NotANumber, describe, read_squared
+from bezier.input.numbers import NotANumber, describe, read_squared, shorten
 from bezier.input.single_table import SingleCurve, Via, read_single, stated_via
 from bezier.input.toml_table import POINT, Table
 from bezier.motion.motion import Timing, read_timing
@@ -243,7 +243,7 @@ def _check_inside(table: Table, points: Mapping[str, Vector], workspace: Workspa
     for name, point in points.items():
         if workspace.ball.margin(point) < 0:
             needed = root_text(dot(point, point))
-            raise table.error("radius", f"at least {needed}, the norm of {name}", workspace.radius_text)
+            raise table.error("radius", f"at least {needed}, the norm of {name}", shorten(workspace.radius_text))
         if workspace.kind is WorkspaceKind.HEMISPHERE and workspace.floor.margin(point) < 0:
             raise table.error(name, "a point with z >= 0 in the hemisphere", f"z = {point[-1]}")
 

@@ -19,6 +19,7 @@ from bezier.obstacles import survey
 from bezier.obstacles.obstacle import Obstacle
 from bezier.obstacles.reader import read_obstacles
 from bezier.obstacles.survey import Finding
+from bezier.planner import derivations
 from bezier.planner.table import method_of
 from bezier.plans import Clock, Plan
 from bezier.problem import problem_of
@@ -46,7 +47,7 @@ class Request:
 def clearance(channel: Channel, request: Request) -> str:
     """What to print. Raises ``InputError`` for bad input, ``Unable`` when a problem has no path to examine."""
     clock = Clock(limit=request.timeout, listener=channel.event, note=channel.fact)
-    curves, obstacles = _read(request.source, clock)
+    curves, obstacles, answers = _read(request.source, clock)
     if request.obstacles is not None:
         obstacles = read_obstacles(Table.parse(read_text(request.obstacles), str(request.obstacles)))
     if not obstacles:
@@ -55,6 +56,9 @@ def clearance(channel: Channel, request: Request) -> str:
         findings = survey.survey(curves, obstacles)
     with clock.step("certificates"):
         members = survey.certificates(findings)
+        if request.certificate is not None:
+            derived, _ = derivations.proved({**answers, **derivations.of_obstacles(obstacles)}, clock)
+            members += derivations.members(derived)
         certificate = qe.Certificate.bundle(members)
         verdict = qe.verify(certificate) if members else None
     if request.certificate is not None:
@@ -69,19 +73,20 @@ def _write(path: FilePath, text: str) -> None:
         raise InputError(f"--certificate {path}: expected a writable file, found: {error.strerror}") from None
 
 
-def _read(source: FilePath, clock: Clock) -> tuple[Curves, Sequence[Obstacle]]:
+def _read(source: FilePath, clock: Clock) -> tuple[Curves, Sequence[Obstacle], Mapping[str, Any]]:
+    """The curves, the obstacles, and the engine's answers that the curves rest on."""
     if source.is_dir():
         problem, curves = stored_path(stored.table(source / "path.json"))
-        return curves, problem.obstacles
+        return curves, problem.obstacles, {}
     table = Table.parse(read_text(source), str(source))
     if "curve" in table.values:
         table.only(("curve", "obstacle"))
-        return _curves(table), read_obstacles(table)
+        return _curves(table), read_obstacles(table), {}
     problem = problem_of(table)
     plan: Plan = method_of(problem.method).make(problem, clock)
     if plan.path is None:
         raise Unable(f"{source}: no path to examine: {method_of(problem.method).reason(plan)}")
-    return plan.path.curves, problem.obstacles
+    return plan.path.curves, problem.obstacles, plan.eliminations
 
 
 def _curves(table: Table) -> dict[str, Bezier]:

@@ -114,7 +114,7 @@ def _check_presence(folder: FilePath) -> None:
     if len(missing) == len(needed):
         if (folder / COMPARISON).exists():
             raise InputError(
-                f"{folder}: expected a folder of bezier plan, found a comparison, which has no certificates"
+                f"{folder}: expected a folder of bezier plan, found a comparison (qe check reads its certificates)"
             )
         raise InputError(f"{folder}: expected a folder of bezier plan, with {CERTIFICATE} and {SUMMARY}")
     if missing:

@@ -8,8 +8,9 @@ from pathlib import Path as FilePath
 
 from bezier.compare.comparison import Comparison, compare
 from bezier.compare.output import table, to_json
+from bezier.planner import derivations
 from bezier.planner.command import Reply
-from bezier.planner.outputs import COMPARISON
+from bezier.planner.outputs import COMPARED, COMPARISON
 from bezier.plans import Clock
 from bezier.problem import Problem
 from qe.cli.shell import OK
@@ -33,7 +34,7 @@ class Request:
 def run(channel: Channel, request: Request) -> Reply:
     """The comparison, with its files in ``request.folder`` if there is one, and what to print."""
     clock = Clock(limit=request.timeout, listener=channel.event, note=channel.fact)
-    found = compare(request.problem, clock)
+    found = compare(request.problem, clock, proofs=request.folder is not None)
     files, told = [], ""
     if request.folder is not None and request.target is not None:
         files = _write(found, request.folder, request.target, plots=request.plots)
@@ -53,7 +54,12 @@ def _write(found: Comparison, folder: FilePath, target: FilePath, *, plots: bool
         drawings = plot_compare.charts(found)
     from bezier.compare.page import render
 
-    files = [str(target / name) for name in sorted(names)]
+    files_of = found.derivation_pages
+    pages = {files_of[name]: derivations.page(name, item, COMPARED) for name, item in found.derivations.items()}
+    texts = {COMPARED: found.certificate.to_json(), **pages}
+    for name, text in texts.items():
+        (folder / name).write_text(text, encoding="utf-8")
+    files = [str(target / name) for name in sorted([*names, *texts])]
     (folder / PAGE).write_text(render(found, drawings), encoding="utf-8")
     text = json.dumps(to_json(found, files), indent=1, ensure_ascii=False)
     (folder / DATA).write_text(text + "\n", encoding="utf-8")

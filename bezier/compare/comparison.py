@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import partial, reduce
-from typing import TypeVar, cast
+from typing import Any, TypeVar, cast
 
 import qe
 from bezier.compare import whole_curve
@@ -19,12 +19,14 @@ from bezier.methods.cubic import formula as cubic
 from bezier.methods.cubic.existence import Existence, existence, sentence
 from bezier.methods.quadratic import formula as quadratic
 from bezier.methods.quadratic.plan import QuadraticPlan
-from bezier.planner import avoid
+from bezier.planner import avoid, derivations
+from bezier.planner.derivations import members_of
 from bezier.planner.table import method_of
-from bezier.plans import Clock, Plan
+from bezier.plans import Clock, Derived, Plan, derivation_page
 from bezier.problem import PlanMethod, Problem
 from qe.errors import InputError, Unable
 from qe.formula.syntax import Formula
+from qe.proof.certificate import Certificate
 from qe.worker import Channel, Known, run
 
 Found = TypeVar("Found")
@@ -32,6 +34,9 @@ Found = TypeVar("Found")
 METHODS = (PlanMethod.QUADRATIC, PlanMethod.CUBIC)
 PAPER = {PlanMethod.QUADRATIC: "about 15.4 s", PlanMethod.CUBIC: "has not yet been successful"}
 """What the paper reports of quantifier elimination for formula (8), section 4.2.1, and (7), section 4.2."""
+
+NUMBERS = {PlanMethod.QUADRATIC: "(8):", PlanMethod.CUBIC: "(7):"}
+"""What the labels of the certificates of a plan begin with."""
 
 REGION_SECONDS = 30.0
 """No part is worked on longer than this; the comparison then says so."""
@@ -83,7 +88,8 @@ class PlanarRegion:
 class Planar:
     """The planar regions of formula (8), of (8*) for whole curves, and of (7) with Q2 quantified.
 
-    ``contained``: whether the engine proved that the first lies in the second (None: not decided).
+    ``contained``: whether the engine proved that the first lies in the second (None: not decided);
+    ``implications``: its answers about that, by what was asked.
     """
 
     plane: Plane
@@ -91,6 +97,7 @@ class Planar:
     whole: PlanarRegion
     cubic: PlanarRegion
     contained: bool | None
+    implications: Mapping[str, Any] = field(default_factory=dict)
 
     @property
     def named(self) -> dict[str, PlanarRegion]:
@@ -102,7 +109,9 @@ class Planar:
 class Comparison:
     """``sides`` by method; ``volume``: of the region of formula (8) in space; ``seconds``: of the common steps.
 
-    ``unfinished``: why a common step has no result, by its name.
+    ``unfinished``: why a common step has no result, by its name. ``derivations``: of the eliminations of the plans, of
+    the existence theorem and of what shows that (8) lies in (8*), each step checked; ``unproved``: why others have
+    none. The planar regions have none: theirs take longer than the comparison.
     """
 
     problem: Problem
@@ -112,10 +121,29 @@ class Comparison:
     existence: Existence
     seconds: Mapping[str, float]
     unfinished: Mapping[str, str]
+    derivations: Mapping[str, Derived] = field(default_factory=dict)
+    unproved: Mapping[str, str] = field(default_factory=dict)
+
+    @property
+    def derivation_pages(self) -> dict[str, str]:
+        """The files with the derivations as pages, by what was asked."""
+        return {name: derivation_page(k, "compare_") for k, name in enumerate(self.derivations, start=1)}
+
+    @property
+    def certificate(self) -> Certificate:
+        """The certificates of both plans, each label with the formula's number before it, and the derivations."""
+        found = [
+            (f"{NUMBERS[method]} {member.label}", member.certificate)
+            for method, side in self.sides.items()
+            for member in members_of(side.plan.certificate)
+        ]
+        return Certificate.bundle([*found, *derivations.members(self.derivations)])
 
 
-def compare(problem: Problem, clock: Clock | None = None) -> Comparison:
-    """Plan with both methods and measure what they leave free. Raises ``InputError`` for other methods.
+def compare(problem: Problem, clock: Clock | None = None, *, proofs: bool = False) -> Comparison:
+    """Plan with both methods and measure what they leave free; with ``proofs`` also the derivations of eliminations.
+
+    Raises ``InputError`` for other methods.
 
     Each common part has its share of the clock's limit; one that does not finish in it is left out, with the reason.
     """
@@ -134,7 +162,15 @@ def compare(problem: Problem, clock: Clock | None = None) -> Comparison:
     theorem = parts.take("existence theorem of (7)", 1, lambda seconds: existence(timeout=seconds))
     if theorem is None:
         theorem = Existence(sentence(), None, "")
-    return Comparison(problem, sides, planar, volume, theorem, dict(watch.seconds), parts.unfinished)
+    found: tuple[dict[str, Derived], dict[str, str]] | None = None
+    if proofs:
+        asked = {name: answer for side in sides.values() for name, answer in side.plan.eliminations.items()}
+        asked |= planar.implications
+        if theorem.truth is not None:
+            asked["the existence theorem of (7)"] = theorem.answer
+        found = parts.take("derivations", 1, lambda seconds: derivations.proved(asked, Clock(limit=seconds)))
+    known, unproved = found or ({}, {})
+    return Comparison(problem, sides, planar, volume, theorem, dict(watch.seconds), parts.unfinished, known, unproved)
 
 
 @dataclass(slots=True)
@@ -186,12 +222,13 @@ def _planar(problem: Problem, parts: _Parts) -> Planar:
         step = f"planar region of {name}"
         found = parts.take(step, share, partial(_region, asked, plane, parts.clock))
         regions[name] = found or PlanarRegion(str(asked), reason=parts.unfinished[step])
-    contained = parts.take("(8) lies in (8*)", 3, lambda seconds: _contained(problem, plane, seconds))
-    return Planar(plane, regions["(8)"], regions["(8*)"], regions["(7)"], contained)
+    answers = parts.take("(8) lies in (8*)", 3, lambda seconds: _contained(problem, plane, seconds))
+    contained = None if answers is None else all(answer.truth for answer in answers.values())
+    return Planar(plane, regions["(8)"], regions["(8*)"], regions["(7)"], contained, answers or {})
 
 
-def _contained(problem: Problem, plane: Plane, seconds: float) -> bool:
-    return whole_curve.polygon_implies_curve(for_method(problem, METHODS[0]), plane, timeout=seconds)
+def _contained(problem: Problem, plane: Plane, seconds: float) -> dict[str, Any]:
+    return whole_curve.implications(for_method(problem, METHODS[0]), plane, timeout=seconds)
 
 
 def planar_statements(problem: Problem, plane: Plane) -> dict[str, Statement]:

@@ -12,7 +12,7 @@ from bezier.compare.output import TITLES, Row, duration, notes, rows, step_rows
 from bezier.pictures.picture import Chart
 from bezier.plans import Outcome
 from bezier.report import html, parts
-from bezier.report.html import Card, Page, Section
+from bezier.report.html import Card, Page, Section, Text
 from bezier.report.page import PAPER
 
 NAMES = ("P0", "Q0", "R0", "R2")
@@ -33,7 +33,13 @@ def render(found: Comparison, drawings: Mapping[str, Sequence[Chart]]) -> str:
         title=f"{file.removesuffix('.toml').replace('_', ' ')}: quadratic and cubic curves side by side",
         lead="three quadratic curves with C¹ joins, formula (8), and three cubic curves with C² joins, formula (7)",
         cards=_cards(found),
-        sections=[_results(found, drawings), _regions(found, drawings), _problem(found), _timings(found)],
+        sections=[
+            _results(found, drawings),
+            _regions(found, drawings),
+            *_derivations(found),
+            _problem(found),
+            _timings(found),
+        ],
         footer=f"{PAPER}, section 4.2. Made by bezier-qe {html.package_version()} from {file}.",
     )
     return html.document(page)
@@ -75,6 +81,24 @@ def _regions(found: Comparison, drawings: Mapping[str, Sequence[Chart]]) -> Sect
     theorem = html.pre(found.existence.sentence)
     content.append(html.folded("the existence theorem as handed to the engine", theorem))
     return Section("regions", "Where Q1 may be", html.joined(*content), "regions")
+
+
+def _derivations(found: Comparison) -> list[Section]:
+    """The eliminations whose every step was checked, with links to their pages."""
+    if not found.derivations:
+        return []
+    rows: list[tuple[Text, Text]] = [
+        (f"The elimination of {name}" if "formula" in name else f"{name[0].upper()}{name[1:]}", _link(found, name))
+        for name in found.derivations
+    ]
+    rows += [(f"{name[0].upper()}{name[1:]}", f"not every step checked: {why}") for name, why in found.unproved.items()]
+    said = "The certificates of both plans and of these derivations are in compare_certificate.json."
+    content = html.table(("decided by the engine", "how"), rows) + html.note(said)
+    return [Section("certified", "What was certified", content, short="certificates")]
+
+
+def _link(found: Comparison, name: str) -> Markup:
+    return parts.derivation_link(found.derivations[name], found.derivation_pages[name])
 
 
 def _problem(found: Comparison) -> Section:

@@ -38,7 +38,7 @@ from bezier.methods.control.statements import (
 from bezier.methods.control.system import System, stated
 from bezier.methods.quadratic import formula as quadratic
 from bezier.problem import Problem
-from qe.errors import InputError
+from qe.errors import InputError, Unable
 from qe.options import Budget
 
 POINT = "Q1"
@@ -134,20 +134,28 @@ def region(problem: Problem, plane: Plane, *, timeout: float | None = None) -> q
 def polygon_implies_curve(problem: Problem, plane: Plane, *, timeout: float | None = None) -> bool:
     """Whether (8) implies (8*) for Q1 in the plane, decided by the engine, one curve at a time.
 
-    ``timeout``: seconds for all of them together. Raises ``BudgetExceeded`` at the limit.
+    ``timeout``: seconds for all of them together. Raises ``Unable`` where it is not decided, ``BudgetExceeded`` at the
+    limit.
     """
+    return all(answer.truth for answer in implications(problem, plane, timeout=timeout).values())
+
+
+def implications(problem: Problem, plane: Plane, *, timeout: float | None = None) -> dict[str, Any]:
+    """The engine's answers to whether the control polygons bound the curves, up to the first false one, by name."""
     budget = Budget(timeout)
     order = ("t", *plane_coordinates(POINT))
-    conditions = problem.workspace.conditions
-    return all(
-        qe.decide(
-            for_all(order, Implies(every(WHOLE, family.polygon_inside([c])), _all([c], [family.at()]))).formula,
-            timeout=budget.remaining(),
-            order=order,
-        )
-        for family in families(problem, plane).values()
-        for c in conditions
-    )
+    found: dict[str, Any] = {}
+    for name, family in families(problem, plane).items():
+        for c in problem.workspace.conditions:
+            inside = Implies(every(WHOLE, family.polygon_inside([c])), _all([c], [family.at()]))
+            answer = qe.eliminate(for_all(order, inside).formula, timeout=budget.remaining(), order=order)
+            if answer.truth is None:
+                budget.check("whole curves")
+                raise Unable(answer.reason or "it was not decided")
+            found[f"the control points of {name} bound it ({c.name})"] = answer
+            if not answer.truth:
+                return found
+    return found
 
 
 def curve_inside(curve: Bezier, conditions: Sequence[Condition], *, timeout: float | None = None) -> bool:

@@ -16,7 +16,7 @@ NUMBER = 'an integer, a decimal or a fraction such as "3/4"'
 _INTEGER = re.compile(r"[+-]?[0-9]+")
 _FRACTION = re.compile(r"([+-]?[0-9]+)\s*/\s*([+-]?[0-9]+)")
 _DECIMAL = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE]([+-]?[0-9]+))?")
-_ROOT = re.compile(r"sqrt\(\s*(.+?)\s*\)")
+_ROOT = re.compile(r"(?:([^*()\s]+)\s*\*\s*)?sqrt\(\s*([^()]+?)\s*\)(?:\s*/\s*([^/()\s]+))?")
 
 
 class NotANumber(ValueError):
@@ -69,12 +69,15 @@ def read(raw: object) -> Fraction:
 
 
 def read_squared(raw: object) -> Fraction:
-    """The exact square of a nonnegative number, which may be given as ``"sqrt(27)"``. Raises ``NotANumber``."""
+    """The exact square of a nonnegative number, which may be given as ``"sqrt(27)"`` or, as radii are printed,
+    ``"3*sqrt(2)/2"``. Raises ``NotANumber``."""
     if isinstance(raw, str) and (match := _ROOT.fullmatch(raw.strip())):
-        radicand = parse(match[1])
+        factor, radicand, below = parse(match[1] or "1"), parse(match[2]), parse(match[3] or "1")
         if radicand < 0:
             raise NotANumber(f'"{raw}", the root of a negative number')
-        return radicand
+        if factor < 0 or below <= 0:
+            raise NotANumber(f'"{raw}", a number that is negative or divided by one that is not positive')
+        return radicand * (factor / below) ** 2
     value = read(raw)
     if value < 0:
         raise NotANumber(f"the negative number {value}")
@@ -96,7 +99,8 @@ def describe(raw: object) -> str:
             return "a table"
         case int():
             return shorten(str(raw)) if abs(raw).bit_length() < 4000 else "a huge integer"
-    return f"a {type(raw).__name__}"
+    name = type(raw).__name__
+    return f"{'an' if name[0].lower() in 'aeiou' else 'a'} {name}"
 
 
 def shorten(text: str, limit: int = 40) -> str:

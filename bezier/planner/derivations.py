@@ -20,7 +20,8 @@ from qe.errors import CertificateRejected
 from qe.formula.syntax import Formula
 from qe.proof.certificate import Certificate, Kind, Labelled
 
-CHECKED = "Every step was checked: the evidence is in certificate.json, and qe check certificate.json checks it again."
+CHECKED = "Every step was checked: the evidence is in {0}, and qe check {0} checks it again."
+CERTIFICATE = "certificate.json"
 PREFIX = "derivation of "
 """How the labels of the members of a bundle begin."""
 
@@ -54,9 +55,9 @@ def pages(plan: Plan) -> dict[str, str]:
     return {files[name]: page(name, item) for name, item in plan.derivations.items() if item.answer is not None}
 
 
-def page(name: str, item: Derived) -> str:
-    """A derivation as a page."""
-    found: str = item.answer.derivation.to_html(title=f"The elimination of {name}", note=CHECKED)
+def page(name: str, item: Derived, file: str = CERTIFICATE) -> str:
+    """A derivation as a page; ``file``: where its evidence is."""
+    found: str = item.answer.derivation.to_html(title=f"The elimination of {name}", note=CHECKED.format(file))
     return found
 
 
@@ -80,9 +81,14 @@ def _of_radius(plan: Plan) -> Mapping[str, Any]:
 
 def _with(plan: Plan, found: Mapping[str, Derived]) -> Plan:
     """The plan with these derivations, in its certificate too."""
-    own = plan.certificate.payload
-    listed = [(m.label, m.certificate) for m in own] if isinstance(own, tuple) else [("plan", plan.certificate)]
+    listed = [(m.label, m.certificate) for m in members_of(plan.certificate)]
     return replace(plan, derivations=found, certificate=Certificate.bundle([*listed, *members(found)]))
+
+
+def members_of(certificate: Certificate) -> tuple[Labelled, ...]:
+    """The members of a bundle; another certificate is the only one."""
+    payload = certificate.payload
+    return payload if isinstance(payload, tuple) else (Labelled("plan", certificate),)
 
 
 # --- found again from a folder -------------------------------------------------------------------------------------

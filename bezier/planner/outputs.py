@@ -24,22 +24,22 @@ from bezier.paths import heights
 from bezier.paths.path import Path
 from bezier.planner import arm, avoid
 from bezier.planner.table import method_of
-from bezier.plans import Outcome, Plan, derivation_page
+from bezier.plans import Outcome, Plan
 from bezier.problem import Problem, to_json
 from qe.errors import InputError
 
-DERIVATION = re.compile(re.escape(derivation_page(0)).replace("0", "[1-9][0-9]*"))
+DERIVATION = re.compile(r"(compare_)?derivation_[1-9][0-9]*\.html")
 """The names of pages with derivations."""
 SAMPLES = 51
 """Rows per curve in ``path.csv``."""
 FIELD_BITS = 64
 REPORT, SUMMARY, COMPARISON = "report.html", "summary.json", "compare.json"
-PROBLEM = "problem.json"
+PROBLEM, COMPARED = "problem.json", "compare_certificate.json"
 DATA = ("certificate.json", PROBLEM, "path.json", "path.csv", "region.json", "motion.json", "motion.csv", *arm.FILES)
 PICTURES = ("region.png", "path.png", "motion.png", "profile.png", "clearance.png")
 LISTED_IN = {
     SUMMARY: (*DATA, REPORT, SUMMARY, *PICTURES),
-    COMPARISON: ("compare.html", COMPARISON, "regions.png", "paths.png"),
+    COMPARISON: ("compare.html", COMPARISON, COMPARED, "regions.png", "paths.png"),
 }
 """All names that planning and comparing write, by the file in which a run lists those that it wrote."""
 

@@ -123,13 +123,15 @@ def _attempt(item: Attempt) -> tuple[Text, ...]:
 
 def certificates(plan: Plan, claims: Mapping[str, str]) -> Section:
     """What was checked by whom; ``claims``: what each certificate of the method says."""
-    told, rows = {**CLAIMS, **claims}, []
+    told = {**CLAIMS, **claims}
+    rows: list[tuple[Text, Text, Text]] = []
     for name, verdict in plan.checks.items():
         result = "accepted" if verdict.accepted else f"rejected at {verdict.step}: {verdict.reason}"
         rows.append((told.get(name, name), CHECKER, toned(result, verdict.accepted)))
     for name in plan.derivations:
-        claim = html.joined(f"The elimination of {name}:", derivation_link(plan, name))
-        rows.append((claim, CHECKER, toned("accepted", True)))
+        link = derivation_link(plan.derivations[name], plan.derivation_pages[name])
+        said = html.joined(f"The elimination of {name}:", link)
+        rows.append((said, CHECKER, toned("accepted", True)))
     for name, why in plan.unproved.items():
         rows.append((f"The elimination of {name}, step by step", "nobody", toned(f"not checked: {why}", None)))
     if plan.path is not None:

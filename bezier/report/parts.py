@@ -16,7 +16,7 @@ from bezier.curves.workspace import Condition, HalfSpace, root_text
 from bezier.methods.control.system import Combination, OnPoint, System
 from bezier.methods.control.terms import named_multipliers
 from bezier.paths.path import Path
-from bezier.plans import Plan
+from bezier.plans import Derived, Plan
 from bezier.report import html, mathml, mathml_cells
 from bezier.report.html import Section, Text
 
@@ -258,14 +258,15 @@ def derived(plan: Plan, name: str) -> Markup | None:
     """The line that links to the derivation of an answer; None where there is none."""
     if name not in plan.derivations:
         return None
-    return html.paragraph(html.joined("How it was found:", derivation_link(plan, name)))
+    link = derivation_link(plan.derivations[name], plan.derivation_pages[name])
+    return html.paragraph(html.joined("How it was found:", link))
 
 
-def derivation_link(plan: Plan, name: str) -> Markup:
+def derivation_link(found: Derived, file: str) -> Markup:
     """A link to the page with the derivation of an answer."""
-    count = len(plan.derivations[name].rules)
+    count = len(found.rules)
     words = f"{count} step{'s' * (count != 1)}, each with its theorem, all checked"
-    return Markup('<a href="{}">{}</a>').format(plan.derivation_pages[name], words)
+    return Markup('<a href="{}">{}</a>').format(file, words)
 
 
 def cells(region: Any) -> list[Markup]:

@@ -60,7 +60,7 @@ def test_the_plan_is_that_of_the_file(name: str) -> None:
 
 def test_every_key_of_the_file_is_an_argument() -> None:
     arguments = set(inspect.signature(bezier.plan).parameters)
-    assert {NAMES.get(key, key) for key in _KEYS} == arguments - {"timeout", "memory", "progress"}
+    assert {NAMES.get(key, key) for key in _KEYS} == arguments - {"proofs", "timeout", "memory", "progress"}
 
 
 @pytest.mark.parametrize(

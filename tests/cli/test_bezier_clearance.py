@@ -39,6 +39,18 @@ def test_json_and_certificate(tmp_path: Path) -> None:
     assert run("check", certificate, program=QE).returncode == 0
 
 
+def test_an_obstacle_with_quantifiers_comes_with_its_derivation(tmp_path: Path) -> None:
+    curves, certificate = tmp_path / "curves.toml", tmp_path / "clearance.json"
+    curves.write_text(
+        CURVES + '\n[[obstacle]]\nname = "hill"\nkind = "formula"\nformula = "ex w. x^2+y^2+z^2+w^2 < 1"\n'
+    )
+    assert run("clearance", curves, "--certificate", certificate).returncode == 0
+    members = {item["label"]: item["kind"] for item in json.loads(certificate.read_text())["certificates"]}
+    assert members["derivation of the obstacle hill"] == "derivation"
+    checked = run("check", certificate, program=QE)
+    assert checked.returncode == 0 and "derivation of the obstacle hill: by " in checked.stdout
+
+
 def test_a_planned_folder_and_other_obstacles(root: Path, tmp_path: Path) -> None:
     out, others = tmp_path / "out", tmp_path / "others.toml"
     problem = root / "examples" / "obstacle_box.toml"

@@ -215,8 +215,23 @@ def test_a_second_plan_leaves_nothing_of_the_first(root: Path, tmp_path: Path) -
     for name, code in (("three_balls", 0), ("single_dip", 3)):
         process = run("plan", root / "examples" / f"{name}.toml", "--out", out, "--no-plots")
         assert process.returncode == code, process.stderr
-    assert {p.name for p in out.iterdir()} == {"certificate.json", "problem.json", "report.html", "summary.json"}
+    pages = {f"derivation_{k}.html" for k in (1, 2, 3)}
+    assert {p.name for p in out.iterdir()} == {
+        "certificate.json",
+        "problem.json",
+        "report.html",
+        "summary.json",
+        *pages,
+    }
     assert run("check", out).returncode == 0
+
+
+def test_pages_of_derivations_that_are_not_written_again_go(root: Path, tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    for name, count in (("single_dip", 3), ("cubic_joins", 1)):
+        run("plan", root / "examples" / f"{name}.toml", "--out", out, "--no-plots")
+        assert len(list(out.glob("derivation_*.html"))) == count
+    assert 'href="derivation_1.html"' in (out / "report.html").read_text()
 
 
 def test_help_names_the_commands() -> None:

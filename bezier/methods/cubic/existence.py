@@ -7,7 +7,8 @@ a plan needs the objective or a least speed, and existence alone says nothing ab
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from typing import Any
 
 import qe
 from bezier.methods.control.statements import (
@@ -32,11 +33,15 @@ GIVEN = ("Q0", "R0")
 
 @dataclass(frozen=True, slots=True)
 class Existence:
-    """The sentence, the engine's verdict (None: not reached), and the witness it found: terms in the parameters."""
+    """The sentence, the engine's verdict (None: not reached), and the witness it found: terms in the parameters.
+
+    ``answer``: the engine's, None where it was not asked.
+    """
 
     sentence: str
     truth: bool | None
     witness: str
+    answer: Any = field(default=None, compare=False, repr=False)
 
 
 def question() -> Statement:
@@ -64,7 +69,7 @@ def existence(*, timeout: float | None = None) -> Existence:
     asked = question()
     answer = qe.eliminate(asked.formula, timeout=timeout)
     told = next((line for line in answer.stats.get("plan", ()) if line.startswith(WITNESS)), "")
-    return Existence(str(asked), answer.truth, told.removeprefix(WITNESS))
+    return Existence(str(asked), answer.truth, told.removeprefix(WITNESS), answer)
 
 
 WITNESS = "witness in the parameters: "

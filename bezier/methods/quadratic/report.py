@@ -127,7 +127,9 @@ def _infeasibility(plan: QuadraticPlan) -> Section:
     """Why there is no control point."""
     balls = plan.balls
     labels = ("|Q0|²", "|R0|²", "|Q0 − R0|²")
-    rows = [(label, parts.number(v)) for label, v in zip(labels, balls.sides_squared, strict=True)]
+    rows: list[tuple[Text, Text]] = [
+        (label, parts.number(v)) for label, v in zip(labels, balls.sides_squared, strict=True)
+    ]
     for label, square in (("radius r", balls.radius_squared), ("least radius that would do", balls.needed_squared)):
         exact, decimal = root_text(square), f"{float(square) ** 0.5:.8g}"
         folded = html.folded(decimal, shown(mathml.number_text(exact)))

@@ -7,6 +7,7 @@ import time
 
 import pytest
 
+import qe
 from bezier.compare import comparison
 from bezier.compare.comparison import Comparison, _Parts, compare
 from bezier.compare.output import NOT_REACHED, notes, rows, table, to_json
@@ -30,13 +31,21 @@ radius = "17/4"
 def found() -> Comparison:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(comparison, "REGION_SECONDS", 1.5)
-        return compare(read_problem(PROBLEM))
+        return compare(read_problem(PROBLEM), proofs=True)
 
 
 def test_parts_that_finish_are_there(found):
     assert all(side.plan.path is not None for side in found.sides.values())
     assert found.planar.whole.region is None and found.planar.cubic.region is None
     assert found.planar.named["(8*)"].reason and "limit" in found.unfinished["planar region of (7)"]
+
+
+def test_derivations_are_in_the_certificate_and_linked(found):
+    assert {"formula (8)", "formula (7)", "the question of the table"} <= set(found.derivations)
+    labels = [member.label for member in found.certificate.payload]
+    assert {"(8): optimum", "(7): optimum", "derivation of formula (7)"} <= set(labels)
+    for name, page in found.derivation_pages.items():
+        assert f'href="{page}"' in render(found, {}) and qe.verify(found.derivations[name].certificate).accepted
 
 
 def test_every_form_shows_them_and_says_why_the_rest_is_missing(found):
