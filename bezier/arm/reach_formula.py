@@ -4,7 +4,7 @@ limits, joints that slide within theirs.
 With p' = A0^-1 p and q = A1 M2 A2 ... An 0 a point is reached iff p' = M1 q for some joints. A first joint that turns
 takes q to every point with the same height and distance from its axis, so it is left out at once:
 
-    q_z = p'_z  and  q_x² + q_y² = p'_x² + p'_y²;    one that slides:  q_x = p'_x, q_y = p'_y, p'_z - q_z within its limits.
+    q_z = p'_z,  q_x² + q_y² = p'_x² + p'_y²;    one that slides:  q_x = p'_x, q_y = p'_y, p'_z - q_z within its limits.
 
 Every other joint is a quantified pair (c, s) with c² + s² = 1, or a quantified length within its limits; so is the
 generator of the field of constants. What is left is a question of real algebra, with a certificate like any other.
