@@ -9,6 +9,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from bezier.arm.command import in_words
+from bezier.arm.inverse import solve
 from bezier.arm.kinematics import pose
 from bezier.arm.pose import rotation_of, solve_pose
 from bezier.arm.reader import load_arm, read_arm
@@ -105,6 +107,13 @@ def test_shapes() -> None:
     assert meeting([[Fraction(v) for v in row] for row in parallel]) is None
     across = ((1, 0, 0, 0), (0, 0, -1, 3), (0, 1, 0, 4))  # the axis (0, -1, 0) through (0, 3, 4)
     assert meeting([[Fraction(v) for v in row] for row in across]) == (3, 4)
+
+
+def test_families_and_single_solutions_in_words() -> None:
+    told = "\n".join(in_words(at_the_pose_of(PUMA, pairs_with({5: (1, 0)}))))
+    assert "infinitely many solutions, theta4, theta6 free; 1 family and 6 single solutions" in told
+    told = "\n".join(in_words(solve(load_arm("planar-3r"), (10, 20, 0))))
+    assert "infinitely many solutions, theta2, theta3 free\n" in told + "\n" and "famil" not in told
 
 
 def test_limits_of_the_wrist() -> None:
