@@ -16,6 +16,8 @@ from collections.abc import Callable, Iterator
 from random import Random
 
 import qe
+from bezier.arm.reader import read_arm
+from bezier.arm.route import read_route
 from qe import arguments
 from qe.cli.prompt import is_open
 from qe.cli.smt import Solver
@@ -44,6 +46,11 @@ SEEDS = {
     ],
     "redlog": ["ex({x,y}, a*x**2 + b*x + c = 0 and (x > 0 impl y <> 1) or all(z, z >= y equiv true));"],
     "latex": [r"\forall x \left( x^{2} + y_{ij} \leq \sqrt{2} \lor \lnot \mathrm{abc} = \frac{a}{b} \right)"],
+    "arm": [
+        'name = "n"\nconvention = "modified"\n[[row]]\njoint = "q"\nd = 131.22\nalpha = "-pi/2"\nlimits = ["-3", 3]\n'
+        '[[row]]\nkind = "prismatic"\njoint = "p"\ntheta = {cos = "3/5", sin = "4/5"}\na = "1/3"\nmax_velocity = 2\n'
+    ],
+    "path": ['[[curve]]\npoints = [[10, 40.5, "1/3"], [40, 100, 20], [1, 2, 3]]\nname = "a"\nspline = true\n'],
 }
 DOORS: dict[str, Callable[[str], object]] = {
     **{f.value: (lambda text, f=f: formats.read(text, f)) for f in formats.Format if f.readable},  # type: ignore[misc]
@@ -54,6 +61,8 @@ DOORS: dict[str, Callable[[str], object]] = {
     "number": lambda text: arguments.rational(text, "number"),
     "prompt": is_open,
     "solver": lambda text: Solver(len, len).run(text.replace("check-sat", "echo").splitlines(keepends=True), "<fuzz>"),
+    "arm": read_arm,
+    "path": read_route,
 }
 LONGEST = 2000
 SOLVER = (

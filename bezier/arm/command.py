@@ -110,7 +110,8 @@ def in_words(found: Inverse) -> list[str]:
         what = what if found.rotation else "point (proved: the equation of the last joint has no real root)"
         return [*lines, f"no joint position reaches the {what}"]
     if found.free:
-        lines.append(f"infinitely many solutions, {', '.join(found.free)} free; {len(found.solutions)} families")
+        listed = f"; {_families(found)}" if found.solutions else ""
+        lines.append(f"infinitely many solutions, {', '.join(found.free)} free{listed}")
     else:
         lines.append(f"{len(found.solutions)} solution{'s' if len(found.solutions) != 1 else ''} (proved), in rad:")
     for k, solution in enumerate(found.solutions, start=1):
@@ -123,6 +124,14 @@ def in_words(found: Inverse) -> list[str]:
         )
         lines.append(f"  {k}. " + ", ".join(parts) + (f"  [{'; '.join(notes)}]" if notes else ""))
     return lines
+
+
+def _families(found: Inverse) -> str:
+    """Solutions with a joint that can be chosen, and those without one."""
+    single = sum(None not in s.angles for s in found.solutions)
+    count = len(found.solutions) - single
+    families = f"{count} famil{'y' if count == 1 else 'ies'}"
+    return families + (f" and {single} single solution{'s' if single != 1 else ''}" if single else "")
 
 
 def _told(value: Value) -> str:

@@ -13,10 +13,12 @@ from bezier.arm.joint_path import JointPath, joint_path
 from bezier.arm.joint_plan import JointPlan, joint_plan
 from bezier.arm.model import Arm
 from bezier.arm.pose import rotation_of, solve_pose
+from bezier.arm.reach_formula import SECONDS, reachable_formula
 from bezier.arm.reachable import Torus, reachable_set
 from bezier.arm.reader import load_arm
 from bezier.curves.curve import Bezier
 from bezier.motion.timelaw import Law, TimeLaw
+from qe.proof.answer import Answer
 
 if TYPE_CHECKING:
     from bezier.arm.kinematics import Floats
@@ -54,6 +56,10 @@ class Robot:
     def reachable(self) -> Torus:
         """The reachable set in closed form. Raises ``Unable`` for arms of another shape than the EV3's."""
         return reachable_set(self.arm)
+
+    def reachable_formula(self, timeout: float | None = SECONDS) -> Answer:
+        """The reachable set as a formula in x, y, z, by quantifier elimination: see ``bezier.arm.reach_formula``."""
+        return reachable_formula(self.arm, timeout=timeout)
 
     def path(self, curves: Mapping[str, Bezier]) -> JointPath:
         """What is proved about a path whose curves have rational control points."""

@@ -21,7 +21,7 @@ from typing import Any
 
 from bezier.arm.angles import Angle
 from bezier.arm.elimination import TURNS, M, Quotient, Reduction, T
-from bezier.arm.inverse import Inverse, Solution, geometry_of, solve_at
+from bezier.arm.inverse import Solution, geometry_of, solve_at
 from bezier.arm.model import Arm, Chain, Convention, Matrix, Motion, Row, inverse, product, turn_z
 from bezier.arm.ratio import Ratio
 from bezier.arm.roots_of_squares import Rules, Scaled, fixed, quotient, turned
@@ -55,7 +55,7 @@ class Wrist:
 def wrist_of(arm: Arm) -> Wrist | None:
     """The wrist, or None. Raises ``Unable`` where its centre has no rational height, which no model here has."""
     chain = arm.chain
-    if len(chain.joints) != 6 or any(j.motion is not Motion.REVOLUTE for j in chain.joints[3:]):
+    if len(chain.joints) != 6 or any(j.motion is not Motion.REVOLUTE for j in chain.joints):
         return None
     between, beyond = meeting(chain.constants[4]), meeting(chain.constants[5])
     if between is None or beyond is None or not is_zero(between[0] - beyond[1]):
@@ -99,11 +99,13 @@ def solve_wrist(wrist: Wrist, rules: Rules, here: Point, pose: Matrix) -> Iterat
         return geometry_of(wrist.first).reduce(rules.ring, target, TURNS[k])
 
     found = solve_at(wrist.first, here, (), reductions)
-    if found.free:
-        yield from _families(wrist, found)
-        return
+    if found.free and not found.solutions:
+        raise Unable("two joints before the wrist can be chosen: whether all reach the pose is not decided")
     for position in found.solutions:
-        yield from _Turned(wrist, rules, wanted, based, position).solutions()
+        if None in position.quotients:
+            yield _family(wrist, position)
+        else:
+            yield from _Turned(wrist, rules, wanted, based, position).solutions()
 
 
 def _number(value: Any, rules: Rules) -> Quotient:
@@ -111,16 +113,12 @@ def _number(value: Any, rules: Rules) -> Quotient:
     return quotient(ratio, rules.number(1))
 
 
-def _families(wrist: Wrist, found: Inverse) -> Iterator[Found]:
-    """Where joints before the wrist can be chosen, so the wrist depends on them: it reaches every rotation if its axes
+def _family(wrist: Wrist, position: Solution) -> Found:
+    """Where a joint before the wrist can be chosen, so the wrist depends on it: it reaches every rotation if its axes
     are orthogonal, else that is left open."""
-    constants = wrist.chain.constants
-    if not all(is_zero(m[2][2]) for m in constants[4:6]):
+    if not all(is_zero(m[2][2]) for m in wrist.chain.constants[4:6]):
         raise Unable("a joint before the wrist can be chosen, and the wrist does not reach every rotation")
-    if not found.solutions:
-        raise Unable("two joints before the wrist can be chosen: whether all reach the pose is not decided")
-    for position in found.solutions:
-        yield position.place, dict(enumerate((*position.quotients, None, None, None))), position.multiple
+    return position.place, dict(enumerate((*position.quotients, None, None, None))), position.multiple
 
 
 @dataclass(frozen=True, eq=False)
@@ -140,9 +138,9 @@ class _Turned:
         while here.point.depth < rules.ring.index[N]:  # no m was needed
             here = Evaluation(here.point.extend(RealAlgebraic.rational(ZERO)), here)
         before = fixed(constants[0], rules).rotation
-        for known, constant in zip(self.position.quotients, constants[1:4], strict=True):
-            assert known is not None, "no joint is free"
-            before = before @ self._turn(known) @ fixed(constant, rules).rotation
+        for pair, constant in zip(self.position.quotients, constants[1:4], strict=True):
+            assert pair is not None, "no joint is free"
+            before = before @ self._turn(pair) @ fixed(constant, rules).rotation
         w = before.inverse() @ self.based.rotation
         r, n = constants[4][2], [row[2] for row in constants[5]]
         a, b = r[0] * n[0] + r[1] * n[1], r[1] * n[0] - r[0] * n[1]
@@ -154,10 +152,9 @@ class _Turned:
         sixth = _between(inner.rows[2][:2], w.rows[2][:2], inner, w, rules, rows=True)
         for root in roots:
             there = here.extend(root)
-            known: Known = dict(enumerate(self.position.quotients)) | {4: fifth.pair}
-            aligned = there.point.sign(rules.tidy(dot(w.rows[2][:2], w.rows[2][:2])).top) == 0
-            known |= {3: None, 5: None} if aligned else {3: fourth, 5: sixth}
-            if not aligned:
+            known: Known = {**dict(enumerate(self.position.quotients)), 3: None, 4: fifth.pair, 5: None}
+            if there.point.sign(rules.tidy(dot(w.rows[2][:2], w.rows[2][:2])).top):
+                known |= {3: fourth, 5: sixth}
                 self._confirm(there, known)
             yield there, known, self.position.multiple or len(roots) == 1
 

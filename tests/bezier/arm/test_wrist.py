@@ -9,9 +9,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from bezier.arm.command import in_words
+from bezier.arm.inverse import solve
 from bezier.arm.kinematics import pose
 from bezier.arm.pose import rotation_of, solve_pose
-from bezier.arm.reader import load_arm
+from bezier.arm.reader import load_arm, read_arm
 from bezier.arm.wrist import meeting, wrist_of
 from qe.errors import Unable
 from tests.bezier.arm.test_pose import SIX, SKEW, Pairs, arm_of, at_the_pose_of, frames, holds, pairs_of
@@ -93,6 +95,11 @@ def test_a_rotation_that_a_skew_wrist_does_not_reach() -> None:
 
 
 def test_shapes() -> None:
+    slide = 'kind = "prismatic"\nalpha = "pi/2"'
+    rows = ('alpha = "pi/2"', "a = 70", slide, 'alpha = "-pi/2"', 'alpha = "pi/2"', "d = 1")
+    body = "".join(f'[[row]]\njoint = "q{k}"\n{rest}\n' for k, rest in enumerate(rows))
+    sliding = read_arm('convention = "standard"\n' + body)
+    assert wrist_of(sliding) is None
     assert wrist_of(PUMA) is not None and wrist_of(SIX) is None and wrist_of(SKEW) is None
     wrist = wrist_of(STANDARD)
     assert wrist is not None and wrist.height == 0 and len(wrist.first.joints) == 3
@@ -102,9 +109,26 @@ def test_shapes() -> None:
     assert meeting([[Fraction(v) for v in row] for row in across]) == (3, 4)
 
 
+def test_families_and_single_solutions_in_words() -> None:
+    told = "\n".join(in_words(at_the_pose_of(PUMA, pairs_with({5: (1, 0)}))))
+    assert "infinitely many solutions, theta4, theta6 free; 1 family and 6 single solutions" in told
+    told = "\n".join(in_words(solve(load_arm("planar-3r"), (10, 20, 0))))
+    assert "infinitely many solutions, theta2, theta3 free\n" in told + "\n" and "famil" not in told
+
+
 def test_limits_of_the_wrist() -> None:
     name = {j.name: j for j in PUMA.joints}
     assert [*name] == [f"theta{k}" for k in range(1, 7)]
     m = pose(PUMA, dict(zip(name, pairs_with({}), strict=True)))
     found = solve_pose(PUMA, [row[3] for row in m], [row[:3] for row in m])
     assert all(s.allowed for s in found.solutions)
+
+
+def test_a_free_elbow_beside_positions_that_are_not_free() -> None:
+    """Links of one length, folded onto each other: joint 2 can be chosen there."""
+    found = solve_pose(FOLDED, (0, 0, 10), rotation_of((1, 0, 0, 0)))
+    families = [s for s in found.solutions if None in s.angles]
+    assert families and all(s.angles[3:] == (None, None, None) for s in families if None in s.angles[:3])
+
+
+FOLDED = arm_of('alpha = "pi/2"', "a = 60", 'alpha = "pi/2"', 'alpha = "-pi/2"; d = 60', 'alpha = "pi/2"', "d = 10")
