@@ -131,8 +131,8 @@ class _Labels:
         wanted = [c.truth is not False or c.stack is not None for c in cell.stack.cells]
         if self.table.order[place.depth] == self.value:
             taken = [k for k, node in enumerate(above) if node is True]
-            end = taken[0 if self.sign > 0 else -1] if taken else 0  # a sector has no least value
-            wanted = [k == end and k % 2 == 1 for k in range(len(above))]
+            end = taken[0 if self.sign > 0 else -1] if taken else None  # where it is a sector, no root of q is there
+            wanted = [k == end for k in range(len(above))]
         cells = [
             self.of(child(self.table, place, k), above[k]) if wanted[k] else Cell(below.signs, False)
             for k, below in enumerate(cell.stack.cells)

@@ -42,7 +42,19 @@ def test_the_greatest_value():
     assert [str(case.ranges[0]) for case in found] == ["a < 3/4", "a = 3/4", "3/4 < a <= 3", "3 < a"]
     assert [len(case.minimisers) for case in found] == [1, 2, 1, 1]
     assert all(case.attained for case in found)
+    assert [str(case.value) for case in found] == ["-a + 1", "-a + 1", "(sqrt(108*a^3))/27", "a - 1"]
+    apart = qe.maximize("x", "x = 0 or x = a and a > 1", parameters="a")
+    assert [str(apart.at({"a": a}).value) for a in (1, 2)] == ["0", "2"]
     assert qe.verify(found.certificate).accepted
+
+
+def test_the_points_as_a_formula():
+    """Also where signs do not tell the ends apart, and where they are not attained."""
+    disc = qe.maximize("x", "x^2 + y^2 <= r", parameters="r")
+    assert not disc.minimisers.is_quantifier_free
+    assert qe.equivalent(disc.minimisers, "y = 0 and x >= 0 and x^2 = r")
+    assert str(qe.minimize("x", "x > a and x < 1", parameters="a").minimisers) == "false"
+    assert qe.equivalent(qe.minimize("x", "x >= a and x < 1", parameters="a").minimisers, "x = a and a < 1")
 
 
 def value_of(text, **numbers):
