@@ -15,6 +15,7 @@ from qe.formula.syntax import Constant, Formula
 from qe.later import later
 from qe.proof.certificate import Certificate
 from qe.proof.derivation import Derivation, put_together
+from qe.proof.partial import Partial
 from qe.proof.run_log import RunLog
 
 
@@ -41,7 +42,7 @@ class Answer:
     method produces one. ``reason``: why there is no answer, or why its certificate was not verified.
     ``unchecked_steps``: with ``check``, the rules of the steps of the derivation that no checker has accepted; the
     answer can be ``CHECKED`` all the same, by a decomposition. ``question`` and ``log``: what was asked, and how it was
-    answered.
+    answered. ``partial``: what is known where there is no answer, if that was asked for (``anytime``).
     """
 
     status: Status
@@ -53,6 +54,7 @@ class Answer:
     unchecked_steps: tuple[str, ...] = ()
     question: Formula | None = field(default=None, repr=False)
     log: RunLog = field(default_factory=RunLog, repr=False)
+    partial: Partial | None = None
 
     @property
     def truth(self) -> bool | None:
