@@ -84,22 +84,22 @@ def _projection(sketch: Sketch) -> str | None:
     return "3d"
 
 
-def paint(sketch: Sketch, axes: Any, fill: str = FILL) -> Any:
-    """Paint on axes of the right dimension; the axes. ``fill``: the colour in one or two dimensions."""
+def paint(sketch: Sketch, axes: Any) -> Any:
+    """Paint on axes of the right dimension; the axes."""
     if len(sketch.order) == 3:
         draw_space(sketch.solid, sketch.frame or {}, sketch.order, axes)
     else:
-        (_line, _plane)[len(sketch.order) - 1](sketch, axes, fill)
+        (_line, _plane)[len(sketch.order) - 1](sketch, axes)
     if sketch.is_empty:
         axes.set_title("empty region")
     return axes
 
 
-def _line(sketch: Sketch, axes: Any, fill: str) -> None:
+def _line(sketch: Sketch, axes: Any) -> None:
     for part in sketch.segments:
-        axes.plot([part.low, part.high], [0, 0], color=fill, linewidth=6, solid_capstyle="butt")
+        axes.plot([part.low, part.high], [0, 0], color=FILL, linewidth=6, solid_capstyle="butt")
         for end, closed in ((part.low, part.lower), (part.high, part.upper)):
-            axes.plot([end], [0], "o", markersize=9, markerfacecolor=fill if closed else "white", markeredgecolor=EDGE)
+            axes.plot([end], [0], "o", markersize=9, markerfacecolor=FILL if closed else "white", markeredgecolor=EDGE)
     axes.set_xlim(*sketch.spans[0])
     axes.set_ylim(-1, 1)
     axes.set_yticks([])
@@ -107,7 +107,7 @@ def _line(sketch: Sketch, axes: Any, fill: str) -> None:
     axes.set_xlabel(sketch.order[0])
 
 
-def _plane(sketch: Sketch, axes: Any, fill: str) -> None:
+def _plane(sketch: Sketch, axes: Any) -> None:
     for band in sketch.bands:
         if len(band.xs) == 1:
             isolated = band.low == band.high and not band.seam
@@ -117,7 +117,7 @@ def _plane(sketch: Sketch, axes: Any, fill: str) -> None:
                 [band.xs[0]] * 2, ends, color=EDGE, marker="o" if isolated else None, markersize=5, linewidth=width
             )
             continue
-        axes.fill_between(band.xs, band.low, band.high, color=fill, alpha=0.55, linewidth=0)
+        axes.fill_between(band.xs, band.low, band.high, color=FILL, alpha=0.55, linewidth=0)
         for closed, curve in ((band.lower, band.low), (band.upper, band.high)):
             if closed is not None:
                 axes.plot(band.xs, curve, color=EDGE, linewidth=1.2, linestyle="-" if closed else "--")
