@@ -97,6 +97,7 @@ provide("regions", lambda: import_module("qe.api_region"))
 provide("connected", lambda: import_module("qe.io.expressions").connected)
 provide("formats", lambda: import_module("qe.io.formats"))
 provide("region", lambda: import_module("qe.api").region)
+provide("partial_picture", lambda: import_module("qe.regions.partial_picture").plotted)
 
 
 def __dir__() -> list[str]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 import time
 from collections.abc import Callable, Iterable
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from qe import arguments
@@ -22,6 +23,7 @@ from qe.options import VERIFY_SECONDS, Budget, Cluster, Method, Options, Stage
 from qe.progress import Event, silent
 from qe.proof.answer import Answer, Status
 from qe.proof.certificate import Certificate, Kind
+from qe.proof.partial import Partial
 from qe.proof.run_log import RunLog
 
 if TYPE_CHECKING:  # the checker and the optimiser are loaded where they are used
@@ -30,6 +32,10 @@ if TYPE_CHECKING:  # the checker and the optimiser are loaded where they are use
     from qe.regions.region import Region
 
 Result = TypeVar("Result")
+
+WHOLE_SHARE, PARTS_SHARE = 0.5, 0.85
+"""Where parts are wanted if there is no answer: the share of the time that the formula as a whole may take; and the
+share of the rest in which the parts are looked at, so that what is found gets home."""
 
 Progress = Callable[[Event], None]
 Order = Any
@@ -70,6 +76,7 @@ def eliminate(
     workers: int = 0,
     cluster: str | None = None,
     race: Iterable[str | Method] | str | Method = (),
+    anytime: bool = False,
 ) -> Answer:
     """Quantifier elimination over the reals: an equivalent quantifier-free formula.
 
@@ -77,8 +84,9 @@ def eliminate(
     the limit, since a single polynomial operation can take long (where processes cannot fork, ``timeout`` is only
     checked between steps). Without them it moves to such a process when it takes longer than a moment, so that Ctrl-C
     ends it at once. ``process=False``, or the environment variable ``QE_PROCESS=off``, keeps it in this process.
-    The answer has status UNABLE, with the
-    reason, when a limit was reached; it is never partial. With ``check`` the answer comes with a certificate where
+    The answer has status UNABLE, with the reason, when a limit was reached. With ``anytime`` and a ``timeout``, which
+    is shared, ``Answer.partial`` then says for which values of the free variables the formula is proved to be true, for
+    which false, and which are open. With ``check`` the answer comes with a certificate where
     one can be had (if the method makes none, by a decomposition of the whole formula), verified by the separate
     checker; certificates that are a witness always are. A verification that does not end in time costs the
     certificate, not the answer (``Answer.reason`` says so). With ``total_division`` a quotient in text has some value,
@@ -103,10 +111,13 @@ def eliminate(
     except BudgetExceeded as error:
         return Answer(Status.UNABLE, None, reason=str(error))
     _check_order(options.order, given)
+    whole = limits.shared(WHOLE_SHARE) if arguments.flag(anytime, "anytime") else limits
     if racing:
-        answer = _raced(given, options, limits, check, racing)
+        answer = _raced(given, options, whole, check, racing)
     else:
-        answer = _limited(given, options, limits, check, helpers)
+        answer = _limited(given, options, whole, check, helpers)
+    if anytime and answer.formula is None:
+        answer = replace(answer, partial=_partial(given, options, limits))
     if explain:
         print(answer.explanation or answer.reason, file=sys.stderr)
     return answer
@@ -144,6 +155,19 @@ def _limited(formula: Formula, options: Options, limits: Limits, check: bool, cl
         return _performed(work, formula, limits, at_once=cluster is not None)
     except Unable as error:
         return Answer(Status.UNABLE, None, reason=str(error), question=formula)
+
+
+def _partial(formula: Formula, options: Options, limits: Limits) -> Partial:
+    """What can be said of the parts of a formula in the time that is left; at worst, nothing."""
+    from qe.engine.anytime import partly
+
+    left = None
+    if limits.timeout is not None and limits.start is not None:
+        left = max(0.0, limits.start + limits.timeout - time.monotonic()) * PARTS_SHARE
+    try:
+        return partly(formula, options, Budget(left), Limits(memory=limits.memory, process=limits.process))
+    except Unable:
+        return Partial()
 
 
 def _raced(formula: Formula, options: Options, limits: Limits, check: bool, methods: Iterable[Method]) -> Answer:

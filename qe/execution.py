@@ -52,6 +52,10 @@ class Limits:
         """The same limits for a call that began at ``start`` (of ``time.monotonic``)."""
         return replace(self, start=start)
 
+    def shared(self, share: float) -> Limits:
+        """The same limits with a part of the time."""
+        return self if self.timeout is None else replace(self, timeout=self.timeout * share)
+
     def __reduce__(self) -> tuple[object, tuple[object, ...]]:
         """A listener stays behind: it belongs to this process."""
         return Limits, (self.timeout, self.memory, silent, self.process)

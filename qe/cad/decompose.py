@@ -44,9 +44,12 @@ class Tactics:
     shortcut but a longer way: the space of the free variables is decomposed also where the truth is known, which
     gives every free cell the signs of all factors and formula construction more to choose from.
     ``free_constraints``: constraints restrict the levels of free variables too, where their sectors then lack signs.
+    ``anytime``: where the budget ends, the table says what is decided in the space of the free variables; its other
+    cells there have no truth value.
     """
 
     constraints: bool = True
+    anytime: bool = False
     partial: bool = True
     open_only: bool = True
     whole_free: bool = False
@@ -121,7 +124,7 @@ class _Job:
             self.tactics.whole_free,
             self.thom_levels,
         )
-        lifter = Lifter(plan, self.budget)
+        lifter = Lifter(plan, self.budget, anytime=self.tactics.anytime)
         root = lifter.run(Point(Ring.of(self.order), watch=Watch(self.budget.check)), compile_matrix(strong, places))
         if lifter.lacking:
             return self.attempt(projection, nullified=nullified, added=(*added, *lifter.lacking))

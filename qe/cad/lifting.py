@@ -16,7 +16,7 @@ from typing import cast
 from qe.cad.matrix import Node, mentioned, specialise
 from qe.cad.projection import Levels
 from qe.cad.stack import SampledStack, is_nullified, restricted_stack, stack_over
-from qe.errors import InternalError, NotWellOriented
+from qe.errors import BudgetExceeded, InternalError, NotWellOriented
 from qe.exact.lazard import lazard_derivative
 from qe.exact.ring import Poly
 from qe.exact.sample import Point
@@ -65,6 +65,8 @@ class Lifter:
     ``lacking``: where a factor of a level in ``Plan.thom_levels`` is nullified, its signs and derivatives do not tell
     the sections of its Lazard evaluation apart; partial derivatives that do are collected here, where truth depends on
     it. Where the budget has helpers, the cells of one stack are lifted side by side; the table is the same.
+    ``anytime``: where the budget ends, the cells of the free variables that are decided are kept, and the others have
+    no truth value; sectors come first.
     """
 
     plan: Plan
@@ -72,6 +74,8 @@ class Lifter:
     lacking: dict[Poly, None] = field(default_factory=dict)
     cells: int = 0
     stacks: int = 0
+    anytime: bool = False
+    _ended: bool = False
     _shared: dict[tuple[int, int, str], Node] = field(default_factory=dict)
     _relevant: dict[tuple[int, int], tuple[int, ...]] = field(default_factory=dict)
     _interned: dict[Node, Node] = field(default_factory=dict)
@@ -140,13 +144,19 @@ class Lifter:
         cells: list[Cell | None] = [None] * size
         stop = quantifier == "E"
         truth = not stop if quantifier else None
-        positions = _visiting_order(size, level >= self.plan.sectors_from) if quantifier else list(range(size))
-        for position, cell in self._cells(point, node, used, stack, positions, dimension):
-            cells[position] = cell
-            if quantifier and cell.truth is stop:
-                truth = stop
-                if self.plan.partial:
+        ordered = bool(quantifier) or self.anytime
+        positions = _visiting_order(size, level >= self.plan.sectors_from) if ordered else list(range(size))
+        try:
+            for position, cell in self._cells(point, node, used, stack, positions, dimension):
+                cells[position] = cell
+                if (quantifier and cell.truth is stop and self.plan.partial) or self._ended:
                     break
+        except BudgetExceeded:
+            if not self.anytime or quantifier:
+                raise
+            self._ended = True
+        if quantifier and any(cell is not None and cell.truth is stop for cell in cells):
+            truth = stop
         complete = tuple(Cell(stack.texts[p], None) if c is None else c for p, c in enumerate(cells))
         if stack.nullified and level in self.plan.thom_levels and _ambiguous(complete):
             self._collect_lacking(point, level, stack.nullified)

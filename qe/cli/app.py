@@ -58,6 +58,9 @@ Explain = Annotated[bool, typer.Option("--explain", help="Tell on stderr how the
 TotalDivision = Annotated[
     bool, typer.Option("--total-division", help="x/0 is some number, as in SMT-LIB, instead of nothing.")
 ]
+Anytime = Annotated[
+    bool, typer.Option("--anytime", help="At the time limit, print where it is true, where false, what is open.")
+]
 RootAtoms = Annotated[bool, typer.Option("--root-atoms", help="Allow x < root(k, p) in the answer.")]
 
 
@@ -91,6 +94,7 @@ def eliminate(
     workers: Workers = 0,
     cluster: ClusterAddress = None,
     race: Race = None,
+    anytime: Anytime = False,
     explain: Explain = False,
     json: Json = False,
     plain: Plain = False,
@@ -100,7 +104,7 @@ def eliminate(
 
     asked = request(formula, format, timeout, memory, certificate, json, total_division)
     asked = replace(asked, method=method.value, order=names(order), root_atoms=root_atoms)
-    asked = replace(asked, workers=workers, cluster=cluster, race=names(race, "--race") or ())
+    asked = replace(asked, workers=workers, cluster=cluster, race=names(race, "--race") or (), anytime=anytime)
     work = partial(cli_work.eliminate, request=asked, output=output)
     reply = limited(work, timeout=timeout, memory=memory, plain=plain)
     return deliver(reply, {"certificate": certificate}, explain=explain)

@@ -21,6 +21,7 @@ from qe.worker import Channel
 if TYPE_CHECKING:
     from qe.formula.syntax import Formula
     from qe.proof.answer import Answer
+    from qe.proof.partial import Partial
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,6 +48,7 @@ class Request:
     workers: int = 0
     cluster: str | None = None
     race: tuple[str, ...] = ()
+    anytime: bool = False
 
     def keywords(self, channel: Channel) -> dict[str, Any]:
         """The keywords for a call of the public functions; the memory limit is the worker's own."""
@@ -84,10 +86,13 @@ def eliminate(channel: Channel, request: Request, output: Format) -> Reply:
     from qe.io import formats
 
     start = time.perf_counter()
-    answer = api.eliminate(read_formula(channel, request.source), **request.keywords(channel))
+    formula = read_formula(channel, request.source)
+    answer = api.eliminate(formula, anytime=request.anytime, **request.keywords(channel))
     seconds = time.perf_counter() - start
     if answer.formula is None:
-        raise Unable(answer.reason or "no answer")
+        if answer.partial is None:
+            raise Unable(answer.reason or "no answer")
+        return _partial_reply(answer, answer.partial, request, output)
     files = {"certificate": certificate_text(answer)} if request.certificate else {}
     if request.json:
         data = {
@@ -97,6 +102,18 @@ def eliminate(channel: Channel, request: Request, output: Format) -> Reply:
         }
         return Reply(json.dumps(data, indent=2, ensure_ascii=False), files=files)
     return Reply(formats.write(answer.formula, output.value).rstrip("\n"), _story(answer, seconds), files)
+
+
+def _partial_reply(answer: Answer, partial: Partial, request: Request, output: Format) -> Reply:
+    """What is known where a limit ended the work: three formulas, with the exit status of no answer."""
+    from qe.io import formats
+
+    parts = {"true": partial.proved_true, "false": partial.proved_false, "open": partial.open}
+    written = {name: formats.write(part, output.value).rstrip("\n") for name, part in parts.items()}
+    if request.json:
+        data = {"status": answer.status.name.lower(), "reason": answer.reason, "partial": written}
+        return Reply(json.dumps(data, indent=2, ensure_ascii=False), code=3)
+    return Reply("\n".join(f"{name}: {text}" for name, text in written.items()), (answer.reason,), code=3)
 
 
 def decide(channel: Channel, request: Request) -> Reply:

@@ -56,7 +56,7 @@ def decomposed(formula: Formula, options: Options, budget: Budget, log: RunLog) 
     if isinstance(matrix, Constant):
         return Outcome(matrix, {} if matrix.value else None)
     free = formula.free
-    order, quantifiers, reason = _order(prefix, free, matrix, options, budget)
+    order, quantifiers, reason = variable_order(prefix, free, matrix, options, budget)
     question = _Question(matrix, order, quantifiers, free, options)
     first = question.table(budget)
     values: Values | None = None
@@ -92,7 +92,7 @@ def certificate_for(formula: Formula, answer: Formula, options: Options, budget:
     if isinstance(matrix, Constant):
         return None
     free = formula.free
-    order, quantifiers, _ = _order(prefix, free, matrix, options, budget)
+    order, quantifiers, _ = variable_order(prefix, free, matrix, options, budget)
     ring = Ring.of(order)
     claim = convert(answer, ring)
     question = _Question(matrix, order, quantifiers, free, options)
@@ -202,7 +202,7 @@ def _figures(order: Sequence[str], reason: str, found: Table, seconds: float) ->
     }
 
 
-def _order(
+def variable_order(
     prefix: Sequence[tuple[Quantifier, tuple[str, ...]]],
     free: Sequence[str],
     matrix: Formula,

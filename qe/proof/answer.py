@@ -9,12 +9,14 @@ from html import escape
 from pathlib import Path
 from typing import Any
 
-from qe.errors import NoTruthValue, Unable
+from qe import arguments
+from qe.errors import InputError, NoTruthValue, Unable
 from qe.exact.number import Assignment, point_text
 from qe.formula.syntax import Constant, Formula
 from qe.later import later
 from qe.proof.certificate import Certificate
 from qe.proof.derivation import Derivation, put_together
+from qe.proof.partial import Partial
 from qe.proof.run_log import RunLog
 
 
@@ -41,7 +43,7 @@ class Answer:
     method produces one. ``reason``: why there is no answer, or why its certificate was not verified.
     ``unchecked_steps``: with ``check``, the rules of the steps of the derivation that no checker has accepted; the
     answer can be ``CHECKED`` all the same, by a decomposition. ``question`` and ``log``: what was asked, and how it was
-    answered.
+    answered. ``partial``: what is known where there is no answer, if that was asked for (``anytime``).
     """
 
     status: Status
@@ -53,6 +55,7 @@ class Answer:
     unchecked_steps: tuple[str, ...] = ()
     question: Formula | None = field(default=None, repr=False)
     log: RunLog = field(default_factory=RunLog, repr=False)
+    partial: Partial | None = None
 
     @property
     def truth(self) -> bool | None:
@@ -131,8 +134,14 @@ class Answer:
         """A picture of the values of one to three free variables for which the formula holds; see ``Region.plot``.
 
         ``order``: which variable goes where. Raises ``InputError`` for other numbers of variables, ``Unable`` where
-        there is no answer, ``BudgetExceeded`` at the limit.
+        there is no answer, ``BudgetExceeded`` at the limit. Where there are parts only (``partial``), one or two
+        variables from -5 to 5, in three colours.
         """
+        if self.formula is None and self.partial is not None and self.question is not None:
+            names = arguments.names(order) or self.question.free
+            if sorted(names) != sorted(self.question.free):
+                raise InputError(f"order: the free variables expected, {', '.join(names)} found")
+            return later("partial_picture")(self.partial, names, path, ax, timeout)
         if self.formula is None:
             raise Unable(f"there is no formula to draw: {self.reason}")
         return later("region")(self.formula, order, timeout=timeout).plot(path, ax=ax, timeout=timeout)

@@ -122,3 +122,14 @@ def test_nullified_polynomials_are_left_to_exact_arithmetic() -> None:
     zero = isolate_over(Point(ring), (a,)).sample(1)
     found = isolate_over(zero, (f, g), lazard=True)
     assert [tuple(s.members) for s in found.sections] == [(0, 1), (1,)] and found.nullified == (0,)
+
+
+def test_a_nullified_polynomial_whose_lazard_evaluation_shares_a_root() -> None:
+    """Over a = sqrt(2) the first is zero and its Lazard evaluation 2a(x^2 - 3); the second is x^2 - 3 there."""
+    ring = Ring.of(("a", "x"))
+    a, x = ring.gen(0), ring.gen(1)
+    f, g = (a**2 - 2) * (x**2 - 3) + (a**2 - 2) ** 2 * a, x**2 - 3 + (a**2 - 2) * x
+    resultant(f, g, 1)
+    point = isolate_over(Point(ring), (a**2 - 2,)).sample(3)
+    found = isolate_over(point, (f, g), lazard=True)
+    assert [tuple(s.members) for s in found.sections] == [(0, 1), (0, 1)] and found.nullified == (0,)

@@ -1,0 +1,138 @@
+"""What can be said of a question when it cannot be answered as a whole in the time or work there is.
+
+The parts of a disjunction or conjunction are answered one by one, an existential block over a disjunction disjunct by
+disjunct (a universal one likewise, by its negation). A block that no method ends is decomposed: the cells in the space
+of its free variables that were decided when the budget ended are described by root atoms. What is said of the parts
+gives what is said of the whole: a disjunction is true where one part is proved true, and false where all are proved
+false. A decided cell is right whatever becomes of the others: the theorems of the projection speak of one cell and the
+cells below it, at which lifting has checked that nothing is nullified.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import TypeVar
+
+from qe.cad.decompose import Tactics, decompose
+from qe.cells.extended_tarski import extended_formula
+from qe.cells.sampled_cells import free_part
+from qe.elimination.cad import variable_order
+from qe.engine.run import solve
+from qe.errors import Unable
+from qe.exact.ring import Ring
+from qe.execution import Limits, perform
+from qe.formula.build import convert, disj, exists, neg
+from qe.formula.counting import without_root_atoms
+from qe.formula.normal import nnf, prenex, rename_apart
+from qe.formula.syntax import FALSE, TRUE, And, Constant, Exists, ForAll, Formula, Not, Or
+from qe.options import Budget, Options
+from qe.proof.cells import Cell, CellTable
+from qe.proof.partial import Partial
+from qe.simplify.simplify import simplify
+
+SHARE = 0.5
+"""The share of what is left that a part may take before it is decomposed as far as the rest allows."""
+
+WRITING = 0.3
+"""The share of the time of a decomposition that is kept for writing its cells as formulas."""
+
+T = TypeVar("T")
+
+
+def partly(question: Formula, options: Options, budget: Budget, limits: Limits) -> Partial:
+    """What is found out about a question within the budget; at worst, nothing. It has been tried as a whole before.
+
+    Where the time is limited each part is worked on in a process of its own if ``limits`` lets it: one that cannot be
+    interrupted costs its own share only.
+    """
+    plain = rename_apart(without_root_atoms(question))
+    found = _Search(options, limits).known(plain, budget, tried=True)
+    ring = Ring.of(question.free)
+    true, false = (simplify(convert(part, ring)) for part in (found.proved_true, found.proved_false))
+    return Partial(true, false, simplify(nnf(neg(disj((true, false))))))
+
+
+@dataclass(frozen=True, slots=True)
+class _Search:
+    options: Options
+    limits: Limits
+
+    def known(self, formula: Formula, budget: Budget, *, tried: bool = False) -> Partial:
+        match formula:
+            case Constant():
+                return _answered(formula)
+            case Not(arg):
+                return self.known(arg, budget, tried=tried).negated
+            case And(args):
+                return self.known(disj(neg(a) for a in args), budget, tried=tried).negated
+            case Or(args):
+                return self.of_parts(list(args), budget)
+            case ForAll(variables, body):
+                return self.known(exists(variables, nnf(neg(body))), budget, tried=tried).negated
+            case Exists(variables, body) if isinstance(body, Or):
+                return self.of_parts([exists(variables, a) for a in body.args], budget)
+        if formula.is_quantifier_free:
+            return _answered(formula)
+        if not tried:
+            try:
+                return self.held(lambda own: _answered(solve(formula, self.options, own).formula), budget, SHARE)
+            except Unable:
+                pass  # as far as cells go, then
+        try:
+            return self.held(lambda own: _decided_cells(formula, self.options, own), budget, 1)
+        except Unable:
+            return Partial()
+
+    def of_parts(self, parts: list[Formula], budget: Budget) -> Partial:
+        """A disjunction; each part may take its share of what is left."""
+        found = []
+        for k, part in enumerate(parts):
+            found.append(self.known(part, _apportioned(budget, 1 / (len(parts) - k))))
+        return Partial.of_disjunction(found)
+
+    def held(self, work: Callable[[Budget], T], budget: Budget, share: float) -> T:
+        """The work within a share of the budget, ended at its limit of time whatever it does. Raises ``Unable``."""
+        budget.check("parts")
+        own = _apportioned(budget, share)
+        seconds = own.remaining()
+        if seconds is None:
+            return work(own)
+        return perform(lambda budgets: work(own), replace(self.limits, timeout=max(seconds, 0.001)), at_once=True)
+
+
+def _answered(answer: Formula) -> Partial:
+    return Partial(answer, nnf(neg(answer)))
+
+
+def _apportioned(budget: Budget, share: float) -> Budget:
+    """A budget for a part of the work: at most this share of the time and of the work that are left."""
+    left = budget.left()
+    timed = budget.share(share)
+    return timed if left is None else timed.part(max(1, int(left * share)))
+
+
+def _decided_cells(formula: Formula, options: Options, budget: Budget) -> Partial:
+    """The decided cells of the space of the free variables. Raises ``Unable`` where there is none."""
+    prefix, matrix = prenex(formula)
+    matrix = nnf(matrix)
+    if isinstance(matrix, Constant):
+        return _answered(matrix)
+    order, quantifiers, _ = variable_order(prefix, formula.free, matrix, options, _apportioned(budget, SHARE))
+    lifting = _apportioned(budget, 1 - WRITING)
+    table = decompose(matrix, order, quantifiers, budget=lifting, tactics=Tactics(anytime=True)).table
+    if not formula.free:
+        return _answered(TRUE if table.root.truth else FALSE)
+    free = free_part(table)
+    return Partial(*(extended_formula(_where(free, truth)) for truth in (True, False)))
+
+
+def _where(table: CellTable, truth: bool) -> CellTable:
+    """The table of the statement that the truth value is known to be ``truth``."""
+
+    def seen(cell: Cell) -> Cell:
+        if cell.stack is None:
+            return Cell(cell.signs, cell.truth is truth)
+        return replace(cell, truth=None, stack=replace(cell.stack, cells=tuple(map(seen, cell.stack.cells))))
+
+    return replace(table, root=seen(table.root))
