@@ -80,7 +80,6 @@ def test_terms() -> None:
         (sympy.floor(X), "needs integers"),
         (2**X, "exponents are no rational numbers"),
         (sympy.Function("f")(X), "cannot be read"),
-        (sympy.nan, ""),
     ],
 )
 def test_what_is_no_term(expression: Any, said: str) -> None:
@@ -92,11 +91,23 @@ def test_what_is_no_term(expression: Any, said: str) -> None:
 
 def test_symbols_and_their_assumptions() -> None:
     assert symbol_name(sympy.Symbol("a")) == "a"
-    for made, relation in (("positive", ">"), ("nonnegative", ">="), ("negative", "<"), ("nonzero", "/=")):
+    for made, relation in (
+        ("positive", ">"),
+        ("nonnegative", ">="),
+        ("negative", "<"),
+        ("nonzero", "/="),
+        ("nonpositive", "<="),
+        ("zero", "="),
+    ):
         node = assumption(sympy.Symbol("a", **{made: True}))
         assert isinstance(node, s.Comparison) and node.relations[0].value == relation
     assert assumption(X) is None and list(signs([X, sympy.Symbol("p", positive=True)])) == ["p"]
-    for bad in (sympy.Symbol("n", integer=True), sympy.Dummy("d"), sympy.Symbol("z", imaginary=True)):
+    for bad in (
+        sympy.Symbol("n", integer=True),
+        sympy.Dummy("d"),
+        sympy.Symbol("z", imaginary=True),
+        sympy.Symbol("e", even=True, negative=True),
+    ):
         with pytest.raises(InputError):
             symbol_name(bad)
 

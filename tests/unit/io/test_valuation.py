@@ -20,9 +20,10 @@ RING = Ring.of(("x", "y", "s1", "s2", "s3"))
 
 
 def made() -> Valuation:
-    return Valuation(
-        RING, lambda message, at: InputError(f"{at}: {message}"), ("s1", "s2", "s3"), None, lambda n, p: TRUE
-    )
+    def fail(message: str, at: int) -> InputError:
+        return InputError(f"{at}: {message}")
+
+    return Valuation(RING, fail, ("s1", "s2", "s3"), None, lambda node, place: TRUE)
 
 
 def value(text: str, valuation: Valuation | None = None) -> object:
@@ -38,20 +39,13 @@ def value(text: str, valuation: Valuation | None = None) -> object:
         ("abs(-5/3)", "5"),
         ("sign(-7)", "-1"),
         ("max(1, 2, 3) - min(4, 2)", "1"),
-        ("x^2^1", None),
-        ("cbrt(0)", "0"),
-        ("sqrt(x^4)", "x^2"),
         ("x^0", "1"),
         ("root(2, x^2 - 4)", "2"),
         ("root(-1, x^2 - 4)", "2"),
         ("root(1, 2*x - 3)", "3"),
     ],
 )
-def test_polynomials(text: str, poly: str | None) -> None:
-    if poly is None:
-        with pytest.raises(Exception, match=r""):
-            value(text)
-        return
+def test_polynomials(text: str, poly: str) -> None:
     found = value(text)
     assert isinstance(found, Value) and str(found.poly) == f"Poly({poly})"
 
