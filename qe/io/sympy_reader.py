@@ -31,12 +31,11 @@ def symbol_name(symbol: Any) -> str:
 
     if isinstance(symbol, sympy.Dummy | sympy.Wild):
         raise InputError(f"{symbol} is a {type(symbol).__name__}, which is no variable with a name; use a Symbol")
-    sign = next((key for key in _ASSUMED if getattr(symbol, f"is_{key}") is True), "real")
-    known = sympy.Symbol("x", **{sign: True}).assumptions0  # a negative number is no prime number either
-    extra = [key for key, value in symbol.assumptions0.items() if known.get(key) is not value]
-    refused = [key for key in extra if key.removeprefix("extended_") not in _ASSUMED]
-    if refused and symbol.is_zero is not True:
-        refused.sort(key=lambda key: (key not in ("integer", "rational"), not symbol.assumptions0[key], key))
+    assumed = symbol.assumptions0
+    known = sympy.Symbol("x", real=True, **{key: True for key in _ASSUMED if assumed.get(key)}).assumptions0
+    refused = [key for key, value in assumed.items() if known.get(key) is not value]  # what no sign implies
+    if refused:
+        refused.sort(key=lambda key: (key not in ("integer", "rational"), not assumed[key], key))
         hint = "all variables are real here; only signs can be assumed of them"
         raise InputError(f"the symbol {symbol} is assumed to be more than real ({refused[0]}): {hint}")
     return check_name(symbol.name)

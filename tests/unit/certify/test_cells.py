@@ -52,7 +52,15 @@ def test_where_sectors_suffice(text: str, quantifiers: str, level: int, enough: 
 CASES = [("x^2 + y^2 < 1", "x y", ".."), ("x^2 + y^2 < 1", "x y", ".E"), ("x^2 + y^2 <= 1 and x = y", "x y", "EA")]
 
 
-@pytest.mark.parametrize("case", CASES)
+SHARED = [
+    ("y > x^2 or y < x", "x y", ".."),  # two factors with common roots
+    ("y^2 = x and x*y > 1", "x y", ".E"),  # a constraint
+    ("(x - y)^2 > 1 and x + y >= 0 and x*y = 1", "x y", "EE"),
+    ("x*y^2 - y + 1 = 0", "x y", ".."),  # the degree drops
+]
+
+
+@pytest.mark.parametrize("case", [*CASES, *SHARED])
 def test_tables_as_they_are_made(case: Any) -> None:
     check_cells(evidence(*case), Budget())
 

@@ -41,6 +41,10 @@ OTHER = root("y^2 - 3", "-2", "-1")
         ("x^2*y^2 = 6", (ROOT, OTHER), True),
         ("x > 1 and not y > 0 or x > 100", (ROOT, "0"), True),
         ("(x > 5 or y > 5) and x > 1", (ROOT, "0"), False),
+        ("not (x > 0 and y > 0)", (ROOT, "0"), True),
+        ("not (x > 0 and y >= 0)", (ROOT, "0"), False),
+        ("true", (ROOT, "0"), True),
+        ("false", (ROOT, "0"), False),
         ("x*y = 0 or y > x", ("0", ROOT | {"polynomial": "y^2 - 2"}), True),
     ],
 )

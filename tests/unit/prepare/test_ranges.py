@@ -16,7 +16,6 @@ import qe.rules.ranges as ranges
 from qe.certify.ranges import check_ranges
 from qe.certify.registry import RULES
 from qe.certify.step import Claim
-from qe.engine.proving import Prover
 from qe.errors import CertificateRejected
 from qe.formula.evaluate import holds_at
 from qe.formula.syntax import FALSE, Exists, Formula
@@ -25,6 +24,7 @@ from qe.options import Budget, Options
 from qe.proof.entry import Entry
 from qe.proof.run_log import RunLog
 from qe.proof.step import Step
+from qe.proving.prover import Prover
 from qe.rules.preparation import prepare
 from qe.rules.step import StepKind
 
