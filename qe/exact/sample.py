@@ -31,8 +31,8 @@ SMALL = 100
 class Point:
     """A point of R^depth; immutable apart from caches. Long arithmetic at it and above asks its ``watch``."""
 
-    __slots__ = ("_balls", "_given", "_reduced", "_tower", "_vanishing", "algebraic", "depth")
-    __slots__ += ("parent", "ring", "value", "watch", "zeros")
+    __slots__ = ("_balls", "_given", "_reduced", "_tower", "_vanishing", "algebraic", "depth", "parent", "ring",
+                 "value", "watch", "zeros")  # fmt: skip
 
     def __init__(
         self,
@@ -97,11 +97,10 @@ class Point:
     # --- evaluation --------------------------------------------------------------------------
     def reduce(self, f: Poly) -> Poly:
         """A positive multiple of f with the rational coordinates substituted; cached."""
-        if self.parent is None:
-            return f
-        stored = self._reduced.get(f)
+        stored = f if self.parent is None else self._reduced.get(f)
         if stored is None:
             i = self.depth - 1
+            assert self.parent is not None
             stored = self.parent.reduce(f) if self._given is None else put_in(f, self._given)
             if isinstance(self.value, fmpq) and stored.degree(i):
                 stored = stored.at_rational(i, Fraction(int(self.value.p), int(self.value.q)))
@@ -149,7 +148,7 @@ class Point:
         return sign
 
     def apparent_sign(self, f: Poly) -> int | None:
-        """The sign of f at the point where ball arithmetic of moderate precision settles it, or None."""
+        """The sign of f at the point where balls settle it, or None."""
         return self._ball_sign(self.reduce(f), FIRST_PRECISION, EXACT_FROM)
 
     def _ball_sign(self, g: Poly, bits: int, last: int | None) -> int | None:
@@ -190,9 +189,7 @@ class Point:
 
     @property
     def vanishing(self) -> tuple[Poly, ...]:
-        """The polynomials known to vanish here, rational coordinates put in: whatever they divide vanishes too, and no
-        arithmetic at the point has to prove it.
-        """
+        """The polynomials known to vanish here, rational coordinates put in: what they divide needs no proof."""
         if self._vanishing is None:
             own = (self.reduce(f) for f in self.zeros)
             below = () if self.parent is None else self.parent.vanishing
@@ -203,24 +200,17 @@ class Point:
     def tower(self) -> Tower:
         """The field of the algebraic coordinates."""
         if self._tower is None:
-            if self.parent is None:
-                self._tower = Tower(self.ring)
-            elif isinstance(self.value, fmpq):
-                self._tower = self.parent.tower
-            else:
-                self._tower = self._extended_tower()
+            self._tower = Tower(self.ring) if self.parent is None else self._extended_tower()
         return self._tower
 
     def _extended_tower(self) -> Tower:
         assert self.parent is not None
-        below, i = self.parent.tower, self.depth - 1
-        value = self.value
+        if isinstance(self.value, fmpq):
+            return self.parent.tower
+        below, i, value = self.parent.tower, self.depth - 1, self.value
         assert isinstance(value, RealAlgebraic | FibreRoot)
-        if isinstance(value, RealAlgebraic):
-            f = from_univariate(self.ring, i, value.poly)
-        else:
-            f = value.fibre.polynomial()
-        element = below.embed(f)
+        known = value.fibre.polynomial() if isinstance(value, FibreRoot) else from_univariate(self.ring, i, value.poly)
+        element = below.embed(known)
         if below.variables or isinstance(value, FibreRoot):
             element = below.squarefree_part(element, i)
             modulus = below.irreducible_factor(element, i, value.ball, self.parent.ball)
@@ -275,16 +265,15 @@ class Fibre:
 
     def strip(self) -> bool:
         """Remove leading coefficients that vanish at the point; False if nothing is left."""
-        kept = list(self.coefficients)
-        while kept and self.point.vanishes(kept[-1]):
-            kept.pop()
-        self.coefficients = tuple(kept)
-        return bool(kept)
+        while self.coefficients and self.point.vanishes(self.coefficients[-1]):
+            self.coefficients = self.coefficients[:-1]
+        return bool(self.coefficients)
 
     def roots(self, bits: int = FIRST_PRECISION) -> list[arb]:
         """Disjoint balls around the distinct real roots, ascending; the polynomial is not zero at the point."""
         if self._roots is not None and self._bits >= bits:
             return self._roots
+        enough = max(COUNTED_TO, 4 * bits)
         while True:
             with precision(bits + 16):
                 found = self._attempt(bits)
@@ -294,8 +283,8 @@ class Fibre:
             if bits >= EXACT_FROM and not self.exact:
                 self._make_exact()
             else:
-                if self._roots is None and self._most is not None and bits >= COUNTED_TO:
-                    self._make_squarefree()  # fewer distinct roots than one less than the degree
+                if self._most is not None and bits >= enough:
+                    self._make_squarefree()  # fewer distinct roots than counted, or too close ones
                 bits *= 2
 
     def distinct_roots(self, bits: int) -> list[acb] | None:
@@ -379,17 +368,17 @@ class FibreRoot:
 
     def size_with(self, g: Poly) -> int:
         """A bound on the degrees met in a remainder sequence with g."""
-        var, coefficients = self.fibre.var, self.fibre.coefficients
+        coefficients, degree = self.fibre.coefficients, g.degree(self.fibre.var)
         below = max(c.total_degree for c in coefficients)
-        return g.degree(var) * below + (len(coefficients) - 1) * (g.total_degree - g.degree(var))
+        return degree * below + (len(coefficients) - 1) * (g.total_degree - degree)
 
     def annuls(self, g: Poly) -> bool:
         """Whether g, in the fibre's variable and the coordinates below, vanishes at the root."""
         shared = common_fibre(self.fibre, Fibre(self.fibre.point, self.fibre.var, g.coefficients(self.fibre.var)))
         bits = EXACT_FROM
         while shared is not None:
-            roots = self.fibre.roots(bits)
-            places = [[k for k, x in enumerate(roots) if x.overlaps(y)] for y in shared.roots(bits)]
+            roots, common = self.fibre.roots(bits), shared.roots(bits)
+            places = [[k for k, x in enumerate(roots) if x.overlaps(y)] for y in common]
             if all(len(found) == 1 for found in places):
                 return [self.index] in places
             bits *= 2
@@ -397,8 +386,8 @@ class FibreRoot:
 
     def number(self) -> RealAlgebraic:
         """The root with its minimal polynomial over Q, through the norm."""
+        fibre, tower = self.fibre, self.fibre.point.tower
         if self._number is None:
-            fibre, tower = self.fibre, self.fibre.point.tower
             element = tower.squarefree_part(fibre.element(), fibre.var)
             factor = tower.irreducible_factor(element, fibre.var, self.ball, fibre.point.ball)
             self._number = select_root(tower.norm(factor, fibre.var), self.ball)
