@@ -155,9 +155,9 @@ def test_values_of_intervals() -> None:
     ],
 )
 def test_enclosures_of_measures(text: str, order: str, value: float) -> None:
-    low, high = volume.enclose(region(text, order), Fraction(1, 50), budget=Budget(120))
+    low, high = volume.enclose(region(text, order), Fraction(1, 10), budget=Budget(120))
     assert low <= Fraction(value) + Fraction(1, 10**9) and high >= Fraction(value) - Fraction(1, 10**9)
-    assert high - low <= high / 50
+    assert high - low <= high / 10
 
 
 def test_unbounded_regions_have_no_measure() -> None:
