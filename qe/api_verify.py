@@ -77,7 +77,7 @@ def with_derivation(answer: Answer, timeout: float | None = None) -> Answer:
     Where a step has no accepted evidence, or ``timeout`` (seconds) is over, the answer has no certificate and the
     guarantee ``DERIVED``; ``unchecked_steps`` and ``reason`` say why. Raises ``Unable`` for what is no answer.
     """
-    from qe.engine.run import derived
+    from qe.proving.certificates import derived
 
     if answer.formula is None or answer.question is None:
         raise Unable(f"there is no derivation: {answer.reason or 'nothing was asked'}")

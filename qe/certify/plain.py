@@ -1340,12 +1340,11 @@ def _impossible(f: Formula, signs: dict[Any, Signs]) -> bool:
         return any(_impossible(g, signs) for g in f[1:])
     if f[0] == "or":
         return all(_impossible(g, signs) for g in f[1:])
-    key, allowed = _condition(f)
-    return not signs.get(key, ALL) & allowed
+    return not signs.get(_condition(f)[0], ALL) & _condition(f)[1]
 
 
-_BLOCK = {"simplification", "standard simplification", "boundary apart", "signs by sums of squares"}
-_BLOCK |= {"case split on factors", "vanishing sum of squares split", "Groebner basis of the equations"}
+_BLOCK = {"simplification", "standard simplification", "boundary apart", "Groebner basis of the equations"}
+_BLOCK |= {"case split on factors", "vanishing sum of squares split", "signs by sums of squares"}
 _BLOCK |= {"multiple of an equation subtracted"}
 
 

@@ -30,7 +30,8 @@ from qe.proof.entry import Entry, Json, formula_to_json, poly_to_text
 from qe.proof.on_demand import OnDemand
 from qe.proof.run_log import RunLog
 from qe.proof.step import Nested, Place, Step
-from qe.proving.lemmas import EMPTY, identities, refuting
+from qe.proving.lemma_list import EMPTY, identities
+from qe.proving.lemmas import refuting
 from qe.proving.nested import derivations_within, formulas_within, proved_inside
 from qe.proving.substitution_steps import steps
 

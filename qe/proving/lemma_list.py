@@ -1,0 +1,97 @@
+"""Lemmas under way, as evidence that names each polynomial once."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+from itertools import pairwise
+
+from qe.certify.boolean import Theory
+from qe.certify.signs import read_lemma
+from qe.certify.step import Limits
+from qe.exact.algebraic import real_roots
+from qe.exact.nearby import rational_between
+from qe.exact.ring import Poly, Ring
+from qe.proof.entry import Entry, Json, poly_to_text
+
+Term = tuple[int, tuple[tuple[Poly, int], ...]]
+"""A coefficient, and polynomials with exponents."""
+
+EMPTY: Json = {"polynomials": [], "lemmas": []}
+
+
+@dataclass(slots=True)
+class Lemmas:
+    """Lemmas under way: polynomials in the order in which they are first used."""
+
+    ring: Ring
+    numbers: dict[Poly, int] = field(default_factory=dict)
+    lemmas: list[Json] = field(default_factory=list)
+
+    def number(self, poly: Poly) -> int:
+        """The number of a primitive polynomial."""
+        return self.numbers.setdefault(poly, len(self.numbers))
+
+    def identity(self, terms: Iterable[Term]) -> None:
+        """That the terms add up to 0."""
+        listed: list[Json] = []
+        for coefficient, powers in terms:
+            found: dict[Poly, int] = {}
+            for poly, exponent in powers:
+                if poly.is_constant:
+                    coefficient *= poly.constant_value() ** exponent
+                    continue
+                content, primitive = content_of(poly)
+                coefficient *= content**exponent
+                found[primitive] = found.get(primitive, 0) + exponent
+            listed.append([str(coefficient), [[self.number(p), e] for p, e in found.items()]])
+        self.lemmas.append({"identity": listed})
+
+    def line(self, polys: Sequence[Poly], x: int) -> None:
+        """The sign vectors of irreducible polynomials in one variable."""
+        roots = sorted(r for p in polys for r in real_roots(p.to_univariate(x)))
+        ends = [None, *roots, None]
+        samples = [rational_between(a, b) for a, b in pairwise(ends)]
+        self.lemmas.append({"line": [self.number(p) for p in polys], "samples": [str(s) for s in samples]})
+
+    def theory(self, limits: Limits) -> Theory:
+        """The lemmas as the checker reads them."""
+        polys = tuple(self.numbers)
+        return Theory(polys, tuple(read_lemma(Entry(e, "lemma"), polys, self.ring) for e in self.lemmas), limits)
+
+    def only(self, used: Iterable[int]) -> Json:
+        """The evidence with these lemmas alone."""
+        chosen = [self.lemmas[k] for k in sorted(used)]
+        polys = list(self.numbers)
+        numbers = {i: k for k, i in enumerate(dict.fromkeys(i for lemma in chosen for i in _mentioned(lemma)))}
+        listed: list[Json] = [poly_to_text(polys[i]) for i in numbers]
+        return {"polynomials": listed, "lemmas": [_renumbered(lemma, numbers) for lemma in chosen]}
+
+
+def identities(listed: Iterable[Sequence[Term]], ring: Ring) -> Json:
+    """Sums that are 0, as lemmas over the ring."""
+    found = Lemmas(ring)
+    for terms in listed:
+        found.identity([(c, tuple((p.convert(ring), e) for p, e in powers)) for c, powers in terms])
+    return found.only(range(len(found.lemmas)))
+
+
+def content_of(poly: Poly) -> tuple[int, Poly]:
+    """(c, q) with poly = c * q, q primitive with positive leading coefficient."""
+    primitive = poly.normal()[1]
+    exponents, coefficient = primitive.terms()[0]
+    return next(c for e, c in poly.terms() if e == exponents) // coefficient, primitive
+
+
+def _mentioned(lemma: Json) -> list[int]:
+    assert isinstance(lemma, dict)
+    if "line" in lemma:
+        return lemma["line"]  # type: ignore[return-value]
+    return [power[0] for _, powers in lemma["identity"] for power in powers]  # type: ignore
+
+
+def _renumbered(lemma: Json, numbers: dict[int, int]) -> Json:
+    assert isinstance(lemma, dict)
+    if "line" in lemma:
+        return {**lemma, "line": [numbers[i] for i in lemma["line"]]}  # type: ignore
+    return {"identity": [[c, [[numbers[i], e] for i, e in powers]] for c, powers in lemma["identity"]]}  # type: ignore
