@@ -27,11 +27,11 @@ from qe.options import Method, Stage
 from qe.sympy_form import written_by
 
 if TYPE_CHECKING:
-    from qe.api import eliminate, region, verify
-    from qe.api_decide import check_witness, decide, equivalent, find_instance
-    from qe.api_groebner import comprehensive_groebner, real_root_classification
-    from qe.api_optimum import maximize, minimize
-    from qe.api_solve import find_instances, parametric_witnesses, reduce, solve
+    from qe.api.decide import check_witness, decide, equivalent, find_instance
+    from qe.api.eliminate import eliminate, region, verify
+    from qe.api.groebner import comprehensive_groebner, real_root_classification
+    from qe.api.optimum import maximize, minimize
+    from qe.api.solve import find_instances, parametric_witnesses, reduce, solve
     from qe.certify.verdict import Verdict
     from qe.convex.optimum import Optimum
     from qe.elimination.vs.parametric import ParametricWitness
@@ -56,11 +56,11 @@ _ELSEWHERE = {
     "Certificate": "qe.proof.certificate",
     "ComprehensiveGroebnerSystem": "qe.groebner.system",
     "RealRootClassification": "qe.groebner.counting",
-    "comprehensive_groebner": "qe.api_groebner",
-    "real_root_classification": "qe.api_groebner",
-    **dict.fromkeys(("check_witness", "decide", "equivalent", "find_instance"), "qe.api_decide"),
-    **dict.fromkeys(("maximize", "minimize"), "qe.api_optimum"),
-    **dict.fromkeys(("find_instances", "parametric_witnesses", "reduce", "solve"), "qe.api_solve"),
+    "comprehensive_groebner": "qe.api.groebner",
+    "real_root_classification": "qe.api.groebner",
+    **dict.fromkeys(("check_witness", "decide", "equivalent", "find_instance"), "qe.api.decide"),
+    **dict.fromkeys(("maximize", "minimize"), "qe.api.optimum"),
+    **dict.fromkeys(("find_instances", "parametric_witnesses", "reduce", "solve"), "qe.api.solve"),
     "Exists": "qe.io.sympy",
     "ForAll": "qe.io.sympy",
     "GlobalOptimum": "qe.optimization.global_optimum",
@@ -74,7 +74,7 @@ _ELSEWHERE = {
     "Solutions": "qe.regions.solutions",
     "Verdict": "qe.certify.verdict",
 }
-"""Where public names stand that are neither here nor in ``qe.api``.
+"""Where public names stand that are neither here nor in ``qe.api.eliminate``.
 
 All are loaded at first use: ``import qe`` alone loads neither FLINT nor the engine.
 """
@@ -83,20 +83,20 @@ All are loaded at first use: ``import qe`` alone loads neither FLINT nor the eng
 def __getattr__(name: str) -> Any:
     """A public name from a module that is loaded at its first use (PEP 562)."""
     if name == "api":
-        return import_module("qe.api")
+        return import_module("qe.api.eliminate")
     if name == "sympy":
         return import_module("qe.sympy")
     if name not in __all__:
         raise AttributeError(f"module 'qe' has no attribute {name!r}")
-    found = globals()[name] = getattr(import_module(_ELSEWHERE.get(name, "qe.api")), name)
+    found = globals()[name] = getattr(import_module(_ELSEWHERE.get(name, "qe.api.eliminate")), name)
     return found
 
 
 written_by(lambda value: import_module("qe.io.sympy").sympy_form(value))
-provide("regions", lambda: import_module("qe.api_region"))
+provide("regions", lambda: import_module("qe.api.region"))
 provide("connected", lambda: import_module("qe.io.expressions").connected)
 provide("formats", lambda: import_module("qe.io.formats"))
-provide("region", lambda: import_module("qe.api").region)
+provide("region", lambda: import_module("qe.api.eliminate").region)
 provide("partial_picture", lambda: import_module("qe.regions.partial_picture").plotted)
 
 

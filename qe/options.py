@@ -73,7 +73,7 @@ class Stage(Enum):
 class Handover:
     """What ``Budget.check`` does once ``time.monotonic()`` has passed ``due``: ``move()``, and never again.
 
-    ``qe.execution`` moves long work to another process by it.
+    ``qe.processes.execution`` moves long work to another process by it.
     """
 
     due: float

@@ -19,8 +19,8 @@ from bezier.curves.curve import Bezier
 from bezier.curves.scalar import brief, decimal_text, described
 from qe.certify.verify import verify
 from qe.errors import InputError
+from qe.processes.worker import Channel
 from qe.proof.certificate import Certificate
-from qe.worker import Channel
 
 DIGITS = 15
 MOST_FOR_A_POINT = 3

@@ -32,9 +32,9 @@ from bezier.problem import Problem, to_json
 from qe.certify.verdict import Verdict
 from qe.certify.verify import verify
 from qe.errors import CertificateRejected, InputError
+from qe.processes.worker import Channel
 from qe.progress import Event
 from qe.proof.certificate import Certificate
-from qe.worker import Channel
 
 CERTIFICATE, PATH = "certificate.json", "path.json"
 T = TypeVar("T")

@@ -14,7 +14,7 @@ from bezier.planner.outputs import COMPARED, COMPARISON
 from bezier.plans import Clock
 from bezier.problem import Problem
 from qe.cli.shell import OK
-from qe.worker import Channel
+from qe.processes.worker import Channel
 
 PAGE, DATA = "compare.html", COMPARISON
 

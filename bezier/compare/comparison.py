@@ -26,8 +26,8 @@ from bezier.plans import Clock, Derived, Plan, derivation_page
 from bezier.problem import PlanMethod, Problem
 from qe.errors import InputError, Unable
 from qe.formula.syntax import Formula
+from qe.processes.worker import Channel, Known, run
 from qe.proof.certificate import Certificate
-from qe.worker import Channel, Known, run
 
 Found = TypeVar("Found")
 

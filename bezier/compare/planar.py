@@ -20,7 +20,7 @@ from bezier.methods.control.statements import Name, Product, Statement, Sum, equ
 from bezier.methods.control.system import coordinates
 from bezier.problem import Problem
 from qe.errors import InternalError
-from qe.worker import run
+from qe.processes.worker import run
 
 
 @dataclass(frozen=True, slots=True)

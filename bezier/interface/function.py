@@ -17,8 +17,8 @@ from bezier.plans import Clock, Plan
 from bezier.problem import Problem, problem_of
 from qe import arguments
 from qe.errors import InputError
-from qe.execution import Limits, perform
 from qe.options import Budget
+from qe.processes.execution import Limits, perform
 from qe.progress import Listener, silent
 
 if TYPE_CHECKING:

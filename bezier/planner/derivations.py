@@ -14,7 +14,7 @@ from bezier.obstacles.obstacle import Obstacle
 from bezier.planner import radius_rule
 from bezier.planner.table import method_of
 from bezier.plans import Clock, Derived, Plan
-from qe.api_verify import with_derivation
+from qe.api.verify import with_derivation
 from qe.certify.claims import is_about
 from qe.errors import CertificateRejected
 from qe.formula.syntax import Formula

@@ -16,8 +16,8 @@ from bezier.curves.curve import Bezier
 from bezier.motion.timelaw import TimeLaw
 from qe.certify.verify import verify
 from qe.cli.shell import OK, UNABLE
+from qe.processes.worker import Channel
 from qe.proof.certificate import Certificate
-from qe.worker import Channel
 
 TABLE, DATA, EVIDENCE, PAGE = "joints.csv", "joints.json", "joints_certificate.json", "joints.html"
 

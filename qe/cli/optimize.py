@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 from qe.cli.numbers import exact_and_decimal, shown
 from qe.cli.work import Reply, Request, certificate_text, read_formula
 from qe.errors import Unable
+from qe.processes.worker import Channel
 from qe.spelling import quoted
-from qe.worker import Channel
 
 if TYPE_CHECKING:
     from qe.convex.optimum import Optimum
@@ -30,7 +30,7 @@ class Goal:
 
 def optimize(channel: Channel, request: Request, goal: Goal) -> Reply:
     """``qe minimize``: the exact value, the point, and what is active there; with parameters, the cases."""
-    from qe import api_optimum
+    from qe.api.eliminate import optimum as api_optimum
     from qe.optimization.parametric_optimum import ParametricOptimum
 
     start = time.perf_counter()

@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Any
 from qe.cli.numbers import shown
 from qe.cli.work import Reply, Request, certificate_text, read_formula
 from qe.errors import InputError
+from qe.processes.worker import Channel
 from qe.spelling import quoted
-from qe.worker import Channel
 
 if TYPE_CHECKING:
     from qe.regions.region import Region
@@ -22,7 +22,7 @@ PICTURES = (".png", ".pdf", ".svg", ".html")
 
 def region(channel: Channel, request: Request, picture: str | None) -> Reply:
     """``qe region``: a description for people, or the region's JSON."""
-    from qe import api
+    from qe.api.eliminate import eliminate as api
 
     if picture is not None and picture not in PICTURES:
         raise InputError(f"--plot: a file ending in {', '.join(PICTURES)} expected, {picture} found")
@@ -42,7 +42,7 @@ def region(channel: Channel, request: Request, picture: str | None) -> Reply:
 
 def solve(channel: Channel, request: Request) -> Reply:
     """``qe solve``."""
-    from qe import api_solve
+    from qe.api.eliminate import solve as api_solve
 
     start = time.perf_counter()
     formula = read_formula(channel, request.source)

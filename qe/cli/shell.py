@@ -22,8 +22,8 @@ from typer.main import get_command
 from qe.cli.values import take_plain_values
 from qe.errors import CertificateRejected, InputError, InternalError, Unable
 from qe.extras import lacking
+from qe.processes.worker import GRACE, Channel, Known, WorkerDied, WorkerStopped, run
 from qe.progress import Event
-from qe.worker import GRACE, Channel, Known, WorkerDied, WorkerStopped, run
 
 T = TypeVar("T")
 

@@ -6,10 +6,9 @@ import time
 from collections.abc import Callable, Iterable, Sequence
 from typing import NamedTuple, TypeAlias
 
-from qe import api
+from qe.api.eliminate import eliminate as api
 from qe.cli.smt_values import Number
 from qe.errors import Unable
-from qe.execution import Limits, perform
 from qe.formula.build import exists, forall
 from qe.formula.syntax import Formula
 from qe.formula.traverse import free_variables
@@ -17,6 +16,7 @@ from qe.io import surface as s
 from qe.io.smtlib_parser import Expression
 from qe.io.smtlib_script import Script
 from qe.io.total import Fill, Total
+from qe.processes.execution import Limits, perform
 
 MOST_PARTS = 300
 """Parts of a script up to which it is read at once, in this process."""

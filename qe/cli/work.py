@@ -15,8 +15,8 @@ from typing import TYPE_CHECKING, Any
 from qe.cli.source import Source
 from qe.errors import InputError, Unable
 from qe.io.formats import Format
+from qe.processes.worker import Channel
 from qe.spelling import quoted
-from qe.worker import Channel
 
 if TYPE_CHECKING:
     from qe.formula.syntax import Formula
@@ -82,7 +82,7 @@ def read_formula(channel: Channel, source: Source) -> Formula:
 
 def eliminate(channel: Channel, request: Request, output: Format) -> Reply:
     """``qe eliminate``."""
-    from qe import api
+    from qe.api.eliminate import eliminate as api
     from qe.io import formats
 
     start = time.perf_counter()
@@ -118,7 +118,7 @@ def _partial_reply(answer: Answer, partial: Partial, request: Request, output: F
 
 def decide(channel: Channel, request: Request) -> Reply:
     """``qe decide``: a sentence is true or false; an SMT-LIB script, whose constants are existential, sat or unsat."""
-    from qe import api
+    from qe.api.eliminate import eliminate as api
     from qe.formula import build, traverse
 
     formula = read_formula(channel, request.source)
@@ -160,7 +160,7 @@ def convert(channel: Channel, source: Source, output: Format) -> Reply:
 
 def check(channel: Channel, text: str, asked: Source | None, seconds: float, as_json: bool = False) -> Reply:
     """``qe check``: exit status 4 when the certificate is rejected, 3 when that is not decided."""
-    from qe.api_verify import of_question
+    from qe.api.verify import of_question
     from qe.certify.claims import claim_of, is_about
     from qe.certify.verify import verify
     from qe.errors import CertificateRejected

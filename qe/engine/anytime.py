@@ -21,12 +21,12 @@ from qe.elimination.cad import variable_order
 from qe.engine.run import solve
 from qe.errors import Unable
 from qe.exact.ring import Ring
-from qe.execution import Limits, perform
 from qe.formula.build import convert, disj, exists, neg
 from qe.formula.counting import without_root_atoms
 from qe.formula.normal import nnf, prenex, rename_apart
 from qe.formula.syntax import FALSE, TRUE, And, Constant, Exists, ForAll, Formula, Not, Or
 from qe.options import Budget, Options
+from qe.processes.execution import Limits, perform
 from qe.proof.cells import Cell, CellTable
 from qe.proof.partial import Partial
 from qe.simplify.simplify import simplify

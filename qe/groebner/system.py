@@ -19,12 +19,12 @@ from qe.exact.ring import Poly, format_poly
 from qe.exact.sample import Point
 from qe.exact.tower import clear_denominators
 from qe.exact.zeros import Zero
-from qe.execution import Limits, perform
 from qe.formula.build import atom, conj, disj
 from qe.formula.syntax import Formula, Relation
 from qe.groebner.evidence import solutions_certificate
 from qe.groebner.segment import Segment, monomial_names
 from qe.groebner.writing import system_to_html, system_to_latex
+from qe.processes.execution import Limits, perform
 from qe.proof.certificate import Certificate
 
 Result = TypeVar("Result")

@@ -17,7 +17,6 @@ from qe.cells.sampled_cells import child, root_place
 from qe.engine.run import solve
 from qe.errors import InputError
 from qe.exact.number import Number, simplest
-from qe.execution import Limits, perform
 from qe.formula.build import conj, convert, exists
 from qe.formula.syntax import FALSE, Formula
 from qe.optimization import written
@@ -25,6 +24,7 @@ from qe.optimization.global_optimum import GlobalOptimum, level_set, number_cond
 from qe.optimization.minimisers import minimisers, points
 from qe.optimization.values import Goal
 from qe.options import Budget, Options
+from qe.processes.execution import Limits, perform
 from qe.proof.answer import Answer, Guarantee
 from qe.proof.cells import CellTable
 from qe.proof.certificate import Certificate

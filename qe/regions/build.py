@@ -5,11 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from qe.engine.run import answer_to, solve
-from qe.execution import Limits
 from qe.formula.counting import without_root_atoms
 from qe.formula.syntax import Formula
 from qe.formula.traverse import free_variables, is_quantifier_free
 from qe.options import Budget, Options
+from qe.processes.execution import Limits
 from qe.proof.answer import Answer, Status
 from qe.proof.run_log import RunLog
 from qe.regions.convex_region import ConvexRegion, shadow_of

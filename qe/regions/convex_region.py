@@ -15,13 +15,13 @@ from qe.convex.system import NotConvex, read_system
 from qe.errors import BudgetExceeded, InputError, Unable
 from qe.exact.algebraic import RealAlgebraic
 from qe.exact.ring import Ring
-from qe.execution import Limits
 from qe.formula.build import convert, exists
 from qe.formula.evaluate import substituted
 from qe.formula.normal import nnf
 from qe.formula.syntax import FALSE, TRUE, Exists, Formula
 from qe.formula.traverse import free_variables
 from qe.options import Budget
+from qe.processes.execution import Limits
 from qe.proof.cells import CellTable
 from qe.regions.region import NONE, Region, checked_order, is_true
 

@@ -1,6 +1,6 @@
 """What sets are asked and joined by that needs the engine: the operators and further questions of a region.
 
-Their work stands where the engine is known, in ``qe.api_region``, which is reached by ``qe.later``.
+Their work stands where the engine is known, in ``qe.api.region``, which is reached by ``qe.later``.
 """
 
 from __future__ import annotations
@@ -142,7 +142,7 @@ class SetOperations:
     def exact_volume(self, *, timeout: float | None = None) -> Any:
         """The length, area or volume in closed form, as a SymPy expression.
 
-        The number lies in the enclosure that ``volume`` proves; where its terms come from see ``qe.api_measure``.
+        The number lies in the enclosure that ``volume`` proves; where its terms come from see ``qe.api.measure``.
         Raises ``Unable`` for unbounded sets, and where no closed form is known: ``volume`` encloses it.
         """
         return _ways().exact_volume(self, timeout)

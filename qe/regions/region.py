@@ -21,7 +21,6 @@ from qe.errors import InputError, Unable
 from qe.exact.algebraic import RealAlgebraic
 from qe.exact.ring import Poly, Ring
 from qe.exact.sample import Point
-from qe.execution import Budgets, Limits, perform
 from qe.extras import wanted
 from qe.formula.build import conj, convert
 from qe.formula.evaluate import truth_under
@@ -29,6 +28,7 @@ from qe.formula.normal import nnf
 from qe.formula.syntax import Formula
 from qe.formula.traverse import free_variables
 from qe.options import Budget
+from qe.processes.execution import Budgets, Limits, perform
 from qe.proof.answer import Answer, Guarantee
 from qe.proof.cells import Cell, CellTable
 from qe.proof.certificate import Certificate
@@ -48,7 +48,7 @@ class Region(SetOperations):
     """The set of real points that satisfy ``formula``; ``table`` proves where it is true.
 
     ``limits`` hold for every question (replace them to change them); ``timeout`` in seconds, where a question has one,
-    goes before theirs. Questions that take long are worked on in another process (see ``qe.execution``); they raise
+    goes before theirs. Questions that take long are worked on in another process (see ``qe.processes``); they raise
     ``BudgetExceeded`` at a limit. ``answer``: how ``formula`` was found, where quantifiers were eliminated (None: it
     was given). ``guarantee``, with ``qe.region(..., check=True)``: CHECKED where separate code accepted ``proof``, and
     otherwise ``reason`` says why not.

@@ -20,15 +20,10 @@ ROWS = {
     "qe.spelling": 0,
     "qe.arguments": 0,
     "qe.options": 0,
-    "qe.surroundings": 0,
+    "qe.processes": 0,
     "qe.sympy_form": 0,
     "qe.extras": 0,
     "qe.later": 0,
-    "qe.portable": 0,
-    "qe.worker": 0,
-    "qe.execution": 0,
-    "qe.cluster": 0,
-    "qe.racing": 0,
     "qe.exact": 1,
     "qe.formula": 2,
     "qe.io": 2,
@@ -95,7 +90,7 @@ BESIDE = {("qe.io", "qe.formula")}  # importer and imported: of one row, but one
 
 def part(module: str) -> str:
     """The longest listed prefix of a module name."""
-    pieces = module.replace("qe.api_", "qe.api.").split(".")
+    pieces = module.split(".")
     for length in range(len(pieces), 0, -1):
         if (name := ".".join(pieces[:length])) in ROWS and not (name in ("qe", "bezier") and len(pieces) > 1):
             return name
@@ -163,7 +158,7 @@ def test_flint_is_imported_only_in_the_exact_layer_and_in_the_arithmetic_of_the_
         for module, path in MODULES
         if part(module) != "qe.exact" and not module.startswith("qe.certify.arithmetic.")
         for line, name in imports(path, module)
-        if name.split(".")[0] in ("flint", "ctypes") and (name, module) != ("ctypes", "qe.worker")
+        if name.split(".")[0] in ("flint", "ctypes") and (name, module) != ("ctypes", "qe.processes.worker")
     ]
     assert not wrong
 
@@ -173,7 +168,7 @@ def test_sympy_enters_only_by_its_own_door() -> None:
         f"{module}:{line}"
         for module, path in MODULES
         if module.startswith("qe")
-        and not re.fullmatch(r"qe\.io\.sympy(_numbers|_reader)?|qe\.sympy|qe\.api_measure", module)
+        and not re.fullmatch(r"qe\.io\.sympy(_numbers|_reader)?|qe\.sympy|qe\.api\.measure", module)
         for line, name in imports(path, module)
         if name.split(".")[0] == "sympy"
     ]

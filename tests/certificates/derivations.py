@@ -6,7 +6,7 @@ import functools
 import json
 from typing import Any
 
-from qe.api_input import read_formula
+from qe.api.input import read_formula
 from qe.engine.run import solve
 from qe.formula.syntax import Formula
 from qe.options import Budget, Options

@@ -12,7 +12,7 @@ import qe.elimination.vs.infinity_first as infinity_first
 import qe.elimination.witness as witness
 import qe.engine.run as run
 import qe.formula.counting as counting
-from qe.api_input import read_formula
+from qe.api.input import read_formula
 from qe.elimination.critical.method import ConvexUniversal
 from qe.elimination.protocol import Context, Outcome, Problem
 from qe.formula.syntax import FALSE, TRUE, ForAll, Formula, Relation

@@ -15,7 +15,7 @@ import qe.rules.rotation as rotation
 import qe.rules.structural as structural
 import qe.rules.symmetry as symmetry
 import qe.rules.takes_value as takes_value
-from qe.api_input import read_formula
+from qe.api.input import read_formula
 from qe.elimination.protocol import Context
 from qe.exact.ring import Poly
 from qe.formula.build import conj

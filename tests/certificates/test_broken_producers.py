@@ -18,7 +18,7 @@ import qe.rules.scaling as scaling
 import qe.rules.structural as structural
 import qe.rules.translation as translation
 import qe.simplify.factors as factors
-from qe.api_input import read_formula
+from qe.api.input import read_formula
 from qe.elimination.protocol import Context, Problem
 from qe.formula.build import conj
 from qe.formula.normal import nnf, rename_apart

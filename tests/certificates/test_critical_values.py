@@ -13,7 +13,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import qe
-from qe.api_input import read_formula
+from qe.api.input import read_formula
 from qe.certify.critical_values import check_critical_values
 from qe.certify.derivation import limits_of
 from qe.certify.registry import RULES

@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import qe
-from qe.api_input import read_formula
+from qe.api.input import read_formula
 from qe.certify.verify import verify
 from qe.errors import Unable
 from qe.exact.quotient import PositiveDimensional

@@ -8,6 +8,7 @@ import pytest
 
 import qe
 from qe.certify.verify import verify_json
+from qe.proof.certificate import Kind
 from tests.certificates.mutation import leaves, lists, replaced, without
 
 CONTROL = (
@@ -55,7 +56,7 @@ def test_every_altered_entry_is_rejected() -> None:
 )
 def test_unsound_steps_are_rejected(matrix: list[object], solved: list[list[str]], answer: object) -> None:
     payload = {"order": ["a", "x"], "variables": ["x"], "matrix": matrix, "solved": solved, "answer": answer}
-    verdict = qe.verify(qe.Certificate(qe.api.Kind.SUBSTITUTION, payload))
+    verdict = qe.verify(qe.Certificate(Kind.SUBSTITUTION, payload))
     assert not verdict.accepted and verdict.step.startswith("payload.solved"), verdict
 
 

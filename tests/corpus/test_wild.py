@@ -13,6 +13,7 @@ from typing import Any
 import pytest
 
 import qe
+from qe.api.input import read_formula
 from qe.formula.build import exists
 from qe.formula.traverse import free_variables
 
@@ -43,7 +44,7 @@ def verdict(record: dict[str, Any]) -> bool | None:
         if record["kind"] == "smt2":
             if not isinstance(record["text"], str) or expected not in ("sat", "unsat"):
                 return None
-            asserted = qe.api.read_formula(record["text"], "smtlib")
+            asserted = read_formula(record["text"], "smtlib")
             closed = exists(free_variables(asserted), asserted)
             return qe.decide(closed, timeout=SECONDS) is (expected == "sat")
         answer = qe.eliminate(question(record["text"]), format=record.get("format", "text"), timeout=SECONDS)
@@ -51,7 +52,7 @@ def verdict(record: dict[str, Any]) -> bool | None:
             return None
         if record["kind"] == "decide":
             return str(answer.truth).lower() == expected.lower() if expected.lower() in ("true", "false") else None
-        wanted = qe.api.read_formula(expected)
+        wanted = read_formula(expected)
     except qe.QEError:
         return None
     try:

@@ -21,7 +21,7 @@ NAMES = ("x", "y")
 def move_early():
     """Every piece of work moves, some at once and some late."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("qe.execution.HERE", 0.002)
+        patch.setattr("qe.processes.execution.HERE", 0.002)
         yield
 
 

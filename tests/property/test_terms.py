@@ -105,7 +105,7 @@ def true_at(formula: Formula, point: dict[str, Fraction]) -> bool:
     if formula.is_quantifier_free:
         return holds_at(formula, point)
     given = [read(f"{name} = {value}") for name, value in point.items()]
-    together = qe.api_input.together(formula, *given)  # type: ignore[attr-defined]
+    together = qe.api.input.together(formula, *given)  # type: ignore[attr-defined]
     return qe.find_instance(conj(together)) is not None
 
 

@@ -12,6 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import qe
+from qe.api.input import read_formula
 from qe.certify.arithmetic.sturm import count_roots_between
 from qe.errors import InternalError
 from qe.exact.algebraic import RealAlgebraic
@@ -98,7 +99,7 @@ def test_an_answer_was_lost_where_it_was_shortened_by_a_decomposition_with_large
     assert answer is not None
     for a, b in ((0, -5), (0, 0), (3, -1), (-1, -2), (10**20, -(10**20)), (-(10**20), Fraction(1, 10**20))):
         point = {"a": Fraction(a), "b": Fraction(b)}
-        expected = qe.decide(exists(("x", "y"), at_point(qe.api.read_formula(text), point)))
+        expected = qe.decide(exists(("x", "y"), at_point(read_formula(text), point)))
         assert holds_at(answer, point) is expected
 
 

@@ -12,7 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import qe
-from qe import api
+from qe.api.eliminate import eliminate as api
 from qe.certify.verdict import Verdict
 from qe.certify.verify import verify, verify_json
 from qe.cli.app import main
@@ -149,7 +149,7 @@ def test_limits_of_a_verification_are_checked(limit: Any) -> None:
 def test_a_verification_that_does_not_end_costs_the_certificate_not_the_answer(monkeypatch: pytest.MonkeyPatch) -> None:
     text = "ex y. x^2 + y^2 = 1 and y > x"
     checked = qe.eliminate(text, check=True)
-    monkeypatch.setattr("qe.api_verify.VERIFY_SECONDS", 1e-9)
+    monkeypatch.setattr("qe.api.verify.VERIFY_SECONDS", 1e-9)
     answer = qe.eliminate(text, check=True)
     assert checked.guarantee is qe.Guarantee.CHECKED and not checked.reason
     assert answer.status is qe.Status.SOLVED and answer.formula == checked.formula

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import pytest
 
-from qe.api_limits import MOST_WORKERS, cluster_of, limits_of, reading
-from qe.api_race import raced
+from qe.api.limits import MOST_WORKERS, cluster_of, limits_of, reading
+from qe.api.race import raced
 from qe.errors import InputError
-from qe.execution import Limits
 from qe.io.text import read
 from qe.options import Budget, Cluster, Method
+from qe.processes.execution import Limits
 from qe.proof.answer import Answer, Status
 
 

@@ -15,9 +15,9 @@ import pytest
 
 import qe
 from qe.errors import BudgetExceeded, InputError, InternalError, Unable
-from qe.execution import HERE, SWITCH, Budgets, Limits, perform
 from qe.formula.weight import may_block, text_may_block
 from qe.options import Budget
+from qe.processes.execution import HERE, SWITCH, Budgets, Limits, perform
 from qe.progress import Event
 
 HARD = "ex a, b, c. all x, y. a*x^4*y + b*x*y^3 + c*x^2*y^2 + d*x + g*y + f > a^2*x^3 + b^2*y^5"
@@ -192,7 +192,7 @@ def test_ctrl_c_ends_it_at_once_and_leaves_nothing_behind(call):
     code = f"""
 import qe
 from flint import fmpz
-from qe.execution import Limits, perform
+from qe.processes.execution import Limits, perform
 print("go", flush=True)
 try:
     {call}

@@ -100,7 +100,7 @@ CASES: dict[str, tuple[str, Callable[[], Call]]] = {
         lambda: lambda found=qe.region(DISC): found.complement(timeout=LIMIT),
     ),
     "Region.is_subset": (
-        "qe.api_region.eliminated",
+        "qe.api.region.eliminated",
         lambda: lambda found=qe.region(DISC): found.is_subset("x < 2", timeout=LIMIT),
     ),
     "Region.project": (
@@ -116,7 +116,7 @@ CASES: dict[str, tuple[str, Callable[[], Call]]] = {
         lambda: lambda found=qe.region(DISC): found.distance([2, 2], timeout=LIMIT),
     ),
     "Region.exact_volume": (
-        "qe.api_measure._measured",
+        "qe.api.measure._measured",
         lambda: lambda found=qe.region(DISC): found.exact_volume(timeout=LIMIT),
     ),
     "Region.find_instances": (
@@ -224,7 +224,7 @@ def test_a_picture_is_drawn_by_another_process(tmp_path: Path):
 
 
 def test_reading_holds_the_limit(monkeypatch):
-    monkeypatch.setattr("qe.api.read_formula", stuck)
+    monkeypatch.setattr("qe.api.eliminate.read_formula", stuck)
     start = time.monotonic()
     assert qe.eliminate("(x + y + z + 1)^70 > 0", timeout=LIMIT).status is qe.Status.UNABLE
     with pytest.raises(BudgetExceeded):

@@ -8,7 +8,7 @@ import pickle
 import pytest
 
 from qe.errors import BudgetExceeded, InputError, InternalError, ParseError, QEError, Unable
-from qe.portable import portable, rebuilt
+from qe.processes.portable import portable, rebuilt
 
 
 def sent(error: BaseException) -> QEError:

@@ -9,7 +9,8 @@ import sys
 
 import pytest
 
-from qe import later, surroundings, sympy_form
+from qe import later, sympy_form
+from qe.processes import surroundings
 from qe.proof.on_demand import OnDemand
 
 

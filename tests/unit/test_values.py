@@ -13,6 +13,7 @@ import sympy as sp
 from hypothesis import given, settings
 
 import qe
+from qe.api.input import read_formula
 from qe.formula.operators import LONGEST
 from tests.strategies import formulas
 
@@ -21,8 +22,8 @@ DISC = qe.region("x^2 + y^2 <= 1")
 VALUES = {
     "answer": lambda: qe.eliminate("ex x. x^2 + b*x + c = 0", check=True),
     "answer of a sentence": lambda: qe.eliminate("ex x. x^2 = 2"),
-    "formula": lambda: qe.api.read_formula(" and ".join(f"x^{k} + {k} > 0" for k in range(1, 200))),
-    "true": lambda: qe.api.read_formula("true"),
+    "formula": lambda: read_formula(" and ".join(f"x^{k} + {k} > 0" for k in range(1, 200))),
+    "true": lambda: read_formula("true"),
     "certificate": lambda: qe.eliminate("ex x. x^2 = b", check=True).certificate,
     "derivation": lambda: qe.eliminate("ex x. x^2 + b*x + c = 0").derivation,
     "region": lambda: DISC,
@@ -69,12 +70,12 @@ def test_notebooks() -> None:
     assert "witness: x = " in qe.eliminate("ex x. x^2 = 2")._repr_html_()
     assert "unable" in qe.eliminate("ex x. a*x^5 + x = 1", method="vs")._repr_html_()
     assert "data:image/png" in DISC._repr_html_() and "<img" not in qe.region("x < y*z")._repr_html_()
-    long = qe.api.read_formula(" and ".join(f"x^{k} > {k}" for k in range(1, LONGEST // 4)))
+    long = read_formula(" and ".join(f"x^{k} > {k}" for k in range(1, LONGEST // 4)))
     assert long._repr_latex_() is None and (x < y)._repr_latex_() == r"$\displaystyle x - y < 0$"
 
 
 def test_formulas_have_operators() -> None:
-    f, g = qe.api.read_formula("x > 0"), qe.api.read_formula("y > x")
+    f, g = read_formula("x > 0"), read_formula("y > x")
     assert str(f & g) == "x > 0 and x - y < 0" and str(f | "z > 1") == "x > 0 or z - 1 > 0"
     assert str(~f) == "x <= 0" and qe.equivalent(f >> g, "x > 0 -> y > x") and str("z > 1" & f) == "z - 1 > 0 and x > 0"
     assert isinstance(f & (x < y), qe.Statement) and isinstance((x < y) & f, qe.Statement)
@@ -158,11 +159,11 @@ def test_pictures_of_answers(tmp_path) -> None:
 @given(formulas(names=("x", "y"), max_degree=2))
 def test_what_is_printed_is_read_back(formula) -> None:
     answer = qe.eliminate(formula)
-    assert qe.api.read_formula(str(formula)) == qe.api.read_formula(str(qe.api.read_formula(str(formula))))
+    assert read_formula(str(formula)) == read_formula(str(read_formula(str(formula))))
     assert qe.equivalent(str(answer), formula)
     region = qe.region(formula, "x, y")
     for cell in region.cells:
-        assert qe.api.read_formula(str(cell)) == cell.formula
+        assert read_formula(str(cell)) == cell.formula
     for point in region.sample_points():
         text = " and ".join(f"{name} = {value}" for name, value in point.items())
         assert qe.region(text, "x, y").contains(point)

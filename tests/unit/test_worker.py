@@ -13,8 +13,8 @@ from qe.errors import BudgetExceeded, CertificateRejected, InternalError, ParseE
 from qe.exact.ring import Ring
 from qe.formula.build import atom, exists
 from qe.formula.syntax import Relation
+from qe.processes.worker import Channel, Known, WorkerDied, WorkerStopped, run
 from qe.progress import Event
-from qe.worker import Channel, Known, WorkerDied, WorkerStopped, run
 
 
 @pytest.fixture(autouse=True)

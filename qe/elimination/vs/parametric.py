@@ -19,12 +19,12 @@ from qe.elimination.vs.witness import witness
 from qe.errors import DegreeTooHigh, InputError, Unable
 from qe.exact.algebraic import RealAlgebraic
 from qe.exact.sample import Point
-from qe.execution import Limits, perform
 from qe.formula.build import disj
 from qe.formula.evaluate import truth_under
 from qe.formula.normal import nnf
 from qe.formula.syntax import FALSE, Constant, Exists, ForAll, Formula
 from qe.options import Budget
+from qe.processes.execution import Limits, perform
 from qe.proof import answer as solution
 from qe.proof.run_log import RunLog
 from qe.simplify.simplify import simplify

@@ -12,7 +12,7 @@ from bezier.planner import derivations
 from bezier.planner.planning import make_plan
 from bezier.plans import Clock, Outcome
 from bezier.problem import load_problem
-from qe.api_verify import with_derivation
+from qe.api.verify import with_derivation
 from qe.errors import CertificateRejected
 from qe.formula.syntax import FALSE
 from qe.proof.certificate import Certificate, Kind

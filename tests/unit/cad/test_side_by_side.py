@@ -14,12 +14,12 @@ import pytest
 import qe
 from qe.cad import lifting
 from qe.cad.decompose import Decomposition, decompose
-from qe.cluster import helping
 from qe.errors import BudgetExceeded
 from qe.formula.normal import nnf, prenex
 from qe.formula.syntax import Constant
 from qe.io import formats
 from qe.options import Budget, Call, Cluster, Helpers, Result
+from qe.processes.cluster import helping
 from tests.differential.generate import NESTED, SMALL, random_formula
 
 PROBLEMS = {

@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from qe.api_input import read_formula
+from qe.api.input import read_formula
 from qe.certify.table import is_prenex_form
 from qe.exact.ring import Ring
 from qe.formula.build import convert

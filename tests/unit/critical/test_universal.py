@@ -9,6 +9,7 @@ import pytest
 from hypothesis import strategies as st
 
 import qe
+from qe.api.input import read_formula
 from qe.elimination.critical.method import ConvexUniversal
 from qe.elimination.protocol import Context, Problem
 from qe.formula.build import forall
@@ -22,7 +23,7 @@ ASKED = Options(method=Method.CRITICAL)
 
 
 def block(text: str) -> ForAll:
-    formula = qe.api.read_formula(text)
+    formula = read_formula(text)
     assert isinstance(formula, ForAll)
     return formula
 
@@ -126,7 +127,7 @@ def examine(given_family: tuple[list[int], int, int], seconds: float) -> bool:
         f"all t. 0 <= t and t <= 1 -> ({a} + {b}*t + ({e} + {f}*t^{degree})*x)^2"
         f" + ({g} + {h}*t + ({i} + {j}*t)*y)^2 <= {square}"
     )
-    if not isinstance(formula := qe.api.read_formula(text), ForAll):
+    if not isinstance(formula := read_formula(text), ForAll):
         return False
     try:
         answer = tried(formula, seconds)

@@ -9,17 +9,17 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from qe.api import eliminate
+from qe.api.eliminate import eliminate
 from qe.engine.anytime import partly
 from qe.engine.run import solve
 from qe.errors import BudgetExceeded
 from qe.exact.ring import Ring
-from qe.execution import Limits
 from qe.formula.build import atom, conj, disj, exists, forall
 from qe.formula.evaluate import holds_at
 from qe.formula.syntax import FALSE, TRUE, Formula, Relation
 from qe.io.text import read
 from qe.options import Budget, Options
+from qe.processes.execution import Limits
 from tests.strategies import polynomials
 
 RING = Ring.of(("a", "b", "x", "y"))

@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import qe
-from qe.api import read_formula
+from qe.api.eliminate import read_formula
 from qe.formula.build import root_atom
 from qe.formula.counting import without_root_atoms
 from qe.formula.evaluate import holds_at, substituted

@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 import qe
-from qe.api_input import read_polynomial
+from qe.api.input import read_polynomial
 from qe.exact.fglm import changed_order
 from qe.exact.groebner import MonomialOrder, groebner_basis
 from qe.exact.polynomial_system import LIMITS

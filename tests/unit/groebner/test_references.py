@@ -10,8 +10,8 @@ from typing import Any
 import pytest
 
 import qe
-from qe.api_groebner import ComprehensiveGroebnerSystem
-from qe.api_input import read_polynomial
+from qe.api.groebner import ComprehensiveGroebnerSystem
+from qe.api.input import read_polynomial
 from qe.exact.ring import Poly
 from tests.unit.groebner.support import Place, places
 

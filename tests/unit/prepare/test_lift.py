@@ -11,7 +11,7 @@ from flint import fmpz_poly
 from hypothesis import given
 from hypothesis import strategies as st
 
-from qe.api import eliminate
+from qe.api.eliminate import eliminate
 from qe.errors import Unable
 from qe.exact.algebraic import RealAlgebraic, real_roots
 from qe.exact.ring import Ring

@@ -12,11 +12,11 @@ import qe
 from qe.cells.interval import Interval
 from qe.errors import InputError, Unable
 from qe.exact.algebraic import RealAlgebraic
-from qe.execution import Limits
 from qe.formula.build import exists
 from qe.formula.evaluate import holds_at
 from qe.io.text import read
 from qe.options import Budget
+from qe.processes.execution import Limits
 from qe.regions import build, operators, picture, planar, sketch, slices, solutions, turnable, volume, walk
 from qe.regions.region import Region
 

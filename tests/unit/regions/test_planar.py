@@ -6,6 +6,7 @@ import pytest
 from hypothesis import given, settings
 
 import qe
+from qe.api.input import read_formula
 from qe.formula.build import conj, disj, neg
 from qe.formula.normal import nnf
 from qe.io.substitution import over_one_ring
@@ -66,7 +67,7 @@ def test_closure_and_interior_in_the_plane(formula) -> None:
 @pytest.mark.deep
 @pytest.mark.parametrize("text", ["y^2 < x^2*(x - 1)", "x*y > 1 or y = 0", "x^2 + y^2 > 1 and x*y <= 1", "x*y^2 < 1"])
 def test_closure_and_interior_of_curved_sets(text: str) -> None:
-    _agrees(qe.api.read_formula(text), ("x", "y"))
+    _agrees(read_formula(text), ("x", "y"))
 
 
 def _agrees(formula, order: tuple[str, ...]) -> None:

@@ -7,6 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import qe
+from qe.api.input import read_formula
 from qe.formula.evaluate import holds_at
 from tests.strategies import formulas, points
 
@@ -54,7 +55,7 @@ def test_misuse() -> None:
 @given(formulas(names=("x", "y"), max_degree=3), st.lists(points(("x", "y")), min_size=4, max_size=4))
 def test_each_case_is_read_back_and_all_together_are_the_formula(formula, at) -> None:
     found = qe.solve(formula, "x y")
-    read = [qe.api.read_formula(str(case)) for case in found]
+    read = [read_formula(str(case)) for case in found]
     for point in at:
         assert sum(holds_at(f, point) for f in read) == holds_at(formula, point)  # the cases are disjoint
     for case, f in zip(found, read, strict=True):
@@ -66,4 +67,4 @@ def test_each_case_is_read_back_and_all_together_are_the_formula(formula, at) ->
 @given(formulas(names=("`a b`", "pi", "ex"), max_degree=2))
 def test_odd_names(formula) -> None:
     found = qe.solve(formula)
-    assert qe.api.read_formula(str(found)).free == found.formula.free
+    assert read_formula(str(found)).free == found.formula.free

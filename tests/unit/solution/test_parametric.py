@@ -8,6 +8,7 @@ from itertools import product
 import pytest
 
 import qe
+from qe.api.input import read_formula
 
 BLOCKS = [
     "ex x. a*x^2 + b*x + c = 0",
@@ -33,7 +34,7 @@ def test_values_solve_the_body_where_the_guard_holds(text: str) -> None:
     from qe.formula.build import convert
     from qe.formula.evaluate import truth_under
 
-    block = qe.api.read_formula(text)
+    block = read_formula(text)
     found = qe.parametric_witnesses(block)
     tried = 0
     for numbers in product((-2, 0, 1, Fraction(3, 2)), repeat=3):

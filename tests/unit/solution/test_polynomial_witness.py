@@ -9,9 +9,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import qe
+from qe.api.input import read_formula
 from qe.elimination.witness import find, instantiate, substituted
 from qe.formula.build import forall, implies
 from qe.formula.evaluate import holds_at
+from qe.formula.syntax import Formula
 from qe.formula.traverse import free_variables
 from qe.options import Budget
 
@@ -32,8 +34,8 @@ FALSE = [
 ]
 
 
-def read(text: str) -> qe.api.Formula:
-    return qe.api.read_formula(text)
+def read(text: str) -> Formula:
+    return read_formula(text)
 
 
 @pytest.mark.parametrize("text", TRUE)
@@ -44,7 +46,7 @@ def test_witnesses_are_found_and_the_sentence_is_true(text: str) -> None:
         assert qe.decide(forall(free(witness), witness_claim(witness))) is True
 
 
-def witness_claim(witness: object) -> qe.api.Formula:
+def witness_claim(witness: object) -> Formula:
 
     return implies(witness.assumptions, substituted(witness.claim, witness.terms))  # type: ignore[attr-defined]
 

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 import pytest
 
 import qe
+from qe.api.input import read_formula
 from qe.formula.build import convert
 from qe.formula.traverse import ring_of
 
@@ -54,7 +55,7 @@ def symbols(name: str, n: int) -> list[str]:
 def test_answer_as_printed(q0: Sequence[object], r0: Sequence[object], square: str) -> None:
     answer = qe.eliminate(printed(q0, r0, square))
     assert answer.formula is not None
-    expected = qe.api.read_formula(six_norms(q0, r0, square))
+    expected = read_formula(six_norms(q0, r0, square))
     ring = ring_of(expected)
     assert set(convert(answer.formula, ring).args) == set(expected.args)
 
@@ -87,4 +88,4 @@ def test_no_existence_outside_the_ball() -> None:
     from qe.elimination.witness import find
     from qe.options import Budget
 
-    assert find(qe.api.read_formula(existence(2, factor=2)), budget=Budget(20)) is None
+    assert find(read_formula(existence(2, factor=2)), budget=Budget(20)) is None

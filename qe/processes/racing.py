@@ -11,9 +11,9 @@ from collections.abc import Callable, Mapping
 from typing import TypeVar
 
 from qe.errors import QEError, Unable
-from qe.portable import rebuilt
+from qe.processes.portable import rebuilt
+from qe.processes.worker import Channel, Inbox, Known, Worker, forked
 from qe.progress import Listener
-from qe.worker import Channel, Inbox, Known, Worker, forked
 
 T = TypeVar("T")
 Name = TypeVar("Name")

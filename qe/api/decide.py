@@ -7,8 +7,8 @@ from fractions import Fraction
 from typing import Any
 
 from qe import arguments
-from qe.api import Order, Progress, eliminate
-from qe.api_input import AnyFormula, read_formula, read_polynomial, together
+from qe.api.eliminate import Order, Progress, eliminate
+from qe.api.input import AnyFormula, read_formula, read_polynomial, together
 from qe.errors import InputError, Unable
 from qe.exact.number import Assignment
 from qe.formula.build import convert, exists, forall, iff

@@ -8,16 +8,16 @@ from enum import Enum
 from typing import Any
 
 from qe import arguments
-from qe.api_input import read_polynomial
+from qe.api.input import read_polynomial
 from qe.errors import InputError
 from qe.exact.algebraic import RealAlgebraic
 from qe.exact.block_order import Block
 from qe.exact.groebner import MonomialOrder
 from qe.exact.ring import Poly, Ring, format_poly
-from qe.execution import Budgets, Limits, perform
 from qe.groebner.counting import RealRootClassification, classified
 from qe.groebner.question import ParametricSystem
 from qe.groebner.system import ComprehensiveGroebnerSystem, exact_number
+from qe.processes.execution import Budgets, Limits, perform
 from qe.progress import silent
 
 Names = Any
@@ -108,7 +108,7 @@ def real_root_classification(
         found = classified(*asked, budget)
         if not check:
             return found
-        from qe.api_classified import certified
+        from qe.api.classified import certified
 
         return certified(asked[0], found, budget)
 

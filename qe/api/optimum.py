@@ -7,11 +7,11 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Literal, overload
 
 from qe import arguments
-from qe.api_input import AnyFormula, read_constraints, read_objective
-from qe.api_limits import Progress, limits_of, performed
+from qe.api.input import AnyFormula, read_constraints, read_objective
+from qe.api.limits import Progress, limits_of, performed
 from qe.errors import InputError
-from qe.execution import Budgets, Limits
 from qe.options import Budget
+from qe.processes.execution import Budgets, Limits
 from qe.progress import silent
 
 if TYPE_CHECKING:
@@ -169,7 +169,7 @@ def _best(
         found = search(budget)
         if not check:
             return found
-        from qe.api_verify import judged
+        from qe.api.verify import judged
         from qe.optimization.global_optimum import POINT, GlobalOptimum
         from qe.proof.answer import Guarantee
 

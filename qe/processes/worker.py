@@ -26,9 +26,9 @@ from types import TracebackType
 from typing import Generic, NoReturn, TypeVar
 
 from qe.errors import BudgetExceeded, Unable
-from qe.portable import portable, rebuilt
+from qe.processes.portable import portable, rebuilt
+from qe.processes.surroundings import MARK, surrounding_deadline
 from qe.progress import Event, Listener, silent
-from qe.surroundings import MARK, surrounding_deadline
 
 T = TypeVar("T")
 

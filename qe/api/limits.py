@@ -8,12 +8,12 @@ from importlib import import_module
 from typing import TypeVar
 
 from qe import arguments
-from qe.api_input import AnyFormula, read_formula
+from qe.api.input import AnyFormula, read_formula
 from qe.errors import InputError
-from qe.execution import Budgets, Limits, perform
 from qe.formula.syntax import Formula
 from qe.formula.weight import may_block, text_may_block
 from qe.options import Cluster
+from qe.processes.execution import Budgets, Limits, perform
 from qe.progress import Event
 
 Result = TypeVar("Result")

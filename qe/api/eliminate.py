@@ -9,17 +9,17 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from qe import arguments
-from qe.api_input import AnyFormula, read_formula
-from qe.api_limits import cluster_of
-from qe.api_limits import limits_of as _limits
-from qe.api_limits import performed as _performed
-from qe.api_limits import reading as _read
+from qe.api.input import AnyFormula, read_formula
+from qe.api.limits import cluster_of
+from qe.api.limits import limits_of as _limits
+from qe.api.limits import performed as _performed
+from qe.api.limits import reading as _read
 from qe.errors import BudgetExceeded, InputError, Unable
-from qe.execution import Budgets, Limits
 from qe.formula.features import features
 from qe.formula.syntax import Formula
 from qe.formula.traverse import free_variables
 from qe.options import VERIFY_SECONDS, Budget, Cluster, Method, Options, Stage
+from qe.processes.execution import Budgets, Limits
 from qe.progress import Event, silent
 from qe.proof.answer import Answer, Status
 from qe.proof.certificate import Certificate, Kind
@@ -146,7 +146,7 @@ def _limited(formula: Formula, options: Options, limits: Limits, check: bool, cl
         chosen = options.with_(progress=budget.listener)
         if cluster is None:
             return _answer(formula, chosen, budget, check)
-        from qe.cluster import helping
+        from qe.processes.cluster import helping
 
         with helping(cluster) as budget.helpers:
             return _answer(formula, chosen, budget, check)
@@ -172,7 +172,7 @@ def _partial(formula: Formula, options: Options, limits: Limits) -> Partial:
 
 def _raced(formula: Formula, options: Options, limits: Limits, check: bool, methods: Iterable[Method]) -> Answer:
     """The first answer that one of the methods has."""
-    from qe.api_race import raced
+    from qe.api.race import raced
 
     def asked(method: Method, budget: Budget) -> Answer:
         return _answer(formula, options.with_(method=method, progress=budget.listener), budget, check)
@@ -194,7 +194,7 @@ def _answer(formula: Formula, options: Options, budget: Budget, check: bool) -> 
 
     answer, certificate = answer_to(formula, found), found.certificate
     if certificate is not None and (check or certificate.kind is Kind.WITNESS or found.witness is not None):
-        from qe.api_verify import with_verdict
+        from qe.api.verify import with_verdict
 
         return with_verdict(answer, budget)
     return answer
@@ -234,7 +234,7 @@ def region(
     read = _read(formula, format, limits, total_division)
 
     def work(budgets: Budgets) -> Region:
-        from qe.api_verify import with_guarantee
+        from qe.api.verify import with_guarantee
 
         budget = budgets()
         found = described(read, names, budget, whole, check=check)
@@ -257,7 +257,7 @@ def verify(
     accepted nor ``decided``. Raises ``InputError`` for what is no certificate, a formula that cannot be read and a
     limit that is not positive.
     """
-    from qe.api_verify import verify as check
+    from qe.api.verify import verify as check
     from qe.io import formats
 
     chosen = formats.checked(format)

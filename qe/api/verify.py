@@ -123,7 +123,7 @@ def _limited(certificate: Certificate, timeout: float | None) -> Verdict:
     if timeout is None or not hasattr(os, "fork") or (certificate.digests is None and _is_small(certificate)):
         return checked(certificate, Budget(timeout))
     from qe.certify.verdict import Verdict
-    from qe.worker import run
+    from qe.processes.worker import run
 
     try:
         return run(lambda channel: checked(certificate, Budget(timeout)), timeout=timeout, grace=GRACE)

@@ -10,15 +10,14 @@ from fractions import Fraction
 from typing import Any, TypeVar
 
 from qe import arguments
-from qe.api_input import read_formula, together
-from qe.api_limits import performed
+from qe.api.input import read_formula, together
+from qe.api.limits import performed
 from qe.cells.interval import Coordinate, Interval, Number, number_of
 from qe.engine.run import solve as eliminated
 from qe.errors import BudgetExceeded, InputError, InternalError, Unable
 from qe.exact.algebraic import RealAlgebraic
 from qe.exact.number import simplest, square_root
 from qe.exact.ring import Ring
-from qe.execution import Budgets
 from qe.formula.build import conj, convert, disj, exists, forall, iff, implies, neg
 from qe.formula.evaluate import substituted
 from qe.formula.normal import nnf
@@ -27,6 +26,7 @@ from qe.formula.traverse import free_variables
 from qe.io import surface as s
 from qe.io.lowering import lower
 from qe.options import Options
+from qe.processes.execution import Budgets
 from qe.regions import planar, topology
 from qe.regions.build import described
 from qe.regions.convex_region import ConvexRegion
@@ -186,8 +186,8 @@ def distance(region: Region, point: object, timeout: float | None) -> Number:
 
 
 def exact_volume(region: Region, timeout: float | None) -> Any:
-    """The measure in closed form; see ``qe.api_measure``."""
-    from qe.api_measure import measure
+    """The measure in closed form; see ``qe.api.measure``."""
+    from qe.api.measure import measure
 
     return region._asked(lambda: measure(region), arguments.seconds(timeout), at_once=True)
 

@@ -8,15 +8,15 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from qe import arguments
-from qe.api_input import AnyFormula, read_block
-from qe.api_limits import Progress, limits_of, performed, reading
+from qe.api.input import AnyFormula, read_block
+from qe.api.limits import Progress, limits_of, performed, reading
 from qe.engine.run import solve as eliminated
 from qe.exact.number import Values
-from qe.execution import Budgets
 from qe.formula.counting import without_root_atoms
 from qe.formula.syntax import Exists, ForAll
 from qe.formula.traverse import free_variables, is_quantifier_free
 from qe.options import Options
+from qe.processes.execution import Budgets
 from qe.progress import silent
 from qe.proof.answer import Answer, Status
 from qe.proof.run_log import RunLog
@@ -119,7 +119,7 @@ def parametric_witnesses(
     given = reading(formula, format, limits, reader=read_block)
 
     def work(budgets: Budgets) -> ParametricWitnesses:
-        from qe.api_verify import with_verdict
+        from qe.api.verify import with_verdict
         from qe.proving.certificates import derived
 
         log, options, budget = RunLog(), Options(certify=check), budgets()

@@ -17,11 +17,11 @@ from types import TracebackType
 from typing import TYPE_CHECKING, Generic, NoReturn, TypeVar, cast
 
 from qe.options import Budget, Handover
+from qe.processes.surroundings import surrounding_deadline
 from qe.progress import Event, Listener, silent
-from qe.surroundings import surrounding_deadline
 
 if TYPE_CHECKING:  # row 0 knows itself; the worker, which only some systems can have, is loaded when one is needed
-    from qe.worker import Channel
+    from qe.processes.worker import Channel
 
 T = TypeVar("T")
 Budgets = Callable[[], Budget]
@@ -72,7 +72,7 @@ def perform(work: Work[T], limits: Limits, *, at_once: bool = False) -> T:
     if not limits.process or not _may_fork(limits, start):
         return work(lambda: _budget(limits, start, limits.progress))
     if at_once or limits.memory is not None:
-        from qe.worker import run
+        from qe.processes.worker import run
 
         return run(
             lambda channel: work(lambda: _budget(limits, start, channel.event)),
@@ -164,7 +164,7 @@ class _Journey(Generic[T]):
         """Fork: the child returns from here, the parent waits and unwinds."""
         if os.getpid() != self.process or not _may_fork(self.limits, self.start):
             return  # some other move has taken this work along
-        from qe.worker import Channel, forked
+        from qe.processes.worker import Channel, forked
 
         side = forked(self.start, self.limits.timeout, None)
         if isinstance(side, Channel):

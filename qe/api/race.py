@@ -6,9 +6,9 @@ from collections.abc import Callable, Iterable
 from functools import partial
 
 from qe.options import Budget, Method
+from qe.processes.racing import first
+from qe.processes.worker import Channel
 from qe.proof.answer import Answer, Status
-from qe.racing import first
-from qe.worker import Channel
 
 
 def raced(asked: Callable[[Method, Budget], Answer], methods: Iterable[Method], budget: Budget) -> Answer:

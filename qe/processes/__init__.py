@@ -1,0 +1,1 @@
+"""Work in processes: under hard limits, side by side, raced."""
