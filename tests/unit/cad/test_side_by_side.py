@@ -15,6 +15,9 @@ import qe
 from qe.cad import lifting
 from qe.cad.decompose import Decomposition, decompose
 from qe.errors import BudgetExceeded
+from qe.exact.fibre_stack import isolate_over
+from qe.exact.ring import Ring
+from qe.exact.sample import Point
 from qe.formula.normal import nnf, prenex
 from qe.formula.syntax import Constant
 from qe.io import formats
@@ -139,3 +142,16 @@ def test_an_address_without_a_scheduler_is_told() -> None:
     pytest.importorskip("distributed")
     with helping(Cluster(address="tcp://127.0.0.1:1")) as helpers, pytest.raises(qe.InputError, match="none found"):
         list(helpers.results([], lambda: None))
+
+
+def test_samples_over_towers_can_be_sent() -> None:
+    """Balls found on the way stay behind; the coordinates are the same numbers."""
+    ring = Ring.of(("a", "b", "c"))
+    a, b, c = (ring.gen(i) for i in range(3))
+    point = Point(ring)
+    for f in (a**2 - 2, b**3 - a * b - 1, c**2 - b - 5):
+        found = isolate_over(point, (f,))
+        point = found.sample(2 * len(found.sections) - 1)
+    sent = pickle.loads(pickle.dumps(point))
+    assert all(sent.ball(i, 64).overlaps(point.ball(i, 64)) for i in range(3))
+    assert sent.sign(c**2 - b - 5) == 0 and sent.sign(c - 2) == point.sign(c - 2) == 1
