@@ -11,9 +11,9 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any
 
+import qe.api.decide as api_decide
+import qe.api.eliminate as api
 from qe import arguments
-from qe.api.eliminate import decide as api_decide
-from qe.api.eliminate import eliminate as api
 from qe.cells.pieces import RootFunction
 from qe.errors import InputError, Unable
 from qe.formula.build import conj, forall

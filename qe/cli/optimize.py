@@ -30,7 +30,7 @@ class Goal:
 
 def optimize(channel: Channel, request: Request, goal: Goal) -> Reply:
     """``qe minimize``: the exact value, the point, and what is active there; with parameters, the cases."""
-    from qe.api.eliminate import optimum as api_optimum
+    import qe.api.optimum as api_optimum
     from qe.optimization.parametric_optimum import ParametricOptimum
 
     start = time.perf_counter()

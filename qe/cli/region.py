@@ -22,7 +22,7 @@ PICTURES = (".png", ".pdf", ".svg", ".html")
 
 def region(channel: Channel, request: Request, picture: str | None) -> Reply:
     """``qe region``: a description for people, or the region's JSON."""
-    from qe.api.eliminate import eliminate as api
+    import qe.api.eliminate as api
 
     if picture is not None and picture not in PICTURES:
         raise InputError(f"--plot: a file ending in {', '.join(PICTURES)} expected, {picture} found")
@@ -42,7 +42,7 @@ def region(channel: Channel, request: Request, picture: str | None) -> Reply:
 
 def solve(channel: Channel, request: Request) -> Reply:
     """``qe solve``."""
-    from qe.api.eliminate import solve as api_solve
+    import qe.api.solve as api_solve
 
     start = time.perf_counter()
     formula = read_formula(channel, request.source)

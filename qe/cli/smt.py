@@ -13,7 +13,7 @@ from itertools import pairwise
 from typing import cast
 
 import qe
-from qe.api.eliminate import eliminate as api
+import qe.api.eliminate as api
 from qe.cli.smt_check import Checks, Result
 from qe.cli.smt_values import Evaluation, Number, written
 from qe.errors import InputError, ParseError, Unable

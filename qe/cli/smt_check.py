@@ -6,7 +6,7 @@ import time
 from collections.abc import Callable, Iterable, Sequence
 from typing import NamedTuple, TypeAlias
 
-from qe.api.eliminate import eliminate as api
+import qe.api.eliminate as api
 from qe.cli.smt_values import Number
 from qe.errors import Unable
 from qe.formula.build import exists, forall

@@ -82,7 +82,7 @@ def read_formula(channel: Channel, source: Source) -> Formula:
 
 def eliminate(channel: Channel, request: Request, output: Format) -> Reply:
     """``qe eliminate``."""
-    from qe.api.eliminate import eliminate as api
+    import qe.api.eliminate as api
     from qe.io import formats
 
     start = time.perf_counter()
@@ -118,7 +118,7 @@ def _partial_reply(answer: Answer, partial: Partial, request: Request, output: F
 
 def decide(channel: Channel, request: Request) -> Reply:
     """``qe decide``: a sentence is true or false; an SMT-LIB script, whose constants are existential, sat or unsat."""
-    from qe.api.eliminate import eliminate as api
+    import qe.api.eliminate as api
     from qe.formula import build, traverse
 
     formula = read_formula(channel, request.source)

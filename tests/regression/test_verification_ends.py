@@ -12,7 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import qe
-from qe.api.eliminate import eliminate as api
+import qe.api.eliminate as api
 from qe.certify.verdict import Verdict
 from qe.certify.verify import verify, verify_json
 from qe.cli.app import main

@@ -3,7 +3,7 @@
 import pytest
 
 import qe
-from qe.api.eliminate import eliminate as api
+import qe.api.eliminate as api
 from qe.engine.constant import constant_value
 from qe.formula.syntax import FALSE, TRUE
 from qe.io import formats
