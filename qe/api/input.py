@@ -115,12 +115,7 @@ def read_polynomial(given: AnyFormula, what: str, *, known: Container[str] = ())
             return value.poly, Fraction(1, value.den)
         return polynomial_from_sympy(given)
     except InputError as error:
-        hint = (
-            "; minimize v with the constraint v = … instead"
-            if what == "objective" and "roots and cases" in str(error)
-            else ""
-        )
-        raise InputError(f"{what}: a polynomial expected: {error}{hint}") from None
+        raise InputError(f"{what}: a polynomial expected: {error}") from None
 
 
 def read_objective(given: AnyFormula, taken: Iterable[str]) -> Objective:
@@ -150,7 +145,7 @@ def read_objective(given: AnyFormula, taken: Iterable[str]) -> Objective:
 
             graph = graph_of(value, given)
     except InputError as error:
-        raise InputError(f"objective: {error}") from None
+        raise InputError(f"objective: a term expected: {error}") from None
     return Objective(graph, value, tuple(name for name in graph.free if name != value))
 
 

@@ -10,6 +10,7 @@ from qe.certify.boolean import Theory
 from qe.certify.signs import read_lemma
 from qe.certify.step import Limits
 from qe.exact.algebraic import real_roots
+from qe.exact.digits import digits
 from qe.exact.nearby import rational_between
 from qe.exact.ring import Poly, Ring
 from qe.proof.entry import Entry, Json, poly_to_text
@@ -44,7 +45,7 @@ class Lemmas:
                 content, primitive = content_of(poly)
                 coefficient *= content**exponent
                 found[primitive] = found.get(primitive, 0) + exponent
-            listed.append([str(coefficient), [[self.number(p), e] for p, e in found.items()]])
+            listed.append([digits(coefficient), [[self.number(p), e] for p, e in found.items()]])
         self.lemmas.append({"identity": listed})
 
     def line(self, polys: Sequence[Poly], x: int) -> None:

@@ -39,7 +39,7 @@ def test_a_checked_answer_with_free_variables() -> None:
         (lambda: qe.eliminate("x > 0", method="magic"), "method"),
         (lambda: qe.decide("x > 0"), "free: x"),
         (lambda: qe.region("x^2 + y^2 < 1", order=("x",)), "order"),
-        (lambda: qe.minimize("1/x", "x > 0"), "divi"),
+        (lambda: qe.minimize("1/0", "x > 0"), "divi"),
     ],
 )
 def test_bad_calls_get_one_line(call, message: str) -> None:

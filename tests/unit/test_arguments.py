@@ -69,7 +69,7 @@ class Door:
 EVERYWHERE = {
     "timeout": {"int", "float", "none"},
     "memory": {"none"},
-    **{name: {"bool"} for name in ("root_atoms", "explain", "check", "process", "total_division")},
+    **{name: {"bool"} for name in ("root_atoms", "explain", "check", "process", "total_division", "anytime")},
     "order": {"none", "list"},
     "without": {"list", "dict"},
     "race": {"list", "dict"},
@@ -183,6 +183,10 @@ DOORS = {
         qe.eliminate("x^2 < a").plot,
         {"path": os.path.join(tempfile.gettempdir(), "answer-of-a-test.png")},
         {"path": {"none"}, "ax": {"none"}, "order": {"none"}},
+    ),
+    "ParametricOptimum.at": Door(qe.minimize("x^2 + a*x", parameters="a").at, {"parameters": {"a": 1}}),
+    "ParametricOptimum.to_json": Door(
+        qe.minimize("x^2 + a*x", parameters="a").to_json, {"indent": 2}, {"indent": {"int", "zero", "none"}}
     ),
     "Region.within": Door(REGION.within, {"condition": REGION.formula}),
     "Region.volume": Door(REGION.volume, {"rel_error": 0.5}, {"rel_error": {"float"}}),

@@ -22,7 +22,7 @@ QUESTIONS = {
     "critical": "ex y, z. (y - a)^2 + (z - b)^2 <= 1 and y^2 + z^2 <= 4",
     "convex": CONVEX,
     "cgs": "ex x, y. x^2 + y^2 = r and x*y = 1",
-    "coverings": "ex x, y. x^2 + y^2 < 1 and x*y > 1",
+    "coverings": "ex x, y. x^3 + y^3 < 1 and x*y > 2 and x > 0",
     "witness": "all a, b. ex x, y. (x - a)^2 + (y - b)^2 <= 0",
 }
 

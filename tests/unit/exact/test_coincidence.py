@@ -97,7 +97,7 @@ def test_no_arithmetic_at_the_point_where_counts_settle_it(monkeypatch: pytest.M
 
 
 def test_what_the_projection_knows_of_a_sample() -> None:
-    ring = Ring.of(("a", "x"))
+    ring = Ring.of(("sample", "x"))  # no other test asks this ring
     a, x = ring.gen(0), ring.gen(1)
     f, g = x**2 + a * x + 1, a * x**2 + 1
     point = isolate_over(Point(ring), (a - 2,)).sample(1)

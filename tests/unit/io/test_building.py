@@ -91,6 +91,6 @@ def test_all_spellings_of_relations_and_functions() -> None:
     spelled = {relation: {text for text, found in RELATIONS.items() if found is relation} for relation in Relation}
     assert {"=", "==", "Eq", "Equal"} <= spelled[Relation.EQ] and {"!=", "<>", "≠", "Ne"} <= spelled[Relation.NE]
     assert {"<", "Lt", "Less"} == spelled[Relation.LT] and {">", "Gt", "Greater"} == spelled[Relation.GT]
-    assert {"<=", "≤", "⩽", "\\[LessEqual]", "Le", "LessEqual"} == spelled[Relation.LE]
+    assert {"<=", "=<", "≤", "⩽", "\\[LessEqual]", "Le", "LessEqual"} == spelled[Relation.LE]
     assert {"≥", "⩾", ">=", "Ge"} <= spelled[Relation.GE]
     assert set(FUNCTIONS.values()) == set(s.FUNCTIONS)

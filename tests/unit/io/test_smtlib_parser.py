@@ -55,8 +55,8 @@ def test_offsets() -> None:
         ("(a)) b", "3: unbalanced brackets: this ')' has no partner"),
         ("(a |b)", "3: this | is never closed"),
         ('(a "b)', '3: this " is never closed'),
-        ("(a 1x)", "3: malformed number"),
-        ("(a 1.)", "3: malformed number"),
+        ("(a 1x)", "3: malformed number; write 1.0 for 1., (/ 1 2) for 1/2"),
+        ("(a 1.)", "3: malformed number; write 1.0 for 1., (/ 1 2) for 1/2"),
         ("(a ä)", "3: unknown character 'ä'"),
     ],
 )
@@ -76,7 +76,7 @@ def test_what_cannot_be_read(text: str, said: str) -> None:
         ("(a) b ", 5),
         ("(a)\n; rest", 3),
         ("(a) (b))", 8),  # an error, which is reported at once
-        (") (a", 4),
+        (") (a", 1),  # the error is told at once
         ("(a |b", 0),
         ("(a) |b", 3),
     ],

@@ -95,7 +95,7 @@ def test_what_a_term_means(text: str, meaning: object) -> None:
         ("(exists () p)", "8: a quantifier without variables"),
         ("(exists ((u)) p)", "9: (name sort) expected"),
         ("(exists ((u Int)) p)", "12: sort Real or Bool expected, Int found; all numbers are real here"),
-        ("(exists ((u (Array))) p)", "12: sort Real or Bool expected, … found"),
+        ("(exists ((u (Array))) p)", "12: sort Real or Bool expected, (Array) found"),
         ("(exists u p)", "8: a list of sorted variables expected"),
         ("(exists ((1 Real)) p)", "10: a symbol expected"),
         ("(let u p)", "5: a list of bindings expected"),

@@ -61,7 +61,7 @@ def test_what_is_said_about_a_text(text: str, at: int, said: str, expected: str)
     ("character", "said"),
     [
         ("`", "unknown character '`'; a name between backquotes"),
-        (";", "unknown character ';'; no end mark is needed"),
+        (";", "unknown character ';'; several conditions are joined by and"),
         ("$", "unknown character '$'; formulas are plain text"),
         ("\\", "'and' is written and"),
         ("@", "unknown character '@'"),
@@ -98,13 +98,13 @@ def test_ways_out_of_functions(name: str, said: str) -> None:
     ("text", "at", "shown"),
     [
         ("1 + sin(x*(y + 1)) > 0", 4, "sin(x*(y + 1)): "),
-        ("f[x, g[y]] > 0", 0, "f[x, g[y]]: "),
+        ("f(x, g(y)) > 0", 0, "f(x, g(y)): "),
         ("f(x", 0, ""),
         ("f(" + "x" * 70 + ")", 0, ""),
     ],
 )
 def test_the_application_is_shown_whole_or_not_at_all(text: str, at: int, shown: str) -> None:
-    error = UnknownFunction(text[at : text.find("(" if "(" in text else "[", at)], at)
+    error = UnknownFunction(text[at : text.find("(", at)], at)
     assert error.about(text) == shown + error.message
 
 

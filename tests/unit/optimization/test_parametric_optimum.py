@@ -169,7 +169,7 @@ def test_limits_hold_at_a_point():
 
 
 def test_a_parameter_twice_is_refused():
-    with pytest.raises(qe.InputError, match="parameters: variables of the problem expected, each once"):
+    with pytest.raises(qe.InputError, match="parameters: each name once expected, a found twice"):
         qe.minimize("x", "x > a", parameters="a, a")
 
 

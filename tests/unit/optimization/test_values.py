@@ -2,38 +2,46 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from fractions import Fraction
 
 import pytest
 
 import qe
 from qe.errors import InputError
-from qe.exact.ring import Ring
+from qe.exact.ring import Poly, Ring
+from qe.formula.build import atom
+from qe.formula.syntax import Relation
 from qe.io.text import read
-from qe.optimization.values import Goal
+from qe.optimization.values import Goal, Objective, new_name
 from qe.options import Budget
 
 RING = Ring.of(("x", "y"))
 X, Y = RING.var("x"), RING.var("y")
 
 
+def goal_of(poly: Poly, scale: Fraction | int, conditions: str, parameters: Iterable[str] = ()) -> Goal:
+    read_conditions = read(conditions)
+    return Goal.of(Objective.of(poly, scale, new_name(RING.names, read_conditions.free)), read_conditions, parameters)
+
+
 def test_names_come_into_one_ring() -> None:
-    goal = Goal.of(X * Y, Fraction(1, 3), read("x > a and z = 1"), ["a"])
-    assert goal.parameters == ("a",) and goal.value == "value" and goal.variables == ("x", "y", "z")
-    assert goal.objective.ring.names[:2] == ("a", "value")
-    ring = goal.objective.ring
-    assert goal.equation == 3 * ring.var("value") - ring.var("x") * ring.var("y")
+    goal = goal_of(X * Y, Fraction(1, 3), "x > a and z = 1", ["a"])
+    assert goal.parameters == ("a",) and goal.value == "value" and set(goal.variables) == {"x", "y", "z"}
+    assert goal.ring.names[:2] == ("a", "value")
+    value, x, y = map(goal.ring.var, ("value", "x", "y"))
+    assert goal.graph == atom(3 * value - x * y, Relation.EQ)
 
 
 def test_a_taken_name_is_avoided() -> None:
-    goal = Goal.of(X, Fraction(1), read("value > x and value_ < 1"))
+    goal = goal_of(X, 1, "value > x and value_ < 1")
     assert goal.value == "value__" and "value" in goal.variables
 
 
 @pytest.mark.parametrize("parameters", [["b"], ["a", "a"], ["x", "q"]])
 def test_strange_parameters(parameters: list[str]) -> None:
     with pytest.raises(InputError, match="variables of the problem expected, each once"):
-        Goal.of(X, Fraction(1), read("x > a"), parameters)
+        goal_of(X, 1, "x > a", parameters)
 
 
 @pytest.mark.parametrize(
@@ -45,12 +53,12 @@ def test_strange_parameters(parameters: list[str]) -> None:
         (X, 1, "x > 0 and x < 0", "false"),
     ],
 )
-def test_the_values_that_are_taken(objective: object, scale: Fraction, conditions: str, values: str) -> None:
-    goal = Goal.of(objective, Fraction(scale), read(conditions))  # type: ignore[arg-type]
+def test_the_values_that_are_taken(objective: Poly, scale: Fraction, conditions: str, values: str) -> None:
+    goal = goal_of(objective, scale, conditions)
     found, answer = goal.values(Budget(60), check=False)
     assert qe.equivalent(found, values) and answer.formula == found
 
 
 def test_with_parameters() -> None:
-    found, _ = Goal.of(X, Fraction(1), read("x^2 <= a"), ["a"]).values(Budget(60), check=False)
+    found, _ = goal_of(X, 1, "x^2 <= a", ["a"]).values(Budget(60), check=False)
     assert qe.equivalent(found, "value^2 <= a")

@@ -49,7 +49,7 @@ def test_relations_of_sets() -> None:
         (lambda: DISC & "z > 0", "z found"),
         (lambda: DISC & 3, "3 found"),
         (lambda: DISC.project("z"), "some of x, y"),
-        (lambda: DISC.project("x x"), "each once"),
+        (lambda: DISC.project("x x"), "each name once"),
         (lambda: DISC.section({"x": 0, "y": 0}), "a variable without a value"),
         (lambda: DISC.section({"z": 0}), "z found"),
         (lambda: DISC.distance({"x": 0}), "a value for y"),
