@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from itertools import groupby
 
-from qe.arguments import by_name, flag, seconds, whole_number
+from qe.arguments import by_name, flag, seconds, whole
 from qe.cad.decompose import decompose
 from qe.cells.fibres import fibre_of
 from qe.cells.interval import Coordinate, number_of
@@ -137,7 +137,7 @@ class ParametricOptimum:
     def to_json(self, *, indent: int | None = None) -> str:
         """``to_dict`` as JSON."""
         if indent is not None:
-            whole_number(indent, "indent", 80)
+            whole(indent, "indent", 80)
         return json.dumps(self.to_dict(), indent=indent, ensure_ascii=False)
 
     def to_latex(self) -> str:
