@@ -110,7 +110,7 @@ def test_no_truth_value_and_no_sign_can_be_turned(case: Any) -> None:
         (lambda t: replace(t, quantifiers=("E", "")), "a free variable after a quantified one"),
         (lambda t: replace(t, quantifiers=("", "A")), "follows to be"),
         (lambda t: replace(t, root=replace(t.root, signs="+")), "the whole space has no signs"),
-        (lambda t: replace(t, matrix=read("x^2 + y^2 > 1")), ""),
+        (lambda t: replace(t, matrix=read("x^2 + y^2 > 1")), "does not follow from the signs"),
         (lambda t: replace(t, root=replace(t.root, stack=None)), "no truth value"),
     ],
 )
