@@ -51,7 +51,7 @@ def certified_roots(c: list[arb], bits: int, most: int | None = None) -> list[ar
     """
     found = distinct_roots(c, bits, most)
     if found is None:
-        return counted_roots(c, bits) if bits >= EXACT_FROM and (most is None or most == len(c) - 1) else None
+        return counted_roots(c, bits) if bits > EXACT_FROM and (most is None or most == len(c) - 1) else None
     real: list[arb] = []
     for i, z in enumerate(found):
         if z.imag.contains(0):
@@ -73,7 +73,7 @@ def distinct_roots(c: list[arb], bits: int, most: int | None = None) -> list[acb
     # The tolerance is absolute, and half the bits: cancellation in the coefficients costs some. Roots that are large
     # for their coefficients do not reach it at any precision, and FLINT would try for ever: hence the bound on the
     # precision, and a second call without tolerance. ``FibreRoot.ball`` asks again with more bits where it needs them.
-    for tolerance in (arb(2) ** -(bits // 2), None):
+    for tolerance in (arb(2) ** -(bits // 2), None)[: 1 + (bits > EXACT_FROM)]:
         with suppress(ValueError):
             return list(acb_poly(arb_poly(c)).roots(tol=tolerance, maxprec=2 * bits))
     return None
