@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import os
+import signal
 import sys
+import warnings
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -36,3 +39,12 @@ def shared() -> Path:
     if not folder.is_dir():
         pytest.skip("the folder 'shared' is not beside the project")
     return folder
+
+
+@pytest.fixture(autouse=True)
+def ctrl_c_is_heard(request: pytest.FixtureRequest) -> Iterator[None]:
+    """What a test leaves blocked stays blocked in all processes that later tests start: undone here, and told."""
+    yield
+    if hasattr(signal, "pthread_sigmask") and signal.SIGINT in signal.pthread_sigmask(signal.SIG_BLOCK, ()):
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
+        warnings.warn(f"{request.node.nodeid} left SIGINT blocked", stacklevel=1)

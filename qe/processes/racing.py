@@ -35,6 +35,7 @@ def first(
         raise Unable("a race needs a system that forks processes")
     running: dict[int, tuple[Name, Worker, Inbox]] = {}
     found: dict[Name, T | QEError] = {}
+    mask = signal.pthread_sigmask(signal.SIG_BLOCK, ())
     try:
         for name, work in works.items():
             side = forked(time.monotonic(), seconds, None)
@@ -63,6 +64,7 @@ def first(
     finally:
         for _, side, _ in running.values():
             _end(side)
+        signal.pthread_sigmask(signal.SIG_SETMASK, mask)  # forking had made it deaf to Ctrl-C
 
 
 def _end(side: Worker) -> None:

@@ -223,7 +223,11 @@ def forked(start: float, timeout: float | None, memory: int | None, grace: float
     outer = surrounding_deadline()
     reading, writing = os.pipe()
     mask = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
-    pid = _quiet_fork()
+    try:
+        pid = _quiet_fork()
+    except OSError:  # no further process
+        signal.pthread_sigmask(signal.SIG_SETMASK, mask)
+        raise
     if pid:
         os.close(writing)
         return Worker(pid, reading, mask, start, timeout, memory, grace)
@@ -268,8 +272,8 @@ class Worker:
 
     def outcome(self, progress: Listener = silent, known: Known | None = None) -> object:
         """The result, as ``run`` gives it, with its errors."""
-        known = Known() if known is None else known
         status: int | None = None
+        known = Known() if known is None else known
         try:
             signal.pthread_sigmask(signal.SIG_SETMASK, self.mask)
             deadline = None if self.timeout is None else self.start + self.timeout + self.grace

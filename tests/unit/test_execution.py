@@ -190,9 +190,10 @@ CALLS = {
 @pytest.mark.parametrize("call", CALLS.values(), ids=CALLS)
 def test_ctrl_c_ends_it_at_once_and_leaves_nothing_behind(call):
     code = f"""
-import qe
+import qe, signal
 from flint import fmpz
 from qe.processes.execution import Limits, perform
+signal.pthread_sigmask(signal.SIG_UNBLOCK, {{signal.SIGINT}})  # whoever started this
 print("go", flush=True)
 try:
     {call}
