@@ -80,7 +80,16 @@ def far_first(variable: str, body: Formula, *, budget: Budget) -> FarFirst | Non
         parts.insert(0, _prepared(exists([variable], conj((left, case))), budget))
         if case is not cases[-1] and parts[0].answer != FALSE:
             return None
-    return FarFirst(far, parts[0].answer, tuple(reversed(cases)), (solutions, *parts))
+    rest = parts[0].answer
+    if _degrees(rest, variable) >= _degrees(body, variable):
+        return None  # a leading coefficient that is a product may be zero without the degree falling anywhere
+    return FarFirst(far, rest, tuple(reversed(cases)), (solutions, *parts))
+
+
+def _degrees(formula: Formula, variable: str) -> int:
+    """The sum of the degrees above 2 in a variable."""
+    found = (p.degree(p.ring.index[variable]) for p in polynomials(formula) if variable in p.ring.index)
+    return sum(degree for degree in found if degree > 2)
 
 
 def _prepared(block: Formula, budget: Budget) -> Nested:

@@ -77,3 +77,20 @@ def test_the_parts_are_equivalent_to_the_block(rest: Poly, side: Formula, relati
         whole, parts = exists(["x"], body), disj((found.solutions, found.rest))
         different = disj((conj((whole, neg(parts))), conj((parts, neg(whole)))))
         assert not qe.decide(exists(["a"], different), timeout=60)
+
+
+@pytest.mark.parametrize("lead", ["a", "a*(2*a - 1)", "a^2*(a + 1)", "a*(a^2 - 2)", "a^2 + a"])
+@pytest.mark.parametrize("rest", ["a*x^2 - x", "x^2 + a*x + 1", "-x^2 - 2"])
+def test_the_degree_falls_or_nothing_is_said(lead: str, rest: str) -> None:
+    """A leading coefficient that is a product was put beside the block and not into it: the same block, for ever."""
+    body = read(f"({lead})*x^3 + {rest} > 0")
+    found = far_first("x", body, budget=Budget(30))
+    if found is not None:
+        left = [p.degree(p.ring.index["x"]) for p in polynomials_of(found.rest) if "x" in p.ring.index]
+        assert all(degree < 3 for degree in left)
+
+
+def test_a_block_that_leaves_itself_near_infinity_is_answered() -> None:
+    text = "ex x, y. (2*x^2*y + a^2 + y - 2 > 0 or a^2*x - a*x^2 - 3 > 0) and 2*a*x*y - 2*a + y + 1 = 0"
+    answer = qe.eliminate(text, check=True)
+    assert str(answer.formula) == "a /= 0" and answer.guarantee is qe.Guarantee.CHECKED
