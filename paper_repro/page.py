@@ -28,17 +28,17 @@ SECTIONS = {
     "4.2": "4.2 Method 2: three cubic curves",
     "4.2.1": "4.2.1 Three curves of degree 2",
     "5": "5 Conclusions",
+    "references": "What the paper builds on: its references about the arm",
 }
 _SECTION = re.compile(r"Section (\d(?:\.\d)*)")
 
 
 def by_section(entries: Iterable[Entry]) -> dict[str, list[Entry]]:
-    """The entries under the headings of the paper's sections, in its order."""
+    """The entries under the headings of the paper's sections, in its order; what its references say last."""
     found: dict[str, list[Entry]] = {heading: [] for heading in SECTIONS.values()}
     for entry in entries:
         section = _SECTION.search(entry.claim.place)
-        assert section is not None
-        found[SECTIONS[section[1].rstrip(".")]].append(entry)
+        found[SECTIONS["references" if section is None else section[1]]].append(entry)
     return {heading: members for heading, members in found.items() if members}
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from html.parser import HTMLParser
 from pathlib import Path
 from xml.etree import ElementTree
@@ -126,6 +127,15 @@ def test_sections_keep_the_order_of_the_paper() -> None:
     entries = examine_all([stated("one", True)])
     assert list(page.by_section(entries)) == ["1 Introduction"]
     assert page.counted(entries)[page.Verdict.REPRODUCED] == 1
+
+
+def test_every_claim_stands_under_a_heading() -> None:
+    """The claims of the paper's references have no section of the paper: the page was not written at all."""
+    (entry,) = examine_all([stated("one", True)])
+    found = page.by_section([replace(entry, claim=claim) for claim in CLAIMS])
+    assert sum(map(len, found.values())) == len(CLAIMS)
+    last = [e.claim.key for e in found[page.SECTIONS["references"]]]
+    assert "arm-33-segments" in last and all(key.startswith("arm-") for key in last)
 
 
 def test_the_documentation_lists_the_verdicts() -> None:
