@@ -28,7 +28,7 @@ SECTIONS = {
     "4.2": "4.2 Method 2: three cubic curves",
     "4.2.1": "4.2.1 Three curves of degree 2",
     "5": "5 Conclusions",
-    "references": "What the paper builds on: its references about the arm",
+    "references": "References of the paper, about the arm",
 }
 _SECTION = re.compile(r"Section (\d(?:\.\d)*)")
 
