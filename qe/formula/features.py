@@ -35,11 +35,21 @@ def features(formula: Formula) -> Features:
 
 
 def is_small(formula: Formula, degrees: Mapping[int, int] = SMALL_DEGREE) -> bool:
-    """Whether a shorter equivalent is easily found: few variables and low ``degrees``. Conjunctions are short."""
-    if not any(isinstance(part, Or) for part in subformulas(formula)):
+    """Whether a shorter equivalent is easily found, if there is one: few variables and low ``degrees``."""
+    if not any(isinstance(part, Or) for part in subformulas(formula)) and not _overlaps(formula):
         return False
     degree = max((a.poly.total_degree for a in atoms(formula)), default=0)
     return degree <= degrees.get(len(formula.free), 0)
+
+
+def _overlaps(formula: Formula) -> bool:
+    """Whether an atom of a conjunction may follow from the others: a curve in the plane, and more than one atom."""
+    found = list(atoms(formula))
+    return (
+        len(found) > 1
+        and len(formula.free) == 2
+        and any(len(a.poly.variables) == 2 and a.poly.total_degree > 1 for a in found)
+    )
 
 
 def length(formula: Formula) -> tuple[int, int]:

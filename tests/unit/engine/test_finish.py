@@ -95,3 +95,11 @@ def test_the_steps_have_evidence() -> None:
     assert answer.certificate is not None
     assert verify(answer.certificate).accepted
     assert answer.unchecked_steps == ()
+
+
+def test_no_condition_is_left_that_follows_from_the_others() -> None:
+    """Bounds of a coordinate beside a disc said nothing: every point of the disc has them."""
+    answer = qe.eliminate("all x, y. x^2 + y^2 <= 1 -> a*x + b*y <= 1", check=True)
+    assert str(answer.formula) == "a^2 + b^2 - 1 <= 0"
+    assert answer.unchecked_steps == ()
+    assert str(shortened(read("a^2 + b^2 <= 1 and b <= 1 and b >= -1"), context())) == "a^2 + b^2 - 1 <= 0"
