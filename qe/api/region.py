@@ -27,7 +27,7 @@ from qe.io import surface as s
 from qe.io.lowering import lower
 from qe.options import Options
 from qe.processes.execution import Budgets
-from qe.regions import planar, topology
+from qe.regions import planar, spatial, topology
 from qe.regions.build import described
 from qe.regions.convex_region import ConvexRegion
 from qe.regions.region import Region
@@ -93,15 +93,15 @@ def components(region: Region, timeout: float | None) -> list[Region]:
     if isinstance(region, ConvexRegion):  # a convex set is connected
         return [] if region.is_empty else [region]
     f, order = region.formula, region.order
-    if len(order) > planar.DIMENSIONS:
-        raise Unable(f"connected components are found in up to {planar.DIMENSIONS} variables, not in {len(order)}")
+    if len(order) > spatial.DIMENSIONS:
+        raise Unable(f"connected components are found in up to {spatial.DIMENSIONS} variables, not in {len(order)}")
 
     def work(budgets: Budgets) -> list[Region]:
         budget = budgets()
-        count = len(planar.Cells.of(f, order, budget).components())
-        if count == 1:
+        found = planar.components if len(order) <= planar.DIMENSIONS else spatial.components
+        parts = found(nnf(f), order, budget)
+        if len(parts) == 1:
             return [region]
-        parts = [planar.formula_of(f, order, lambda c, k=k: c.components()[k], budget) for k in range(count)]  # type: ignore[misc]
         return [Region.of(part, order, budget=budget, limits=region.limits) for part in parts]
 
     return _under(region, f, timeout, work)

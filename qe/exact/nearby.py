@@ -96,14 +96,14 @@ def _coordinates(point: Point, bits: int) -> Balls:
     return balls
 
 
-def _value(f: Poly, at: Balls) -> arb:
+def enclosed(f: Poly, at: Sequence[arb]) -> arb:
     """A ball around f at a box (all variables of f are given), by nested Horner evaluation."""
     if not f.variables:
         return arb(f.constant_value())
     i = f.variables[-1]
     total = arb(0)
     for c in reversed(f.coefficients(i)):
-        total = total * at[i] + _value(c, at)
+        total = total * at[i] + enclosed(c, at)
     return total
 
 
@@ -112,7 +112,7 @@ def _inside_box(polys: Sequence[Poly], at: Balls, bits: int) -> tuple[Fraction, 
     for size in range(2, bits // 2, 3):
         half = arb(2) ** -size
         box = [x + arb(0, half) for x in at]
-        if not any(_value(f, box).contains(0) for f in polys):
+        if not any(enclosed(f, box).contains(0) for f in polys):
             return tuple(_simplest(x) for x in box)
     return None
 
@@ -149,7 +149,7 @@ class _Segment:
 
     def entered(self, at: Balls) -> Balls | None:
         """The point at a t > 0 up to which (0 excluded) no polynomial vanishes; None if the balls are too wide."""
-        values = [[_value(c, at) for c in row] for row in self.rows]
+        values = [[enclosed(c, at) for c in row] for row in self.rows]
         if any(row[0].contains(0) for row in values):
             return None
         step = Fraction(1, 4 * self.unit)

@@ -94,7 +94,8 @@ class SetOperations:
     def components(self, *, timeout: float | None = None) -> list[Self]:
         """The connected components, those with the least first coordinate first; of nothing there are none.
 
-        In one or two variables, and of sets that are seen to be convex in any number; otherwise raises ``Unable``.
+        In one to three variables (see ``qe.regions.planar`` and ``qe.regions.spatial``, which may take another variable
+        for the first), and of sets that are seen to be convex in any number; otherwise raises ``Unable``.
         """
         found: list[Self] = _ways().components(self, timeout)
         return found

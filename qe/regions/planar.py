@@ -11,7 +11,7 @@ separated sets (Munkres, Topology, section 23).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
@@ -29,9 +29,9 @@ from qe.options import Budget
 from qe.proof.cells import Cell, CellTable, Stack
 
 DIMENSIONS = 2
-"""In more variables the closure of a cell need not be a union of cells."""
+"""In more variables the closure of a cell need not be a union of cells; for components see ``qe.regions.spatial``."""
 
-_WHOLE = Tactics(constraints=False, partial=False, open_only=False, whole_free=True)
+WHOLE = Tactics(constraints=False, partial=False, open_only=False, whole_free=True)
 
 Place = tuple[int, ...]
 """A cell by its positions in the stacks, from the first variable on."""
@@ -47,9 +47,30 @@ def formula_of(formula: Formula, order: tuple[str, ...], chosen: Choice, budget:
 
     def table(levels: frozenset[int]) -> CellTable:
         cells = Cells.of(formula, order, budget, levels)
-        return cells.marked(chosen(cells))
+        return marked(cells.table, chosen(cells))
 
     return construct(table(frozenset()), table)[0]
+
+
+def components(formula: Formula, order: tuple[str, ...], budget: Budget) -> list[Formula]:
+    """Formulas of the connected components, by their first cells. Raises ``BudgetExceeded``."""
+    count = len(Cells.of(formula, order, budget).components())
+    if count < 2:
+        return [formula] * count
+    return [formula_of(formula, order, lambda c, k=k: c.components()[k], budget) for k in range(count)]  # type: ignore[misc]
+
+
+def marked(table: CellTable, places: frozenset[Place]) -> CellTable:
+    """The table with these cells true and all others false."""
+    size = len(table.order)
+
+    def mark(cell: Cell, place: Place) -> Cell:
+        if cell.stack is None:
+            return replace(cell, truth=place + (0,) * (size - len(place)) in places)
+        cells = tuple(mark(below, (*place, k)) for k, below in enumerate(cell.stack.cells))
+        return replace(cell, stack=replace(cell.stack, cells=cells))
+
+    return replace(table, root=mark(table.root, ()))
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,9 +84,9 @@ class Cells:
     @staticmethod
     def of(formula: Formula, order: tuple[str, ...], budget: Budget, levels: frozenset[int] = frozenset()) -> Cells:
         """The cells for a quantifier-free formula. Raises ``BudgetExceeded``."""
-        table = decompose(formula, order, ("",) * len(order), budget=budget, thom_levels=levels, tactics=_WHOLE).table
-        truth = dict(_truths(table.root, (), len(order)))
-        return Cells(table, truth, _frontiers(table, budget))
+        table = decompose(formula, order, ("",) * len(order), budget=budget, thom_levels=levels, tactics=WHOLE).table
+        truth = dict(truths(table.root, (), len(order)))
+        return Cells(table, truth, frontiers(table, len(order), budget))
 
     def closure(self) -> frozenset[Place]:
         """The cells of the closure of the set."""
@@ -87,65 +108,57 @@ class Cells:
         A finer decomposition gives the same components in the same order.
         """
         own = self._own(True)
-        joined: dict[Place, list[Place]] = {cell: [] for cell in own}
-        for cell in own:
-            for other in self.frontier[cell] & own:
-                joined[cell].append(other)
-                joined[other].append(cell)
-        left, found = set(own), []
-        for start in sorted(own):
-            if start not in left:
-                continue
-            part, waiting = {start}, [start]
-            while waiting:
-                new = set(joined[waiting.pop()]) - part
-                part |= new
-                waiting += new
-            left -= part
-            found.append(frozenset(part))
-        return found
-
-    def marked(self, places: frozenset[Place]) -> CellTable:
-        """The table with these cells true and all others false."""
-
-        def mark(cell: Cell, place: Place) -> Cell:
-            if cell.stack is None:
-                return replace(cell, truth=place + (0,) * (len(self.table.order) - len(place)) in places)
-            cells = tuple(mark(below, (*place, k)) for k, below in enumerate(cell.stack.cells))
-            return replace(cell, stack=replace(cell.stack, cells=cells))
-
-        return replace(self.table, root=mark(self.table.root, ()))
+        return connected_parts(own, {(cell, other) for cell in own for other in self.frontier[cell] & own})
 
     def _own(self, truth: bool) -> frozenset[Place]:
         return frozenset(place for place, value in self.truth.items() if value is truth)
 
 
-def _truths(cell: Cell, place: Place, size: int) -> Iterator[tuple[Place, bool]]:
+def truths(cell: Cell, place: Place, size: int) -> Iterator[tuple[Place, bool]]:
     """All cells with their truth; one without a stack stands for the line, or the plane, over it."""
     if cell.stack is None:
         yield place + (0,) * (size - len(place)), cell.truth is True
         return
     for k, below in enumerate(cell.stack.cells):
-        yield from _truths(below, (*place, k), size)
+        yield from truths(below, (*place, k), size)
 
 
-def _frontiers(table: CellTable, budget: Budget) -> dict[Place, frozenset[Place]]:
-    """For every cell the others in its closure."""
-    size = len(table.order)
-    sections = 0 if table.root.stack is None else len(table.root.stack.sections)
+def connected_parts(cells: frozenset[Place], pairs: set[tuple[Place, Place]]) -> list[frozenset[Place]]:
+    """The parts of a graph, by their first cells. ``pairs``: its edges."""
+    joined: dict[Place, list[Place]] = {cell: [] for cell in cells}
+    for cell, other in pairs:
+        joined[cell].append(other)
+        joined[other].append(cell)
+    left, found = set(cells), []
+    for start in sorted(cells):
+        if start not in left:
+            continue
+        part, waiting = {start}, [start]
+        while waiting:
+            new = set(joined[waiting.pop()]) - part
+            part |= new
+            waiting += new
+        left -= part
+        found.append(frozenset(part))
+    return found
+
+
+def frontiers(table: CellTable, size: int, budget: Budget) -> dict[Place, frozenset[Place]]:
+    """For every cell of the line or the plane of the first ``size`` variables the others in its closure."""
+    sections = len(stack_at(table, ()).sections)
     base = {k: _beside(k, sections) for k in range(2 * sections + 1)}
     if size == 1:
         return {(k,): frozenset((j,) for j in near) for k, near in base.items()}
     found: dict[Place, frozenset[Place]] = {}
     for k, near in base.items():
         budget.check("closures of cells", k)
-        heights = len(_stack(table, k).sections)
+        heights = len(stack_at(table, (k,)).sections)
         over = {j: _limits(table, k, j) for j in near}
         for t in range(2 * heights + 1):
             cells = {(k, u) for u in _beside(t, heights)}
             for j, limits in over.items():
-                last = 2 * len(_stack(table, j).sections)
-                low, high = (limits[t // 2],) * 2 if t % 2 else _ends(limits, t // 2, last)
+                last = 2 * len(stack_at(table, (j,)).sections)
+                low, high = (limits[t // 2],) * 2 if t % 2 else ends_of(limits, t // 2, last)
                 cells |= {(j, u) for u in range(max(low, 0), min(high, last) + 1)}
             found[(k, t)] = frozenset(cells)
     return found
@@ -156,15 +169,16 @@ def _beside(k: int, sections: int) -> list[int]:
     return [] if k % 2 else [j for j in (k - 1, k + 1) if 0 < j < 2 * sections]
 
 
-def _ends(limits: list[int], sector: int, last: int) -> tuple[int, int]:
-    """The limits of both ends of a sector."""
+def ends_of(limits: list[int], sector: int, last: int) -> tuple[int, int]:
+    """The limits of both ends of a sector; ``last``: the highest position where they are."""
     return limits[sector - 1] if sector else -1, limits[sector] if sector < len(limits) else last + 1
 
 
-def _stack(table: CellTable, position: int) -> Stack:
-    """The stack over a cell of the line; where there is none, one without sections."""
-    root = table.root
-    cell = root if root.stack is None else root.stack.cells[position]
+def stack_at(table: CellTable, place: Place) -> Stack:
+    """The stack over a cell; where there is none, one without sections."""
+    cell = table.root
+    for position in place:
+        cell = cell if cell.stack is None else cell.stack.cells[position]
     return cell.stack or Stack((), (Fraction(0),), (), (cell,))
 
 
@@ -177,10 +191,10 @@ def _limits(table: CellTable, sector: int, section: int) -> list[int]:
     """
     place = child(table, root_place(table), section)
     end = place.point.number(0)
-    beyond = table.root.stack.sectors[sector // 2] if table.root.stack is not None else Fraction(0)
-    samples = _stack(table, section).sectors
+    beyond = stack_at(table, ()).sectors[sector // 2]
+    samples = stack_at(table, (section,)).sectors
     factors = table.factors[1]
-    x = _nearer(end, beyond, [_at_height(f, y) for f in factors for y in samples])
+    x = nearer(end, beyond, [_at_height(f, y) for f in factors for y in samples])
     stack = isolate_over(Point.of(Ring.of(table.order), [x]), factors)
     roots = [stack.sample(2 * k + 1).number(1) for k in range(len(stack.sections))]
     return [2 * sum(y < root for y in samples) - 1 for root in roots]
@@ -192,7 +206,7 @@ def _at_height(factor: Poly, y: Fraction) -> Poly:
     return factor.at_quotient(1, ring.constant(y.numerator), ring.constant(y.denominator))
 
 
-def _nearer(end: Number, beyond: Fraction, polys: list[Poly]) -> Fraction:
+def nearer(end: Number, beyond: Fraction, polys: Iterable[Poly]) -> Fraction:
     """A rational number between ``end`` and ``beyond``, with no root of a polynomial between it and ``end``."""
     near: Number = beyond
     up = end < beyond

@@ -47,11 +47,6 @@ def test_components(text: str, count: int) -> None:
     assert not parts or qe.equivalent(disj(over_one_ring(*(p.formula for p in parts))), whole.formula)
 
 
-def test_components_of_more_variables_are_refused() -> None:
-    with pytest.raises(qe.Unable, match="up to 2 variables"):
-        qe.region("x*y*z > 1").components()
-
-
 @settings(max_examples=6)
 @given(formulas(names=("x",), max_degree=3))
 def test_closure_and_interior_on_the_line(formula) -> None:
