@@ -37,7 +37,7 @@ Body = Callable[[dict[str, Any], int], None]
 
 
 def at_every_step(first: int = 0, without: Collection[str] = ()) -> Callable[[Body], Callable[[str], None]]:
-    """A body on a certificate and the number of a step becomes a test of each case, over its steps from ``first`` on."""
+    """A body on a certificate and the number of a step becomes a test a case, over its steps from ``first`` on."""
     cases = [pytest.param(n, marks=() if n in QUICK else pytest.mark.deep) for n in CASES if n not in without]
 
     def made(body: Body) -> Callable[[str], None]:
