@@ -133,7 +133,7 @@ def sufficient_only() -> Iterator[Evidence]:
     for name, item in path.items():
         yield decided(
             f"${name}(t)$ stays in the disc for $Q_1 = (0, 1)$, from $(-1,0)$ to $(0,3)$",
-            f"all t. {_stays(item.points, 9)}",
+            f"all t. {_stays(item.points)}",
         )
     yield Picture(
         "A path in the disc although $P_1$ and $R_1$ are outside and (8) has no solution.",
@@ -152,7 +152,7 @@ def sufficient_only() -> Iterator[Evidence]:
     )
     longer = "8*y^4 - 116*y^3 + 481*y^2 - 706*y + 257 <= 0 and y <= 4"
     yield eliminated(
-        "(8*) there, from $(-3,0)$ to $(3,0)$", f"all t. {' and '.join(f'({_stays(p, 9)})' for p in symbolic)}", longer
+        "(8*) there, from $(-3,0)$ to $(3,0)$", f"all t. {' and '.join(f'({_stays(p)})' for p in symbolic)}", longer
     )
     yield decided("every solution of (8) is one of (8*)", f"all y. y <= 3 and (y - 4)^2 <= 5 -> {longer}")
     heights = [Fraction(k, 8) for k in range(40)]
@@ -169,10 +169,10 @@ def sufficient_only() -> Iterator[Evidence]:
     )
 
 
-def _stays(points: Sequence[Sequence[Any]], radius_squared: int) -> str:
+def _stays(points: Sequence[Sequence[Any]]) -> str:
     """The curve with these control points in the plane stays in the disc."""
     x, y = (curve([p[k] for p in points]) for k in (0, 1))
-    return f"0 <= t and t <= 1 -> ({x})^2 + ({y})^2 <= {radius_squared}"
+    return f"0 <= t and t <= 1 -> ({x})^2 + ({y})^2 <= 9"
 
 
 def _keeps(path: Mapping[str, Bezier], radius_squared: int) -> bool:

@@ -53,9 +53,8 @@ class SignTable:
                 self._add(level, j, factor)
 
     def _add(self, level: int, j: int, factor: Poly) -> None:
-        holds, unknown_true = self._masks(self.true, level, j)
+        holds, _ = self._masks(self.true, level, j)  # a literal whose sign varies over a true cell does not cover it
         keeps, unknown_false = self._masks(self.false, level, j)
-        del unknown_true  # a literal whose sign varies over a true cell does not cover it
         cost = factor.total_degree + factor.term_count()
         everything = (1 << len(self.false)) - 1
         for relation in _WEAK_FIRST:

@@ -68,7 +68,7 @@ def check_optimum(payload: dict[str, Json], budget: Budget | None = None) -> Non
         _absent(parts["inner"])
     if status == "unbounded":
         _absent(parts["links"])
-        _check_feasible(problem, field, point, parts["point"], strictly=True)
+        _check_feasible(problem, field, point, parts["point"])
         _check_direction(problem, parts["direction"])
         return
     values = _check_values(problem, field, point, parts["values"])
@@ -232,10 +232,10 @@ def _fractions(row: Sequence[Residue]) -> Row:
     return tuple(as_fraction(a) for a in row)
 
 
-def _check_feasible(problem: Problem, field: RootField, point: list[Residue], entry: Entry, *, strictly: bool) -> None:
+def _check_feasible(problem: Problem, field: RootField, point: list[Residue], entry: Entry) -> None:
     for i, (form, relation) in enumerate(zip(problem.forms, problem.relations, strict=True)):
         sign = field.sign(value_at(form, point, field))
-        if (relation == "=" and sign) or sign > 0 or (strictly and relation == "<" and sign == 0):
+        if (relation == "=" and sign) or sign > 0 or (relation == "<" and sign == 0):
             raise CertificateRejected(entry.path, f"the point violates constraint {i + 1}")
 
 
@@ -245,7 +245,7 @@ def _check_inner(problem: Problem, entry: Entry, budget: Budget) -> None:
     first, second = entry.fields("field", "point")
     field = read_field(first, budget)
     point = read_numbers(second, field, problem.size)
-    _check_feasible(problem, field, point, second, strictly=True)
+    _check_feasible(problem, field, point, second)
 
 
 def _absent(entry: Entry) -> None:

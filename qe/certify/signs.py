@@ -137,7 +137,7 @@ def read_lemma(entry: Entry, polys: Sequence[Poly], ring: Ring) -> Lemma:
     """A lemma about listed polynomials, proved here."""
     if isinstance(entry.value, dict) and "identity" in entry.value:
         return _read_identity(entry.fields("identity")[0], polys, ring)
-    return _read_line(entry, polys, ring)
+    return _read_line(entry, polys)
 
 
 def read_polynomials(entry: Entry, ring: Ring) -> tuple[Poly, ...]:
@@ -182,7 +182,7 @@ def _power(entry: Entry, count: int) -> tuple[int, int]:
     return parts[0].integer(), parts[1].integer(1)
 
 
-def _read_line(entry: Entry, polys: Sequence[Poly], ring: Ring) -> Line:
+def _read_line(entry: Entry, polys: Sequence[Poly]) -> Line:
     listed, samples = entry.fields("line", "samples")
     members = [e.integer() for e in listed.items()]
     values = [e.rational() for e in samples.items()]

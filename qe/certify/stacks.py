@@ -122,6 +122,9 @@ class StackChecker:
                 raise fail("used", "the constraint does not restrict the stack, and it stands over more than a point")
             branches |= {i: self._branch(i, sample, at, listed[i], fail) for i in stack.used if i not in branches}
         for j, section in enumerate(stack.sections):
+            for i in section:
+                if i not in branches:
+                    raise fail(f"sections[{j}]", f"factor {i} is none of the constraint's")
             for other in section[1:]:
                 if not self._share(branches[section[0]], branches[other], sample, at[j : j + 2]):
                     raise fail(f"sections[{j}]", f"factors {section[0]} and {other} have no common root there")
@@ -136,11 +139,8 @@ class StackChecker:
         """The signs of the factors besides those of the constraint, at the sample of every section."""
         k = sample.depth
         others = [i for i in stack.used if i not in checked.branches]
-        for i in others:
-            for j, section in enumerate(stack.sections):
-                if i in section:
-                    raise fail(f"sections[{j}]", f"factor {i} is none of the constraint's")
-            if k < len(self.lists.lists) - 1:
+        if k < len(self.lists.lists) - 1:
+            for i in others:
                 self._check_not_nullified(i, sample, fail)
         for j in range(len(stack.sections)):
             row = checked.signs[2 * j + 1]

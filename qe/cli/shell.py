@@ -22,19 +22,12 @@ from typer.main import get_command
 from qe.cli.values import take_plain_values
 from qe.errors import CertificateRejected, InputError, InternalError, Unable
 from qe.extras import lacking
-from qe.processes.worker import GRACE, Channel, Known, WorkerDied, WorkerStopped, run
+from qe.processes.worker import GRACE, Channel, WorkerDied, WorkerStopped, run
 from qe.progress import Event
 
 T = TypeVar("T")
 
 OK, BUG, BAD_INPUT, UNABLE, REJECTED, INTERRUPTED = 0, 1, 2, 3, 4, 130
-
-_PREFIX = {
-    "unable": "unable: ",
-    "rejected": "certificate rejected: ",
-    "internal_error": "internal error, please report: ",
-}
-"""What an error's line begins with, by its status."""
 
 _PREFIX = {
     "unable": "unable: ",
@@ -220,7 +213,6 @@ def limited(
     timeout: float | None,
     memory: int | None,
     plain: bool,
-    known: Known | None = None,
     lines: bool = False,
 ) -> T:
     """Do the work in a worker under hard limits, with a progress display; ``lines``: also where there is no terminal.
@@ -229,7 +221,7 @@ def limited(
     """
     grace = 0.0 if timeout is None else remaining(timeout) - timeout + GRACE
     with Display(wanted=not plain, lines=lines) as display:
-        return run(work, timeout=timeout, memory=memory, progress=display, known=known, grace=grace)
+        return run(work, timeout=timeout, memory=memory, progress=display, grace=grace)
 
 
 def remaining(timeout: float) -> float:

@@ -157,7 +157,7 @@ def _without_multipliers(
     if violation > 0:
         return _close(system, state, found.field, point, weights, infeasible=True)
     if violation == 0:
-        return _face(system, state, found, point, weights)
+        return _face(system, state, point, weights)
     return _recede(system, state, found.field, point, budget)
 
 
@@ -200,7 +200,7 @@ def rational_numbers(values: Sequence[Number]) -> tuple[Fraction, ...] | None:
     return tuple(out)
 
 
-def _face(system: ConvexSystem, state: _State, found: Kkt, point: Point, weights: dict[int, Number]) -> _State:
+def _face(system: ConvexSystem, state: _State, point: Point, weights: dict[int, Number]) -> _State:
     """The smaller flat that holds the feasible set when the least possible violation is zero."""
     chosen, place = rational_numbers(list(weights.values())), rational_numbers(point)
     if chosen is None or place is None:

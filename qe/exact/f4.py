@@ -224,7 +224,7 @@ class _Run:
         rows: Sequence[tuple[int, list[int]]],
         reducers: Mapping[int, tuple[int, list[int]]],
         met: set[int],
-        skip: int = 0,
+        skip: int,
     ) -> tuple[Step, list[int]]:
         tops = sorted(reducers, reverse=True)
         others = sorted(met - reducers.keys(), reverse=True)

@@ -106,7 +106,7 @@ class MotionChain:
     def solve(self, curve: Sequence[Sequence[Fraction]], s: Fraction, start: Sequence[float]) -> list[float] | None:
         """Newton's method from ``start``: joint values near a solution, in floating point, or None."""
         with precision(BITS):
-            x, target = _ball(s), _values(curve, _ball(s))
+            target = _values(curve, _ball(s))
             q = [arb(v) for v in start]
             for _ in range(30):
                 matrix, tip, _, _ = self._jacobian([v.mid() for v in q])
@@ -116,7 +116,6 @@ class MotionChain:
                 q = [(a.mid() - b.mid()) for a, b in zip(q, step, strict=True)]
                 if all(abs(b.mid()) < 1e-13 for b in step):
                     return [float(v.mid()) for v in q]
-            del x
             return None
 
     def piece(

@@ -45,17 +45,17 @@ def read_polynomial(text: str, *, source: str = "<text>", known: Container[str] 
     return value.poly, Fraction(1, value.den)
 
 
-def read_graph(name: str, text: str, *, source: str = "<text>") -> Formula:
+def read_graph(name: str, text: str) -> Formula:
     """Where a variable of this name has the value of the term that ``text`` is; names and errors as for ``read``."""
-    fail = Failing(text, source)
+    fail = Failing(text, "<text>")
     term = cast(Term, parse(text_parser("term"), text, fail))
     equation = Comparison([Name(name, -1), term], [Relation.EQ], -1)
     return lower(equation, fail, meet=_no_constants(fail, (name,)))
 
 
-def read_term(text: str, *, source: str = "<text>") -> Term:
+def read_term(text: str) -> Term:
     """The term that ``text`` is, as a surface tree. Names and errors as for ``read``."""
-    return cast(Term, parse(text_parser("term"), text, Failing(text, source)))
+    return cast(Term, parse(text_parser("term"), text, Failing(text, "<text>")))
 
 
 def outermost(text: str) -> tuple[bool, tuple[str, ...]] | None:

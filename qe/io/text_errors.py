@@ -79,7 +79,7 @@ def unexpected_token(text: str, kind: str, value: str, at: int, expected: Collec
         return SyntaxFailure("the text ends too early", len(before), wanted)
     if kind == "CLOSE" and "CLOSE" not in expected and _unmatched_opening(text[:at]) is None:
         return SyntaxFailure("unbalanced brackets: this ')' has no partner", at)
-    hint = _word_hint(text, before, kind, value, expected) or _hint(text, before, kind, value, at, expected)
+    hint = _word_hint(before, kind, value, expected) or _hint(text, before, kind, value, at, expected)
     if hint:
         return SyntaxFailure(hint, at)
     return SyntaxFailure(f"unexpected '{value}'", at, wanted)
@@ -132,7 +132,7 @@ _WORDS = {
 }
 
 
-def _word_hint(text: str, before: str, kind: str, value: str, expected: Collection[str]) -> str:
+def _word_hint(before: str, kind: str, value: str, expected: Collection[str]) -> str:
     """What helps where words of other systems stand."""
     if kind == "NAME" and value in _WORDS and "TIMES" in expected:
         return f"an operator is missing in front of {value}; {_WORDS[value]}"

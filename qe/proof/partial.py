@@ -22,11 +22,6 @@ class Partial:
     open: Formula = TRUE
 
     @property
-    def says_nothing(self) -> bool:
-        """Whether all is open."""
-        return self.proved_true == FALSE and self.proved_false == FALSE
-
-    @property
     def negated(self) -> Partial:
         """The same about the negation of the question."""
         return Partial(self.proved_false, self.proved_true)

@@ -199,14 +199,13 @@ def _reduced(found: Lemmas, poly: Poly, equation: Poly) -> list[Poly]:
     image = poly.at_quotient(x, -rest, lead)
     scale = lead.constant_value() ** poly.degree(x)
     quotient = (poly * scale - image).exact_divide(equation)
-    factors = factor_list(image.normal()[1]) if not image.is_constant else ()
     powers: tuple[tuple[Poly, int], ...] = ((image, 1),) if image else ()
     terms: list[Term] = [(scale, ((poly, 1),)), (-1, ((quotient, 1), (equation, 1)))]
     found.identity([*terms, (-1, powers)] if image else terms)
     if image.is_constant:
         return []
     primitive = image.normal()[1]
-    return [primitive, *_factored(found, primitive)] if factors else [primitive]
+    return [primitive, *_factored(found, primitive)]
 
 
 def _cancelled(found: Lemmas, poly: Poly, equation: Poly) -> list[Poly]:

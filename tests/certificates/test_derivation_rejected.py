@@ -16,7 +16,7 @@ from qe.certify.verify import verify, verify_json
 from qe.exact.ring import Ring
 from qe.proof.certificate import Certificate, digest
 from qe.proof.entry import Entry, formula_from_json
-from tests.certificates.derivations import CASES, certificate, data, rules
+from tests.certificates.derivations import CASES, certificate, data
 
 QUICK = {
     "sign",
@@ -33,14 +33,24 @@ QUICK = {
 """Cases for every day; the others are altered in the deep tests."""
 
 
-def steps(first: int = 0, without: Collection[str] = ()) -> list[Any]:
-    """(case, number of a step), for all steps from the first one on."""
-    return [
-        pytest.param(name, k, marks=() if name in QUICK else pytest.mark.deep, id=f"{name}-{k}")
-        for name, text in CASES.items()
-        if name not in without
-        for k in range(first, len(rules(text)))
-    ]
+Body = Callable[[dict[str, Any], int], None]
+
+
+def at_every_step(first: int = 0, without: Collection[str] = ()) -> Callable[[Body], Callable[[str], None]]:
+    """A body on a certificate and the number of a step becomes a test a case, over its steps from ``first`` on."""
+    cases = [pytest.param(n, marks=() if n in QUICK else pytest.mark.deep) for n in CASES if n not in without]
+
+    def made(body: Body) -> Callable[[str], None]:
+        @pytest.mark.parametrize("name", cases)
+        def test(name: str) -> None:
+            whole = data(CASES[name])
+            for k in range(first, len(whole["payload"]["steps"])):
+                body(whole, k)
+
+        test.__name__, test.__doc__ = body.__name__, body.__doc__
+        return test
+
+    return made
 
 
 RELATIONS = ("=", "/=", "<", "<=", ">", ">=")
@@ -71,17 +81,15 @@ def test_as_it_stands_it_is_accepted() -> None:
         assert verify(Certificate.from_json(certificate(text).to_json())).accepted
 
 
-@pytest.mark.parametrize(("name", "k"), steps())
-def test_dropped_and_repeated_steps(name: str, k: int) -> None:
-    whole = data(CASES[name])
+@at_every_step()
+def test_dropped_and_repeated_steps(whole: dict[str, Any], k: int) -> None:
     refused(altered(whole, lambda p: p["steps"].pop(k)), k)
     refused(altered(whole, lambda p: p["steps"].insert(k, p["steps"][k])))
 
 
-@pytest.mark.parametrize(("name", "k"), steps(first=1))
-def test_swapped_steps(name: str, k: int) -> None:
+@at_every_step(first=1)
+def test_swapped_steps(whole: dict[str, Any], k: int) -> None:
     """Steps at places of their own may be taken in another order: then they are the ones that were given."""
-    whole = data(CASES[name])
     verdict = altered(whole, lambda p: p["steps"].insert(k - 1, p["steps"].pop(k)))
     if verdict.accepted:
         first, second = whole["payload"]["steps"][k - 1]["at"], whole["payload"]["steps"][k]["at"]
@@ -91,9 +99,8 @@ def test_swapped_steps(name: str, k: int) -> None:
         refused(verdict, k - 1)
 
 
-@pytest.mark.parametrize(("name", "k"), steps())
-def test_every_field_of_a_step(name: str, k: int) -> None:
-    whole = data(CASES[name])
+@at_every_step()
+def test_every_field_of_a_step(whole: dict[str, Any], k: int) -> None:
     step = whole["payload"]["steps"][k]
     for field in step:
         refused(altered(whole, lambda p, field=field: p["steps"][k].pop(field)), k)  # type: ignore[misc]
@@ -104,9 +111,8 @@ def test_every_field_of_a_step(name: str, k: int) -> None:
     refused(altered(whole, lambda p: p["steps"][k].update(context=[["atom", f"{p['order'][0]}^2 + 7", "/="]])), k)
 
 
-@pytest.mark.parametrize(("name", "k"), steps())
-def test_another_formula_before_or_after(name: str, k: int) -> None:
-    whole = data(CASES[name])
+@at_every_step()
+def test_another_formula_before_or_after(whole: dict[str, Any], k: int) -> None:
     for field in ("before", "after"):
         for path in atoms(whole["payload"]["steps"][k][field]):
             for relation in RELATIONS:
@@ -142,13 +148,12 @@ def test_another_start_or_answer(name: str) -> None:
                 refused(altered(whole, lambda p, f=field, o=other: p.update({f: o})))  # type: ignore[misc]
 
 
-@pytest.mark.parametrize(("name", "k"), steps(without=LARGE))
-def test_every_entry_of_the_evidence(name: str, k: int) -> None:
+@at_every_step(without=LARGE)
+def test_every_entry_of_the_evidence(whole: dict[str, Any], k: int) -> None:
     """Numbers, names and lemmas: none may be changed, and none is there for nothing."""
-    whole = data(CASES[name])
     step = whole["payload"]["steps"][k]
     if step["rule"] in ("cells", "convex", "critical values", "infinity first", "shorter", "virtual substitution"):
-        pytest.skip("evidence with tests of its own")
+        return  # evidence with tests of its own
     for path, value in entries(step["evidence"]):
         if "samples" in path:
             continue  # other samples between the same roots are as good

@@ -10,14 +10,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from qe.certify import boolean
-from qe.certify.boolean import Theory, equivalence
+from qe.certify.boolean import ByLemmas, Theory, equivalence
 from qe.certify.signs import read_lemma
 from qe.errors import Unable
 from qe.formula.build import atom, conj, disj, neg
 from qe.formula.evaluate import holds_at
 from qe.formula.syntax import Formula, Relation
 from qe.proof.entry import Entry
-from tests.unit.certify.claims import RING, formula, limits, poly
+from tests.unit.certify.claims import NO_LEMMAS, RING, formula, limits, objection, poly
 
 
 def theory(polys: tuple[str, ...] = (), *lemmas: Any) -> Theory:
@@ -111,3 +111,19 @@ def test_equivalence_where_something_is_known() -> None:
     assert not all(theory().refutes(goal) for goal in equivalence(left, right, ()))
     assert all(theory().refutes(goal) for goal in equivalence(left, right, [formula("a >= 0")]))
     assert equivalence(left, formula("not (a <= 0)"), ()) == []
+
+
+def test_a_step_stands_only_if_every_goal_is_refuted() -> None:
+    """The checker made of obligations: both directions of an equivalence, under the context, by the lemmas given."""
+    check = ByLemmas(lambda claim, context: equivalence(claim.before, claim.after, context))
+
+    def said(before: str, after: str, given: str = "true", evidence: Any = NO_LEMMAS) -> str:
+        return objection(check, before, after, {"theory": evidence}, given)
+
+    assert said("a > 0 and b > 0", "b > 0 and a > 0") == said("a > 0 and b > 0", "b > 0", "a > 0") == ""
+    for before, after in (("a > 0", "a >= 0"), ("a >= 0", "a > 0"), ("a > 0", "b > 0")):
+        assert "do not exclude that it is wrong" in said(before, after)
+    square = {"polynomials": ["a^2 + 1", "a"], "lemmas": [SQUARE]}
+    assert said("a^2 + 1 > 0", "true", evidence=square) == ""
+    assert "do not exclude" in said("a^2 + 1 > 0", "true")
+    assert "theory" in objection(check, "a > 0", "b > 0", {})

@@ -40,6 +40,9 @@ def evidence(text: str, order: str, quantifiers: str = "") -> CellEvidence:
         ("x^2 <= y and x*y > 1", "AA", 1, False),
         ("x^2 <= y and x*y /= 1", "AA", 1, False),
         ("x^2 < y", ".A", 1, False),
+        ("x^2 <= y", ".E", 1, False),
+        ("x^2 <= y", "EA", 0, False),
+        ("x^2 < y", "AE", 0, False),
         ("not (x^2 < y and x > 0) and y > 0", "EE", 0, False),
     ],
 )
@@ -49,7 +52,12 @@ def test_where_sectors_suffice(text: str, quantifiers: str, level: int, enough: 
     assert sectors_suffice(asked, level) is enough
 
 
-CASES = [("x^2 + y^2 < 1", "x y", ".."), ("x^2 + y^2 < 1", "x y", ".E"), ("x^2 + y^2 <= 1 and x = y", "x y", "EA")]
+CASES = [
+    ("x^2 + y^2 < 1 and x > 2", "x y", "EE"),
+    ("x^2 + y^2 < 1", "x y", ".."),
+    ("x^2 + y^2 < 1", "x y", ".E"),
+    ("x^2 + y^2 <= 1 and x = y", "x y", "EA"),
+]
 
 
 SHARED = [
@@ -119,6 +127,19 @@ def test_other_claims_on_the_same_cells(change: Any, reason: str) -> None:
     table: CellTable = change(given.table)
     with pytest.raises(CertificateRejected, match=reason):
         check_cells(replace(given, table=table), Budget())
+
+
+def test_between_the_sections_of_a_constraint_nothing_is_decomposed() -> None:
+    """There the signs of the other factors are not known: a truth value found below would say nothing."""
+    given = evidence("y^2 = x and y*z = 1", "x y z", ".EE")
+    root = given.table.root
+    open_sectors = [p for p in places(root) if p and "?" in at(root, p).signs]
+    assert open_sectors
+    for place in open_sectors:
+        section = next(p for p in places(root) if len(p) == len(place) and at(root, p).stack is not None)
+        table = replace(given.table, root=changed(root, place, stack=at(root, section).stack))
+        with pytest.raises(CertificateRejected, match="only the sections of a constraint may be decomposed"):
+            check_cells(replace(given, table=table), Budget())
 
 
 def over(text: str) -> Formula:

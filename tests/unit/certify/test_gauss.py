@@ -58,6 +58,8 @@ def test_what_the_substitutions_give(matrix: str, answer: str, solved: Any) -> N
         (payload(MATRIX, ANSWER, X, LAST, solved=[X]), "for each variable of the block"),
         (payload(MATRIX, ANSWER, X, LAST, solved=[X, LAST, LAST]), "for each variable of the block"),
         (payload(MATRIX, ANSWER, X, LAST, solved=[[*X, 1], LAST]), "for each variable of the block"),
+        (payload(MATRIX, ANSWER, X, LAST, solved=[[*X, 1], X, LAST]), "for each variable of the block"),
+        (payload("x = a and y = 0 and b = root(1, b^2 - x)", "true", ["x", "-a + x"], ["y", "y"]), "into root atoms"),
         (payload(MATRIX, ANSWER, X, LAST, order=["a", "b", "x", "y", "y"]), "listed twice"),
         (payload(MATRIX, ANSWER, X, LAST, order=["a", "b", "x", "y", "z"]), "the variables of the formula"),
         (payload("a*x = b and y = 0", "true", ["x", "a*x - b"], ["y", "y"]), "a constant coefficient"),

@@ -9,7 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from qe.certify.arithmetic.products import FactorLists
-from qe.certify.matrix import Situation, compiled
+from qe.certify.closure import Closure
+from qe.certify.matrix import Situation, compiled, strengthened
 from qe.errors import CertificateRejected
 from qe.exact.ring import Ring
 from qe.formula.build import atom, conj, convert, disj, neg
@@ -89,3 +90,84 @@ def test_roots_by_the_sections_of_their_stack() -> None:
     assert said("x >= root(-1, x^2 - 4)", 5) is True
     assert said("x > root(-2, x^2 - 4)", 1) is False
     assert said("x > root(1, x^2 - 4)", 4, frozenset((1,))) is None  # its roots are not known there
+
+
+def lists_of(low: str, high: str) -> FactorLists:
+    """Factors in x, and in x and y."""
+    return FactorLists(
+        RING, [[convert(read(f"{f} = 0"), RING).poly for f in level.split(", ")] for level in (low, high)]
+    )  # type: ignore[attr-defined]
+
+
+def over(*signs: int | None, level: tuple[int | None, ...] | None = None) -> Situation:
+    """A cell of the line, with the signs of the factors in x; of the plane with those of the other factors."""
+    rows: list[list[int | None]] = [list(signs), *([] if level is None else [list(level)])]
+    some = [()] * len(rows)
+    return Situation(rows, list(some), [frozenset()] * len(rows), [frozenset()] * len(rows), [0] * len(rows))
+
+
+def test_roots_of_a_product_that_is_zero_on_the_whole_line() -> None:
+    lists = lists_of("x, x - 1", "y, y - 1")
+    test = compiled(convert(read("y = root(1, x*y)"), RING), lists, "matrix")
+
+    def said(x: int, nullified: frozenset[int] = frozenset()) -> bool | None:
+        sections: list[tuple[tuple[int, ...], ...]] = [(), ((0,), (1,))]
+        return test(
+            Situation([[x, -1], [0, -1]], sections, [frozenset(), frozenset((0,))], [frozenset(), nullified], [0, 1])
+        )
+
+    assert said(1) is True and said(-1) is True
+    assert said(0) is False
+    assert said(1, frozenset((0,))) is False
+    assert said(1, frozenset((1,))) is True  # another factor
+
+
+def test_roots_on_a_level_that_was_not_decomposed() -> None:
+    """y^2 - x has no root for x < 0, one for x = 0, two at most elsewhere."""
+    lists = lists_of("x", "y^2 - x, x*y^2 + y + 1")
+
+    def said(text: str, x: int | None) -> bool | None:
+        return compiled(convert(read(text), RING), lists, "matrix")(over(x))
+
+    for relation in ("<", "="):
+        assert [said(f"y {relation} root(1, y^2 - x)", x) for x in (-1, 0, 1, None)] == [False, None, None, None]
+        assert [said(f"y {relation} root(-2, y^2 - x)", x) for x in (-1, 0, 1, None)] == [False, False, None, None]
+        assert [said(f"y {relation} root(3, y^2 - x)", x) for x in (-1, 0, 1, None)] == [False] * 4
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [  # for the signs -, 0, + of x - 1
+        ("y^2 + 2*y + x < 0", (None, False, False)),
+        ("y^2 + 2*y + x <= 0", (None, None, False)),
+        ("y^2 + 2*y + x = 0", (None, None, False)),
+        ("-y^2 - 2*y - x > 0", (None, False, False)),
+        ("-y^2 - 2*y - x >= 0", (None, None, False)),
+        ("y^2 + 2*y + x > 0", (None, None, None)),
+        ("y^2 + 2*y + x >= 0", (None, None, None)),
+        ("y^2 + 2*y + x /= 0", (None, None, None)),
+        ("y^2 + 2*y + x >= 0 or y > 0", (None, True, True)),
+        ("y^2 + 2*y + x > 0 or y > 0", (None, None, True)),
+        ("y^2 + 2*y + x /= 0 or y > 0", (None, None, True)),
+        ("y^2 + 2*y + x < 0 or y > 0", (None, None, None)),
+        ("x*y^2 + y - 3 < 0", (None, None, None)),
+        ("y^2 + y + x <= 0", (None, None, None)),  # its discriminant is not listed
+        ("y^2 + 1 = 0", (False, False, False)),
+    ],
+)
+def test_a_quadratic_condition_needs_a_discriminant(text: str, said: tuple[bool | None, ...]) -> None:
+    lists = lists_of("x - 1", "y^2 + 2*y + x, y, x*y^2 + y - 3, y^2 + y + x, y^2 + 1")
+    unrestricted = Closure(({}, {}), ({}, {}), ({}, {}), (frozenset(), frozenset()))
+    test = strengthened(convert(read(text), RING), lists, unrestricted, "matrix")
+    assert tuple(test(over(s)) for s in (-1, 0, 1)) == said
+
+
+@pytest.mark.parametrize("constraint", [frozenset((0,)), frozenset((1,)), frozenset((2,)), frozenset[int]()])
+@pytest.mark.parametrize("text", ["y^2 = x and y = 1", "y = 1 and y^2 = x", "y^2 /= x or y /= 1"])
+def test_two_equations_need_a_resultant_that_is_zero(text: str, constraint: frozenset[int]) -> None:
+    lists = lists_of("x, x - 1", "y^2 - x, y - 1, y + 5")
+    closure = Closure(({}, {}), ({}, {}), ({}, {}), (frozenset(), constraint))
+    test = strengthened(convert(read(text), RING), lists, closure, "matrix")
+    decided = "or" in text if constraint & {0, 1} else None
+    assert [test(over(1, s)) for s in (-1, 0, 1)] == [decided, None, decided]
+    assert test(over(1, 1, level=(0, 0, 1))) is ("or" not in text if decided is None else decided)

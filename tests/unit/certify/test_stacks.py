@@ -68,6 +68,13 @@ def test_all_roots_one_by_one(text: str, sectors: list[int], listed: list[int], 
         ("(x - 1)^2*(x - 5)^2", [0, 2, 6], [0], 0, "missing|not listed"),
         ("(x - 1)^2*(x - 5)^2", [0, 6], [0], 0, "missing|no root here"),
         ("x^4 - 2", [0, 2], [0], -1, "missing"),
+        (
+            "(x^2 + 1)*(x^2 - 1)*(x^2 - 4)",
+            [5],
+            [],
+            -1,
+            "missing",
+        ),  # three pairs would have this sign, too
     ],
 )
 def test_roots_missing_or_invented(

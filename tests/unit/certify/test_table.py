@@ -41,6 +41,7 @@ def table(matrix: str, order: str, quantifiers: str) -> CellTable:
         ("(ex x. x > a) and (all y. y^2 > a)", "y^2 > a and x > a", "a y x", ".AE", True),
         ("(ex x. x > a) or (all y. y^2 > a)", "x > a and y^2 > a", "a x y", ".EA", False),
         ("(ex x. x > a) and (all x. x^2 > a)", "x > a and x^2 > a", "a x", ".E", False),  # bound twice
+        ("(ex x. x > a) and (ex x. x < a)", "x > a and x < a", "a x", ".E", False),  # no value need do for both
         ("x > a and (ex x. x^2 > a)", "x > a and x^2 > a", "a x", ".E", False),  # free and bound
         ("not (ex x. x > a)", "x <= a", "a x", ".A", True),
         ("not (ex x. x > a)", "x <= a", "a x", ".E", False),

@@ -1,0 +1,222 @@
+"""Stacks written by hand, over cells of one to three variables: the right ones with their signs, others refused."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+from fractions import Fraction
+
+import pytest
+
+from qe.certify.arithmetic.fibre import fibre
+from qe.certify.arithmetic.products import FactorLists
+from qe.certify.arithmetic.triangular import Coordinate, Point
+from qe.certify.closure import check_closure
+from qe.certify.stacks import Checked, Sample, StackChecker
+from qe.errors import CertificateRejected
+from qe.exact.ring import Poly, Ring
+from qe.formula.build import convert
+from qe.io.text import read
+from qe.options import Budget, Projection
+from qe.proof.cells import Cell, Stack
+
+BROWN, LAZARD = Projection.BROWN_MCCALLUM, Projection.LAZARD
+Place = int | tuple[str, int, int]
+"""A sector, by its sample, or the section of the only root of a polynomial between two numbers."""
+
+
+class Table:
+    """Factors by level (``"x, x - 1; y^2 - x"``), and the cells over which stacks are put."""
+
+    def __init__(self, factors: str, projection: Projection = BROWN, constraints: tuple[tuple[int, ...], ...] = ()):
+        levels = factors.split(";")
+        self.ring = Ring.of(tuple("xyzw"[: len(levels)]))
+        lists = FactorLists(self.ring, [[self.poly(f) for f in level.split(",") if f.strip()] for level in levels])
+        self.lists = lists
+        self.checker = StackChecker(lists, check_closure(lists, projection, constraints, Budget()), projection)
+
+    def poly(self, text: str) -> Poly:
+        return convert(read(f"{text} = 0"), self.ring).poly  # type: ignore[attr-defined,no-any-return]
+
+    def over(self, places: tuple[Place, ...]) -> Sample:
+        sample = Sample(Point(), {}, self.lists.lists, [], (0,))
+        for k, place in enumerate(places):
+            number: Fraction | Coordinate | None = Fraction(place) if isinstance(place, int) else None
+            if isinstance(place, tuple):
+                low, high = map(Fraction, place[1:])
+                number = fibre(sample.point, self.poly(place[0]), k).squarefree().coordinate(low, high)
+            assert number is not None
+            sample = sample.extended(number, [], sector=isinstance(place, int))
+            here = [sample.point.sign(f) for f in sample.polys[k]]
+            sample = replace(sample, signs=[*sample.signs[:-1], here])
+        return sample
+
+    def checked(
+        self, places: tuple[Place, ...], sectors: tuple[int, ...], *sections: tuple[int, ...], used: tuple[int, ...]
+    ) -> Checked:
+        cells = (Cell("", None),) * (2 * len(sections) + 1)
+        self.stack = Stack(used, tuple(map(Fraction, sectors)), sections, cells)
+        return self.checker.check(self.stack, self.over(places), CertificateRejected)
+
+    def signs(
+        self,
+        places: tuple[Place, ...],
+        sectors: tuple[int, ...],
+        *sections: tuple[int, ...],
+        used: tuple[int, ...] = (0,),
+    ) -> str:
+        """The signs of all factors, cell by cell."""
+        rows = self.checked(places, sectors, *sections, used=used).signs
+        return " ".join("".join("?" if s is None else "0+-"[s] for s in row) for row in rows)
+
+    def objection(
+        self,
+        places: tuple[Place, ...],
+        sectors: tuple[int, ...],
+        *sections: tuple[int, ...],
+        used: tuple[int, ...] = (0,),
+    ) -> str:
+        with pytest.raises(CertificateRejected) as caught:
+            self.checked(places, sectors, *sections, used=used)
+        return f"{caught.value.step}: {caught.value.reason}"
+
+
+ZERO = ("x", -1, 1)
+PARABOLA = Table("x; y^2 - x")
+
+
+def test_a_parabola() -> None:
+    assert PARABOLA.signs((1,), (-2, 0, 2), (0,), (0,)) == "+ 0 - 0 +"
+    assert PARABOLA.signs((ZERO,), (-2, 2), (0,)) == "+ 0 +"
+    assert PARABOLA.signs((-1,), (0,)) == "+"
+    assert PARABOLA.signs((1,), (7,), used=()) == "?"  # on the last level what does not matter may be left out
+    assert "missing" in PARABOLA.objection((1,), (5,))
+    assert "no root here" in PARABOLA.objection((-1,), (0, 1), (0,))
+    assert "missing" in PARABOLA.objection((ZERO,), (3,))
+    assert PARABOLA.objection((1,), (-2, 1, 2), (0,), (0,)) == "sectors[1]: factor 0 is zero at this sector sample"
+
+
+def test_the_first_level_needs_no_projection() -> None:
+    table = Table("x^2 - 2, x; y")
+    assert table.signs((), (-2, -1, 1, 2), (0,), (1,), (0,), used=(0, 1)) == "+- 0- -- -0 -+ 0+ ++"
+    assert "a factor of this level is missing" in table.objection((), (-2, 0, 2), (0,), (0,), used=(0,))
+
+
+SHARED = Table("x^2 - 2, x; y - x, y^2 - 2")
+ROOT, MINUS = ("x^2 - 2", 1, 2), ("x^2 - 2", -2, -1)
+
+
+def test_common_roots_over_algebraic_and_rational_numbers() -> None:
+    assert SHARED.signs((ROOT,), (-2, 0, 2), (1,), (0, 1), used=(0, 1)) == "-+ -0 -- 00 ++"
+    assert SHARED.signs((MINUS,), (-2, 0, 2), (0, 1), (1,), used=(0, 1)) == "-+ 00 +- +0 ++"
+    assert SHARED.signs((1,), (-2, 0, 2), (1,), (1,), used=(1,)) == "?+ ?0 ?- ?0 ?+"
+    assert "have no common root there" in SHARED.objection((1,), (-2, 0, 2), (1,), (0, 1), used=(0, 1))
+    assert "factor 0: it has no root here" in SHARED.objection((ROOT,), (-2, 0, 2), (0, 1), (0, 1), used=(0, 1))
+
+
+def test_algebraic_factors_that_share_another_root_do_not_share_this_one() -> None:
+    table = Table("x^2 - 2, x + 3; y^2 - 2, y^2 + x*y - 3*y - 3*x")  # the second is (y + x)*(y - 3)
+    assert "no common root" in table.objection((ROOT,), (-2, 0, 4), (0, 1), (0, 1), used=(0, 1))
+    assert table.signs((ROOT,), (-2, 0, 2, 4), (0, 1), (0,), (1,), used=(0, 1)) == "++ 00 -- 0- +- +0 ++"
+    assert "no common root" in table.objection((1,), (-2, 0, 2, 4), (0, 1), (0,), (1,), used=(0, 1))
+
+
+def test_a_resultant_that_is_zero_as_both_degrees_drop_shows_no_common_root() -> None:
+    table = Table("x^2 - 2, 4*x^2 - 7, 4*x^3 - 8*x + 1, x - 1; (x^2 - 2)*y^2 + y - 1, (x^2 - 2)*y^2 + y - x")
+    assert table.signs((ROOT,), (0, 2), (0,), used=(0,)) == "-? 0? +?"
+    assert "no common root" in table.objection((ROOT,), (0, 2), (0, 1), used=(0, 1))
+
+
+@pytest.mark.parametrize(
+    ("sectors", "sections", "used", "objection"),
+    [
+        ((-2, 0, 2), ((0,), (0,)), (0, 0), "used: not an ascending list"),
+        ((-2, 0, 2), ((0,), (0,)), (1,), "used: not an ascending list"),
+        ((-2, 0, 2), ((0,), (0,)), (-1,), "used: not an ascending list"),
+        ((), (), (0,), "sectors: no sector"),
+        ((-2, -2, 2), ((0,), (0,)), (0,), "sectors[1]: the sector samples do not ascend"),
+        ((2, 0), ((0,),), (0,), "sectors[1]: the sector samples do not ascend"),
+        ((-2, 0, 2), ((0,),), (0,), "sections: 1 sections between 3 sectors"),
+        ((-2, 0, 2), ((0,), ()), (0,), "sections[1]: not a nonempty ascending list"),
+        ((-2, 0, 2), ((0,), (0, 0)), (0,), "sections[1]: not a nonempty ascending list"),
+        ((-2, 0, 2), ((1,), (0,)), (0,), "sections[0]: not a nonempty ascending list of used factors"),
+        ((-2, 0, 2), ((0,), (0,)), (), "sections[0]: not a nonempty ascending list of used factors"),
+    ],
+)
+def test_shapes(
+    sectors: tuple[int, ...], sections: tuple[tuple[int, ...], ...], used: tuple[int, ...], objection: str
+) -> None:
+    assert PARABOLA.objection((1,), sectors, *sections, used=used).startswith(objection)
+
+
+def test_the_number_of_cells() -> None:
+    stack = Stack((0,), (Fraction(0),), (), (Cell("", None),) * 2)
+    with pytest.raises(CertificateRejected, match="2 cells where 1 are needed"):
+        PARABOLA.checker.check(stack, PARABOLA.over((-1,)), CertificateRejected)
+
+
+def test_a_factor_zero_on_a_line_is_allowed_over_one_point_on_the_last_level() -> None:
+    table, origin = Table("x; y; x*z + y"), (ZERO, ("y", -1, 1))
+    assert table.signs(origin, (0,)) == "0"
+    assert table.signs((ZERO, 1), (0,)) == "+"
+    assert table.signs((1, ("y", -1, 1)), (-1, 1), (0,)) == "- 0 +"
+    assert "vanishes identically" in table.objection(origin, (0, 1), (0,))
+    above = Table("x; y; x*z + y; w")
+    assert "not well-oriented" in above.objection(origin, (0,))
+    line = Table("x; y; z; x*w + y")
+    assert "not well-oriented" in line.objection((*origin, 1), (0,))
+    assert line.signs((*origin, ("z", -1, 1)), (0,)) == "0"
+
+
+def test_lazard_lifts_over_what_is_zero_on_a_line() -> None:
+    table = Table("x; y; x*z + y", LAZARD)
+    assert table.signs((ZERO, ("y", -1, 1)), (0,)) == "0"
+    above = Table("x; y, y - 1; x*z + y - 1; w", LAZARD)
+    assert above.checked((ZERO, ("y - 1", 0, 2)), (0,), used=(0,)).nullified == {0}
+
+
+def test_no_point_of_a_cell_may_make_a_factor_zero() -> None:
+    """Over x = 0 the leading coefficient says nothing, and that y has one sign is known only where y is a factor."""
+    assert Table("x; y; x*z + y").signs((ZERO, 1), (0,)) == "+"
+    assert "may vanish identically at a point" in Table("x; y - 7; x*z + y").objection((ZERO, 1), (0,))
+    assert Table("x; y - 7; x*z + y").signs((1, 1), (-2, 2), (0,)) == "- 0 +"
+    assert Table("x; y - 7; z; x*w + y").signs((ZERO, ("y - 7", 6, 8), 1), (0,)) == "+"  # known at (0, 7)
+    assert Table("x; y - 7; x*z + 2").signs((ZERO, 1), (0,)) == "+"
+
+
+CONSTRAINED = Table("x, x - 1; y^2 - x, y - 1", constraints=((), (0,)))
+
+
+def test_a_constraint_has_the_only_sections() -> None:
+    assert CONSTRAINED.signs((2,), (-2, 0, 2), (0,), (0,), used=(0, 1)) == "+? 0- -? 0+ +?"
+    assert CONSTRAINED.signs((("x - 1", 0, 2),), (-2, 0, 2), (0,), (0,), used=(0, 1)) == "+? 0- -? 00 +?"
+    assert CONSTRAINED.signs((-1,), (0,), used=(0, 1)) == "+?"
+    found = CONSTRAINED.checked((2,), (-2, 0, 2), (0,), (0,), used=(0, 1))
+    assert found.restricted and sorted(found.places) == [0, 1] and sorted(found.branches) == [0]
+
+
+def test_a_section_that_lists_a_factor_besides_the_constraint_s_is_refused_where_it_was_a_key_error() -> None:
+    for sections in (((0,), (0, 1)), ((0,), (1,)), ((0, 1), (0,))):
+        message = CONSTRAINED.objection((("x - 1", 0, 2),), (-2, 0, 2), *sections, used=(0, 1))
+        assert re.fullmatch(r"sections\[\d\]: factor (1 is none of the constraint's|0: .* not listed)", message)
+
+
+def test_without_its_constraint_a_stack_stands_over_a_point_only() -> None:
+    assert "does not restrict the stack" in CONSTRAINED.objection((2,), (0, 2), (1,), used=(1,))
+    assert CONSTRAINED.signs((("x - 1", 0, 2),), (0, 2), (1,), used=(1,)) == "?- ?0 ?+"
+    nullified = Table("x; y; x*z + y, z", constraints=((), (), (0,)))
+    assert nullified.signs((ZERO, ("y", -1, 1)), (-1, 1), (1,), used=(0, 1)) == "0- 00 0+"
+
+
+def test_below_the_last_level_no_other_factor_vanishes_on_a_section_s_line() -> None:
+    table = Table("x; y, y + x; z - 1, x*z + y; w", constraints=((), (), (0,), ()))
+    assert table.signs((1, 1), (0, 2), (0,), used=(0, 1)) == "-? 0+ +?"
+    assert "not well-oriented" in table.objection((ZERO, ("y", -1, 1)), (0, 2), (0,), used=(0, 1))
+
+
+def test_coordinates_of_sections() -> None:
+    found = SHARED.checked((ROOT,), (-2, 0, 2), (1,), (0, 1), used=(0, 1))
+    number = SHARED.checker.section_coordinate(found, SHARED.stack, 1, CertificateRejected)
+    assert isinstance(number, Coordinate) and (number.index, number.poly) == (1, SHARED.poly("y - x"))
+    found = PARABOLA.checked((ZERO,), (-2, 2), (0,), used=(0,))
+    assert PARABOLA.checker.section_coordinate(found, PARABOLA.stack, 0, CertificateRejected) == 0
