@@ -46,16 +46,24 @@ def ablation() -> list[Problem]:
 
 def literature(folder: Path = LITERATURE) -> list[Problem]:
     """The literature sets ``public``, ``realgeom`` and ``classics``. Raises ``InputError`` where they are absent."""
-    if not folder.is_dir():
-        raise InputError(f"--suite literature: expected a folder {folder.parent.name}/{folder.name} beside the project")
-    found = [
-        _of_literature(name, json.loads(line))
-        for name, file in (("public", "public.jsonl"), ("realgeom", "timed_realgeom.jsonl"))
-        for line in (folder / file).read_text().splitlines()
-        if line.strip()
-    ]
+    found = _lines("public", _present(folder) / "public.jsonl") + _lines("realgeom", folder / "timed_realgeom.jsonl")
     named = json.loads((folder / "classics.json").read_text())["problems"]
     return found + [Problem("classics", r["name"], r["formula"], r.get("expected")) for r in named]
+
+
+def hard(folder: Path = LITERATURE) -> list[Problem]:
+    """The literature set ``hard``. Raises ``InputError`` where it is absent."""
+    return _lines("hard", _present(folder) / "hard.jsonl")
+
+
+def _present(folder: Path) -> Path:
+    if not folder.is_dir():
+        raise InputError(f"--suite literature: expected a folder {folder.parent.name}/{folder.name} beside the project")
+    return folder
+
+
+def _lines(name: str, file: Path) -> list[Problem]:
+    return [_of_literature(name, json.loads(line)) for line in file.read_text().splitlines() if line.strip()]
 
 
 def _of_literature(name: str, record: dict[str, str]) -> Problem:
