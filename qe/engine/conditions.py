@@ -8,7 +8,7 @@ from math import prod
 from qe.elimination.protocol import Problem
 from qe.formula.syntax import And, Atom, Formula, Or, Relation
 from qe.formula.traverse import conjuncts, connected, polynomials, subformulas
-from qe.options import Options, Stage
+from qe.options import Options
 
 Condition = Callable[[Problem, Options], str | None]
 
@@ -64,7 +64,7 @@ def inner_blocks(problem: Problem, options: Options) -> str | None:
 
 def many_cases(problem: Problem, options: Options) -> str | None:
     """A sentence with ``CASES_FROM`` disjunctions or more."""
-    if problem.free or not problem.is_flat or Stage.SEARCH in options.without:
+    if problem.free or not problem.is_flat:
         return None
     kind = And if problem.universal else Or
     cases = sum(1 for f in subformulas(problem.body) if isinstance(f, kind))
