@@ -120,7 +120,7 @@ class Outcome:
 def _outcome(run: Run, limits: Limits) -> Outcome:
     """The outcome of a run that ended by itself or at a limit."""
     if run.ending is Ending.TIME:
-        return Outcome(Status.TIMEOUT, limits.seconds)
+        return Outcome(Status.TIMEOUT, limits.seconds, cpu=limits.seconds)
     if run.ending is Ending.MEMORY:
         return Outcome(Status.MEMORY, run.wall, message=f"{run.peak:.0f} MiB")
     report = _report(run.out)
@@ -131,7 +131,7 @@ def _outcome(run: Run, limits: Limits) -> Outcome:
     status, seconds = Status(report["status"]), float(report["seconds"])
     cpu = float(report.get("cpu", seconds))
     if cpu > limits.seconds:
-        return Outcome(Status.TIMEOUT, limits.seconds)
+        return Outcome(Status.TIMEOUT, limits.seconds, cpu=limits.seconds)
     return Outcome(status, seconds, report.get("answer", ""), report.get("message", ""), cpu)
 
 

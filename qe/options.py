@@ -52,7 +52,8 @@ class Stage(Enum):
     variables vanish are dropped where they follow from the others. ``BALLS``: whether two balls meet is a closed form.
     ``RANGES``: conditions that ranges of variables exclude are refuted. ``SEARCH``: sentences with many cases are
     searched by a SAT solver. ``SQUARES``: signs that sums of squares prove. ``MINISCOPING``: quantifiers are moved
-    inwards, independent parts apart. ``SHIFT``: x^k is named x. ``GENERIC``: inequations that remove no interior are
+    inwards, independent parts apart. ``EXCHANGE``: the sum and product of two variables that can be exchanged stand for
+    them. ``SHIFT``: x^k is named x. ``GENERIC``: inequations that remove no interior are
     dropped. ``CANCELLING``: multiples of equations are subtracted. ``SPLITTING``: an equation that factors, or whose
     polynomial is a sum of squares, gives cases. ``EARLY``: small blocks that say equations are eliminated before what
     stands beside them. ``NONZERO``, ``INFINITY``, ``CRITICAL``, ``CONVEX``, ``CGS``, ``WITNESS``: variables that are
@@ -77,6 +78,7 @@ class Stage(Enum):
     SEARCH = "search"
     SQUARES = "squares"
     MINISCOPING = "miniscoping"
+    EXCHANGE = "exchange"
     SHIFT = "shift"
     GENERIC = "generic"
     CANCELLING = "cancelling"

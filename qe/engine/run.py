@@ -44,6 +44,7 @@ SWITCHED = {
     Stage.RANGES: {StepKind.RANGES},
     Stage.BALLS: {StepKind.BALLS},
     Stage.SQUARES: {StepKind.SQUARES},
+    Stage.EXCHANGE: {StepKind.EXCHANGE},
     Stage.MINISCOPING: {StepKind.MINISCOPE},
     Stage.SHIFT: {StepKind.DEGREE_SHIFT},
     Stage.GENERIC: {StepKind.GENERIC, StepKind.BOUNDARY},

@@ -17,8 +17,8 @@ from qe.elimination.search.linear_forms import over_monomials
 from qe.elimination.search.method import BooleanSearch, Refuted, found_point
 from qe.elimination.search.theory import Theory
 from qe.engine.conditions import CASES_FROM, many_cases
-from qe.engine.strategy import Scope, attempts
 from qe.engine.run import solve
+from qe.engine.strategy import Scope, attempts
 from qe.errors import Unable
 from qe.exact.number import Values
 from qe.exact.ring import Ring
