@@ -48,7 +48,7 @@ def literature(folder: Path = LITERATURE) -> list[Problem]:
     """The literature sets ``public``, ``realgeom`` and ``classics``. Raises ``InputError`` where they are absent."""
     found = _lines("public", _present(folder) / "public.jsonl") + _lines("realgeom", folder / "timed_realgeom.jsonl")
     named = json.loads((folder / "classics.json").read_text())["problems"]
-    return found + [Problem("classics", r["name"], r["formula"], r.get("expected")) for r in named]
+    return found + [_of_literature("classics", {"assume": _assumed(r["source"]), **r, "id": r["name"]}) for r in named]
 
 
 def hard(folder: Path = LITERATURE) -> list[Problem]:
@@ -66,7 +66,13 @@ def _lines(name: str, file: Path) -> list[Problem]:
     return [_of_literature(name, json.loads(line)) for line in file.read_text().splitlines() if line.strip()]
 
 
-def _of_literature(name: str, record: dict[str, str]) -> Problem:
+def _assumed(source: str) -> str | None:
+    """The assumption that a source states beside its name."""
+    _, stated, assumption = source.partition("with assume [")
+    return assumption.partition("]")[0] if stated else None
+
+
+def _of_literature(name: str, record: dict[str, Any]) -> Problem:
     """Assumptions are stated in QEPCAD's square brackets."""
     assume = record.get("assume")
     if assume is not None:

@@ -115,6 +115,14 @@ def curved_in_the_block(problem: Problem, options: Options) -> str | None:
     return "degree above 2 in the quantified variables" if _degree(problem) > 2 else None
 
 
+def curved_with_parameters(problem: Problem, options: Options) -> str | None:
+    """The same, of one variable: an inner block whose outer one has other variables than the parameters it looks at.
+
+    Measured: best approximations of cubics on [-1, 1] by lines took 10 s and more, with the inner block first 0.7 s.
+    """
+    return curved_in_the_block(problem, options) if len(problem.variables) == 1 and problem.free else None
+
+
 def parameters(problem: Problem, options: Options) -> str | None:
     """There are free variables."""
     return "a block with parameters" if problem.free else None

@@ -141,6 +141,7 @@ STRATEGY: tuple[Attempt, ...] = (
     Attempt(Scope.BLOCK, "cad", on.complete),
     Attempt(Scope.BLOCK, "vs", on.always, None, complete_if_closed, shorten=True),
     Attempt(Scope.INNER, "vs", on.always, FIRST, complete),
+    Attempt(Scope.INNER, "critical, convex universal", on.curved_with_parameters, SHORTCUT, complete_and_small),
     Attempt(Scope.INNER, "critical", on.never),
     Attempt(Scope.BLOCK, "cgs", on.never),
     Attempt(Scope.INNER, "cgs", on.never),
