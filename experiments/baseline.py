@@ -2,27 +2,30 @@
 
 A baseline file is JSON lines: an environment, then one line for each problem of the sets ``public``, ``realgeom``
 and ``project``, sorted, repetitions combined by the median. Two files are compared problem by problem; answers by
-equivalence. Times mean something only between files of one machine: freeze both commits there, one after the other.
+equivalence. Times mean something only between runs of one machine in one hour, whose speed changes within minutes:
+``pair`` runs the engines of two trees in turn.
 """
 
 from __future__ import annotations
 
 import json
 import statistics
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from experiments.measures import by_set
+from experiments.adapters.answer import Limits
+from experiments.measures import by_set, combined
 from experiments.problem import Problem
 from experiments.results import Log, Result, Status
-from experiments.runner import LONGEST_ANSWER, compared
-from experiments.solvers import OURS
+from experiments.runner import LONGEST_ANSWER, Job, compared, run_one
+from experiments.solvers import OURS, Solver, adapter
 from experiments.suites.corpus import classics, literature
 from qe.errors import InputError
 
 SETS = ("public", "realgeom", "project")
+COMPARED = ("public", "hard", "realgeom", "classics", "project")
 
 FLOOR = 1e-3
 """Seconds below which processor times are not told apart."""
@@ -61,10 +64,33 @@ def problems(only: str = "") -> list[Problem]:
     return [p for p in [*literature(), *classics()] if p.set in SETS and only in f"{p.set} {p.id}"]
 
 
+def pair(
+    problem: Problem, trees: tuple[Path, Path], limits: Limits, *, repeat: int, show: Callable[[str], None] = print
+) -> tuple[Entry, Entry]:
+    """One problem by the engines of two trees in turn, ``repeat`` times each, with the median of each; a line of it."""
+    sides = [Solver(name, adapter(OURS), tree) for name, tree in zip(("old", "new"), trees, strict=True)]
+    rows: dict[str, list[Result]] = {side.name: [] for side in sides}
+    for k in range(repeat):
+        for side in sides:
+            rows[side.name].append(run_one(Job(problem, side, k), limits))
+    old, new = (_entry(combined(found), found) for found in rows.values())
+    show(
+        f"{problem.set} {problem.id}: {old.status} {old.cpu:.3f} s, {new.status} {new.cpu:.3f} s, "
+        f"ratio {max(new.cpu, FLOOR) / max(old.cpu, FLOOR):.2f}, {old.length} to {new.length} characters"
+    )
+    return old, new
+
+
+def slowed(pairs: Iterable[tuple[Entry, Entry]]) -> list[tuple[Entry, Entry]]:
+    """The pairs that both engines solved, those first that lost most seconds."""
+    both = [(old, new) for old, new in pairs if old.is_solved and new.is_solved and new.cpu > old.cpu]
+    return sorted(both, key=lambda p: p[0].cpu - p[1].cpu)
+
+
 def entries(log: Log) -> list[Entry]:
     """What a log says of our engine on the sets of a baseline, sorted; the median repetition of each problem."""
     found = [
-        Entry(row.set, row.id, row.status, _middle(log, row), row.limit, row.length, row.answer)
+        _entry(row, [r for r in log.results.values() if (r.set, r.solver, r.id) == (row.set, row.solver, row.id)])
         for name, table in by_set(log).items()
         if name in SETS
         for row in table.get(OURS, {}).values()
@@ -72,10 +98,10 @@ def entries(log: Log) -> list[Entry]:
     return sorted(found, key=lambda entry: entry.key)
 
 
-def _middle(log: Log, row: Result) -> float:
-    """The median processor time over the repetitions of a run that ended alike."""
-    same = [r.cpu for r in log.results.values() if (r.set, r.solver, r.id) == (row.set, row.solver, row.id)]
-    return round(statistics.median(same), 4)
+def _entry(row: Result, same: Iterable[Result]) -> Entry:
+    """A problem with the median processor time of its repetitions."""
+    cpu = round(statistics.median([r.cpu for r in same]), 4)
+    return Entry(row.set, row.id, row.status, cpu, row.limit, row.length, row.answer)
 
 
 def write(path: Path, found: Sequence[Entry], environment: Mapping[str, Any]) -> None:
@@ -120,9 +146,8 @@ def changes(old: Iterable[Entry], new: Iterable[Entry]) -> list[Change]:
     """One line for each set, over the problems that both files hold."""
     before, after = ({e.key: e for e in listed} for listed in (old, new))
     pairs = [(before[key], after[key]) for key in before if key in after]
-    return [
-        _change(name, [p for p in pairs if p[0].set == name]) for name in SETS if any(p[0].set == name for p in pairs)
-    ]
+    names = [name for name in COMPARED if any(p[0].set == name for p in pairs)]
+    return [_change(name, [p for p in pairs if p[0].set == name]) for name in names]
 
 
 def _change(name: str, pairs: Sequence[tuple[Entry, Entry]]) -> Change:
@@ -141,9 +166,14 @@ def _change(name: str, pairs: Sequence[tuple[Entry, Entry]]) -> Change:
     )
 
 
-def different(old: Iterable[Entry], new: Iterable[Entry], *, memory: int) -> Iterator[tuple[Entry, Entry, str]]:
-    """Problems whose answers are not proved equivalent, with the word of the comparison; cut answers are left out."""
-    assumed = {(p.set, p.id): p.assume for p in problems()}
+def different(
+    old: Iterable[Entry], new: Iterable[Entry], *, memory: int, known: Iterable[Problem] | None = None
+) -> Iterator[tuple[Entry, Entry, str]]:
+    """Problems whose answers are not proved equivalent, with the word of the comparison; cut answers are left out.
+
+    ``known``: the problems, for their assumptions; by default those of a baseline.
+    """
+    assumed = {(p.set, p.id): p.assume for p in (problems() if known is None else known)}
     after = {e.key: e for e in new}
     for entry in old:
         other = after.get(entry.key)

@@ -6,21 +6,24 @@ Exit status as in ``qe.cli.shell``; ``run`` ends with 1 when our engine gave a w
 from __future__ import annotations
 
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from experiments.adapters.answer import Limits
 from experiments.display import progress
-from experiments.problem import Problem
+from experiments.problem import ROOT, Problem
 from experiments.results import BadLine, Log, Status, read_log
 from experiments.solvers import OURS, solver
 from experiments.suites import suite
 from experiments.sweep.grid import Method
 from qe.cli.shell import BUG, OK, enter
 from qe.errors import InputError
+
+if TYPE_CHECKING:
+    from experiments.baseline import Entry
 
 app = typer.Typer(
     add_completion=False,
@@ -174,8 +177,41 @@ def compare(
     before, after = baseline.read(old), baseline.read(new)
     for text in baseline.lines(baseline.changes(before, after)):
         print(text)
+    return _differences(baseline.different(before, after, memory=memory))
+
+
+@baselines.command()
+def pair(
+    old: Annotated[Path, typer.Argument(help="A folder with an older state of this project.")],
+    new: Annotated[Path, typer.Argument(help="Another [default: this one].")] = ROOT,
+    suites: Annotated[list[str] | None, typer.Option("--suite", help="A suite; default: literature.")] = None,
+    limit: Annotated[float, typer.Option(min=0.01, help="Seconds of processor time for each problem.")] = 15.0,
+    memory: Annotated[int, typer.Option(min=1, help="MiB for each problem.")] = 2048,
+    repeat: Annotated[int, typer.Option(help="Repetitions; the median counts.", min=1)] = 3,
+    only: Annotated[str, typer.Option(help="Problems whose name or set contains this.")] = "",
+    show: Annotated[int, typer.Option(help="So many of the problems that lost most seconds.")] = 5,
+) -> int:
+    """Run the engines of two folders in turn, problem by problem, and compare them. Status 1 when answers differ."""
+    from experiments import baseline
+
+    for tree in (old, new):
+        if not (tree / "experiments" / "adapters").is_dir():
+            raise InputError(f"a folder of this project expected, {tree} has no experiments/adapters")
+    known = [p for name in suites or ["literature"] for p in _problems(name, only)]
+    trees = old.resolve(), new.resolve()
+    pairs = [baseline.pair(problem, trees, Limits(limit, memory), repeat=repeat) for problem in known]
+    before, after = [a for a, _ in pairs], [b for _, b in pairs]
+    for text in baseline.lines(baseline.changes(before, after)):
+        print(text)
+    for a, b in baseline.slowed(pairs)[:show]:
+        print(f"slower: {a.set} {a.id}: {a.cpu:.3f} s to {b.cpu:.3f} s")
+    return _differences(baseline.different(before, after, memory=memory, known=known))
+
+
+def _differences(found: Iterable[tuple[Entry, Entry, str]]) -> int:
+    """Print what is not proved equivalent; the exit status."""
     worst = OK
-    for a, _, word in baseline.different(before, after, memory=memory):
+    for a, _, word in found:
         print(f"{word}: {a.set} {a.id}")
         worst = BUG if word == "different" else worst
     return worst

@@ -16,14 +16,15 @@ from pathlib import Path
 from typing import IO
 
 POLL = 0.01
-LOOK_AT_MEMORY = 0.1
+LOOK = 0.1
 MIB = 1 << 20
 
 # The shell sets the limits and then becomes the program, so that nothing runs between fork and exec here.
 LIMITING = 'ulimit -c 0; ulimit -v "$1" 2>/dev/null; ulimit -t "$2"; shift 2; exec "$@"'
 BACKSTOP = 4
 """One process may have this many times the memory as address space, in case it grows by leaps, and this many times the
-time as processor time, in case nobody is left to end it."""
+time as processor time, in case nobody is left to end it; the clock on the wall may count as many times the limit, so
+that a machine with other work to do does not end what has hardly run, and a program that only waits does end."""
 
 
 class Ending(Enum):
@@ -51,8 +52,9 @@ def run_limited(
 ) -> Run:
     """Run a program on this standard input.
 
-    ``seconds`` count from its first output, and for a silent program after ``start_up`` seconds; ``memory`` is in MiB
-    for all processes of the group together. Where there is no /proc only the address space is limited.
+    ``seconds`` of processor time count from its first output, and for a silent program after ``start_up`` seconds;
+    ``memory`` is in MiB. Both are those of all processes of the group together. Where there is no /proc only the
+    address space and the clock on the wall are limited.
     """
     with tempfile.TemporaryFile() as source, tempfile.TemporaryFile() as out, tempfile.TemporaryFile() as err:
         source.write(text.encode())
@@ -81,20 +83,22 @@ def _watch(
     child: subprocess.Popen[bytes], out: IO[bytes], start: float, seconds: float, memory: int, start_up: float
 ) -> tuple[Ending, float]:
     """Wait for the end or a limit; (what it was, peak memory)."""
-    peak, deadline, look = 0.0, start + start_up + seconds, 0.0
+    peak, look, used = 0.0, 0.0, 0.0
+    limit, deadline = start_up + seconds, start + BACKSTOP * (start_up + seconds)
     while True:
         status, usage = _reap(child)
         now = time.perf_counter()
         if status:
             return Ending.FINISHED, max(peak, usage)
         if now >= look:
-            look = now + LOOK_AT_MEMORY
-            peak = max(peak, group_memory(child.pid))
+            look = now + LOOK
+            pages, used = group_use(child.pid)
+            peak = max(peak, pages)
             if peak > memory:
                 return Ending.MEMORY, peak
         if start_up and os.fstat(out.fileno()).st_size:
-            start_up, deadline = 0.0, min(deadline, now + seconds)
-        if now > deadline:
+            start_up, limit, deadline = 0.0, min(limit, used + seconds), min(deadline, now + BACKSTOP * seconds)
+        if used > limit or now > deadline:
             return Ending.TIME, peak
         time.sleep(POLL)
 
@@ -108,15 +112,18 @@ def _reap(child: subprocess.Popen[bytes]) -> tuple[bool, float]:
     return True, usage.ru_maxrss / 1024
 
 
-def group_memory(group: int) -> float:
-    """Resident MiB of all processes of a group, 0 where there is no /proc."""
-    pages = 0
+def group_use(group: int) -> tuple[float, float]:
+    """Resident MiB and seconds of processor time, ended children included, of all processes of a group; zeros where
+    there is no /proc.
+    """
+    pages = ticks = 0
     for entry in Path("/proc").glob("[0-9]*/stat"):
         with contextlib.suppress(OSError):  # it has just ended
             fields = entry.read_text().rpartition(")")[2].split()
             if int(fields[2]) == group:
                 pages += int(fields[21])
-    return pages * os.sysconf("SC_PAGE_SIZE") / MIB
+                ticks += sum(map(int, fields[11:15]))
+    return pages * os.sysconf("SC_PAGE_SIZE") / MIB, ticks / os.sysconf("SC_CLK_TCK")
 
 
 def _text(stream: IO[bytes]) -> str:

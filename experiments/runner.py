@@ -17,7 +17,7 @@ from typing import Any
 
 from experiments.adapters.answer import Limits
 from experiments.environment import now
-from experiments.limits import Ending, Run, run_limited
+from experiments.limits import BACKSTOP, Ending, Run, run_limited
 from experiments.problem import ROOT, Problem
 from experiments.results import Log, Result, Status
 from experiments.solvers import Solver
@@ -75,9 +75,14 @@ def run_jobs(jobs: Sequence[Job], limits: Limits, *, workers: int = 1, environme
 def run_one(job: Job, limits: Limits, environment: str = "") -> Result:
     """Solve one problem and compare the answer."""
     problem = job.problem
-    task = json.dumps({"formula": problem.formula, "limit": limits.seconds, "memory": limits.memory})
+    told = {"formula": problem.formula, "limit": BACKSTOP * limits.seconds, "memory": limits.memory}
     run = run_limited(
-        job.solver.command, task, seconds=limits.seconds, memory=limits.memory, start_up=START_UP, folder=ROOT
+        job.solver.command,
+        json.dumps(told),
+        seconds=limits.seconds,
+        memory=limits.memory,
+        start_up=START_UP,
+        folder=job.solver.folder,
     )
     found = _outcome(run, limits)
     status = verdict(problem, found.answer, limits) if found.status is Status.SOLVED else found.status
@@ -115,7 +120,7 @@ class Outcome:
 def _outcome(run: Run, limits: Limits) -> Outcome:
     """The outcome of a run that ended by itself or at a limit."""
     if run.ending is Ending.TIME:
-        return Outcome(Status.TIMEOUT, limits.seconds)
+        return Outcome(Status.TIMEOUT, limits.seconds, cpu=limits.seconds)
     if run.ending is Ending.MEMORY:
         return Outcome(Status.MEMORY, run.wall, message=f"{run.peak:.0f} MiB")
     report = _report(run.out)
@@ -124,9 +129,10 @@ def _outcome(run: Run, limits: Limits) -> Outcome:
         ran_out = any(sign in run.err for sign in ("MemoryError", "bad_alloc", "allocate memory", "out of memory"))
         return Outcome(Status.MEMORY if ran_out else Status.CRASH, run.wall, message=f"exit {run.code}: {last}")
     status, seconds = Status(report["status"]), float(report["seconds"])
-    if seconds > limits.seconds:
-        return Outcome(Status.TIMEOUT, limits.seconds)
-    return Outcome(status, seconds, report.get("answer", ""), report.get("message", ""), float(report.get("cpu", 0.0)))
+    cpu = float(report.get("cpu", seconds))
+    if cpu > limits.seconds:
+        return Outcome(Status.TIMEOUT, limits.seconds, cpu=limits.seconds)
+    return Outcome(status, seconds, report.get("answer", ""), report.get("message", ""), cpu)
 
 
 def _report(out: str) -> dict[str, Any] | None:

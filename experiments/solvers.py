@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import sys
 from dataclasses import dataclass
+from pathlib import Path
 
+from experiments.problem import ROOT
 from qe.errors import InputError
 from qe.options import Method, Stage
 
@@ -18,14 +20,22 @@ NAMES = (OURS, *METHODS, *ABLATIONS, *PEERS)
 
 @dataclass(frozen=True, slots=True)
 class Solver:
-    """``command`` reads a task as JSON from standard input; see ``experiments.adapters``."""
+    """``command`` reads a task as JSON from standard input, see ``experiments.adapters``; it is started in ``folder``,
+    whose packages it imports.
+    """
 
     name: str
     command: tuple[str, ...]
+    folder: Path = ROOT
 
 
 def solver(name: str) -> Solver:
     """The solver of this name. Raises ``InputError``, naming the solvers there are."""
     if name not in NAMES:
         raise InputError(f"--solver: one of {', '.join(NAMES)} expected, {name!r} found")
-    return Solver(name, (sys.executable, "-m", "experiments.adapters", name))
+    return Solver(name, adapter(name))
+
+
+def adapter(name: str) -> tuple[str, ...]:
+    """The command that runs the solver of this name."""
+    return sys.executable, "-m", "experiments.adapters", name

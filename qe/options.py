@@ -39,6 +39,9 @@ class Projection(Enum):
 class Stage(Enum):
     """Stages of the engine that can be left out, to measure what each gains; the answers stay equivalent.
 
+    Every rule of preparation but simplification, and every method but decomposition, which takes what all others
+    leave, belongs to one.
+
     ``EQUATIONS``: linear equations and Gröbner bases before anything else. ``SUBSTITUTION``: virtual substitution.
     ``CONSTRAINTS``: projection and lifting restricted by equational constraints. ``PARTIAL``: stacks are left as
     soon as their truth is known. ``OPEN``: sectors only where all atoms are strict. ``MCCALLUM``: Brown–McCallum
@@ -48,7 +51,14 @@ class Stage(Enum):
     atoms that some value of a variable meets, whatever the rest is, are dropped. ``ZEROS``: conditions on which
     variables vanish are dropped where they follow from the others. ``BALLS``: whether two balls meet is a closed form.
     ``RANGES``: conditions that ranges of variables exclude are refuted. ``SEARCH``: sentences with many cases are
-    searched by a SAT solver. ``SQUARES``: signs that sums of squares prove.
+    searched by a SAT solver. ``SQUARES``: signs that sums of squares prove. ``MINISCOPING``: quantifiers are moved
+    inwards, independent parts apart. ``EXCHANGE``: the sum and product of two variables that can be exchanged stand for
+    them. ``SHIFT``: x^k is named x. ``GENERIC``: inequations that remove no interior are
+    dropped. ``CANCELLING``: multiples of equations are subtracted. ``SPLITTING``: an equation that factors, or whose
+    polynomial is a sum of squares, gives cases. ``EARLY``: small blocks that say equations are eliminated before what
+    stands beside them. ``NONZERO``, ``INFINITY``, ``CRITICAL``, ``CONVEX``, ``CGS``, ``WITNESS``: variables that are
+    only asked to be no root; truth at infinity first; critical values; convex optimisation; comprehensive Gröbner
+    systems; polynomial witnesses. ``SHORTENING``: a last look for a shorter or constant answer.
     """
 
     EQUATIONS = "equations"
@@ -67,6 +77,20 @@ class Stage(Enum):
     RANGES = "ranges"
     SEARCH = "search"
     SQUARES = "squares"
+    MINISCOPING = "miniscoping"
+    EXCHANGE = "exchange"
+    SHIFT = "shift"
+    GENERIC = "generic"
+    CANCELLING = "cancelling"
+    SPLITTING = "splitting"
+    EARLY = "early"
+    NONZERO = "nonzero"
+    INFINITY = "infinity"
+    CRITICAL = "critical"
+    CONVEX = "convex"
+    CGS = "cgs"
+    WITNESS = "witness"
+    SHORTENING = "shortening"
 
 
 @dataclass(slots=True)

@@ -23,6 +23,7 @@ SUITES = {
     "paper": Suite(paper.problems),
     "classics": Suite(corpus.classics),
     "literature": Suite(corpus.literature),
+    "hard": Suite(corpus.hard),
     "scaling": Suite(scaling.problems),
     "ablation": Suite(corpus.ablation, ("ours", *ABLATIONS)),
 }

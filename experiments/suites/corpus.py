@@ -46,19 +46,33 @@ def ablation() -> list[Problem]:
 
 def literature(folder: Path = LITERATURE) -> list[Problem]:
     """The literature sets ``public``, ``realgeom`` and ``classics``. Raises ``InputError`` where they are absent."""
+    found = _lines("public", _present(folder) / "public.jsonl") + _lines("realgeom", folder / "timed_realgeom.jsonl")
+    named = json.loads((folder / "classics.json").read_text())["problems"]
+    return found + [_of_literature("classics", {"assume": _assumed(r["source"]), **r, "id": r["name"]}) for r in named]
+
+
+def hard(folder: Path = LITERATURE) -> list[Problem]:
+    """The literature set ``hard``. Raises ``InputError`` where it is absent."""
+    return _lines("hard", _present(folder) / "hard.jsonl")
+
+
+def _present(folder: Path) -> Path:
     if not folder.is_dir():
         raise InputError(f"--suite literature: expected a folder {folder.parent.name}/{folder.name} beside the project")
-    found = [
-        _of_literature(name, json.loads(line))
-        for name, file in (("public", "public.jsonl"), ("realgeom", "timed_realgeom.jsonl"))
-        for line in (folder / file).read_text().splitlines()
-        if line.strip()
-    ]
-    named = json.loads((folder / "classics.json").read_text())["problems"]
-    return found + [Problem("classics", r["name"], r["formula"], r.get("expected")) for r in named]
+    return folder
 
 
-def _of_literature(name: str, record: dict[str, str]) -> Problem:
+def _lines(name: str, file: Path) -> list[Problem]:
+    return [_of_literature(name, json.loads(line)) for line in file.read_text().splitlines() if line.strip()]
+
+
+def _assumed(source: str) -> str | None:
+    """The assumption that a source states beside its name."""
+    _, stated, assumption = source.partition("with assume [")
+    return assumption.partition("]")[0] if stated else None
+
+
+def _of_literature(name: str, record: dict[str, Any]) -> Problem:
     """Assumptions are stated in QEPCAD's square brackets."""
     assume = record.get("assume")
     if assume is not None:

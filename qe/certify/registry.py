@@ -15,6 +15,7 @@ from qe.certify.degenerate_truth_set import check_degenerate_truth_set
 from qe.certify.degree_shift import check_degree_shift
 from qe.certify.distribution import check_distribution
 from qe.certify.elimination_set import check_elimination_set
+from qe.certify.exchange import check_exchange
 from qe.certify.gathering import check_gathering
 from qe.certify.independent_parts import check_independent_parts
 from qe.certify.inequations import check_inequations, check_only_nonzero
@@ -59,6 +60,7 @@ RULES: Mapping[str, Check] = {
     "linear equation solved under a guard": check_guarded_linear,
     "degree shift": check_degree_shift,
     "translation of the origin": check_translation,
+    "two variables exchanged": check_exchange,
     "homogeneous scaling": check_scaling,
     "rotation of the axes": check_rotation,
     "nested blocks of one kind gathered": check_gathering,

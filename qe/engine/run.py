@@ -44,6 +44,12 @@ SWITCHED = {
     Stage.RANGES: {StepKind.RANGES},
     Stage.BALLS: {StepKind.BALLS},
     Stage.SQUARES: {StepKind.SQUARES},
+    Stage.EXCHANGE: {StepKind.EXCHANGE},
+    Stage.MINISCOPING: {StepKind.MINISCOPE},
+    Stage.SHIFT: {StepKind.DEGREE_SHIFT},
+    Stage.GENERIC: {StepKind.GENERIC, StepKind.BOUNDARY},
+    Stage.CANCELLING: {StepKind.CANCELLING},
+    Stage.SPLITTING: {StepKind.FACTOR_SPLIT, StepKind.SUM_OF_SQUARES},
 }
 """The steps of preparation that a stage left out switches off."""
 
@@ -94,7 +100,8 @@ class _Run:
             return found
         if found is None:
             found = self.formula(formula)
-        if found.certificate is not None or isinstance(found.formula, Constant):
+        off = Stage.SHORTENING in self.options.without
+        if found.certificate is not None or isinstance(found.formula, Constant) or off:
             return found
         return replace(found, formula=self.finished(found.formula, formula, mark))
 
@@ -229,7 +236,8 @@ class _Run:
     def by_early_equations(self, problem: Problem) -> Outcome | None:
         """The block by equations that some of its parts amount to (``qe.engine.early``), which prepare the others."""
         dual = problem.dual
-        parts = None if problem.is_flat or Stage.EQUATIONS in self.options.without else early_parts(dual.body)
+        off = not self.options.without.isdisjoint((Stage.EQUATIONS, Stage.EARLY))
+        parts = None if problem.is_flat or off else early_parts(dual.body)
         if parts is None:
             return None
         inner, (early, rest) = _Run(self.options.with_(certify=False), self.budget.part(SHORTCUT)), parts
@@ -303,7 +311,7 @@ class _Run:
                 raise alone(name)
             self.log.switch(name, f"{', '.join(features(formula).bound)} left for another method")
             formula = self.without_quantifiers(formula)
-        if attempt.shorten and problem.free:
+        if attempt.shorten and problem.free and Stage.SHORTENING not in self.options.without:
             formula = shortened(formula, self.context())
         simple = self.log.step("simplification", formula, simplify(formula))
         return found if simple == found.formula else replace(found, formula=simple)

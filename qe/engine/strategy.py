@@ -33,6 +33,19 @@ METHODS = {
 }
 """Where each method stands; it is loaded when it is first tried."""
 
+LEFT_OUT_BY = {
+    "vs": Stage.SUBSTITUTION,
+    "critical": Stage.CRITICAL,
+    "critical, convex universal": Stage.CRITICAL,
+    "convex": Stage.CONVEX,
+    "witness": Stage.WITNESS,
+    "search": Stage.SEARCH,
+    "cgs": Stage.CGS,
+    "only asked to be no root": Stage.NONZERO,
+    "infinity first": Stage.INFINITY,
+}
+"""The stage without which a method is not tried. Decomposition takes what all others leave, and nobody but the caller
+asks for coverings."""
 
 SPOKEN = {
     "auto": "no method",
@@ -128,6 +141,7 @@ STRATEGY: tuple[Attempt, ...] = (
     Attempt(Scope.BLOCK, "cad", on.complete),
     Attempt(Scope.BLOCK, "vs", on.always, None, complete_if_closed, shorten=True),
     Attempt(Scope.INNER, "vs", on.always, FIRST, complete),
+    Attempt(Scope.INNER, "critical, convex universal", on.curved_with_parameters, SHORTCUT, complete_and_small),
     Attempt(Scope.INNER, "critical", on.never),
     Attempt(Scope.BLOCK, "cgs", on.never),
     Attempt(Scope.INNER, "cgs", on.never),
@@ -150,8 +164,8 @@ def attempts(scope: Scope, problem: Problem, options: Options) -> Iterator[tuple
             seen.add(attempt.method)
             attempt, reason = replace(attempt, when=on.always, work=None), "asked for"
         else:
-            found = attempt.when(problem, options)
-            if found is None or (attempt.method == "vs" and Stage.SUBSTITUTION in options.without):
+            found = None if LEFT_OUT_BY.get(attempt.method) in options.without else attempt.when(problem, options)
+            if found is None:
                 continue
             reason = found
         method = attempt.load()

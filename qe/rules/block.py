@@ -11,6 +11,7 @@ from qe.rules.block_context import BlockContext, Rule
 from qe.rules.cancelling import cancel_equations
 from qe.rules.cases import groebner_equations, split_factors, split_squares
 from qe.rules.degree_shift import shift_degree
+from qe.rules.exchange import exchange_variables
 from qe.rules.generic import drop_inequations
 from qe.rules.ranges import excluded_by_ranges
 from qe.rules.scaling import fix_scale
@@ -35,6 +36,7 @@ RULES: tuple[Rule, ...] = (
     cancel_equations,
     groebner_equations,
     shift_degree,
+    exchange_variables,
     split_factors,
     fix_scale,
     guarded_linear_equation,

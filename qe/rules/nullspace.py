@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from fractions import Fraction
 
 from qe.exact.quadratic_form import solve_linear
@@ -30,3 +30,12 @@ def kernel_vector(columns: Sequence[int], rows: Iterable[list[Fraction]]) -> dic
     if solved is None or not solved.kernel:
         return None
     return {c: sum(entries, Fraction(0)) for c, *entries in zip(columns, *solved.kernel, strict=True)}
+
+
+def derivative_rows(poly: Poly, columns: Sequence[int]) -> Iterator[list[Fraction]]:
+    """One row per monomial: its coefficient in each partial derivative."""
+    rows: dict[tuple[int, ...], list[Fraction]] = {}
+    for k, i in enumerate(columns):
+        for exponents, coefficient in poly.derivative(i).terms():
+            rows.setdefault(exponents, [Fraction(0)] * len(columns))[k] = Fraction(coefficient)
+    yield from rows.values()

@@ -22,6 +22,7 @@ class StepKind(Enum):
     BOUNDARY = "boundary apart"
     TRANSLATION = "translation of the origin"
     ROTATION = "rotation of the axes"
+    EXCHANGE = "two variables exchanged"
     SCALING = "homogeneous scaling"
     GROEBNER = "Groebner basis of the equations"
     CANCELLING = "multiple of an equation subtracted"

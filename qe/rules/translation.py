@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from fractions import Fraction
-
-from qe.exact.ring import Poly
 from qe.formula.build import atom
 from qe.formula.syntax import Atom, Formula, RootAtom
 from qe.formula.traverse import atoms, bound_variables
 from qe.rules.block_context import BlockContext, Found
 from qe.rules.lift import Solve
-from qe.rules.nullspace import kernel_vector, occurring
+from qe.rules.nullspace import derivative_rows, kernel_vector, occurring
 from qe.rules.rewrite import rewrite
 from qe.rules.step import StepKind
 from qe.rules.tree import Lifted, Pending
@@ -35,7 +31,7 @@ def fix_origin(variables: tuple[str, ...], body: Formula, context: BlockContext)
     if inner & set(body.free):
         return None
     polys, columns = occurring(body, frozenset(variables) | inner)
-    direction = kernel_vector(columns, (row for poly in polys for row in _derivatives(poly, columns)))
+    direction = kernel_vector(columns, (row for poly in polys for row in derivative_rows(poly, columns)))
     if direction is None:
         return None
     ring = polys[0].ring
@@ -53,12 +49,3 @@ def fix_origin(variables: tuple[str, ...], body: Formula, context: BlockContext)
     node = Lifted((Solve(name, ring.constant(0), ring.constant(1)),), child)
     proof = {"variable": name, "weights": [(ring.names[i], w) for i, w in direction.items() if w]}
     return Found(StepKind.TRANSLATION, f"{name} = 0", node, proof)
-
-
-def _derivatives(poly: Poly, columns: Sequence[int]) -> Iterator[list[Fraction]]:
-    """One row per monomial: its coefficient in each partial derivative."""
-    rows: dict[tuple[int, ...], list[Fraction]] = {}
-    for k, i in enumerate(columns):
-        for exponents, coefficient in poly.derivative(i).terms():
-            rows.setdefault(exponents, [Fraction(0)] * len(columns))[k] = Fraction(coefficient)
-    yield from rows.values()

@@ -10,6 +10,7 @@ import pytest
 
 import qe.engine.untangle as untangle
 import qe.rules.cancelling as cancelling
+import qe.rules.exchange as exchange
 import qe.rules.gather as gather
 import qe.rules.rotation as rotation
 import qe.rules.structural as structural
@@ -29,12 +30,13 @@ from qe.rules.step import StepKind
 from qe.rules.tree import Any, Node
 from tests.certificates.test_broken_producers import Patch, accepted
 
-GATHERED, TURNED, APART, TAKEN, CANCELLED = (
+GATHERED, TURNED, APART, TAKEN, CANCELLED, EXCHANGED = (
     StepKind.GATHERING,
     StepKind.ROTATION,
     StepKind.DISTRIBUTION,
     StepKind.TAKES_VALUE,
     StepKind.CANCELLING,
+    StepKind.EXCHANGE,
 )
 
 
@@ -124,9 +126,28 @@ def equation_lost(m: pytest.MonkeyPatch) -> None:
     m.setattr(cancelling, "conj", lambda parts: conj(parts[1:]))
 
 
+def sum_alone(m: pytest.MonkeyPatch) -> None:
+    """Of two conditions that change places only the sum is kept."""
+    real = exchange._both
+    m.setattr(exchange, "_both", lambda p, q, relation, i, j: real(p, q, relation, i, j)[:1])
+
+
+def any_numbers(m: pytest.MonkeyPatch) -> None:
+    """Any two numbers count as the sum and the product of real ones."""
+    m.setattr(exchange, "conj", lambda parts: next(iter(parts)))
+
+
+def always_symmetric(m: pytest.MonkeyPatch) -> None:
+    """Nobody looks whether conditions change."""
+    m.setattr(exchange, "_symmetry", lambda poly, i, j, sign=1: True)
+
+
 CASES: dict[str, tuple[Patch, str, StepKind]] = {
     "wrong side": (wrong_side, "ex x, y. x^3 + a*x + b = 0 and y^3 + a*y + b > 0", CANCELLED),
     "equation lost": (equation_lost, "ex x, y. x^3 + a*x + b = 0 and y^3 + a*y + b = 0", CANCELLED),
+    "sum alone": (sum_alone, "ex x, y. x^3 + y^3 = a and x > b and y > b", EXCHANGED),
+    "any numbers": (any_numbers, "ex x, y. x^3 + y^3 = a and x*y > 1", EXCHANGED),
+    "not symmetric": (always_symmetric, "ex x, y. x^3 + y^3 = a and x > 1", EXCHANGED),
     "captured": (captured, "ex x. x > y and ex y. x*y > 1", GATHERED),
     "captured, dual": (captured, "all x. x > y or (all y. x*y > 1)", GATHERED),
     "disjunction": (under_or, "ex x. x > a or ex y. x*y > 1", GATHERED),

@@ -108,6 +108,28 @@ def patterned(rng: random.Random) -> Formula:
     return exists(("x", "y", "z"), conj((*equations, other, beside)))
 
 
+def exchangeable(rng: random.Random) -> Formula:
+    """Conditions on x and y that change places with each other, or stay the same."""
+    ring = Ring.of(("a", "x", "y"))
+    a, x, y = (ring.gen(i) for i in range(3))
+
+    def own(p: Poly, q: Poly) -> Poly:
+        return p**first * n + p * a * k + q**second * m - 1
+
+    parts: list[Formula] = [atom(x**3 + y**3 - x * y * a * rng.randint(1, 3) - rng.randint(0, 2), Relation.EQ)]
+    for _ in range(rng.randint(1, 2)):
+        first, second, n, k, m = (rng.randint(1, 2) for _ in range(5))
+        relation = rng.choice(tuple(Relation))
+        if rng.random() < 0.3:
+            parts.append(disj((atom(x + y - a, relation), atom((x - y) ** 2 - m, Relation.LT))))
+        elif rng.random() < 0.2:
+            parts.append(atom((x - y) * (x + y + 1), rng.choice((Relation.EQ, Relation.NE))))
+        else:
+            parts += [atom(own(x, y), relation), atom(own(y, x), relation)]
+    rng.shuffle(parts)
+    return exists(("x", "y"), conj(parts))
+
+
 def steps(given_: Formula, kind: StepKind) -> Iterator[Step]:
     log = RunLog()
     prepare(given_, enabled={kind}, log=log)
@@ -120,6 +142,7 @@ MADE = {
     StepKind.DISTRIBUTION: solvable,
     StepKind.TAKES_VALUE: met,
     StepKind.CANCELLING: patterned,
+    StepKind.EXCHANGE: exchangeable,
 }
 
 

@@ -1,4 +1,4 @@
-"""What the tables for newcomers from other systems promise is run."""
+"""What the tables for newcomers from other systems promise is run, and the table of gains names every stage."""
 
 from __future__ import annotations
 
@@ -10,7 +10,8 @@ import sympy
 
 import qe
 
-TEXT = (Path(__file__).resolve().parents[2] / "docs" / "coming-from.md").read_text()
+DOCS = Path(__file__).resolve().parents[2] / "docs"
+TEXT = (DOCS / "coming-from.md").read_text()
 ROWS = [line.split(" | ") for line in TEXT.splitlines() if line.startswith(("| `", "| reading"))]
 CALL = re.compile(r"`(qe\.[a-z_]+\(.*?\)(?:\.\w+(?:\(\))?)?)`")
 CALLS = [call for row in ROWS for call in CALL.findall(row[1]) if "…" not in call]
@@ -25,3 +26,8 @@ def test_call(call: str) -> None:
     x, b = sympy.symbols("x b")
     formula = qe.eliminate("ex z. x^2 + y^2 + z^2 < 1").formula
     assert eval(call, {"qe": qe, "sympy": sympy, "x": x, "b": b, "formula": formula}) is not None
+
+
+def test_every_stage_has_its_rows_in_the_table_of_gains() -> None:
+    gains = (DOCS / "algorithms.md").read_text().partition("## What each step gains")[2]
+    assert set(re.findall(r"^\| `(\w+)`", gains, re.M)) == {stage.value for stage in qe.Stage} | {"coverings"}

@@ -3,7 +3,9 @@
 import pytest
 
 from experiments import baseline
+from experiments.adapters.answer import Limits
 from experiments.baseline import Entry
+from experiments.problem import Problem
 from experiments.results import Log, Status
 from qe.errors import InputError
 from tests.experiments.test_results import result
@@ -64,3 +66,26 @@ def test_answers_are_compared_by_equivalence(monkeypatch):
     ]
     found = [(a.id, word) for a, _, word in baseline.different(old, new, memory=2048)]
     assert found == [("other", "different")]
+
+
+def test_the_engines_of_two_folders_take_turns_and_their_medians_are_compared(tmp_path):
+    trees = (tmp_path / "old", tmp_path / "new")
+    for tree, answer in zip(trees, ("x > 0", "2*x > 0"), strict=True):
+        (tree / "experiments").mkdir(parents=True)
+        (tree / "experiments" / "__init__.py").touch()
+        report = {"status": "solved", "answer": answer, "seconds": 0.01, "cpu": 0.01}
+        note = f"open({str(tmp_path / 'turns')!r}, 'a').write({tree.name!r} + ' ')"
+        (tree / "experiments" / "adapters.py").write_text(f"import json\n{note}\nprint(json.dumps({report!r}))\n")
+    shown = []
+    problem = Problem("public", "p", "ex y. y^2*x > 0", "x > 0")
+    old, new = baseline.pair(problem, trees, Limits(30, 500), repeat=2, show=shown.append)
+    assert (tmp_path / "turns").read_text().split() == ["old", "new"] * 2
+    assert (old.answer, new.answer, old.length, new.length) == ("x > 0", "2*x > 0", 5, 7)
+    assert old.is_solved and new.is_solved and "5 to 7 characters" in shown[0]
+    assert not list(baseline.different([old], [new], memory=500, known=[problem]))
+
+
+def test_the_problems_that_lost_most_seconds_come_first():
+    old = [entry("a", 1.0), entry("b", 1.0), entry("c", 1.0), entry("d", 1.0)]
+    new = [entry("a", 2.0), entry("b", 9.0), entry("c", 0.5), entry("d", 10.0, Status.TIMEOUT, "")]
+    assert [a.id for a, _ in baseline.slowed(zip(old, new, strict=True))] == ["b", "a"]

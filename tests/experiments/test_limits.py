@@ -6,7 +6,7 @@ import time
 
 import pytest
 
-from experiments.limits import Ending, group_memory, run_limited
+from experiments.limits import Ending, group_use, run_limited
 from tests.experiments.fakes import BUSY, HOG, Solver, fake
 
 TASK = "{}"
@@ -37,7 +37,13 @@ def test_the_limit_counts_from_the_first_output():
 def test_a_silent_program_gets_the_time_of_its_start():
     program = [sys.executable, "-c", "import time; time.sleep(0.6); print('late')"]
     assert run_limited(program, TASK, seconds=0.3, memory=500, start_up=5.0).out == "late\n"
-    assert run_limited(program, TASK, seconds=0.3, memory=500).ending is Ending.TIME
+    assert run_limited(program, TASK, seconds=0.1, memory=500).ending is Ending.TIME
+
+
+def test_a_program_that_waits_has_a_multiple_of_the_limit():
+    program = [sys.executable, "-c", "import time; print('ready', flush=True); time.sleep(0.6); print('late')"]
+    done = run_limited(program, TASK, seconds=0.4, memory=500, start_up=5.0)
+    assert (done.ending, done.out) == (Ending.FINISHED, "ready\nlate\n")
 
 
 def test_a_memory_hog_is_stopped_and_reported():
@@ -72,9 +78,10 @@ def test_a_helper_that_stays_behind_is_ended(after):
     assert not alive(helper)
 
 
-def test_the_memory_of_a_group_is_seen():
-    assert group_memory(os.getpgrp()) > 10
-    assert group_memory(2**22 + 1) == 0
+def test_the_memory_and_the_processor_time_of_a_group_are_seen():
+    memory, seconds = group_use(os.getpgrp())
+    assert memory > 10 and seconds >= time.process_time() - 0.1
+    assert group_use(2**22 + 1) == (0, 0)
 
 
 def test_a_run_ends_even_when_nobody_watches():

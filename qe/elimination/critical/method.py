@@ -26,6 +26,7 @@ from qe.elimination.critical import (
     eliminate_block,
     eliminate_universal,
 )
+from qe.elimination.critical.apart import Piece, taken_apart
 from qe.elimination.critical.degenerate import thin_universal
 from qe.elimination.protocol import Context, Outcome, Problem
 from qe.errors import Unable
@@ -33,8 +34,9 @@ from qe.exact.fibre_stack import isolate_over
 from qe.exact.nearby import approximation, rational_values
 from qe.exact.ring import Poly, Ring
 from qe.exact.sample import Point
-from qe.formula.build import atom, conj, convert, disj, exists
+from qe.formula.build import atom, conj, convert, disj, exists, forall
 from qe.formula.evaluate import substituted, truth_under
+from qe.formula.normal import nnf
 from qe.formula.syntax import FALSE, TRUE, ForAll, Formula, Relation
 from qe.formula.traverse import conjuncts, polynomials
 from qe.options import Budget, Options, Projection, Stage
@@ -42,6 +44,9 @@ from qe.proof.cells import FreeCell
 from qe.simplify.simplify import simplify
 
 RULE = "critical values"
+
+FEW = 2
+"""So many parameters a convex truth set may have."""
 
 MOST_CUTS = 4
 """How often stray points of a formula read from open cells are cut away before the whole table is made."""
@@ -102,29 +107,59 @@ class ConvexUniversal:
     name = "critical"
 
     def suits(self, problem: Problem, options: Options) -> str | None:
-        """Universal blocks over quantifier-free bodies, one or two parameters."""
-        return "a convex truth set" if problem.universal and problem.is_flat and 0 < len(problem.free) <= 2 else None
+        """Universal blocks over quantifier-free bodies, one or two parameters; more, if its pieces look at as few."""
+        few = 0 < len(problem.free) <= FEW or (problem.universal and problem.is_flat and pieces_of(problem))
+        return "a convex truth set" if problem.universal and problem.is_flat and few else None
 
     def run(self, problem: Problem, context: Context) -> Outcome | None:
         """None where the set is not seen to be convex. Raises ``Unable`` where side conditions are not met."""
-        start = time.perf_counter()
-        budget = context.budget
-        negated = simplify(problem.positive)
+        if len(problem.free) > FEW:
+            return self.apart(problem, context)
+        negated, budget = simplify(problem.positive), context.budget
         order = _order(problem.variables, negated, context.options)
-        found = eliminate_universal(problem.variables, negated, order, procedures=procedures(budget), budget=budget)
-        if found is None:
+        formula = self.convex(problem.variables, negated, order, context)
+        if formula is None:
             thin = thin_universal(ForAll(problem.variables, problem.body), negated, order, budget)
             if thin is None:
                 return None
             known = {"proof": thin.evidence}
             return Outcome(context.log.step("degenerate truth set", problem.formula, thin.formula, evidence=known))
+        return Outcome(context.log.step(RULE, problem.formula, formula), order=order)
+
+    def apart(self, problem: Problem, context: Context) -> Outcome | None:
+        """The block by its pieces, each in one or two parameters."""
+        pieces, formulas = pieces_of(problem), list[Formula]()
+        for piece in pieces:
+            order = _order(problem.variables, piece.body, context.options)
+            formula = self.convex(problem.variables, piece.body, order, context)
+            if formula is None:
+                return None
+            formulas.append(piece.back(formula))
+        blocks = [forall(problem.variables, nnf(piece.whole, negate=True)) for piece in pieces]
+        context.log.step("simplification", problem.formula, conj(blocks))
+        for block, formula in zip(blocks, formulas, strict=True):
+            context.log.step(RULE, block, formula)
+        return Outcome(conj(formulas))
+
+    def convex(
+        self, variables: Sequence[str], negated: Formula, order: tuple[str, ...], context: Context
+    ) -> Formula | None:
+        """``all variables. not negated``, if its truth set is seen to be convex with interior points."""
+        start, budget = time.perf_counter(), context.budget
+        found = eliminate_universal(variables, negated, order, procedures=procedures(budget), budget=budget)
+        if found is None:
+            return None
         assert isinstance(found.found, ConvexBody)
         answer = _of_open_cells(found.found, order, budget)
         if answer is None:  # in the plane the table of a convex set settles every cell
             whole = found.found.tabulate()
             answer = construct(whole.table, whole.refine)[0]
-        formula = _logged(simplify(answer), negated, order, [found], context, start)
-        return Outcome(context.log.step(RULE, problem.formula, formula), order=order)
+        return _logged(simplify(answer), negated, order, [found], context, start)
+
+
+def pieces_of(problem: Problem) -> tuple[Piece, ...]:
+    """The pieces of a universal block with many parameters, if they look at few."""
+    return taken_apart(problem.variables, simplify(problem.positive), FEW)
 
 
 def by_critical_values(variables: Sequence[str], body: Formula, context: Context) -> Found:

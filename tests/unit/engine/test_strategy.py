@@ -10,9 +10,11 @@ import pytest
 import qe
 from qe.certify.registry import RULES
 from qe.elimination.protocol import Problem
-from qe.engine.strategy import METHODS, STRATEGY, Attempt, Scope, attempts
+from qe.engine.run import SWITCHED
+from qe.engine.strategy import LEFT_OUT_BY, METHODS, STRATEGY, Attempt, Scope, attempts
 from qe.io import formats
 from qe.options import Method, Options, Stage
+from qe.rules.step import StepKind
 from tests.differential.generate import LARGE, NESTED, SMALL, random_formula
 
 CONVEX = "ex x, y, z, u. x^2 + y^2 + z^2 + u^2 <= 1 and x + y + z + u >= 2"
@@ -38,6 +40,19 @@ def test_every_attempt_loads_and_every_method_has_one() -> None:
         method = attempt.load()
         assert attempt.method.startswith(method.name), attempt
     assert {attempt.method for attempt in STRATEGY} == set(METHODS)
+
+
+def test_everything_but_simplification_and_decomposition_can_be_left_out() -> None:
+    assert frozenset().union(*SWITCHED.values()) == set(StepKind) - {StepKind.SIMPLIFY}
+    assert set(LEFT_OUT_BY) == set(METHODS) - {"cad", "coverings"}
+
+
+@pytest.mark.parametrize("name", [name for name in QUESTIONS if name in LEFT_OUT_BY])
+def test_a_method_left_out_is_not_tried(name: str) -> None:
+    for scope in Scope:
+        without = Options(without=frozenset({LEFT_OUT_BY[name]}))
+        tried = [attempt.method for attempt, _, _ in attempts(scope, problem(QUESTIONS[name]), without)]
+        assert not any(LEFT_OUT_BY.get(method) is LEFT_OUT_BY[name] for method in tried)
 
 
 @pytest.mark.parametrize("name", QUESTIONS)

@@ -1,0 +1,151 @@
+"""Two variables that can be exchanged: their sum and product in their place.
+
+THEOREM. Let f be unchanged when x and y change places. If f(x, y) iff g(x + y, x*y), then ex x, y f iff ex x, y (g and
+x^2 - 4*y >= 0): s and p are the sum and the product of real numbers iff t^2 - s*t + p has a real root. Every polynomial
+that the exchange leaves alone is one in x + y and x*y (the theorem on symmetric polynomials). Two conditions p rel 0
+and q rel 0 that change places say the same as p + q rel 0 and p*q > 0 (rel is < or >), p*q >= 0 (<= or >=), p*q = 0
+(=), and p*q /= 0 alone (/=). A solution of the right side lifts to the roots of t^2 - s*t + p.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import combinations
+
+from qe.exact.ring import Poly, Ring
+from qe.formula.build import atom, conj
+from qe.formula.syntax import Atom, Constant, Formula, Relation, RootAtom
+from qe.formula.traverse import atoms, bound_variables, conjuncts, map_atoms
+from qe.rules.block_context import BlockContext, Found
+from qe.rules.lift import Assignment, Solve, Value, root, simplest, value_at
+from qe.rules.step import StepKind
+from qe.rules.tree import Lifted, Pending
+
+_TERMS, _DEGREE = 600, 12
+"""So many terms in all atoms, and degrees, up to which the rule looks."""
+
+
+def exchange_variables(variables: tuple[str, ...], body: Formula, context: BlockContext) -> Found | None:
+    """The theorem on the first two variables of the block that it makes simpler."""
+    if StepKind.EXCHANGE not in context.enabled or len(variables) < 2:
+        return None
+    found = list(atoms(body))
+    if any(isinstance(a, RootAtom) for a in found) or sum(a.poly.term_count() for a in found) > _TERMS:
+        return None
+    inner = frozenset(bound_variables(body))
+    for x, y in combinations([v for v in variables if v not in inner], 2):
+        ring = found[0].poly.ring
+        i, j = ring.index[x], ring.index[y]
+        new = None if _is_easy(body, i, j) else by_sum_and_product(body, i, j)
+        if new is not None and _is_simpler(new, body, i, j):
+            after = conj((new, atom(ring.gen(i) ** 2 - ring.gen(j) * 4, Relation.GE)))
+            if isinstance(after, Constant):
+                return None
+            node = Lifted((_larger(ring, x, y), SmallerRoot(y, x)), Pending(variables, after))
+            return Found(StepKind.EXCHANGE, f"{x} + {y}, {x}*{y}", node, {"variables": [x, y]})
+    return None
+
+
+def _is_easy(body: Formula, i: int, j: int) -> bool:
+    """Whether the degrees in both variables differ, are too large, or substitution and convexity have them anyway."""
+    polys = [a.poly for a in atoms(body)]
+    degree, other = (max(p.degree(k) for p in polys) for k in (i, j))
+    if degree != other or not 2 <= degree <= _DEGREE:
+        return True
+    bound = [p for p in polys if p.degree(i)]
+    curved = any(max(map(sum, p.collected((i, j)))) > 2 for p in bound)
+    return not curved and not any(isinstance(a, Atom) and a.relation is Relation.EQ for a in atoms(body))
+
+
+def _is_simpler(new: Formula, body: Formula, i: int, j: int) -> bool:
+    """Whether the sum or the product has a smaller degree than the variables had."""
+    after = [a.poly for a in atoms(new)]
+    sums, products = max((p.degree(i) for p in after), default=0), max((p.degree(j) for p in after), default=0)
+    return min(max(sums, 2), max(products, 1)) < max(a.poly.degree(i) for a in atoms(body))
+
+
+def by_sum_and_product(body: Formula, i: int, j: int) -> Formula | None:
+    """g of the theorem, with the names of the two variables for their sum and product; None where f may change."""
+    parts: list[Formula] = []
+    left = list(conjuncts(body))
+    while left:
+        part = left.pop(0)
+        if all(_symmetry(a.poly, i, j) or (_symmetry(a.poly, i, j, -1) and _is_of_squares(a)) for a in atoms(part)):
+            parts.append(map_atoms(part, lambda a: _in_new_terms(a, i, j)))
+            continue
+        if not isinstance(part, Atom):
+            return None
+        p, q = part.poly, _swapped(part.poly, i, j)
+        other = atom(q, part.relation)
+        if other not in left:
+            return None
+        left.remove(other)
+        parts += _both(p, q, part.relation, i, j)
+    return conj(parts)
+
+
+def _symmetry(poly: Poly, i: int, j: int, sign: int = 1) -> bool:
+    """Whether the exchange multiplies the polynomial by the sign."""
+    return _swapped(poly, i, j) == poly * sign
+
+
+def _is_of_squares(found: Atom | RootAtom) -> bool:
+    """Whether p^2 may stand for p: in equations and inequations."""
+    return isinstance(found, Atom) and found.relation in (Relation.EQ, Relation.NE)
+
+
+def _in_new_terms(found: Atom | RootAtom, i: int, j: int) -> Formula:
+    poly = found.poly if _symmetry(found.poly, i, j) else found.poly**2
+    return atom(symmetric(poly, i, j), found.relation)
+
+
+def _both(p: Poly, q: Poly, relation: Relation, i: int, j: int) -> tuple[Formula, ...]:
+    """p rel 0 and q rel 0, for polynomials that change places."""
+    product = symmetric(p * q, i, j)
+    if relation is Relation.NE:
+        return (atom(product, relation),)
+    positive = Relation.GT if relation.is_strict else Relation.GE
+    return atom(symmetric(p + q, i, j), relation), atom(product, relation if relation is Relation.EQ else positive)
+
+
+def _swapped(poly: Poly, i: int, j: int) -> Poly:
+    return poly.compose({i: poly.ring.gen(j), j: poly.ring.gen(i)})
+
+
+def symmetric(poly: Poly, i: int, j: int) -> Poly:
+    """q with q(x + y, x*y) = poly(x, y) for a polynomial that stays the same when its variables i and j change places.
+
+    By Newton's power sums: x^a*y^b + x^b*y^a = (x*y)^b * (x^(a-b) + y^(a-b)).
+    """
+    ring = poly.ring
+    s, p, result = ring.gen(i), ring.gen(j), ring.constant(0)
+    sums = [ring.constant(2), s]
+    for (a, b), c in poly.collected((i, j)).items():
+        if a < b:
+            continue
+        while len(sums) <= a - b:
+            sums.append(s * sums[-1] - p * sums[-2])
+        result = result + c * p**b * (sums[a - b] if a > b else 1)
+    return result
+
+
+def _larger(ring: Ring, x: str, y: str) -> Solve:
+    """x = s - y, where y has its value already and x still has that of the sum."""
+    return Solve(x, ring.var(x) - ring.var(y), ring.constant(1))
+
+
+@dataclass(frozen=True, slots=True)
+class SmallerRoot:
+    """variable = the smaller root of t^2 - s*t + p, where it has the value p and ``sum`` the value s."""
+
+    variable: str
+    sum: str
+
+    def value(self, assignment: Assignment) -> Value:
+        """The smaller root. Raises ``Unable`` where there is none, or no value is computed."""
+        line = Ring.of((self.sum, self.variable))
+        s, p = line.gen(0), line.gen(1)
+        distance = root(value_at(s**2 - p * 4, assignment), 2)
+        known = {self.sum: assignment.get(self.sum, Fraction(0)), self.variable: distance}
+        return simplest(value_at(s - p, known) / 2)

@@ -1,0 +1,116 @@
+"""Two variables that can be exchanged: sum and product in their place, values on the way back, forgeries refused."""
+
+from __future__ import annotations
+
+import random
+from dataclasses import replace
+from typing import NoReturn
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import qe
+from qe.certify.exchange import check_exchange
+from qe.certify.step import Claim, Limits
+from qe.errors import CertificateRejected
+from qe.exact.ring import Ring
+from qe.formula.build import atom, conj, exists
+from qe.formula.syntax import Exists, ForAll, Relation
+from qe.formula.traverse import conjuncts
+from qe.io.text import read
+from qe.options import Budget
+from qe.proof.entry import Entry
+from qe.proof.run_log import RunLog
+from qe.proof.step import Step
+from qe.rules.exchange import symmetric
+from qe.rules.lift import holds_at
+from qe.rules.preparation import prepare
+from qe.rules.step import StepKind
+
+
+def unused(*_: object) -> NoReturn:
+    """The rule replays no steps and has no certificates inside."""
+    raise AssertionError
+
+
+LIMITS = Limits(Budget(), unused, unused)
+TRIANGLE = "ex b, c. 1 + b > c and b + c > 1 and c + 1 > b and b^3 + c^3 + 1 = m*(b*c + b + c)"
+WITH_VALUES = [
+    "ex x, y. x^3 + y^3 = 9 and x*y = 2",
+    "ex x, y. x^3 + y^3 = 1 and x < 2 and y < 2 and x /= 1 and y /= 1 and x /= y",
+    "ex x, y. x^4 + y^4 = 1 and x + y > 1 and (x*y > 1 or 3*x*y < 1)",
+    "all x, y. x^3 + y^3 /= 3 or x <= 1 or y <= 1",
+]
+
+
+@settings(deadline=None, max_examples=30, derandomize=True)
+@given(seed=st.integers(0, 10**9))
+def test_symmetric_polynomials_by_sum_and_product(seed: int) -> None:
+    rng, ring = random.Random(seed), Ring.of(("a", "x", "y"))
+    x, y = ring.var("x"), ring.var("y")
+    poly = ring.constant(rng.randint(-3, 3))
+    for _ in range(3):
+        m, n = rng.randint(0, 4), rng.randint(0, 4)
+        poly = poly + (x**m * y**n + x**n * y**m) * ring.var("a") ** rng.randint(0, 1) * rng.randint(-3, 3)
+    assert symmetric(poly, 1, 2).compose({1: x + y, 2: x * y}) == poly
+
+
+def step_of(text: str) -> Step | None:
+    log = RunLog()
+    prepare(read(text), enabled={StepKind.EXCHANGE}, log=log)
+    return next((step for step in log.steps() if step.rule == StepKind.EXCHANGE.value), None)
+
+
+@pytest.mark.parametrize("text", WITH_VALUES)
+def test_the_way_back_gives_values(text: str) -> None:
+    assert step_of(text) is not None
+    answer = qe.eliminate(text)
+    assert answer.formula == qe.eliminate(text, without=("exchange",)).formula
+    sentence = read(text)
+    assert isinstance(sentence, Exists | ForAll) and answer.witness is not None
+    assert holds_at(sentence.body, answer.witness) is isinstance(sentence, Exists)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "ex x, y. x^3 + y^3 = a and x > 1",
+        "ex x, y. x^3 + 2*y^3 = a and x*y > 1",
+        "ex x, y. x^3 + y^3 = a and (x > 1 or y > 2)",
+        "ex x, y. x^3 + y^3 = a and (all y. y^2 > x)",
+        "ex x, y. x^2 + y^2 < a and x + y > b",
+        "ex x, y. x*y = a and x + y > b",
+    ],
+)
+def test_what_changes_or_is_easy_anyway_is_left_alone(text: str) -> None:
+    assert step_of(text) is None
+
+
+def test_a_triangle_inequality_has_the_same_answer() -> None:
+    answer = qe.eliminate(TRIANGLE)
+    assert qe.equivalent(answer.formula, qe.eliminate(TRIANGLE, without=("exchange",)).formula)
+    assert "two variables exchanged: b + c, b*c" in str(answer.stats["preparation"])
+
+
+@pytest.fixture
+def right() -> Claim:
+    step = step_of(TRIANGLE)
+    assert step is not None and step.before.ring is not None
+    proof = Entry({"variables": ["b", "c"]}, "step")
+    return Claim(step.rule, step.before, step.after, step.before.ring, proof, "step")
+
+
+def test_forged_steps_are_refused(right: Claim) -> None:
+    check_exchange(right, (), LIMITS)
+    assert isinstance(right.after, Exists)
+    names, ring, parts = right.after.variables, right.ring, conjuncts(right.after.body)
+    forged = [exists(names, conj(p for p in parts if p != part)) for part in parts]
+    more = atom(ring.var("b") - 7, Relation.GT)
+    forged += [exists(names, conj((*parts, more))), exists(names[:1], right.after.body), right.before]
+    for after in forged:
+        with pytest.raises(CertificateRejected):
+            check_exchange(replace(right, after=after), (), LIMITS)
+    for listed in (["b", "b"], ["b"], ["b", "m"], ["c", "b"], []):
+        with pytest.raises(CertificateRejected):
+            check_exchange(replace(right, evidence=Entry({"variables": listed}, "step")), (), LIMITS)
