@@ -22,6 +22,7 @@ from qe.certify.infinity_first import check_infinity_first
 from qe.certify.instance import check_instance
 from qe.certify.linear_equation import check_guarded_linear, check_linear
 from qe.certify.miniscoping import check_miniscoping
+from qe.certify.mirror import check_mirror
 from qe.certify.negation import check_negation
 from qe.certify.no_solutions import check_no_solutions
 from qe.certify.open_block import check_open_block
@@ -61,6 +62,7 @@ RULES: Mapping[str, Check] = {
     "translation of the origin": check_translation,
     "homogeneous scaling": check_scaling,
     "rotation of the axes": check_rotation,
+    "mirror images of a convex set": check_mirror,
     "nested blocks of one kind gathered": check_gathering,
     "disjuncts with equations apart": check_distribution,
     "value that is taken": check_value_taken,

@@ -23,6 +23,7 @@ class StepKind(Enum):
     TRANSLATION = "translation of the origin"
     ROTATION = "rotation of the axes"
     SCALING = "homogeneous scaling"
+    MIRROR = "mirror images of a convex set"
     GROEBNER = "Groebner basis of the equations"
     CANCELLING = "multiple of an equation subtracted"
     FACTOR_SPLIT = "case split on factors"
@@ -33,7 +34,7 @@ class StepKind(Enum):
 
 ALL_STEPS = frozenset(StepKind)
 EQUATION_STEPS = frozenset({StepKind.LINEAR, StepKind.GUARDED_LINEAR, StepKind.GROEBNER, StepKind.CANCELLING})
-SYMMETRY_STEPS = frozenset({StepKind.TRANSLATION, StepKind.ROTATION, StepKind.SCALING})
+SYMMETRY_STEPS = frozenset({StepKind.TRANSLATION, StepKind.ROTATION, StepKind.SCALING, StepKind.MIRROR})
 POINTWISE_STEPS = frozenset(
     {StepKind.SIMPLIFY, StepKind.MINISCOPE, StepKind.GROEBNER, StepKind.FACTOR_SPLIT, StepKind.SUM_OF_SQUARES}
 )
