@@ -32,6 +32,7 @@ from qe.certify.replayed_block import check_replayed_block
 from qe.certify.roots_counted import check_roots_counted
 from qe.certify.rotation import check_rotation
 from qe.certify.sentence import check_sentence
+from qe.certify.shear import check_shear
 from qe.certify.step import Check
 from qe.certify.symmetry import check_scaling, check_translation
 from qe.certify.table import check_table
@@ -62,6 +63,7 @@ RULES: Mapping[str, Check] = {
     "translation of the origin": check_translation,
     "homogeneous scaling": check_scaling,
     "rotation of the axes": check_rotation,
+    "linear form as a variable": check_shear,
     "mirror images of a convex set": check_mirror,
     "nested blocks of one kind gathered": check_gathering,
     "disjuncts with equations apart": check_distribution,

@@ -14,6 +14,7 @@ from qe.rules.degree_shift import shift_degree
 from qe.rules.generic import drop_inequations
 from qe.rules.ranges import excluded_by_ranges
 from qe.rules.scaling import fix_scale
+from qe.rules.shear import linear_form
 from qe.rules.squares import known_signs
 from qe.rules.step import StepKind
 from qe.rules.structural import guarded_linear_equation, independent_parts, linear_equation, solvable_disjuncts
@@ -35,6 +36,7 @@ RULES: tuple[Rule, ...] = (
     cancel_equations,
     groebner_equations,
     shift_degree,
+    linear_form,
     split_factors,
     fix_scale,
     guarded_linear_equation,

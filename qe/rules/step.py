@@ -23,6 +23,7 @@ class StepKind(Enum):
     TRANSLATION = "translation of the origin"
     ROTATION = "rotation of the axes"
     SCALING = "homogeneous scaling"
+    SHEAR = "linear form as a variable"
     MIRROR = "mirror images of a convex set"
     GROEBNER = "Groebner basis of the equations"
     CANCELLING = "multiple of an equation subtracted"
@@ -34,7 +35,7 @@ class StepKind(Enum):
 
 ALL_STEPS = frozenset(StepKind)
 EQUATION_STEPS = frozenset({StepKind.LINEAR, StepKind.GUARDED_LINEAR, StepKind.GROEBNER, StepKind.CANCELLING})
-SYMMETRY_STEPS = frozenset({StepKind.TRANSLATION, StepKind.ROTATION, StepKind.SCALING, StepKind.MIRROR})
+SYMMETRY_STEPS = frozenset({StepKind.TRANSLATION, StepKind.ROTATION, StepKind.SCALING, StepKind.MIRROR, StepKind.SHEAR})
 POINTWISE_STEPS = frozenset(
     {StepKind.SIMPLIFY, StepKind.MINISCOPE, StepKind.GROEBNER, StepKind.FACTOR_SPLIT, StepKind.SUM_OF_SQUARES}
 )

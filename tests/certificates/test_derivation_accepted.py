@@ -38,6 +38,7 @@ ALWAYS = {
     "nested blocks of one kind gathered",
     "rotation of the axes",
     "mirror images of a convex set",
+    "linear form as a variable",
     "disjuncts with equations apart",
 }
 """Rules whose steps need little or no search for evidence."""
