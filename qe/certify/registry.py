@@ -23,6 +23,7 @@ from qe.certify.infinity_first import check_infinity_first
 from qe.certify.instance import check_instance
 from qe.certify.linear_equation import check_guarded_linear, check_linear
 from qe.certify.miniscoping import check_miniscoping
+from qe.certify.mirror import check_mirror
 from qe.certify.negation import check_negation
 from qe.certify.no_solutions import check_no_solutions
 from qe.certify.open_block import check_open_block
@@ -32,6 +33,7 @@ from qe.certify.replayed_block import check_replayed_block
 from qe.certify.roots_counted import check_roots_counted
 from qe.certify.rotation import check_rotation
 from qe.certify.sentence import check_sentence
+from qe.certify.shear import check_shear
 from qe.certify.step import Check
 from qe.certify.symmetry import check_scaling, check_translation
 from qe.certify.table import check_table
@@ -63,6 +65,8 @@ RULES: Mapping[str, Check] = {
     "two variables exchanged": check_exchange,
     "homogeneous scaling": check_scaling,
     "rotation of the axes": check_rotation,
+    "linear form as a variable": check_shear,
+    "mirror images of a convex set": check_mirror,
     "nested blocks of one kind gathered": check_gathering,
     "disjuncts with equations apart": check_distribution,
     "value that is taken": check_value_taken,

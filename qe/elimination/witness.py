@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import random
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
 from itertools import chain, combinations, islice
 from math import lcm
@@ -26,10 +26,11 @@ from qe.formula.build import atom, conj, disj, exists, forall, neg
 from qe.formula.evaluate import holds_at
 from qe.formula.normal import nnf, rename_apart
 from qe.formula.syntax import TRUE, And, Atom, Exists, ForAll, Formula, Or, Relation, RootAtom
-from qe.formula.traverse import atoms, map_atoms
+from qe.formula.traverse import atoms, conjuncts, map_atoms, subformulas
 from qe.options import Budget, Options
 from qe.proof.run_log import RunLog
 from qe.rules.preparation import prepare
+from qe.rules.step import ALL_STEPS, StepKind
 from qe.simplify.simplify import simplify
 
 MOST = 500
@@ -37,6 +38,16 @@ MOST = 500
 
 PROBES, UNPROBED = 8, 200
 """Parameter points at which a candidate must hold before a proof is tried; candidates tried where there are none."""
+
+
+WITHOUT_CASES = ALL_STEPS - {
+    StepKind.GUARDED_LINEAR,
+    StepKind.FACTOR_SPLIT,
+    StepKind.SUM_OF_SQUARES,
+    StepKind.SCALING,
+    StepKind.DISTRIBUTION,
+}
+"""Preparation that does not fan out: of many cases each would need a witness of its own, and it takes seconds."""
 
 
 RULE = "witness in the parameters"
@@ -103,7 +114,7 @@ def find(sentence: Formula, *, budget: Budget, log: RunLog | None = None) -> tup
     """Witnesses for the existential blocks that together prove the sentence; None when none were found."""
     log = log or RunLog()
     apart = log.step("renaming", sentence, rename_apart(sentence))
-    return _prove(log.step("negation normal form", apart, nnf(apart)), TRUE, budget, log)
+    return _Search(budget, log).prove(log.step("negation normal form", apart, nnf(apart)), TRUE)
 
 
 def instantiate(sentence: Formula, terms: Mapping[str, Term]) -> Formula:
@@ -169,39 +180,73 @@ def _composed(poly: Poly, terms: Mapping[str, Term]) -> Poly:
 
 
 # --- the proof --------------------------------------------------------------------------------------------
-def _prove(formula: Formula, known: Formula, budget: Budget, log: RunLog) -> tuple[PolynomialWitness, ...] | None:
-    """Witnesses that prove ``formula``, in negation normal form, where ``known`` holds."""
-    if formula.is_quantifier_free:
-        if simplify(formula, known) != TRUE:
-            return None
-        log.step("simplification", formula, TRUE, context=known)
-        return ()
-    match formula:
-        case ForAll(_, body):
-            return _prove(body, known, budget, log)
-        case And(args):
-            parts = [_prove(a, known, budget, log) for a in args]
-            return None if any(p is None for p in parts) else tuple(w for p in parts if p is not None for w in p)
-        case Or(args):
-            plain = [a for a in args if a.is_quantifier_free]
-            extended = conj((known, *(nnf(neg(a)) for a in plain)))
-            for a in args:
-                mark = log.mark()
-                found = None if a.is_quantifier_free else _prove(a, extended, budget, log)
-                if found is not None:
-                    return found
-                log.forget_steps(mark)
-            return None
-        case Exists():
-            ready = prepare(formula, budget=budget, log=log).formula
-            if not isinstance(ready, Exists):
-                return _prove(ready, known, budget, log)
-            witness = _witness(ready, known, budget) if ready.body.is_quantifier_free else None
-            if witness is None:
+Witnesses = tuple[PolynomialWitness, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class _Search:
+    """``barren``: blocks for which nothing is tried, found out once however often they occur."""
+
+    budget: Budget
+    log: RunLog
+    barren: set[Formula] = field(default_factory=set)
+
+    def prove(self, formula: Formula, known: Formula) -> Witnesses | None:
+        """Witnesses that prove ``formula``, in negation normal form, where ``known`` holds."""
+        if formula.is_quantifier_free:
+            if simplify(formula, known) != TRUE:
                 return None
-            log.step(RULE, ready, TRUE, context=known, evidence={"proof": {"equations": witness.equations()}})
-            return (witness,)
-    return None
+            self.log.step("simplification", formula, TRUE, context=known)
+            return ()
+        match formula:
+            case ForAll(_, body):
+                return self.prove(body, known)
+            case And(args):
+                parts = [self.prove(a, known) for a in args]
+                return None if any(p is None for p in parts) else tuple(w for p in parts if p is not None for w in p)
+            case Or(args):
+                return self.one_of(args, known)
+            case Exists():
+                return self.block(formula, known)
+        return None
+
+    def one_of(self, args: Sequence[Formula], known: Formula) -> Witnesses | None:
+        """A disjunct with quantifiers, proved where those without fail."""
+        plain = [a for a in args if a.is_quantifier_free]
+        extended = conj((known, *(nnf(neg(a)) for a in plain)))
+        for a in args:
+            mark = self.log.mark()
+            found = None if a.is_quantifier_free else self.prove(a, extended)
+            if found is not None:
+                return found
+            self.log.forget_steps(mark)
+        return None
+
+    def block(self, formula: Exists, known: Formula) -> Witnesses | None:
+        """An existential block: prepared without case distinctions, then by a candidate."""
+        if formula in self.barren:
+            return None
+        if any(isinstance(inside, ForAll) for inside in subformulas(formula)):
+            return None  # preparation would have to decide it, and hardly ever does
+        ready = prepare(formula, budget=self.budget, enabled=WITHOUT_CASES, log=self.log).formula
+        if not isinstance(ready, Exists):
+            return self.prove(ready, known)
+        if not ready.body.is_quantifier_free or _is_barren(ready):
+            self.barren.add(formula)
+            return None
+        witness = _witness(ready, known, self.budget)
+        if witness is None:
+            return None
+        self.log.step(RULE, ready, TRUE, context=known, evidence={"proof": {"equations": witness.equations()}})
+        return (witness,)
+
+
+def _is_barren(block: Exists) -> bool:
+    """Whether no minimiser can be expected to do: there is none, or equations that preparation could not solve are left
+    among the conditions."""
+    own = set(block.variables)
+    equations = (a for a in conjuncts(block.body) if isinstance(a, Atom) and a.relation is Relation.EQ)
+    return any(own & set(a.free) for a in equations) or next(_candidates(block), None) is None
 
 
 def _witness(block: Exists, known: Formula, budget: Budget) -> PolynomialWitness | None:

@@ -30,6 +30,8 @@ RULES: Mapping[str, str] = {
     "translation of the origin": "All polynomials are constant along a direction: one coordinate may be zero.",
     "nested blocks of one kind gathered": "A quantifier may also stand before conditions without its variables.",
     "rotation of the axes": "All polynomials are constant along a rotation: one coordinate may be zero.",
+    "linear form as a variable": "Where m is not 0, m*x + n takes every value as x does.",
+    "mirror images of a convex set": "With a point a convex set contains the middle between it and its mirror image.",
     "disjuncts with equations apart": "A disjunction holds somewhere if and only if one of its members does.",
     "homogeneous scaling": "All polynomials are homogeneous: one coordinate may be -1, 0 or 1.",
     "Groebner basis of the equations": "The equations have the same common zeros as others (Buchberger 1965).",

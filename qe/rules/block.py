@@ -15,6 +15,7 @@ from qe.rules.exchange import exchange_variables
 from qe.rules.generic import drop_inequations
 from qe.rules.ranges import excluded_by_ranges
 from qe.rules.scaling import fix_scale
+from qe.rules.shear import linear_form
 from qe.rules.squares import known_signs
 from qe.rules.step import StepKind
 from qe.rules.structural import guarded_linear_equation, independent_parts, linear_equation, solvable_disjuncts
@@ -36,6 +37,7 @@ RULES: tuple[Rule, ...] = (
     cancel_equations,
     groebner_equations,
     shift_degree,
+    linear_form,
     exchange_variables,
     split_factors,
     fix_scale,

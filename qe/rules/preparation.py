@@ -85,12 +85,17 @@ def _block(formula: Exists | ForAll, context: BlockContext) -> Node:
     """The tree of an existential block, or of the negation of a universal one, inner blocks prepared first."""
     from qe.rules.block import reduce_block  # all rules, loaded where there is a block
     from qe.rules.gather import gathered
+    from qe.rules.mirror import at_fixed_points
     from qe.rules.symmetry import without_rotations
     from qe.rules.tree import Lifted
     from qe.rules.zeros import without_implied_zeros
 
     formula = without_implied_zeros(gathered(formula, context), context)
-    variables, symmetric, rules = without_rotations(formula, context)
+    centred, rules = at_fixed_points(formula, context)
+    variables, symmetric = (), centred
+    if isinstance(centred, type(formula)):
+        variables, symmetric, turned = without_rotations(centred, context)
+        rules += turned
     body = _inside(symmetric, context)
     if isinstance(formula, Exists):
         tree = reduce_block(variables, body, context)

@@ -24,6 +24,8 @@ class StepKind(Enum):
     ROTATION = "rotation of the axes"
     EXCHANGE = "two variables exchanged"
     SCALING = "homogeneous scaling"
+    SHEAR = "linear form as a variable"
+    MIRROR = "mirror images of a convex set"
     GROEBNER = "Groebner basis of the equations"
     CANCELLING = "multiple of an equation subtracted"
     FACTOR_SPLIT = "case split on factors"
@@ -34,7 +36,7 @@ class StepKind(Enum):
 
 ALL_STEPS = frozenset(StepKind)
 EQUATION_STEPS = frozenset({StepKind.LINEAR, StepKind.GUARDED_LINEAR, StepKind.GROEBNER, StepKind.CANCELLING})
-SYMMETRY_STEPS = frozenset({StepKind.TRANSLATION, StepKind.ROTATION, StepKind.SCALING})
+SYMMETRY_STEPS = frozenset({StepKind.TRANSLATION, StepKind.ROTATION, StepKind.SCALING, StepKind.MIRROR, StepKind.SHEAR})
 POINTWISE_STEPS = frozenset(
     {StepKind.SIMPLIFY, StepKind.MINISCOPE, StepKind.GROEBNER, StepKind.FACTOR_SPLIT, StepKind.SUM_OF_SQUARES}
 )

@@ -37,6 +37,8 @@ ALWAYS = {
     "vanishing sum of squares split",
     "nested blocks of one kind gathered",
     "rotation of the axes",
+    "mirror images of a convex set",
+    "linear form as a variable",
     "disjuncts with equations apart",
 }
 """Rules whose steps need little or no search for evidence."""
