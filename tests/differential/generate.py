@@ -64,6 +64,18 @@ def random_formula(rng: random.Random, shape: Shape) -> Formula:
     return _nested(rng, ring, free, bound, shape)
 
 
+def random_alternation(rng: random.Random) -> Formula:
+    """Two to four blocks of alternating quantifiers over low degrees, with at most one free variable."""
+    free, bound = NAMES[: rng.choice((0, 0, 0, 1))], (*NAMES[2:], "w")[: rng.randint(2, 4)]
+    ring = Ring.of(free + bound)
+    degree, atoms = (2, rng.randint(2, 3)) if len(bound) < 4 else (1, rng.randint(3, 6))
+    formula, universal = _matrix(rng, ring, free + bound, degree, atoms), rng.random() < 0.5
+    for name in reversed(bound):
+        formula = (forall if universal else exists)((name,), formula)
+        universal = not universal
+    return formula
+
+
 def _matrix(rng: random.Random, ring: Ring, names: tuple[str, ...], degree: int, atoms: int) -> Formula:
     if atoms <= 1:
         return atom(random_poly(rng, ring, names, degree), rng.choice(list(Relation)))
