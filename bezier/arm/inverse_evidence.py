@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import ast
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from typing import Any
@@ -11,13 +10,10 @@ from bezier.arm.elimination import TURNS
 from bezier.arm.evidence import arm_json
 from bezier.arm.inverse import Inverse, Solution, solve
 from bezier.arm.model import Motion
+from bezier.arm.square_roots import square_roots
 from bezier.arm.wrist import centre_at, wrist_of
-from bezier.curves.scalar import rational
 from qe.certify.verify import verify
 from qe.errors import Unable
-from qe.exact.algebraic import RealAlgebraic
-from qe.exact.algebraic_text import square_part
-from qe.exact.radicals import format_number
 from qe.proof.certificate import Certificate, Kind
 from qe.proof.entry import Json
 
@@ -26,8 +22,6 @@ ATTEMPTS = ((100, 30), (260, 90), (800, 300))
 
 FAR = 8
 """t is at most about so large: else another φ is taken."""
-
-Terms = dict[int, Fraction]
 
 
 def inverse_certificate(found: Inverse) -> Certificate:
@@ -113,62 +107,6 @@ def _around(ends: tuple[Fraction, Fraction], places: int) -> Json:
     unit = Fraction(1, 1 << places)
     middle = round(sum(ends) / 2 / unit)
     return [str((middle - 2) * unit), str((middle + 2) * unit)]
-
-
-# --- exact coordinates -------------------------------------------------------------------------------------------
-
-
-def square_roots(value: Any) -> Terms:
-    """The number as a sum of factors times square roots of squarefree numbers. Raises ``Unable`` where it is none."""
-    number = rational(value)
-    if number is not None:
-        return {1: number}
-    refused = Unable("certificates of joint positions are for coordinates that are sums of square roots")
-    algebraic: RealAlgebraic = value if isinstance(value, RealAlgebraic) else value.to_algebraic()
-    try:
-        found = _terms(ast.parse(format_number(algebraic), mode="eval").body, refused)
-    except (SyntaxError, RecursionError):
-        raise refused from None
-    return {d: q for d, q in found.items() if q}
-
-
-def _terms(node: ast.expr, refused: Unable) -> Terms:
-    match node:
-        case ast.Constant(value=int() as number):
-            return {1: Fraction(number)}
-        case ast.UnaryOp(op=ast.USub(), operand=inner):
-            return _times(_terms(inner, refused), {1: Fraction(-1)})
-        case ast.BinOp(left=left, op=ast.Add() | ast.Sub() as op, right=right):
-            sign = Fraction(1 if isinstance(op, ast.Add) else -1)
-            a, b = _terms(left, refused), _times(_terms(right, refused), {1: sign})
-            return {d: a.get(d, Fraction(0)) + b.get(d, Fraction(0)) for d in {*a, *b}}
-        case ast.BinOp(left=left, op=ast.Mult(), right=right):
-            return _times(_terms(left, refused), _terms(right, refused))
-        case ast.BinOp(left=left, op=ast.Div(), right=right):
-            below = _terms(right, refused)
-            if set(below) == {1} and below[1]:
-                return _times(_terms(left, refused), {1: 1 / below[1]})
-        case ast.Call(func=ast.Name(id="sqrt"), args=[inner], keywords=[]):
-            under = _terms(inner, refused)
-            if set(under) <= {1}:
-                return _root(under.get(1, Fraction(0)))
-    raise refused
-
-
-def _root(value: Fraction) -> Terms:
-    whole = value.numerator * value.denominator
-    outside = square_part(whole)
-    return {whole // outside**2: Fraction(outside, value.denominator)}
-
-
-def _times(a: Terms, b: Terms) -> Terms:
-    found: Terms = {}
-    for d, q in a.items():
-        for e, r in b.items():
-            outside = square_part(d * e)
-            rest = d * e // outside**2
-            found[rest] = found.get(rest, Fraction(0)) + q * r * outside
-    return found
 
 
 def _triple(numbers: Sequence[Any]) -> Json:

@@ -62,7 +62,9 @@ class Positions:
         target = image(back(constants[0]), place)
         norm, third, v = _last(constants[2], e, phi)
         parts = _Parts(constants[1], target, norm, v)
-        equation, full, square, moved, second = parts.second_turns(turns[0]) if turns[1] else parts.second_slides(turns[0])
+        equation, full, square, moved, second = (
+            parts.second_turns(turns[0]) if turns[1] else parts.second_slides(turns[0])
+        )
         full = 0 if phi is None else full
         only_at_roots = not equation and square is not None
         if only_at_roots:
@@ -196,7 +198,9 @@ class _Parts:
     def second_turns(self, first_turns: bool) -> Found:
         """u from the two equations, and |u|² = |(v_x, v_y)|²."""
         (g, n), v = self._rows(first_turns), self.v
-        one, two = (sr.scaled(self._distance(), HALF), self._shifted(2)) if first_turns else map(self._shifted, range(2))
+        one, two = (
+            (sr.scaled(self._distance(), HALF), self._shifted(2)) if first_turns else map(self._shifted, range(2))
+        )
         height = self._lifted(v[2])
         b1, b2 = _less(one, sr.scaled(height, g[2])), _less(two, sr.scaled(height, n[2]))
         radius = sr.add(sr.times(v[0], v[0]), sr.times(v[1], v[1]))

@@ -23,7 +23,6 @@ Number = Any
 """A ``Surd`` or a ``Residue``."""
 
 
-
 @dataclass(frozen=True, eq=False)
 class Place:
     """The one root of ``modulus`` (monic) between two numbers that are no roots."""
@@ -86,95 +85,97 @@ class Root:
         """An interval around it."""
         return sr.root(self.square.interval(BITS), BITS)
 
+    @cached_property
+    def level(self) -> int:
+        """More than those of the roots that its square needs."""
+        return 1 + max((root.level for key in self.square.terms for root in key), default=0)
+
+
+NO_ROOT: frozenset[Root] = frozenset()
+
 
 @dataclass(frozen=True, eq=False)
 class Nested:
-    """The sum of numbers times products of ``roots``: those whose bits are set in the key of ``terms``."""
+    """The sum of numbers times products of different roots. A root is itself and no other, whatever its square."""
 
-    terms: dict[int, Number]
-    roots: tuple[Root, ...] = ()
+    terms: dict[frozenset[Root], Number]
 
     def __add__(self, other: Nested) -> Nested:
         found = dict(self.terms)
         for key, number in other.terms.items():
             found[key] = found[key] + number if key in found else number
-        return Nested({key: number for key, number in found.items() if number}, self._common(other))
+        return Nested({key: number for key, number in found.items() if number})
 
     def __neg__(self) -> Nested:
-        return Nested({key: -number for key, number in self.terms.items()}, self.roots)
+        return Nested({key: -number for key, number in self.terms.items()})
 
     def __sub__(self, other: Nested) -> Nested:
         return self + -other
 
     def __mul__(self, other: Nested) -> Nested:
-        total = Nested({}, self._common(other))
-        for i, a in self.terms.items():
-            for j, b in other.terms.items():
-                part = Nested({i ^ j: a * b}, total.roots)
-                for k, root in enumerate(total.roots):
-                    if i & j & (1 << k):
-                        part = part * root.square
+        total = Nested({})
+        for one, a in self.terms.items():
+            for two, b in other.terms.items():
+                number = a * b
+                part = Nested({one ^ two: number} if number else {})
+                for root in one & two:
+                    part = part * root.square
                 total = total + part
         return total
 
-    def _common(self, other: Nested) -> tuple[Root, ...]:
-        """One of the two is the beginning of the other."""
-        return max(self.roots, other.roots, key=len)
+    def by(self, c: Surd) -> Nested:
+        """c times it."""
+        if not c:
+            return Nested({})
+        return Nested({k: n.by(c) if isinstance(n, Residue) else n * c for k, n in self.terms.items()})
 
     def sign(self) -> int:
         """-1, 0 or 1, exactly."""
         if not self.terms:
             return 0
-        top = max(self.terms).bit_length() - 1
-        if top < 0:
-            return self.terms[0].sign()
         if told := _side(self.interval(BITS)):
             return told
-        bit = 1 << top
-        a = Nested({key: number for key, number in self.terms.items() if not key & bit}, self.roots)
-        b = Nested({key ^ bit: number for key, number in self.terms.items() if key & bit}, self.roots)
+        top = max((root for key in self.terms for root in key), key=lambda root: root.level, default=None)
+        if top is None:
+            side: int = self.terms[NO_ROOT].sign()
+            return side
+        a = Nested({key: number for key, number in self.terms.items() if top not in key})
+        b = Nested({key - {top}: number for key, number in self.terms.items() if top in key})
         one, other = a.sign(), b.sign()
         if one * other >= 0:
             return one or other
-        return one * (a * a - b * b * self.roots[top].square).sign()
+        return one * (a * a - b * b * top.square).sign()
 
     def interval(self, bits: int) -> Interval:
         """An interval around it; wide where numbers nearly cancel."""
         total: Interval = (Fraction(0), Fraction(0))
         for key, number in self.terms.items():
             part = number.interval(bits)
-            for k, root in enumerate(self.roots):
-                if key & (1 << k):
-                    part = sr.product(part, root.ends)
+            for root in key:
+                part = sr.product(part, root.ends)
             total = sr.plus(total, sr.outwards(part, bits))
         return total
-
-    def by(self, c: Surd) -> Nested:
-        """c times it."""
-        if not c:
-            return Nested({}, self.roots)
-        return Nested({key: number.by(c) if isinstance(number, Residue) else number * c for key, number in self.terms.items()}, self.roots)
 
     def square_roots(self) -> Iterator[Nested]:
         """All real numbers with this square: none, 0, or two."""
         side = self.sign()
         if side == 0:
-            yield Nested({}, self.roots)
+            yield Nested({})
         elif side > 0:
             (one,) = self.unit.terms.values()
-            found = (*self.roots, Root(self))
-            yield from (Nested({1 << len(self.roots): number}, found) for number in (-one, one))
+            root = frozenset({Root(self)})
+            yield from (Nested({root: number}) for number in (-one, one))
 
     @property
     def unit(self) -> Nested:
         """The number 1, over the same root as this number, which is not 0."""
         some = next(iter(self.terms.values()))
-        return Nested({0: some.place.value([ONE]) if isinstance(some, Residue) else ONE})
+        return nested(some.place.value([ONE]) if isinstance(some, Residue) else ONE)
 
 
 def nested(value: Number) -> Nested:
     """A number without roots."""
-    return Nested({0: value} if value else {})
+    return Nested({NO_ROOT: value} if value else {})
 
 
 def _side(ends: Interval) -> int:
