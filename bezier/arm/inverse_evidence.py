@@ -1,22 +1,19 @@
-"""Certificates of kind "inverse" for all joint positions at a point, which ``qe.verify`` checks."""
+"""Certificates of kind "inverse" for all joint positions at a point or at a pose, which ``qe.verify`` checks."""
 
 from __future__ import annotations
 
-import ast
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from typing import Any
 
-from bezier.arm.elimination import TURNS, M
+from bezier.arm.elimination import TURNS
 from bezier.arm.evidence import arm_json
-from bezier.arm.inverse import Inverse, Solution, Value
+from bezier.arm.inverse import Inverse, Solution, solve
 from bezier.arm.model import Motion
-from bezier.curves.scalar import rational
+from bezier.arm.square_roots import square_roots
+from bezier.arm.wrist import centre_at, wrist_of
 from qe.certify.verify import verify
 from qe.errors import Unable
-from qe.exact.algebraic import RealAlgebraic
-from qe.exact.algebraic_text import square_part
-from qe.exact.radicals import format_number
 from qe.proof.certificate import Certificate, Kind
 from qe.proof.entry import Json
 
@@ -26,34 +23,52 @@ ATTEMPTS = ((100, 30), (260, 90), (800, 300))
 FAR = 8
 """t is at most about so large: else another φ is taken."""
 
-Terms = dict[int, Fraction]
-
 
 def inverse_certificate(found: Inverse) -> Certificate:
     """The certificate that these are all solutions, accepted by the checker.
 
-    Raises ``Unable`` where there is none: a joint is free, a joint slides, the arm is at a pose, or a coordinate is not
-    a sum of square roots.
+    Raises ``Unable`` where there is none: a joint is free, or a coordinate is not a sum of square roots.
     """
-    if found.free or found.rotation or any(j.motion is not Motion.REVOLUTE for j in found.arm.joints):
-        raise Unable("certificates of joint positions are for three joints that turn, a point, and no free joint")
-    point: list[Json] = [_listed(square_roots(c)) for c in found.point]
+    if found.free:
+        raise Unable("certificates of joint positions are for points and poses where no joint is free")
+    listed: dict[str, Json] = {"arm": arm_json(found.arm), "point": _triple(found.point)}
+    if found.rotation:
+        listed["rotation"] = [_triple(row) for row in found.rotation]
+    listed["count"] = len(found.solutions)
     verdict = None
     for bits, places in ATTEMPTS:
-        for turn in TURNS:
-            t = [_tangent(s, turn, bits) for s in found.solutions]
-            if any(abs(v) > FAR for v in t):
-                continue
-            angle: list[Json] = [str(v) for v in turn]
-            payload: dict[str, Json] = {"arm": arm_json(found.arm), "point": point, "turn": angle}
-            roots: list[Json] = list(_roots(found.solutions, t, bits, places))
-            certificate = Certificate(Kind.INVERSE, {**payload, "count": len(found.solutions), "roots": roots})
+        for payload in _payloads(found, bits, places):
+            certificate = Certificate(Kind.INVERSE, {**listed, **payload})
             verdict = verify(certificate)
             if verdict.accepted:
                 return certificate
     raise Unable(
         f"no certificate was found: {verdict.reason if verdict is not None else 'the last joint is undetermined'}"
     )
+
+
+def _payloads(found: Inverse, bits: int, places: int) -> Iterator[dict[str, Json]]:
+    """What lists the solutions: over roots of the equation in t for one φ after the other, or alone."""
+    wrist = wrist_of(found.arm) if found.rotation else None
+    if found.rotation and wrist is None:
+        yield {"solutions": [_box(s, places) for s in found.solutions]}
+        return
+    arm, place = (found.arm, found.point) if wrist is None else (wrist.first, centre_at(wrist, found))
+    positions = found.solutions if wrist is None else solve(arm, place).solutions
+    if arm.joints[2].motion is Motion.PRISMATIC:
+        t = [_length(s, bits) for s in positions], [_length(s, bits) for s in found.solutions]
+        yield {"turn": None, "roots": list(_roots(*t, found.solutions, bits, places))}
+        return
+    for turn in TURNS:
+        t = [_tangent(s, turn, bits) for s in positions], [_tangent(s, turn, bits) for s in found.solutions]
+        if all(abs(v) <= FAR for v in t[0]):
+            yield {"turn": [str(v) for v in turn], "roots": list(_roots(*t, found.solutions, bits, places))}
+
+
+def _length(solution: Solution, bits: int) -> Fraction:
+    value = solution.refined(2, bits + 20)
+    assert value is not None, "no joint is free"
+    return sum(value.ends, Fraction(0)) / 2
 
 
 def _tangent(solution: Solution, turn: tuple[Fraction, Fraction], bits: int) -> Fraction:
@@ -65,32 +80,27 @@ def _tangent(solution: Solution, turn: tuple[Fraction, Fraction], bits: int) -> 
     return sine / (1 + cosine) if 1 + cosine > Fraction(1, FAR**3) else Fraction(FAR * FAR)
 
 
-def _roots(solutions: Sequence[Solution], t: Sequence[Fraction], bits: int, places: int) -> Iterator[Json]:
-    width = Fraction(1, 1 << bits)
-    order = sorted(range(len(t)), key=lambda k: t[k])
-    while order:
-        low = t[order[0]]
-        here = [k for k in order if t[k] - low <= width]  # two with the same last joint
-        order = [k for k in order if k not in here]
-        middle = round(low * (1 << bits)) * width
-        boxes: list[Json] = [_box(solutions[k], places) for k in sorted(here, key=lambda k: _side(solutions[k]))]
+def _roots(
+    roots: Sequence[Fraction], t: Sequence[Fraction], solutions: Sequence[Solution], bits: int, places: int
+) -> Iterator[Json]:
+    """Intervals around the roots, each with the solutions whose t is there."""
+    width, low = Fraction(1, 1 << bits), None
+    for root in sorted(roots):
+        if low is not None and root - low <= width:
+            continue  # two with the same last joint
+        low, middle = root, round(root * (1 << bits)) * width
+        boxes: list[Json] = [_box(s, places) for s, v in zip(solutions, t, strict=True) if abs(v - root) <= width]
         yield {"low": str(middle - 4 * width), "high": str(middle + 4 * width), "solutions": boxes}
 
 
-def _side(solution: Solution) -> int:
-    """The sign of m, where there is one: solutions with the same last joint are listed in its order."""
-    point = solution.place.point
-    return point.sign(point.ring.var(M)) if point.depth > point.ring.index[M] else 0
-
-
 def _box(solution: Solution, places: int) -> Json:
-    values = [solution.refined(k, places + 20) for k in range(len(solution.values))]
-    return [[_around(ends, places) for ends in _pair(value)] for value in values]
-
-
-def _pair(value: Value | None) -> tuple[Any, Any]:
-    assert value is not None and value.cosine is not None and value.sine is not None, "no joint is free"
-    return value.cosine, value.sine
+    found: list[Json] = []
+    for k in range(len(solution.values)):
+        value = solution.refined(k, places + 20)
+        assert value is not None, "no joint is free"
+        parts = [value.ends] if value.cosine is None or value.sine is None else [value.cosine, value.sine]
+        found.append([_around(ends, places) for ends in parts])
+    return found
 
 
 def _around(ends: tuple[Fraction, Fraction], places: int) -> Json:
@@ -99,61 +109,5 @@ def _around(ends: tuple[Fraction, Fraction], places: int) -> Json:
     return [str((middle - 2) * unit), str((middle + 2) * unit)]
 
 
-# --- exact coordinates -------------------------------------------------------------------------------------------
-
-
-def square_roots(value: Any) -> Terms:
-    """The number as a sum of factors times square roots of squarefree numbers. Raises ``Unable`` where it is none."""
-    number = rational(value)
-    if number is not None:
-        return {1: number}
-    refused = Unable("certificates of joint positions are for coordinates that are sums of square roots")
-    algebraic: RealAlgebraic = value if isinstance(value, RealAlgebraic) else value.to_algebraic()
-    try:
-        found = _terms(ast.parse(format_number(algebraic), mode="eval").body, refused)
-    except (SyntaxError, RecursionError):
-        raise refused from None
-    return {d: q for d, q in found.items() if q}
-
-
-def _terms(node: ast.expr, refused: Unable) -> Terms:
-    match node:
-        case ast.Constant(value=int() as number):
-            return {1: Fraction(number)}
-        case ast.UnaryOp(op=ast.USub(), operand=inner):
-            return _times(_terms(inner, refused), {1: Fraction(-1)})
-        case ast.BinOp(left=left, op=ast.Add() | ast.Sub() as op, right=right):
-            sign = Fraction(1 if isinstance(op, ast.Add) else -1)
-            a, b = _terms(left, refused), _times(_terms(right, refused), {1: sign})
-            return {d: a.get(d, Fraction(0)) + b.get(d, Fraction(0)) for d in {*a, *b}}
-        case ast.BinOp(left=left, op=ast.Mult(), right=right):
-            return _times(_terms(left, refused), _terms(right, refused))
-        case ast.BinOp(left=left, op=ast.Div(), right=right):
-            below = _terms(right, refused)
-            if set(below) == {1} and below[1]:
-                return _times(_terms(left, refused), {1: 1 / below[1]})
-        case ast.Call(func=ast.Name(id="sqrt"), args=[inner], keywords=[]):
-            under = _terms(inner, refused)
-            if set(under) <= {1}:
-                return _root(under.get(1, Fraction(0)))
-    raise refused
-
-
-def _root(value: Fraction) -> Terms:
-    whole = value.numerator * value.denominator
-    outside = square_part(whole)
-    return {whole // outside**2: Fraction(outside, value.denominator)}
-
-
-def _times(a: Terms, b: Terms) -> Terms:
-    found: Terms = {}
-    for d, q in a.items():
-        for e, r in b.items():
-            outside = square_part(d * e)
-            rest = d * e // outside**2
-            found[rest] = found.get(rest, Fraction(0)) + q * r * outside
-    return found
-
-
-def _listed(terms: Terms) -> Json:
-    return [[str(q), d] for d, q in sorted(terms.items()) if q]
+def _triple(numbers: Sequence[Any]) -> Json:
+    return [[[str(q), d] for d, q in sorted(square_roots(c).items()) if q] for c in numbers]

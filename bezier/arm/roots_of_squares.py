@@ -8,10 +8,13 @@ from fractions import Fraction
 from math import gcd
 from typing import Any
 
+from bezier.arm.angles import root_in
 from bezier.arm.elimination import Quotient
 from bezier.arm.model import Matrix
 from bezier.arm.ratio import Ratio, constant, reduced, variable
+from bezier.arm.square_roots import Terms, square_roots
 from bezier.curves.scalar import is_zero, rational
+from qe.errors import Unable
 from qe.exact.algebraic import RealAlgebraic
 from qe.exact.field import FieldElement, NumberField
 from qe.exact.ring import Poly, Ring
@@ -32,15 +35,28 @@ class Rules:
 
     @staticmethod
     def of(field: NumberField, roots: Sequence[str], numbers: Sequence[Any]) -> tuple[Rules, Point]:
-        """The rules, and the point with the generator and the irrational numbers."""
-        irrational = [v for v in numbers if isinstance(v, RealAlgebraic)]
-        ring = Ring.of(("w", *(f"x{k}" for k in range(len(irrational))), *roots))
-        names = iter(ring.names[1:])
-        given = tuple(
-            variable(ring, next(names), field) if isinstance(v, RealAlgebraic) else constant(ring, v, field)
-            for v in numbers
-        )
-        return Rules(ring, field, given, {}), Point.of(ring, [field.theta, *irrational])
+        """The rules, and the point with the generator and the irrational numbers: sums of square roots share these."""
+        known = {d: root for d in (2, 3, 6) if (root := root_in(field, d)) is not None}
+        sums = [_sum_of_roots(v) if isinstance(v, RealAlgebraic) else None for v in numbers]
+        new = sorted({d for terms in sums for d in terms or ()} - {1, *known})
+        others = [v for v, terms in zip(numbers, sums, strict=True) if terms is None and isinstance(v, RealAlgebraic)]
+        ring = Ring.of(("w", *(f"r{d}" for d in new), *(f"x{k}" for k in range(len(others))), *roots))
+        names = iter(f"x{k}" for k in range(len(others)))
+
+        def read(value: Any, terms: Terms | None) -> Ratio:
+            if terms is None:
+                irrational = isinstance(value, RealAlgebraic)
+                return variable(ring, next(names), field) if irrational else constant(ring, value, field)
+            total = constant(ring, 0, field)
+            for d, q in terms.items():
+                total = total + (variable(ring, f"r{d}", field) if d in new else constant(ring, known[d], field)) * q
+            return total
+
+        known[1] = Fraction(1)
+        given = tuple(read(v, terms) for v, terms in zip(numbers, sums, strict=True))
+        squares = {ring.index[f"r{d}"]: ring.constant(d) for d in new}
+        lengths = [RealAlgebraic.from_root([-d, 0, 1], 0, d + 1) for d in new]
+        return Rules(ring, field, given, squares), Point.of(ring, [field.theta, *lengths, *others])
 
     def number(self, value: Any) -> Ratio:
         """A polynomial, rational number or element of the field."""
@@ -169,6 +185,13 @@ def turned(pair: tuple[Ratio, Ratio], scale: Ratio) -> Scaled:
 def quotient(top: Ratio, bottom: Ratio) -> Quotient:
     """One over the other."""
     return Quotient(top.top, bottom.top, Fraction(bottom.bottom, top.bottom))
+
+
+def _sum_of_roots(value: RealAlgebraic) -> Terms | None:
+    try:
+        return square_roots(value)
+    except Unable:
+        return None
 
 
 def _lowered(p: Poly, place: int, square: Poly) -> Poly:

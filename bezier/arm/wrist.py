@@ -21,8 +21,8 @@ from typing import Any
 
 from bezier.arm.angles import Angle
 from bezier.arm.elimination import TURNS, M, Quotient, Reduction, T
-from bezier.arm.inverse import Solution, geometry_of, solve_at
-from bezier.arm.model import Arm, Chain, Convention, Matrix, Motion, Row, inverse, product, turn_z
+from bezier.arm.inverse import Inverse, Solution, geometry_of, solve_at
+from bezier.arm.model import Arm, Chain, Convention, Matrix, Motion, Row, apply, inverse, product, turn_z
 from bezier.arm.ratio import Ratio
 from bezier.arm.roots_of_squares import Rules, Scaled, fixed, quotient, turned
 from bezier.curves.scalar import dot, is_zero, rational
@@ -83,6 +83,12 @@ def _first(arm: Arm, height: Fraction) -> Arm:
     fourth = arm.rows[moving[3]]
     a, alpha = (fourth.a, fourth.alpha) if arm.convention is Convention.MODIFIED else (ZERO, Angle())
     return Arm(arm.name, arm.convention, (*arm.rows[: moving[3]], Row(a, alpha, height, Angle())))
+
+
+def centre_at(wrist: Wrist, found: Inverse) -> tuple[Any, ...]:
+    """Where the centre of the wrist is at a pose, exactly."""
+    pose: Matrix = tuple((*row, c) for row, c in zip(found.rotation, found.point, strict=True))
+    return apply(product(pose, inverse(wrist.chain.constants[6])), (ZERO, ZERO, wrist.height))
 
 
 def solve_wrist(wrist: Wrist, rules: Rules, here: Point, pose: Matrix) -> Iterator[Found]:

@@ -11,7 +11,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
-from math import gcd, isqrt
+from math import ceil, floor, gcd, isqrt
 
 LARGEST = 10**10
 """Radicands are factored by trial division, up to this."""
@@ -207,3 +207,14 @@ def root(a: Interval, bits: int) -> Interval:
     """An interval around the square roots of what is not negative in a, whose upper end is not negative."""
     low, high = (max(Fraction(0), v) * (1 << (2 * bits)) for v in a)
     return Fraction(isqrt(int(low)), 1 << bits), Fraction(isqrt(int(high)) + 1, 1 << bits)
+
+
+def quotient(a: Interval, b: Interval) -> Interval:
+    """a / b for b > 0."""
+    return product(a, (1 / b[1], 1 / b[0]))
+
+
+def outwards(a: Interval, bits: int) -> Interval:
+    """A little wider, with ends that are multiples of 2^-bits."""
+    low, high = (v * (1 << bits) for v in a)
+    return Fraction(floor(low), 1 << bits), Fraction(ceil(high), 1 << bits)

@@ -1,0 +1,251 @@
+"""Numbers over a root of a polynomial and over square roots of such numbers, with exact signs; vectors of them.
+
+``Residue``: a polynomial in t at a real root of another one that is alone in an interval. ``Nested``: sums of products
+of such numbers (or of ``Surd``) with square roots, each of a positive number that needs those before it only. A sign
+that interval arithmetic does not tell is found by Tarski's theorem, and by the sign of a² - b² s for a + b √s.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+from typing import Any
+
+from qe.certify.arithmetic import square_roots as sr
+from qe.certify.arithmetic.motions import Motion
+from qe.certify.arithmetic.square_roots import ONE, Interval, Polynomial, Surd
+from qe.errors import Unable
+
+BITS = 400
+Number = Any
+"""A ``Surd`` or a ``Residue``."""
+
+
+@dataclass(frozen=True, eq=False)
+class Place:
+    """The one root of ``modulus`` (monic) between two numbers that are no roots."""
+
+    modulus: Polynomial
+    between: Interval
+
+    @staticmethod
+    def of(equation: Polynomial, between: Interval) -> Place:
+        """The one root of an equation in an interval, which the caller has counted."""
+        return Place(sr.scaled(equation, equation[-1].inverse()), between)
+
+    def value(self, p: Polynomial) -> Residue:
+        """The polynomial at the root."""
+        return Residue(sr.divided(p, self.modulus)[1] if len(p) >= len(self.modulus) else p, self)
+
+
+@dataclass(frozen=True, eq=False)
+class Residue:
+    """``poly`` at a root."""
+
+    poly: Polynomial
+    place: Place
+
+    def __add__(self, other: Residue) -> Residue:
+        return Residue(sr.add(self.poly, other.poly), self.place)
+
+    def __mul__(self, other: Residue) -> Residue:
+        return self.place.value(sr.times(self.poly, other.poly))
+
+    def by(self, c: Surd) -> Residue:
+        """c times it."""
+        return Residue(sr.scaled(self.poly, c), self.place)
+
+    def __neg__(self) -> Residue:
+        return Residue([-c for c in self.poly], self.place)
+
+    def __bool__(self) -> bool:
+        return bool(self.poly)
+
+    def sign(self) -> int:
+        """-1, 0 or 1: the sum of the signs of the polynomial at all roots in the interval, of which there is one."""
+        if len(self.poly) < 2:
+            return self.poly[0].sign() if self.poly else 0
+        return _side(self.interval(BITS)) or sr.tarski(self.place.modulus, self.poly, self.place.between)
+
+    def interval(self, bits: int) -> Interval:
+        """As narrow as that of t allows."""
+        return sr.enclosure(self.poly, self.place.between, bits)
+
+
+@dataclass(frozen=True, eq=False)
+class Root:
+    """The positive square root of a positive number."""
+
+    square: Nested
+
+    @cached_property
+    def ends(self) -> Interval:
+        """An interval around it."""
+        return sr.root(self.square.interval(BITS), BITS)
+
+    @cached_property
+    def level(self) -> int:
+        """More than those of the roots that its square needs."""
+        return 1 + max((root.level for key in self.square.terms for root in key), default=0)
+
+
+NO_ROOT: frozenset[Root] = frozenset()
+
+
+@dataclass(frozen=True, eq=False)
+class Nested:
+    """The sum of numbers times products of different roots. A root is itself and no other, whatever its square."""
+
+    terms: dict[frozenset[Root], Number]
+
+    def __add__(self, other: Nested) -> Nested:
+        found = dict(self.terms)
+        for key, number in other.terms.items():
+            found[key] = found[key] + number if key in found else number
+        return Nested({key: number for key, number in found.items() if number})
+
+    def __neg__(self) -> Nested:
+        return Nested({key: -number for key, number in self.terms.items()})
+
+    def __sub__(self, other: Nested) -> Nested:
+        return self + -other
+
+    def __mul__(self, other: Nested) -> Nested:
+        total = Nested({})
+        for one, a in self.terms.items():
+            for two, b in other.terms.items():
+                number = a * b
+                part = Nested({one ^ two: number} if number else {})
+                for root in one & two:
+                    part = part * root.square
+                total = total + part
+        return total
+
+    def by(self, c: Surd) -> Nested:
+        """c times it."""
+        if not c:
+            return Nested({})
+        return Nested({k: n.by(c) if isinstance(n, Residue) else n * c for k, n in self.terms.items()})
+
+    def sign(self) -> int:
+        """-1, 0 or 1, exactly."""
+        if not self.terms:
+            return 0
+        if told := _side(self.interval(BITS)):
+            return told
+        top = max((root for key in self.terms for root in key), key=lambda root: root.level, default=None)
+        if top is None:
+            side: int = self.terms[NO_ROOT].sign()
+            return side
+        a = Nested({key: number for key, number in self.terms.items() if top not in key})
+        b = Nested({key - {top}: number for key, number in self.terms.items() if top in key})
+        one, other = a.sign(), b.sign()
+        if one * other >= 0:
+            return one or other
+        return one * (a * a - b * b * top.square).sign()
+
+    def interval(self, bits: int) -> Interval:
+        """An interval around it; wide where numbers nearly cancel."""
+        total: Interval = (Fraction(0), Fraction(0))
+        for key, number in self.terms.items():
+            part = number.interval(bits)
+            for root in key:
+                part = sr.product(part, root.ends)
+            total = sr.plus(total, sr.outwards(part, bits))
+        return total
+
+    def square_roots(self) -> Iterator[Nested]:
+        """All real numbers with this square: none, 0, or two."""
+        side = self.sign()
+        if side == 0:
+            yield Nested({})
+        elif side > 0:
+            (one,) = self.unit.terms.values()
+            root = frozenset({Root(self)})
+            yield from (Nested({root: number}) for number in (-one, one))
+
+    @property
+    def unit(self) -> Nested:
+        """The number 1, over the same root as this number, which is not 0."""
+        some = next(iter(self.terms.values()))
+        return nested(some.place.value([ONE]) if isinstance(some, Residue) else ONE)
+
+
+def nested(value: Number) -> Nested:
+    """A number without roots."""
+    return Nested({NO_ROOT: value} if value else {})
+
+
+def _side(ends: Interval) -> int:
+    return 1 if ends[0] > 0 else -1 if ends[1] < 0 else 0
+
+
+# --- vectors and turns about the third axis ----------------------------------------------------------------------
+@dataclass(frozen=True, eq=False)
+class Joint:
+    """The angle with cosine and sine ``c / w`` and ``s / w``, w > 0; or the length ``c / w`` where s is None."""
+
+    c: Nested
+    s: Nested | None
+    w: Nested
+
+    def intervals(self) -> list[Interval]:
+        """Around cosine and sine, or around the length."""
+        below = self.w.interval(BITS)
+        if below[0] <= 0:
+            raise Unable("a denominator is too small to divide by it")
+        return [sr.quotient(v.interval(BITS), below) for v in (self.c, self.s) if v is not None]
+
+
+@dataclass(frozen=True, eq=False)
+class Vector:
+    """``parts / scale``: a point, or a direction, which no shift moves."""
+
+    parts: tuple[Nested, Nested, Nested]
+    scale: Nested
+    is_point: bool
+
+    def turned(self, joint: Joint, side: int = 1) -> Vector:
+        """The image under the turn about the third axis; under the turn back for ``side`` -1. A direction stays as it
+        is where the joint slides."""
+        (x, y, z), w = self.parts, joint.w
+        if joint.s is None:
+            return self
+        c, s = joint.c, joint.s if side > 0 else -joint.s
+        return Vector((c * x - s * y, s * x + c * y, w * z), w * self.scale, self.is_point)
+
+    def moved(self, motion: Motion) -> Vector:
+        """The image under a rigid motion."""
+        rows, shift = motion
+        x, y, z = (
+            _combined(row, self.parts) + (self.scale.by(o) if self.is_point else Nested({}))
+            for row, o in zip(rows, shift, strict=True)
+        )
+        return Vector((x, y, z), self.scale, self.is_point)
+
+
+def _combined(row: Sequence[Surd], parts: Sequence[Nested]) -> Nested:
+    return sum((part.by(c) for c, part in zip(row, parts, strict=True) if c), Nested({}))
+
+
+def dot(a: Sequence[Nested], b: Sequence[Nested]) -> Nested:
+    """The scalar product."""
+    return sum((x * y for x, y in zip(a, b, strict=True)), Nested({}))
+
+
+def angle(a: Sequence[Nested], b: Sequence[Nested], over: tuple[Nested, Nested]) -> Joint | None:
+    """The turn that takes (a0, a1) / over[0] to (b0, b1) / over[1], vectors of one length; None where they vanish."""
+    size = b[0] * b[0] + b[1] * b[1]
+    if not size.sign():
+        return None
+    return Joint(dot(a[:2], b[:2]) * over[1], (a[0] * b[1] - a[1] * b[0]) * over[1], size * over[0])
+
+
+def turns(a: Nested, b: Nested, k: Nested, scale: Nested) -> Iterator[Joint]:
+    """All angles with a cos + b sin = k / scale, where a and b are not both 0: cosine and sine are
+    (a k - b m, b k + a m) / ((a² + b²) scale), m² = (a² + b²) scale² - k²."""
+    size = a * a + b * b
+    for m in (size * scale * scale - k * k).square_roots():
+        yield Joint(a * k - b * m, b * k + a * m, size * scale)

@@ -1,0 +1,141 @@
+"""Arms, points and boxes of joint positions as certificates of kind "inverse" hold them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+
+from qe.certify.arithmetic import square_roots as sr
+from qe.certify.arithmetic.motions import STILL, Motion, Triple, back, together, turn
+from qe.certify.arithmetic.square_roots import ZERO, Interval, Surd
+from qe.errors import Unable
+from qe.proof.entry import Entry
+
+MOST_ROWS, MOST_TERMS, MOST_BITS = 40, 16, 20_000
+Box = tuple[Interval, ...]
+"""Cosine and sine, or the length, of every joint."""
+
+
+@dataclass(frozen=True, slots=True)
+class Chain:
+    """``constants``: what lies before, between and after the joints; ``turns``: which joints turn (others slide)."""
+
+    constants: tuple[Motion, ...]
+    turns: tuple[bool, ...]
+
+    @property
+    def reversed(self) -> Chain:
+        """Read from the hand to the base: every joint goes the other way."""
+        return Chain(tuple(back(m) for m in self.constants[::-1]), self.turns[::-1])
+
+
+def read_chain(entry: Entry) -> Chain:
+    """The rows of an arm (Craig, section 3.5)."""
+    convention, rows = entry.fields("convention", "rows")
+    modified = convention.text() == "modified"
+    if not modified and convention.text() != "standard":
+        raise convention.fail("expected modified or standard")
+    listed = list(rows.items())
+    if len(listed) > MOST_ROWS:
+        raise rows.fail(f"expected at most {MOST_ROWS} rows")
+    constants, turns, open_part = list[Motion](), list[bool](), STILL
+    for row in listed:
+        a, alpha, d, theta, joint = row.fields("a", "alpha", "d", "theta", "joint")
+        across = turn((1, 2), _angle(alpha), (_rational(a), ZERO, ZERO))
+        along = turn((0, 1), _angle(theta), (ZERO, ZERO, _rational(d)))
+        if joint.value is not None and joint.text() not in ("revolute", "prismatic"):
+            raise joint.fail("expected null, revolute or prismatic")
+        before, after = (across, along) if modified else (STILL, together(along, across))
+        open_part = together(open_part, before)
+        if joint.value is not None:
+            constants.append(open_part)
+            turns.append(joint.text() == "revolute")
+            open_part = STILL
+        open_part = together(open_part, after)
+    return Chain((*constants, open_part), tuple(turns))
+
+
+def _angle(entry: Entry) -> tuple[Surd, Surd]:
+    """An integer k for k pi / 12, or [cosine, sine]."""
+    if isinstance(entry.value, int) and not isinstance(entry.value, bool):
+        if abs(entry.value) > 24:
+            raise entry.fail("expected at most 24 twelfths of pi")
+        return _cosine(entry.value), _cosine(entry.value - 6)
+    c, s = read_circle(entry)
+    return Surd.rational(c), Surd.rational(s)
+
+
+def read_circle(entry: Entry) -> tuple[Fraction, Fraction]:
+    """Cosine and sine of an angle."""
+    values = [read_number(v) for v in entry.items()]
+    if len(values) != 2 or values[0] ** 2 + values[1] ** 2 != 1:
+        raise entry.fail("expected cosine and sine")
+    return values[0], values[1]
+
+
+def _cosine(k: int) -> Surd:
+    """cos(k pi / 12)."""
+    k = abs(k) % 24
+    k = min(k, 24 - k)
+    if k > 6:
+        return -_cosine(12 - k)
+    quarter, half = Fraction(1, 4), Fraction(1, 2)
+    return Surd.of(
+        (
+            ((1, Fraction(1)),),
+            ((2, quarter), (6, quarter)),
+            ((3, half),),
+            ((2, half),),
+            ((1, half),),
+            ((2, -quarter), (6, quarter)),
+            (),
+        )[k]
+    )
+
+
+def _rational(entry: Entry) -> Surd:
+    return Surd.rational(read_number(entry))
+
+
+def read_number(entry: Entry) -> Fraction:
+    """A rational number that is not too long."""
+    value = entry.rational()
+    if max(value.numerator.bit_length(), value.denominator.bit_length()) > MOST_BITS:
+        raise Unable(f"{entry.path}: a number of more than {MOST_BITS} bits")
+    return value
+
+
+def read_triple(entry: Entry) -> Triple:
+    """Three numbers, each a list of [q, d]: the sum of q √d, d squarefree."""
+    found = tuple(_surd(c) for c in entry.items())
+    if len(found) != 3:
+        raise entry.fail("expected three numbers")
+    return found
+
+
+def _surd(entry: Entry) -> Surd:
+    pairs = list[tuple[int, Fraction]]()
+    for item in entry.items():
+        parts = list(item.items())
+        if len(parts) != 2 or len(pairs) == MOST_TERMS:
+            raise item.fail(f"expected at most {MOST_TERMS} pairs of a factor and a number under a root")
+        q, d = read_number(parts[0]), parts[1].integer(1)
+        if d > sr.LARGEST:
+            raise Unable(f"{item.path}: a root of more than {sr.LARGEST}")
+        if not sr.is_squarefree(d):
+            raise item.fail("expected a squarefree number under the root")
+        pairs.append((d, q))
+    return Surd.of(pairs)
+
+
+def read_box(entry: Entry, turns: tuple[bool, ...]) -> Box:
+    """[[low, high] of cosine, [low, high] of sine] of every joint that turns, [[low, high] of the length] of others."""
+    found, joints = list[Interval](), list(entry.items())
+    if len(joints) != len(turns):
+        raise entry.fail(f"expected {len(turns)} joints")
+    for joint, turning in zip(joints, turns, strict=True):
+        parts = [[read_number(v) for v in part.items()] for part in joint.items()]
+        if [len(ends) for ends in parts] != [2] * (1 + turning):
+            raise joint.fail("expected two ends of cosine and sine" if turning else "expected two ends of a length")
+        found += [(low, high) for low, high in parts]
+    return tuple(found)

@@ -1,0 +1,193 @@
+"""Joint positions at a pose: three parallel axes, alone or in an arm of six joints, and spherical wrists.
+
+T = A0 M1 A1 ... M6 A6 is the pose. Three parallel axes (2, 3, 4, and 5 and 6 meet; or so read from the hand to the
+base; D. L. Pieper 1968): with B = A0^-1 T A6^-1, Π = M2 A2 M3 A3 M4, a motion of a plane that takes heights z to h ± z,
+n = A1 e_z and C = B h6 = M1 A1 Π A4 h5 the point in which axes 5 and 6 meet,
+
+    the height of A1^-1 M1^-1 C gives θ1,    e_z·B^T M1 n = ± (A4^T e_z)·(M5 A5 e_z) gives θ5,    B^T M1 n then θ6,
+
+and Π is known: a motion of that plane. |Π 0| = |A2 M3 A3 0| gives θ3, the direction of Π 0 θ2, Π e_x then θ4. A
+spherical wrist (axes 4, 5, 6 meet): the pose gives that point, three joints bring it there, and W = M4 A4 M5 A5 M6 is
+known: e_z·W e_z gives θ5, W e_z then θ4, the last row of W θ6. Every step is equivalent to the part of the pose that it
+names, and gives one angle, or the solutions of a cos θ + b sin θ = k, in square roots over what is known before.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from qe.certify.arithmetic.motions import Motion, Triple, back, dot, image, together
+from qe.certify.arithmetic.nested_roots import Joint, Nested, Vector, angle, nested, turns
+from qe.certify.arithmetic.nested_roots import dot as inner
+from qe.certify.arithmetic.square_roots import ONE, ZERO, Surd
+from qe.certify.arm_rows import Chain
+from qe.errors import Unable
+from qe.options import Budget
+from qe.proof.entry import Entry
+
+FREE = "a joint can be chosen here"
+
+
+def parallel_axes(chain: Chain, pose: Motion, entry: Entry, budget: Budget) -> list[list[Joint]]:
+    """All positions of an arm with three parallel axes. Raises ``Unable`` for another one."""
+    if all(chain.turns):
+        if len(chain.turns) == 3 and _are_parallel(chain.constants[1:3]):
+            based = together(together(back(chain.constants[0]), pose), back(chain.constants[3]))
+            return list(_in_plane(chain.constants[1:3], based, entry))
+        if len(chain.turns) == 6:
+            if _has_parallel_axes(chain):
+                return list(_six_joints(chain.constants, pose, entry, budget))
+            if _has_parallel_axes(chain.reversed):
+                found = _six_joints(chain.reversed.constants, back(pose), entry, budget)
+                return [[Joint(j.c, None if j.s is None else -j.s, j.w) for j in joints[::-1]] for joints in found]
+    raise Unable("poses are for three parallel axes, alone or with two that meet, and for spherical wrists")
+
+
+def _are_parallel(pair: Sequence[Motion]) -> bool:
+    """And no neighbours coincide."""
+    return all(not (m[0][0][2] or m[0][1][2]) and (m[1][0] or m[1][1]) for m in pair)
+
+
+def _has_parallel_axes(chain: Chain) -> bool:
+    before, *pair, after, last = chain.constants[1:6]
+    bent = (before[0][0][2] or before[0][1][2]) and (after[0][2][0] or after[0][2][1])
+    return bool(bent) and _are_parallel(pair) and meeting(last) is not None
+
+
+def meeting(m: Motion) -> tuple[Surd, Surd] | None:
+    """Heights of the point that two axes share, on the second and on the first of them; None where there is none, or
+    more than one. ``m``: what lies between the two joints."""
+    (x, y, z), o = [row[2] for row in m[0]], m[1]
+    size = x * x + y * y
+    if not size or o[0] * y - o[1] * x:
+        return None
+    along = -(o[0] * x + o[1] * y) * size.inverse()
+    return along, o[2] + along * z
+
+
+def _height(pair: Sequence[Motion]) -> tuple[Surd, Surd]:
+    """(h, ±1): Π takes a height z to h ± z."""
+    (second, shift), (third, other) = pair
+    return shift[2] + second[2][2] * other[2], second[2][2] * third[2][2]
+
+
+def _constant(*values: Surd) -> list[Nested]:
+    return [nested(v) for v in values]
+
+
+def _point(place: Triple, *, is_point: bool = True) -> Vector:
+    x, y, z = _constant(*place)
+    return Vector((x, y, z), nested(ONE), is_point)
+
+
+def _six_joints(constants: Sequence[Motion], pose: Motion, entry: Entry, budget: Budget) -> Iterator[list[Joint]]:
+    _, before, *pair, after, last, _ = constants
+    based = together(together(back(constants[0]), pose), back(constants[6]))
+    heights = meeting(last)
+    assert heights is not None, "the shape was tested"
+    (height, side), n = _height(pair), tuple(row[2] for row in before[0])
+    x, y, z = image(based, (ZERO, ZERO, heights[0]))
+    k = side * image(after, (ZERO, ZERO, heights[1]))[2] + height + dot(n, before[1]) - n[2] * z
+    a, b = n[0] * x + n[1] * y, n[0] * y - n[1] * x
+    if not (a or b):
+        if not k:
+            raise entry.fail(FREE)
+        return
+    unturned = (based[0], (ZERO, ZERO, ZERO))
+    for first in turns(*_constant(a, b, k, ONE)):
+        u = _point(n, is_point=False).turned(first).moved(back(unturned))
+        for fifth, sixth in _last_two(u, side, after, last, entry):
+            budget.check()
+            whole = [
+                _point(start, is_point=kind)
+                .moved(back(after))
+                .turned(fifth, -1)
+                .moved(back(last))
+                .turned(sixth, -1)
+                .moved(based)
+                .turned(first, -1)
+                .moved(back(before))
+                for start, kind in (((ZERO, ZERO, ZERO), True), ((ONE, ZERO, ZERO), False))
+            ]
+            for middle in _three(pair, whole[0], whole[1], entry):
+                yield [first, *middle, fifth, sixth]
+
+
+def _last_two(u: Vector, side: Surd, after: Motion, last: Motion, entry: Entry) -> Iterator[tuple[Joint, Joint]]:
+    """θ5 and θ6, by the direction u of the parallel axes seen from the end effector."""
+    r, n = after[0][2], tuple(row[2] for row in last[0])
+    a, b = _constant(r[0] * n[0] + r[1] * n[1], r[1] * n[0] - r[0] * n[1])
+    k = u.parts[2].by(side) - u.scale.by(r[2] * n[2])
+    start = _point(tuple(side * c for c in r), is_point=False)
+    for fifth in turns(a, b, k, u.scale):
+        w = start.turned(fifth, -1).moved(back(last))
+        sixth = angle(u.parts, w.parts, (u.scale, w.scale))
+        if sixth is None:
+            raise entry.fail(FREE)
+        yield fifth, sixth
+
+
+def _in_plane(pair: Sequence[Motion], based: Motion, entry: Entry) -> Iterator[list[Joint]]:
+    (rows, shift), (height, side) = based, _height(pair)
+    if rows[2][0] or rows[2][1] or rows[2][2] - side or shift[2] - height:
+        return
+    yield from _three(pair, _point(shift), _point(tuple(row[0] for row in rows), is_point=False), entry)
+
+
+def _three(pair: Sequence[Motion], x: Vector, d: Vector, entry: Entry) -> Iterator[list[Joint]]:
+    """The parallel joints, by what Π does to the origin (x) and to e_x (d)."""
+    (rows, o), (_, p) = pair
+    g = [dot(column[:2], o[:2]) for column in zip(*rows, strict=True)]
+    size = inner(x.parts[:2], x.parts[:2])
+    if not size.sign():
+        raise entry.fail(FREE)
+    two, squared = Surd.rational(2), x.scale * x.scale
+    a, b = _constant(two * dot(g[:2], p[:2]), two * (g[1] * p[0] - g[0] * p[1]))
+    k = size - squared.by(dot(o[:2], o[:2]) + dot(p[:2], p[:2]))
+    for elbow in turns(a, b, k, squared):
+        f = _point(p).turned(elbow).moved(pair[0])
+        shoulder = angle(f.parts, x.parts, (f.scale, x.scale))
+        assert shoulder is not None, "it was tested"
+        e = d.turned(shoulder, -1).moved(back(pair[0])).turned(elbow, -1).moved(back(pair[1]))
+        yield [shoulder, elbow, Joint(e.parts[0], e.parts[1], e.scale)]
+
+
+# --- spherical wrists --------------------------------------------------------------------------------------------
+def centre(chain: Chain) -> tuple[Surd, Surd] | None:
+    """Heights of the centre of the wrist on axes 4 and 6."""
+    if len(chain.turns) != 6 or not all(chain.turns[3:]):
+        return None
+    between, beyond = meeting(chain.constants[4]), meeting(chain.constants[5])
+    if between is None or beyond is None or between[0] - beyond[1]:
+        return None
+    return between[1], beyond[0]
+
+
+def wrist(chain: Chain, pose: Motion, arm: Sequence[Joint], entry: Entry) -> Iterator[list[Joint]]:
+    """The last three joints, over a position of the first three."""
+    constants, unit = chain.constants, arm[0].w.unit
+    end = together(pose, back(constants[6]))
+
+    def direction(values: Sequence[Surd]) -> Vector:
+        x, y, z = (unit.by(v) for v in values)
+        return Vector((x, y, z), unit, False)
+
+    column = direction([row[2] for row in end[0]])  # W e_z
+    for joint, constant in zip(arm, constants, strict=False):
+        column = column.moved(back(constant)).turned(joint, -1)
+    column = column.moved(back(constants[3]))
+    row = direction([r[2] for r in constants[3][0]])  # W^T e_z
+    for joint, constant in zip(arm[::-1], constants[2::-1], strict=True):
+        row = row.turned(joint).moved(constant)
+    row = row.moved(back(end))
+    r, n = constants[4][0][2], [line[2] for line in constants[5][0]]
+    a, b = unit.by(r[0] * n[0] + r[1] * n[1]), unit.by(r[1] * n[0] - r[0] * n[1])
+    k = column.parts[2] - column.scale.by(r[2] * n[2])
+    for fifth in turns(a, b, k, column.scale):
+        bent = direction(n).turned(fifth).moved(constants[4])
+        line = direction(r).turned(fifth, -1).moved(back(constants[5]))
+        fourth = angle(bent.parts, column.parts, (bent.scale, column.scale))
+        sixth = angle(row.parts, line.parts, (row.scale, line.scale))
+        if fourth is None or sixth is None:
+            raise entry.fail(FREE)
+        yield [fourth, fifth, sixth]

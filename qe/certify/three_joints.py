@@ -1,0 +1,249 @@
+"""All positions of three joints that bring a point to a place, each of which turns or slides: for certificates.
+
+With frames A0 M1 A1 M2 A2 M3, e the point seen from there, p' = A0^-1 p, A1 = (R, o), v = A2 M3 e, and M2 v = (u, v_z)
+or v + d e_z, the place is reached iff A1 M2 v has the same length and height as p' (a first joint that turns) or the
+same x and y (one that slides) (D. L. Pieper 1968). These two are linear in u, or in d but for a square, and |u| =
+|(v_x, v_y)|. With θ3 = φ + 2 arctan t, or t the length of the third joint, all over powers of 1 + t² or of 1: either
+they determine u or d, and the equation E in t is left; or a combination E of the two is free of u or d, and S = m² is
+left for what it does not name. θ2 is the angle from (v_x, v_y) to u, unique where they are not 0, θ1 the one from
+A1 M2 v to p', unique where p' is not on the first axis. So different (t, m) are different positions. Where E is the
+zero polynomial there are as many as roots of S, if S is negative everywhere else.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+
+from qe.certify.arithmetic import square_roots as sr
+from qe.certify.arithmetic.motions import Motion, Triple, back, dot, image
+from qe.certify.arithmetic.nested_roots import Joint, Nested, Place, angle, nested
+from qe.certify.arithmetic.square_roots import ONE, ZERO, Interval, Polynomial, Surd
+from qe.errors import Unable
+from qe.proof.entry import Entry
+
+HALF = Surd.rational(Fraction(1, 2))
+Linear = tuple[Polynomial, Surd]
+"""A part without m, and the factor of m."""
+
+FREE = "a joint can be chosen here"
+
+
+@dataclass(frozen=True, slots=True)
+class Positions:
+    """``equation`` (E) and ``square`` (S, or None); ``full``: the degree of E where no angle is missed, 0 where t
+    misses none; ``only_at_roots``: the equation is S, because E vanishes. ``image``: M2 v over norm²; ``second``: what
+    tells the second joint. ``v`` over norm."""
+
+    equation: Polynomial
+    full: int
+    square: Polynomial | None
+    only_at_roots: bool
+    image: tuple[Linear, Linear, Linear]
+    second: Linear
+    v: list[Polynomial]
+    third: tuple[Polynomial, ...]
+    norm: Polynomial
+    first: Motion
+    target: Triple
+    turns: tuple[bool, ...]
+
+    @staticmethod
+    def of(
+        constants: Sequence[Motion],
+        turns: tuple[bool, ...],
+        e: Triple,
+        place: Triple,
+        phi: tuple[Fraction, Fraction] | None,
+        entry: Entry,
+    ) -> Positions:
+        """The equations of the derivation above; ``constants``: A0, A1, A2. ``phi`` is None where t is a length."""
+        target = image(back(constants[0]), place)
+        norm, third, v = _last(constants[2], e, phi)
+        parts = _Parts(constants[1], target, norm, v)
+        equation, full, square, moved, second = (
+            parts.second_turns(turns[0]) if turns[1] else parts.second_slides(turns[0])
+        )
+        full = 0 if phi is None else full
+        only_at_roots = not equation and square is not None
+        if only_at_roots:
+            equation, full = square or [], 0 if phi is None else 8
+        while full and len(equation) > 2 and not (divided := sr.divided(equation, norm))[1]:
+            equation, full = divided[0], full - 2
+        if not equation or len(equation) <= full:
+            raise entry.fail("the equation vanishes at the angle that t misses, or everywhere")
+        if only_at_roots and (len(equation) % 2 == 0 or equation[-1].sign() > 0):
+            raise entry.fail(FREE)
+        return Positions(
+            equation, full, square, only_at_roots, moved, second, v, third, norm, constants[1], target, turns
+        )
+
+    def total(self) -> int:
+        """The number of positions (t, m) with t real."""
+        if len(self.equation) == 1:
+            return 0
+        roots = sr.tarski(self.equation, [ONE])
+        if not self.square or self.only_at_roots or not roots:
+            return roots
+        signs = sr.tarski(self.equation, self.square)
+        nonzero = sr.tarski(self.equation, sr.times(self.square, self.square))
+        return (nonzero + signs) + (roots - nonzero)  # two for each positive one, one where it vanishes
+
+    def at_root(self, between: Interval, entry: Entry) -> Iterator[list[Joint]]:
+        """The positions over the one root in an interval."""
+        ends = [sr.at(self.equation, x) for x in between]
+        if not all(ends):
+            raise entry.fail("an end is a root")
+        if self.only_at_roots and any(end.sign() > 0 for end in ends):
+            raise entry.fail(FREE)
+        if len(self.equation) == 1 or sr.tarski(self.equation, [ONE], between) != 1:
+            raise entry.fail("expected exactly one root in the interval")
+        place = Place.of(self.equation, between)
+        nothing = self.square is None or self.only_at_roots
+        square = Nested({}) if nothing else nested(place.value(self.square or []))
+        for m in square.square_roots():
+            yield self._joints(place, m, entry)
+
+    def _joints(self, place: Place, m: Nested, entry: Entry) -> list[Joint]:
+        def at(p: Polynomial) -> Nested:
+            return nested(place.value(p))
+
+        norm, v = at(self.norm), [at(p) for p in self.v]
+        norm2 = norm * norm
+        moved = [at(p) + m.by(c) for p, c in self.image]
+        rows, shift = self.first
+        q = [
+            sum((part.by(c) for c, part in zip(row, moved, strict=True) if c), norm2.by(o))
+            for row, o in zip(rows, shift, strict=True)
+        ]
+        one, goal = at([ONE]), [at(sr.trimmed([c])) for c in self.target]
+        first = angle(q, goal, (norm2, one)) if self.turns[0] else Joint(norm2 * goal[2] - q[2], None, norm2)
+        part, factor = self.second
+        second = angle(v, moved, (norm, norm2)) if self.turns[1] else Joint(at(part) + m.by(factor), None, norm2)
+        if first is None or second is None:
+            raise entry.fail(FREE)
+        c, *s = (at(p) for p in self.third)
+        return [first, second, Joint(c, s[0] if s else None, norm)]
+
+
+def _last(
+    constant: Motion, e: Triple, phi: tuple[Fraction, Fraction] | None
+) -> tuple[Polynomial, tuple[Polynomial, ...], list[Polynomial]]:
+    """What all is multiplied by, the third joint, and v."""
+    third: tuple[Polynomial, ...]
+    if phi is None:
+        norm, third = [ONE], ([ZERO, ONE],)
+        moved = [sr.trimmed([e[0]]), sr.trimmed([e[1]]), [e[2], ONE]]
+    else:
+        norm, third = [ONE, ZERO, ONE], _circle(*phi)
+        moved = [
+            sr.add(sr.scaled(third[0], e[0]), sr.scaled(third[1], -e[1])),
+            sr.add(sr.scaled(third[1], e[0]), sr.scaled(third[0], e[1])),
+            sr.scaled(norm, e[2]),
+        ]
+    v = [sr.add(_combined(row, moved), sr.scaled(norm, o)) for row, o in zip(*constant, strict=True)]
+    return norm, third, v
+
+
+def _circle(c: Fraction, s: Fraction) -> tuple[Polynomial, Polynomial]:
+    """cos θ3 and sin θ3 times 1 + t²."""
+    cosine, sine = (sr.trimmed([Surd.rational(v) for v in row]) for row in ((c, -2 * s, -c), (s, 2 * c, -s)))
+    return cosine, sine
+
+
+def _combined(row: Sequence[Surd], parts: Sequence[Polynomial]) -> Polynomial:
+    total: Polynomial = []
+    for c, part in zip(row, parts, strict=True):
+        total = sr.add(total, sr.scaled(part, c))
+    return total
+
+
+def _less(p: Polynomial, q: Polynomial) -> Polynomial:
+    return sr.add(p, sr.scaled(q, -ONE))
+
+
+Found = tuple[Polynomial, int, Polynomial | None, tuple[Linear, Linear, Linear], Linear]
+"""E, its full degree, S, M2 v, and the length of a second joint that slides."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Parts:
+    """``second``: A1; v over norm."""
+
+    second: Motion
+    target: Triple
+    norm: Polynomial
+    v: list[Polynomial]
+
+    def _lifted(self, p: Polynomial) -> Polynomial:
+        return sr.times(p, self.norm)
+
+    def _rows(self, first_turns: bool) -> tuple[Triple, Triple]:
+        """What the two equations take of M2 v."""
+        rows, shift = self.second
+        return (tuple(dot(column, shift) for column in zip(*rows, strict=True)), rows[2]) if first_turns else rows[:2]
+
+    def _distance(self) -> Polynomial:
+        """(|p'|² - |o|² - |v|²) norm²."""
+        shift = self.second[1]
+        total = sr.scaled(sr.times(self.norm, self.norm), dot(self.target, self.target) - dot(shift, shift))
+        for part in self.v:
+            total = _less(total, sr.times(part, part))
+        return total
+
+    def _shifted(self, i: int) -> Polynomial:
+        return sr.scaled(sr.times(self.norm, self.norm), self.target[i] - self.second[1][i])
+
+    def second_turns(self, first_turns: bool) -> Found:
+        """u from the two equations, and |u|² = |(v_x, v_y)|²."""
+        (g, n), v = self._rows(first_turns), self.v
+        one, two = (
+            (sr.scaled(self._distance(), HALF), self._shifted(2)) if first_turns else map(self._shifted, range(2))
+        )
+        height = self._lifted(v[2])
+        b1, b2 = _less(one, sr.scaled(height, g[2])), _less(two, sr.scaled(height, n[2]))
+        radius = sr.add(sr.times(v[0], v[0]), sr.times(v[1], v[1]))
+        kappa, determinant = self._lifted(self._lifted(radius)), g[0] * n[1] - g[1] * n[0]
+        if determinant:
+            over = determinant.inverse()
+            x = _less(sr.scaled(b1, n[1] * over), sr.scaled(b2, g[1] * over))
+            y = _less(sr.scaled(b2, g[0] * over), sr.scaled(b1, n[0] * over))
+            equation = _less(sr.add(sr.times(x, x), sr.times(y, y)), kappa)
+            return equation, 8, None, ((x, ZERO), (y, ZERO), (height, ZERO)), ([], ZERO)
+        along, d, equation = (b1, g, b2) if g[0] or g[1] else (b2, n, b1)
+        length = d[0] * d[0] + d[1] * d[1]
+        if not length:
+            raise Unable("the first two joints move alike")
+        over = length.inverse()
+        if g[0] or g[1]:
+            equation = _less(equation, sr.scaled(b1, dot(n[:2], d[:2]) * over))
+        square = _less(sr.scaled(kappa, length), sr.times(along, along))
+        u = (sr.scaled(along, d[0] * over), -d[1] * over), (sr.scaled(along, d[1] * over), d[0] * over)
+        return equation, 4, square, (*u, (height, ZERO)), ([], ZERO)
+
+    def second_slides(self, first_turns: bool) -> Found:
+        """d from one of the two equations."""
+        (g, n), v, square = self._rows(first_turns), self.v, None
+        x, y, z = (self._lifted(part) for part in v)
+        full, factor = 8, ZERO
+        if not first_turns:
+            b1, b2 = (_less(self._shifted(i), self._lifted(_combined(row, v))) for i, row in enumerate((g, n)))
+            length = g[2] * g[2] + n[2] * n[2]
+            if not length:
+                raise Unable("the first two joints move alike")
+            d = sr.scaled(sr.add(sr.scaled(b1, g[2]), sr.scaled(b2, n[2])), length.inverse())
+            equation, full = _less(sr.scaled(b1, n[2]), sr.scaled(b2, g[2])), 4
+        else:
+            height = _less(self._shifted(2), self._lifted(_combined(n, v)))
+            middle = sr.add(z, sr.scaled(sr.times(self.norm, self.norm), g[2]))
+            # |A1 (v + d e_z)|² = |v|² + |o|² + 2 g·v + d² + 2 d (v_z + g_z)
+            free = _less(self._distance(), sr.scaled(self._lifted(_combined(g, v)), ONE + ONE))
+            wanted = self._lifted(self._lifted(free))
+            if n[2]:
+                d = sr.scaled(height, n[2].inverse())
+                equation = _less(sr.add(sr.times(d, d), sr.scaled(sr.times(d, middle), ONE + ONE)), wanted)
+            else:
+                square, factor = sr.add(sr.times(middle, middle), wanted), ONE
+                d, equation, full = sr.scaled(middle, -ONE), height, 4
+        return equation, full, square, ((x, ZERO), (y, ZERO), (sr.add(z, d), factor)), (d, factor)
