@@ -11,6 +11,7 @@ from fractions import Fraction
 
 from qe.certify.block import existential
 from qe.certify.boolean import ByLemmas
+from qe.certify.counted_solutions import sentences
 from qe.certify.derivation import limits_of, replaced
 from qe.certify.registry import RULES
 from qe.certify.step import Claim, Context, Limits
@@ -47,6 +48,8 @@ SIMPLIFYING = (
 """Rules whose steps go on under quantifiers."""
 
 CRITICAL, SEARCH, SQUARES = "critical values", "Boolean search", "signs by sums of squares"
+
+COUNTED = "comprehensive Gröbner system"
 
 UNRECORDED = "steps that are not recorded"
 
@@ -240,6 +243,9 @@ class Prover:
         refuted = step.evidence.get("refuted")
         if isinstance(refuted, OnDemand):
             return self._refuted(step, refuted)
+        if step.rule == COUNTED:
+            counted = self._counted(step)
+            return None if counted is None else (COUNTED, counted)
         given = step.evidence.get("proof")
         if step.rule == SQUARES:
             return self._positive(step, given, context)
@@ -333,6 +339,20 @@ class Prover:
             return None
         own = self._tried(step.rule, step, (), evidence)
         return None if own is None else (step.rule, own)
+
+    def _counted(self, step: Step) -> Json | None:
+        """The cases of the parameters of a block over equations, each proved."""
+        claim, parts = self._claim(step.rule, step, {}), []
+        try:
+            for sentence in sentences(claim, self.limits.tick):
+                inner = Nested(sentence, (Step("simplification", sentence, TRUE),), TRUE)
+                parts.append(self.nested(inner, sentence, ())[1])
+        except CertificateRejected:
+            return None
+        except Unable:
+            self.budget.check("prove")
+            return None
+        return self._tried(step.rule, step, (), {"cases": parts})
 
     def _searched(self, step: Step, evidence: dict[str, Json]) -> dict[str, Json] | None:
         """The evidence for a refutation by a Boolean search, with the clauses that lead to a contradiction."""

@@ -10,7 +10,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from qe.certify.arithmetic.ideal import Ideal, TraceForms, terms_of
-from qe.certify.arithmetic.parametric import Case, Conditions, ParametricForms, Terms, cases, irreducible
+from qe.certify.arithmetic.parametric import Case, Conditions, Terms, cases, irreducible
+from qe.certify.arithmetic.parametric_forms import ParametricForms
 from qe.certify.classification import _signatures
 from qe.errors import Unable
 from qe.exact.ring import Poly, Ring
