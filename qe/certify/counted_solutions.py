@@ -9,8 +9,8 @@ A iff ex v ex w A, and v joins the parameters. So over each case there are two f
 a solution, "none" wherever there is not, and one of the two situations is the case at every point. The step is right
 if over each case "some" implies what the block became, and "none" its negation.
 
-Evidence: ``cases``: for each case the steps that lead from this sentence about the parameters to true. Nothing says what
-the cases are: the checker divides the parameter space by itself. (Of a sentence that is false: ``no_solutions``.)
+Evidence: ``proofs``: for each case a certificate that this sentence about the parameters is true. Nothing says what the
+cases are: the checker divides the parameter space by itself. (Of a sentence that is false: ``no_solutions``.)
 """
 
 from __future__ import annotations
@@ -24,6 +24,7 @@ from qe.certify.arithmetic.parametric import Case, Conditions, Exponents, Terms,
 from qe.certify.arithmetic.parametric_forms import ParametricForms
 from qe.certify.arithmetic.signature import Signatures, signatures
 from qe.certify.block import existential
+from qe.certify.claims import is_about
 from qe.certify.negation import normal
 from qe.certify.no_solutions import check_no_solutions, conjunctions
 from qe.certify.step import Claim, Context, Limits, only
@@ -31,6 +32,7 @@ from qe.errors import Unable
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj, convert, disj, exists, forall, implies, neg
 from qe.formula.syntax import FALSE, TRUE, Atom, Exists, Formula, Relation
+from qe.proof.certificate import Kind
 
 MOST_SOLUTIONS, MOST_COMBINATIONS = 8, 3000
 """Complex solutions of a case, and values that the signatures of all its forms may have together."""
@@ -47,16 +49,17 @@ def check_counted_solutions(claim: Claim, context: Context, limits: Limits) -> N
     """Accept silently, or raise ``CertificateRejected`` naming the case that fails. Raises ``Unable`` at a limit."""
     if isinstance(claim.evidence.value, dict) and "certificates" in claim.evidence.value:
         return check_no_solutions(claim, context, limits)
-    entry = only(claim, "cases")[0]
+    entry = only(claim, "proofs")[0]
     listed = iter(list(entry.items()))
     for sentence in sentences(claim, limits.tick):
-        steps = next(listed, None)
-        if steps is None:
-            raise entry.fail("a case is left without steps")
-        if limits.replay(steps, sentence, (), claim.ring) != TRUE:
-            raise steps.fail("the steps do not show what this case needs")
-    if (steps := next(listed, None)) is not None:
-        raise steps.fail("there are not so many cases")
+        proof = next(listed, None)
+        if proof is None:
+            raise entry.fail("a case is left without a proof")
+        certificate = limits.leaf(proof)
+        if certificate.kind is Kind.BUNDLE or is_about(certificate, sentence) != TRUE:
+            raise proof.fail("not a proof of the sentence of this case")
+    if (proof := next(listed, None)) is not None:
+        raise proof.fail("there are not so many cases")
     return None
 
 

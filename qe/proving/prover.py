@@ -11,7 +11,6 @@ from fractions import Fraction
 
 from qe.certify.block import existential
 from qe.certify.boolean import ByLemmas
-from qe.certify.counted_solutions import sentences
 from qe.certify.derivation import limits_of, replaced
 from qe.certify.registry import RULES
 from qe.certify.step import Claim, Context, Limits
@@ -48,7 +47,6 @@ SIMPLIFYING = (
 """Rules whose steps go on under quantifiers."""
 
 CRITICAL, SEARCH, SQUARES = "critical values", "Boolean search", "signs by sums of squares"
-
 COUNTED = "comprehensive Gröbner system"
 
 UNRECORDED = "steps that are not recorded"
@@ -244,8 +242,11 @@ class Prover:
         if isinstance(refuted, OnDemand):
             return self._refuted(step, refuted)
         if step.rule == COUNTED:
-            counted = self._counted(step)
-            return None if counted is None else (COUNTED, counted)
+            from qe.proving.counted import case_proofs
+
+            proofs = case_proofs(self._claim(step.rule, step, {}), self.options, self.limits)
+            own = None if proofs is None else self._tried(COUNTED, step, (), {"proofs": proofs})
+            return None if own is None else (COUNTED, own)
         given = step.evidence.get("proof")
         if step.rule == SQUARES:
             return self._positive(step, given, context)
@@ -339,20 +340,6 @@ class Prover:
             return None
         own = self._tried(step.rule, step, (), evidence)
         return None if own is None else (step.rule, own)
-
-    def _counted(self, step: Step) -> Json | None:
-        """The cases of the parameters of a block over equations, each proved."""
-        claim, parts = self._claim(step.rule, step, {}), []
-        try:
-            for sentence in sentences(claim, self.limits.tick):
-                inner = Nested(sentence, (Step("simplification", sentence, TRUE),), TRUE)
-                parts.append(self.nested(inner, sentence, ())[1])
-        except CertificateRejected:
-            return None
-        except Unable:
-            self.budget.check("prove")
-            return None
-        return self._tried(step.rule, step, (), {"cases": parts})
 
     def _searched(self, step: Step, evidence: dict[str, Json]) -> dict[str, Json] | None:
         """The evidence for a refutation by a Boolean search, with the clauses that lead to a contradiction."""
