@@ -9,8 +9,9 @@ A iff ex v ex w A, and v joins the parameters. So over each case there are two f
 a solution, "none" wherever there is not, and one of the two situations is the case at every point. The step is right
 if over each case "some" implies what the block became, and "none" its negation.
 
-Evidence: ``proofs``: for each case a certificate that this sentence about the parameters is true. Nothing says what the
-cases are: the checker divides the parameter space by itself. (Of a sentence that is false: ``no_solutions``.)
+Evidence: ``proofs``: for each case lemmas by which this sentence about the parameters is true (as for the rule
+"simplification"), or a certificate that it is. Nothing says what the cases are: the checker divides the parameter space
+by itself. (Of a sentence that is false: ``no_solutions``.)
 """
 
 from __future__ import annotations
@@ -23,7 +24,7 @@ from math import prod
 from qe.certify.arithmetic.parametric import Case, Conditions, Exponents, Terms, cases
 from qe.certify.arithmetic.parametric_forms import ParametricForms
 from qe.certify.arithmetic.signature import Signatures, signatures
-from qe.certify.block import existential
+from qe.certify.block import check_block, existential
 from qe.certify.claims import is_about
 from qe.certify.negation import normal
 from qe.certify.no_solutions import check_no_solutions, conjunctions
@@ -33,6 +34,7 @@ from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj, convert, disj, exists, forall, implies, neg
 from qe.formula.syntax import FALSE, TRUE, Atom, Exists, Formula, Relation
 from qe.proof.certificate import Kind
+from qe.proof.entry import Entry
 
 MOST_SOLUTIONS, MOST_COMBINATIONS = 8, 3000
 """Complex solutions of a case, and values that the signatures of all its forms may have together."""
@@ -55,12 +57,20 @@ def check_counted_solutions(claim: Claim, context: Context, limits: Limits) -> N
         proof = next(listed, None)
         if proof is None:
             raise entry.fail("a case is left without a proof")
+        if isinstance(proof.value, dict) and "theory" in proof.value:
+            check_block(by_lemmas(sentence, claim.ring, proof), (), limits)
+            continue
         certificate = limits.leaf(proof)
         if certificate.kind is Kind.BUNDLE or is_about(certificate, sentence) != TRUE:
             raise proof.fail("not a proof of the sentence of this case")
     if (proof := next(listed, None)) is not None:
         raise proof.fail("there are not so many cases")
     return None
+
+
+def by_lemmas(sentence: Formula, ring: Ring, evidence: Entry) -> Claim:
+    """That a sentence is true, for the checker of simplifications."""
+    return Claim("simplification", sentence, TRUE, ring, evidence, evidence.path)
 
 
 def sentences(claim: Claim, tick: Callable[[], None]) -> Iterator[Formula]:
