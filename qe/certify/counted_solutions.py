@@ -213,9 +213,7 @@ def _formula(where: Conditions, ring: Ring) -> Formula:
 
 def _signatures(forms: ParametricForms, h: Terms, hankel: bool, square: bool) -> Signatures:
     matrix = forms.matrix(h)
-    return signatures(
-        forms.minors(matrix), lambda: forms.coefficients(matrix)[1:], hankel=hankel, square=square
-    )
+    return signatures(forms.minors(matrix), lambda: forms.coefficients(matrix)[1:], hankel=hankel, square=square)
 
 
 def _split(p: Poly, ring: Ring, names: Sequence[str]) -> Terms:

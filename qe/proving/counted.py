@@ -1,5 +1,5 @@
-"""Evidence for the rule "comprehensive Gröbner system": what its checker asks about the parameters, proved. Nothing here
-is trusted."""
+"""Evidence for the rule "comprehensive Gröbner system": what its checker asks about the parameters, proved. Nothing of
+it is trusted."""
 
 from __future__ import annotations
 

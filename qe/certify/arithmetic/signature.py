@@ -22,14 +22,13 @@ from functools import cache
 
 from qe.exact.ring import Poly
 from qe.formula.build import atom, conj, disj
-from qe.formula.syntax import TRUE, Formula, Relation
+from qe.formula.syntax import FALSE, TRUE, Formula, Relation
 
 Signatures = dict[int, Formula]
 """For every signature that can occur the signs with which it does."""
 
 SMALL = 4
 """Matrices of this size are read by minors as far as these decide; larger ones only where the last one is not 0."""
-
 
 
 @dataclass(frozen=True)
@@ -53,7 +52,7 @@ def signatures(
         found = _under(atom(minors[-1], Relation.NE), _by_minors(minors, coefficients, hankel=False, regular=True))
         rest = _under(atom(minors[-1], Relation.EQ), _by_descartes(coefficients()))
         found = {s: disj([f[s] for f in (found, rest) if s in f]) for s in (*found, *rest)}
-    return {s: f for s, f in found.items() if s >= 0 or not square}
+    return {s: f for s, f in found.items() if f != FALSE and (s >= 0 or not square)}
 
 
 def _under(condition: Formula, found: Signatures) -> Signatures:
