@@ -22,7 +22,8 @@ from dataclasses import dataclass
 from functools import cache
 from itertools import product as choices
 
-from qe.certify.arithmetic.parametric import Case, Conditions, ParametricForms, Terms, cases
+from qe.certify.arithmetic.parametric import Case, Conditions, Terms, cases
+from qe.certify.arithmetic.parametric_forms import ParametricForms
 from qe.certify.arithmetic.sturm import count_roots_between
 from qe.certify.claims import is_about
 from qe.errors import CertificateRejected, Unable
@@ -166,7 +167,7 @@ def _counts(case: Case, positive: Sequence[Terms]) -> dict[int | None, Formula]:
     products: list[Terms] = [{(0,) * case.size: case.where.ring.constant(1)}]
     for g in positive:  # (s + s^2)/2 is 1 for a positive sign s, and 0 for the others
         products = [p for q in products for p in (_product(q, g), _product(_product(q, g), g))]
-    rows = [forms.coefficients(h) if h else None for h in products]
+    rows = [forms.coefficients(forms.matrix(h)) if h else None for h in products]
     signatures = [_signatures(row, size) if row is not None else {0: TRUE} for row in rows]
     scale = 1 << len(positive)
     parts: dict[int, list[Formula]] = {k: [] for k in range(size + 1)}

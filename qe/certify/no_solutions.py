@@ -29,7 +29,7 @@ def check_no_solutions(claim: Claim, context: Context, limits: Limits) -> None:
     entry = only(claim, "certificates")[0]
     before = refuted_block(claim)
     refuted = [_system(part, claim, limits) for part in entry.items()]
-    for members in _conjunctions(normal(before.body)):
+    for members in conjunctions(normal(before.body)):
         limits.tick()
         if FALSE not in members and not any(system <= members for system in refuted):
             raise entry.fail("a conjunction of the sentence is not refuted")
@@ -55,7 +55,7 @@ def _system(entry: Entry, claim: Claim, limits: Limits) -> frozenset[Formula]:
     return frozenset(found)
 
 
-def _conjunctions(formula: Formula) -> Iterator[frozenset[Formula]]:
+def conjunctions(formula: Formula) -> Iterator[frozenset[Formula]]:
     """The disjunctive normal form of a formula in negation normal form. Raises ``Unable`` where it is long."""
     for count, members in enumerate(_choices(formula)):
         if count >= MOST_CONJUNCTIONS:

@@ -9,6 +9,7 @@ from qe.certify.balls import check_balls
 from qe.certify.block import check_block
 from qe.certify.boolean_search import check_boolean_search
 from qe.certify.constant import check_constant
+from qe.certify.counted_solutions import check_counted_solutions
 from qe.certify.covering import check_covering
 from qe.certify.critical_values import check_critical_values
 from qe.certify.degenerate_truth_set import check_degenerate_truth_set
@@ -25,7 +26,6 @@ from qe.certify.linear_equation import check_guarded_linear, check_linear
 from qe.certify.miniscoping import check_miniscoping
 from qe.certify.mirror import check_mirror
 from qe.certify.negation import check_negation
-from qe.certify.no_solutions import check_no_solutions
 from qe.certify.open_block import check_open_block
 from qe.certify.ranges import check_ranges
 from qe.certify.renaming import check_renaming
@@ -90,5 +90,5 @@ RULES: Mapping[str, Check] = {
     "Boolean search": check_boolean_search,
     "convex": check_sentence,
     "point or multipliers": check_sentence,
-    "comprehensive Gröbner system": check_no_solutions,
+    "comprehensive Gröbner system": check_counted_solutions,
 }

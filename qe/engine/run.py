@@ -24,7 +24,7 @@ from qe.formula.counting import without_root_atoms
 from qe.formula.features import features
 from qe.formula.normal import nnf, rename_apart
 from qe.formula.syntax import FALSE, TRUE, And, Constant, Exists, ForAll, Formula, Not, Or
-from qe.options import Budget, Options, Stage
+from qe.options import Budget, Method, Options, Stage
 from qe.proof.answer import Answer, Status
 from qe.proof.derivation import negated
 from qe.proof.run_log import RunLog
@@ -261,7 +261,10 @@ class _Run:
 
     def block(self, problem: Problem) -> Outcome:
         """One block by the strategy; raises ``Unable`` where no attempt ends."""
-        found = self.first_of(Scope.BLOCK if problem.is_flat else Scope.NESTED, problem)
+        scope = Scope.BLOCK if problem.is_flat else Scope.NESTED
+        found = self.first_of(scope, problem)
+        if found is None and self.options.method is Method.CGS:  # no equations: they are not for trace forms
+            found = replace(self, options=self.options.with_(method=Method.AUTO)).first_of(scope, problem)
         if found is None:
             raise alone(self.options.method.value)
         return found

@@ -15,6 +15,7 @@ from qe.certify.boolean import Theory
 from qe.certify.negation import normal
 from qe.certify.step import Limits
 from qe.elimination.search.monomial_bounds import MonomialBounds, is_square
+from qe.exact.groebner import groebner_basis
 from qe.exact.quadratic_form import solve_linear
 from qe.exact.ring import Poly, Ring
 from qe.formula.syntax import FALSE, Atom, Exists, ForAll, Formula, Or, Relation
@@ -60,6 +61,7 @@ def refuting(goals: Sequence[Sequence[Formula]], ring: Ring, limits: Limits) -> 
         lambda: _lines(found, polys),
         lambda: _ranges(found, polys),
         lambda: _chained(found, polys),
+        lambda: _remainders(found, polys),
         lambda: _combinations(found, goals, limits.budget),
     ]
     for stage, search in enumerate(stages):
@@ -286,6 +288,25 @@ def _ranges(found: Lemmas, polys: Iterable[Poly]) -> None:
     for poly in dict.fromkeys((*found.numbers, *polys)):
         if 1 < poly.term_count() <= MOST_MONOMIALS:
             found.identity([(-1, ((poly, 1),)), *_monomials(poly)])
+
+
+def _remainders(found: Lemmas, polys: dict[Poly, bool]) -> None:
+    """Polynomials that are the same, up to a factor, where an equation holds, and such that vanish there."""
+    for equation in [p for p, is_equation in polys.items() if is_equation]:
+        basis = groebner_basis((equation,), variables=range(found.ring.size))
+        alike: dict[Poly, list[tuple[Fraction, Poly]]] = {}
+        for p in [p for p in polys if p != equation and basis is not None]:
+            scale, rest = basis.reduce(p)
+            unit, key = content_of(rest) if rest else (scale, rest)
+            alike.setdefault(key, []).append((Fraction(unit, scale), p))
+        for key, members in alike.items():
+            for _, p in () if key else members:
+                found.identity([(1, ((p, 1),)), (-1, ((p.exact_divide(equation), 1), (equation, 1)))])
+            for (u, p), (v, q) in pairwise(members) if key else ():
+                ratio = v / u
+                quotient = (p * ratio.numerator - q * ratio.denominator).exact_divide(equation)
+                terms: list[Term] = [(ratio.numerator, ((p, 1),)), (-ratio.denominator, ((q, 1),))]
+                found.identity([*terms, (-1, ((quotient, 1), (equation, 1)))])
 
 
 def _combinations(found: Lemmas, goals: Sequence[Sequence[Formula]], budget: Budget) -> None:

@@ -47,6 +47,7 @@ SIMPLIFYING = (
 """Rules whose steps go on under quantifiers."""
 
 CRITICAL, SEARCH, SQUARES = "critical values", "Boolean search", "signs by sums of squares"
+COUNTED = "comprehensive Gröbner system"
 
 UNRECORDED = "steps that are not recorded"
 
@@ -240,6 +241,12 @@ class Prover:
         refuted = step.evidence.get("refuted")
         if isinstance(refuted, OnDemand):
             return self._refuted(step, refuted)
+        if step.rule == COUNTED:
+            from qe.proving.counted import case_proofs
+
+            proofs = case_proofs(self._claim(step.rule, step, {}), self.options, self.limits)
+            own = None if proofs is None else self._tried(COUNTED, step, (), {"proofs": proofs})
+            return None if own is None else (COUNTED, own)
         given = step.evidence.get("proof")
         if step.rule == SQUARES:
             return self._positive(step, given, context)

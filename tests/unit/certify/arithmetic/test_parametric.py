@@ -10,7 +10,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from qe.certify.arithmetic.ideal import Ideal, TraceForms, terms_of
-from qe.certify.arithmetic.parametric import Case, Conditions, ParametricForms, Terms, cases, irreducible
+from qe.certify.arithmetic.parametric import Case, Conditions, Terms, cases, irreducible
+from qe.certify.arithmetic.parametric_forms import ParametricForms
 from qe.certify.classification import _signatures
 from qe.errors import Unable
 from qe.exact.ring import Poly, Ring
@@ -85,7 +86,8 @@ def test_every_point_has_one_case_with_the_ideal_there(system: list[Terms], a: F
     for h in ({(0, 0): RING.constant(1)}, {(1, 0): RING.constant(1), (0, 1): A, (0, 0): B}):
         own = special(h, [a, b])
         try:
-            conditions = _signatures(ParametricForms(found).coefficients(h), len(found.monomials))
+            forms = ParametricForms(found)
+            conditions = _signatures(forms.coefficients(forms.matrix(h)), len(found.monomials))
         except Unable:
             return
         values = [value for value, f in conditions.items() if holds_at(f, {"a": a, "b": b})]
