@@ -138,16 +138,32 @@ class Helpers(Protocol):
         ...
 
 
+def lost(value: object) -> None:
+    """Puts nothing by."""
+
+
 class Budget:
     """Soft limits, checked between FLINT calls: ``check`` raises ``BudgetExceeded``.
 
     ``seconds`` counts from construction. ``work`` bounds what ``spend`` is told: one unit is a cell of a decomposition,
     or about the time of one; unlike seconds it is the same on every machine, so what depends on it is too.
     A budget for a part of the work (``share``, ``part``) sees the deadline, the limit on work and the cancellation of
-    the budget that it came from, and has its ``helpers``.
+    the budget that it came from, and has its ``helpers``. ``keep`` puts by what the work has found, in case that a
+    limit ends it before it is done: then that is its result.
     """
 
-    __slots__ = ("_cancelled", "_last_note", "deadline", "handover", "helpers", "listener", "parent", "used", "work")
+    __slots__ = (
+        "_cancelled",
+        "_last_note",
+        "deadline",
+        "handover",
+        "helpers",
+        "keep",
+        "listener",
+        "parent",
+        "used",
+        "work",
+    )
 
     def __init__(
         self,
@@ -156,11 +172,13 @@ class Budget:
         listener: Listener = silent,
         parent: Budget | None = None,
         handover: Handover | None = None,
+        keep: Callable[[object], None] = lost,
     ) -> None:
         self.deadline = None if seconds is None else time.monotonic() + seconds
         self.work, self.used, self.listener, self.parent = work, 0, listener, parent
         self.handover: Handover | None = handover if parent is None else parent.handover
         self.helpers: Helpers | None = None if parent is None else parent.helpers
+        self.keep = keep
         self._cancelled, self._last_note = False, 0.0
 
     def cancel(self) -> None:

@@ -21,7 +21,7 @@ from qe.formula.traverse import free_variables
 from qe.options import VERIFY_SECONDS, Budget, Cluster, Method, Options, Stage
 from qe.processes.execution import Budgets, Limits
 from qe.progress import Event, silent
-from qe.proof.answer import Answer, Status
+from qe.proof.answer import UNPROVED, Answer, Status
 from qe.proof.certificate import Certificate, Kind
 from qe.proof.partial import Partial
 from qe.proof.run_log import RunLog
@@ -88,7 +88,7 @@ def eliminate(
     is shared, ``Answer.partial`` then says for which values of the free variables the formula is proved to be true, for
     which false, and which are open. With ``check`` the answer comes with a certificate where
     one can be had (if the method makes none, by a decomposition of the whole formula), verified by the separate
-    checker; certificates that are a witness always are. A verification that does not end in time costs the
+    checker; certificates that are a witness always are. A proof or verification that does not end in time costs the
     certificate, not the answer (``Answer.reason`` says so). With ``total_division`` a quotient in text has some value,
     too, where its denominator is zero, as in SMT-LIB: the formula holds if it does for a choice of these values.
     ``explain`` tells on
@@ -132,10 +132,13 @@ def _check_order(order: tuple[str, ...] | None, formula: Formula) -> None:
 
 
 def _solved(formula: Formula, options: Options, budget: Budget) -> Outcome:
-    """The answer of the engine, which is loaded at the first call."""
-    from qe.engine.run import solve
+    """The answer of the engine, which is loaded at the first call. Where it is to be proved, it is kept before."""
+    from qe.engine.run import answer_to, answered, proved
 
-    return solve(formula, options, budget)
+    found = answered(formula, options, budget)
+    if options.certify:
+        budget.keep(replace(answer_to(formula, found), certificate=None, reason=UNPROVED))
+    return proved(formula, found, options, budget)
 
 
 def _limited(formula: Formula, options: Options, limits: Limits, check: bool, cluster: Cluster | None) -> Answer:

@@ -18,7 +18,7 @@ from qe.formula.traverse import free_variables, is_quantifier_free
 from qe.options import Options
 from qe.processes.execution import Budgets
 from qe.progress import silent
-from qe.proof.answer import Answer, Status
+from qe.proof.answer import UNPROVED, Answer, Status
 from qe.proof.run_log import RunLog
 from qe.regions.build import described
 from qe.regions.solutions import Solutions
@@ -133,6 +133,7 @@ def parametric_witnesses(
         formula = found.equivalent_to(given)
         answer = Answer(Status.SOLVED, formula, question=given, log=log)
         if check:
+            budget.keep(found.with_(replace(answer, reason=UNPROVED)))
             proof = derived(given, log, formula, options, budget)
             answer = replace(answer, certificate=proof.certificate, unchecked_steps=proof.unchecked)
         return found.with_(answer if answer.certificate is None else with_verdict(answer, budget))

@@ -11,7 +11,7 @@ from qe.certify.verify import verify as checked
 from qe.errors import InternalError, Unable
 from qe.formula.syntax import Formula
 from qe.options import VERIFY_SECONDS, Budget, Options
-from qe.proof.answer import Answer, Guarantee
+from qe.proof.answer import UNPROVED, Answer, Guarantee
 from qe.proof.cells_json import CellEvidence
 from qe.proof.certificate import Certificate, Labelled
 
@@ -77,11 +77,20 @@ def with_derivation(answer: Answer, timeout: float | None = None) -> Answer:
     Where a step has no accepted evidence, or ``timeout`` (seconds) is over, the answer has no certificate and the
     guarantee ``DERIVED``; ``unchecked_steps`` and ``reason`` say why. Raises ``Unable`` for what is no answer.
     """
-    from qe.proving.certificates import derived
-
     if answer.formula is None or answer.question is None:
         raise Unable(f"there is no derivation: {answer.reason or 'nothing was asked'}")
-    budget = Budget(timeout)
+    from qe.processes.execution import Limits, perform
+
+    try:
+        return perform(lambda budgets: _proved(answer, budgets()), Limits(timeout), at_once=timeout is not None)
+    except Unable as error:
+        return replace(answer, certificate=None, guarantee=Guarantee.DERIVED, reason=f"{UNPROVED} ({error})")
+
+
+def _proved(answer: Answer, budget: Budget) -> Answer:
+    from qe.proving.certificates import derived
+
+    assert answer.formula is not None and answer.question is not None
     found = derived(answer.question, answer.log, answer.formula, Options(certify=True), budget)
     proof = replace(answer, certificate=found.certificate, unchecked_steps=found.unchecked)
     if found.certificate is None:

@@ -19,6 +19,7 @@ from qe.certify.signs import ANY, NEGATIVE, POSITIVE, ZERO, Domains, Lemma, read
 from qe.certify.step import Claim, Context, Limits
 from qe.errors import Unable
 from qe.exact.ring import Poly
+from qe.formula.build import conj, disj
 from qe.formula.syntax import And, Atom, Constant, Exists, ForAll, Formula, Not, Or, Relation
 from qe.proof.entry import Entry
 
@@ -58,7 +59,19 @@ def equivalence(left: Formula, right: Formula, context: Iterable[Formula]) -> li
     if normal(left) == normal(right):
         return []
     known = tuple(context)
-    return [(*known, left, negation(right)), (*known, right, negation(left))]
+    return [(*known, *_without(left, right)), (*known, *_without(right, left))]
+
+
+def _without(left: Formula, right: Formula) -> Goal:
+    """``left`` and not ``right``. A common conjunct need not be refuted, of common disjuncts no case need be looked at.
+
+    C and A and not (C and B) iff C and A and not B; (C or A) and not (C or B) iff A and not C and not B.
+    """
+    if isinstance(left, And) and isinstance(right, And):
+        return left, negation(conj(f for f in right.args if f not in left.args))
+    if isinstance(left, Or) and isinstance(right, Or):
+        return disj(f for f in left.args if f not in right.args), negation(right)
+    return left, negation(right)
 
 
 def read_theory(entry: Entry, claim: Claim, limits: Limits) -> Theory:

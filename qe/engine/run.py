@@ -55,20 +55,36 @@ SWITCHED = {
 
 
 def solve(formula: Formula, options: Options, budget: Budget) -> Outcome:
-    """A quantifier-free formula equivalent to ``formula`` over R, with what is known beside it.
+    """A quantifier-free formula equivalent to ``formula`` over R, with what is known beside it, and its certificate.
 
     Raises ``Unable`` (``BudgetExceeded`` at a limit) when no method finished.
     """
+    return proved(formula, answered(formula, options, budget), options, budget)
+
+
+def answered(formula: Formula, options: Options, budget: Budget) -> Outcome:
+    """As ``solve``, with no certificate but one that a method made on its way."""
     started = time.perf_counter()
     run, free = _Run(options, budget), formula.free
-    plain = formula if options.root_atoms and formula.is_quantifier_free else without_root_atoms(formula)
+    plain = _counted(formula, options)
     run.log.step("roots counted", formula, plain)
-    question = run.log.step("renaming", plain, rename_apart(plain))
-    found = run.question(question)
+    found = run.question(run.log.step("renaming", plain, rename_apart(plain)))
     answer = convert(found.formula, Ring.of(free)) if free else found.formula
-    proof = certificate_of(formula, question, replace(found, formula=answer), run.log, options, budget)
     run.log.seconds = round(time.perf_counter() - started, 6)
-    return replace(found, formula=answer, certificate=proof.certificate, unchecked=proof.unchecked, log=run.log)
+    return replace(found, formula=answer, log=run.log)
+
+
+def proved(formula: Formula, found: Outcome, options: Options, budget: Budget) -> Outcome:
+    """What was ``answered`` to a formula, with its certificate."""
+    started, log = time.perf_counter(), found.log
+    proof = certificate_of(formula, rename_apart(_counted(formula, options)), found, log, options, budget)
+    log.seconds = round((log.seconds or 0.0) + time.perf_counter() - started, 6)
+    return replace(found, certificate=proof.certificate, unchecked=proof.unchecked)
+
+
+def _counted(formula: Formula, options: Options) -> Formula:
+    """The formula without root atoms, unless it may keep them."""
+    return formula if options.root_atoms and formula.is_quantifier_free else without_root_atoms(formula)
 
 
 @dataclass(frozen=True, slots=True)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 
 from qe.cad.decompose import decompose
@@ -19,7 +19,7 @@ from qe.formula.build import atom, conj, convert, exists
 from qe.formula.syntax import FALSE, Atom, Constant, Formula, Relation
 from qe.optimization.values import Goal
 from qe.options import Budget, Options
-from qe.proof.answer import Answer, Guarantee
+from qe.proof.answer import UNPROVED, Answer, Guarantee
 from qe.proof.certificate import Certificate
 from qe.proof.multipliers import OptimumStatus
 
@@ -79,26 +79,38 @@ def best(sign: int, goal: Goal, *, budget: Budget | None = None, check: bool = F
     Raises ``Unable`` (``BudgetExceeded`` at a limit) where elimination does.
     """
     limits = budget or Budget()
-    taken, answer = goal.values(limits, check=check)
-    members = [] if answer.certificate is None else [("values", answer.certificate)]
+    values, unproved = goal.values(limits, check=check)
+    found, members = _found(sign, goal, unproved, limits)
+    if check:
+        limits.keep(replace(found, reason=UNPROVED))
+    answer = goal.proved(values, limits, check=check)
+    if answer.certificate is None:
+        return replace(found, answer=answer)
+    return replace(found, answer=answer, certificate=Certificate.bundle([("values", answer.certificate), *members]))
+
+
+def _found(sign: int, goal: Goal, answer: Answer, limits: Budget) -> tuple[GlobalOptimum, Members]:
+    """The optimum by the values that are taken, and what proves it beside the proof of these."""
+    taken = answer.formula
+    assert taken is not None
     if isinstance(taken, Constant):
-        return _without(OptimumStatus.UNBOUNDED if taken.value else OptimumStatus.INFEASIBLE, goal, answer, members)
+        return _without(OptimumStatus.UNBOUNDED if taken.value else OptimumStatus.INFEASIBLE, goal, answer), []
     table = decompose(taken, (goal.value,), ("",), budget=limits).table
     pieces = merge(table, budget=limits)
-    members += [("least", Certificate.cells(table))] if members else []
+    members = [("least", Certificate.cells(table))]
     if not pieces:
-        return _without(OptimumStatus.INFEASIBLE, goal, answer, members)
+        return _without(OptimumStatus.INFEASIBLE, goal, answer), members
     end, attained = pieces[0].ranges[0].end(lower=True) if sign > 0 else pieces[-1].ranges[0].end(lower=False)
     if end is None:
-        return _without(OptimumStatus.UNBOUNDED, goal, answer, members)
+        return _without(OptimumStatus.UNBOUNDED, goal, answer), members
     assert end.value is not None
     value = simplest(end.value)
     point: Values = {}
     if attained:
         point = point_of(goal, value, limits)
         place = exists((goal.value, *goal.variables), _place(goal, value))
-        members += _proof_of(place, {**point, goal.value: value}) if members else []
-    return GlobalOptimum(
+        members += _proof_of(place, {**point, goal.value: value})
+    found = GlobalOptimum(
         status=OptimumStatus.OPTIMAL,
         value=value,
         attained=attained,
@@ -107,8 +119,8 @@ def best(sign: int, goal: Goal, *, budget: Budget | None = None, check: bool = F
         values=taken,
         variable=goal.value,
         answer=answer,
-        certificate=Certificate.bundle(members) if members else None,
     )
+    return found, members
 
 
 def point_of(goal: Goal, value: Number, budget: Budget) -> Values:
@@ -123,10 +135,9 @@ def point_of(goal: Goal, value: Number, budget: Budget) -> Values:
     return {name: known.get(name, Fraction(0)) for name in goal.variables}
 
 
-def _without(status: OptimumStatus, goal: Goal, answer: Answer, members: Members) -> GlobalOptimum:
+def _without(status: OptimumStatus, goal: Goal, answer: Answer) -> GlobalOptimum:
     assert answer.formula is not None
-    proof = Certificate.bundle(members) if members else None
-    return GlobalOptimum(status, None, None, {}, FALSE, answer.formula, goal.value, answer, proof)
+    return GlobalOptimum(status, None, None, {}, FALSE, answer.formula, goal.value, answer)
 
 
 def _proof_of(place: Formula, known: Values) -> Members:

@@ -25,7 +25,7 @@ from qe.optimization.minimisers import minimisers, points
 from qe.optimization.values import Goal
 from qe.options import Budget, Options
 from qe.processes.execution import Limits, perform
-from qe.proof.answer import Answer, Guarantee
+from qe.proof.answer import UNPROVED, Answer, Guarantee
 from qe.proof.cells import CellTable
 from qe.proof.certificate import Certificate
 from qe.proof.multipliers import OptimumStatus
@@ -156,7 +156,8 @@ def optimum_of(sign: int, goal: Goal, *, budget: Budget | None = None, check: bo
     limits = budget or Budget()
     if not goal.graph.is_quantifier_free:
         goal = replace(goal, graph=solve(goal.graph, Options(progress=limits.listener), limits).formula)
-    taken, answer = goal.values(limits, check=check)
+    values, unproved = goal.values(limits, check=check)
+    taken = values.formula
     order = (*goal.parameters, goal.value)
     table = decompose(taken, order, ("",) * len(order), budget=limits).table
     cases = list(_by_value(merge(table, budget=limits), sign))
@@ -169,21 +170,24 @@ def optimum_of(sign: int, goal: Goal, *, budget: Budget | None = None, check: bo
             cases = [(at, case) for at, case in cases if not case.attained]
             cases += _with_points(pieces, len(goal.parameters))
             cases.sort(key=lambda pair: pair[0])
-    proof = answer.certificate
-    members = [] if proof is None else [("values", proof), ("cases", Certificate.cells(table))]
-    certificate = Certificate.bundle(members) if members else None
-    return ParametricOptimum(
+    found = ParametricOptimum(
         cases=tuple(case for _, case in cases),
         parameters=goal.parameters,
         values=taken,
         variable=goal.value,
         minimisers=minimisers(goal, taken, table, sign, limits),
-        answer=answer,
+        answer=unproved,
         _goal=goal,
         _table=table,
         _sign=sign,
-        certificate=certificate,
     )
+    if check:
+        limits.keep(replace(found, reason=UNPROVED))
+    answer = goal.proved(values, limits, check=check)
+    if answer.certificate is None:
+        return replace(found, answer=answer)
+    members = [("values", answer.certificate), ("cases", Certificate.cells(table))]
+    return replace(found, answer=answer, certificate=Certificate.bundle(members))
 
 
 def _by_value(pieces: Iterable[Piece], sign: int) -> Iterator[tuple[Number, Case]]:

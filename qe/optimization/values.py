@@ -8,18 +8,19 @@ every choice of parameters.
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import chain
 
-from qe.engine.run import answer_to, solve
+from qe.elimination.protocol import Outcome
+from qe.engine.run import answer_to, answered, proved
 from qe.errors import InputError
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj, convert, exists
 from qe.formula.syntax import FALSE, Formula, Relation
 from qe.formula.traverse import ring_of
 from qe.options import Budget, Options
-from qe.proof.answer import Answer
+from qe.proof.answer import UNPROVED, Answer
 
 VALUE = "value"
 
@@ -94,7 +95,12 @@ class Goal:
         """That the value is taken somewhere."""
         return exists(self.variables, conj((self.conditions, self.graph)))
 
-    def values(self, budget: Budget, *, check: bool) -> tuple[Formula, Answer]:
-        """The values that are taken, as a formula in ``value`` and the parameters, and how that was found."""
-        found = solve(self.taken, Options(certify=check, progress=budget.listener), budget)
-        return found.formula, answer_to(self.taken, found)
+    def values(self, budget: Budget, *, check: bool) -> tuple[Outcome, Answer]:
+        """The values that are taken, as a formula in ``value`` and the parameters; nothing is proved yet."""
+        found = answered(self.taken, Options(certify=check, progress=budget.listener), budget)
+        return found, replace(answer_to(self.taken, found), certificate=None, reason=UNPROVED if check else "")
+
+    def proved(self, found: Outcome, budget: Budget, *, check: bool) -> Answer:
+        """The values with their certificate."""
+        options = Options(certify=check, progress=budget.listener)
+        return answer_to(self.taken, proved(self.taken, found, options, budget))

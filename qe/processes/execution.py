@@ -5,6 +5,8 @@ process of its own for every call would cost a short one more than its own time.
 ``Budget.check`` after ``HERE`` seconds the process forks, the child goes on from there with its stack as it is, and the
 parent waits for what the child sends, unwinds its own stack and gives that back. No work is done twice. Where
 one operation could already be long before that, or a limit is given, the work is forked from the start.
+
+What the work gives to ``Budget.keep`` is its result if a limit ends it later: an answer is not lost while it is proved.
 """
 
 from __future__ import annotations
@@ -14,9 +16,10 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from types import TracebackType
-from typing import TYPE_CHECKING, Generic, NoReturn, TypeVar, cast
+from typing import TYPE_CHECKING, Any, Generic, NoReturn, TypeVar, cast
 
-from qe.options import Budget, Handover
+from qe.errors import Unable
+from qe.options import Budget, Handover, lost
 from qe.processes.surroundings import surrounding_deadline
 from qe.progress import Event, Listener, silent
 
@@ -66,27 +69,50 @@ def perform(work: Work[T], limits: Limits, *, at_once: bool = False) -> T:
 
     ``at_once``: a single operation may take long from the start. The result of work that moved has been
     pickled. Raises what the work raises, ``BudgetExceeded`` at a limit, and, where it moved, ``InternalError`` for
-    errors that are none of this package, ``WorkerDied`` when a signal ended the process.
+    errors that are none of this package, ``WorkerDied`` when a signal ended the process; in place of an ``Unable``
+    the last thing that the work has kept is its result.
     """
+    kept: list[T] = []
+    try:
+        return _performed(work, limits, at_once, kept)
+    except Unable:
+        if not kept:
+            raise
+        return kept[-1]
+
+
+def _performed(work: Work[T], limits: Limits, at_once: bool, kept: list[T]) -> T:
+    """The work wherever it runs; what it keeps is appended to ``kept``, in this process."""
     start = time.monotonic() if limits.start is None else limits.start
     if not limits.process or not _may_fork(limits, start):
-        return work(lambda: _budget(limits, start, limits.progress))
-    if at_once or limits.memory is not None:
-        from qe.processes.worker import run
+        return work(lambda: _budget(limits, start, limits.progress, kept.append))
+    if not at_once and limits.memory is None:
+        return _Journey(limits, start, kept).made(work)
+    from qe.processes.worker import Known, run
 
+    known = Known()
+    try:
         return run(
-            lambda channel: work(lambda: _budget(limits, start, channel.event)),
+            lambda channel: work(lambda: _budget(limits, start, channel.event, channel.keep)),
             timeout=limits.timeout,
             memory=limits.memory,
             progress=limits.progress,
+            known=known,
             start=start,
         )
-    return _Journey[T](limits, start).made(work)
+    finally:
+        kept += known.kept()
 
 
-def _budget(limits: Limits, start: float, listener: Listener, handover: Handover | None = None) -> Budget:
+def _budget(
+    limits: Limits,
+    start: float,
+    listener: Listener,
+    keep: Callable[[Any], None] = lost,
+    handover: Handover | None = None,
+) -> Budget:
     left = None if limits.timeout is None else max(0.0, start + limits.timeout - time.monotonic())
-    return Budget(left, listener=listener, handover=handover)
+    return Budget(left, listener=listener, handover=handover, keep=keep)
 
 
 def _may_fork(limits: Limits, start: float) -> bool:
@@ -125,8 +151,8 @@ class _Wait:
 class _Journey(Generic[T]):
     """Work that may move to another process while it is done; in that process it has a channel."""
 
-    def __init__(self, limits: Limits, start: float) -> None:
-        self.limits, self.start, self.process = limits, start, os.getpid()
+    def __init__(self, limits: Limits, start: float, kept: list[T]) -> None:
+        self.limits, self.start, self.kept, self.process = limits, start, kept, os.getpid()
         self.handover = Handover(start + HERE, self.move)
         self.channel: Channel | None = None
         self.arrived: _Arrived | None = None
@@ -134,7 +160,7 @@ class _Journey(Generic[T]):
     def made(self, work: Work[T]) -> T:
         """The work, with the handover in every budget."""
         with self:
-            value = work(lambda: _budget(self.limits, self.start, self.tell, self.handover))
+            value = work(lambda: _budget(self.limits, self.start, self.tell, self.keep, self.handover))
             if self.channel is not None:
                 self.channel.deliver(lambda: value)
             return value
@@ -160,15 +186,23 @@ class _Journey(Generic[T]):
         """The listener of the budgets: the caller's, wherever it is."""
         (self.limits.progress if self.channel is None else self.channel.event)(event)
 
+    def keep(self, value: T) -> None:
+        """Puts a result by where it outlives the work."""
+        (self.kept.append if self.channel is None else self.channel.keep)(value)
+
     def move(self) -> None:
         """Fork: the child returns from here, the parent waits and unwinds."""
         if os.getpid() != self.process or not _may_fork(self.limits, self.start):
             return  # some other move has taken this work along
-        from qe.processes.worker import Channel, forked
+        from qe.processes.worker import Channel, Known, forked
 
         side = forked(self.start, self.limits.timeout, None)
         if isinstance(side, Channel):
             self.channel = side
             return
         with _Wait(self) as home:
-            home.value = side.outcome(self.limits.progress)
+            known = Known()
+            try:
+                home.value = side.outcome(self.limits.progress, known)
+            finally:
+                self.kept += known.kept()

@@ -11,6 +11,7 @@ from collections.abc import Callable, Mapping
 from typing import TypeVar
 
 from qe.errors import QEError, Unable
+from qe.options import lost
 from qe.processes.portable import rebuilt
 from qe.processes.worker import Channel, Inbox, Known, Worker, forked
 from qe.progress import Listener
@@ -25,11 +26,13 @@ def first(
     *,
     seconds: float | None,
     progress: Listener,
+    kept: Callable[[T], None] = lost,
 ) -> tuple[Name | None, dict[Name, T | QEError]]:
     """The name of the work whose result wins first (None if none does), and what has come of each until then.
 
     To be called in a process that ends soon after: the processes of the losers are ended when a winner is home, or with
-    this one. Raises ``Unable`` on systems without ``fork``, and nothing that the works raise.
+    this one. ``kept`` gets what the works keep meanwhile. Raises ``Unable`` on systems without ``fork``, and nothing
+    that the works raise.
     """
     if not hasattr(os, "fork"):
         raise Unable("a race needs a system that forks processes")
@@ -49,7 +52,10 @@ def first(
             for descriptor, _ in poll.poll():
                 name, side, inbox = running[descriptor]
                 inbox.wait(0)
-                outcome = next((m for m in inbox.messages() if not Known().take(*m, progress)), None)
+                known = Known()
+                outcome = next((m for m in inbox.messages() if not known.take(*m, progress)), None)
+                for value in known.kept():
+                    kept(value)
                 if outcome is None and not inbox.closed:
                     continue
                 poll.unregister(descriptor)

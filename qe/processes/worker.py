@@ -23,7 +23,7 @@ import warnings
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from types import TracebackType
-from typing import Generic, NoReturn, TypeVar
+from typing import Any, Generic, NoReturn, TypeVar
 
 from qe.errors import BudgetExceeded, Unable
 from qe.processes.portable import portable, rebuilt
@@ -31,6 +31,9 @@ from qe.processes.surroundings import MARK, surrounding_deadline
 from qe.progress import Event, Listener, silent
 
 T = TypeVar("T")
+
+KEPT = "result so far"
+"""The fact under which a worker tells what is its result should a limit end it."""
 
 GRACE = 0.25
 """Seconds past the time limit before the kill, so that a soft limit in the worker can answer first."""
@@ -61,6 +64,10 @@ class Known:
         else:
             return False
         return True
+
+    def kept(self) -> list[Any]:
+        """The result so far, if there is one."""
+        return [self.facts[KEPT]] if KEPT in self.facts else []
 
     def __str__(self) -> str:
         """One line for people."""
@@ -114,6 +121,10 @@ class Channel:
     def fact(self, name: str, value: object) -> None:
         """A partial result worth keeping should the worker be killed; ``value`` is picklable."""
         self._send(("fact", (name, value)))
+
+    def keep(self, value: object) -> None:
+        """A result that is worth having should the worker be ended before it is done."""
+        self.fact(KEPT, value)
 
     def deliver(self, work: Callable[[], object]) -> NoReturn:
         """Compute, send the result or the error home, and end the process."""

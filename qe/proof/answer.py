@@ -19,6 +19,9 @@ from qe.proof.derivation import Derivation, put_together
 from qe.proof.partial import Partial
 from qe.proof.run_log import RunLog
 
+UNPROVED = "a limit ended the search for a proof"
+"""Why an answer is no better than derived that was known before its proof."""
+
 
 class Status(Enum):
     """Whether the problem was answered. UNABLE always carries a reason."""

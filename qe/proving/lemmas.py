@@ -15,6 +15,7 @@ from qe.certify.boolean import Theory
 from qe.certify.negation import normal
 from qe.certify.step import Limits
 from qe.elimination.search.monomial_bounds import MonomialBounds, is_square
+from qe.errors import BudgetExceeded, Unable
 from qe.exact.groebner import groebner_basis
 from qe.exact.quadratic_form import solve_linear
 from qe.exact.ring import Poly, Ring
@@ -48,7 +49,7 @@ def polynomials_outside(formulas: Iterable[Formula]) -> dict[Poly, bool]:
 def refuting(goals: Sequence[Sequence[Formula]], ring: Ring, limits: Limits) -> Json | None:
     """Evidence with which each of the lists of formulas is refuted, or None where none is found.
 
-    Raises ``Unable`` where the search is too long.
+    Raises ``BudgetExceeded``.
     """
     polys = polynomials_outside(f for goal in goals for f in goal)
     if len(polys) > MOST_POLYNOMIALS:
@@ -69,7 +70,12 @@ def refuting(goals: Sequence[Sequence[Formula]], ring: Ring, limits: Limits) -> 
         search()
         if stage and count == len(found.lemmas):
             continue
-        used = _used(found.theory(limits), goals)
+        try:
+            used = _used(found.theory(limits), goals)
+        except BudgetExceeded:
+            raise
+        except Unable:  # too many cases; further lemmas may settle most of them at once
+            continue
         if used is not None:
             return found.only(_needed(found.theory(limits), goals, used))
     return None

@@ -19,8 +19,7 @@ from qe.elimination.cad import certificate_for
 from qe.elimination.vs.trace import Eliminated
 from qe.errors import CertificateRejected, Unable
 from qe.exact.ring import Poly, Ring
-from qe.formula.build import conj, disj
-from qe.formula.syntax import FALSE, TRUE, And, Exists, ForAll, Formula, Or
+from qe.formula.syntax import And, Exists, Formula, Or
 from qe.formula.traverse import children, conjuncts
 from qe.io.names import names_in
 from qe.options import Budget, Options
@@ -33,6 +32,7 @@ from qe.proof.step import Nested, Place, Step
 from qe.proving.lemma_list import EMPTY, identities
 from qe.proving.lemmas import refuting
 from qe.proving.nested import derivations_within, formulas_within, proved_inside
+from qe.proving.simplified import Simplified
 from qe.proving.substitution_steps import steps
 
 TABLE_WORK = 3_000
@@ -150,67 +150,13 @@ class Prover:
             self.steps.append(written(rule, place, step.before, step.after, context, evidence))
         return changed
 
-    # --- simplification under quantifiers --------------------------------------------------------
     def _simplified_inside(self, place: Place, step: Step, current: Formula) -> Formula | None:
-        """The formula after a simplification that goes on under quantifiers, as a step for each place; None where no
-        evidence is found: then no step is written either."""
-        mark = len(self.steps)
-        try:
-            found = self._inside(place, step.before, step.after, current)
-        except CertificateRejected:  # the step is about a part of what stands there
-            found = None
-        if found is None:
-            del self.steps[mark:]
-        return found
+        """The formula after a simplification, as a step for each place inside; None where no evidence is found."""
 
-    def _inside(self, place: Place, before: Formula, after: Formula, current: Formula) -> Formula | None:
-        if before == after:
-            return current
-        facts, changed = replaced(current, place, before, after, self.known, Entry(None, "place"))
-        context = tuple(f for f in facts if f.is_quantifier_free)
-        for used in ((), context) if context else ((),):
-            found = self._tried("simplification", Step("simplification", before, after), used, {})
-            if found is not None:
-                self.steps.append(written("simplification", place, before, after, used, found))
-                return changed
-        if isinstance(before, Exists | ForAll):
-            return self._under(place, before, after, current)
-        if isinstance(before, And | Or) and not before.is_quantifier_free:
-            return self._parts(place, before, after, current)
-        return None
+        def evidence(before: Formula, after: Formula, used: Context) -> Json | None:
+            return self._tried("simplification", Step("simplification", before, after), used, {})
 
-    def _under(self, place: Place, before: Exists | ForAll, after: Formula, current: Formula) -> Formula | None:
-        """The body simplified, then quantifiers of variables that no longer occur left out."""
-        if type(after) is not type(before) or not isinstance(after, Exists | ForAll):
-            return None
-        inner = self._inside((*place, 0), before.body, after.body, current)
-        if inner is None:
-            return None
-        kept = type(before)(before.variables, after.body)
-        if kept != after:
-            self.steps.append(written("renaming", place, kept, after, (), {}))
-            inner = replaced(inner, place, kept, after, (), Entry(None, "place"))[1]
-        return inner
-
-    def _parts(self, place: Place, before: And | Or, after: Formula, current: Formula) -> Formula | None:
-        """Quantified parts turned into those of the simpler formula, or into constants, and then the whole."""
-        listed = after.args if isinstance(after, And | Or) and type(after) is type(before) else (after,)
-        targets = [f for f in listed if not f.is_quantifier_free]
-        for k, part in enumerate(before.args):
-            if part.is_quantifier_free or part in targets:
-                continue
-            alike = sorted(targets, key=lambda target, part=part: type(target) is not type(part))  # type: ignore[misc]
-            for target in (*alike, TRUE, FALSE):
-                mark = len(self.steps)
-                found = self._inside((*place, k), part, target, current)
-                if found is not None:
-                    join = conj if isinstance(before, And) else disj
-                    rest = join((*before.args[:k], target, *before.args[k + 1 :]))
-                    if rest == after:
-                        return found
-                    return self._inside(place, rest, after, found)
-                del self.steps[mark:]
-        return None
+        return Simplified(evidence, self.known, self.steps).inside(place, step.before, step.after, current)
 
     def joined(self, current: Formula, goal: Formula) -> None:
         """The last formula of the derivation and the answer, where steps between them are missing."""

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
-from qe.engine.run import answer_to, solve
+from qe.engine.run import answer_to, answered, proved, solve
 from qe.formula.counting import without_root_atoms
 from qe.formula.syntax import Formula
 from qe.formula.traverse import free_variables, is_quantifier_free
 from qe.options import Budget, Options
 from qe.processes.execution import Limits
-from qe.proof.answer import Answer, Status
+from qe.proof.answer import UNPROVED, Answer, Status
 from qe.proof.run_log import RunLog
 from qe.regions.convex_region import ConvexRegion, shadow_of
 from qe.regions.region import Region
@@ -38,9 +38,15 @@ def described(
         region = Region.of(given, names, budget=budget, limits=limits)
         region.answer = None if given is formula else _counted(formula, given)
         return region
-    found = solve(formula, Options(order=names, certify=check), budget)
+    options = Options(order=names, certify=check)
+    found = answered(formula, options, budget)
     region = Region.of(found.formula, names or found.order, budget=budget, limits=limits)
-    region.answer = answer_to(formula, found)
+    if check:
+        region.answer = replace(answer_to(formula, found), certificate=None, reason=UNPROVED)
+        region.reason = UNPROVED
+        budget.keep(region)
+        region.reason = ""
+    region.answer = answer_to(formula, proved(formula, found, options, budget))
     return region
 
 

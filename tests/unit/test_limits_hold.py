@@ -33,11 +33,11 @@ def witness() -> qe.ParametricWitness:
 
 Call = Callable[[], object]
 CASES: dict[str, tuple[str, Callable[[], Call]]] = {
-    "eliminate": ("qe.engine.run.solve", lambda: lambda: qe.decide("ex x. x > 2", timeout=LIMIT)),
-    "find_instance": ("qe.engine.run.solve", lambda: lambda: qe.find_instance("x > 2", timeout=LIMIT)),
-    "equivalent": ("qe.engine.run.solve", lambda: lambda: qe.equivalent("x > 2", "x > 3", timeout=LIMIT)),
+    "eliminate": ("qe.engine.run.answered", lambda: lambda: qe.decide("ex x. x > 2", timeout=LIMIT)),
+    "find_instance": ("qe.engine.run.answered", lambda: lambda: qe.find_instance("x > 2", timeout=LIMIT)),
+    "equivalent": ("qe.engine.run.answered", lambda: lambda: qe.equivalent("x > 2", "x > 3", timeout=LIMIT)),
     "check_witness": (
-        "qe.engine.run.solve",
+        "qe.engine.run.answered",
         lambda: lambda: qe.check_witness("all a. ex x. x > a", {"x": "a + 1"}, timeout=LIMIT),
     ),
     "comprehensive_groebner": (
@@ -68,7 +68,7 @@ CASES: dict[str, tuple[str, Callable[[], Call]]] = {
     ),
     "region": ("qe.regions.region.decompose", lambda: lambda: qe.region(DISC, timeout=LIMIT)),
     "region of a quantified formula": (
-        "qe.regions.build.solve",
+        "qe.regions.build.answered",
         lambda: lambda: qe.region("ex z. z^3 = x*y and z > 0", timeout=LIMIT),
     ),
     "Region.contains": (

@@ -54,7 +54,7 @@ def test_nothing_is_eliminated_a_second_time(plain, plan, monkeypatch):
     def refuse(*_, **__):
         raise AssertionError("eliminated again")
 
-    monkeypatch.setattr("qe.engine.run.solve", refuse)
+    monkeypatch.setattr("qe.engine.run.answered", refuse)
     monkeypatch.setattr(qe, "eliminate", refuse)
     again = derivations.with_derivations(plain, Clock())
     assert again.certificate.to_json() == plan.certificate.to_json()

@@ -1,0 +1,101 @@
+"""An answer that is known is not lost while it is proved: a proof that is ended leaves it behind, as derived."""
+
+from __future__ import annotations
+
+import os
+import signal
+import time
+from collections.abc import Callable
+
+import pytest
+
+import qe
+from qe.api.verify import with_derivation
+from qe.errors import InternalError, Unable
+from qe.processes.execution import Budgets, Limits, perform
+from qe.proof.answer import UNPROVED
+
+LONG = 600.0
+"""Seconds; no test waits for them."""
+
+CALLS: dict[str, Callable[[], object]] = {
+    "eliminate": lambda: qe.eliminate("ex x, y. x^2 + y^2 = a and x + y = b", timeout=LONG, check=True),
+    "a race": lambda: qe.eliminate("ex x. a*x^2 + b*x + 1 = 0", timeout=LONG, check=True, race=["vs"]),
+    "region": lambda: qe.region("ex y. x^2 + y^2 < 4", timeout=LONG, check=True),
+    "minimize": lambda: qe.minimize("x^4 - x*y", "ex z. y = z^3 and z^2 <= 4*x", timeout=LONG, check=True),
+    "minimize with a parameter": lambda: qe.minimize("x^2 - p*x", parameters="p", timeout=LONG, check=True),
+    "parametric_witnesses": lambda: qe.parametric_witnesses("ex x. a*x = b and x > 1", timeout=LONG, check=True),
+}
+
+
+def ended(*_: object) -> None:
+    os.kill(os.getpid(), signal.SIGKILL)
+
+
+def stuck(*_: object) -> None:
+    time.sleep(LONG)
+
+
+@pytest.mark.parametrize("name", CALLS)
+def test_an_answer_whose_proof_was_ended_comes_back_derived(name, monkeypatch):
+    monkeypatch.setattr("qe.proving.certificates.derived", ended)
+    monkeypatch.setattr("qe.optimization.values.proved", ended)
+    found = CALLS[name]()
+    answer = found if isinstance(found, qe.Answer) else found.answer  # type: ignore[attr-defined]
+    assert answer.formula is not None and answer.certificate is None
+    for part in (answer, found):
+        if hasattr(part, "guarantee"):
+            assert (part.guarantee, part.reason) == (qe.Guarantee.DERIVED, UNPROVED)
+
+
+def test_an_answer_found_before_the_limit_is_not_lost_by_a_slow_proof(monkeypatch):
+    asked = "ex x, y. x^2 + y^2 = a and x + y = b"
+    monkeypatch.setattr("qe.proving.certificates.derived", stuck)
+    answer = qe.eliminate(asked, timeout=4, check=True)
+    assert answer.guarantee is qe.Guarantee.DERIVED and answer.reason == UNPROVED
+    assert answer.formula == qe.eliminate(asked).formula
+
+
+def test_a_slow_derivation_of_a_known_answer_ends_at_its_limit(monkeypatch):
+    answer = qe.eliminate("ex x. a*x^2 + b*x + 1 = 0")
+    monkeypatch.setattr("qe.proving.certificates.derived", stuck)
+    found = with_derivation(answer, timeout=0.2)
+    assert found.formula == answer.formula and found.certificate is None and UNPROVED in found.why_unchecked
+
+
+def keeps(then: Callable[[], object], at: float) -> Callable[[Budgets], object]:
+    """Work that keeps two results after some seconds, and goes on."""
+
+    def work(budgets: Budgets) -> object:
+        budget, end = budgets(), time.monotonic() + at
+        while time.monotonic() < end:
+            budget.check("waiting")
+        budget.keep("first")
+        budget.keep("last")
+        return then()
+
+    return work
+
+
+def unable() -> None:
+    raise Unable("cannot")
+
+
+def wrong() -> None:
+    raise InternalError("wrong")
+
+
+WAYS = [
+    (Limits(process=False), False, 0.0),  # in this process
+    (Limits(), False, 0.0),  # in this process, from which it might move
+    (Limits(), False, 0.2),  # moved
+    (Limits(timeout=LONG), True, 0.0),  # in another one from the start
+]
+
+
+@pytest.mark.parametrize(("limits", "at_once", "seconds"), WAYS)
+def test_work_that_is_unable_to_go_on_gives_what_it_kept_last(limits, at_once, seconds):
+    assert perform(keeps(unable, seconds), limits, at_once=at_once) == "last"
+    assert perform(keeps(lambda: "done", seconds), limits, at_once=at_once) == "done"
+    with pytest.raises(InternalError):  # a fault is not hidden by what was known before it
+        perform(keeps(wrong, seconds), limits, at_once=at_once)
