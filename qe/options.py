@@ -124,6 +124,11 @@ class Budget:
     """
 
     __slots__ = ("_cancelled", "_last_note", "deadline", "handover", "helpers", "listener", "parent", "used", "work")
+    deadline: float | None
+    work: int | None
+    used: int
+    listener: Listener
+    parent: Budget | None
 
     def __init__(
         self,

@@ -22,7 +22,7 @@ from qe.formula.build import conj, forall
 from qe.formula.syntax import Formula
 from qe.formula.traverse import free_variables
 from qe.io.substitution import over_one_ring
-from qe.io.sympy import Exists, ForAll, from_sympy, polynomial_to_sympy, to_sympy
+from qe.io.sympy import Exists, ForAll, expression_from, from_sympy, polynomial_to_sympy, to_sympy
 from qe.io.sympy_numbers import number_to_sympy
 
 Condition = Any
@@ -41,7 +41,9 @@ def reduce_inequalities(
     """
     question = _Question.of(inequalities)
     free = free_variables(question.formula)
-    wanted = [name for name in _names(symbols) if name in free] or [name for name in free if name not in question.constants]
+    wanted = [name for name in _names(symbols) if name in free] or [
+        name for name in free if name not in question.constants
+    ]
     found = question.solved(wanted, timeout)
     return _quantifier_free(question, timeout) if found is None else found
 
@@ -69,7 +71,7 @@ def function_range(
     """
     import sympy
 
-    function = sympy.sympify(function)
+    function = expression_from(function)
     names = _listed(symbols) if symbols is not None else sorted(function.free_symbols, key=str)
     if isinstance(condition, sympy.Set):
         if len(names) != 1:
@@ -112,7 +114,7 @@ def is_true_for_all(condition: Condition, *, timeout: float | None = None) -> bo
 
     question, symbols = _Question.of(condition), _symbols_of(condition)
     parts = question.parts
-    whole = sympy.And(*parts, evaluate=False) if len(parts) > 1 else parts[0]
+    whole = parts[0] if len(parts) == 1 else sympy.And(*parts, evaluate=False)
     formula = ForAll(list(symbols.values()), whole).formula() if symbols else question.formula
     inner = [name for name in free_variables(formula) if name not in question.constants]
     if not question.constants:
@@ -243,10 +245,11 @@ def _term(root: RootFunction | None, terms: Mapping[str, Any]) -> Any:
         return number_to_sympy(root.value)
     if root.written is None:
         return None
-    front, inside, bottom = (None if p is None else polynomial_to_sympy(p, terms) for p in root.written)
-    if inside is None:
-        return front / bottom
-    return (front + (-1 if root.k == 1 else 1) * sympy.sqrt(inside)) / bottom
+    front, inside, bottom = root.written
+    top = polynomial_to_sympy(front, terms)
+    if inside is not None:
+        top += (-1 if root.k == 1 else 1) * sympy.sqrt(polynomial_to_sympy(inside, terms))
+    return top / polynomial_to_sympy(bottom, terms)
 
 
 def _quantifier_free(question: _Question, timeout: float | None) -> Any:

@@ -95,6 +95,8 @@ class Combined(_Operators):
 
 class _Quantified(_Operators):
     __slots__ = ("assumed", "body", "names", "raw")
+    names: tuple[str, ...]
+    body: Formula
 
     def __init__(self, variables: object, body: object) -> None:
         self.names, given = _variables(variables)
@@ -224,6 +226,16 @@ def polynomial_from_sympy(expression: object) -> tuple[Poly, Fraction]:
     except RecursionError:
         raise InputError("the expression is nested too deeply") from None
     return value.poly, Fraction(1, value.den)
+
+
+def expression_from(given: object) -> Any:
+    """The SymPy expression that is given, as an object or a number, not as text."""
+    import sympy
+
+    found = _basic(given, "a SymPy expression")
+    if not isinstance(found, sympy.Expr):
+        raise InputError(f"a SymPy expression expected, {shown(found)} found")
+    return found
 
 
 def _basic(given: object, expected: str) -> Any:

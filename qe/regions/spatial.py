@@ -268,7 +268,7 @@ def components(formula: Formula, order: tuple[str, ...], budget: Budget) -> list
 
 def _written(formula: Formula, order: tuple[str, ...], space: Space, budget: Budget) -> Iterator[Formula]:
     """The formulas of components; a finer decomposition has the same ones in the same order."""
-    known = {frozenset(): space}
+    known: dict[frozenset[int], Space] = {frozenset(): space}
 
     def table(k: int, levels: frozenset[int]) -> CellTable:
         if levels not in known:
@@ -310,9 +310,9 @@ def coordinates(formula: Formula, order: tuple[str, ...]) -> Iterator[Coordinate
         yield Coordinates((*order[k:], *order[:k]))
     forms = [_leading_form(p) for p in polynomials(convert(formula, Ring.of(order)))]
     for size in range(1, 2 + sum(form.total_degree for form in forms)):
-        for slant in product(range(size + 1), repeat=2):
-            if max(slant) == size and all(form.evaluate((*slant, 1)) for form in forms):
-                yield Coordinates(order, slant)
+        for a, b in product(range(size + 1), repeat=2):
+            if max(a, b) == size and all(form.evaluate((a, b, 1)) for form in forms):
+                yield Coordinates(order, (a, b))
                 return
 
 
