@@ -28,6 +28,8 @@ LONGEST_TIME = 1e9
 """Seconds; a longer limit is a mistake, and no clock of the system takes it."""
 
 MOST_MEMORY = 1 << 40
+LONGEST_PART = 255
+"""Bytes of the name of a file or a folder, on all usual systems."""
 LONGEST_NUMBER = 4000
 """Characters of a number, and the largest exponent of ten in one."""
 
@@ -134,7 +136,10 @@ def path(value: object, what: str = "path") -> Path:
     """The name of a file."""
     from pathlib import Path
 
-    return Path(instance(value, str | Path, what, "the name of a file"))  # type: ignore[arg-type]
+    found = Path(instance(value, str | Path, what, "the name of a file"))  # type: ignore[arg-type]
+    if "\0" in str(found) or any(len(part.encode(errors="replace")) > LONGEST_PART for part in found.parts):
+        raise wrong(what, "the name of a file", value)
+    return found
 
 
 # --- choices and names --------------------------------------------------------------------------------------

@@ -22,6 +22,12 @@ class ParseError(InputError):
     ``line`` and ``column`` count from 1; ``expected`` says what would have been accepted there.
     """
 
+    message: str
+    source: str
+    line: int
+    column: int
+    expected: str
+
     def __init__(
         self, message: str, *, source: str = "<text>", line: int = 1, column: int = 1, expected: str = ""
     ) -> None:
@@ -57,6 +63,9 @@ class BudgetExceeded(Unable):
 
 class CertificateRejected(QEError):
     """A certificate does not prove what it claims; ``step`` names the failing entry."""
+
+    step: str
+    reason: str
 
     def __init__(self, step: str, reason: str) -> None:
         self.step, self.reason = step, reason

@@ -8,19 +8,21 @@ is assumed to be positive, nonnegative, ... is taken at its word. All take ``tim
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, replace
 from typing import Any
 
 import qe.api.decide as api_decide
 import qe.api.eliminate as api
+import qe.api.solve as api_solve
 from qe import arguments
-from qe.cells.pieces import RootFunction
+from qe.cells.pieces import Range, RootFunction
 from qe.errors import InputError, Unable
 from qe.formula.build import conj, forall
 from qe.formula.syntax import Formula
 from qe.formula.traverse import free_variables
 from qe.io.substitution import over_one_ring
-from qe.io.sympy import Exists, ForAll, from_sympy, to_sympy
+from qe.io.sympy import Exists, ForAll, expression_from, from_sympy, polynomial_to_sympy, to_sympy
 from qe.io.sympy_numbers import number_to_sympy
 
 Condition = Any
@@ -30,15 +32,20 @@ Condition = Any
 def reduce_inequalities(
     inequalities: Condition, symbols: Iterable[Any] | Any = (), *, timeout: float | None = None
 ) -> Any:
-    """An equivalent condition on the other symbols: some real values of ``symbols`` satisfy the inequalities.
+    """The same condition, solved for ``symbols`` (without them: for all): what SymPy's function of this name does.
 
-    Without ``symbols`` the inequalities are simplified. The result is a SymPy Boolean. Note that in SymPy's function of
-    this name ``symbols`` are those to solve for; for one symbol use ``solve_region``.
+    An ``Or`` of cases, each an ``And`` of relations that put a symbol between ends in terms of the other symbols and of
+    those of ``symbols`` before it; relations with infinities are left out. Where an end is no term of SymPy (a root
+    of degree 3 or more with parameters), the conditions are simplified only. Equations, ``Ne``, ``And``, ``Or`` and
+    parameters are taken, too; constants such as ``pi`` may occur wherever symbols may.
     """
-    listed = _listed(symbols)
-    given = _together(inequalities)
-    formula = Exists(listed, given).formula() if listed else given
-    return _quantifier_free(formula, _symbols_of(inequalities), timeout)
+    question = _Question.of(inequalities)
+    free = free_variables(question.formula)
+    wanted = [name for name in _names(symbols) if name in free] or [
+        name for name in free if name not in question.constants
+    ]
+    found = question.solved(wanted, timeout)
+    return _quantifier_free(question, timeout) if found is None else found
 
 
 def solve_region(condition: Condition, symbol: Any = None, *, timeout: float | None = None) -> Any:
@@ -46,13 +53,13 @@ def solve_region(condition: Condition, symbol: Any = None, *, timeout: float | N
 
     Intervals and points with exact ends. Raises ``InputError`` where there are several free symbols.
     """
-    formula = _together(condition)
-    free = free_variables(formula)
-    names = () if symbol is None else (arguments.name(symbol, "symbol"),)
+    question = _Question.of(condition)
+    free = [name for name in free_variables(question.formula) if name not in question.constants]
+    names = _names(() if symbol is None else symbol)
     others = [name for name in free if name not in names]
-    if (names and others) or len(free) > 1:
-        raise InputError(f"one free symbol expected, {', '.join(free)} found")
-    return _set_of(formula, next(iter((*names, *free)), "x"), timeout)
+    if (names and others) or len({*free, *names}) > 1:
+        raise InputError(f"one free symbol expected, {', '.join(dict.fromkeys((*free, *names)))} found")
+    return _set_of(question, next(iter((*names, *free)), "x"), timeout)
 
 
 def function_range(
@@ -64,7 +71,7 @@ def function_range(
     """
     import sympy
 
-    function = sympy.sympify(function)
+    function = expression_from(function)
     names = _listed(symbols) if symbols is not None else sorted(function.free_symbols, key=str)
     if isinstance(condition, sympy.Set):
         if len(names) != 1:
@@ -75,8 +82,10 @@ def function_range(
         value += "_"
     equation = sympy.Eq(sympy.Symbol(value, real=True), function, evaluate=False)
     parts = [equation] if condition is True else [equation, *_conditions(condition)]
-    given = _together(parts)
-    return _set_of(Exists(names, given).formula() if names else given, value, timeout)
+    question = _Question.of(parts)
+    if names:
+        question = replace(question, formula=Exists(names, question.formula).formula())
+    return _set_of(question, value, timeout)
 
 
 def minimum(
@@ -103,10 +112,17 @@ def is_true_for_all(condition: Condition, *, timeout: float | None = None) -> bo
     """Whether the condition holds for all real values of its symbols that fit their assumptions."""
     import sympy
 
-    symbols, parts = _symbols_of(condition), [_boolean(part) for part in _conditions(condition)]
-    whole = sympy.And(*parts, evaluate=False) if len(parts) > 1 else parts[0]
-    formula = ForAll(list(symbols.values()), whole).formula() if symbols else from_sympy(whole)
-    return api_decide.decide(forall(free_variables(formula), formula), timeout=timeout)
+    question, symbols = _Question.of(condition), _symbols_of(condition)
+    parts = question.parts
+    whole = parts[0] if len(parts) == 1 else sympy.And(*parts, evaluate=False)
+    formula = ForAll(list(symbols.values()), whole).formula() if symbols else question.formula
+    inner = [name for name in free_variables(formula) if name not in question.constants]
+    if not question.constants:
+        return api_decide.decide(forall(inner, formula), timeout=timeout)
+    found = replace(question, formula=forall(inner, formula)).solved([], timeout)
+    if found is sympy.true or found is sympy.false:
+        return bool(found)
+    raise Unable(f"SymPy does not decide {found}")
 
 
 def _conditions(given: Condition) -> list[Any]:
@@ -119,9 +135,8 @@ def _listed(symbols: Any) -> list[Any]:
     return list(symbols) if isinstance(symbols, Iterable) and not isinstance(symbols, str) else [symbols]
 
 
-def _together(given: Condition) -> Formula:
-    parts = [from_sympy(_boolean(part)) for part in _conditions(given)]
-    return conj(over_one_ring(*parts))
+def _names(symbols: Any) -> list[str]:
+    return [arguments.name(symbol, "symbols") for symbol in _listed(symbols)]
 
 
 def _boolean(part: Any) -> Any:
@@ -136,29 +151,131 @@ def _symbols_of(given: Condition) -> dict[str, Any]:
     return {s.name: s for part in _conditions(given) for s in getattr(part, "free_symbols", ())}
 
 
-def _quantifier_free(formula: Formula, symbols: dict[str, Any], timeout: float | None) -> Any:
-    answer = api.eliminate(formula, timeout=timeout)
-    if answer.formula is None:
-        raise Unable(answer.reason or "no answer")
-    return to_sympy(answer.formula, symbols=symbols)
+# --- constants that are no algebraic numbers --------------------------------------------------------------------
+@dataclass(frozen=True, slots=True)
+class _Question:
+    """A condition as a formula, and its ``parts`` as they are read, which hold together. ``symbols``: by name.
+
+    ``constants``: numbers of SymPy that are not algebraic, by the names of variables that stand for them. Whatever is
+    equivalent for all values of a variable is so for this one; what SymPy knows of it exactly is part of the formula.
+    """
+
+    formula: Formula
+    symbols: Mapping[str, Any]
+    constants: Mapping[str, Any]
+    parts: tuple[Any, ...]
+
+    @staticmethod
+    def of(given: Condition) -> _Question:
+        """The conditions together."""
+        import sympy
+
+        parts, symbols = [_boolean(part) for part in _conditions(given)], _symbols_of(given)
+        constants: dict[str, Any] = {}
+        try:
+            formulas = [from_sympy(part) for part in parts]
+        except InputError:
+            names: dict[Any, Any] = {}
+            replaced = [_with_symbols(part, names) for part in parts]
+            if not names:
+                raise
+            try:
+                formulas = [from_sympy(part) for part in replaced]
+            except InputError:
+                names = {}
+            if not names:
+                raise  # what is wrong with the condition as it was given
+            constants, parts = {symbol.name: number for number, symbol in names.items()}, replaced
+            for number, symbol in names.items():
+                low, high = number.approximation_interval(sympy.Integer)
+                bounds = from_sympy(sympy.And(low < symbol, symbol < high))
+                formulas = [bounds, *formulas]
+        return _Question(conj(over_one_ring(*formulas)), symbols, constants, tuple(parts))
+
+    def solved(self, wanted: list[str], timeout: float | None) -> Any:
+        """The cases, solved for these variables; None where SymPy has no term for an end."""
+        import sympy
+
+        free = free_variables(self.formula)
+        terms = {**{name: sympy.Symbol(name) for name in free}, **self.symbols, **self.constants}
+        constants = [name for name in free if name in self.constants]
+        order = [*constants, *(v for v in free if v not in {*constants, *wanted}), *wanted]
+        cases = []
+        for case in api_solve.solve(self.formula, order, timeout=timeout):
+            relations = [_relation(r, terms) for r in case.ranges]
+            if None in relations:
+                return None
+            cases.append(sympy.And(*relations))
+        return sympy.Or(*cases)
 
 
-def _set_of(formula: Formula, name: str, timeout: float | None) -> Any:
-    """The solutions of a formula in one variable."""
+def _with_symbols(given: Any, names: dict[Any, Any]) -> Any:
+    """The expression with symbols in the places of constants, which ``names`` collects; not inside functions."""
     import sympy
 
-    region = api.region(formula, order=(name,), timeout=timeout)
+    if isinstance(given, sympy.NumberSymbol) and given.is_algebraic is not True:
+        return names.setdefault(given, sympy.Symbol(f"the number {given}", real=True))
+    known = sympy.Add | sympy.Mul | sympy.Pow | sympy.Abs | sympy.Max | sympy.Min | sympy.Piecewise
+    if not isinstance(given, known | sympy.Rel | sympy.logic.boolalg.BooleanFunction | sympy.Tuple):
+        return given
+    return given.func(*(_with_symbols(part, names) for part in given.args))
+
+
+def _relation(r: Range, terms: Mapping[str, Any]) -> Any:
+    """A range as a SymPy Boolean; None where an end is no term."""
+    import sympy
+
+    symbol, ends = terms[r.variable], [_term(end, terms) for end in (r.lower, r.upper)]
+    if (r.lower is not None and ends[0] is None) or (r.upper is not None and ends[1] is None):
+        return None
+    if r.is_point:
+        return sympy.Eq(symbol, ends[0])
+    low = sympy.true if r.lower is None else (symbol >= ends[0]) if r.lower_closed else (symbol > ends[0])
+    high = sympy.true if r.upper is None else (symbol <= ends[1]) if r.upper_closed else (symbol < ends[1])
+    return sympy.And(low, high)
+
+
+def _term(root: RootFunction | None, terms: Mapping[str, Any]) -> Any:
+    """An end of a range in terms of the variables before it, where it is one."""
+    import sympy
+
+    if root is None:
+        return None
+    if root.value is not None:
+        return number_to_sympy(root.value)
+    if root.written is None:
+        return None
+    front, inside, bottom = root.written
+    top = polynomial_to_sympy(front, terms)
+    if inside is not None:
+        top += (-1 if root.k == 1 else 1) * sympy.sqrt(polynomial_to_sympy(inside, terms))
+    return top / polynomial_to_sympy(bottom, terms)
+
+
+def _quantifier_free(question: _Question, timeout: float | None) -> Any:
+    answer = api.eliminate(question.formula, timeout=timeout)
+    if answer.formula is None:
+        raise Unable(answer.reason or "no answer")
+    return to_sympy(answer.formula, symbols={**question.symbols, **question.constants})
+
+
+def _set_of(question: _Question, name: str, timeout: float | None) -> Any:
+    """The solutions of a condition in one variable (and in constants)."""
+    import sympy
+
+    terms = {name: sympy.Symbol(name, real=True), **question.constants}
     parts = []
-    for piece in region.cells:
-        within = piece.ranges[0]
-        low, high = _end(within.lower, -sympy.oo), _end(within.upper, sympy.oo)
+    order = [*(v for v in free_variables(question.formula) if v in question.constants), name]
+    for case in api.region(question.formula, order=order, timeout=timeout).cells:
+        *before, within = case.ranges
+        low, high = _term(within.lower, terms), _term(within.upper, terms)
+        holds = [_relation(r, terms) for r in before]
+        if None in holds or (within.lower and low is None) or (within.upper and high is None):
+            raise Unable("an end of the set is no term of SymPy")
+        if sympy.And(*holds) is sympy.false:
+            continue
+        if sympy.And(*holds) is not sympy.true:
+            raise Unable(f"SymPy does not decide {sympy.And(*holds)}")
+        low, high = -sympy.oo if low is None else low, sympy.oo if high is None else high
         parts.append(sympy.Interval(low, high, not within.lower_closed, not within.upper_closed))
     return sympy.Union(*parts) if parts else sympy.S.EmptySet
-
-
-def _end(root: RootFunction | None, unbounded: Any) -> Any:
-    """An end of a piece of a line."""
-    if root is None:
-        return unbounded
-    assert root.value is not None  # there are no variables before the first
-    return number_to_sympy(root.value)

@@ -50,8 +50,9 @@ def _write(found: Comparison, folder: FilePath, target: FilePath, *, plots: bool
     if plots:
         from bezier.compare import pictures as plot_compare
 
-        names += plot_compare.save(found, folder)
-        drawings = plot_compare.charts(found)
+        regions = plot_compare.regions_of(found)
+        names += plot_compare.save(found, folder, regions)
+        drawings = plot_compare.charts(found, regions)
     from bezier.compare.page import render
 
     files_of = found.derivation_pages

@@ -26,18 +26,18 @@ LABELS = {
 VIEWS = (("top view", 0, 1), ("front view", 0, 2))
 
 
-def save(found: Comparison, folder: FilePath) -> list[str]:
-    """``regions.png`` and ``paths.png``."""
+def save(found: Comparison, folder: FilePath, regions: Any) -> list[str]:
+    """``regions.png`` (of the figure that ``regions_of`` makes) and ``paths.png``."""
     paths = new_figure(11, 8)
     for k, method in enumerate(METHODS):
         for column in range(len(VIEWS)):
             _view(paths.add_axes((0.06 + 0.5 * column, 0.56 - 0.5 * k, 0.41, 0.37)), found, method, column)
-    for name, figure in (("regions.png", _regions(found)), ("paths.png", paths)):
+    for name, figure in (("regions.png", regions), ("paths.png", paths)):
         figure.savefig(folder / name, dpi=120, pil_kwargs={"compress_level": 4})
     return ["regions.png", "paths.png"]
 
 
-def charts(found: Comparison) -> dict[str, tuple[Chart, ...]]:
+def charts(found: Comparison, regions: Any) -> dict[str, tuple[Chart, ...]]:
     """The same for the page."""
     paths = []
     for method in METHODS:
@@ -46,13 +46,13 @@ def charts(found: Comparison) -> dict[str, tuple[Chart, ...]]:
             _view(figure.add_axes((0.1, 0.1, 0.88, 0.81)), found, method, column)
             paths.append((svg_text(figure), f"{TITLES[method]}: {title} of the path and its control polygons"))
     words = "where Q1 may be, in the plane of O, Q0 and R0"
-    return {"regions": ((svg_text(_regions(found)), words),), "paths": tuple(paths)}
+    return {"regions": ((svg_text(regions), words),), "paths": tuple(paths)}
 
 
-def _regions(found: Comparison) -> Any:
-    """Axes in mm along and across R0 - Q0."""
-    figure = new_figure(9, 6.4)
-    axis = figure.add_axes((0.08, 0.09, 0.6, 0.85))
+def regions_of(found: Comparison) -> Any:
+    """The figure of the planar regions, with axes in mm along and across R0 - Q0."""
+    figure = new_figure(6, 6.6)
+    axis = figure.add_axes((0.1, 0.2, 0.87, 0.75))
     plane = found.planar.plane
     unit = [float(np.linalg.norm(np.array([float(c) for c in v]))) for v in (plane.first, plane.second)]
     for name, colour in REGION_COLOURS.items():
@@ -75,7 +75,7 @@ def _regions(found: Comparison) -> Any:
     axis.grid(color=GRID, linewidth=0.6)
     axis.set_axisbelow(True)
     labels.place(axis, marks, np.zeros((0, 2)), size=9)
-    figure.legend(loc="upper left", bbox_to_anchor=(0.69, 0.94), frameon=False, fontsize=9)
+    figure.legend(loc="lower left", bbox_to_anchor=(0.08, 0.0), frameon=False, fontsize=10)
     return figure
 
 

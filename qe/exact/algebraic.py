@@ -30,6 +30,8 @@ class RealAlgebraic(SymPyForm):
     """A real algebraic number. Supports + - * / with its kind and with rationals, ==, <, hash, float."""
 
     __slots__ = ("_ball", "_bits", "_hi", "_lo", "index", "poly")
+    poly: fmpz_poly
+    index: int
 
     def __init__(self, poly: fmpz_poly, index: int, interval: Interval) -> None:
         self.poly, self.index = poly, index

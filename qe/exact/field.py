@@ -46,6 +46,9 @@ class NumberField:
     """
 
     __slots__ = ("degree", "modulus", "theta")
+    theta: RealAlgebraic
+    degree: int
+    modulus: fmpq_poly
 
     def __init__(self, theta: RealAlgebraic) -> None:
         self.theta, self.degree = theta, theta.degree
@@ -106,6 +109,8 @@ class FieldElement(SymPyForm):
     """
 
     __slots__ = ("_algebraic", "field", "value")
+    field: NumberField
+    value: fmpq_poly
 
     def __init__(self, field: NumberField, value: fmpq_poly) -> None:
         self.field, self.value = field, value

@@ -43,11 +43,12 @@ class Ring:
     def __init__(self, names: tuple[str, ...]) -> None:
         if len(set(names)) != len(names):
             raise InternalError(f"repeated variable in ring {names}")
-        self.names, self.size = names, len(names)
-        self.index = {name: i for i, name in enumerate(names)}
+        self.names: tuple[str, ...] = names
+        self.size: int = len(names)
+        self.index: dict[str, int] = {name: i for i, name in enumerate(names)}
         flint_names = tuple(f"v{i}" for i in range(max(1, self.size)))
-        self.ctx = fmpz_mpoly_ctx.get(flint_names, "lex")
-        self.qctx = fmpq_mpoly_ctx.get(flint_names, "lex")
+        self.ctx: fmpz_mpoly_ctx = fmpz_mpoly_ctx.get(flint_names, "lex")
+        self.qctx: fmpq_mpoly_ctx = fmpq_mpoly_ctx.get(flint_names, "lex")
         self._gens = self.ctx.gens()
         self._hash_point = tuple(fmpz(_PRIMES[i % 16] + 64 * (i // 16)) for i in range(max(1, self.size)))
         self.cache: dict[object, object] = {}
@@ -119,7 +120,8 @@ class Poly:
     __slots__ = ("__dict__", "_hash", "p", "ring")
 
     def __init__(self, ring: Ring, p: fmpz_mpoly) -> None:
-        self.ring, self.p = ring, p
+        self.ring: Ring = ring
+        self.p: fmpz_mpoly = p
         self._hash: int | None = None
 
     # --- value semantics -------------------------------------------------------------------

@@ -26,6 +26,10 @@ class Tower:
 
     __slots__ = ("moduli", "ring", "variables")
 
+    ring: Ring
+    variables: tuple[int, ...]
+    moduli: tuple[Element, ...]
+
     def __init__(self, ring: Ring, variables: tuple[int, ...] = (), moduli: tuple[Element, ...] = ()) -> None:
         self.ring, self.variables, self.moduli = ring, variables, moduli
 

@@ -24,7 +24,7 @@ class Watch:
     __slots__ = ("ask",)
 
     def __init__(self, ask: Callable[[], object] = _go_on) -> None:
-        self.ask = ask
+        self.ask: Callable[[], object] = ask
 
     def __call__(self) -> None:
         self.ask()

@@ -35,7 +35,7 @@ class Expression:
     __array_ufunc__ = None  # numpy's scalars leave the operators to this class
 
     def __init__(self, term: s.Term) -> None:
-        self.term = term
+        self.term: s.Term = term
 
     @property
     def is_Symbol(self) -> bool:
@@ -128,7 +128,7 @@ class Statement:
     __array_ufunc__ = None
 
     def __init__(self, formula: Formula) -> None:
-        self.formula = formula
+        self.formula: Formula = formula
 
     @property
     def free(self) -> tuple[str, ...]:
@@ -194,8 +194,11 @@ class Statement:
         return self.formula._sympy_()
 
 
-def variables(names: object) -> tuple[Expression, ...] | Expression:
-    """Variables with these names (``"x y"``, ``"x, y"`` or a list); one alone comes without a tuple."""
+def variables(names: object) -> Any:
+    """Variables with these names (``"x y"``, ``"x, y"`` or a list) as a tuple; one alone comes without it.
+
+    Typed as ``Any``, since what unpacks it says how many there are.
+    """
     found = arguments.names(names, "variables")
     if not found:
         raise InputError("variables: at least one name expected")

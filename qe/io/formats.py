@@ -79,7 +79,7 @@ def write(formula: Formula, format: str | Format = Format.TEXT) -> str:
 def checked(name: str | Format) -> Format:
     """The format of this name. Raises ``InputError``, naming those there are."""
     for known in Format:
-        if name in (known, known.value):
+        if isinstance(name, str | Format) and name in (known, known.value):
             return known
     raise InputError(f"unknown format {shown(name)}; known: {', '.join(WRITABLE)}")
 

@@ -95,6 +95,8 @@ class Combined(_Operators):
 
 class _Quantified(_Operators):
     __slots__ = ("assumed", "body", "names", "raw")
+    names: tuple[str, ...]
+    body: Formula
 
     def __init__(self, variables: object, body: object) -> None:
         self.names, given = _variables(variables)
@@ -226,6 +228,16 @@ def polynomial_from_sympy(expression: object) -> tuple[Poly, Fraction]:
     return value.poly, Fraction(1, value.den)
 
 
+def expression_from(given: object) -> Any:
+    """The SymPy expression that is given, as an object or a number, not as text."""
+    import sympy
+
+    found = _basic(given, "a SymPy expression")
+    if not isinstance(found, sympy.Expr):
+        raise InputError(f"a SymPy expression expected, {shown(found)} found")
+    return found
+
+
 def _basic(given: object, expected: str) -> Any:
     """The SymPy object that is given, or that something of this package stands for (``_sympy_``)."""
     import sympy
@@ -257,16 +269,21 @@ def to_sympy(formula: Formula, *, symbols: Mapping[str, Any] | None = None) -> A
     return _boolean(formula, table, sympy)
 
 
+def polynomial_to_sympy(poly: Poly, symbols: Mapping[str, Any]) -> Any:
+    """The SymPy expression of a polynomial, with these symbols (or other terms) for its variables."""
+    import sympy as sp
+
+    terms = [((poly.ring.names[i], k) for i, k in powers) for powers, _ in poly.sparse_terms()]
+    numbers = [c for _, c in poly.sparse_terms()]
+    return sp.Add(*(sp.Mul(sp.Integer(c), *(symbols[v] ** k for v, k in term)) for c, term in zip(numbers, terms)))
+
+
 def _boolean(formula: Formula, symbols: Mapping[str, Any], sp: Any) -> Any:
     match formula:
         case Constant(value):
             return sp.true if value else sp.false
         case Atom(poly, relation):
-            columns = [symbols[name] for name in poly.ring.names]
-            terms = [
-                sp.Mul(sp.Integer(c), *(x**k for x, k in zip(columns, exponents) if k)) for exponents, c in poly.terms()
-            ]
-            return getattr(sp, _CLASSES[relation])(sp.Add(*terms), 0)
+            return getattr(sp, _CLASSES[relation])(polynomial_to_sympy(poly, symbols), 0)
         case And(args):
             return sp.And(*(_boolean(arg, symbols, sp) for arg in args))
         case Or(args):

@@ -109,6 +109,12 @@ def _hint(text: str, before: str, kind: str, value: str, at: int, expected: Coll
     if kind == "POWER" and "POWER" not in expected and "TIMES" in expected and previous not in "*^":
         return "a^b^c is ambiguous; use brackets"
     behind_a_term = "TIMES" in expected or ("PLUS" in expected and "NUMBER" not in expected)
+    if value == ":" and text.startswith(":=", at):
+        return "':=' is not used here; an equation is written with one ="
+    if previous == "(" and kind in ("AND", "OR", "NOT", "RELATION", "IMPLIES", "IFF", "TIMES", "OVER"):
+        return "operators stand between what they join; a text in SMT-LIB is read with format smtlib"
+    if kind in ("NAME", "NUMBER", "OPEN", "OPENBAR", "RADICAL") and behind_a_term and "\n" in text[len(before) : at]:
+        return "the conditions of several lines are joined by and, or stand in braces {…, …}"
     if kind in ("NAME", "NUMBER", "OPEN", "OPENBAR", "RADICAL") and behind_a_term:
         left = _last_word(before)
         right = "(…)" if kind == "OPEN" else value
@@ -120,7 +126,7 @@ def _hint(text: str, before: str, kind: str, value: str, at: int, expected: Coll
 
 _COMMANDS = re.compile(
     r"\s*(Resolve|Reduce|Solve|FindInstance|CylindricalDecomposition|Minimize|Maximize|rlqe|rlsimpl|QuantifierElimination"
-    r"|solve|reduce|assert|print|Assume|Piecewise|let)\b\s*[\[({]?"
+    r"|solve|reduce|minimi[sz]e|maximi[sz]e|find|simplify|prove|show|assert|print|Assume|Piecewise|let)\b\s*[\[({]?"
 )
 _WORDS = {
     "xor": "write Xor(p, q)",
@@ -128,6 +134,9 @@ _WORDS = {
     "nor": "write not (p or q)",
     "mod": "mod needs integers, and all variables are real",
     "div": "div needs integers, and all variables are real",
+    "is": "conditions are written with = /= < <= > >=",
+    "between": "write 0 < x < 1, or x in [0, 1]",
+    **dict.fromkeys(("but", "unless"), "conditions are joined by and, or, ->"),
     "where": "put the term in the place of its name, or write ex y. y = … and …",
 }
 
@@ -142,7 +151,9 @@ def _word_hint(before: str, kind: str, value: str, expected: Collection[str]) ->
     if command is not None and command[1] == "let":
         return "definitions are not read; put the term in the place of its name, or write ex y. y = … and …"
     if command is not None and command[1] != "Piecewise" and (kind != "$END" or "$END" not in expected):
-        return f"{command[1]} is a command of another system; give the formula alone"
+        if command[1].lower()[:5] in ("minim", "maxim"):
+            return f"{command[1]} is no part of a formula; an optimum is asked for with qe.minimize or qe minimize"
+        return f"{command[1]} is a command, not a part of a formula; give the formula alone"
     return ""
 
 

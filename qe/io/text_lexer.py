@@ -23,6 +23,7 @@ _TOKEN = re.compile(
     rf"(?P<SPACE>\s+|\#[^\n]*|[Tt]here\s+(?=exists\b))"
     rf"|(?P<PREFIX>\(\s*{_PREFIXES}{_LIST}\s*(?:,\s*{_LIST}\s*)*\)(?=\s*[(\[]))"
     r"|(?P<EVERY>[Ff]or\s+(?:all|every|each|any)\b)"
+    r"|(?P<SOME>[Ff]or\s+some\b)"
     r"|(?P<THAT>such\s+that\b|s\.\s?t\.)"
     r"|(?P<NOTIN>not\s+in\b|∉)"
     rf"|(?P<QUANTIFIER>[EA](?=\s+{_LIST}\s*(?:,\s*{_LIST}\s*)*[.:]))\b"
@@ -104,8 +105,18 @@ OPERAND_ENDS = frozenset(("NAME", "NUMBER", "CLOSE", "RIGHT", "END", "CLOSEBAR",
 
 _HEXADECIMAL = re.compile(r"0[xX][0-9a-fA-F]")
 _NEXT_NAME = re.compile(rf"\s*({_LIST})\s*(?=[,.:(\[∈∃∀]|{_LIST})")
+_ANOTHER = re.compile(rf"\s+{_LIST}")
 _SHORT = frozenset(("ex", "Ex", "all", "All", "E", "A"))
 """Quantifiers whose variables end with a dot; behind the others a comma may end them too: ``forall x, x^2 >= 0``."""
+_KINDS_OF_NUMBERS = {
+    **dict.fromkeys(("unique", "exactly"), "there is no ∃!; write ex x. f and all y. … -> y = x"),
+    "positive": "a condition stands behind the variable, as in exists x > 0",
+    "negative": "a condition stands behind the variable, as in exists x < 0",
+    "nonzero": "a condition stands behind the variable, as in exists x /= 0",
+    **dict.fromkeys(("nonnegative", "non"), "a condition stands behind the variable, as in exists x >= 0"),
+    **dict.fromkeys(("integer", "integers", "natural", "rational", "complex"), "all variables are real"),
+}
+"""Words in front of the variables of a quantifier that would otherwise be taken for a variable."""
 _NO_REALS = frozenset(("Z", "N", "Q", "C", "ℤ", "ℕ", "ℚ", "ℂ", "Integers", "Rationals", "Complexes", "Naturals"))
 _ALSO_REALS = frozenset(("R", "RR", "Real", "reals", "real"))
 
@@ -136,6 +147,8 @@ def tokens(text: str, token: Make) -> Iterator[Token]:
                 value = value[:-1]
             if value == "0" and _HEXADECIMAL.match(text, at):
                 raise SyntaxFailure("numbers are decimal; a product with zero is written 0*x", at)
+            if text.startswith("_", at + len(value)):
+                raise SyntaxFailure("a number is written without _ between its digits", at)
             yield from state.put("NUMBER", value, at)
         elif kind == "QUOTED":
             yield from state.put("NAME", quoted_name(value, at), at)
@@ -147,6 +160,8 @@ def tokens(text: str, token: Make) -> Iterator[Token]:
             yield from state.prefix(value, at)
         elif kind == "EVERY":
             yield from state.put("QUANTIFIER", "forall", at)
+        elif kind == "SOME":
+            yield from state.put("QUANTIFIER", "exists", at)
         elif kind == "THAT" and state.header:
             yield from state.put("DOT", ".", at)
         elif kind == "THAT":
@@ -201,6 +216,10 @@ class State:
             return
         if kind == "NAME" and self.last == "IN":
             kind = self.set_named(value, at)
+        if kind == "NAME" and self.header and value in _KINDS_OF_NUMBERS and _ANOTHER.match(self.text, at + len(value)):
+            raise SyntaxFailure(_KINDS_OF_NUMBERS[value], at)
+        if kind == "NAME" and value in ("union", "Union") and self.last in ("CLOSE", "RIGHT", "END"):
+            kind = "UNION"
         if kind == "COMMA" and self.header and self.spoken and not self.goes_on(at + 1):
             kind = "DOT"
         if value == "=>" and not self.compared[-1]:

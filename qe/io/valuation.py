@@ -294,7 +294,7 @@ class Valuation(Auxiliaries):
 
     def root(self, term: Root) -> Meaning:
         """``root(k, p, x)`` as a term."""
-        k = self.constant(term.number, "the first argument of root must be an integer", term.at)
+        k = self.constant(term.number, "the first argument of root is its number: root(2, x^2 - y, x)", term.at)
         poly = self.polynomial(term.poly, term.at)
         if term.variable is None and len(poly.variables) != 1:
             message = "root(…) of a polynomial in several variables needs its variable, as in root(2, x^2 - y, x)"
@@ -318,18 +318,20 @@ class Valuation(Auxiliaries):
         return cases.guarded((auxiliary.defined,), Case((), terms.variable(self.ring, name)))
 
     # --- constants -------------------------------------------------------------------------------------------
-    def rational(self, term: Term, at: int) -> Fraction:
+    def rational(
+        self, term: Term, at: int, message: str = "an exponent must be a rational number, without variables"
+    ) -> Fraction:
         """An exponent."""
         if isinstance(term, Number):
             return Fraction(term.value)
         value = self.term(term)
         if not isinstance(value, Value) or not value.poly.is_constant:
-            raise self.fail("an exponent must be a rational number, without variables", at)
+            raise self.fail(message, at)
         return Fraction(value.poly.constant_value(), value.den)
 
     def constant(self, term: Term, message: str, at: int) -> int:
         """An integer."""
-        number = self.rational(term, at)
+        number = self.rational(term, at, message)
         if number.denominator != 1:
             raise self.fail(message, at)
         return int(number)

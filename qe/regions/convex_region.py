@@ -65,7 +65,7 @@ class ConvexRegion(Region):
 
     __slots__ = ("_shadow",)
 
-    is_optimised = True
+    is_optimised: bool = True
 
     def __init__(self, shadow: Shadow, order: tuple[str, ...] | None, *, limits: Limits = NONE) -> None:
         free = free_variables(exists(shadow.hidden, shadow.conditions))

@@ -67,7 +67,11 @@ class Region(SetOperations):
         "reason",
     )
 
-    is_optimised = False
+    order: tuple[str, ...]
+    limits: Limits
+    guarantee: Guarantee
+    reason: str
+    is_optimised: bool = False
     """Whether questions are answered by convex optimisation, without a table."""
 
     def __init__(
@@ -92,6 +96,7 @@ class Region(SetOperations):
 
         Raises ``InputError`` when ``order`` misses a free variable.
         """
+        formula = instance(formula, Formula, "formula", "a formula")
         chosen = checked_order(free_variables(formula), order)
         matrix = nnf(convert(formula, Ring.of(chosen)))
         done = decompose(matrix, chosen, ("",) * len(chosen), budget=budget or Budget())

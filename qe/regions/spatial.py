@@ -6,7 +6,7 @@ points of A near p, each lies near a root over p or is as large as one likes (ro
 coefficients). Small boxes around p meet A in connected sets: a band between two functions on an interval, which have
 limits at its end (``qe.regions.planar``), or its graph, or its side. So each root has one limit at p, finite or not. It
 is the root r over p for which s < r < t, if s, t are numbers between the roots over p such that no factor is zero at
-heights s and t over a connected set that joins p with a point q of A within A, and the root lies between s and t over q.
+heights s and t over a connected set that joins p with a point q of A within A, and over q the root lies between them.
 The limits vary continuously with p in B, along which the roots over B are functions, too: what holds at p holds on B.
 So the closure of a cell over A contains or misses every cell over B, and the components are found as in the plane.
 
@@ -22,7 +22,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import partial
-from itertools import product
+from itertools import pairwise, product
 
 from flint import arb, fmpq
 
@@ -87,7 +87,7 @@ class Space:
         pairs = {
             ((*base, low), (*base, high))
             for base, heights in over.items()
-            for low, high in zip(heights, heights[1:], strict=False)
+            for low, high in pairwise(heights)
             if high == low + 1
         }
         parts = connected_parts(own, pairs)
@@ -268,7 +268,7 @@ def components(formula: Formula, order: tuple[str, ...], budget: Budget) -> list
 
 def _written(formula: Formula, order: tuple[str, ...], space: Space, budget: Budget) -> Iterator[Formula]:
     """The formulas of components; a finer decomposition has the same ones in the same order."""
-    known = {frozenset(): space}
+    known: dict[frozenset[int], Space] = {frozenset(): space}
 
     def table(k: int, levels: frozenset[int]) -> CellTable:
         if levels not in known:
@@ -310,9 +310,9 @@ def coordinates(formula: Formula, order: tuple[str, ...]) -> Iterator[Coordinate
         yield Coordinates((*order[k:], *order[:k]))
     forms = [_leading_form(p) for p in polynomials(convert(formula, Ring.of(order)))]
     for size in range(1, 2 + sum(form.total_degree for form in forms)):
-        for slant in product(range(size + 1), repeat=2):
-            if max(slant) == size and all(form.evaluate((*slant, 1)) for form in forms):
-                yield Coordinates(order, slant)
+        for a, b in product(range(size + 1), repeat=2):
+            if max(a, b) == size and all(form.evaluate((a, b, 1)) for form in forms):
+                yield Coordinates(order, (a, b))
                 return
 
 

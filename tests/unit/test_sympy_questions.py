@@ -59,14 +59,43 @@ def test_regions(condition: object, expected: sp.Set) -> None:
         (lambda: exact.minimum(x, x, x > x), sp.oo),
         (lambda: exact.is_true_for_all(x**2 >= 0), True),
         (lambda: exact.is_true_for_all(p > 0), True),
+        (lambda: exact.is_true_for_all([]), True),
         (lambda: exact.is_true_for_all(p > 1), False),
         (lambda: exact.is_true_for_all([p > 0, x**2 + 1 > p - p**2]), True),
-        (lambda: exact.reduce_inequalities([x**2 + a * x + 1 < 0], x), sp.Or(a - 2 > 0, a + 2 < 0)),
+        (lambda: exact.reduce_inequalities([x**2 < 4, x > 0], x), sp.And(x > 0, x < 2)),
+        (lambda: exact.reduce_inequalities([x + 3 >= 0], []), x >= -3),
+        (lambda: exact.reduce_inequalities(x + y * 2 - 1 >= 0, [x]), x >= 1 - 2 * y),
+        (lambda: exact.reduce_inequalities(sp.Eq(x**2, 4), x), sp.Or(sp.Eq(x, -2), sp.Eq(x, 2))),
+        (lambda: exact.reduce_inequalities(p**2 - 3 * p < 0, p), p < 3),
+        (lambda: exact.reduce_inequalities(sp.pi < sp.Abs(a), a), sp.Or(a < -sp.pi, a > sp.pi)),
+        (lambda: exact.reduce_inequalities(sp.pi / sp.Abs(x) <= 1, x), sp.Or(x >= sp.pi, x <= -sp.pi)),
+        (lambda: exact.reduce_inequalities([]), sp.true),
+        (lambda: exact.reduce_inequalities(x**3 + a > 0, x), x**3 + a > 0),
+        (lambda: exact.solve_region(x**2 < sp.pi), sp.Interval.open(-sp.sqrt(sp.pi), sp.sqrt(sp.pi))),
+        (lambda: exact.solve_region(2 * x < sp.E), sp.Interval.open(-sp.oo, sp.E / 2)),
+        (lambda: exact.minimum(x**2 + sp.pi), sp.pi),
+        (lambda: [exact.is_true_for_all(x**2 + sp.pi > k) for k in (3, 4)], [True, False]),
         (lambda: exact.reduce_inequalities(x > 0).free_symbols, {x}),
     ],
 )
 def test_answers(found: Callable[[], object], expected: object) -> None:
     assert found() == expected
+
+
+@pytest.mark.parametrize(
+    ("given", "symbols"),
+    [
+        (x**2 > a, [x]),
+        ([a * x**2 + y * x + 1 < 0], [x]),
+        ([x**2 + y**2 < a, x > y], [x, y]),
+        ([x**2 + y**2 < a, x > y], [y]),
+        (sp.Or(sp.Abs(x * y) < 1, sp.Ne(x, 2)), [y]),
+        (x**3 - a * x > 1, [x]),
+        ([x > 1, qe.Exists(y, y**2 < a - x)], x),
+    ],
+)
+def test_reduced_inequalities_are_the_same_condition(given: object, symbols: object) -> None:
+    assert qe.equivalent(given, exact.reduce_inequalities(given, symbols))
 
 
 def test_assumptions_are_conditions_in_their_place() -> None:
@@ -89,7 +118,13 @@ def test_assumptions_are_conditions_in_their_place() -> None:
         (lambda: exact.solve_region(sp.Symbol("k", integer=True) < 1), "integer"),
         (lambda: exact.solve_region("x < 1"), "text found"),
         (lambda: exact.function_range(sp.sin(x)), "not algebraic"),
+        (lambda: exact.solve_region(sp.sin(x) < sp.pi), "sin is not algebraic"),
+        (lambda: exact.reduce_inequalities(x**sp.pi < 1), r"not algebraic: x\*\*pi"),
+        (lambda: exact.reduce_inequalities(x < 1, 5), "symbols: the name of a variable"),
         (lambda: exact.is_true_for_all(x), "Boolean combination"),
+        (lambda: exact.function_range("x**2"), "a SymPy expression expected, str found"),
+        (lambda: exact.minimum(None), "a SymPy expression expected, NoneType found"),
+        (lambda: exact.maximum(x > 0), "a SymPy expression expected, x > 0 found"),
         (lambda: qe.from_z3(3), "z3"),
     ],
 )
