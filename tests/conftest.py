@@ -28,7 +28,7 @@ settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "ci"))
 
 
 def pytest_collection_finish() -> None:
-    """What was collected stays until the end: no search for garbage, here or in a forked process, goes through it again."""
+    """What was collected stays until the end: no search for garbage goes through it, here or in forked processes."""
     gc.collect()
     gc.freeze()
 
