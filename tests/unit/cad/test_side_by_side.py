@@ -115,7 +115,7 @@ def test_small_work_needs_no_helpers() -> None:
 
 def test_a_killed_worker_costs_its_own_work_only(at_once: None) -> None:
     pytest.importorskip("distributed")
-    with helping(Cluster(workers=2)) as helpers:
+    with helping(Cluster(workers=1)) as helpers:
         first = table(PROBLEMS["existential"], helpers)
         for worker in helpers._client.run(os.getpid).values():  # type: ignore[attr-defined]
             os.kill(worker, signal.SIGKILL)
