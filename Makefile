@@ -45,7 +45,7 @@ paper: $(CORE) ## check every claim of the paper; the page is out/paper/index.ht
 	$(BIN)/python -m paper_repro --out $(OUT)/paper
 
 test: $(DEV) ## all tests but the long ones
-	$(BIN)/python -m pytest -n $(WORKERS) -q
+	$(BIN)/python -m pytest -n $(WORKERS) --dist loadfile -q
 
 docs: $(DOCS) ## build the documentation site: open build/site/index.html
 	MPLBACKEND=Agg $(BIN)/python -m sphinx -W -q -b html docs build/site

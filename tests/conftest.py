@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import os
 import signal
 import sys
@@ -24,6 +25,12 @@ _COMMON = {"deadline": None, "suppress_health_check": [HealthCheck.too_slow], "p
 settings.register_profile("ci", derandomize=True, database=None, max_examples=30, **_COMMON)
 settings.register_profile("explore", max_examples=400, **_COMMON)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "ci"))
+
+
+def pytest_collection_finish() -> None:
+    """What was collected stays until the end: no search for garbage goes through it, here or in forked processes."""
+    gc.collect()
+    gc.freeze()
 
 
 @pytest.fixture(scope="session")

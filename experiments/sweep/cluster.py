@@ -7,26 +7,20 @@ worker dies, the scheduler gives its tasks to others; a task that takes several 
 
 from __future__ import annotations
 
-import logging
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Sequence
 from dataclasses import asdict
 from typing import Any
 
 from experiments.sweep.grid import Task
 from experiments.sweep.solve import Outcome, outcome, solve
 from experiments.sweep.store import Store
-from qe.errors import InputError, Unable
+from qe.options import Cluster
+from qe.processes.cluster import connection
 
 WINDOW = 4
 """Tasks under way per worker."""
 
 ATTEMPTS = 3
-CONNECTING = 5.0
-"""Seconds to wait for a scheduler."""
-
-PATIENCE = 60.0
-"""Seconds to wait for the first worker."""
 
 
 def sweep(
@@ -45,7 +39,7 @@ def sweep(
     todo = [task for task in tasks if task.key not in store.outcomes]
     if not todo:
         return
-    with _client(scheduler, workers) as client:
+    with connection(Cluster(workers, scheduler)) as client:
         _Sweep(client, todo, timeout).run(lambda record: note(store.add(record)))
 
 
@@ -82,32 +76,3 @@ class _Sweep:
         future = self.client.submit(solve, task, self.timeout, key=f"{task.key} attempt {attempt}", pure=False)
         self.attempts[future.key] = (task, attempt)
         self.running.add(future)
-
-
-@contextmanager
-def _client(scheduler: str | None, workers: int) -> Iterator[Any]:
-    try:
-        from distributed import Client, LocalCluster
-    except ImportError:
-        raise InputError("a sweep needs the packages of the extra 'sweep': pip install 'bezier-qe[sweep]'") from None
-
-    if scheduler is None:
-        quiet = logging.CRITICAL
-        with (
-            LocalCluster(
-                n_workers=workers, threads_per_worker=1, processes=True, dashboard_address=":0", silence_logs=quiet
-            ) as cluster,
-            Client(cluster) as client,
-        ):
-            yield client
-        return
-    try:
-        remote = Client(scheduler, timeout=CONNECTING)
-    except (OSError, ValueError) as error:
-        raise InputError(f"--scheduler: a Dask scheduler at {scheduler} expected, none found ({error})") from None
-    with remote as client:
-        try:
-            client.wait_for_workers(1, timeout=PATIENCE)
-        except TimeoutError:
-            raise Unable(f"the scheduler at {scheduler} has no worker") from None
-        yield client

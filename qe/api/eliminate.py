@@ -10,10 +10,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from qe import arguments
 from qe.api.input import AnyFormula, read_formula
-from qe.api.limits import cluster_of
-from qe.api.limits import limits_of as _limits
-from qe.api.limits import performed as _performed
-from qe.api.limits import reading as _read
+from qe.api.limits import cluster_of, limits_of, performed, reading
 from qe.errors import BudgetExceeded, InputError, Unable
 from qe.formula.features import features
 from qe.formula.syntax import Formula
@@ -28,7 +25,6 @@ from qe.proof.run_log import RunLog
 
 if TYPE_CHECKING:  # the checker and the optimiser are loaded where they are used
     from qe.certify.verdict import Verdict
-    from qe.elimination.protocol import Outcome
     from qe.regions.region import Region
 
 Result = TypeVar("Result")
@@ -80,34 +76,41 @@ def eliminate(
 ) -> Answer:
     """Quantifier elimination over the reals: an equivalent quantifier-free formula.
 
-    ``timeout`` in seconds and ``memory`` in MB: with either, the work runs in a forked worker process that is killed at
-    the limit, since a single polynomial operation can take long (where processes cannot fork, ``timeout`` is only
-    checked between steps). Without them it moves to such a process when it takes longer than a moment, so that Ctrl-C
-    ends it at once. ``process=False``, or the environment variable ``QE_PROCESS=off``, keeps it in this process.
-    The answer has status UNABLE, with the reason, when a limit was reached. With ``anytime`` and a ``timeout``, which
-    is shared, ``Answer.partial`` then says for which values of the free variables the formula is proved to be true, for
-    which false, and which are open. With ``check`` the answer comes with a certificate where
-    one can be had (if the method makes none, by a decomposition of the whole formula), verified by the separate
-    checker; certificates that are a witness always are. A proof or verification that does not end in time costs the
-    certificate, not the answer (``Answer.reason`` says so). With ``total_division`` a quotient in text has some value,
-    too, where its denominator is zero, as in SMT-LIB: the formula holds if it does for a choice of these values.
-    ``explain`` tells on
-    stderr how the answer was found (``Answer.explanation`` holds the same text); ``without`` leaves stages of the
-    engine out (``qe.Stage``), to measure what they gain. With ``workers`` (processes on this machine) or ``cluster``
-    (the address of a Dask scheduler) the cells of long decompositions are lifted side by side; the answer and its
-    certificate are the same as without. ``race`` names methods that try side by side, each in a process of its own;
-    the answer is the first one, and which that is may differ from run to run. Raises ``InputError`` for input that
-    cannot be read.
+    ``timeout`` (seconds), ``memory`` (MB): with either, the work runs in a forked worker process that is killed at the
+    limit, since a single polynomial operation can take long (where processes cannot fork, ``timeout`` is only checked
+    between steps). At a limit the answer has status UNABLE, with the reason. Without limits the work moves to such a
+    process when it takes longer than a moment, so that Ctrl-C ends it at once; ``process=False``, or the environment
+    variable ``QE_PROCESS=off``, keeps it in this process.
+
+    ``anytime``: at a ``timeout``, which is shared, ``Answer.partial`` says for which values of the free variables the
+    formula is proved to be true, for which false, and which are open.
+
+    ``check``: the answer comes with a certificate where one can be had (if the method makes none, by a decomposition of
+    the whole formula), verified by the separate checker; certificates that are a witness always are. A proof
+    or verification that does not end in time costs the certificate, not the answer (``Answer.reason`` says so).
+
+    ``total_division``: a quotient in text has some value where its denominator is zero, too, as in SMT-LIB: the formula
+    holds if it does for a choice of these values.
+
+    ``explain``: how the answer was found is told on stderr; ``Answer.explanation`` holds the same text. ``without``:
+    stages of the engine to be left out (``qe.Stage``), to measure what they gain.
+
+    ``workers`` (processes on this machine) or ``cluster`` (the address of a Dask scheduler): the cells of long
+    decompositions are lifted side by side; the answer and its certificate are the same as without. ``race``: methods
+    that try side by side, each in a process of its own; the answer is the first one, and which that is may differ from
+    run to run.
+
+    Raises ``InputError`` for input that cannot be read.
     """
     start = time.monotonic()
     explain, check = arguments.flag(explain, "explain"), arguments.flag(check, "check")
-    limits = _limits(timeout, memory, progress, process).begun(start)
+    limits = limits_of(timeout, memory, progress, process).begun(start)
     options = _options(method, order, root_atoms, without, progress).with_(certify=check)
     helpers, racing = cluster_of(workers, cluster), arguments.members(race, Method, "race")
     if racing and (helpers is not None or options.method is not Method.AUTO or not limits.process):
         raise InputError("race: cannot go with method, workers, cluster or process=False")
     try:
-        given = _read(formula, format, limits, total_division)
+        given = reading(formula, format, limits, total_division)
     except BudgetExceeded as error:
         return Answer(Status.UNABLE, None, reason=str(error))
     _check_order(options.order, given)
@@ -131,16 +134,6 @@ def _check_order(order: tuple[str, ...] | None, formula: Formula) -> None:
         raise InputError(f"order: variables of the formula expected, each once, {', '.join(names)} found")
 
 
-def _solved(formula: Formula, options: Options, budget: Budget) -> Outcome:
-    """The answer of the engine, which is loaded at the first call. Where it is to be proved, it is kept before."""
-    from qe.engine.run import answer_to, answered, proved
-
-    found = answered(formula, options, budget)
-    if options.certify:
-        budget.keep(replace(answer_to(formula, found), certificate=None, reason=UNPROVED))
-    return proved(formula, found, options, budget)
-
-
 def _limited(formula: Formula, options: Options, limits: Limits, check: bool, cluster: Cluster | None) -> Answer:
     """The answer, found in a worker process where it takes long or a limit is to hold."""
 
@@ -155,7 +148,7 @@ def _limited(formula: Formula, options: Options, limits: Limits, check: bool, cl
             return _answer(formula, chosen, budget, check)
 
     try:
-        return _performed(work, formula, limits, at_once=cluster is not None)
+        return performed(work, formula, limits, at_once=cluster is not None)
     except Unable as error:
         return Answer(Status.UNABLE, None, reason=str(error), question=formula)
 
@@ -181,25 +174,32 @@ def _raced(formula: Formula, options: Options, limits: Limits, check: bool, meth
         return _answer(formula, options.with_(method=method, progress=budget.listener), budget, check)
 
     try:
-        return _performed(lambda budgets: raced(asked, methods, budgets()), formula, limits, at_once=True)
+        return performed(lambda budgets: raced(asked, methods, budgets()), formula, limits, at_once=True)
     except Unable as error:
         return Answer(Status.UNABLE, None, reason=str(error), question=formula)
 
 
 def _answer(formula: Formula, options: Options, budget: Budget, check: bool) -> Answer:
+    """What the engine finds, which is loaded at the first call; verified where that is asked, or costs little.
+
+    Where the answer is to be proved, it is kept before.
+    """
+    from qe.engine.run import answer_to, answered, proved
+
     try:
-        found = _solved(formula, options, budget)
+        known = answered(formula, options, budget)
+        if options.certify:
+            budget.keep(replace(answer_to(formula, known), certificate=None, reason=UNPROVED))
+        found = proved(formula, known, options, budget)
     except Unable as error:
         log = RunLog()
         log.work("limits", {"work": budget.used})
         return Answer(Status.UNABLE, None, reason=str(error), question=formula, log=log)
-    from qe.engine.run import answer_to
-
     answer, certificate = answer_to(formula, found), found.certificate
     if certificate is not None and (check or certificate.kind is Kind.WITNESS or found.witness is not None):
         from qe.api.verify import with_verdict
 
-        return with_verdict(answer, budget)
+        return with_verdict(answer, budget, checked=found.checked)
     return answer
 
 
@@ -231,19 +231,19 @@ def region(
     start = time.monotonic()
     from qe.regions.build import described
 
-    whole, names = _limits(timeout, memory, progress, process), arguments.names(order)
+    whole, names = limits_of(timeout, memory, progress, process), arguments.names(order)
     limits = whole.begun(start)
     check = arguments.flag(check, "check")
-    read = _read(formula, format, limits, total_division)
+    given = reading(formula, format, limits, total_division)
 
     def work(budgets: Budgets) -> Region:
         from qe.api.verify import with_guarantee
 
         budget = budgets()
-        found = described(read, names, budget, whole, check=check)
+        found = described(given, names, budget, whole, check=check)
         return with_guarantee(found, budget) if check else found
 
-    return _performed(work, read, limits)
+    return performed(work, given, limits)
 
 
 def verify(

@@ -9,6 +9,7 @@ from typing import Any
 
 from qe import arguments
 from qe.api.input import read_polynomial
+from qe.api.limits import limits_of
 from qe.errors import InputError
 from qe.exact.algebraic import RealAlgebraic
 from qe.exact.block_order import Block
@@ -17,7 +18,7 @@ from qe.exact.ring import Poly, Ring, format_poly
 from qe.groebner.counting import RealRootClassification, classified
 from qe.groebner.question import ParametricSystem
 from qe.groebner.system import ComprehensiveGroebnerSystem, exact_number
-from qe.processes.execution import Budgets, Limits, perform
+from qe.processes.execution import Budgets, perform
 from qe.progress import silent
 
 Names = Any
@@ -67,7 +68,7 @@ def comprehensive_groebner(
     start = time.monotonic()
     chosen = _ORDERS[arguments.member(order, Order, "order")]
     wanted = arguments.flag(faithful, "faithful")
-    limits = _limits(timeout, memory, progress, process).begun(start)
+    limits = limits_of(timeout, memory, progress, process).begun(start)
     system, _ = read_system(polys, variables, parameters, chosen, constants, equal, nonzero)
 
     def work(budgets: Budgets) -> ComprehensiveGroebnerSystem:
@@ -100,7 +101,7 @@ def real_root_classification(
     ``comprehensive_groebner``.
     """
     start, check = time.monotonic(), arguments.flag(check, "check")
-    limits = _limits(timeout, memory, progress, process).begun(start)
+    limits = limits_of(timeout, memory, progress, process).begun(start)
     asked = read_system(polys, variables, parameters, MonomialOrder.DEGREVLEX, constants, equal, nonzero, positive)
 
     def work(budgets: Budgets) -> RealRootClassification:
@@ -113,15 +114,6 @@ def real_root_classification(
         return certified(asked[0], found, budget)
 
     return perform(work, limits, at_once=timeout is not None)
-
-
-def _limits(timeout: object, memory: object, progress: object, process: object) -> Limits:
-    return Limits(
-        arguments.seconds(timeout),
-        arguments.mebibytes(memory),
-        arguments.listener(progress),
-        arguments.flag(process, "process"),
-    )
 
 
 def read_system(

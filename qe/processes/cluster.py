@@ -76,13 +76,15 @@ class _Helpers:
 
     def _connected(self) -> Any:
         if self._client is None:
-            self._client = self.stack.enter_context(_connection(self.cluster))
+            self._client = self.stack.enter_context(connection(self.cluster))
             self.width = max(self.width, len(self._client.nthreads()))
         return self._client
 
 
 @contextmanager
-def _connection(cluster: Cluster) -> Iterator[Any]:
+def connection(cluster: Cluster) -> Iterator[Any]:
+    """A Dask client of the cluster, which has a worker. Raises ``InputError`` where no scheduler answers, ``Unable``
+    where it has no worker, or without Dask."""
     try:
         from distributed import Client
         from distributed.deploy.subprocess import SubprocessCluster

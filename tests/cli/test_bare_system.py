@@ -6,8 +6,6 @@ import subprocess
 import sys
 from pathlib import Path
 
-import pytest
-
 ROOT = Path(__file__).resolve().parents[2]
 BARE = """
 import os, select, signal, subprocess, sys, tempfile  # the standard library has branches of its own
@@ -29,34 +27,33 @@ def run(code: str, folder: Path) -> subprocess.CompletedProcess[str]:
     return subprocess.run([sys.executable, "-c", script], cwd=folder, capture_output=True, text=True, timeout=120)
 
 
-@pytest.mark.parametrize(
-    ("code", "printed"),
-    [
-        ("print(qe.eliminate('ex x. x^2 + b*x + c = 0').formula)", "b^2 - 4*c >= 0"),
-        ("print(qe.eliminate('ex x. x^2 = b', timeout=120, memory=2000).formula)", "b >= 0"),
-        ("print(qe.verify(qe.eliminate('ex x. x^2 = b', check=True).certificate, timeout=120))", "accepted"),
-        ("print(qe.region('x^2 + y^2 <= 1', timeout=120).contains({'x': 0, 'y': 1}))", "True"),
-        ("print(qe.minimize('x', 'x >= 1/3', timeout=120).value)", "1/3"),
-    ],
-)
-def test_interface(code: str, printed: str, tmp_path: Path) -> None:
-    done = run(f"import qe\n{code}", tmp_path)
-    assert done.stdout.strip() == printed, done.stderr
+INTERFACE = {
+    "qe.eliminate('ex x. x^2 + b*x + c = 0').formula": "b^2 - 4*c >= 0",
+    "qe.eliminate('ex x. x^2 = b', timeout=120, memory=2000).formula": "b >= 0",
+    "qe.verify(qe.eliminate('ex x. x^2 = b', check=True).certificate, timeout=120)": "accepted",
+    "qe.region('x^2 + y^2 <= 1', timeout=120).contains({'x': 0, 'y': 1})": "True",
+    "qe.minimize('x', 'x >= 1/3', timeout=120).value": "1/3",
+}
 
 
-@pytest.mark.parametrize(
-    ("arguments", "status", "printed"),
-    [
-        (["eliminate", "ex x. x^2 = b", "--timeout", "20"], 0, "b >= 0"),
-        (["decide", "all x. x^2 > 0", "--timeout", "20"], 0, "false"),
-        (["decide", "all x. x^2 >"], 2, ""),
-        (["minimize", "x + y", "x^2 + y^2 <= 1"], 0, None),
-    ],
-)
-def test_command(arguments: list[str], status: int, printed: str | None, tmp_path: Path) -> None:
-    done = run(f"from qe.cli.app import main\nsys.exit(main({arguments!r}))", tmp_path)
-    assert done.returncode == status, done.stderr
-    assert printed is None or done.stdout.strip() == printed
+def test_interface(tmp_path: Path) -> None:
+    done = run("\n".join(["import qe", *(f"print({asked})" for asked in INTERFACE)]), tmp_path)
+    assert done.stdout.splitlines() == list(INTERFACE.values()), done.stderr
+
+
+COMMANDS = {
+    ("eliminate", "ex x. x^2 = b", "--timeout", "20"): ["b >= 0", "status 0"],
+    ("decide", "all x. x^2 > 0", "--timeout", "20"): ["false", "status 0"],
+    ("decide", "all x. x^2 >"): ["status 2"],
+}
+
+
+def test_commands(tmp_path: Path) -> None:
+    code = f"from qe.cli.app import main\nfor line in {list(COMMANDS)!r}: print('status', main(list(line)))"
+    done = run(f"{code}\nsys.exit(main(['minimize', 'x + y', 'x^2 + y^2 <= 1']))", tmp_path)
+    printed = [line for shown in COMMANDS.values() for line in shown]
+    assert done.returncode == 0 and done.stdout.splitlines()[: len(printed)] == printed, done.stderr
+    assert "value -sqrt(2)" in done.stdout
 
 
 def test_a_soft_limit_holds(tmp_path: Path) -> None:

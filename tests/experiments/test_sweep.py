@@ -151,8 +151,8 @@ def test_a_task_that_always_fails_is_recorded(tmp_path, scheduler, monkeypatch):
 
 
 def test_no_scheduler_gives_one_line(tmp_path, capsys, monkeypatch):
-    monkeypatch.setattr("experiments.sweep.cluster.CONNECTING", 0.5)
+    monkeypatch.setattr("qe.processes.cluster.CONNECTING", 0.5)
     grid_options = ["--half-width", "1", "--height", "1", "--out", str(tmp_path)]
     assert cli.main(["sweep", *grid_options, "--scheduler", "tcp://127.0.0.1:9"]) == 2
     error = capsys.readouterr().err
-    assert error.count("\n") == 1 and "--scheduler: a Dask scheduler" in error
+    assert error.count("\n") == 1 and "a Dask scheduler expected at tcp://127.0.0.1:9" in error

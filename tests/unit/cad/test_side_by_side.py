@@ -115,7 +115,7 @@ def test_small_work_needs_no_helpers() -> None:
 
 def test_a_killed_worker_costs_its_own_work_only(at_once: None) -> None:
     pytest.importorskip("distributed")
-    with helping(Cluster(workers=2)) as helpers:
+    with helping(Cluster(workers=1)) as helpers:
         first = table(PROBLEMS["existential"], helpers)
         for worker in helpers._client.run(os.getpid).values():  # type: ignore[attr-defined]
             os.kill(worker, signal.SIGKILL)
@@ -138,8 +138,9 @@ def test_what_is_no_cluster_is_refused(keywords: dict[str, object], message: str
         qe.eliminate("x > 0", **keywords)  # type: ignore[arg-type]
 
 
-def test_an_address_without_a_scheduler_is_told() -> None:
+def test_an_address_without_a_scheduler_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
     pytest.importorskip("distributed")
+    monkeypatch.setattr("qe.processes.cluster.CONNECTING", 0.3)
     with helping(Cluster(address="tcp://127.0.0.1:1")) as helpers, pytest.raises(qe.InputError, match="none found"):
         list(helpers.results([], lambda: None))
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import combinations
 from typing import Any
 
 import pytest
@@ -140,6 +141,23 @@ def test_between_the_sections_of_a_constraint_nothing_is_decomposed() -> None:
         table = replace(given.table, root=changed(root, place, stack=at(root, section).stack))
         with pytest.raises(CertificateRejected, match="only the sections of a constraint may be decomposed"):
             check_cells(replace(given, table=table), Budget())
+
+
+@pytest.mark.parametrize("case", [*SHARED[1:3], ("y^2 = x and y*z = 1", "x y z", ".EE")])
+def test_no_section_can_list_other_factors(case: Any) -> None:
+    """Also factors besides a constraint's, which have no branch of their own: refused, with no other error."""
+    given = evidence(*case)
+    for place in places(given.table.root):
+        stack = at(given.table.root, place).stack
+        count = len(given.table.factors[len(place)]) if stack is not None else 0
+        for k, section in enumerate(stack.sections if stack is not None else ()):
+            subsets = [s for size in (1, 2) for s in combinations(range(count), size) if s != section]
+            for other in subsets[:6]:
+                assert stack is not None
+                sections = (*stack.sections[:k], other, *stack.sections[k + 1 :])
+                root = changed(given.table.root, place, stack=replace(stack, sections=sections))
+                with pytest.raises(CertificateRejected):
+                    check_cells(replace(given, table=replace(given.table, root=root)), Budget())
 
 
 def over(text: str) -> Formula:

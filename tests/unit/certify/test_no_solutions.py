@@ -65,7 +65,12 @@ def test_a_certificate_with_solutions_refutes_nothing() -> None:
     one = system(["x"], solutions=[{"field": field, "values": [["0"]]}])
     assert "no solution" in objection(check_no_solutions, "ex x. x = 0", "false", by(one))
     witness = Certificate(Kind.WITNESS, {"order": [], "matrix": True, "values": []}).to_data()
-    assert objection(check_no_solutions, "ex x. x = 0", "false", by(witness))
+    assert "of kind solutions" in objection(check_no_solutions, "ex x. x = 0", "false", by(witness))
+
+
+def test_a_system_in_other_variables_refutes_nothing() -> None:
+    other = system(["w^2 + 1"], order="w")
+    assert "other variables than those" in objection(check_no_solutions, "ex x. x^2 + 1 = 0", "false", by(other))
 
 
 def test_long_normal_forms_are_not_attempted() -> None:

@@ -119,3 +119,10 @@ def test_a_polynomial_vanishes_identically_where_all_coefficients_do(text: str) 
     for a, b in product(VALUES, repeat=2):
         at = p.at_rational(0, a).at_rational(1, b)
         assert (condition != FALSE and holds_at(condition, {"a": a, "b": b})) is (not at), (a, b)
+
+
+@pytest.mark.parametrize("text", ["x^3 + a", "x*(x^3 + a*x + b)", "(x^2 - b)*(x^4 + a)^2"])
+def test_one_factor_of_a_higher_degree_is_too_many(text: str) -> None:
+    """Its roots are no test points, however low the degrees of the others."""
+    for relation in Relation:
+        assert turns(Atom(poly(text), relation), X, 1) is None

@@ -1,0 +1,88 @@
+"""The border to the shell: exit statuses, one line for each error, whole files or none."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+import typer
+
+from qe.cli import shell
+from qe.errors import CertificateRejected, InputError, InternalError, Unable
+from qe.processes.worker import WorkerStopped
+
+
+@pytest.mark.parametrize(
+    ("error", "status", "code", "line"),
+    [
+        (InputError("a number\n expected"), "input_error", 2, "a number expected"),
+        (Unable("too hard"), "unable", 3, "unable: too hard"),
+        (
+            WorkerStopped("time limit", limit="time", known={"cells": 7}),
+            "unable",
+            3,
+            "unable: time limit; known {'cells': 7}",
+        ),
+        (CertificateRejected("payload", "wrong"), "rejected", 4, "certificate rejected: payload: wrong"),
+        (InternalError("odd"), "internal_error", 1, "internal error, please report: odd"),
+        (ImportError("no", name="matplotlib"), "unable", 3, "unable: matplotlib is not installed"),
+    ],
+)
+def test_errors(
+    error: Exception,
+    status: str,
+    code: int,
+    line: str,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr("sys.excepthook", None)
+    app = typer.Typer()
+
+    @app.command()
+    def fails(as_json: bool = typer.Option(False, "--json")) -> None:
+        raise error
+
+    assert shell.enter(app, [], name="prog") == code
+    shown = capsys.readouterr()
+    assert shown.out == "" and shown.err.startswith(f"prog: {line}") and shown.err.count("\n") == 1
+    assert shell.enter(app, ["--json"], name="prog") == code
+    data = json.loads(capsys.readouterr().out)
+    assert (data["status"], data["exit"]) == (status, code) and "\n" not in data["message"]
+
+
+def test_a_misspelt_option(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("sys.excepthook", None)
+    app = typer.Typer()
+
+    @app.command()
+    def works(timeout: float = 1.0) -> None:
+        print("done")
+
+    assert shell.enter(app, ["--timeout", "3"], name="prog") == 0
+    assert shell.enter(app, ["--timout", "3"], name="prog") == 2
+    assert "no such option: --timout; did you mean --timeout? (see prog --help)" in capsys.readouterr().err
+    assert shell.enter(app, ["--zzz"], name="prog") == 2
+    assert "did you mean" not in capsys.readouterr().err
+
+
+def test_files_are_written_whole_or_not_at_all(tmp_path: Path) -> None:
+    path = tmp_path / "out.txt"
+    shell.write_file(path, "é")
+    shell.write_file(path, b"second")
+    assert path.read_bytes() == b"second" and list(tmp_path.iterdir()) == [path]
+    with pytest.raises(InputError, match="cannot be written"):
+        shell.write_file(tmp_path / "none" / "out.txt", "text")
+    for wrong, reason in ((tmp_path, "a file name expected"), (tmp_path / "none" / "a", "does not exist")):
+        with pytest.raises(InputError, match=reason):
+            shell.check_writable(wrong)
+    shell.check_writable(path)
+    shell.check_writable(None)
+
+
+def test_a_limit_is_for_the_whole_command(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(shell, "age", lambda: 3.0)
+    assert shell.remaining(10.0) == 7.0
+    assert shell.remaining(3.2) == 0.8  # a quarter at least
+    assert shell.age() > 0

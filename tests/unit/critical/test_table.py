@@ -1,0 +1,77 @@
+"""Cell tables made by an oracle: what the shape of a set says where its boundary polynomials vanish."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import pytest
+
+from qe.elimination.critical.table import Shape, TableBuilder
+from qe.errors import BudgetExceeded, NotWellOriented
+from qe.exact.ring import Poly, Ring
+from qe.exact.sample import Point
+from qe.options import Budget, Projection
+from qe.proof.cells import Cell
+
+RING = Ring.of(("x", "y"))
+X, Y = RING.gen(0), RING.gen(1)
+DISC = X**2 + Y**2 - 1
+LEVELS = ((X + 1, X - 1), (DISC,))
+
+
+class Oracle:
+    """Whether a polynomial is <= 0 (or < 0) at a sample; remembers the samples that it was asked about."""
+
+    def __init__(self, poly: Poly, strict: bool) -> None:
+        self.poly, self.strict, self.asked = poly, strict, 0
+
+    def __call__(self, point: Point, vanishing: frozenset[Poly]) -> bool:
+        self.asked += 1
+        sign = point.sign(self.poly)
+        return sign < 0 or (sign == 0 and not self.strict)
+
+
+def built(shape: Shape, oracle: Oracle, levels: tuple[tuple[Poly, ...], ...] = LEVELS, **other: object) -> TableBuilder:
+    given = {"projection": Projection.BROWN_MCCALLUM, "budget": Budget(), **other}
+    return TableBuilder(levels, boundary=frozenset((DISC,)), shape=shape, truth=oracle, **given)  # type: ignore[arg-type]
+
+
+def leaves(cell: Cell) -> list[bool | None]:
+    return [cell.truth] if cell.stack is None else [t for c in cell.stack.cells for t in leaves(c)]
+
+
+CLOSED = [False, *[False, True, False], *[False, True, True, True, False], *[False, True, False], False]
+OPEN = [False, *[False] * 3, *[False, False, True, False, False], *[False] * 3, False]
+
+
+@pytest.mark.parametrize(
+    ("shape", "strict", "truths", "asked"),
+    [
+        (Shape.CONVEX, False, CLOSED, 11),  # two sections lie next to a true sector
+        (Shape.CLOSED, False, CLOSED, 11),
+        (Shape.OPEN, True, OPEN, 9),  # four sections lie next to a false sector
+    ],
+)
+def test_the_disc(shape: Shape, strict: bool, truths: list[bool], asked: int) -> None:
+    oracle = Oracle(DISC, strict)
+    builder = built(shape, oracle)
+    assert leaves(builder.run(Point(RING))) == truths
+    assert (builder.cells, oracle.asked, builder.unsettled) == (13, asked, set())
+
+
+def test_what_no_theorem_settles_is_listed_as_false_and_kept() -> None:
+    builder = built(Shape.ANY, Oracle(DISC, False))
+    assert leaves(builder.run(Point(RING)))[4:9] == [False, False, True, False, False]
+    assert builder.unsettled == {DISC}
+    points = leaves(builder.run(Point(RING)))
+    assert points[1:4] == points[9:12] == [False, True, False]  # a single point is asked about
+
+
+def test_limits_and_polynomials_that_are_zero_on_a_line() -> None:
+    with pytest.raises(BudgetExceeded):
+        built(Shape.ANY, Oracle(DISC, False), budget=Budget(0.0)).run(Point(RING))
+    levels = ((X,), (X * Y,))
+    with pytest.raises(NotWellOriented):
+        built(Shape.ANY, Oracle(X * Y, False), levels).run(Point(RING))
+    cell = built(Shape.ANY, Oracle(X * Y - 1, False), levels, projection=Projection.LAZARD).run(Point(RING))
+    assert cell.stack is not None and cell.stack.sectors == (Fraction(-1), Fraction(1))
