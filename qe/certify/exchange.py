@@ -57,7 +57,7 @@ def _parts(body: Formula, i: int, j: int, names: frozenset[str], claim: Claim) -
     left = list(conjuncts(body))
     while left:
         part = left.pop(0)
-        if all(_stays(a, i, j) for a in atoms(part)):
+        if all(isinstance(a, Atom) and _stays(a, i, j) for a in atoms(part)):
             yield mapped(part, lambda a: a if _swapped(a.poly, i, j) == a.poly else _squared(a), names, claim)
             continue
         other = atom(_swapped(part.poly, i, j), part.relation) if isinstance(part, Atom) else None

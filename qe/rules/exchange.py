@@ -49,20 +49,28 @@ def exchange_variables(variables: tuple[str, ...], body: Formula, context: Block
 
 def _is_easy(body: Formula, i: int, j: int) -> bool:
     """Whether the degrees in both variables differ, are too large, or substitution and convexity have them anyway."""
-    polys = [a.poly for a in atoms(body)]
-    degree, other = (max(p.degree(k) for p in polys) for k in (i, j))
+    degree, other, both = _degrees(body, i, j)
     if degree != other or not 2 <= degree <= _DEGREE:
         return True
-    bound = [p for p in polys if p.degree(i)]
-    curved = any(max(map(sum, p.collected((i, j)))) > 2 for p in bound)
-    return not curved and not any(isinstance(a, Atom) and a.relation is Relation.EQ for a in atoms(body))
+    return both <= 2 and not any(isinstance(a, Atom) and a.relation is Relation.EQ for a in atoms(body))
 
 
 def _is_simpler(new: Formula, body: Formula, i: int, j: int) -> bool:
-    """Whether the sum or the product has a smaller degree than the variables had."""
-    after = [a.poly for a in atoms(new)]
-    sums, products = max((p.degree(i) for p in after), default=0), max((p.degree(j) for p in after), default=0)
-    return min(max(sums, 2), max(products, 1)) < max(a.poly.degree(i) for a in atoms(body))
+    """Whether the smaller of the degrees in the two variables is smaller than it was, or else the degree in both
+    together."""
+    after, before = _degrees(new, i, j), _degrees(body, i, j)
+    s, p, both = max(after[0], 2), max(after[1], 1), max(after[2], 2)
+    return (min(s, p), both) < (min(before[:2]), before[2])
+
+
+def _degrees(body: Formula, i: int, j: int) -> tuple[int, int, int]:
+    """The degrees in two variables, and in both together."""
+    found = [exponents for a in atoms(body) for exponents in a.poly.collected((i, j))]
+    return (
+        max((k for k, _ in found), default=0),
+        max((k for _, k in found), default=0),
+        max(map(sum, found), default=0),
+    )
 
 
 def by_sum_and_product(body: Formula, i: int, j: int) -> Formula | None:
