@@ -10,12 +10,14 @@ from qe.formula.syntax import Relation
 from qe.proof.cells import Cell, CellTable, FreeCell
 
 _VALUE = {"+": 1, "-": -1, "0": 0}
+_CHARACTER = {1: "+", -1: "-", 0: "0", None: "?"}
 _WEAK_FIRST = (Relation.LE, Relation.GE, Relation.NE, Relation.EQ, Relation.LT, Relation.GT)
 
 
 def free_cells(table: CellTable) -> Iterator[FreeCell]:
     """All cells over the free variables at which the truth value is known."""
     free = sum(q == "" for q in table.quantifiers)
+    met: dict[tuple[tuple[int, ...], str], dict[int, int]] = {}  # equal signs of a level are one object
 
     def walk(cell: Cell, path: tuple[int, ...], signs: tuple[dict[int, int], ...]) -> Iterator[FreeCell]:
         if cell.stack is None or len(path) == free:
@@ -23,7 +25,10 @@ def free_cells(table: CellTable) -> Iterator[FreeCell]:
             yield FreeCell(path, signs, cell.truth)
             return
         for position, below in enumerate(cell.stack.cells):
-            own = {j: _VALUE[c] for j, c in zip(cell.stack.used, below.signs, strict=True) if c != "?"}
+            key = cell.stack.used, below.signs
+            own = met.get(key)
+            if own is None:
+                own = met[key] = {j: _VALUE[c] for j, c in zip(*key, strict=True) if c != "?"}
             yield from walk(below, (*path, position), (*signs, own))
 
     return walk(table.root, (), ())
@@ -41,10 +46,10 @@ class Literal:
 
 
 class SignTable:
-    """Bit masks over the true cells and over the false cells, one bit each."""
+    """Bit masks over the true cells and over the false cells, one bit for all that have the same signs."""
 
     def __init__(self, factors: Sequence[Sequence[Poly]], cells: Iterable[FreeCell]) -> None:
-        listing = list(cells)
+        listing = list({(c.truth, *map(id, c.signs)): c for c in reversed(list(cells))}.values())[::-1]
         self.true = [c for c in listing if c.truth]
         self.false = [c for c in listing if not c.truth]
         self.literals: list[Literal] = []
@@ -65,12 +70,11 @@ class SignTable:
                 self.literals.append(Literal(factor, relation, covered, kept, cost))
 
     @staticmethod
-    def _masks(cells: list[FreeCell], level: int, j: int) -> tuple[dict[int, int], int]:
-        masks, unknown = {-1: 0, 0: 0, 1: 0}, 0
-        for bit, cell in enumerate(cells):
-            sign = cell.signs[level].get(j) if level < len(cell.signs) else None
-            if sign is None:
-                unknown |= 1 << bit
-            else:
-                masks[sign] |= 1 << bit
+    def _masks(cells: list[FreeCell], level: int, j: int) -> tuple[dict[int | None, int], int]:
+        text = "".join(_CHARACTER[c.signs[level].get(j) if level < len(c.signs) else None] for c in reversed(cells))
+        masks = {
+            sign: int("0" + text.translate({ord(c): "01"[c == own] for c in "+-0?"}), 2)
+            for sign, own in _CHARACTER.items()
+        }
+        unknown = masks.pop(None)
         return masks, unknown
