@@ -99,9 +99,8 @@ def _shortest(factors: Factors, cells: list[FreeCell]) -> Formula:
         return TRUE
     if not any(c.truth for c in cells):
         return FALSE
-    positive = _cover(SignTable(factors, cells))
-    flipped = [FreeCell(c.path, c.signs, not c.truth) for c in cells]
-    negative = _cover(SignTable(factors, flipped))
+    signs = SignTable(factors, cells)
+    positive, negative = _cover(signs), _cover(signs.flipped())
     if _size(negative) < _size(positive):
         return nnf(neg(_formula(negative)))
     return _formula(positive)
