@@ -13,6 +13,7 @@ from qe.exact.ring import Poly, Ring
 from qe.exact.sample import Point
 from qe.exact.watch import Watch
 from qe.formula.build import convert
+from qe.formula.monotone import direction
 from qe.formula.syntax import Formula
 from qe.formula.traverse import polynomials
 from qe.options import Budget, Projection
@@ -44,6 +45,7 @@ class Tactics:
     shortcut but a longer way: the space of the free variables is decomposed also where the truth is known, which
     gives every free cell the signs of all factors and formula construction more to choose from.
     ``free_constraints``: constraints restrict the levels of free variables too, where their sectors then lack signs.
+    ``monotone``: where the truth changes only once along the last free variable, that place is found by bisection.
     ``anytime``: where the budget ends, the table says what is decided in the space of the free variables; its other
     cells there have no truth value.
     """
@@ -54,6 +56,7 @@ class Tactics:
     open_only: bool = True
     whole_free: bool = False
     free_constraints: bool = True
+    monotone: bool = True
 
 
 def decompose(
@@ -100,6 +103,11 @@ class _Job:
             return found
         return Constraints({k: own for k, own in found.factors.items() if self.quantifiers[k]}, found.implied)
 
+    def _direction(self) -> int:
+        """In which direction of the last free variable the matrix stays true."""
+        free = sum(quantifier == "" for quantifier in self.quantifiers)
+        return direction(self.matrix, free - 1) if 0 < free < len(self.order) else 0
+
     def attempt(self, projection: Projection, *, nullified: bool, added: tuple[Poly, ...] = ()) -> Decomposition:
         """``added``: polynomials in the factor lists besides those of the matrix."""
         size = len(self.order)
@@ -123,6 +131,7 @@ class _Job:
             self.tactics.partial,
             self.tactics.whole_free,
             self.thom_levels,
+            self._direction() if self.tactics.monotone else 0,
         )
         lifter = Lifter(plan, self.budget, anytime=self.tactics.anytime)
         root = lifter.run(Point(Ring.of(self.order), watch=Watch(self.budget.check)), compile_matrix(strong, places))

@@ -46,7 +46,8 @@ class Plan:
     ``constraints``: indices of the factors of equational constraints by level (see ``equational``). Without
     ``partial`` cells are decomposed also where the formula is decided, and every cell of a stack is visited. With
     ``whole_free`` that holds for the levels of free variables: every free cell then has the signs of all factors.
-    ``thom_levels``: see ``Lifter.lacking``.
+    ``thom_levels``: see ``Lifter.lacking``. ``direction``: the formula stays true where the last free variable grows
+    (1) or falls (-1), or that is not known (0); see ``qe.formula.monotone``.
     """
 
     levels: Levels
@@ -57,6 +58,13 @@ class Plan:
     partial: bool = True
     whole_free: bool = False
     thom_levels: frozenset[int] = frozenset()
+    direction: int = 0
+
+    def bisects(self, level: int) -> bool:
+        """Whether in a stack of this level, that of the last free variable, the truth changes once at most."""
+        if not self.direction or not self.partial or level + 1 >= len(self.quantifiers):
+            return False
+        return not self.quantifiers[level] and bool(self.quantifiers[level + 1])
 
 
 @dataclass(slots=True)
@@ -148,7 +156,8 @@ class Lifter:
         ordered = bool(quantifier) or self.anytime
         positions = _visiting_order(size, level >= self.plan.sectors_from) if ordered else list(range(size))
         try:
-            for position, cell in self._cells(point, node, used, stack, positions, dimension):
+            cells_in = self._bisected if self.plan.bisects(level) else self._cells
+            for position, cell in cells_in(point, node, used, stack, positions, dimension):
                 cells[position] = cell
                 if (quantifier and cell.truth is stop and self.plan.partial) or self._ended:
                     break
@@ -178,6 +187,23 @@ class Lifter:
                 below = stack.sample(position)
                 known = self.cell(below, child, stack.texts[position], dimension + (position % 2 == 0))
             yield position, known
+
+    def _bisected(
+        self, point: Point, node: Node, used: tuple[int, ...], stack: SampledStack, positions: list[int], dimension: int
+    ) -> Iterator[tuple[int, Cell]]:
+        """As ``_cells`` for all positions, by bisection: what follows from the direction is not decomposed."""
+        low, high = -1, len(positions)
+        while high - low > 1:
+            middle = (low + high) // 2
+            if middle % 2 and high - low > 2:  # rational samples are cheap
+                middle += 1 if middle + 1 < high else -1
+            ((_, cell),) = self._cells(point, node, used, stack, [middle], dimension)
+            yield middle, cell
+            rises = (cell.truth is True) == (self.plan.direction > 0)
+            known = range(middle + 1, high) if rises else range(low + 1, middle)
+            low, high = (low, middle) if rises else (middle, high)
+            for position in known:
+                yield position, Cell(stack.texts[position], cell.truth)
 
     def _known(self, level: int, stack: SampledStack, position: int, child: Node) -> Cell | None:
         """The cell at a position where it is not decomposed any further; ``child``: what is left of the matrix."""

@@ -71,16 +71,23 @@ def _clash(cells: list[FreeCell]) -> int | None:
     for cell in cells:
         by_depth.setdefault(len(cell.signs), []).append(cell)
     depths = sorted(by_depth)
+    known: dict[int, tuple[tuple[int, int], ...]] = {}
+
+    def ordered(signs: Mapping[int, int]) -> tuple[tuple[int, int], ...]:
+        found = known.get(id(signs))
+        if found is None:
+            found = known[id(signs)] = tuple(sorted(signs.items()))
+        return found
+
     for depth in depths:
-        for cell in by_depth[depth]:
-            keys = [tuple(tuple(sorted(s.items())) for s in cell.signs[:d]) for d in depths if d <= depth]
-            for key in keys:
-                other = seen.get(key)
+        keys = [(cell, tuple(map(ordered, cell.signs))) for cell in by_depth[depth]]
+        for cell, whole in keys:
+            for d in depths:
+                other = seen.get(whole[:d]) if d <= depth else None
                 if other is not None and other.truth is not cell.truth:
                     return next(k for k, (a, b) in enumerate(zip(other.path, cell.path, strict=False)) if a != b)
-        for cell in by_depth[depth]:
-            key = tuple(tuple(sorted(s.items())) for s in cell.signs)
-            other = seen.setdefault(key, cell)
+        for cell, whole in keys:
+            other = seen.setdefault(whole, cell)
             if other.truth is not cell.truth:
                 return next(k for k, (a, b) in enumerate(zip(other.path, cell.path, strict=False)) if a != b)
     return None
@@ -92,9 +99,8 @@ def _shortest(factors: Factors, cells: list[FreeCell]) -> Formula:
         return TRUE
     if not any(c.truth for c in cells):
         return FALSE
-    positive = _cover(SignTable(factors, cells))
-    flipped = [FreeCell(c.path, c.signs, not c.truth) for c in cells]
-    negative = _cover(SignTable(factors, flipped))
+    signs = SignTable(factors, cells)
+    positive, negative = _cover(signs), _cover(signs.flipped())
     if _size(negative) < _size(positive):
         return nnf(neg(_formula(negative)))
     return _formula(positive)

@@ -2,20 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 from qe.exact.ring import Poly
 from qe.formula.syntax import Relation
 from qe.proof.cells import Cell, CellTable, FreeCell
 
 _VALUE = {"+": 1, "-": -1, "0": 0}
+_CHARACTER: dict[int | None, str] = {1: "+", -1: "-", 0: "0", None: "?"}
+_BITS = {own: {ord(c): "01"[c == own] for c in "+-0?"} for own in "+-0?"}
 _WEAK_FIRST = (Relation.LE, Relation.GE, Relation.NE, Relation.EQ, Relation.LT, Relation.GT)
 
 
 def free_cells(table: CellTable) -> Iterator[FreeCell]:
     """All cells over the free variables at which the truth value is known."""
     free = sum(q == "" for q in table.quantifiers)
+    met: dict[tuple[tuple[int, ...], str], dict[int, int]] = {}  # equal signs of a level are one object
 
     def walk(cell: Cell, path: tuple[int, ...], signs: tuple[dict[int, int], ...]) -> Iterator[FreeCell]:
         if cell.stack is None or len(path) == free:
@@ -23,10 +27,16 @@ def free_cells(table: CellTable) -> Iterator[FreeCell]:
             yield FreeCell(path, signs, cell.truth)
             return
         for position, below in enumerate(cell.stack.cells):
-            own = {j: _VALUE[c] for j, c in zip(cell.stack.used, below.signs, strict=True) if c != "?"}
+            key = cell.stack.used, below.signs
+            own = met.get(key)
+            if own is None:
+                own = met[key] = {j: _VALUE[c] for j, c in zip(*key, strict=True) if c != "?"}
             yield from walk(below, (*path, position), (*signs, own))
 
     return walk(table.root, (), ())
+
+
+Masks = Mapping[int | None, int]
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,35 +51,46 @@ class Literal:
 
 
 class SignTable:
-    """Bit masks over the true cells and over the false cells, one bit each."""
+    """Bit masks over the true cells and over the false cells, one bit for all that have the same signs."""
 
     def __init__(self, factors: Sequence[Sequence[Poly]], cells: Iterable[FreeCell]) -> None:
-        listing = list(cells)
+        listing = list({(c.truth, *map(id, c.signs)): c for c in reversed(list(cells))}.values())[::-1]
         self.true = [c for c in listing if c.truth]
         self.false = [c for c in listing if not c.truth]
-        self.literals: list[Literal] = []
-        for level, polys in enumerate(factors):
-            for j, factor in enumerate(polys):
-                self._add(level, j, factor)
+        polys = [factor for level in factors for factor in level]
+        self._columns = tuple(zip(polys, _columns(self.true, factors), _columns(self.false, factors), strict=True))
 
-    def _add(self, level: int, j: int, factor: Poly) -> None:
-        holds, _ = self._masks(self.true, level, j)  # a literal whose sign varies over a true cell does not cover it
-        keeps, unknown_false = self._masks(self.false, level, j)
-        cost = factor.total_degree + factor.term_count()
+    def flipped(self) -> SignTable:
+        """The table with true and false exchanged."""
+        other = SignTable((), ())
+        other.true, other.false = self.false, self.true
+        other._columns = tuple((poly, false, true) for poly, true, false in self._columns)
+        return other
+
+    @cached_property
+    def literals(self) -> list[Literal]:
+        """What covers a true cell and excludes a false one; a sign that is not known on a cell covers nothing there."""
+        found: list[Literal] = []
         everything = (1 << len(self.false)) - 1
-        for relation in _WEAK_FIRST:
-            covered = sum(holds[s] for s in relation.signs)
-            kept = sum(keeps[s] for s in relation.signs) | unknown_false
-            if covered and kept != everything:
-                self.literals.append(Literal(factor, relation, covered, kept, cost))
+        for factor, holds, keeps in self._columns:
+            cost = factor.total_degree + factor.term_count()
+            for relation in _WEAK_FIRST:
+                covered = sum(holds[s] for s in relation.signs)
+                kept = sum(keeps[s] for s in relation.signs) | keeps[None]
+                if covered and kept != everything:
+                    found.append(Literal(factor, relation, covered, kept, cost))
+        return found
 
-    @staticmethod
-    def _masks(cells: list[FreeCell], level: int, j: int) -> tuple[dict[int, int], int]:
-        masks, unknown = {-1: 0, 0: 0, 1: 0}, 0
-        for bit, cell in enumerate(cells):
-            sign = cell.signs[level].get(j) if level < len(cell.signs) else None
-            if sign is None:
-                unknown |= 1 << bit
-            else:
-                masks[sign] |= 1 << bit
-        return masks, unknown
+
+def _columns(cells: Sequence[FreeCell], factors: Sequence[Sequence[Poly]]) -> Iterator[Masks]:
+    """For every factor and every sign, None for one that is not known, the cells that have it."""
+    for level, polys in enumerate(factors):
+        width, rows = len(polys), dict[int, str]()
+        for cell in cells:
+            if level < len(cell.signs) and id(cell.signs[level]) not in rows:
+                signs = cell.signs[level]
+                rows[id(signs)] = "".join([_CHARACTER[signs.get(j)] for j in range(width)])
+        text = "".join([rows[id(c.signs[level])] if level < len(c.signs) else "?" * width for c in reversed(cells)])
+        for j in range(width):
+            column = text[j::width]
+            yield {sign: int("0" + column.translate(_BITS[own]), 2) for sign, own in _CHARACTER.items()}

@@ -15,6 +15,7 @@ the constraint's factors: that the matrix implies the constraint is thus proved 
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from qe.certify.arithmetic.products import FactorLists, check_lists
@@ -80,13 +81,15 @@ class _Walk:
     answer: Test | None
     budget: Budget
 
-    def cell(self, cell: Cell, sample: Sample | None, situation: Situation, path: Path) -> None:
-        """Check everything said about a cell; ``sample`` is None for a leaf."""
+    def cell(
+        self, cell: Cell, sample: Sample | None, situation: Situation, path: Path, *, follows: bool = False
+    ) -> None:
+        """Check everything said about a cell; ``sample`` is None for a leaf. ``follows``: its truth, from others."""
         depth = len(situation.signs)
         self.budget.check("verify")
         if cell.stack is None or sample is None:
             value = self.matrix(situation)
-            if cell.truth is not None and value is not cell.truth:
+            if cell.truth is not None and value is not cell.truth and not (value is None and follows):
                 said = "does not follow from the signs" if value is None else f"is {value} by the signs"
                 raise CertificateRejected(_text((path, ".truth")), f"said to be {cell.truth}, {said}")
         else:
@@ -121,6 +124,7 @@ class _Walk:
             [*situation.nullified, checked.nullified],
             [*situation.positions, 0],
         )
+        way = one_way(self.table, sample.depth) if sample.depth == self.free - 1 else 0
         for position, child in enumerate(stack.cells):
             row = checked.signs[position]
             below.signs[-1], below.positions[-1] = row, position
@@ -130,11 +134,20 @@ class _Walk:
             if child.stack is not None and checked.restricted and position % 2 == 0:
                 raise fail(f"cells[{position}].stack", "only the sections of a constraint may be decomposed")
             deeper = None if child.stack is None else self._child(sample, checked, cell, position, fail)
-            self.cell(child, deeper, below, (here, f".cells[{position}]"))
+            follows = bool(way) and self._follows(stack.cells, position, way)
+            self.cell(child, deeper, below, (here, f".cells[{position}]"), follows=follows)
         value = self._aggregate(cell, sample.depth)
         if cell.truth is not value:
             raise CertificateRejected(_text((path, ".truth")), f"said to be {cell.truth}, follows to be {value}")
         return value
+
+    @staticmethod
+    def _follows(cells: Sequence[Cell], position: int, way: int) -> bool:
+        """Whether the truth of a cell follows from a decomposed one of the stack (``one_way``)."""
+        truth = cells[position].truth
+        upward = (truth is True) == (way > 0)  # from a cell below
+        others = cells[:position] if upward else cells[position + 1 :]
+        return truth is not None and any(c.stack is not None and c.truth is truth for c in others)
 
     def _aggregate(self, cell: Cell, level: int) -> Truth:
         assert cell.stack is not None
@@ -172,6 +185,35 @@ def sectors_suffice(table: CellTable, level: int) -> bool:
     if later == {"E"}:
         return _positive(table.matrix, (Relation.LT, Relation.GT, Relation.NE))
     return later == {"A"} and _positive(table.matrix, (Relation.LE, Relation.GE, Relation.EQ))
+
+
+def one_way(table: CellTable, level: int) -> int:
+    """1 if the formula stays true where the level's variable grows alone, -1 where it falls; 0 if that is not seen.
+
+    THEOREM. Let each comparison in a positive combination that has x be p > 0 or p >= 0 where dp/dx is nowhere
+    negative, or p < 0 or p <= 0 where it is nowhere positive. Each stays true where x grows, and with them the matrix
+    and what quantifiers over other variables make of it. So over each point of a cell, what is true (false) on a cell
+    of the stack is so on those above (below) it.
+    """
+    if all(_goes(table.matrix, level, 1)):
+        return 1
+    return -1 if all(_goes(table.matrix, level, -1)) else 0
+
+
+def _goes(formula: Formula, x: int, way: int) -> Iterator[bool]:
+    match formula:
+        case Constant():
+            return
+        case Atom(poly, relation):
+            sense = {Relation.GT: way, Relation.GE: way, Relation.LT: -way, Relation.LE: -way}.get(relation)
+            slope = poly.derivative(x).terms()
+            even = all(exponent % 2 == 0 for exponents, _ in slope for exponent in exponents)
+            yield not slope or (sense is not None and even and all(c * sense > 0 for _, c in slope))
+        case And(args) | Or(args):
+            for part in args:
+                yield from _goes(part, x, way)
+        case _:
+            yield False
 
 
 def _positive(formula: Formula, relations: tuple[Relation, ...]) -> bool:

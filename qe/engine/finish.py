@@ -28,8 +28,11 @@ SHORTEN_DEGREE = {**SMALL_DEGREE, 3: 6}
 """A shorter form is looked for up to these total degrees: it may well be found, and giving up costs little work."""
 
 
-def shortened(formula: Formula, context: Context) -> Formula:
-    """A shorter equivalent of a small quantifier-free answer, read off a decomposition of its space."""
+def shortened(formula: Formula, context: Context, *, last: bool = False) -> Formula:
+    """A shorter equivalent of a small quantifier-free answer, read off a decomposition of its space.
+
+    Only the ``last`` look gets more work for long answers: what comes between may make them shorter for nothing.
+    """
     if has_root_atoms(formula):
         return formula
     formula = _untangled(formula, context)
@@ -38,7 +41,7 @@ def shortened(formula: Formula, context: Context) -> Formula:
     from qe.elimination.cad import decomposed, kept
 
     try:
-        work = SHORTEN_WORK if length(formula)[1] < LONG else LONG_WORK
+        work = LONG_WORK if last and length(formula)[1] >= LONG else SHORTEN_WORK
         found = decomposed(formula, context.options, context.budget.part(work), RunLog())
     except Unable:
         context.budget.check("shorten")

@@ -161,7 +161,7 @@ class _Run:
 
     def finished(self, formula: Formula, question: Formula, mark: int) -> Formula:
         """A last look: shorter, and TRUE or FALSE where it is that. ``mark``: where the question's own steps begin."""
-        return settled(shortened(formula, self.context()), self.context(), self.decision, question, mark)
+        return settled(shortened(formula, self.context(), last=True), self.context(), self.decision, question, mark)
 
     def decision(self, sentence: Formula, context: Context) -> Nested:
         """How a sentence is decided, in a run of its own within the limits of the context."""

@@ -119,7 +119,7 @@ class Attempt:
         return found
 
 
-SHORTCUT, FIRST, PROBE, SPARE = 20_000, 60_000, 1_000, 20_000
+SHORTCUT, FIRST, PROBE, SPARE = 20_000, 60_000, 1_500, 20_000
 """Units of work of shortcuts; of a first method while another could take over; of a short try before decomposition; of
 whatever might give a shorter answer than the one that is known.
 

@@ -121,13 +121,18 @@ class WidePoly(Poly):
 
     def sparse_terms(self) -> list[SparseTerm]:
         """The terms in no particular order: ((variable, exponent > 0), ...), ascending, with the coefficient."""
+        return list(self._terms)
+
+    @cached_property
+    def _terms(self) -> tuple[SparseTerm, ...]:
         if self.is_constant:
-            return [((), self.constant_value())] if self.p else []
+            return (((), self.constant_value()),) if self.p else ()
         i = self.variables[-1]
         found: list[SparseTerm] = []
         for k, c in enumerate(self.coefficients(i)):
-            found += [((*below, (i, k)) if k else below, a) for below, a in c.sparse_terms()]
-        return found
+            below = c._terms if isinstance(c, WidePoly) else c.sparse_terms()
+            found += [((*powers, (i, k)) if k else powers, a) for powers, a in below]
+        return tuple(found)
 
     def terms(self) -> list[tuple[tuple[int, ...], int]]:
         """(exponent vector in ring order, coefficient), highest first in the lexicographic order."""
@@ -155,6 +160,12 @@ class WidePoly(Poly):
         terms = [(tuple((own[j], k) for j, k in powers), c) for powers, c in small.sparse_terms()]
         return self.ring.from_sparse(terms)
 
+    @cached_property
+    def _alone(self) -> tuple[tuple[int, ...], Poly]:
+        """As ``_compact`` without others: points are put in again and again."""
+        own, (f,) = self._compact()
+        return own, f
+
     def gcd(self, other: Poly) -> Poly:
         own, (f, g) = self._compact(other)
         return self._expanded(own, f.gcd(g))
@@ -166,14 +177,14 @@ class WidePoly(Poly):
 
     def discriminant(self, i: int) -> Poly:
         """The discriminant with respect to variable ``i``, of degree at least 1 in it."""
-        own, (f,) = self._compact()
+        own, f = self._alone
         return self._expanded(own, f.discriminant(own.index(i)))
 
     def factors(self) -> tuple[int, tuple[tuple[Poly, int], ...]]:
         """(unit, ((irreducible primitive factor, multiplicity), ...)), cached in the ring."""
         stored = self.ring.cache.get(("factors", self))
         if stored is None:
-            own, (f,) = self._compact()
+            own, f = self._alone
             unit, parts = f.factors()
             stored = unit, tuple((self._expanded(own, q), e) for q, e in parts)
             self.ring.remember(("factors", self), stored)
@@ -182,13 +193,13 @@ class WidePoly(Poly):
     # --- substitution -----------------------------------------------------------------------
     def at_rational(self, i: int, value: Fraction | int) -> Poly:
         """A positive multiple of the polynomial with variable ``i`` set to a rational number."""
-        own, (f,) = self._compact()
+        own, f = self._alone
         return self._expanded(own, f.at_rational(own.index(i), value)) if i in own else self
 
     def evaluate(self, values: Iterable[Fraction | int]) -> Fraction:
         """The value at a rational point (one value per ring variable)."""
         point = tuple(values)
-        own, (f,) = self._compact()
+        own, f = self._alone
         return f.evaluate([point[i] for i in own])
 
     def compose(self, substitution: Mapping[int, Poly]) -> Poly:

@@ -14,6 +14,7 @@ convex g; and ``ex x. g`` where g is convex in x and the moved variables.
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
+from functools import partial
 from itertools import combinations
 
 from qe.exact.ring import Poly
@@ -46,7 +47,7 @@ def at_fixed_points(formula: Exists | ForAll, context: BlockContext) -> tuple[Fo
             break
         values = fixed(mirror, current.variables, next(atoms(body)).poly)
         rest = [v for v in current.variables if v not in values]
-        centred = rewrite(current.body, lambda given, values=values: _put_in(given, values), ())
+        centred = rewrite(current.body, partial(_put_in, values), ())
         after = (forall if universal else exists)(rest, centred)
         moved = [[name, *image] for name, image in mirror.items()]
         context.step(StepKind.MIRROR.value, current, after, ", ".join(values), {"mirror": moved})
@@ -67,7 +68,7 @@ def fixed(mirror: Mirror, variables: Sequence[str], known: Poly) -> dict[str, Po
     return values
 
 
-def _put_in(given: Atom, values: Mapping[str, Poly]) -> Formula:
+def _put_in(values: Mapping[str, Poly], given: Atom) -> Formula:
     places = {given.poly.ring.index[name]: value for name, value in values.items()}
     return atom(given.poly.compose(places), given.relation)
 

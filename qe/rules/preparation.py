@@ -92,7 +92,8 @@ def _block(formula: Exists | ForAll, context: BlockContext) -> Node:
 
     formula = without_implied_zeros(gathered(formula, context), context)
     centred, rules = at_fixed_points(formula, context)
-    variables, symmetric = (), centred
+    variables: tuple[str, ...] = ()
+    symmetric = centred
     if isinstance(centred, type(formula)):
         variables, symmetric, turned = without_rotations(centred, context)
         rules += turned

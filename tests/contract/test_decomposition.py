@@ -41,6 +41,7 @@ TACTICS = {
     "whole stacks": Tactics(partial=False),
     "sections everywhere": Tactics(open_only=False),
     "the whole free space": Tactics(whole_free=True),
+    "no bisection": Tactics(monotone=False),
     "nothing": Tactics(constraints=False, partial=False, open_only=False),
 }
 
