@@ -66,7 +66,8 @@ class Theory:
 
     def _linear(self, atoms: Sequence[Atom]) -> list[list[Atom]]:
         """Sets of atoms whose linear bounds contradict each other, no two with a common atom, until none is left."""
-        rest, found = list(atoms), []
+        rest = list(atoms)
+        found: list[list[Atom]] = []
         while len(found) < _AT_ONCE:
             conflict = self.bounds.conflict(rest, lambda: self.budget.check("search: bounds"))
             if conflict is None:

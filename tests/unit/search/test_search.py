@@ -25,7 +25,6 @@ from qe.exact.ring import Ring
 from qe.formula.build import atom, conj, disj, exists
 from qe.formula.normal import nnf
 from qe.formula.syntax import FALSE, TRUE, And, Atom, Constant, Exists, ForAll, Formula, Or, Relation
-from qe.formula.traverse import ring_of
 from qe.io.text import read
 from qe.options import Budget, Options, Stage
 from qe.proof.run_log import RunLog
@@ -83,7 +82,7 @@ def test_a_reason_is_a_part_that_cannot_hold(chosen: Sequence[Atom]) -> None:
 
 
 def test_one_choice_gives_a_reason_for_each_of_its_contradictions() -> None:
-    parts = [atom(p, r) for v in (X, Y, Z) for p, r in ((v - 1, Relation.GT), (v, Relation.LT))]
+    parts = [Atom(p, r) for v in (X, Y, Z) for p, r in ((v - 1, Relation.GT), (v, Relation.LT))]
     found = Theory(RING, values, Budget(60)).look(parts)
     assert isinstance(found, list)
     assert sorted(map(len, found)) == [2, 2, 2]
@@ -95,7 +94,8 @@ def test_a_reason_among_many_curved_conditions_is_short() -> None:
     text = "x > 0 and y < 0 and x*y > z^2 and z > x and z < 4 + y^2 and z^2 < 9 + x and y > -7 and x^2 + y^2 < 40"
     body = read(text)
     assert isinstance(body, And)
-    found = Theory(ring_of(body), values, Budget(60)).look([a for a in body.args if isinstance(a, Atom)])
+    assert body.ring is not None
+    found = Theory(body.ring, values, Budget(60)).look([a for a in body.args if isinstance(a, Atom)])
     assert isinstance(found, list)
     assert all(len(reason) <= 4 for reason in found)
 
@@ -115,7 +115,7 @@ def test_signs_are_those_at_the_point_of_the_bounds(chosen: Sequence[Atom]) -> N
 def test_phases_are_literals_of_signs() -> None:
     clauses = Clauses(disj((atom(X, Relation.GT), atom(Y, Relation.LE))))
     true = set(clauses.phases(lambda poly: 1 if poly == X else -1))
-    for a in (atom(X, Relation.GT), atom(X, Relation.NE), atom(Y, Relation.LT), atom(Y, Relation.LE)):
+    for a in (Atom(X, Relation.GT), Atom(X, Relation.NE), Atom(Y, Relation.LT), Atom(Y, Relation.LE)):
         assert clauses.literal(a) in true
 
 
