@@ -53,6 +53,7 @@ def answers(script: str, *, timeout: float | None = None) -> list[str]:
         ("(assert (= (/ x 0) 1))(assert (= (/ y 0) 2))(check-sat)", ["sat"]),
         ("(assert (= (/ 1 y) 3))(assert (= y 0))(check-sat)(get-value ((/ 1 y) (/ 1 0)))", ["sat", "(((/ 1 y) 3.0) ((/ 1 0) 3.0))"]),
         ("(assert (>= (/ y 0) 1))(check-sat)(get-value ((/ y 0) y))", ["sat", "(((/ y 0) 1.0) (y 0.0))"]),
+        ("(assert (= (/ (ite (distinct y 3) 3 y) 0) 5))(assert (= y 3))(check-sat)(get-value ((/ (ite (distinct y 3) 3 y) 0)))", ["sat", "(((/ (ite (distinct y 3) 3 y) 0) 5.0))"]),
         ("(assert (distinct (/ 1 (- x x)) (/ 1 0)))(check-sat)", ["unsat"]),
         ("(assert (forall ((z Real)) (= z (/ 0 0))))(check-sat)", ["unsat"]),
         ("(assert (forall ((z Real)) (= z (/ z 0))))(check-sat)", ["sat"]),
