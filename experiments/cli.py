@@ -142,6 +142,27 @@ def proofs(
         print(text)
 
 
+@app.command()
+def scripts(
+    folder: Annotated[Path, typer.Argument(exists=True, file_okay=False, help="A folder of SMT-LIB scripts (*.smt2).")],
+    limit: Annotated[float, typer.Option(min=0.01, help="Seconds for each script, the start included.")] = 20.0,
+    memory: Annotated[int, typer.Option(min=1, help="MiB for each script.")] = 2048,
+    only: Annotated[str, typer.Option(help="Scripts whose name contains this.")] = "",
+) -> int:
+    """Run SMT-LIB scripts through qe smt and count the verdicts. Status 1 when one contradicts what is known."""
+    from experiments.scripts import lines, runs
+
+    ran = []
+    for each in runs(folder, limit, memory, only):
+        ran.append(each)
+        print(each, flush=True)
+    if not ran:
+        raise InputError(f"no script in {folder}" + (f" with {only!r} in its name" if only else ""))
+    for text in lines(ran, limit):
+        print(text)
+    return BUG if any(each.wrong for each in ran) else OK
+
+
 @baselines.command()
 def freeze(
     out: Annotated[Path, typer.Argument(help="The file to write.")],

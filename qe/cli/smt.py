@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 import sys
 from collections.abc import Callable, Iterable, Sequence
+from fractions import Fraction
 from itertools import pairwise
 from typing import cast
 
@@ -273,7 +274,8 @@ class Solver(Checks):
         result = self.last("sat")
         if result.point is None or result.total is None:
             raise InputError("the formula is satisfiable, but no model was found")
-        point, total = result.point, result.total
+        point = {**{name: Fraction(0) for _, name in self.script.constants.values()}, **result.point}
+        total = result.total
         outside = total.at(point)
 
         def value(function: str, argument: Number) -> Number:

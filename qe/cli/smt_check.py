@@ -105,6 +105,6 @@ class Checks:
         def read(_: object = None) -> tuple[Formula, Total]:
             return self.script.formula_of(nodes, total), total
 
-        if len(self.script.shared) <= MOST_PARTS:
+        if len(self.script.used(nodes)) <= MOST_PARTS:
             return read()
         return perform(read, Limits(seconds, self.memory), at_once=True)

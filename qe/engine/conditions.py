@@ -34,6 +34,10 @@ CASES_FROM, CURVED_CASES = 12, 80
 """Sentences with so many case distinctions are searched by a SAT solver first, unless more polynomials are not linear:
 what has to be decided again and again is then too large."""
 
+HOPELESS_CASES, HOPELESS_VARIABLES = 150, 8
+"""So many cases, or cases of linear conditions in so many variables, are for the SAT solver alone: whatever else there
+is would go through them one by one."""
+
 CONVEX_PARTS = 24
 """In more variables, conditions that fall apart into some without common variables are not one convex problem."""
 
@@ -64,13 +68,31 @@ def inner_blocks(problem: Problem, options: Options) -> str | None:
 
 def many_cases(problem: Problem, options: Options) -> str | None:
     """A sentence with ``CASES_FROM`` disjunctions or more."""
-    if problem.free or not problem.is_flat:
-        return None
-    kind = And if problem.universal else Or
-    cases = sum(1 for f in subformulas(problem.body) if isinstance(f, kind))
-    if cases < CASES_FROM or sum(p.total_degree > 1 for p in polynomials(problem.body)) > CURVED_CASES:
+    cases = _cases(problem)
+    if cases < CASES_FROM or _curved(problem) > CURVED_CASES or hopeless_cases(problem, options):
         return None
     return f"a sentence with {cases} case distinctions"
+
+
+def hopeless_cases(problem: Problem, options: Options) -> str | None:
+    """A sentence with so many cases that no other method will end."""
+    cases = _cases(problem)
+    linear = len(problem.variables) >= HOPELESS_VARIABLES and not _curved(problem)
+    if cases < (CASES_FROM if linear else HOPELESS_CASES):
+        return None
+    return f"a sentence with {cases} case distinctions, too many for other methods"
+
+
+def _cases(problem: Problem) -> int:
+    """The disjunctions in a sentence of one block that may be searched; 0 for any other."""
+    if problem.free or not problem.is_flat:
+        return 0
+    kind = And if problem.universal else Or
+    return sum(1 for f in subformulas(problem.body) if isinstance(f, kind))
+
+
+def _curved(problem: Problem) -> int:
+    return sum(p.total_degree > 1 for p in polynomials(problem.body))
 
 
 def closed_in_many_variables(problem: Problem, options: Options) -> str | None:

@@ -128,6 +128,7 @@ A unit is one cell, or about the time of one (a tenth of a millisecond); see ``B
 
 STRATEGY: tuple[Attempt, ...] = (
     Attempt(Scope.ASKED, "witness", on.inner_blocks, SHORTCUT),
+    Attempt(Scope.ASKED, "search", on.hopeless_cases),
     Attempt(Scope.ASKED, "search", on.many_cases, SHORTCUT),
     Attempt(Scope.ASKED, "convex", on.closed_in_many_variables, SHORTCUT),
     Attempt(Scope.ASKED, "cgs", on.equations_bind_a_sentence, SHORTCUT, complete),

@@ -101,6 +101,11 @@ class LinearBounds:
             self._pivot(x, min(open_ones), wanted)
             pivots += 1
 
+    def side(self, x: int, bound: Fraction) -> int:
+        """The sign of x - bound for the present value of x."""
+        value, other = self.values[x], (fmpq(bound.numerator, bound.denominator), _ZERO)
+        return int(value > other) - int(value < other)
+
     def point(self) -> list[Fraction]:
         """Numbers for all variables that keep all bounds, after ``conflict`` found none."""
         delta = _ONE

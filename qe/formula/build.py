@@ -106,22 +106,32 @@ def root_atom(variable: str, relation: Relation, poly: Poly, k: int) -> Formula:
 
 
 def convert(formula: Formula, ring: Ring) -> Formula:
-    """The same formula with its polynomials in another ring (by variable name)."""
-    if formula.ring is ring:
-        return formula
-    match formula:
-        case Atom(poly, relation):
-            return atom(poly.convert(ring), relation)
-        case RootAtom(variable, relation, poly, k):
-            return root_atom(variable, relation, poly.convert(ring), k)
-        case And(args):
-            return conj(convert(a, ring) for a in args)
-        case Or(args):
-            return disj(convert(a, ring) for a in args)
-        case Not(arg):
-            return neg(convert(arg, ring))
-        case Exists(variables, body):
-            return exists(variables, convert(body, ring))
-        case ForAll(variables, body):
-            return forall(variables, convert(body, ring))
-    return formula
+    """The same formula with its polynomials in another ring (by variable name); equal parts are converted once."""
+    known: dict[Formula, Formula] = {}
+
+    def converted(f: Formula) -> Formula:
+        if f.ring is ring:
+            return f
+        if f not in known:
+            known[f] = anew(f)
+        return known[f]
+
+    def anew(f: Formula) -> Formula:
+        match f:
+            case Atom(poly, relation):
+                return atom(poly.convert(ring), relation)
+            case RootAtom(variable, relation, poly, k):
+                return root_atom(variable, relation, poly.convert(ring), k)
+            case And(args):
+                return conj(map(converted, args))
+            case Or(args):
+                return disj(map(converted, args))
+            case Not(arg):
+                return neg(converted(arg))
+            case Exists(variables, body):
+                return exists(variables, converted(body))
+            case ForAll(variables, body):
+                return forall(variables, converted(body))
+        return f
+
+    return converted(formula)

@@ -138,6 +138,8 @@ class Script(Terms):
             self.globals, self.constants = level.globals, level.constants
             self.taken.difference_update(self.names[level.names :])
             del self.names[level.names :], self.shared[level.shared :], self.assertions[level.assertions :]
+        kept = set(map(id, self.shared))
+        self.forms = {form: part for form, part in self.forms.items() if id(part) in kept}
         self.fixed.intersection_update(self.names)
         self.varying.intersection_update(self.names)
 
@@ -145,7 +147,18 @@ class Script(Terms):
     def formula_of(self, nodes: Sequence[s.Node], total: Total) -> Formula:
         """The conjunction of the nodes; ``total`` is told about functions outside their domains."""
         total.bound = frozenset(self.bound)
-        return lower(s.Every(list(nodes)), self.fail, names=self.names, shared=self.shared, total=total)
+        return lower(s.Every(list(nodes)), self.fail, names=self.names, shared=self.used(nodes), total=total)
+
+    def used(self, nodes: Sequence[s.Node]) -> list[s.Part]:
+        """The shared parts that the nodes contain, in their order."""
+        seen: set[int] = set()
+        pending: list[object] = list(nodes)
+        while pending:
+            part = pending.pop()
+            if isinstance(part, tuple | list) and id(part) not in seen:
+                seen.add(id(part))
+                pending += part
+        return [part for part in self.shared if id(part) in seen]
 
     def whole(self) -> Formula:
         """The conjunction of all assertions. Raises where a value outside a domain cannot be written down."""

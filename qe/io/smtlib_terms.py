@@ -62,8 +62,10 @@ class Terms:
         self.taken: set[str] = set()
         self.reserved: set[str] = set()
         self.shared: list[s.Part] = []
+        self.forms: dict[object, Meaning] = {}
         self.globals: dict[str, Meaning | Macro | Foreign] = {}
         self.lenient = False
+        self.inside = 0
         self.fixed: set[str] = set()
         self.varying: set[str] = set()
 
@@ -116,9 +118,17 @@ class Terms:
         return real if sort == "Real" else s.Comparison([real, s.Number(0)], [Relation.GT], at)
 
     def share(self, meaning: Meaning) -> Meaning:
-        """Remember a definition, so that its value is computed once and before its uses."""
-        self.shared.append(meaning)
-        return meaning
+        """Remember a definition, so that its value is computed once and before its uses; what was said before in the
+        same words is the same object."""
+        form = (type(meaning), *(_leaf(field) for name, field in zip(meaning._fields, meaning) if name != "at"))
+        known = self.forms.setdefault(form, meaning)
+        if known is meaning:
+            self.shared.append(meaning)
+        return known
+
+    def once(self, node: s.Node) -> Meaning:
+        """A formula that is shared, unless it may have bound variables."""
+        return node if self.inside else self.share(node)
 
     def expect(self, meaning: Meaning, sort: str, at: int) -> Meaning:
         if is_real(meaning) is not (sort == "Real"):
@@ -209,9 +219,9 @@ class Terms:
         if head.text == "ite":
             return self.ite(listing, scope)
         if head.text in _CONNECTIVES:
-            return _connective(head.text, [self.formula(a, scope) for a in arguments], self.fail, head.at)
+            return self.once(_connective(head.text, [self.formula(a, scope) for a in arguments], self.fail, head.at))
         if head.text in _ARITHMETIC:
-            return self.share(_arithmetic(head.text, [self.real(a, scope) for a in arguments], head.at))
+            return self.arithmetic(head.text, [self.real(a, scope) for a in arguments], head.at)
         if head.text == "to_real":
             self.arity(listing, 1)
             return self.real(arguments[0], scope)
@@ -220,7 +230,7 @@ class Terms:
         if head.text == "root-obj":
             return self.root_object(listing, scope)
         if head.text in _RELATIONS or head.text == "distinct":
-            return self.relation(head, arguments, scope)
+            return self.once(self.relation(head, arguments, scope))
         if head.text in _INTEGERS:
             sort = "Bool" if head.text in ("is_int", "divisible") else "Real"
             return self.unread(listing, scope, sort, f"{head.text} needs integers; all numbers are real here")
@@ -228,6 +238,23 @@ class Terms:
         if "algebraic" in message:
             return self.unread(listing, scope, "Real", message)
         return self.error(f"the function {head.text} is not supported", head.at)
+
+    def arithmetic(self, operator: str, operands: list[s.Term], at: int) -> Meaning:
+        """A sum, product, quotient or power, from the left."""
+        if operator == "-" and len(operands) == 1:
+            return self.share(s.Minus(operands[0]))
+        if len(operands) == 1:
+            return operands[0]
+        if operator == "+":
+            return self.share(s.Sum(operands))
+        if operator == "-":
+            return self.share(s.Sum([operands[0], *(cast(s.Term, self.share(s.Minus(term))) for term in operands[1:])]))
+        build: Callable[[s.Term, s.Term, int], s.Term]
+        build = s.Product if operator == "*" else s.Quotient if operator == "/" else s.Power
+        result = operands[0]
+        for term in operands[1:]:
+            result = cast(s.Term, self.share(build(result, term, at)))
+        return result
 
     def apply(self, head: Word, arguments: list[s.Term]) -> s.Term:
         least, most = s.FUNCTIONS[head.text]
@@ -269,7 +296,11 @@ class Terms:
             inner[name] = self.variable(fresh, sort, variables.at)
         if not names:
             self.error("a quantifier without variables", variables.at)
-        return s.Quantification(universal, names, self.formula(body, inner))
+        self.inside += 1
+        try:
+            return s.Quantification(universal, names, self.formula(body, inner))
+        finally:
+            self.inside -= 1
 
     def ite(self, listing: Listing, scope: Scope) -> Meaning:
         self.arity(listing, 3)
@@ -300,6 +331,18 @@ class Terms:
         return links[0] if len(links) == 1 else s.Every(links)
 
 
+def _leaf(field: object) -> object:
+    """A part of a form: names and numbers by what they are, what is made of others by its identity."""
+    match field:
+        case s.Name(name):
+            return name
+        case s.Number(value):
+            return value
+        case list():
+            return tuple(map(_leaf, field))
+    return id(field) if isinstance(field, tuple) else field
+
+
 def _connective(operator: str, parts: list[s.Node], fail: s.Fail, at: int) -> s.Node:
     if operator == "not":
         if len(parts) != 1:
@@ -317,21 +360,4 @@ def _connective(operator: str, parts: list[s.Node], fail: s.Fail, at: int) -> s.
     result = parts[-1]
     for part in reversed(parts[:-1]):
         result = s.Implication(part, result)
-    return result
-
-
-def _arithmetic(operator: str, operands: list[s.Term], at: int) -> s.Term:
-    if operator == "-" and len(operands) == 1:
-        return s.Minus(operands[0])
-    if len(operands) == 1:
-        return operands[0]
-    if operator == "+":
-        return s.Sum(operands)
-    if operator == "-":
-        return s.Sum([operands[0], *(s.Minus(term) for term in operands[1:])])
-    build: Callable[[s.Term, s.Term, int], s.Term]
-    build = s.Product if operator == "*" else s.Quotient if operator == "/" else s.Power
-    result = operands[0]
-    for term in operands[1:]:
-        result = build(result, term, at)
     return result

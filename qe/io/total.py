@@ -17,6 +17,8 @@ from typing import Any
 
 from qe.errors import InputError
 from qe.exact.ring import Poly
+from qe.formula.build import conj
+from qe.formula.evaluate import truth_under
 from qe.formula.syntax import Formula
 from qe.io.cases import Case
 
@@ -51,10 +53,22 @@ class Total:
         return formula
 
     def at(self, point: Mapping[str, Any]) -> list[tuple[str, Any, Any]]:
-        """Function, argument and value of the unknowns at a point; not those whose argument is no quotient there."""
-        found = []
+        """Function, argument and value of the unknowns at a point; not those whose argument is no quotient there, or
+        is another one by their guards. Those whose guards are not decided at sight come last."""
+        found: list[tuple[str, Any, Any]] = []
+        doubtful: list[tuple[str, Any, Any]] = []
+
+        def sign(poly: Poly) -> int | None:
+            if any(poly.ring.names[i] not in point for i in poly.variables):
+                return None
+            value = _at(poly, point)
+            return int(value > 0) - int(value < 0)
+
         for name, (function, cases) in self.values.items():
             for case in cases:
+                holds = truth_under(conj(case.guards), sign)
+                if holds is False:
+                    continue
                 names = case.value.poly.ring.names
                 polys = [case.value.poly, *(factor for factor, _ in case.below)]
                 if all(names[i] in point for poly in polys for i in poly.variables):
@@ -63,8 +77,8 @@ class Total:
                     if all(bottom != 0 for bottom, _ in below):
                         for bottom, k in below:
                             value = value / bottom**k
-                        found.append((function, value, point.get(name, Fraction(0))))
-        return found
+                        (found if holds else doubtful).append((function, value, point.get(name, Fraction(0))))
+        return found + doubtful
 
     def begin(self) -> None:
         """Forget what an earlier attempt told."""

@@ -126,7 +126,7 @@ def test_every_true_sentence_is_refused() -> None:
 # --- broken producers -----------------------------------------------------------------------------
 def everything_conflicts(m: pytest.MonkeyPatch) -> None:
     """The first conjunction that is looked at is taken for refuted."""
-    m.setattr(Theory, "look", lambda self, atoms: list(atoms))
+    m.setattr(Theory, "look", lambda self, atoms: [list(atoms)])
 
 
 def curves_never_meet(m: pytest.MonkeyPatch) -> None:

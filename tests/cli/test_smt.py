@@ -7,10 +7,14 @@ import subprocess
 import sys
 from fractions import Fraction
 from pathlib import Path
+from typing import cast
 
 import pytest
 
 from qe.cli.smt import Solver
+from qe.io.grammar import Failing
+from qe.io.smtlib_parser import Listing, parse
+from qe.io.smtlib_script import Script
 
 QE = Path(sys.executable).with_name("qe")
 XY = "(declare-fun x () Real)(declare-const y Real)(declare-const p Bool)"
@@ -48,6 +52,8 @@ def answers(script: str, *, timeout: float | None = None) -> list[str]:
         ("(assert (= (/ x 0) 1))(assert (= (/ y 0) 2))(assert (= x y))(check-sat)", ["unsat"]),
         ("(assert (= (/ x 0) 1))(assert (= (/ y 0) 2))(check-sat)", ["sat"]),
         ("(assert (= (/ 1 y) 3))(assert (= y 0))(check-sat)(get-value ((/ 1 y) (/ 1 0)))", ["sat", "(((/ 1 y) 3.0) ((/ 1 0) 3.0))"]),
+        ("(assert (>= (/ y 0) 1))(check-sat)(get-value ((/ y 0) y))", ["sat", "(((/ y 0) 1.0) (y 0.0))"]),
+        ("(assert (= (/ (ite (distinct y 3) 3 y) 0) 5))(assert (= y 3))(check-sat)(get-value ((/ (ite (distinct y 3) 3 y) 0)))", ["sat", "(((/ (ite (distinct y 3) 3 y) 0) 5.0))"]),
         ("(assert (distinct (/ 1 (- x x)) (/ 1 0)))(check-sat)", ["unsat"]),
         ("(assert (forall ((z Real)) (= z (/ 0 0))))(check-sat)", ["unsat"]),
         ("(assert (forall ((z Real)) (= z (/ z 0))))(check-sat)", ["sat"]),
@@ -188,3 +194,21 @@ def test_pysmt_drives_it() -> None:
         assert solver.solve()
         a, b = (Fraction(str(solver.get_value(symbol).constant_value())) for symbol in (x, y))
         assert a * b == Fraction(1, 2) and a > 2
+
+
+def test_what_is_said_twice_is_read_once_also_after_pop() -> None:
+    script = Script(Failing("", "<test>"))
+    text = "(declare-const x Real)(assert (> (/ (* x x) 3) 1))(push)(assert (< (/ (* x x) 3) 2))(pop)(assert (< (/ (* x x) 3) 2))"
+    sizes = []
+    for command in parse(text, script.fail):
+        match script.head(command).text:
+            case "push":
+                script.push(1)
+            case "pop":
+                script.pop(1, 0)
+            case _:
+                script.change(cast(Listing, command))
+        sizes.append(len(script.shared))
+    assert sizes[1] > 2
+    assert [size - sizes[1] for size in sizes[1:]] == [0, 0, 1, 0, 1]
+    assert answers(text + "(check-sat)") == ["sat"]

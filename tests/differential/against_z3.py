@@ -114,4 +114,4 @@ def main(count: int, start: int = 0, family: str = "z3") -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main(*map(int, sys.argv[1:3]), *sys.argv[3:]))
+    sys.exit(main(int(sys.argv[1]), int((sys.argv[2:3] or ["0"])[0]), (sys.argv[3:4] or ["z3"])[0]))

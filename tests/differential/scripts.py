@@ -112,11 +112,11 @@ def _script(names: tuple[str, ...], lines: list[str]) -> str:
 
 
 class Checked(Solver):
-    """``qe smt`` whose models are checked: ``refuted`` lists the assertions that are false at one."""
+    """``qe smt`` whose models are checked: ``broken`` lists the assertions that are false at one."""
 
     def __init__(self, seconds: float) -> None:
         self.answers: list[str] = []
-        self.refuted: list[object] = []
+        self.broken: list[object] = []
         super().__init__(self.answers.append, lambda note: None, timeout=seconds, each=True)
 
     def check(self, *given: object) -> str:
@@ -126,7 +126,7 @@ class Checked(Solver):
             for assertion in self.script.assertions:
                 try:
                     if not evaluation.truth(assertion.node):
-                        self.refuted.append(assertion.written)
+                        self.broken.append(assertion.written)
                 except InputError:
                     continue
         return answer
@@ -136,7 +136,7 @@ def ours(script: str, seconds: float) -> tuple[list[str], bool]:
     """Our answers, and whether all models satisfy all assertions."""
     solver = Checked(seconds)
     solver.execute(script, "<script>")
-    return solver.answers, not solver.refuted
+    return solver.answers, not solver.broken
 
 
 def theirs(script: str, seconds: float) -> list[str]:

@@ -8,9 +8,9 @@ Greenbaum 1986): a model of the clauses makes the formula true, and every model 
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from fractions import Fraction
-from itertools import pairwise
+from itertools import chain, pairwise
 
 from qe.elimination.search.linear_forms import over_monomials
 from qe.exact.ring import Poly
@@ -49,9 +49,20 @@ class Clauses:
                 return zero
         return -zero
 
-    def chosen(self, model: Iterable[int]) -> list[Atom]:
-        """Atoms, true in the model, that make the formula true. An inequation p /= 0 is chosen as p < 0 or p > 0 where
-        p is linear."""
+    def phases(self, sign: Callable[[Poly], int]) -> Clause:
+        """The literals of the signs that the polynomials have somewhere."""
+        found = []
+        for poly, literals in self._signs.items():
+            present = sign(poly)
+            found += [v if present == k else -v for v, k in zip(literals, (1, -1, 0), strict=True)]
+        return found
+
+    def chosen(self, model: Iterable[int], sign: Callable[[Poly], int]) -> list[Atom]:
+        """Atoms, true in the model, that make the formula true.
+
+        Of several alternatives one that is chosen already, or holds where the polynomials have these signs. An
+        inequation p /= 0 is chosen as p < 0 or p > 0 where p is linear.
+        """
         true = set(model)
         known: dict[Formula, bool] = {}
 
@@ -83,7 +94,9 @@ class Clauses:
                     pending.extend(args)
                 case Or(args):
                     alive = [a for a in args if holds(a)]
-                    pending.append(next((a for a in alive if a in taken), alive[0]))
+                    known_ones = (a for a in alive if a in taken)
+                    near = (a for a in alive if isinstance(a, Atom) and a.relation.holds(sign(a.poly)))
+                    pending.append(next(chain(known_ones, near, alive)))
         return list(taken)
 
     # --- building --------------------------------------------------------------------------------------

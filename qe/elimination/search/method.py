@@ -102,11 +102,13 @@ def found_point(body: Formula, context: Context) -> Values | Refuted:
         while solver.solve():
             context.budget.spend(_UNITS)
             context.budget.check("search", len(conflicts) + 1)
-            found = theory.look(clauses.chosen(solver.get_model()))
+            found = theory.look(clauses.chosen(solver.get_model(), theory.bounds.sign))
             if isinstance(found, dict):
                 context.log.work("search", {"clauses": len(clauses.clauses), "refuted": len(conflicts)})
                 return found
-            conflicts.append(tuple(found))
-            solver.add_clause([-clauses.literal(a) for a in found])
+            for reason in found:
+                conflicts.append(tuple(reason))
+                solver.add_clause([-clauses.literal(a) for a in reason])
+            solver.set_phases(clauses.phases(theory.bounds.sign))
     context.log.work("search", {"clauses": len(clauses.clauses), "refuted": len(conflicts)})
     return Refuted((*clauses.orders, *conflicts), refutations)

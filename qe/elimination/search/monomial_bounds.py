@@ -9,9 +9,9 @@ from __future__ import annotations
 from collections.abc import Callable, Hashable, Iterable
 from fractions import Fraction
 
-from qe.elimination.search.linear_forms import Monomial, over_monomials
+from qe.elimination.search.linear_forms import LinearForm, Monomial, over_monomials
 from qe.exact.linear_bounds import LinearBounds
-from qe.exact.ring import Ring
+from qe.exact.ring import Poly, Ring
 from qe.formula.syntax import Atom, Relation
 
 _UP = (Relation.GT, Relation.GE, Relation.EQ)
@@ -31,6 +31,8 @@ class MonomialBounds:
         self.bounds = LinearBounds()
         self.monomials: dict[Monomial, int] = {}
         self.forms: dict[object, int] = {}
+        self.forms_of: dict[Poly, LinearForm] = {}
+        self.known: dict[Atom, tuple[int, Fraction, Relation] | None] = {}
 
     def conflict(self, atoms: Iterable[Atom], check: Callable[[], object]) -> set[Hashable] | None:
         """Atoms whose linear bounds contradict each other, with None where squares take part; or None."""
@@ -40,17 +42,16 @@ class MonomialBounds:
                 self.bounds.at_least(x, Fraction(0), strict=False, reason=None)
         for given in atoms:
             check()
-            if given.relation is Relation.NE:
+            found = self._bound(given)
+            if found is None:
                 continue
-            form = over_monomials(given.poly)
-            x = self._form(form.direction)
-            relation = given.relation if form.scale > 0 else given.relation.flipped
+            x, bound, relation = found
             strict = relation.is_strict
             conflict: set[Hashable] | None = None
             if relation in _UP:
-                conflict = self.bounds.at_least(x, form.bound, strict=strict, reason=given)
+                conflict = self.bounds.at_least(x, bound, strict=strict, reason=given)
             if relation in _DOWN and conflict is None:
-                conflict = self.bounds.at_most(x, form.bound, strict=strict, reason=given)
+                conflict = self.bounds.at_most(x, bound, strict=strict, reason=given)
             if conflict is not None:
                 return conflict
         return self.bounds.conflict(check)
@@ -62,6 +63,25 @@ class MonomialBounds:
             if sum(monomial) == 1:
                 point[self.ring.names[monomial.index(1)]] = values[x]
         return point
+
+    def sign(self, poly: Poly) -> int:
+        """The sign of a polynomial where the monomials have the values that the last question left."""
+        form = self.forms_of.get(poly)
+        if form is None:
+            form = self.forms_of[poly] = over_monomials(poly)
+        side = self.bounds.side(self._form(form.direction), form.bound)
+        return side if form.scale > 0 else -side
+
+    def _bound(self, given: Atom) -> tuple[int, Fraction, Relation] | None:
+        """The variable that an atom bounds, and how; None for p /= 0."""
+        if given not in self.known:
+            found = None
+            if given.relation is not Relation.NE:
+                form = over_monomials(given.poly)
+                relation = given.relation if form.scale > 0 else given.relation.flipped
+                found = self._form(form.direction), form.bound, relation
+            self.known[given] = found
+        return self.known[given]
 
     def _form(self, direction: tuple[tuple[Monomial, Fraction], ...]) -> int:
         found = self.forms.get(direction)

@@ -26,8 +26,14 @@ _TRIALS = 5
 """Smaller sets of atoms that the engine is asked about to shorten a reason."""
 _TRIAL_WORK = 300
 
-_MOST = 80
+_MOST = 400
 """Atoms that share variables, at most, for the engine to be asked about them again and again."""
+
+_AT_ONCE = 20
+"""Reasons against one choice, at most: the more there are, the fewer choices are made."""
+
+_GATHERED = 24
+"""Atoms that are gathered one by one for a reason, at most."""
 
 _GROWTH = 8
 """Sets of atoms that the engine is asked about before it gets all that share variables."""
@@ -41,11 +47,11 @@ class Theory:
         self.bounds = MonomialBounds(ring)
         self.known: dict[frozenset[Atom], Values | None] = {}
 
-    def look(self, atoms: Sequence[Atom]) -> Values | list[Atom]:
-        """Values for the variables of the atoms, or some of the atoms that cannot hold together."""
-        conflict = self.bounds.conflict(atoms, lambda: self.budget.check("search: bounds"))
-        if conflict is not None:
-            return [a for a in atoms if a in conflict]
+    def look(self, atoms: Sequence[Atom]) -> Values | list[list[Atom]]:
+        """Values for the variables of the atoms, or sets of them each of which cannot hold together."""
+        conflicts = self._linear(atoms)
+        if conflicts:
+            return conflicts
         point: Values = dict(self.bounds.point())
         if all(holds_at(a, point) for a in atoms):
             return dict(point)
@@ -54,9 +60,21 @@ class Theory:
             part = [a for a in group if isinstance(a, Atom)]
             found = self._grown(part, point)
             if isinstance(found, list):
-                return self._reason(found)
+                return [self._reason(found, point)]
             values |= found
         return values
+
+    def _linear(self, atoms: Sequence[Atom]) -> list[list[Atom]]:
+        """Sets of atoms whose linear bounds contradict each other, no two with a common atom, until none is left."""
+        rest = list(atoms)
+        found: list[list[Atom]] = []
+        while len(found) < _AT_ONCE:
+            conflict = self.bounds.conflict(rest, lambda: self.budget.check("search: bounds"))
+            if conflict is None:
+                break
+            found.append([a for a in rest if a in conflict])
+            rest = [a for a in rest if a not in conflict]
+        return found
 
     def _grown(self, part: list[Atom], point: Values) -> Values | list[Atom]:
         """Values for the atoms, or some that cannot hold together: first those only that fail at the point, then with
@@ -89,7 +107,7 @@ class Theory:
             self.known[part] = self.decide(exists(body.free, body), self.budget.part(work))
         return self.known[part]
 
-    def _reason(self, part: Sequence[Atom]) -> list[Atom]:
+    def _reason(self, part: Sequence[Atom], point: Values) -> list[Atom]:
         """Fewer of the atoms that cannot hold together."""
         needed = list(part)
         if simplify(conj(needed)) == FALSE:
@@ -107,7 +125,30 @@ class Theory:
                 self.budget.check("search: reason")
                 return False
 
-        return _without_needless(needed, refuted)
+        return _without_needless(self._gathered(needed, point), refuted)
+
+    def _gathered(self, part: list[Atom], point: Values) -> list[Atom]:
+        """Some of the atoms that cannot hold together, gathered one by one: always one that fails at a point where all
+        those before hold, with as few new variables as can be; all of them where that takes too long."""
+        taken: list[Atom] = []
+        names: set[str] = set()
+        values = point
+        for _ in range(min(_GATHERED, len(part))):
+            failing = [a for a in part if not holds_at(a, values)]
+            if not failing:
+                return part
+            best = min(failing, key=lambda a: (len(set(a.free) - names), len(a.free), a.poly.total_degree))
+            taken.append(best)
+            names.update(best.free)
+            try:
+                found = self._part(frozenset(taken), _TRIAL_WORK)
+            except Unable:
+                self.budget.check("search: reason")
+                return part
+            if found is None:
+                return taken
+            values = {**point, **found}
+        return part
 
 
 def _without_needless(atoms: list[Atom], refuted: Callable[[Sequence[Atom]], bool]) -> list[Atom]:

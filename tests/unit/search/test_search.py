@@ -15,8 +15,9 @@ from qe.elimination.protocol import Context, Outcome, Problem
 from qe.elimination.search.clauses import Clauses
 from qe.elimination.search.linear_forms import over_monomials
 from qe.elimination.search.method import BooleanSearch, Refuted, found_point
+from qe.elimination.search.monomial_bounds import MonomialBounds
 from qe.elimination.search.theory import Theory
-from qe.engine.conditions import CASES_FROM, many_cases
+from qe.engine.conditions import CASES_FROM, hopeless_cases, many_cases
 from qe.engine.run import solve
 from qe.engine.strategy import Scope, attempts
 from qe.errors import Unable
@@ -76,13 +77,65 @@ def test_a_reason_is_a_part_that_cannot_hold(chosen: Sequence[Atom]) -> None:
         assert all(holds_at(a, found) for a in chosen)
     else:
         assert found
-        assert set(found) <= set(chosen)
-        assert decide(exists(RING.names, conj(found)), Budget(60)).formula == FALSE
+        for reason in found:
+            assert set(reason) <= set(chosen)
+            assert decide(exists(RING.names, conj(reason)), Budget(60)).formula == FALSE
+
+
+def test_one_choice_gives_a_reason_for_each_of_its_contradictions() -> None:
+    parts = [Atom(p, r) for v in (X, Y, Z) for p, r in ((v - 1, Relation.GT), (v, Relation.LT))]
+    found = Theory(RING, values, Budget(60)).look(parts)
+    assert isinstance(found, list)
+    assert sorted(map(len, found)) == [2, 2, 2]
+    assert len({a for reason in found for a in reason}) == 6
+
+
+def test_a_reason_among_many_curved_conditions_is_short() -> None:
+    """x > 0, y < 0 and x*y > 0 beside conditions that the engine would have to look at, too."""
+    text = "x > 0 and y < 0 and x*y > z^2 and z > x and z < 4 + y^2 and z^2 < 9 + x and y > -7 and x^2 + y^2 < 40"
+    body = read(text)
+    assert isinstance(body, And)
+    assert body.ring is not None
+    found = Theory(body.ring, values, Budget(60)).look([a for a in body.args if isinstance(a, Atom)])
+    assert isinstance(found, list)
+    assert all(len(reason) <= 4 for reason in found)
+
+
+@given(st.lists(st.sampled_from(LINEAR).map(lambda p: atom(p, Relation.GE)), min_size=1, unique=True))
+def test_signs_are_those_at_the_point_of_the_bounds(chosen: Sequence[Atom]) -> None:
+    bounds = MonomialBounds(RING)
+    for poly in LINEAR:
+        bounds.sign(poly)
+    assert bounds.conflict(chosen, lambda: None) is None
+    point = bounds.point()
+    for poly in LINEAR:
+        assert Relation.EQ.holds(bounds.sign(poly)) == holds_at(atom(poly, Relation.EQ), point)
+        assert Relation.GT.holds(bounds.sign(poly)) == holds_at(atom(poly, Relation.GT), point)
+
+
+def test_phases_are_literals_of_signs() -> None:
+    clauses = Clauses(disj((atom(X, Relation.GT), atom(Y, Relation.LE))))
+    true = set(clauses.phases(lambda poly: 1 if poly == X else -1))
+    for a in (Atom(X, Relation.GT), Atom(X, Relation.NE), Atom(Y, Relation.LT), Atom(Y, Relation.LE)):
+        assert clauses.literal(a) in true
+
+
+def test_sentences_of_very_many_cases_are_for_the_search_alone() -> None:
+    def linear(count: int) -> Problem:
+        names = [f"v{k}" for k in range(count)]
+        cases = " and ".join(f"({a} + 1 < {b} or {b} + 1 < {a})" for a, b in zip(names, names[1:] + names[:1]))
+        found = Problem.of(read(f"ex {', '.join(names)}. {cases}"))
+        assert isinstance(found, Problem)
+        return found
+
+    assert hopeless_cases(linear(CASES_FROM), Options()) is not None
+    assert many_cases(linear(CASES_FROM), Options()) is None
+    assert hopeless_cases(linear(CASES_FROM - 1), Options()) is None
 
 
 @settings(max_examples=35, deadline=None)
-@given(FORMULAS)
-def test_what_is_chosen_from_a_model_makes_the_formula_true(body: Formula) -> None:
+@given(FORMULAS, st.integers(-1, 1))
+def test_what_is_chosen_from_a_model_makes_the_formula_true(body: Formula, sign: int) -> None:
     from pysat.solvers import Solver
 
     clauses = Clauses(body)
@@ -90,7 +143,7 @@ def test_what_is_chosen_from_a_model_makes_the_formula_true(body: Formula) -> No
         if not solver.solve():
             assert all(not holds_at(body, dict(zip(RING.names, p))) for p in product((-1, 0, 1, 2), repeat=3))
             return
-        chosen = clauses.chosen(solver.get_model())
+        chosen = clauses.chosen(solver.get_model(), lambda poly: sign)
     taken = {(a.poly, sign) for a in chosen for sign in (-1, 0, 1) if sign in a.relation.signs}
 
     def follows(f: Formula) -> bool:
