@@ -326,14 +326,14 @@ def _samples(place: Point, var: int, polynomials: Sequence[Poly]) -> Iterator[Re
 
 def _zeros_of_norm(place: Point, var: int, p: Poly) -> Iterator[RealAlgebraic]:
     """The zeros of p and of its conjugates."""
-    for i in range(var):
+    for i in set(range(var)) & set(p.variables):
         value = place.number(i)
-        if i in p.variables and isinstance(value, Fraction):
+        if isinstance(value, Fraction):
             p = p.at_rational(i, value)
-        elif i in p.variables:
-            powers = enumerate(value.minimal_polynomial)
-            minimal = sum((place.ring.gen(i) ** k * c for k, c in powers), place.ring.constant(0))
-            p = minimal.resultant(p, i)
+            continue
+        powers = enumerate(value.minimal_polynomial)
+        minimal = sum((place.ring.gen(i) ** k * c for k, c in powers), place.ring.constant(0))
+        p = minimal.resultant(p, i)
     if not p:
         raise Unable("the first joint can be chosen, and whether the others follow it is not decided")
     for factor, _ in p.factors()[1]:

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
-from bezier.arm.inverse import BITS, Inverse, Solution, exact_number, value_of
+from bezier.arm.inverse import BITS, Inverse, Solution, exact_number, listed, value_of
 from bezier.arm.limits import allowed
 from bezier.arm.model import Arm, Matrix, inverse
 from bezier.arm.parallel_axes import ROOTS, Search, shape_of
@@ -24,9 +24,10 @@ Rotation = tuple[tuple[Any, ...], ...]
 
 def rotation_of(quaternion: Sequence[Any]) -> Rotation:
     """The rotation of a quaternion (w, x, y, z) that is not zero; its length does not matter. Exact."""
-    if len(quaternion) != 4:
-        raise InputError(f"quaternion: four numbers (w, x, y, z) expected, {len(quaternion)} found")
-    w, x, y, z = (rational(exact_number(v, "quaternion")) for v in quaternion)
+    numbers = [rational(exact_number(v, "quaternion")) for v in listed(quaternion, "quaternion: four numbers")]
+    if len(numbers) != 4:
+        raise InputError(f"quaternion: four numbers (w, x, y, z) expected, {len(numbers)} found")
+    w, x, y, z = numbers
     if w is None or x is None or y is None or z is None:
         raise InputError("quaternion: rational numbers expected; its length does not matter")
     size = w * w + x * x + y * y + z * z
@@ -46,8 +47,10 @@ def solve_pose(arm: Arm, point: Sequence[Any], rotation: Sequence[Sequence[Any]]
     Exact numbers, as for ``bezier.arm.inverse.solve``. Raises ``Unable`` for an arm of another shape, and where the
     pose leaves a joint free and it is not decided whether there are solutions; ``InputError`` for what is no pose.
     """
+    expected = "pose: three coordinates and three rows of three numbers"
+    point, rotation = listed(point, expected), [listed(row, expected) for row in listed(rotation, expected)]
     if len(point) != 3 or len(rotation) != 3 or any(len(row) != 3 for row in rotation):
-        raise InputError("pose: three coordinates and three rows of three numbers expected")
+        raise InputError(f"{expected} expected")
     numbers = tuple(exact_number(v, "point") for v in point)
     rows = tuple(tuple(exact_number(v, "rotation") for v in row) for row in rotation)
     wrist = wrist_of(arm)
