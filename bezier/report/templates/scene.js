@@ -211,6 +211,7 @@ function show(box, data) {
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", again);
   if (window.ResizeObserver) new ResizeObserver(again).observe(canvas); else addEventListener("resize", again);
   if (window.IntersectionObserver) new IntersectionObserver(list => { seen = list[list.length - 1].isIntersecting; if (seen) again(), requestAnimationFrame(tick); }).observe(canvas);
+  addEventListener("beforeprint", () => { stale = true; draw(Math.max(0, index())); });
   play(playing);
   canvas.dataset.drawn = "yes";
 }
