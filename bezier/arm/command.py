@@ -50,16 +50,18 @@ def inverse(
 
 
 def certify(channel: Channel, arm: Arm, curves: Mapping[str, Bezier], *, json: bool) -> tuple[str, str]:
-    """``bezier certify-path``: what to print, and the certificates of the continuous joint motions as text."""
+    """``bezier certify-path``: what to print, and the certificates of the continuous joint motions as text, if there
+    are any."""
     found = joint_path(arm, curves)
     bundle = Certificate.bundle(certificates(found))
     verdict = verify(bundle)
     if json:
         data = {**path_report.to_json(found), "certified": verdict.accepted}
-        return json_text.dumps(data, indent=1, ensure_ascii=False), bundle.to_json()
+        return json_text.dumps(data, indent=1, ensure_ascii=False), bundle.to_json() if found.runs else ""
     told = "accepted" if verdict.accepted else f"REJECTED at {verdict.step}: {verdict.reason}"
+    told = told if found.runs else "none, as there is no joint motion along a part of the path"
     lines = [*path_report.in_words(found), f"certificates of the joint motions: {told}"]
-    return "\n".join(lines), bundle.to_json()
+    return "\n".join(lines), bundle.to_json() if found.runs else ""
 
 
 def to_json(found: Inverse) -> dict[str, Any]:

@@ -7,10 +7,11 @@ one solution.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache, partial
+from numbers import Integral
 from typing import Any
 
 from bezier.arm.elimination import LIFTED, TURNS, Geometry, M, Quotient, Reduction, T
@@ -29,6 +30,9 @@ Ends = tuple[Fraction, Fraction]
 Reductions = Callable[[int], Reduction]
 
 BITS = 64
+LARGEST = 10**100
+"""Coordinates in mm: larger ones have no decimal that a float holds."""
+
 NAMES = ("w", "x", "y", "z", "t", "m")
 
 
@@ -114,7 +118,7 @@ def solve(arm: Arm, point: Sequence[Any]) -> Inverse:
 
     Raises ``Unable`` for an arm that the reduction does not fit, ``InputError`` for anything but three exact numbers.
     """
-    numbers = tuple(exact_number(v, "point") for v in point)
+    numbers = tuple(exact_number(v, "point") for v in listed(point, "point: three coordinates"))
     if len(numbers) != 3:
         raise InputError(f"point: three coordinates expected, {len(numbers)} found")
     return solve_at(arm, place(general(arm, 0).ring, arm, numbers), numbers)
@@ -183,12 +187,24 @@ def place(ring: Ring, arm: Arm, numbers: Sequence[Any]) -> Point:
     return Point.of(ring, [arm.field.theta, *numbers])
 
 
+def listed(values: Any, expected: str) -> list[Any]:
+    """The values of a sequence. Raises ``InputError`` for what is none."""
+    if isinstance(values, str | Mapping) or not isinstance(values, Iterable):
+        raise InputError(f"{expected} expected, {type(values).__name__} found")
+    return list(values)
+
+
 def exact_number(value: Any, what: str) -> Fraction | RealAlgebraic:
-    """The value as a rational number or a real algebraic one. Raises ``InputError`` for anything else."""
+    """The value as a rational number or a real algebraic one (integers of numpy are exact, too). Raises ``InputError``
+    for anything else."""
+    if isinstance(value, Integral) and not isinstance(value, bool):
+        value = int(value)
     if isinstance(value, bool) or not (isinstance(value, int | Fraction | RealAlgebraic) or hasattr(value, "field")):
         raise InputError(f"{what}: exact numbers expected (int, Fraction, RealAlgebraic), {type(value).__name__} found")
     number = rational(value)
     if number is not None:
+        if abs(number) > LARGEST:
+            raise InputError(f"{what}: numbers of at most 1e100 expected, a larger one found")
         return number
     algebraic: RealAlgebraic = value if isinstance(value, RealAlgebraic) else value.to_algebraic()
     return algebraic

@@ -67,6 +67,8 @@ def joint_path(arm: Arm, curves: Mapping[str, Bezier], note: Note = lambda: None
 
     Raises ``InputError`` for curves that do not join.
     """
+    if not isinstance(curves, Mapping) or not all(isinstance(curve, Bezier) for curve in curves.values()):
+        raise InputError("path: curves (Bezier) by their names expected")
     listed = list(curves.items())
     if not listed:
         raise InputError("path: at least one curve expected")

@@ -161,6 +161,7 @@ def animation(plan: JointPlan, frames: int = 150) -> str:
     return json.dumps(
         {
             "names": [joint.name for joint in arm.joints],
+            "turns": [joint.motion is Motion.REVOLUTE for joint in arm.joints],
             "moving": [row.joint is not None for row in arm.rows],
             "path": trace,
             "duration": float(plan.duration),

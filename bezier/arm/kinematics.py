@@ -29,12 +29,20 @@ def pose(arm: Arm, values: Mapping[str, Any]) -> Matrix:
     """
     chain = arm.chain
     whole = chain.constants[0]
+    names = [joint.name for joint in chain.joints]
+    if not isinstance(values, Mapping) or not set(values) <= set(names):
+        raise InputError(f"values: what the joints {', '.join(names)} are, by their names, expected")
     for joint, constant in zip(chain.joints, chain.constants[1:], strict=True):
         if joint.name not in values:
             raise InputError(f"values: a value for the joint {joint.name} expected")
         value = values[joint.name]
-        if joint.motion is Motion.REVOLUTE:
-            c, s = value
+        turns = joint.motion is Motion.REVOLUTE
+        parts = value if turns and isinstance(value, list | tuple) else [value]
+        if len(parts) != 1 + turns or any(isinstance(part, str | bool | float | list | tuple) for part in parts):
+            what = "cosine and sine" if turns else "a length"
+            raise InputError(f"{joint.name}: {what} expected, as exact numbers, {value!r} found")
+        if turns:
+            c, s = parts
             if isinstance(c, int | Fraction) and isinstance(s, int | Fraction) and c * c + s * s != 1:
                 raise InputError(f"{joint.name}: cosine {c} and sine {s} have squares that do not add up to 1")
         whole = product(product(whole, motion(joint, value)), constant)
@@ -75,11 +83,24 @@ def _motions(arm: Arm, q: Floats) -> list[Floats]:
     return found
 
 
+def _rows(arm: Arm, q: Sequence[Sequence[float]] | Floats) -> Floats:
+    """As an array of shape (N, joints). Raises ``InputError`` for another shape."""
+    import numpy as np
+
+    try:
+        found = np.atleast_2d(np.asarray(q, dtype=float))
+    except (TypeError, ValueError):
+        raise InputError("joint positions: numbers, rad or mm, expected") from None
+    if found.ndim != 2 or found.shape[1] != len(arm.joints):
+        raise InputError(f"joint positions: rows of {len(arm.joints)} numbers expected, shape {found.shape} found")
+    return found
+
+
 def positions(arm: Arm, q: Sequence[Sequence[float]] | Floats) -> Floats:
     """The points (mm) for many joint positions: ``q`` of shape (N, joints), rad or mm; the result has shape (N, 3)."""
     import numpy as np
 
-    angles = np.atleast_2d(np.asarray(q, dtype=float))
+    angles = _rows(arm, q)
     whole, constants = np.broadcast_to(_constants(arm)[0], (len(angles), 4, 4)), _constants(arm)
     for m, constant in zip(_motions(arm, angles), constants[1:], strict=True):
         whole = whole @ m @ constant
@@ -94,7 +115,7 @@ def jacobians(arm: Arm, q: Sequence[Sequence[float]] | Floats) -> Floats:
     """
     import numpy as np
 
-    angles = np.atleast_2d(np.asarray(q, dtype=float))
+    angles = _rows(arm, q)
     whole, constants = np.broadcast_to(_constants(arm)[0], (len(angles), 4, 4)), _constants(arm)
     axes = []
     for m, constant in zip(_motions(arm, angles), constants[1:], strict=True):

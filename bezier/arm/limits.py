@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from fractions import Fraction
+from math import ceil, floor
 from typing import Any
 
 from bezier.arm.elimination import Quotient
@@ -27,7 +28,12 @@ def allowed(joint: Joint, here: Evaluation, quotients: Known, value: Callable[[E
     if joint.motion is Motion.PRISMATIC:
         low, high = (_side(here, quotients[0], limit) for limit in joint.limits)
         return low >= 0 >= high
-    return any(_between(joint.limits, turns, here, quotients, value) for turns in (0, 1, -1))
+    least, most = joint.limits
+    if most - least >= 7:  # more than a full turn
+        return True
+    turn = 2 * pi_ends(64 + max(abs(least), abs(most)).numerator.bit_length())[0]
+    turns = range(floor(least / turn) - 1, ceil(most / turn) + 2)
+    return any(_between(joint.limits, k, here, quotients, value) for k in turns)
 
 
 def _between(

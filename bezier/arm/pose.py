@@ -1,51 +1,33 @@
-"""Inverse kinematics at a pose (a point and an orientation): arms with three neighbouring parallel axes.
-
-Planar arms with three joints, and arms with six joints whose axes 2, 3, 4 are parallel and whose axes 5 and 6 meet (or
-the same read from the hand back to the base), like the myCobot 280 (arXiv 2509.00823) and the UR arms. With
-T = A0 M1 A1 (M2 A2 M3 A3 M4) A4 M5 A5 M6 A6, P' = A0^-1 T A6^-1, Π the part in brackets, a motion of a plane, n1 the
-axis of joint 2 seen from joint 1 and C the point in which axes 5 and 6 meet, which the pose alone gives:
-
-    the height of C above that plane:    a cos θ1 + b sin θ1 = k,
-    e_z·(Π's axis seen from joint 6):    a cos θ5 + b sin θ5 = k,    and then θ6 from its other two components,
-    the length of Π's translation:       a cos θ3 + b sin θ3 = k,    and then θ2 from its direction, θ4 from its turn.
-
-Each line is equivalent to the part of the pose that it names, so nothing is lost and nothing added. a cos θ + b sin θ
-= k holds iff (cos θ, sin θ) = (a k - b m, b k + a m)/(a² + b²), m² = a² + b² - k²: a tower of three square roots, in
-which all signs are exact. At most eight solutions; the forward kinematics of all are compared with the pose exactly.
-"""
+"""Inverse kinematics at a pose (a point and an orientation), exactly: ``bezier.arm.parallel_axes`` for planar arms and
+six joints with three parallel axes, ``bezier.arm.wrist`` for spherical wrists."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
-from fractions import Fraction
+from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
-from bezier.arm.elimination import Quotient
-from bezier.arm.inverse import BITS, Inverse, Solution, exact_number, value_of
+from bezier.arm.inverse import BITS, Inverse, Solution, exact_number, listed, value_of
 from bezier.arm.limits import allowed
-from bezier.arm.model import Arm, Chain, Matrix, Motion, apply, inverse
-from bezier.arm.ratio import Ratio
-from bezier.arm.roots_of_squares import Rules, Scaled, fixed, turned
+from bezier.arm.model import Arm, Matrix, inverse
+from bezier.arm.parallel_axes import ROOTS, Search, shape_of
+from bezier.arm.roots_of_squares import Rules, fixed
 from bezier.arm.wrist import ROOTS as WRIST_ROOTS
-from bezier.arm.wrist import Known, meeting, solve_wrist, wrist_of
-from bezier.curves.scalar import dot, is_zero, rational
-from qe.errors import InputError, InternalError, Unable
-from qe.exact.algebraic import RealAlgebraic
-from qe.exact.point_values import Evaluation, roots_above
-from qe.exact.ring import Poly
+from bezier.arm.wrist import Known, solve_wrist, wrist_of
+from bezier.curves.scalar import dot, rational
+from qe.errors import InputError
+from qe.exact.point_values import Evaluation
 from qe.exact.sample import Point
 
-ROOTS = ("m1", "m2", "m3")
-ZERO = Fraction(0)
 Rotation = tuple[tuple[Any, ...], ...]
 
 
 def rotation_of(quaternion: Sequence[Any]) -> Rotation:
     """The rotation of a quaternion (w, x, y, z) that is not zero; its length does not matter. Exact."""
-    if len(quaternion) != 4:
-        raise InputError(f"quaternion: four numbers (w, x, y, z) expected, {len(quaternion)} found")
-    w, x, y, z = (rational(exact_number(v, "quaternion")) for v in quaternion)
+    numbers = [rational(exact_number(v, "quaternion")) for v in listed(quaternion, "quaternion: four numbers")]
+    if len(numbers) != 4:
+        raise InputError(f"quaternion: four numbers (w, x, y, z) expected, {len(numbers)} found")
+    w, x, y, z = numbers
     if w is None or x is None or y is None or z is None:
         raise InputError("quaternion: rational numbers expected; its length does not matter")
     size = w * w + x * x + y * y + z * z
@@ -65,8 +47,10 @@ def solve_pose(arm: Arm, point: Sequence[Any], rotation: Sequence[Sequence[Any]]
     Exact numbers, as for ``bezier.arm.inverse.solve``. Raises ``Unable`` for an arm of another shape, and where the
     pose leaves a joint free and it is not decided whether there are solutions; ``InputError`` for what is no pose.
     """
+    expected = "pose: three coordinates and three rows of three numbers"
+    point, rotation = listed(point, expected), [listed(row, expected) for row in listed(rotation, expected)]
     if len(point) != 3 or len(rotation) != 3 or any(len(row) != 3 for row in rotation):
-        raise InputError("pose: three coordinates and three rows of three numbers expected")
+        raise InputError(f"{expected} expected")
     numbers = tuple(exact_number(v, "point") for v in point)
     rows = tuple(tuple(exact_number(v, "rotation") for v in row) for row in rotation)
     wrist = wrist_of(arm)
@@ -86,12 +70,30 @@ def solve_pose(arm: Arm, point: Sequence[Any], rotation: Sequence[Sequence[Any]]
         solutions = [_solution(arm, *leaf) for leaf in solve_wrist(wrist, rules, place, pose)]
     else:
         wanted = fixed(pose, rules) if not shape.is_reversed else fixed(inverse(pose), rules)
-        solutions = list(_Search(arm, shape, rules, wanted).solutions(place))
+        leaves = Search(shape, rules, wanted).solutions(place)
+        solutions = [_solution(arm, *leaf, shape.is_reversed) for leaf in leaves]
     found = tuple(sorted(solutions, key=lambda s: [v for v in s.angles if v is not None]))
     names = [joint.name for joint in arm.joints]
     free = {name for s in found for name, v in zip(names, s.values, strict=True) if v is None}
-    cases = ("two solutions meet: the arm is singular here",) * any(s.multiple for s in found)
+    way = -1 if shape is not None and shape.is_reversed else 1
+    named = {_named(names[::way], s.values[::way], shape is None) for s in found if None in s.values}
+    cases = (*sorted(named), *("two solutions meet: the arm is singular here",) * any(s.multiple for s in found))
     return Inverse(arm, numbers, found, tuple(n for n in names if n in free), cases, rows)
+
+
+def _named(names: Sequence[str], values: Sequence[Any], is_wrist: bool) -> str:
+    """What is special where joints are free; names and values in the direction of the derivation."""
+    free = [k for k, value in enumerate(values) if value is None]
+    if is_wrist:
+        if free == [3, 5]:
+            return f"the axes of {names[3]} and {names[5]} are in line"
+        place = f"on the axis of {names[0]}" if free[0] == 0 else f"where {names[free[0]]} does not move it"
+        return f"the centre of the wrist is {place}"
+    if len(free) == 2:
+        return f"the axes of {names[free[0]]} and {names[free[1]]} coincide"
+    if free[0] == 0:
+        return f"the axes of {names[4]} and {names[5]} meet on the axis of {names[0]}"
+    return f"the axis of {names[5]} is parallel to those of {names[1]}, {names[2]} and {names[3]}"
 
 
 def _check_rotation(pose: Matrix, rules: Rules, place: Point) -> None:
@@ -103,233 +105,6 @@ def _check_rotation(pose: Matrix, rules: Rules, place: Point) -> None:
         raise InputError("rotation: a matrix with orthogonal columns of length 1 and determinant 1 expected")
 
 
-@dataclass(frozen=True)
-class Shape:
-    """Which of the arms above: ``chain`` read in the direction of the derivation; ``first``: the place of the first of
-    the three parallel axes, 0 (three joints) or 1 (six joints)."""
-
-    chain: Chain
-    is_reversed: bool
-    first: int
-
-
-def shape_of(arm: Arm) -> Shape:
-    """Raises ``Unable`` for an arm that the derivation does not fit."""
-    chain = arm.chain
-    needed = "a spherical wrist, or three parallel axes, alone or with two neighbouring axes that meet after one before"
-    refused = Unable(f"inverse kinematics at a pose needs {needed}; {arm.name} is none")
-    if any(joint.motion is not Motion.REVOLUTE for joint in chain.joints):
-        raise refused
-    if len(chain.joints) == 3 and _are_parallel(chain, 0):
-        return Shape(chain, False, 0)
-    if len(chain.joints) == 6:
-        backwards = Chain(tuple(inverse(m) for m in reversed(chain.constants)), chain.joints[::-1])
-        for one, is_reversed in ((chain, False), (backwards, True)):
-            if _are_parallel(one, 1) and _meet(one) is not None:
-                return Shape(one, is_reversed, 1)
-    raise refused
-
-
-def _are_parallel(chain: Chain, first: int) -> bool:
-    """Whether three axes are parallel, and no neighbours of them coincide."""
-    pairs = (chain.constants[first + 1], chain.constants[first + 2])
-    return all(is_zero(m[i][2]) for m in pairs for i in range(2)) and all(
-        any(not is_zero(m[i][3]) for i in range(2)) for m in pairs
-    )
-
-
-def _meet(chain: Chain) -> tuple[Any, Any] | None:
-    """Where axes 5 and 6 meet: heights along axis 6 and along axis 5; None where they do not, or where axis 1 is
-    parallel to axis 2, or axis 4 to axis 5."""
-    bent = [chain.constants[1][i][2] for i in range(2)], [chain.constants[4][2][i] for i in range(2)]
-    return None if any(all(map(is_zero, pair)) for pair in bent) else meeting(chain.constants[5])
-
-
-@dataclass(frozen=True, eq=False)
-class _Parallel:
-    """Where ``below`` vanishes the last axis is parallel to the three parallel ones, and its joint can be chosen.
-
-    Then four links close in a plane: the two between the parallel axes, and two of squared lengths A and B that the
-    last joint connects. With C, D those of the former, they close for some of its angles iff the longest is at most
-    the sum of the others, that is iff sqrt(AB) + sqrt(CD) >= |A + B - C - D|/2: iff ``gap`` <= 0 or ``room`` >= 0 for
-    gap = (A + B - C - D)²/4 - AB - CD and room = 4ABCD - gap².
-    """
-
-    below: Poly
-    gap: Poly
-    room: Poly
-
-    @staticmethod
-    def of(below: Ratio, sizes: Sequence[Ratio], rules: Rules) -> _Parallel:
-        """``sizes``: A, B, C, D, all times one positive number."""
-        a, b, c, d = sizes
-        half = (a + b - c - d) * Fraction(1, 2)
-        gap = rules.tidy(half * half - a * b - c * d)
-        return _Parallel(below.top, gap.top, rules.tidy(a * b * c * d * 4 - gap * gap).top)
-
-    def closes(self, place: Point) -> bool:
-        """Whether there is an angle of the last joint with a solution."""
-        return place.sign(self.gap) <= 0 or place.sign(self.room) >= 0
-
-
-@dataclass(frozen=True, eq=False)
-class _Tower:
-    """The solutions at one pose as functions of the roots. ``stages``: the name of a root, its square, and what leaves
-    the last joint free where it is known; ``size``: the square of the length of Π's translation: where it vanishes, the
-    first and the last of the parallel joints are free."""
-
-    stages: tuple[tuple[str, Poly, _Parallel | None], ...]
-    joints: Mapping[int, tuple[Quotient, ...]]
-    size: Poly
-
-
-@dataclass(frozen=True, eq=False)
-class _Search:
-    """The solutions at one pose, root by root of the tower."""
-
-    arm: Arm
-    shape: Shape
-    rules: Rules
-    pose: Scaled
-
-    def solutions(self, place: Point) -> Iterator[Solution]:
-        """Every solution once."""
-        tower = self._planar_arm(place) if self.shape.first == 0 else self._six_joints(place)
-        if tower is None:
-            return
-        for _ in range(self.rules.ring.index[tower.stages[0][0]] - place.depth):  # a planar arm has no roots before
-            place = place.extend(RealAlgebraic.rational(ZERO))
-        defects = self._defects(tower.joints)
-        for here, multiple in self._leaves(Evaluation(place), tower.stages):
-            joints: Known = dict(tower.joints)
-            first = self.shape.first
-            if here.point.depth < self.rules.ring.size:  # the last joint can be chosen, and the others follow it
-                joints |= dict.fromkeys((1, 2, 3, 5))
-            elif here.point.sign(tower.size) == 0:
-                joints |= {first: None, first + 2: None}
-            elif any(here.point.sign(d) for d in defects):
-                raise InternalError("the solutions at a pose contradict the forward kinematics")
-            yield _solution(self.arm, here, joints, multiple, self.shape.is_reversed)
-
-    def _based(self) -> Scaled:
-        constants = self.shape.chain.constants
-        return fixed(inverse(constants[0]), self.rules) @ self.pose @ fixed(inverse(constants[-1]), self.rules)
-
-    def _planar_arm(self, place: Point) -> _Tower | None:
-        based = self._based()
-        if any(place.sign(v.top) for v in _out_of_plane(based, self.shape.chain.constants[1:3])):
-            return None
-        joints, size, square = self._three(based)
-        return _Tower(((ROOTS[2], square, None),), joints, size)
-
-    def _six_joints(self, place: Point) -> _Tower | None:
-        """Joints 1, 5 and 6, and then Π."""
-        constants, rules, based = self.shape.chain.constants, self.rules, self._based()
-        meeting = _meet(self.shape.chain)
-        assert meeting is not None, "the shape was tested"
-        n1, o1 = ([row[k] for row in constants[1]] for k in (2, 3))
-        (x, y, z), size = based.image((ZERO, ZERO, meeting[0]))
-        height, side = _height(constants[2:4])
-        c4 = apply(constants[4], (ZERO, ZERO, meeting[1]))
-        k, one = size * (side * c4[2] + height + dot(n1, o1)) - n1[2] * z, size * 0 + 1
-        first = rules.turn(n1[0] * x + n1[1] * y, n1[0] * y - n1[1] * x, k, one, ROOTS[0], by=place)
-        if first is None:
-            if place.sign(rules.tidy(k).top) == 0:
-                raise Unable(
-                    "the point where the last axes meet is on the first axis, so the first joint can be chosen"
-                )
-            return None
-        turn1 = first.motion
-        axis = turn1.image(n1)[0]  # the parallel axes seen from the base; u: seen from the end effector
-        u = [rules.tidy(sum((based.rows[i][j] * axis[i] for i in range(3)), one * 0)) for j in range(3)]
-        weight, r4 = first.scale * based.scale, constants[4][2]
-        n5 = [row[2] for row in constants[5]]
-        a5, b5 = r4[0] * n5[0] + r4[1] * n5[1], r4[1] * n5[0] - r4[0] * n5[1]
-        fifth = rules.turn(one * a5, one * b5, u[2] * side - weight * (r4[2] * n5[2]), weight, ROOTS[1])
-        assert fifth is not None, "axes 4 and 5 are not parallel"
-        bend = (fifth.motion @ fixed(constants[5], rules)).rows
-        w = [rules.tidy(side * sum((r4[i] * bend[i][j] for i in range(3)), one * 0)) for j in range(2)]
-        below = rules.tidy(u[0] * u[0] + u[1] * u[1])
-        # u = w M6; u is multiplied by weight, w by fifth.scale
-        cosine = rules.tidy((u[0] * w[0] + u[1] * w[1]) * weight)
-        sine = rules.tidy((w[1] * u[0] - w[0] * u[1]) * weight)
-        turn6 = turned((cosine, sine), rules.tidy(below * fifth.scale))
-        near = fixed(inverse(constants[1]), rules) @ turn1.inverse() @ based
-        backs = fixed(inverse(constants[5]), rules), fifth.motion.inverse(), fixed(inverse(constants[4]), rules)
-        far = backs[0] @ backs[1] @ backs[2]
-        found = near @ turn6.inverse() @ backs[0] @ backs[1] @ backs[2]
-        parallel = _Parallel.of(below, self._links(near, far), rules)
-        joints, size_of_plane, square = self._three(found)
-        stages = (
-            (ROOTS[0], first.square.top, None),
-            (ROOTS[1], fifth.square.top, parallel),
-            (ROOTS[2], square, None),
-        )
-        return _Tower(stages, {0: first.pair, 4: fifth.pair, 5: turn6.pair, **joints}, size_of_plane)
-
-    def _links(self, near: Scaled, far: Scaled) -> list[Ratio]:
-        """The squared lengths of four links in the plane of the parallel axes, times one positive number."""
-        pair = self.shape.chain.constants[self.shape.first + 1 : self.shape.first + 3]
-        scales = [self.rules.tidy(m.scale * m.scale) for m in (near, far)]
-        a, b = (dot(v, v) for m in (near, far) for v in [[m.rows[i][3] for i in range(2)]])
-        c, d = (m[0][3] * m[0][3] + m[1][3] * m[1][3] for m in pair)
-        whole = scales[0] * scales[1]
-        return [self.rules.tidy(v) for v in (a * scales[1], b * scales[0], whole * c, whole * d)]
-
-    def _three(self, found: Scaled) -> tuple[dict[int, tuple[Quotient, ...]], Poly, Poly]:
-        """The three parallel joints with Π = ``found``, the square of the length of its shift, and m3²."""
-        rules, first = self.rules, self.shape.first
-        second, third = self.shape.chain.constants[first + 1 : first + 3]
-        o2, o3 = ([row[3] for row in m[:2]] for m in (second, third))
-        g = [second[0][j] * o2[0] + second[1][j] * o2[1] for j in range(2)]
-        across = [found.rows[i][3] for i in range(2)]
-        size, squared = rules.tidy(dot(across, across)), rules.tidy(found.scale * found.scale)
-        k = (size - squared * (dot(o2, o2) + dot(o3, o3))) * Fraction(1, 2)
-        one = k * 0 + 1
-        elbow = rules.turn(one * dot(g, o3), one * (g[1] * o3[0] - g[0] * o3[1]), k, squared, ROOTS[2])
-        assert elbow is not None, "no two neighbours of the parallel axes coincide"
-        inner = fixed(second, rules) @ elbow.motion @ fixed(third, rules)
-        f = [inner.rows[i][3] for i in range(2)]  # its length is that of Π's shift, but for the scales
-        cosine = rules.tidy(dot(f, across) * found.scale)
-        sine = rules.tidy((f[0] * across[1] - f[1] * across[0]) * found.scale)
-        turn2 = turned((cosine, sine), rules.tidy(size * inner.scale))
-        turn4 = (turn2 @ inner.rotation).inverse() @ found.rotation
-        return {first: turn2.pair, first + 1: elbow.pair, first + 2: turn4.pair}, size.top, elbow.square.top
-
-    def _leaves(
-        self, here: Evaluation, stages: Sequence[tuple[str, Poly, _Parallel | None]]
-    ) -> Iterator[tuple[Evaluation, bool]]:
-        """The points of the tower, and whether two solutions meet in one. Shorter ones leave the last joint free."""
-        if not stages:
-            yield here, False
-            return
-        (name, square, guard), *rest = stages
-        ring = self.rules.ring
-        roots = roots_above(here.point, ring.index[name], ring.var(name) ** 2 - square) or []
-        for root in roots:
-            there = here.extend(root)
-            if guard is not None and there.point.sign(guard.below) == 0:
-                if guard.closes(there.point):
-                    yield there, len(roots) == 1
-                continue
-            for leaf, multiple in self._leaves(there, rest):
-                yield leaf, multiple or len(roots) == 1
-
-    def _defects(self, joints: Mapping[int, tuple[Quotient, ...]]) -> list[Poly]:
-        """What has to vanish at every solution: the forward kinematics minus the pose."""
-        rules, constants = self.rules, self.shape.chain.constants
-        whole = fixed(constants[0], rules)
-        for k, constant in enumerate(constants[1:]):
-            bottom = rules.number(joints[k][0].bottom)
-            whole = whole @ turned(rules.numbers(joints[k]), bottom) @ fixed(constant, rules)
-        pairs = [
-            (v, w)
-            for row, wanted in zip(whole.rows, self.pose.rows, strict=True)
-            for v, w in zip(row, wanted, strict=True)
-        ]
-        return [rules.tidy(value * self.pose.scale - target * whole.scale).top for value, target in pairs]
-
-
 def _solution(arm: Arm, here: Evaluation, known: Known, multiple: bool, is_reversed: bool = False) -> Solution:
     listed = [known[k] for k in sorted(known)]
     if is_reversed:
@@ -338,17 +113,3 @@ def _solution(arm: Arm, here: Evaluation, known: Known, multiple: bool, is_rever
     pairs = zip(arm.joints, listed, strict=True)
     keeps = all(p is None or allowed(joint, here, p, value_of) for joint, p in pairs)
     return Solution(values, multiple, keeps, here, tuple(listed))
-
-
-def _height(pair: Sequence[Matrix]) -> tuple[Any, Any]:
-    """(h, ±1): Π takes a height z to h ± z."""
-    second, third = pair
-    return second[2][3] + second[2][2] * third[2][3], second[2][2] * third[2][2]
-
-
-def _out_of_plane(found: Scaled, pair: Sequence[Matrix]) -> Iterator[Any]:
-    """What has to vanish for a motion of the plane."""
-    height, side = _height(pair)
-    yield from (found.rows[2][0], found.rows[2][1])
-    yield found.rows[2][2] - found.scale * side
-    yield found.rows[2][3] - found.scale * height

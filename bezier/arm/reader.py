@@ -24,6 +24,7 @@ from bezier.input.toml_table import Table
 from qe.errors import InputError
 
 MAX_ROWS = 24
+MOST_RADIANS = 25
 SUFFIX = ".toml"
 ALIASES = {"ev3": "ev3-120"}
 _OF_JOINTS = ("kind", "limits", "max_velocity", "max_acceleration")
@@ -96,6 +97,9 @@ def _joint(entry: Table) -> Joint:
         raise entry.error("limits", "the least and the greatest value", describe(raw))
     inner = Table({f"limits[{i}]": value for i, value in enumerate(raw)}, entry.source, entry.lines, entry.prefix)
     low, high = (inner.number(f"limits[{i}]") for i in range(2))
+    if kind is Motion.REVOLUTE and max(abs(low), abs(high)) > MOST_RADIANS:
+        expected = f"rad, at most {MOST_RADIANS} (four full turns)"
+        raise entry.error("limits", expected, f"{low} and {high}, which may be degrees")
     if low >= high:
         raise entry.error("limits", "a least value below the greatest", f"{low} and {high}")
     return Joint(name, kind, (low, high), velocity, acceleration)

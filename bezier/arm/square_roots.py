@@ -5,8 +5,6 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import Any
 
-from flint import fmpz_poly
-
 from bezier.curves.scalar import rational
 from qe.errors import Unable
 from qe.exact.algebraic import RealAlgebraic, irreducible_roots
@@ -26,7 +24,7 @@ def square_roots(value: Any) -> Terms:
     if number is not None:
         return {1: number} if number else {}
     a: RealAlgebraic = value if isinstance(value, RealAlgebraic) else value.to_algebraic()
-    conjugates = irreducible_roots(fmpz_poly(list(a.minimal_polynomial)))
+    conjugates = irreducible_roots(a.poly)
     refused = Unable("certificates of joint positions are for coordinates that are sums of square roots")
     if a.degree not in (2, 4) or len(conjugates) != a.degree:
         raise refused

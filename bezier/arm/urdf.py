@@ -156,6 +156,8 @@ def _joint(joint: Any, where: str) -> Joint:
                 raise InputError(f"{where}: a lower limit below the upper one expected, {low} and {high} found")
             limits = (low, high) if low < high else None
         velocity = _exact(float(limit.velocity)) * factor if limit.velocity else None
+        if velocity is not None and velocity < 0:
+            raise InputError(f"{where}: a velocity above zero expected, {velocity} found")
     return Joint(re.sub(r"\W", "_", joint.name), motion, limits, velocity)
 
 

@@ -106,12 +106,15 @@ def solve_wrist(wrist: Wrist, rules: Rules, here: Point, pose: Matrix) -> Iterat
 
     found = solve_at(wrist.first, here, (), reductions)
     if found.free and not found.solutions:
-        raise Unable("two joints before the wrist can be chosen: whether all reach the pose is not decided")
+        if not _is_orthogonal(wrist):
+            raise Unable("two joints before the wrist can be chosen: whether they reach the pose is not decided")
+        yield Evaluation(here), dict.fromkeys(range(6)), False
     for position in found.solutions:
-        if None in position.quotients:
-            yield _family(wrist, position)
-        else:
-            yield from _Turned(wrist, rules, wanted, based, position).solutions()
+        over = _Turned(wrist, rules, wanted, based, position)
+        if None not in position.quotients:
+            yield from over.solutions()
+        elif over.reaches_somewhere():
+            yield position.place, dict(enumerate((*position.quotients, None, None, None))), position.multiple
 
 
 def _number(value: Any, rules: Rules) -> Quotient:
@@ -119,12 +122,9 @@ def _number(value: Any, rules: Rules) -> Quotient:
     return quotient(ratio, rules.number(1))
 
 
-def _family(wrist: Wrist, position: Solution) -> Found:
-    """Where a joint before the wrist can be chosen, so the wrist depends on it: it reaches every rotation if its axes
-    are orthogonal, else that is left open."""
-    if not all(is_zero(m[2][2]) for m in wrist.chain.constants[4:6]):
-        raise Unable("a joint before the wrist can be chosen, and the wrist does not reach every rotation")
-    return position.place, dict(enumerate((*position.quotients, None, None, None))), position.multiple
+def _is_orthogonal(wrist: Wrist) -> bool:
+    """Whether neighbouring axes of the wrist are orthogonal: then it reaches every rotation."""
+    return all(is_zero(m[2][2]) for m in wrist.chain.constants[4:6])
 
 
 @dataclass(frozen=True, eq=False)
@@ -136,6 +136,34 @@ class _Turned:
     wanted: Matrix
     based: Scaled
     position: Solution
+
+    def reaches_somewhere(self) -> bool:
+        """Whether the wrist reaches the rotation for some angle of the joint before it that can be chosen.
+
+        With b the direction of axis 4 and y that of axis 6, seen from that joint, k runs from b_z y_z - c - R to
+        b_z y_z - c + R, R = |(b_x, b_y)| |(y_x, y_y)|; the wrist needs |k| <= L. So |b_z y_z - c| <= R + L, which
+        squares tell.
+        """
+        if _is_orthogonal(self.wrist):
+            return True
+        free = [k for k, pair in enumerate(self.position.quotients) if pair is None]
+        if len(free) > 1:
+            raise Unable("two joints before the wrist can be chosen: whether they reach the pose is not decided")
+        rules, constants = self.rules, self.wrist.chain.constants
+        before, after = fixed(constants[0], rules).rotation, fixed(constants[free[0] + 1], rules).rotation
+        for k, (pair, constant) in enumerate(zip(self.position.quotients, constants[1:4], strict=True)):
+            if pair is not None and k < free[0]:
+                before = before @ self._turn(pair) @ fixed(constant, rules).rotation
+            elif pair is not None:
+                after = after @ self._turn(pair) @ fixed(constant, rules).rotation
+        y = [row[2] for row in (before.inverse() @ self.based.rotation).rows]
+        b, scale = [row[2] for row in after.rows], before.scale * self.based.scale * after.scale
+        r, n = constants[4][2], [row[2] for row in constants[5]]
+        middle = b[2] * y[2] - scale * (r[2] * n[2])
+        wide, reach = dot(b[:2], b[:2]) * dot(y[:2], y[:2]), scale * scale * (dot(r[:2], r[:2]) * dot(n[:2], n[:2]))
+        beyond = rules.tidy(middle * middle - wide - reach)
+        place = self.position.place.point
+        return place.sign(beyond.top) <= 0 or place.sign(rules.tidy(beyond * beyond - wide * reach * 4).top) <= 0
 
     def solutions(self) -> Iterator[Found]:
         """Two, one or none."""

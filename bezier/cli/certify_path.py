@@ -12,6 +12,7 @@ from bezier.cli.ik import ArmName
 from bezier.cli.options import Json, Memory, Timeout
 from qe.cli.app import check_limits
 from qe.cli.shell import OK, check_writable, limited, write_file
+from qe.errors import Unable
 
 
 def certify_path(
@@ -31,7 +32,9 @@ def certify_path(
     check_writable(certificate)
     work = partial(certify, arm=load_arm(arm), curves=load_route(path), json=json)
     text, evidence = limited(work, timeout=timeout, memory=memory, plain=json)
-    if certificate is not None:
-        write_file(certificate, evidence)
     print(text)
+    if certificate is not None:
+        if not evidence:
+            raise Unable("there is no joint motion along a part of the path, so there is no certificate")
+        write_file(certificate, evidence)
     return OK

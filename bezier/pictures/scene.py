@@ -54,7 +54,7 @@ def path_scene(picture: PathPicture, track: Track | None, *, timed: bool, given:
 
 def with_arm(scene: Scene, arm: Mapping[str, Any]) -> Scene:
     """The scene with an arm that follows the path: its frames, which then are the moments shown."""
-    return {**scene, "arm": {key: arm[key] for key in ("names", "moving", "frames")}}
+    return {**scene, "arm": {key: arm[key] for key in ("names", "turns", "moving", "frames")}}
 
 
 def arm_scene(arm: Mapping[str, Any]) -> Scene:
@@ -63,7 +63,8 @@ def arm_scene(arm: Mapping[str, Any]) -> Scene:
     size = float(np.abs(path).max()) or 1.0
     line = {"tone": "r", "colour": "#2e9e6b", "v": _flat(path, size), "polygon": []}
     scene: Scene = {"reach": None, "floor": True, "view": VIEW, "bodies": [], "clouds": [], "curves": [line]}
-    return with_arm({**scene, "marks": [], "motion": None}, arm)
+    marks = [[name, _flat(path[k], size), 1] for name, k in (("start", 0), ("goal", -1))]
+    return with_arm({**scene, "marks": marks, "motion": None}, arm)
 
 
 def region_scene(region: RegionPicture, seen_as: RegionPicture | None = None) -> Scene:

@@ -7,10 +7,11 @@ from typing import Any
 
 from bezier.arm import joint_plan as plans
 from bezier.arm.joint_plan import JointPlan
+from bezier.arm.model import Motion
 from bezier.arm.motion import JointMotion
 from bezier.report import html
 from bezier.report.first import scene_box
-from bezier.report.html import Page, Section, Text, toned
+from bezier.report.html import Card, Page, Section, Text, toned
 
 WORDS = {True: "kept", False: "EXCEEDED", None: "not proved"}
 
@@ -40,7 +41,7 @@ def section(plan: JointPlan) -> Section:
     head = ("curve", "from s", "to s", "solutions for every s between")
     content: list[Text] = [html.table(head, rows, numbers=(1, 2)), *map(html.paragraph, special)]
     if plan.motion is not None:
-        head = ("joint", "velocity at all times (rad/s)", "acceleration at all times (rad/s²)", "limits")
+        head = ("joint", "velocity at all times", "acceleration at all times", "limits")
         content.append(html.table(head, _extremes(plan.motion)))
         content.append(html.note("Proved over the whole path by interval enclosures of the joint velocities."))
     content += [html.note(f"{line}.") for line in (_motions(plan), *plan.remarks)]
@@ -50,6 +51,8 @@ def section(plan: JointPlan) -> Section:
 def page(plan: JointPlan, file: str) -> Page:
     """The page of ``bezier joints``."""
     verdict = "every point is reached, proved" if plan.path.is_reachable else "the path leaves what the arm can reach"
+    if plan.path.is_reachable and plan.sequence is None:
+        verdict += ", limits of the joints aside; there is no joint sequence"
     arm, first = moving(plan), None
     if arm is not None:
         from bezier.pictures import scene
@@ -63,9 +66,26 @@ def page(plan: JointPlan, file: str) -> Page:
         title=plan.path.arm.name,
         lead=f"{file}: {verdict}",
         first=first,
+        cards=_cards(plan),
         sections=[section(plan)],
         footer=f"Made by bezier-qe {html.package_version()}.",
     )
+
+
+def _cards(plan: JointPlan) -> list[Card]:
+    reached = plan.path.is_reachable
+    told = ("reached", "proved for all s in [0, 1]") if reached else ("not reached", "see below where it stops")
+    found = [Card("path", told[0], html.tone(reached), told[1])]
+    found.append(Card("duration asked for", f"{float(plan.duration):.6g} s"))
+    if plan.sequence is None:
+        found.append(Card("joint sequence", "none", "bad", "see below why"))
+    else:
+        count = len(plan.sequence.samples)
+        found.append(Card("joint sequence", f"{count} positions", note=f"{len(plan.path.arm.joints)} joints"))
+    if plan.motion is not None and plan.motion.kept:
+        kept = plan.motion.keeps_limits
+        found.append(Card("limits of the joints", "kept, proved" if kept else "not proved to be kept", html.tone(kept)))
+    return found
 
 
 def _motions(plan: JointPlan) -> str:
@@ -82,6 +102,8 @@ def _extremes(motion: JointMotion) -> list[tuple[Text, ...]]:
         ]
         worst = next((k for k in (False, None) if k in kept), True)
         said = toned(WORDS[worst], worst is True) if kept else "none given"
-        bounds = (f"at most {float(v.high) * (1 + 1e-5):.5g}", f"at most {float(a.high) * (1 + 1e-5):.5g}")
+        unit = "rad" if joint.motion is Motion.REVOLUTE else "mm"
+        tops = (float(bound.high) * (1 + 1e-5) for bound in (v, a))
+        bounds = (f"at most {top:.5g} {unit}/{per}" for top, per in zip(tops, ("s", "s²"), strict=True))
         rows.append((joint.name, *bounds, said))
     return rows

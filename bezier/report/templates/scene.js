@@ -174,7 +174,7 @@ function show(box, data) {
       line(pen, f.p, style("ink"), 6, 0.75);
       f.p.slice(1, -1).forEach((p, i) => { if (arm.moving[i]) spot(pen, p, "#e08a1e", 5); });
       spot(pen, f.p[f.p.length - 1], style("q"), 6);
-      told.textContent = `t = ${f.t.toFixed(2)} s · ` + arm.names.map((n, i) => `${n} ${(f.q[i] * 180 / Math.PI).toFixed(1)}°`).join(" · ");
+      told.textContent = `t = ${f.t.toFixed(2)} s · ` + arm.names.map((n, i) => `${n}\u00a0${arm.turns[i] ? `${(f.q[i] * 180 / Math.PI).toFixed(1)}°` : `${f.q[i].toFixed(1)}\u00a0mm`}`).join(" · ");
     } else if (frames) {
       const p = frames.points[index];
       spot(pen, p, style("ink"), 7);
@@ -211,6 +211,7 @@ function show(box, data) {
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", again);
   if (window.ResizeObserver) new ResizeObserver(again).observe(canvas); else addEventListener("resize", again);
   if (window.IntersectionObserver) new IntersectionObserver(list => { seen = list[list.length - 1].isIntersecting; if (seen) again(), requestAnimationFrame(tick); }).observe(canvas);
+  addEventListener("beforeprint", () => { stale = true; draw(Math.max(0, index())); });
   play(playing);
   canvas.dataset.drawn = "yes";
 }

@@ -16,7 +16,8 @@ from bezier.arm import command
 from bezier.arm.inverse import Inverse
 from bezier.arm.kinematics import _constants, _motions, pose
 from bezier.arm.model import Arm
-from bezier.arm.pose import rotation_of, shape_of, solve_pose
+from bezier.arm.parallel_axes import shape_of
+from bezier.arm.pose import rotation_of, solve_pose
 from bezier.arm.reader import load_arm, read_arm
 from bezier.arm.robot import Robot
 from qe.errors import InputError, Unable
@@ -162,10 +163,49 @@ def test_a_free_pair_of_joints() -> None:
     assert abs(abs(found.solutions[0].angles[1] or 0) - pi) < 1e-12
 
 
-def test_what_is_free_is_named() -> None:
-    """C on the first axis."""
-    with pytest.raises(Unable, match="first joint can be chosen"):
-        solve_pose(SKEW_FREE, (0, 0, 150), rotation_of((1, 0, 0, 0)))
+@pytest.mark.parametrize(("height", "follows"), [(120, True), (150, True), (250, False), (400, False)])
+def test_a_first_joint_that_can_be_chosen(height: int, follows: bool) -> None:
+    """Axes 5 and 6 meet on axis 1: the others follow for some angle of joint 1, or for none."""
+    found = solve_pose(SKEW_FREE, (0, 0, height), rotation_of((1, 0, 0, 0)))
+    assert found.is_reachable == follows and (found.free == tuple(j.name for j in SKEW_FREE.joints)) == follows
+    assert found.cases == ("the axes of q5 and q6 meet on the axis of q1",) * follows
+    assert ("infinitely many solutions" in "\n".join(command.in_words(found))) == follows
+
+
+@settings(max_examples=3)
+@given(st.lists(st.fractions(-4, 4, max_denominator=4), min_size=6, max_size=6), st.integers(-80, 80))
+def test_a_pose_that_joints_made_with_the_first_one_free_is_found(tangents: list[Fraction], up: int) -> None:
+    m = pose(SKEW_FREE, dict(zip((j.name for j in SKEW_FREE.joints), pairs_of(tangents))))
+    centre = [row[3] - 30 * row[2] for row in m]  # axes 5 and 6 meet there
+    point = (m[0][3] - centre[0], m[1][3] - centre[1], m[2][3] - centre[2] + 90 + up)
+    found = solve_pose(SKEW_FREE, point, [row[:3] for row in m])
+    reach = _reach_over_all_first_angles(found)
+    assert abs(reach) < 2e-3 or found.is_reachable == (reach > 0)
+
+
+def _reach_over_all_first_angles(found: Inverse) -> float:
+    """The greatest slack of the two links of 60 and 55, by the position of axis 4: at the pose, 7 along axis 5 from
+    where it meets axis 6, and in the plane that joint 1 turns; axis 5 is orthogonal to that of the parallel ones."""
+    rows = np.array([[float(v) for v in row] for row in found.rotation])
+    centre = np.array([float(v) for v in found.point]) - 30 * rows[:, 2]
+    best = -1.0
+    for angle in np.linspace(-pi, pi, 1500):
+        normal = np.array([np.sin(angle), -np.cos(angle), 0])  # axes 2 to 4
+        across = np.cross(normal, rows[:, 2])  # axis 5 is orthogonal to axis 6 and to them
+        if np.linalg.norm(across) < 1e-9:
+            continue
+        for side in (7, -7):
+            far = np.linalg.norm(centre + side * across / np.linalg.norm(across) - [0, 0, 90])
+            best = max(best, min(115 - far, far - 5) / 115)
+    return best
+
+
+def test_irrational_coordinates_share_their_square_roots() -> None:
+    """Such a pose once took minutes: every coordinate was a new unknown."""
+    two, three = (RealAlgebraic.from_root([-k, 0, 1], 1, 2) for k in (2, 3))
+    found = solve_pose(BACKWARDS, (two * 10 + 40, three * 30, two + three + 60), rotation_of((1, 2, -1, 3)))
+    assert found.count == 4
+    assert all(np.allclose(f[:, 3], [float(c) for c in found.point]) for f in frames(BACKWARDS, found))
 
 
 @pytest.mark.parametrize("side", [-1, 1])

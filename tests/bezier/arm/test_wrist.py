@@ -73,12 +73,16 @@ def test_the_wrist_on_the_first_axis() -> None:
     assert found.is_reachable is (found.free != ())
     centre = solve_pose(FLAT, (0, 0, 100 + 17), rotation_of((1, 0, 0, 0)))
     assert centre.free == ("q1", "q4", "q5", "q6") and len(centre.solutions) == 2
-    with pytest.raises(Unable, match="does not reach every rotation"):
-        solve_pose(
-            arm_of('alpha = "pi/2"', "a = 70", 'alpha = "pi/2"', 'alpha = "-pi/2"; d = 60', 'alpha = "pi/3"', "d = 17"),
-            (0, 0, 117),
-            rotation_of((1, 0, 0, 0)),
-        )
+    assert "the centre of the wrist is on the axis of q1" in centre.cases
+
+
+@pytest.mark.parametrize(("quaternion", "families"), [((1, 0, 0, 0), 2), ((1, 0, 1, 0), 2), ((0, 1, 0, 0), 0)])
+def test_a_wrist_on_the_first_axis_that_does_not_reach_every_rotation(quaternion: tuple, families: int) -> None:
+    """Axis 4 is 34 degrees off the first axis; axis 6 comes within 60 degrees of axis 4."""
+    skew = ('alpha = "pi/2"', "a = 60", 'alpha = "pi/2"', 'alpha = "pi/6"; d = 60', 'alpha = "pi/6"', "d = 17")
+    arm, rotation = arm_of(*skew), rotation_of(quaternion)
+    point = [17 * row[2] + 100 * (k == 2) for k, row in enumerate(rotation)]
+    assert len(solve_pose(arm, point, rotation).solutions) == families
 
 
 def test_no_solution_where_the_wrist_is_out_of_reach() -> None:
