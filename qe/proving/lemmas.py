@@ -296,8 +296,8 @@ def _remainders(found: Lemmas, polys: dict[Poly, bool]) -> None:
     for equation in [p for p, is_equation in polys.items() if is_equation]:
         basis = groebner_basis((equation,), variables=range(found.ring.size))
         alike: dict[Poly, list[tuple[Fraction, Poly]]] = {}
-        for p in polys if basis is not None else ():
-            if p == equation:
+        for p in polys:
+            if basis is None or p == equation:
                 continue
             scale, rest = basis.reduce(p)
             unit, key = content_of(rest) if rest else (scale, rest)
