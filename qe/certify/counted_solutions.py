@@ -155,12 +155,13 @@ class _Conjunction:
         inner = replace(self, names=tuple(v for v in self.names if v not in free), outside=TRUE)
         here = case.where
         ring = Ring.of((*here.ring.names, *moved))
-        wide = [[p.convert(ring) for p in group] for group in (here.equal, here.nonzero)]
+        equal, nonzero = ([p.convert(ring) for p in group] for group in (here.equal, here.nonzero))
         if not inner.names:
             inner = replace(inner, names=moved, equations=())
             return next((some, none) for _, some, none in inner.truths(here))
-        some, none = [], []
-        for there, has, lacks in inner.truths(Conditions.of(ring, *wide, here.tick)):
+        some: list[Formula] = []
+        none: list[Formula] = []
+        for there, has, lacks in inner.truths(Conditions.of(ring, equal, nonzero, here.tick)):
             where = _formula(there, self.ring)
             some.append(conj([where, has]))
             none.append(implies(where, lacks))
@@ -176,7 +177,8 @@ class _Conjunction:
         found = [(w, _signatures(forms, h, hankel, square)) for h, (w, square) in factors]
         if prod(len(possible) for _, possible in found) > MOST_COMBINATIONS:
             raise Unable("too many conditions for trace forms")
-        some, none = [], []
+        some: list[Formula] = []
+        none: list[Formula] = []
         for chosen in product(*(possible.items() for _, possible in found)):
             total = sum(w * value for (w, _), (value, _) in zip(found, chosen, strict=True))
             if total >= 0 and total % scale == 0:  # others do not occur

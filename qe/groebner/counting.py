@@ -7,15 +7,15 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from qe import arguments
-from qe.errors import InternalError, Unable
+from qe.errors import Unable
 from qe.exact.ring import Poly
 from qe.formula.build import conj, convert, disj
 from qe.formula.evaluate import truth_under
-from qe.formula.syntax import FALSE, Formula, Relation
+from qe.formula.syntax import FALSE, TRUE, Formula, Relation
 from qe.groebner.question import ParametricSystem
 from qe.groebner.segment import Segment
 from qe.groebner.signs import SignatureConditions, signatures_sum_to
-from qe.groebner.system import ComprehensiveGroebnerSystem
+from qe.groebner.system import ComprehensiveGroebnerSystem, outside
 from qe.groebner.trace_form import ParametricQuotient
 from qe.options import Budget
 from qe.proof.certificate import Certificate
@@ -51,7 +51,8 @@ class SolutionCount:
             wider: dict[Poly, int] = {}
             for factor, weight in factors.items():
                 for power, c in weights.items():
-                    wider[factor * g**power] = wider.get(factor * g**power, 0) + weight * c
+                    product, number = _without_sign(factor * g**power)
+                    wider[product] = wider.get(product, 0) + weight * c * number
             factors = wider
         self._factors = {factor: weight for factor, weight in factors.items() if weight}
         if (2 * self.most + 1) ** (len(self._factors) - 1) > MOST_CASES:
@@ -68,12 +69,22 @@ class SolutionCount:
 
     def is_in(self, counts: Collection[int]) -> Formula:
         """That the number of distinct real solutions is one of these."""
+        if not self._factors:  # a condition that never holds
+            return TRUE if 0 in counts else FALSE
         return signatures_sum_to(self._signatures, {k * self._scale for k in counts})
 
     @property
     def is_positive(self) -> Formula:
         """That there is a real solution."""
         return self.is_in(range(1, self.most + 1))
+
+
+def _without_sign(h: Poly) -> tuple[Poly, int]:
+    """A number is 1 times its sign, which is the weight of its form."""
+    if not h.is_constant:
+        return h, 1
+    value = h.constant_value() if h else 0
+    return h.ring.constant(1), (value > 0) - (value < 0)
 
 
 @dataclass(frozen=True)
@@ -112,7 +123,7 @@ class RealRootClassification:
         for found in self.classes:
             if truth_under(convert(found.condition, place.ring), place.sign):
                 return found.count
-        raise InternalError("no class contains a point of the parameters")
+        raise outside()
 
     def certificate_at(
         self, point: Mapping[str, object] | Sequence[object], *, timeout: float | None = None

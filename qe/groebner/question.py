@@ -39,5 +39,5 @@ class ParametricSystem:
         found = segments(given, self.block, budget, equal=(*self.equal, *self.moduli), nonzero=self.nonzero)
         parts = tuple(found)
         if faithful:
-            parts = tuple(with_faithful(s, self.polys, budget) for s in parts)
+            parts = with_faithful(parts, self.polys, self.moduli, budget)
         return ComprehensiveGroebnerSystem(given, self.block, dict(self.constants), parts)

@@ -9,7 +9,7 @@ from fractions import Fraction
 from typing import TypeVar
 
 from qe import arguments
-from qe.errors import InputError, InternalError
+from qe.errors import InputError
 from qe.exact.algebraic import RealAlgebraic
 from qe.exact.block_order import Block, parametric_basis
 from qe.exact.number import Number
@@ -28,6 +28,11 @@ from qe.processes.execution import Limits, perform
 from qe.proof.certificate import Certificate
 
 Result = TypeVar("Result")
+
+
+def outside() -> InputError:
+    """The segments cover what was asked about."""
+    return InputError("point: one at which all of `equal` and none of `nonzero` vanish expected, another found")
 
 
 @dataclass(frozen=True)
@@ -71,7 +76,7 @@ class ComprehensiveGroebnerSystem:
         for segment in self.segments:
             if _lies_in(place, segment):
                 return segment
-        raise InternalError("no segment contains a point of the parameters")
+        raise outside()
 
     def basis_at(
         self, point: Mapping[str, object] | Sequence[object], *, timeout: float | None = None
@@ -146,12 +151,24 @@ class ComprehensiveGroebnerSystem:
         irrational = {n: v for n, v in values.items() if isinstance(v, RealAlgebraic)}
         return {index[n]: v for n, v in {**self.constants, **irrational}.items()}
 
-    def contains(self, poly: Poly, point: Mapping[str, object] | Sequence[object]) -> bool:
+    def contains(self, poly: Poly | str, point: Mapping[str, object] | Sequence[object]) -> bool:
         """Whether a polynomial in variables and parameters is in the ideal at a point, exactly."""
-        values, poly = self._values(point), arguments.instance(poly, Poly, "poly", "a polynomial of this system's kind")
-        _, rest = self.at(values).reduce(poly)
+        values = self._values(point)
+        _, rest = self.at(values).reduce(self._read(poly))
         place = self._place(values)
         return all(place.sign(c) == 0 for c in self.block.terms(rest).values())
+
+    def _read(self, poly: Poly | str) -> Poly:
+        """A polynomial, or its text, in the ring of the system."""
+        ring = self.polys[0].ring
+        if isinstance(poly, str):
+            from qe.io.text import read_polynomial
+
+            poly = read_polynomial(poly, source="poly", known=ring.names)[0]
+        found = arguments.instance(poly, Poly, "poly", "a polynomial, or text")
+        if unknown := [n for i in found.variables if (n := found.ring.names[i]) not in ring.index]:
+            raise InputError(f"poly: variables and parameters of the system expected, {unknown[0]} found")
+        return found.convert(ring)
 
     def place(self, point: Mapping[str, object] | Sequence[object]) -> Point:
         """A point of the parameters, with the constants, for exact signs."""

@@ -20,7 +20,7 @@ CASE_WORK = 20_000
 """Units of work for a decomposition that proves one case."""
 
 
-def case_proofs(claim: Claim, options: Options, limits: Limits) -> list[Json] | None:
+def case_proofs(claim: Claim, options: Options, limits: Limits) -> Json:
     """Lemmas, or a certificate, for each case of a block over equations; None where neither is found."""
     found: list[Json] = []
     try:

@@ -301,7 +301,9 @@ def _remainders(found: Lemmas, polys: dict[Poly, bool]) -> None:
     for equation in [p for p, is_equation in polys.items() if is_equation]:
         basis = groebner_basis((equation,), variables=range(found.ring.size))
         alike: dict[Poly, list[tuple[Fraction, Poly]]] = {}
-        for p in [p for p in polys if p != equation and basis is not None]:
+        for p in polys:
+            if basis is None or p == equation:
+                continue
             scale, rest = basis.reduce(p)
             unit, key = content_of(rest) if rest else (scale, rest)
             alike.setdefault(key, []).append((Fraction(unit, scale), p))

@@ -29,6 +29,7 @@ from qe.proof.entry import Entry, Json, formula_to_json, poly_to_text
 from qe.proof.on_demand import OnDemand
 from qe.proof.run_log import RunLog
 from qe.proof.step import Nested, Place, Step
+from qe.proving.counted import case_proofs
 from qe.proving.lemma_list import EMPTY, identities
 from qe.proving.lemmas import refuting
 from qe.proving.nested import derivations_within, formulas_within, proved_inside
@@ -187,12 +188,6 @@ class Prover:
         refuted = step.evidence.get("refuted")
         if isinstance(refuted, OnDemand):
             return self._refuted(step, refuted)
-        if step.rule == COUNTED:
-            from qe.proving.counted import case_proofs
-
-            proofs = case_proofs(self._claim(step.rule, step, {}), self.options, self.limits)
-            own = None if proofs is None else self._tried(COUNTED, step, (), {"proofs": proofs})
-            return None if own is None else (COUNTED, own)
         given = step.evidence.get("proof")
         if step.rule == SQUARES:
             return self._positive(step, given, context)
@@ -202,6 +197,8 @@ class Prover:
             if completed is None:
                 return None
             evidence = completed
+        if step.rule == COUNTED:
+            evidence = {"proofs": case_proofs(self._claim(step.rule, step, {}), self.options, self.limits)}
         own = self._tried(step.rule, step, context, evidence)
         return None if own is None else (step.rule, own)
 

@@ -53,6 +53,16 @@ def test_only_solutions_where_others_are_positive() -> None:
         assert found.at([b, c]) == expected
 
 
+@pytest.mark.parametrize(
+    ("positive", "counts"),
+    [(["-1"], [0, 0]), (["0"], [0, 0]), (["-1", "1"], [0, 0]), (["2"], [0, 2]), (["2", "x"], [0, 1])],
+)
+def test_numbers_among_the_conditions_have_their_sign(positive: list[str], counts: list[int]) -> None:
+    """-1 > 0 counted as if it held."""
+    found = qe.real_root_classification(["x^2 - a"], "x", "a", positive=positive, process=False, check=True)
+    assert [found.at([a]) for a in (-1, 4)] == counts
+
+
 def _roots(b: int, c: int) -> set[float]:
     inside = b * b - 4 * c
     return set() if inside < 0 else {(-b + s * inside**0.5) / 2 for s in (1, -1)}

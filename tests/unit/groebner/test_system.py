@@ -39,6 +39,15 @@ def test_membership() -> None:
     assert system.contains(x + y - 1, [1]) and system.contains(x, [-1])
 
 
+def test_membership_of_text_and_of_polynomials_of_other_rings() -> None:
+    """The variables of a polynomial were taken for those that stand at the same places in the system."""
+    system, other = qe.comprehensive_groebner(TWO_LINES, "x, y", "a"), Ring.of(("y", "x", "a"))
+    assert system.contains(other.var("x") - other.var("y"), [3]) and not system.contains(2 * other.var("x"), [3])
+    assert system.contains("(a^2 - 1)*x - a + 1", [3]) and not system.contains("x", [7])
+    with pytest.raises(qe.InputError, match="q found"):
+        system.contains("q*x", [7])
+
+
 def test_a_constant_is_a_number() -> None:
     system = qe.comprehensive_groebner(["w*x - a", "x^2 - b"], "x", constants={"w": ROOT_2})
     assert system.parameters == ("a", "b")
@@ -105,6 +114,9 @@ def test_a_system_that_was_used_can_be_sent_on() -> None:
 def test_conditions_on_the_parameters() -> None:
     system = qe.comprehensive_groebner(["a*x - 1"], "x", equal=["a^2 - 1"], nonzero=["a - 1"])
     assert len(system) == 1 and system.at([-1]).dimension == 0
+    for nothing in (system, qe.real_root_classification(["a*x - 1"], "x", equal=["a^2 - 1"], nonzero=["a - 1"])):
+        with pytest.raises(qe.InputError, match="none of `nonzero`"):
+            nothing.at([1])
 
 
 @pytest.mark.parametrize(
