@@ -199,7 +199,7 @@ def _answer(formula: Formula, options: Options, budget: Budget, check: bool) -> 
     if certificate is not None and (check or certificate.kind is Kind.WITNESS or found.witness is not None):
         from qe.api.verify import with_verdict
 
-        return with_verdict(answer, budget)
+        return with_verdict(answer, budget, checked=found.checked)
     return answer
 
 
