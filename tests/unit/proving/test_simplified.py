@@ -81,7 +81,7 @@ def test_what_is_proved_of_a_simplification_is_accepted_from_scratch(first, seco
 )
 def test_what_both_sides_share_hides_no_difference(before, after):
     for left, right in ((before, after), (after, before)):
-        assert certificate(read(left), read(right)) is None
+        assert certificate(over(left), over(right)) is None
 
 
 def test_common_parts_are_left_out_of_what_is_refuted():
