@@ -88,10 +88,10 @@ def check_critical_values(claim: Claim, context: Context, limits: Limits) -> Non
         claim, "order", "bound", "chains", "factors", "stacks", "points", "weights", "regular"
     )
     block, after = existential(claim)
-    names = tuple(e.text() for e in order.items())
+    names = order.names()
     if not isinstance(block, Exists) or not block.body.is_quantifier_free or not after.is_quantifier_free:
         raise claim.fail("expected a block over a quantifier-free formula, and a formula without quantifiers")
-    if len(set(names)) < len(names) or set(names) & set(block.variables) or not names:
+    if set(names) & set(block.variables) or not names:
         raise order.fail("expected the parameters, each once")
     if not set(block.free) | set(after.free) <= set(names):
         raise order.fail("a parameter is missing")

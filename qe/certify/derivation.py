@@ -48,9 +48,7 @@ def check_derivation(
     ``Unable`` for a rule without a checker: what it claims is not wrong for that, but nothing is proved.
     """
     order, start, steps, answer = Entry(payload, "payload").fields("order", "start", "steps", "answer")
-    names = tuple(e.text() for e in order.items())
-    if len(set(names)) != len(names):
-        raise order.fail("a variable is listed twice")
+    names = order.names()
     ring = Ring.of(names)
     replay = _Replay(budget, rules, check_leaf, accepted)
     found = replay.run(steps, formula_from_json(start, ring, quantified=True), (), ring)

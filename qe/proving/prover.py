@@ -314,7 +314,8 @@ class Prover:
 
     def _tabulated(self, step: Step) -> tuple[str, Json] | None:
         """A decomposition that proves the step."""
-        if not self.tables or not step.after.is_quantifier_free:
+        known = set(step.before.free)
+        if not self.tables or not step.after.is_quantifier_free or not known >= set(step.after.free):
             return None
         try:
             budget = self.budget.share(TABLE_SHARE).part(TABLE_WORK)
