@@ -1365,7 +1365,7 @@ def _step(value: Any, current: Formula, names: Sequence[str], where: str) -> For
     used = [formula(f, names, where) for f in _members(context, where)]
     require(all(f in facts for f in used), f"{where}.context", "this does not stand beside the step")
     if rule in ("duality", "negation normal form"):
-        require(pushed(before) == pushed(after), where, "different negation normal forms")
+        require(evidence == {} and pushed(before) == pushed(after), where, "different negation normal forms")
     elif rule in [*_BLOCK]:
         _check_block(before, after, used, Theory(fields(evidence, where, "theory")[0], names, where), names, where)
     else:
