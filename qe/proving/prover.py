@@ -46,7 +46,8 @@ SIMPLIFYING = (
 )
 """Rules whose steps go on under quantifiers."""
 
-CRITICAL, SEARCH, SQUARES = "critical values", "Boolean search", "signs by sums of squares"
+CRITICAL = ("critical values", "critical values of a universal block")
+SEARCH, SQUARES = "Boolean search", "signs by sums of squares"
 
 UNRECORDED = "steps that are not recorded"
 
@@ -185,9 +186,9 @@ class Prover:
             inner = self._substituted(step, trace)
             if inner is not None:
                 return "virtual substitution", inner
-        if step.rule == CRITICAL:
+        if step.rule in CRITICAL:
             found = self._critical(step)
-            return None if found is None else (CRITICAL, found)
+            return None if found is None else (step.rule, found)
         if isinstance(trace, RunLog):
             inner = self._replayed(step, trace)
             return None if inner is None else (step.rule, inner)
@@ -254,11 +255,12 @@ class Prover:
 
     def _critical(self, step: Step) -> Json | None:
         """The evidence for a step by critical values, accepted."""
-        from qe.proving.critical import critical_evidence
+        from qe.proving.critical import critical_evidence, universal_evidence
 
         order, claim = step.evidence.get("order"), self._claim(step.rule, step, {})
+        made = critical_evidence if step.rule == CRITICAL[0] else universal_evidence
         try:
-            evidence = critical_evidence(claim, order, self.options, self.budget) if isinstance(order, tuple) else None
+            evidence = made(claim, order, self.options, self.budget) if isinstance(order, tuple) else None
         except CertificateRejected:
             return None
         except Unable:

@@ -42,6 +42,7 @@ from qe.proof.cells import FreeCell
 from qe.simplify.simplify import simplify
 
 RULE = "critical values"
+UNIVERSAL_RULE = "critical values of a universal block"
 
 MOST_CUTS = 4
 """How often stray points of a formula read from open cells are cut away before the whole table is made."""
@@ -124,7 +125,8 @@ class ConvexUniversal:
             whole = found.found.tabulate()
             answer = construct(whole.table, whole.refine)[0]
         formula = _logged(simplify(answer), negated, order, [found], context, start)
-        return Outcome(context.log.step(RULE, problem.formula, formula), order=order)
+        known = {"order": order}
+        return Outcome(context.log.step(UNIVERSAL_RULE, problem.formula, formula, evidence=known), order=order)
 
 
 def by_critical_values(variables: Sequence[str], body: Formula, context: Context) -> Found:
