@@ -147,7 +147,7 @@ def _stacks(levels: Sequence[Sequence[Poly]], point: Point, values: Values, said
     """The open cells, with what is said of each."""
     if len(values) == len(levels):
         return said(values)
-    isolation = isolate_over(point, levels[len(values)])
+    isolation = isolate_over(point, tuple(levels[len(values)]))
     return [
         [str(sample), _stacks(levels, isolation.sample(2 * k), (*values, sample), said)]
         for k, sample in enumerate(isolation.samples)

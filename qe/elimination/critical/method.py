@@ -117,8 +117,8 @@ class ConvexUniversal:
             thin = thin_universal(ForAll(problem.variables, problem.body), negated, order, budget)
             if thin is None:
                 return None
-            known = {"proof": thin.evidence}
-            return Outcome(context.log.step("degenerate truth set", problem.formula, thin.formula, evidence=known))
+            evidence = {"proof": thin.evidence}
+            return Outcome(context.log.step("degenerate truth set", problem.formula, thin.formula, evidence=evidence))
         assert isinstance(found.found, ConvexBody)
         answer = _of_open_cells(found.found, order, budget)
         if answer is None:  # in the plane the table of a convex set settles every cell
