@@ -76,12 +76,14 @@ class PlanarRegion:
     """The possible places of Q1 in the plane of the via points. ``formula``: as asked; its free variables are q1u, q1v.
 
     ``region`` and ``area`` (None: not reached, see ``reason``; the area in the square of the unit of the points).
+    ``answer``: how the region's formula was found, where something was eliminated for it.
     """
 
     formula: str
     region: qe.Region | None = None
     area: Enclosure | None = None
     reason: str = ""
+    answer: qe.Answer | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -111,7 +113,8 @@ class Comparison:
 
     ``unfinished``: why a common step has no result, by its name. ``derivations``: of the eliminations of the plans, of
     the existence theorem and of what shows that (8) lies in (8*), each step checked; ``unproved``: why others have
-    none. The planar regions have none: theirs take longer than the comparison.
+    none. That of (8) in the plane eliminates
+    nothing; that of (7) is answered by convex optimisation, which has no log.
     """
 
     problem: Problem
@@ -166,6 +169,7 @@ def compare(problem: Problem, clock: Clock | None = None, *, proofs: bool = Fals
     if proofs:
         asked = {name: answer for side in sides.values() for name, answer in side.plan.eliminations.items()}
         asked |= planar.implications
+        asked |= {f"the planar region of {n}": r.answer for n, r in planar.named.items() if r.answer is not None}
         if theorem.truth is not None:
             asked["the existence theorem of (7)"] = theorem.answer
         found = parts.take("derivations", 1, lambda seconds: derivations.proved(asked, Clock(limit=seconds)))
@@ -251,15 +255,19 @@ def _region(asked: Statement, plane: Plane, clock: Clock, seconds: float) -> Pla
         found = known.facts.get("region")
         if found is None:
             raise
-        return PlanarRegion(str(asked), cast("qe.Region", found), reason=f"area not found: {error}")
+        answer = cast("qe.Answer | None", known.facts.get("answer"))
+        return PlanarRegion(str(asked), cast("qe.Region", found), None, f"area not found: {error}", answer)
     unit = plane.unit_area
     assert area.high is not None and unit.high is not None
-    return PlanarRegion(str(asked), region, Enclosure(area.low * unit.low, area.high * unit.high))
+    answer = cast("qe.Answer | None", known.facts.get("answer"))
+    return PlanarRegion(str(asked), region, Enclosure(area.low * unit.low, area.high * unit.high), answer=answer)
 
 
 def _measured(formula: Formula, channel: Channel) -> tuple[qe.Region, Enclosure]:
     """The region with all that is shown of it, which is told as soon as it is known, and its area."""
-    region = qe.Region.from_json(qe.region(formula, progress=channel.event).to_json())
+    given = qe.region(formula, progress=channel.event)
+    channel.fact("answer", given.answer)
+    region = qe.Region.from_json(given.to_json())
     if region.cells and not region.is_empty:
         region.bounds(region.order[0])
     channel.fact("region", region)

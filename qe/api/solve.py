@@ -136,6 +136,8 @@ def parametric_witnesses(
             budget.keep(found.with_(replace(answer, reason=UNPROVED)))
             proof = derived(given, log, formula, options, budget)
             answer = replace(answer, certificate=proof.certificate, unchecked_steps=proof.unchecked)
-        return found.with_(answer if answer.certificate is None else with_verdict(answer, budget))
+            if proof.certificate is not None:
+                answer = with_verdict(answer, budget, checked=proof.checked)
+        return found.with_(answer)
 
     return performed(work, given, limits)

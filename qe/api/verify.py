@@ -57,13 +57,13 @@ def of_question(certificate: Certificate, asked: Formula) -> Verdict:
     return Verdict(False, "claim", f"it is about something else: {' '.join(claim_of(certificate).words)}")
 
 
-def with_verdict(answer: Answer, budget: Budget) -> Answer:
-    """The answer with the guarantee that its certificate gives.
+def with_verdict(answer: Answer, budget: Budget, *, checked: bool = False) -> Answer:
+    """The answer with the guarantee that its certificate gives, which the checkers may have accepted already.
 
     A certificate that is not verified in the time that the budget leaves is dropped, and the reason noted: the answer
     follows from the algorithms all the same. Raises ``InternalError`` where a certificate is refused.
     """
-    guarantee, reason = judged(answer.certificate, budget)
+    guarantee, reason = (Guarantee.CHECKED, "") if checked else judged(answer.certificate, budget)
     if guarantee is Guarantee.CHECKED:
         return replace(answer, guarantee=guarantee)
     answer.log.switch("certificate", reason)
@@ -95,7 +95,7 @@ def _proved(answer: Answer, budget: Budget) -> Answer:
     proof = replace(answer, certificate=found.certificate, unchecked_steps=found.unchecked)
     if found.certificate is None:
         return replace(proof, guarantee=Guarantee.DERIVED, reason=proof.why_unchecked)
-    return with_verdict(proof, budget)
+    return with_verdict(proof, budget, checked=found.checked)
 
 
 def judged(certificate: Certificate | None, budget: Budget) -> tuple[Guarantee, str]:

@@ -43,18 +43,18 @@ def claim_of(certificate: Certificate) -> Claim:
     match certificate.kind:
         case Kind.DERIVATION:
             order, start, steps, answer = entry.fields("order", "start", "steps", "answer")
-            ring = _ring(order)
+            ring = Ring.of(order.names())
             question, found = (formula_from_json(e, ring, quantified=True) for e in (start, answer))
             return Claim((*_equivalence(question, found), _rules(steps)), question, found)
         case Kind.SUBSTITUTION:
             order, block, matrix, _, answer = entry.fields("order", "variables", "matrix", "solved", "answer")
-            ring = _ring(order)
-            question = exists([e.text() for e in block.items()], formula_from_json(matrix, ring))
+            ring = Ring.of(order.names())
+            question = exists(block.names(), formula_from_json(matrix, ring))
             found = formula_from_json(answer, ring)
             return Claim(_equivalence(question, found), question, found)
         case Kind.WITNESS:
             order, matrix, _ = entry.fields("order", "matrix", "values")
-            ring = _ring(order)
+            ring = Ring.of(order.names())
             question = exists(ring.names, formula_from_json(matrix, ring))
             return Claim((*_equivalence(question, TRUE), "by numbers for the variables"), question, TRUE)
         case Kind.OPTIMUM:
@@ -99,13 +99,6 @@ def _is_table_of(asked: Formula, table: CellTable) -> bool:
         return False
     ring = Ring.of(dict.fromkeys((*table.order, *(apart.ring.names if apart.ring else ()))))
     return is_prenex_form(convert(apart, ring), table)
-
-
-def _ring(order: Entry) -> Ring:
-    names = [e.text() for e in order.items()]
-    if len(set(names)) < len(names):
-        raise order.fail("a variable is listed twice")
-    return Ring.of(names)
 
 
 def _equivalence(question: Formula, answer: Formula) -> tuple[str, ...]:
@@ -163,7 +156,7 @@ def _of_solutions(entry: Entry) -> Claim:
     order, equations, conditions, _, _, solutions = entry.fields(
         "order", "equations", "conditions", "weights", "form", "solutions"
     )
-    ring = _ring(order)
+    ring = Ring.of(order.names())
     parts = [atom(e.polynomial(ring), Relation.EQ) for e in equations.items()]
     for condition in conditions.items():
         poly, relation = list(condition.items())
@@ -180,7 +173,7 @@ def _of_classification(entry: Entry) -> Claim:
         *("variables", "parameters", "constants", "polynomials", "positive", "equal", "nonzero", "classes", "proofs")
     )
     fixed = [[part.text() for part in constant.items()] for constant in constants.items()]
-    ring = _ring(Entry([*(parts[0] for parts in fixed), *_texts(parameters)], parameters.path))
+    ring = Ring.of(Entry([*(parts[0] for parts in fixed), *_texts(parameters)], parameters.path).names())
     signs = (" = 0", " > 0", " = 0", " /= 0")
     polys, positive, equal, nonzero = (
         [text + sign for text in _texts(group)] for group, sign in zip(lists, signs, strict=True)
@@ -205,7 +198,7 @@ def _of_optimum(entry: Entry) -> Claim:
     assert isinstance(entry.value, dict)
     problem = Entry(entry.value.get("problem"), "payload.problem")
     variables, minimise, constraints = problem.fields("variables", "minimise", "constraints")
-    ring = _ring(variables)
+    ring = Ring.of(variables.names())
     conditions = []
     for constraint in constraints.items():
         terms, relation = constraint.fields("terms", "relation")

@@ -94,7 +94,7 @@ def read_question(payload: Entry) -> tuple[Question, Classes, Entry]:
         *("variables", "parameters", "constants", "polynomials", "positive", "equal", "nonzero", "classes", "proofs")
     )
     variables_entry, parameters_entry, constants_entry, *lists, classes_entry, proofs = entries
-    variables, parameters = ([e.text() for e in entry.items()] for entry in (variables_entry, parameters_entry))
+    variables, parameters = (entry.names() for entry in (variables_entry, parameters_entry))
     fixed = [list(e.items()) for e in constants_entry.items()]
     if any(len(parts) != 4 for parts in fixed):
         raise constants_entry.fail("expected [name, minimal polynomial, low, high]")

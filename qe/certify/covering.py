@@ -47,10 +47,10 @@ def check_covering(claim: Claim, context: Context, limits: Limits) -> None:
     """The block is closed, and false by the covering."""
     before, after = existential(claim)
     order, factors, line = only(claim, "order", "factors", "line")
-    names = tuple(e.text() for e in order.items())
+    names = order.names()
     if not isinstance(before, Exists) or not before.body.is_quantifier_free or after != FALSE:
         raise claim.fail("an existential block without solutions, or its negation, expected")
-    if len(set(names)) < len(names) or not set(before.body.free) <= set(names) or before.free:
+    if not set(before.body.free) <= set(names) or before.free:
         raise order.fail("the variables of the block expected, each once")
     if not set(before.body.free) <= set(before.variables):
         raise claim.fail("a closed block expected")

@@ -49,17 +49,17 @@ def _minors(active: Sequence[Poly], bound: Sequence[int]) -> list[Poly]:
         return []
     rows = [[f.derivative(i) for i in bound] for f in active]
     chosen = combinations(range(len(bound)), len(active))
-    return [d for columns in chosen if (d := _determinant([[row[c] for c in columns] for row in rows]))]
+    return [d for columns in chosen if (d := determinant([[row[c] for c in columns] for row in rows]))]
 
 
-def _determinant(rows: Sequence[Sequence[Poly]]) -> Poly:
+def determinant(rows: Sequence[Sequence[Poly]]) -> Poly:
     """By expansion along the first row."""
     if len(rows) == 1:
         return rows[0][0]
     total = rows[0][0].ring.constant(0)
     for c, entry in enumerate(rows[0]):
         if entry:
-            total = total + (-1) ** c * entry * _determinant([[*row[:c], *row[c + 1 :]] for row in rows[1:]])
+            total = total + (-1) ** c * entry * determinant([[*row[:c], *row[c + 1 :]] for row in rows[1:]])
     return total
 
 

@@ -88,10 +88,10 @@ def check_critical_values(claim: Claim, context: Context, limits: Limits) -> Non
         claim, "order", "bound", "chains", "factors", "stacks", "points", "weights", "regular"
     )
     block, after = existential(claim)
-    names = tuple(e.text() for e in order.items())
+    names = order.names()
     if not isinstance(block, Exists) or not block.body.is_quantifier_free or not after.is_quantifier_free:
         raise claim.fail("expected a block over a quantifier-free formula, and a formula without quantifiers")
-    if len(set(names)) < len(names) or set(names) & set(block.variables) or not names:
+    if set(names) & set(block.variables) or not names:
         raise order.fail("expected the parameters, each once")
     if not set(block.free) | set(after.free) <= set(names):
         raise order.fail("a parameter is missing")
@@ -101,7 +101,7 @@ def check_critical_values(claim: Claim, context: Context, limits: Limits) -> Non
     if has_root_atoms(after):
         raise claim.fail("a root atom")
     _check_bound(conditions, free, bound)
-    lists = _read_lists(factors, outer, limits)
+    lists = read_lists(factors, outer, limits)
     surfaces = _surfaces(conditions, free, chains, limits)
     for found in (*([p] for p in polynomials(holds)), *surfaces):
         if lists.decompose(common(found).convert(outer)) is None:
@@ -114,7 +114,7 @@ def check_critical_values(claim: Claim, context: Context, limits: Limits) -> Non
             continue
         inside = True
         listed.check_inside(values, said)
-        if any(not any(q.evaluate(_padded(values, ring)) for q in found) for found in surfaces if len(found) > 1):
+        if any(not any(q.evaluate(padded(values, ring)) for q in found) for found in surfaces if len(found) > 1):
             raise said.fail("the sample lies over critical points")
     if not inside:
         raise claim.fail("no open cell on which it holds")
@@ -123,7 +123,7 @@ def check_critical_values(claim: Claim, context: Context, limits: Limits) -> Non
         if strict and any(c.is_equation for c in shape):
             raise claim.fail("a set with equations is not open")
     else:
-        _check_regular(regular, negation(holds) if strict else holds, limits)
+        check_shape(regular, negation(holds) if strict else holds, limits)
 
 
 def is_strict(formula: Formula) -> bool:
@@ -205,7 +205,7 @@ def _check_bound(conditions: Sequence[Quadratic], free: int, entry: Entry) -> No
         raise entry.fail("the weighted sum does not bound the variables of the block")
 
 
-def _check_regular(entry: Entry, holds: Formula, limits: Limits) -> None:
+def check_shape(entry: Entry, holds: Formula, limits: Limits) -> None:
     """The table is one of this formula, and shows that it describes the closure of its interior."""
     evidence = limits.leaf(entry).payload
     if not isinstance(evidence, CellEvidence) or any(evidence.table.quantifiers):
@@ -216,7 +216,7 @@ def _check_regular(entry: Entry, holds: Formula, limits: Limits) -> None:
     check_regular(table, limits, entry.path)
 
 
-def _read_lists(entry: Entry, ring: Ring, limits: Limits) -> FactorLists:
+def read_lists(entry: Entry, ring: Ring, limits: Limits) -> FactorLists:
     lists = [[f.polynomial(ring) for f in level.items()] for level in entry.items()]
     try:
         check_lists(ring, lists)
@@ -244,7 +244,7 @@ def _surfaces(conditions: Sequence[Quadratic], free: int, chains: Entry, limits:
     return found
 
 
-def _padded(values: Row, ring: Ring) -> tuple[Fraction, ...]:
+def padded(values: Row, ring: Ring) -> tuple[Fraction, ...]:
     return (*values, *(Fraction(0),) * (ring.size - len(values)))
 
 

@@ -24,8 +24,8 @@ def check_substitution(payload: dict[str, Json], budget: Budget | None = None) -
     names, block, matrix, solved, answer = Entry(payload, "payload").fields(
         "order", "variables", "matrix", "solved", "answer"
     )
-    ring = Ring.of(_distinct(names))
-    variables = _distinct(block)
+    ring = Ring.of(names.names())
+    variables = block.names()
     body = formula_from_json(matrix, ring)
     if set(free_variables(body)) | set(variables) != set(ring.names):
         raise names.fail("expected the variables of the formula and of the block")
@@ -41,13 +41,6 @@ def check_substitution(payload: dict[str, Json], budget: Budget | None = None) -
         raise answer.fail("a quantified variable is left")
     if _conjuncts(claimed) != _conjuncts(body):
         raise answer.fail("not what the substitutions give")
-
-
-def _distinct(entry: Entry) -> tuple[str, ...]:
-    names = tuple(e.text() for e in entry.items())
-    if len(set(names)) != len(names):
-        raise entry.fail("a variable is listed twice")
-    return names
 
 
 def _without(body: Formula, i: int, equation: Poly, entry: Entry) -> Formula:

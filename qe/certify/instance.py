@@ -26,6 +26,6 @@ def check_instance(claim: Claim, context: Context, limits: Limits) -> None:
         raise inner.fail("a certificate of kind witness expected")
     payload = Entry(found.payload, f"{inner.path}.payload")
     order, matrix, _ = payload.fields("order", "matrix", "values")
-    given = convert(formula_from_json(matrix, Ring.of([e.text() for e in order.items()])), claim.ring)
+    given = convert(formula_from_json(matrix, Ring.of(order.names())), claim.ring)
     if given != convert(block.body, claim.ring):
         raise matrix.fail("not the body of the block")

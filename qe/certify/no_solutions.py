@@ -45,7 +45,7 @@ def _system(entry: Entry, claim: Claim, limits: Limits) -> frozenset[Formula]:
     )
     if solutions.value != []:
         raise solutions.fail("expected no solution")
-    ring = Ring.of(e.text() for e in order.items())
+    ring = Ring.of(order.names())
     if not set(ring.names) <= set(claim.ring.names):
         raise order.fail("other variables than those of the sentence")
     found = {atom(e.polynomial(ring).convert(claim.ring), Relation.EQ) for e in equations.items()}

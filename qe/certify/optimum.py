@@ -55,7 +55,7 @@ def check_optimum(payload: dict[str, Json], budget: Budget | None = None) -> Non
     """Accept silently, or raise ``CertificateRejected`` naming the entry that fails."""
     entry = Entry(payload, "payload")
     status = entry.value.get("status") if isinstance(entry.value, dict) else None
-    if status not in _KEYS or not isinstance(status, str):
+    if not isinstance(status, str) or status not in _KEYS:
         raise CertificateRejected("payload.status", "expected optimal, infeasible or unbounded")
     names = ("problem", "status", "field", "faces", "point", *_KEYS[status])
     optional = ("inner", "links")

@@ -123,7 +123,7 @@ def formula(value: Any, names: Sequence[str], where: str, depth: int = 0) -> For
     if kind == "not" and len(rest) == 1:
         return ("not", formula(rest[0], names, f"{where}[1]", depth + 1))
     if kind == "atom" and len(rest) == 2:
-        require(rest[1] in _RELATIONS, where, "unknown relation")
+        require(rest[1] in [*_RELATIONS], where, "unknown relation")
         p = polynomial(rest[0], names, where)
         primitive = any(map(any, p)) and gcd(*p.values()) == 1 and p[max(p, key=lambda e: e[::-1])] > 0
         require(primitive, where, "expected a primitive polynomial with positive leading coefficient")
@@ -977,7 +977,7 @@ class Table:
         names = _variables(order, "payload.order")
         self.quantifiers = _members(quantifiers, "payload.quantifiers")
         require(len(self.quantifiers) == len(names), "payload.quantifiers", "expected one for each variable")
-        require(set(self.quantifiers) <= {"", "E", "A"}, "payload.quantifiers", "expected E, A or nothing")
+        require(all(q in ("", "E", "A") for q in self.quantifiers), "payload.quantifiers", "expected E, A or nothing")
         self.free = sum(not q for q in self.quantifiers)
         require(not any(self.quantifiers[: self.free]), "payload.quantifiers", "a free variable after a bound one")
         if not 1 <= len(names) <= 2:
@@ -1365,8 +1365,8 @@ def _step(value: Any, current: Formula, names: Sequence[str], where: str) -> For
     used = [formula(f, names, where) for f in _members(context, where)]
     require(all(f in facts for f in used), f"{where}.context", "this does not stand beside the step")
     if rule in ("duality", "negation normal form"):
-        require(pushed(before) == pushed(after), where, "different negation normal forms")
-    elif rule in _BLOCK:
+        require(evidence == {} and pushed(before) == pushed(after), where, "different negation normal forms")
+    elif rule in [*_BLOCK]:
         _check_block(before, after, used, Theory(fields(evidence, where, "theory")[0], names, where), names, where)
     else:
         raise Undecided(f"{where}: the rule {rule!r} is not read here")
@@ -1440,15 +1440,15 @@ _CHECKS |= {"optimum": _check_optimum, "cells": lambda p: Table(p).check(), "der
 def check(text: str) -> None:
     """Return if it proves what it says; raise ``Rejected``, ``Undecided``, or ``ValueError`` for other text."""
     whole = json.loads(text, parse_float=str, parse_constant=str, object_pairs_hook=_once)
-    if not isinstance(whole, dict) or whole.get("format") != FORMAT or whole.get("version") not in (1, 2):
+    if not isinstance(whole, dict) or whole.get("format") != FORMAT or repr(whole.get("version")) not in ("1", "2"):
         raise ValueError(f"not a certificate of the format {FORMAT!r}, version 1 or 2")
     stated = whole.pop("digest", None)
-    content = {k: v for k, v in whole.items() if k not in ("format", "version")}
     try:
-        _check(content, "")
+        _check({k: v for k, v in whole.items() if k not in ("format", "version")}, "")
     except RecursionError:
         raise Undecided("nested too deeply") from None
     canonical = json.dumps(whole, ensure_ascii=True, sort_keys=True, separators=(",", ":"))
+    require(whole["version"] == 1 + ('"kind":"derivation"' in canonical), "version", "not the one of what it holds")
     require(stated == hashlib.sha256(canonical.encode()).hexdigest(), "digest", "not the digest of the content")
 
 
@@ -1489,7 +1489,7 @@ def main(arguments: Sequence[str]) -> int:
     except Undecided as error:
         print(f"not decided: {error}")
         return 3
-    except (OSError, ValueError) as error:
+    except (OSError, ValueError, RecursionError) as error:
         print(f"not a certificate: {error}", file=sys.stderr)
         return 2
     print("accepted")

@@ -11,6 +11,7 @@ from qe.certify.boolean_search import check_boolean_search
 from qe.certify.constant import check_constant
 from qe.certify.counted_solutions import check_counted_solutions
 from qe.certify.covering import check_covering
+from qe.certify.critical_universal import check_critical_universal
 from qe.certify.critical_values import check_critical_values
 from qe.certify.degenerate_truth_set import check_degenerate_truth_set
 from qe.certify.degree_shift import check_degree_shift
@@ -75,6 +76,7 @@ RULES: Mapping[str, Check] = {
     "only asked to be no root": check_only_nonzero,
     "virtual substitution": check_replayed_block,
     "critical values": check_critical_values,
+    "critical values of a universal block": check_critical_universal,
     "degenerate truth set": check_degenerate_truth_set,
     "elimination set": check_elimination_set,
     "alternatives": check_alternatives,

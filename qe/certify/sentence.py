@@ -45,7 +45,7 @@ def check_sentence(claim: Claim, context: Context, limits: Limits) -> None:
 
 def _check_point(payload: Entry, before: Exists, claim: Claim) -> None:
     order, matrix, _ = payload.fields("order", "matrix", "values")
-    ring = Ring.of(e.text() for e in order.items())
+    ring = Ring.of(order.names())
     if not set(ring.names) <= set(claim.ring.names):
         raise order.fail("other variables than those of the sentence")
     if convert(normal(formula_from_json(matrix, ring)), claim.ring) != normal(before.body):

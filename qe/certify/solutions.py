@@ -43,8 +43,8 @@ def check_solutions(payload: dict[str, Json], budget: Budget | None = None) -> N
     order, equations_entry, conditions_entry, weights_entry, form_entry, listed = Entry(payload, "payload").fields(
         "order", "equations", "conditions", "weights", "form", "solutions"
     )
-    names = [e.text() for e in order.items()]
-    if not names or len(set(names)) < len(names):
+    names = order.names()
+    if not names:
         raise order.fail("expected different variables, at least one")
     ring = Ring.of(names)
     equations = [e.polynomial(ring) for e in equations_entry.items()]
@@ -69,7 +69,7 @@ def check_solutions(payload: dict[str, Json], budget: Budget | None = None) -> N
 
 def _condition(entry: Entry, ring: Ring) -> tuple[Poly, str]:
     parts = list(entry.items())
-    if len(parts) != 2 or parts[1].value not in INDICATORS:
+    if len(parts) != 2 or parts[1].text() not in INDICATORS:
         raise entry.fail('expected [polynomial, ">" or ">=" or "/="]')
     return parts[0].polynomial(ring), parts[1].text()
 

@@ -79,8 +79,8 @@ class Outcome:
     ``witness``: exact values for the block's variables that make a true existential sentence true, or a false universal
     one false; None when not known. ``certificate``: of this very problem and formula, where the method makes one.
     ``order``: that of the free variables in which the formula was found, where that matters to who goes on.
-    ``unchecked``: the rules of the steps that no checker has accepted, where that was asked for. ``log``: how the whole
-    answer was found; the engine fills both in.
+    ``unchecked``: the rules of the steps that no checker has accepted, where that was asked for. ``checked``: whether
+    the checkers have accepted the certificate. ``log``: how the whole answer was found; the engine fills these in.
     """
 
     formula: Formula
@@ -88,6 +88,7 @@ class Outcome:
     certificate: Certificate | None = None
     order: tuple[str, ...] | None = None
     unchecked: tuple[str, ...] = ()
+    checked: bool = False
     log: RunLog = field(default_factory=RunLog)
 
     @property

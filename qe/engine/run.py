@@ -79,7 +79,7 @@ def proved(formula: Formula, found: Outcome, options: Options, budget: Budget) -
     started, log = time.perf_counter(), found.log
     proof = certificate_of(formula, rename_apart(_counted(formula, options)), found, log, options, budget)
     log.seconds = round((log.seconds or 0.0) + time.perf_counter() - started, 6)
-    return replace(found, certificate=proof.certificate, unchecked=proof.unchecked)
+    return replace(found, certificate=proof.certificate, unchecked=proof.unchecked, checked=proof.checked)
 
 
 def _counted(formula: Formula, options: Options) -> Formula:

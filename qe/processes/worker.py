@@ -32,11 +32,9 @@ from qe.progress import Event, Listener, silent
 
 T = TypeVar("T")
 
-KEPT = "result so far"
-"""The fact under which a worker tells what is its result should a limit end it."""
-
-GRACE = 0.25
-"""Seconds past the time limit before the kill, so that a soft limit in the worker can answer first."""
+GRACE, KEPT = 0.25, "result so far"
+"""Seconds past the time limit before the kill, so that a soft limit in the worker can answer first; and the fact under
+which a worker tells what is its result should a limit end it."""
 
 _HEADER = struct.Struct("!I")
 

@@ -66,9 +66,7 @@ def cells_from_json(entry: Entry) -> CellEvidence:
     order, quantifiers, matrix, answer, projection, factors, constraints, root = entry.fields(
         "order", "quantifiers", "matrix", "answer", "projection", "factors", "constraints", "root"
     )
-    names = tuple(e.text() for e in order.items())
-    if len(set(names)) != len(names):
-        raise order.fail("a variable is listed twice")
+    names = order.names()
     ring = Ring.of(names)
     levels = list(factors.items())
     try:

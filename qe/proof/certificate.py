@@ -213,10 +213,11 @@ def written(
 @dataclass(frozen=True, slots=True)
 class Proof:
     """``certificate`` of an answer, if there is one; ``unchecked``: the rules of the steps of its derivation that no
-    checker has accepted."""
+    checker has accepted; ``checked``: whether the checkers have accepted the whole certificate."""
 
     certificate: Certificate | None
     unchecked: tuple[str, ...] = ()
+    checked: bool = False
 
 
 def digest(whole: dict[str, Json]) -> str:

@@ -58,6 +58,15 @@ class Entry:
         for i, value in enumerate(self.value):
             yield Entry(value, f"{self.path}[{i}]")
 
+    def names(self) -> tuple[str, ...]:
+        """A list of names of variables, none of them empty, each once."""
+        found = tuple(entry.text() for entry in self.items())
+        if not all(found):
+            raise self.fail("a variable without a name")
+        if len(set(found)) < len(found):
+            raise self.fail("a variable is listed twice")
+        return found
+
     def text(self) -> str:
         if not isinstance(self.value, str):
             raise self.fail("expected a string")

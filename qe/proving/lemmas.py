@@ -30,7 +30,7 @@ from qe.simplify.facts import factor_list, key_of
 from qe.simplify.minima import minimum
 
 MOST_POLYNOMIALS, MOST_PAIRS, MOST_MONOMIALS, MOST_TRIED = 120, 400, 24, 16
-MOST_TARGETS, MOST_CHAINED, MOST_BOUNDS = 8, 12, 400
+MOST_ALIKE, MOST_TARGETS, MOST_CHAINED, MOST_BOUNDS = 500, 8, 12, 400
 
 
 def polynomials_outside(formulas: Iterable[Formula]) -> dict[Poly, bool]:
@@ -290,9 +290,10 @@ def _lines(found: Lemmas, polys: Iterable[Poly]) -> None:
 
 
 def _ranges(found: Lemmas, polys: Iterable[Poly]) -> None:
-    """Polynomials as sums of monomials in their variables."""
+    """Polynomials as sums of monomials in their variables; long ones where all coefficients have one sign."""
     for poly in dict.fromkeys((*found.numbers, *polys)):
-        if 1 < poly.term_count() <= MOST_MONOMIALS:
+        count = poly.term_count()
+        if 1 < count <= MOST_MONOMIALS or (count <= MOST_ALIKE and len({c > 0 for _, c in poly.terms()}) == 1):
             found.identity([(-1, ((poly, 1),)), *_monomials(poly)])
 
 

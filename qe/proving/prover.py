@@ -11,13 +11,13 @@ from fractions import Fraction
 
 from qe.certify.block import existential
 from qe.certify.boolean import ByLemmas
-from qe.certify.derivation import limits_of, replaced
+from qe.certify.derivation import Accepted, check_derivation, limits_of, replaced, step_key
 from qe.certify.registry import RULES
 from qe.certify.step import Claim, Context, Limits
 from qe.certify.verify import check_certificate
 from qe.elimination.cad import certificate_for
 from qe.elimination.vs.trace import Eliminated
-from qe.errors import CertificateRejected, Unable
+from qe.errors import CertificateRejected, InternalError, Unable
 from qe.exact.ring import Poly, Ring
 from qe.formula.syntax import And, Exists, Formula, Or
 from qe.formula.traverse import children, conjuncts
@@ -36,8 +36,8 @@ from qe.proving.nested import derivations_within, formulas_within, proved_inside
 from qe.proving.simplified import Simplified
 from qe.proving.substitution_steps import steps
 
-TABLE_WORK = 3_000
-"""Units of work for a decomposition that proves a single step."""
+TABLE_WORK, TABLE_SHARE = 3_000, 0.25
+"""Units of work for a decomposition that proves a single step, and the share of the time left that it may take."""
 
 SIMPLIFYING = (
     "simplification",
@@ -47,7 +47,8 @@ SIMPLIFYING = (
 )
 """Rules whose steps go on under quantifiers."""
 
-CRITICAL, SEARCH, SQUARES = "critical values", "Boolean search", "signs by sums of squares"
+CRITICAL = ("critical values", "critical values of a universal block")
+SEARCH, SQUARES = "Boolean search", "signs by sums of squares"
 COUNTED = "comprehensive Gröbner system"
 
 UNRECORDED = "steps that are not recorded"
@@ -56,7 +57,7 @@ UNRECORDED = "steps that are not recorded"
 def proved(derivation: Derivation, answer: Formula, options: Options, budget: Budget) -> Proof:
     """The derivation with evidence. Steps without any of their own are proved by a decomposition, if it is small.
 
-    Raises ``BudgetExceeded``.
+    Raises ``BudgetExceeded``, and ``InternalError`` where accepted steps do not fit together, which would be a bug.
     """
     prover = Prover(_ring(derivation, answer), options, budget)
     start, goal = moved(derivation.start, prover.ring), moved(answer, prover.ring)
@@ -64,7 +65,13 @@ def proved(derivation: Derivation, answer: Formula, options: Options, budget: Bu
     unchecked = tuple(dict.fromkeys(prover.unchecked))
     if unchecked:
         return Proof(None, unchecked)
-    return Proof(Certificate.derivation(prover.ring.names, start, prover.steps, goal))
+    certificate = Certificate.derivation(prover.ring.names, start, prover.steps, goal)
+    assert isinstance(certificate.payload, dict)
+    try:
+        check_derivation(certificate.payload, budget, RULES, check_certificate, prover.accepted)
+    except CertificateRejected as error:
+        raise InternalError(f"the certificate of an answer was rejected at {error.step}: {error.reason}") from error
+    return Proof(certificate, checked=True)
 
 
 def _ring(derivation: Derivation, answer: Formula) -> Ring:
@@ -79,7 +86,8 @@ def _ring(derivation: Derivation, answer: Formula) -> Ring:
 class Prover:
     """The steps written so far, and the rules of those that no checker accepts.
 
-    ``tables``: whether decompositions may help; ``known``: what holds wherever the whole formula matters.
+    ``tables``: whether decompositions may help; ``known``: what holds wherever the whole formula matters; ``accepted``:
+    what need not be checked again.
     """
 
     ring: Ring
@@ -87,12 +95,13 @@ class Prover:
     budget: Budget
     tables: bool = True
     known: Context = ()
+    accepted: Accepted = field(default_factory=set)
     steps: list[Json] = field(default_factory=list)
     unchecked: list[str] = field(default_factory=list)
     limits: Limits = field(init=False)
 
     def __post_init__(self) -> None:
-        self.limits = limits_of(self.budget, RULES, check_certificate)
+        self.limits = limits_of(self.budget, RULES, check_certificate, self.accepted)
 
     # --- steps ---------------------------------------------------------------------------------
     def whole(self, derivation: Derivation, start: Formula, goal: Formula) -> None:
@@ -111,7 +120,7 @@ class Prover:
 
         Raises ``CertificateRejected`` where one of them has no accepted evidence.
         """
-        prover = Prover(self.ring, self.options, self.budget, self.tables, known)
+        prover = Prover(self.ring, self.options, self.budget, self.tables, known, self.accepted)
         goal = moved(inner.answer, self.ring)
         prover.whole(put_together(inner.start, inner.steps, inner.answer), start, goal)
         if prover.unchecked:
@@ -179,9 +188,9 @@ class Prover:
             inner = self._substituted(step, trace)
             if inner is not None:
                 return "virtual substitution", inner
-        if step.rule == CRITICAL:
+        if step.rule in CRITICAL:
             found = self._critical(step)
-            return None if found is None else (CRITICAL, found)
+            return None if found is None else (step.rule, found)
         if isinstance(trace, RunLog):
             inner = self._replayed(step, trace)
             return None if inner is None else (step.rule, inner)
@@ -214,7 +223,7 @@ class Prover:
                 goals = checker.obligations(self._claim(rule, step, evidence), context)
                 theory = refuting(goals, self.ring, self.limits) if goals else EMPTY
                 return None if theory is None else {**evidence, "theory": theory}
-            checker(self._claim(rule, step, evidence), context, self.limits)
+            self._check(self._claim(rule, step, evidence), context)
         except CertificateRejected:
             return None
         except Unable:
@@ -227,7 +236,7 @@ class Prover:
         assert isinstance(given, Mapping)
         evidence: Json = {"theory": identities([*given["identities"]], self.ring)}
         try:
-            RULES[step.rule](self._claim(step.rule, step, evidence), context, self.limits)
+            self._check(self._claim(step.rule, step, evidence), context)
         except CertificateRejected:
             return None
         return step.rule, evidence
@@ -240,7 +249,7 @@ class Prover:
             if not isinstance(before, Exists):
                 return None
             evidence: Json = {"steps": steps(before, trace, after, self.ring, self._simplified, self.limits)}
-            RULES[claim.rule](self._claim(claim.rule, step, evidence), (), self.limits)
+            self._check(self._claim(claim.rule, step, evidence), ())
         except CertificateRejected:
             return None
         except Unable:
@@ -250,11 +259,12 @@ class Prover:
 
     def _critical(self, step: Step) -> Json | None:
         """The evidence for a step by critical values, accepted."""
-        from qe.proving.critical import critical_evidence
+        from qe.proving.critical import critical_evidence, universal_evidence
 
         order, claim = step.evidence.get("order"), self._claim(step.rule, step, {})
+        made = critical_evidence if step.rule == CRITICAL[0] else universal_evidence
         try:
-            evidence = critical_evidence(claim, order, self.options, self.budget) if isinstance(order, tuple) else None
+            evidence = made(claim, order, self.options, self.budget) if isinstance(order, tuple) else None
         except CertificateRejected:
             return None
         except Unable:
@@ -264,7 +274,7 @@ class Prover:
 
     def _replayed(self, step: Step, log: RunLog) -> Json | None:
         """The steps of which one step is made, all of them accepted."""
-        inner = Prover(self.ring, self.options, self.budget, self.tables)
+        inner = Prover(self.ring, self.options, self.budget, self.tables, (), self.accepted)
         current = step.before
         for part in log.steps():
             before, after, context = (moved(f, self.ring) for f in (part.before, part.after, part.context))
@@ -300,15 +310,22 @@ class Prover:
             raise CertificateRejected("simplification", "no lemmas found")
         return written("simplification", (), before, after, (), found)
 
+    def _check(self, claim: Claim, context: Context) -> None:
+        """Returns where the step is accepted; raises as its checker does."""
+        RULES[claim.rule](claim, context, self.limits)
+        self.accepted.add(step_key(claim, context))
+
     def _claim(self, rule: str, step: Step, evidence: Json) -> Claim:
         return Claim(rule, step.before, step.after, self.ring, Entry(evidence, "evidence"), "step")
 
     def _tabulated(self, step: Step) -> tuple[str, Json] | None:
         """A decomposition that proves the step."""
-        if not self.tables or not step.after.is_quantifier_free:
+        known = set(step.before.free)
+        if not self.tables or not step.after.is_quantifier_free or not known >= set(step.after.free):
             return None
         try:
-            certificate = certificate_for(step.before, step.after, self.options, self.budget.part(TABLE_WORK))
+            budget = self.budget.share(TABLE_SHARE).part(TABLE_WORK)
+            certificate = certificate_for(step.before, step.after, self.options, budget)
         except Unable:
             self.budget.check("prove")
             return None

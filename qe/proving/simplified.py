@@ -144,5 +144,5 @@ def _joined(like: And | Or, parts: tuple[Formula, ...]) -> Formula:
 
 def _beside(formula: And | Or, k: int) -> list[Formula]:
     """The comparisons that hold at the k-th part, but for its truth (in a disjunction: where the others fail)."""
-    others = [f for i, f in enumerate(formula.args) if i != k and isinstance(f, Atom)]
+    others: list[Formula] = [f for i, f in enumerate(formula.args) if i != k and isinstance(f, Atom)]
     return others if isinstance(formula, And) else [negation(f) for f in others]

@@ -11,12 +11,14 @@ from qe.errors import Unable
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj, convert, disj, exists, forall
 from qe.formula.syntax import Constant, Formula, Relation, RootAtom
+from qe.io.text import read
 from qe.options import Budget, Method, Options
 from qe.proof.certificate import Certificate, Kind
-from tests.certificates.test_false_steps import formula, polynomial, simple
+from tests.certificates.derivations import CASES
+from tests.certificates.test_false_steps import altered, formula, polynomial, simple
 from tests.certificates.test_newer_rules import met, nested, solvable, turnable
 
-RING = Ring.of(("a", "b", "t", "x", "y", "z", "u", "v", "w"))
+RING = Ring.of(("a", "b", "c", "d", "s", "t", "x", "y", "z", "u", "v", "w"))
 SECONDS = 2.0
 WEAK = (Relation.LE, Relation.GE)
 
@@ -131,6 +133,12 @@ def spanned(rng: random.Random) -> Formula:
     return forall(("t",), disj((outside, atom(p, Relation.LE))))
 
 
+def listed(rng: random.Random) -> Formula:
+    """A question whose derivation has a certain rule (``derivations.CASES``), or one like it."""
+    asked = read(rng.choice(list(CASES.values())))
+    return asked if rng.random() < 0.5 else altered(rng, asked)
+
+
 QUESTIONS: tuple[tuple[Callable[[random.Random], Formula], str], ...] = (
     (sentence, "coverings"),
     (cases, "auto"),
@@ -147,6 +155,9 @@ QUESTIONS: tuple[tuple[Callable[[random.Random], Formula], str], ...] = (
     (turnable, "auto"),
     (solvable, "auto"),
     (met, "auto"),
+    (listed, "auto"),
+    (listed, "auto"),
+    (listed, "auto"),
 )
 
 

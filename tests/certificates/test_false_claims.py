@@ -22,6 +22,7 @@ from tests.certificates.false_claims_of_arms import (
     other_solutions,
     solutions,
 )
+from tests.certificates.false_claims_of_classifications import classification, other_numbers
 from tests.certificates.false_claims_of_rules import derivation_by_a_rule
 
 KINDS = {
@@ -30,6 +31,7 @@ KINDS = {
     "solutions": (solutions, other_solutions),
     "branch": (branch, leaves_the_branch),
     "inverse": (inverse, other_positions),
+    "classification": (classification, other_numbers),
 }
 DEEP = {
     "derivation": 6000,
@@ -39,10 +41,11 @@ DEEP = {
     "optimum": 1000,
     "containment": 1500,
     "clearance": 1500,
-    "derivation by a rule": 6000,
+    "derivation by a rule": 8000,
     "solutions": 2000,
     "branch": 1000,
     "inverse": 400,
+    "classification": 1600,
 }
 PARTS = 4
 TRIES = 30
@@ -101,7 +104,7 @@ def search(kind: str, seed: int, wanted: int) -> int:
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_false_claims_are_refused(kind: str) -> None:
-    wanted = 4 if kind in ("optimum", "inverse") else 10
+    wanted = 4 if kind in ("optimum", "inverse", "classification") else 10
     assert search(kind, 1, wanted) == wanted
 
 

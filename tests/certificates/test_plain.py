@@ -126,6 +126,30 @@ def _compare(seed: int, count: int) -> None:
     assert both > 50
 
 
+@pytest.mark.parametrize("value", [[], {}, None, True, ""])
+def test_an_entry_of_another_type_is_refused_by_both_and_breaks_neither(value: Any) -> None:
+    for text in certificates():
+        whole = json.loads(text)
+        listed = [path for path, old in leaves(whole) if old != value and path not in (("digest",), ("format",))]
+        for path in random.Random(len(text)).sample(listed, min(12, len(listed))):
+            made = replaced(whole, path, value)
+            assert {said(made), said_plainly(made)} != {"accepted", "rejected"}, made
+
+
+def test_the_version_is_that_of_what_a_certificate_holds() -> None:
+    for text in certificates():
+        whole = json.loads(text)
+        for version in (3 - whole["version"], True, "1", 0):
+            made = replaced(whole, ("version",), version)
+            assert (said(made), said_plainly(made)) == ("rejected", "rejected")
+
+
+def test_texts_nested_without_end_are_no_certificates(tmp_path: Path) -> None:
+    path = tmp_path / "deep.json"
+    path.write_text("[" * 200_000)
+    assert plain.main([str(path)]) == 2
+
+
 def _derivation(after: Any, lemmas: list[Any]) -> str:
     order = ["a", "x"]
     start = ["exists", ["x"], ["and", ["atom", "x", ">"], ["atom", "a*x", ">"]]]

@@ -44,6 +44,7 @@ from qe.proof.cells import FreeCell
 from qe.simplify.simplify import simplify
 
 RULE = "critical values"
+UNIVERSAL_RULE = "critical values of a universal block"
 
 FEW = 2
 """So many parameters a convex truth set may have."""
@@ -122,9 +123,10 @@ class ConvexUniversal:
             thin = thin_universal(ForAll(problem.variables, problem.body), negated, order, budget)
             if thin is None:
                 return None
-            known = {"proof": thin.evidence}
-            return Outcome(context.log.step("degenerate truth set", problem.formula, thin.formula, evidence=known))
-        return Outcome(context.log.step(RULE, problem.formula, formula), order=order)
+            evidence = {"proof": thin.evidence}
+            return Outcome(context.log.step("degenerate truth set", problem.formula, thin.formula, evidence=evidence))
+        known = {"order": order}
+        return Outcome(context.log.step(UNIVERSAL_RULE, problem.formula, formula, evidence=known), order=order)
 
     def apart(self, problem: Problem, context: Context) -> Outcome | None:
         """The block by its pieces, each in one or two parameters."""
