@@ -10,10 +10,10 @@ import pytest
 import qe
 from qe.certify.registry import RULES
 from qe.elimination.protocol import Problem
-from qe.engine.run import SWITCHED
+from qe.engine.run import SWITCHED, solve
 from qe.engine.strategy import LEFT_OUT_BY, METHODS, STRATEGY, Attempt, Scope, attempts
 from qe.io import formats
-from qe.options import Method, Options, Stage
+from qe.options import Budget, Method, Options, Stage
 from qe.rules.step import StepKind
 from tests.differential.generate import LARGE, NESTED, SMALL, random_formula
 
@@ -121,3 +121,14 @@ def test_a_certificate_is_looked_for_with_limited_work(monkeypatch: pytest.Monke
 
 def test_no_attempt_is_limited_by_seconds() -> None:
     assert not any("seconds" in name or "share" in name for name in Attempt.__slots__)
+
+
+def test_four_discs_that_grow_with_time() -> None:
+    """Two reports of each of two movers and a common bound of speed: decomposition does not end, substitution nearly
+    gave up."""
+    text = (
+        "ex x, y, t. t >= 0 and t <= 2 and x^2 + y^2 <= v^2*t^2 and (x - 1)^2 + (y - 1)^2 <= v^2*(2 - t)^2"
+        " and (x - 3)^2 + (y - 3)^2 <= v^2*t^2 and (x - 2)^2 + (y - 2)^2 <= v^2*(2 - t)^2"
+    )
+    found = solve(formats.read(text, "text"), Options(), Budget(work=5000))
+    assert str(found.formula) == "v^2 - 2 >= 0"

@@ -16,6 +16,7 @@ from qe.formula.evaluate import holds_at
 from qe.formula.syntax import Formula
 from qe.formula.traverse import free_variables
 from qe.options import Budget
+from qe.proof.run_log import RunLog
 
 TRUE = [
     "all a, b. ex x. 4*(x - a)^2 <= (a - b)^2 and 4*(x - b)^2 <= (a - b)^2",
@@ -136,3 +137,12 @@ def test_the_instance_is_stronger() -> None:
     ring = Ring.of(("a", "x"))
     sentence = convert(read("all a. ex x. x^2 >= a"), ring)
     assert str(instantiate(sentence, {"x": Term(ring.var("a"))})) == "all a. a^2 - a >= 0"
+
+
+def test_blocks_that_no_centre_can_satisfy_are_not_prepared_again_and_again() -> None:
+    """A long sentence repeats its blocks; those with blocks of the other kind inside are left alone."""
+    block = "(ex x, y. x^2 + y^2 = a^2 and x*y = b and x + y >= a)"
+    inner = "(ex x. all y. x*y >= a or y^2 > b)"
+    log = RunLog()
+    assert find(read_formula(f"all a, b. {inner} or {block} or a > b and {block}"), budget=Budget(), log=log) is None
+    assert {step.rule for step in log.steps()} <= {"renaming", "negation normal form"}
