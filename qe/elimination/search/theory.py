@@ -35,6 +35,9 @@ _AT_ONCE = 20
 _GATHERED = 24
 """Atoms that are gathered one by one for a reason, at most."""
 
+_FEW = 40
+"""Atoms up to which a reason is gathered one by one before the engine is asked about all of them."""
+
 _GROWTH = 8
 """Sets of atoms that the engine is asked about before it gets all that share variables."""
 
@@ -92,6 +95,9 @@ class Theory:
             if found is None:
                 return taken
             values = {**point, **found}
+        gathered = self._gathered(part, point) if len(part) <= _FEW else part
+        if gathered is not part and self._part(frozenset(gathered), _TRIAL_WORK) is None:
+            return gathered
         everything = self._part(frozenset(part))
         return part if everything is None else everything
 
