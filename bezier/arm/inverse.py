@@ -163,7 +163,9 @@ def _misses(here: Point, p: Poly | None, degree: int | None, t: int) -> bool:
     if p is None or degree is None:
         return False
     coefficients = p.coefficients(t)
-    return len(coefficients) <= degree or here.sign(coefficients[-1]) == 0
+    if len(coefficients) > degree and here.sign(coefficients[-1]):
+        return False
+    return any(here.sign(c) for c in coefficients)  # where it vanishes at all angles another φ tells nothing
 
 
 @lru_cache(maxsize=256)

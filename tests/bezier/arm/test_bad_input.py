@@ -96,6 +96,15 @@ def test_limits_hold_for_an_angle_and_all_full_turns_of_it(limits: str, kept: bo
     assert any(s.allowed for s in found.solutions if abs(s.angles[0] or 0) < 1e-9) == kept
 
 
+def test_an_arm_without_any_length_stands_in_one_point() -> None:
+    """It ended in an internal error there: every angle is a solution."""
+    point = read_arm(
+        'convention = "modified"\n' + "".join(f'[[row]]\njoint = "q{k}"\nalpha = "pi/2"\n' for k in range(3))
+    )
+    assert solve(point, (0, 0, 0)).free == ("q0", "q1", "q2")
+    assert solve(point, (0, 0, 1)).count == 0
+
+
 def test_limits_in_degrees_are_refused() -> None:
     with pytest.raises(InputError, match="which may be degrees"):
         read_arm(SHOULDER.format("-180, 180"))
