@@ -260,7 +260,12 @@ class _Run:
         scope = Scope.BLOCK if problem.is_flat else Scope.NESTED
         found = self.first_of(scope, problem)
         if found is None and self.bound and self.options.method is Method.CGS:  # without equations no trace forms
-            found = replace(self, options=self.options.with_(method=Method.AUTO)).first_of(scope, problem)
+            rest = replace(self, options=self.options.with_(method=Method.AUTO), budget=self.budget.part(SHORTCUT))
+            try:
+                found = rest.first_of(scope, problem)
+            except Unable as error:
+                self.budget.check("switch")
+                self.log.switch("other methods", error)
         if found is None:
             raise alone(self.options.method.value)
         return found
