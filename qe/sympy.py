@@ -25,6 +25,8 @@ from qe.io.substitution import over_one_ring
 from qe.io.sympy import Exists, ForAll, expression_from, from_sympy, polynomial_to_sympy, to_sympy
 from qe.io.sympy_numbers import number_to_sympy
 
+__all__ = ["function_range", "is_true_for_all", "maximum", "minimum", "reduce_inequalities", "solve_region"]
+
 Condition = Any
 """A SymPy Boolean, or a list of them, which hold together."""
 

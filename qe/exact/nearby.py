@@ -10,7 +10,7 @@ from flint import arb, fmpq
 
 from qe.errors import InternalError, Unable
 from qe.exact.algebraic import RealAlgebraic
-from qe.exact.balls import lower_end, precision, upper_end
+from qe.exact.balls import hull, lower_end, precision, upper_end
 from qe.exact.isolate import simplest_between
 from qe.exact.ring import Poly, Ring
 from qe.exact.sample import Point
@@ -94,6 +94,25 @@ def _coordinates(point: Point, bits: int) -> Balls:
         value = point.coordinate(i)
         balls.append(arb(value) if isinstance(value, fmpq) else point.ball(i, bits))
     return balls
+
+
+def enclosure(point: Point, i: int, bits: int) -> tuple[Fraction, Fraction]:
+    """Rational numbers around a coordinate; both are the coordinate if it is rational."""
+    value = point.coordinate(i)
+    if isinstance(value, fmpq):
+        exact = Fraction(int(value.p), int(value.q))
+        return exact, exact
+    with precision(bits):
+        ball = point.ball(i, bits)
+    low, high = lower_end(ball), upper_end(ball)
+    return Fraction(int(low.p), int(low.q)), Fraction(int(high.p), int(high.q))
+
+
+def without_zeros(polys: Sequence[Poly], sides: Sequence[tuple[Fraction, Fraction]], bits: int) -> bool:
+    """Whether it is seen that no polynomial vanishes in a box."""
+    with precision(bits):
+        box = [hull(fmpq(a.numerator, a.denominator), fmpq(b.numerator, b.denominator)) for a, b in sides]
+        return not any(enclosed(f, box).contains(0) for f in polys)
 
 
 def enclosed(f: Poly, at: Sequence[arb]) -> arb:

@@ -1,9 +1,8 @@
 """Polynomial rings over the integers, and their immutable elements.
 
-A ``Ring`` is a tuple of variable names. Variable ``i`` is ``ring.names[i]``; a later variable is
-"higher": the *level* of a polynomial is the largest index it contains, its *main variable*. FLINT
-stores the variables in reverse, so that its lexicographic order puts the main variable first, which
-makes triangular sets of main-variable-monic polynomials Groebner bases for free.
+A ``Ring`` is a tuple of variable names. Variable ``i`` is ``ring.names[i]``; a later variable is "higher": the *level*
+of a polynomial is the largest index it contains, its *main variable*. FLINT stores the variables in reverse, so that
+its lexicographic order puts the main variable first: triangular sets monic in main variables are Groebner bases.
 
 Import both from ``qe.exact.ring``, which knows every kind of ring.
 """

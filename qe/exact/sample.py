@@ -33,10 +33,6 @@ class Point:
 
     __slots__ = ("_balls", "_given", "_reduced", "_tower", "_vanishing", "algebraic", "depth", "parent", "ring",
                  "value", "watch", "zeros")  # fmt: skip
-    ring: Ring
-    parent: Point | None
-    value: fmpq | RealAlgebraic | FibreRoot | None
-    zeros: tuple[Poly, ...]
 
     def __init__(
         self,
@@ -233,12 +229,6 @@ class Fibre:
     """
 
     __slots__ = ("_bits", "_most", "_roots", "_values", "coefficients", "exact", "origin", "point", "source", "var")
-    point: Point
-    var: int
-    coefficients: tuple[Poly, ...]
-    origin: Poly | None
-    source: tuple[Poly, ...]
-    exact: bool
 
     def __init__(self, point: Point, var: int, coefficients: tuple[Poly, ...], origin: Poly | None = None) -> None:
         self.point, self.var, self.coefficients, self.origin = point, var, coefficients, origin
@@ -347,8 +337,6 @@ class FibreRoot:
     """The index-th real root (from 0) of a fibre."""
 
     __slots__ = ("_number", "fibre", "index")
-    fibre: Fibre
-    index: int
 
     def __init__(self, fibre: Fibre, index: int) -> None:
         self.fibre, self.index = fibre, index

@@ -40,6 +40,9 @@ def name(variable: str) -> str:
 Draw = Callable[[str], str]
 """How a variable is drawn."""
 
+LEFT = ' style="text-align:left"'
+"""For every cell: browsers that know no ``columnalign`` centre cells, whatever their table says."""
+
 
 def write(formula: Formula) -> str:
     """A ``<math>`` element in display style."""
@@ -56,11 +59,10 @@ def _lines(formula: Formula) -> str:
         return f"<mrow>{prefix}{expression(formula)}</mrow>"
     operator = _operator(_AND if isinstance(formula, And) else _OR)
     rows = [
-        f"<mtr><mtd>{operator if i else ''}</mtd><mtd>{expression(arg, bracket=True)}</mtd></mtr>"
+        f"<mtr><mtd>{operator if i else ''}</mtd><mtd{LEFT}>{expression(arg, bracket=True)}</mtd></mtr>"
         for i, arg in enumerate(formula.args)
     ]
-    style = ' columnalign="right left" style="text-align:left"'
-    return f"<mrow>{prefix}<mtable{style}>{''.join(rows)}</mtable></mrow>"
+    return f"<mrow>{prefix}<mtable columnalign='right left'>{''.join(rows)}</mtable></mrow>"
 
 
 def _size(formula: Formula) -> int:

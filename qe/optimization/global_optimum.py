@@ -66,7 +66,10 @@ class GlobalOptimum:
     def __repr__(self) -> str:
         if not self.is_optimal:
             return f"GlobalOptimum({self.status.value})"
-        return f"GlobalOptimum({self.value}{f' at {point_text(self.point)}' if self.point else ', not attained'})"
+        value = str(self.value)
+        if self.value is not None and "root(" in value.replace("sqrt(", ""):
+            value += f" ≈ {float(self.value):.6g}"
+        return f"GlobalOptimum({value}{f' at {point_text(self.point)}' if self.point else ', not attained'})"
 
     @property
     def is_optimal(self) -> bool:

@@ -24,16 +24,13 @@ from fractions import Fraction
 from functools import partial
 from itertools import pairwise, product
 
-from flint import arb, fmpq
-
 from qe.cad.decompose import decompose
 from qe.cells.formulas import construct
 from qe.cells.interval import Number
-from qe.cells.sampled_cells import child, root_place
+from qe.cells.sampled_cells import child, rational, root_place
 from qe.errors import InternalError, Unable
-from qe.exact.balls import hull, lower_end, precision, upper_end
 from qe.exact.fibre_stack import isolate_over
-from qe.exact.nearby import enclosed
+from qe.exact.nearby import enclosure, without_zeros
 from qe.exact.ring import Poly, Ring
 from qe.exact.sample import Point
 from qe.formula.build import atom, convert
@@ -46,12 +43,15 @@ from qe.regions.planar import WHOLE, Place, connected_parts, ends_of, frontiers,
 DIMENSIONS = 3
 _FIRST_BITS = 3
 
+Side = tuple[Fraction, Fraction]
+"""An interval with both ends."""
+
 
 @dataclass(frozen=True, slots=True)
 class Way:
-    """A connected set, within ``sides`` (both balls), that joins the sample of a cell with a point within another."""
+    """A connected set, within a box with these ``sides``, that joins the sample of a cell with a point of another."""
 
-    sides: tuple[arb, arb]
+    sides: tuple[Side, Side]
     end: Point
 
 
@@ -125,10 +125,9 @@ class Space:
         bits = _FIRST_BITS
         while True:
             self.budget.check("a way between cells", bits)
-            with precision(bits + 64):
-                way = self._way(near, cell, bits)
-                if not any(enclosed(f, way.sides).contains(0) for f in barriers):
-                    break
+            way = self._way(near, cell, bits)
+            if without_zeros(barriers, way.sides, bits + 64):
+                break
             bits *= 2
         stack = isolate_over(way.end, self.table.factors[2])
         if len(stack.sections) != len(stack_at(self.table, cell).sections):
@@ -159,8 +158,8 @@ class Space:
         point = self._sample(near)
         low, high = self._around(near, bits)
         y = high if cell[1] > near[1] else low
-        end = point.ancestor(1).extend(fmpq(y.numerator, y.denominator))
-        return Way((_ball(point, 0, bits), hull(_q(low), _q(high))), end)
+        end = point.ancestor(1).extend(rational(y))
+        return Way((enclosure(point, 0, bits + 64), (low, high)), end)
 
     def _sideways(self, near: Place, cell: Place, bits: int) -> Way:
         """Away from the line over a root of the first variable, at heights around the sample on that line."""
@@ -172,14 +171,14 @@ class Space:
         crossed = [f.at_quotient(1, ring.constant(y.numerator), ring.constant(y.denominator))
                    for f in factors for y in {low, high}]  # fmt: skip
         x = nearer(start, self._beyond(near, cell, start, bits), crossed)
-        line = Point(ring).extend(_q(x))
-        sides = (_ball(point, 0, bits).union(arb(_q(x))), hull(_q(low), _q(high)))
-        return Way(sides, self._within(cell, line, low, high))
+        line = Point(ring).extend(rational(x))
+        left, right = enclosure(point, 0, bits + 64)
+        return Way(((min(left, x), max(right, x)), (low, high)), self._within(cell, line, low, high))
 
     def _within(self, cell: Place, line: Point, low: Fraction, high: Fraction) -> Point:
         """The point of a cell of the plane on a line, at a height between two numbers (or at both, if equal)."""
         if low == high:
-            return line.extend(_q(low))
+            return line.extend(rational(low))
         factors, y = self.table.factors[1], line.ring.gen(1)
         cuts = tuple(y * q.denominator - q.numerator for q in (low, high))
         stack = isolate_over(line, (*factors, *cuts))
@@ -194,18 +193,15 @@ class Space:
     def _around(self, near: Place, bits: int) -> tuple[Fraction, Fraction]:
         """Rational numbers below and above the second coordinate of a section's sample, no other section between."""
         point, sectors = self._sample(near), stack_at(self.table, near[:1]).sectors
-        ball, half = _ball(point, 1, bits), Fraction(1, 2**bits)
+        (low, high), half = enclosure(point, 1, bits + 64), Fraction(1, 2**bits)
         below, above = near[1] // 2, near[1] // 2 + 1
-        low, high = _fraction(lower_end(ball)) - half, _fraction(upper_end(ball)) + half
-        return max(low, sectors[below]), min(high, sectors[above])
+        return max(low - half, sectors[below]), min(high + half, sectors[above])
 
     def _beyond(self, near: Place, cell: Place, start: Number, bits: int) -> Fraction:
         """A rational number on the way from a root of the first variable into the interval beside it."""
         farthest = stack_at(self.table, ()).sectors[cell[0] // 2]
-        ball, half = _ball(self._sample(near), 0, bits), Fraction(1, 2**bits)
-        if start < farthest:
-            return min(farthest, _fraction(upper_end(ball)) + half)
-        return max(farthest, _fraction(lower_end(ball)) - half)
+        (low, high), half = enclosure(self._sample(near), 0, bits + 64), Fraction(1, 2**bits)
+        return min(farthest, high + half) if start < farthest else max(farthest, low - half)
 
     def _sample(self, place: Place) -> Point:
         """The sample point of a cell of the line or the plane."""
@@ -233,20 +229,6 @@ def _lacking(table: CellTable) -> tuple[Poly, ...]:
         if not any(c.is_constant for c in coefficients):
             found |= {c: None for c in coefficients if any(g not in known for g, _ in c.factors()[1])}
     return tuple(found)
-
-
-def _ball(point: Point, i: int, bits: int) -> arb:
-    """A ball around a coordinate."""
-    value = point.coordinate(i)
-    return arb(value) if isinstance(value, fmpq) else point.ball(i, bits + 64)
-
-
-def _q(value: Fraction) -> fmpq:
-    return fmpq(value.numerator, value.denominator)
-
-
-def _fraction(value: fmpq) -> Fraction:
-    return Fraction(int(value.p), int(value.q))
 
 
 # --- formulas of the components ------------------------------------------------------------------------------------
