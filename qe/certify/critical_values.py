@@ -217,6 +217,7 @@ def check_shape(entry: Entry, holds: Formula, limits: Limits) -> None:
 
 
 def read_lists(entry: Entry, ring: Ring, limits: Limits) -> FactorLists:
+    """Factor lists that are closed under projection; ``CertificateRejected`` where they are not."""
     lists = [[f.polynomial(ring) for f in level.items()] for level in entry.items()]
     try:
         check_lists(ring, lists)
@@ -245,6 +246,7 @@ def _surfaces(conditions: Sequence[Quadratic], free: int, chains: Entry, limits:
 
 
 def padded(values: Row, ring: Ring) -> tuple[Fraction, ...]:
+    """A point with any values for the block's variables."""
     return (*values, *(Fraction(0),) * (ring.size - len(values)))
 
 

@@ -56,9 +56,10 @@ def test_strange_parameters(parameters: list[str]) -> None:
 def test_the_values_that_are_taken(objective: Poly, scale: Fraction, conditions: str, values: str) -> None:
     goal = goal_of(objective, scale, conditions)
     found, answer = goal.values(Budget(60), check=False)
-    assert qe.equivalent(found, values) and answer.formula == found
+    assert qe.equivalent(found.formula, values) and answer.formula == found.formula
+    assert goal.proved(found, Budget(60), check=False).formula == found.formula
 
 
 def test_with_parameters() -> None:
     found, _ = goal_of(X, 1, "x^2 <= a", ["a"]).values(Budget(60), check=False)
-    assert qe.equivalent(found, "value^2 <= a")
+    assert qe.equivalent(found.formula, "value^2 <= a")
