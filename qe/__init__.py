@@ -95,6 +95,7 @@ def __getattr__(name: str) -> Any:
 written_by(lambda value: import_module("qe.io.sympy").sympy_form(value))
 provide("regions", lambda: import_module("qe.api.region"))
 provide("connected", lambda: import_module("qe.io.expressions").connected)
+provide("substituted", lambda: import_module("qe.io.expressions").substituted)
 provide("formats", lambda: import_module("qe.io.formats"))
 provide("region", lambda: import_module("qe.api.eliminate").region)
 provide("partial_picture", lambda: import_module("qe.regions.partial_picture").plotted)

@@ -1,7 +1,8 @@
-"""Formulas connected by Python's operators, and shown in notebooks."""
+"""Formulas connected by Python's operators, with values put in, and shown in notebooks."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 from qe.later import later
@@ -39,6 +40,15 @@ class Connected:
 
     def __invert__(self) -> Any:
         return later("connected")("not", self)
+
+    def substitute(self, values: Mapping[Any, object]) -> Any:
+        """The formula with numbers or terms in the place of free variables, all at once; others are left alone.
+
+        Where all have rational values, a quantifier-free formula becomes true or false. Terms that are no polynomials,
+        roots among them, are named by a quantified variable.
+        Raises ``InputError`` for what is no mapping, no variable or no value.
+        """
+        return later("substituted")(self, values)
 
     def _repr_latex_(self) -> str | None:
         """The formula as notebooks set it; None where it is too long for that."""

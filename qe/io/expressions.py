@@ -142,8 +142,7 @@ class Statement:
 
     def substitute(self, values: Mapping[Any, object]) -> Statement:
         """The statement with numbers or terms in the place of free variables, all at once."""
-        given = arguments.by_name(values, "values")
-        return Statement(substitute(self.formula, {name: _term(value) for name, value in given.items()}))
+        return Statement(substituted(self.formula, values))
 
     def __and__(self, other: object) -> Statement:
         return _connected("and", self, other)
@@ -243,6 +242,12 @@ _JOINS: dict[str, Callable[..., Formula]] = {
     "implies": build.implies,
     "not": build.neg,
 }
+
+
+def substituted(formula: Formula, values: Mapping[Any, object]) -> Formula:
+    """The formula with numbers or terms in the place of free variables, all at once."""
+    given = arguments.by_name(values, "values")
+    return substitute(formula, {name: _term(value) for name, value in given.items()})
 
 
 def connected(way: str, *parts: object) -> Formula | Statement:

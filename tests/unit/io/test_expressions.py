@@ -133,3 +133,13 @@ def test_mistakes_are_told_in_one_line(wrong: Callable[[], object], part: str) -
     with pytest.raises((InputError, NoTruthValue)) as caught:
         wrong()
     assert part in str(caught.value) and "\n" not in str(caught.value)
+
+
+def test_values_are_put_into_answers_too() -> None:
+    answer = qe.eliminate("ex x. x^2 + b*x + c = 0").formula
+    b, c = qe.variables("b c")
+    assert str(answer.substitute({"b": 2, c: 1})) == "true"
+    assert str(answer.substitute({b: c, "unknown": 1})) == "c^2 - 4*c >= 0"
+    assert str(qe.eliminate("ex x. x > 0").formula.substitute({"x": 1})) == "true"
+    with pytest.raises(qe.InputError):
+        answer.substitute(3)
