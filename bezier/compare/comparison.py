@@ -38,8 +38,8 @@ PAPER = {PlanMethod.QUADRATIC: "about 15.4 s", PlanMethod.CUBIC: "has not yet be
 NUMBERS = {PlanMethod.QUADRATIC: "(8):", PlanMethod.CUBIC: "(7):"}
 """What the labels of the certificates of a plan begin with."""
 
-REGION_SECONDS = 30.0
-"""No part is worked on longer than this; the comparison then says so."""
+REGION_SECONDS, PROOF_SECONDS = 30.0, 30.0
+"""No part, nor all derivations together, is worked on longer than this; the comparison then says so."""
 OUTPUT_SHARE = 0.15
 """The share of the time left after the plans that is kept for the pictures and the files."""
 SHARES = (3, 3, 2)
@@ -172,7 +172,7 @@ def compare(problem: Problem, clock: Clock | None = None, *, proofs: bool = Fals
         asked |= {f"the planar region of {n}": r.answer for n, r in planar.named.items() if r.answer is not None}
         if theorem.truth is not None:
             asked["the existence theorem of (7)"] = theorem.answer
-        found = parts.take("derivations", 1, lambda seconds: derivations.proved(asked, Clock(limit=seconds)))
+        found = parts.take("derivations", 1, lambda left: derivations.proved(asked, Clock(limit=left)), PROOF_SECONDS)
     known, unproved = found or ({}, {})
     return Comparison(problem, sides, planar, volume, theorem, dict(watch.seconds), parts.unfinished, known, unproved)
 
@@ -184,13 +184,13 @@ class _Parts:
     clock: Clock
     unfinished: dict[str, str] = field(default_factory=dict)
 
-    def take(self, name: str, share: int, work: Callable[[float], Found]) -> Found | None:
+    def take(self, name: str, share: int, work: Callable[[float], Found], most: float | None = None) -> Found | None:
         """The result of a part, which gets one part in ``share`` of the time; None, with the reason noted."""
+        most = most or REGION_SECONDS
         try:
             with self.clock.step(name):
                 left = self.clock.remaining(name)
-                seconds = REGION_SECONDS if left is None else left * (1 - OUTPUT_SHARE) / share
-                return work(min(REGION_SECONDS, seconds))
+                return work(most if left is None else min(most, left * (1 - OUTPUT_SHARE) / share))
         except Unable as error:
             self.unfinished[name] = str(error)
             self.clock.learn(name, f"not finished: {error}")

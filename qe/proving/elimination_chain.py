@@ -26,7 +26,9 @@ def chain(
     start: Sequence[Poly], free: int, enough: Callable[[Sequence[Poly]], bool], budget: Budget
 ) -> list[Row] | None:
     """Rows, each a combination of the polynomials before it (up to a constant), until ``enough`` is true of those in
-    the first ``free`` variables alone; None where the limits are reached or nothing more is found."""
+    the first ``free`` variables alone; None where the limits are reached, nothing more is found, or one is 0."""
+    if not all(start):
+        return None
     search = _Chain(start, free, budget)
     complete = search.run(lambda: enough([p for p in search.polys if p.level < free]))
     return search.needed() if complete else None
@@ -34,6 +36,11 @@ def chain(
 
 def member(target: Poly, generators: Sequence[Poly], budget: Budget) -> tuple[int, list[Poly]] | None:
     """(n, c) with n > 0 and n times the target the sum of the c times the generators; None where none is found."""
+    if not any(generators):
+        return None
+    if not all(generators):
+        rest = member(target, [g for g in generators if g], budget)
+        return rest and (rest[0], _with_zeros(rest[1], generators))
     search = _Chain(generators, 0, budget)
     seen, factors, scale = -1, dict[int, Terms](), 1
 
@@ -53,6 +60,12 @@ def member(target: Poly, generators: Sequence[Poly], budget: Budget) -> tuple[in
         return None
     number *= -scale  # the target is what was taken away from it
     return (number, found) if number > 0 else (-number, [-c for c in found])
+
+
+def _with_zeros(cofactors: Sequence[Poly], generators: Sequence[Poly]) -> list[Poly]:
+    """The cofactors of the generators that are not 0, and 0 for the others."""
+    left = iter(cofactors)
+    return [next(left) if g else g for g in generators]
 
 
 class _Chain:

@@ -223,7 +223,7 @@ DOORS = {
     ),
     "ComprehensiveGroebnerSystem.condition": Door(SYSTEM.condition, {"segment": SYSTEM.at({"a": 2})}),
     "ComprehensiveGroebnerSystem.contains": Door(
-        SYSTEM.contains, {"poly": SYSTEM.basis_at({"a": 2})[0], "point": {"a": 2}}
+        SYSTEM.contains, {"poly": SYSTEM.basis_at({"a": 2})[0], "point": {"a": 2}}, {"poly": {"digits"}}
     ),
     "ComprehensiveGroebnerSystem.place": Door(SYSTEM.place, {"point": {"a": 2}}),
     "ComprehensiveGroebnerSystem.place value": Door(

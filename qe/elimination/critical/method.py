@@ -169,17 +169,17 @@ def by_critical_values(variables: Sequence[str], body: Formula, context: Context
     start = time.perf_counter()
     budget = context.budget
     flat = on_flat(variables, body, budget=budget)
+    ring = body.ring or Ring.of(())
     if flat is not None:
         outside, rest = flat
         left = [v for v in variables if v in rest.free]
         inside = by_critical_values(left, rest, context) if left else Found(rest, None)
-        return Found(simplify(conj((*outside, inside.formula))), inside.order)
+        return Found(simplify(conj(convert(part, ring) for part in (*outside, inside.formula))), inside.order)
     parameters = _order(variables, body, context.options)
     found = eliminate_block(variables, body, parameters, procedures=procedures(budget), budget=budget)
-    formulas = [_formula(variables, parameters, part, budget) for part in found]
-    ring = body.ring or Ring.of(parameters)
+    formulas = [convert(_formula(variables, parameters, part, budget), ring) for part in found]
     parts = [
-        Part(convert(exists(variables, part.body), ring), convert(formula, ring))
+        Part(convert(exists(variables, part.body), ring), formula)
         for part, formula in zip(found, formulas, strict=True)
     ]
     whole = _logged(simplify(disj(formulas)), body, parameters, found, context, start)

@@ -74,7 +74,7 @@ def test_the_solutions(other: Any) -> None:
         ({"weights": [1]}, "expected 2 integers"),
         ({"weights": [1, 0]}, "expected an integer of at least 1"),
         ({"weights": [1, 10**6]}, "at most"),
-        ({"order": ["x", "x"]}, "different variables"),
+        ({"order": ["x", "x"]}, "listed twice"),
         ({"order": []}, "different variables"),
         ({"equations": ["x^2 - 2"], "solutions": []}, "infinitely many"),
         ({"equations": ["x^2 - 2", "x - y + 2"]}, "do not satisfy an equation"),
