@@ -87,7 +87,7 @@ def _combined(variables: Sequence[int], chosen: Sequence[Bound]) -> tuple[list[P
         solved = solve_linear(columns, [Fraction(j == k) for j in range(size)], size)
         if solved is None or solved.kernel:
             return None
-        inverse.append([Fraction(e) for e in solved.particular])  # type: ignore[arg-type]
+        inverse.append([Fraction(e) for e in solved.particular])
     scale = lcm(*(entry.denominator for row in inverse for entry in row))
     ring = Ring.of(f"g{k}" for k in range(size))
     zero = ring.constant(0)
