@@ -19,14 +19,16 @@ from math import comb
 
 from qe.certify.block import existential
 from qe.certify.boolean import ByLemmas, Goal, equivalence
+from qe.certify.limits import check_power
 from qe.certify.negation import negation
 from qe.certify.step import Claim, Context, only
+from qe.errors import Unable
 from qe.exact.ring import Poly
 from qe.formula.build import atom, conj, disj
 from qe.formula.syntax import FALSE, And, Atom, Exists, Formula, Relation
 
-MOST_ROOTS = 10
-"""The degree up to which determinants are expanded."""
+MOST_ROOTS, MOST_TERMS = 10, 100_000
+"""The degree up to which determinants are expanded, and terms of two factors multiplied."""
 
 
 def half_plane_goals(claim: Claim, context: Context) -> list[Goal]:
@@ -91,6 +93,7 @@ def _moved(p: Sequence[Poly], bound: Poly, plane: tuple[int, int], claim: Claim)
     if not k.is_constant or not k or m.degree(x) or m.degree(y):
         raise claim.fail("a bound of the real part expected")
     degree = len(p) - 1
+    check_power(m, degree)
     found = [ring.constant(0)] * (degree + 1)
     for j, c in enumerate(p):
         for h in range(j + 1):
@@ -132,6 +135,8 @@ def _minor(a: Sequence[Poly], size: int) -> Poly:
                 index = len(a) - 1 + i - 2 * j
                 if j in columns or not 0 <= index < len(a) or not a[index] or not minor:
                     continue
+                if a[index].term_count() * minor.term_count() > MOST_TERMS:
+                    raise Unable("a determinant of Hurwitz has too many terms")
                 taken = tuple(sorted((*columns, j)))
                 sign = -1 if taken.index(j) % 2 else 1
                 chosen[taken] = chosen.get(taken, zero) + a[index] * minor * sign

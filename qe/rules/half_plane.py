@@ -90,13 +90,15 @@ def _parts(coefficients: Sequence[Poly], real: int, imaginary: int) -> tuple[Pol
 
 
 def _moved(coefficients: Sequence[Poly], k: int, m: Poly) -> list[Poly]:
-    """The coefficients of k^n * p((w - m)/k) in w (Horner)."""
+    """The coefficients of k^n * p((w - m)/k) in w (Horner). Raises ``Unable`` where they grow too large."""
     zero, scale = m.ring.constant(0), 1
     found: list[Poly] = []
     for c in reversed(coefficients):
         found = [a - m * b for a, b in zip([zero, *found], [*found, zero], strict=True)] if found else [zero]
         found[0] = found[0] + c * scale
         scale *= k
+        if any(a.term_count() > MOST_TERMS for a in found):
+            raise Unable("the bound is too long")
     return found
 
 

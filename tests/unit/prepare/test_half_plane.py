@@ -12,11 +12,14 @@ from hypothesis import strategies as st
 import qe
 import qe.rules.half_plane as half_plane
 from qe.api.input import read_formula
-from qe.certify.half_plane import check_half_plane
+from qe.certify.half_plane import check_half_plane, half_plane_goals
+from qe.certify.step import Claim
+from qe.errors import Unable
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj, exists
 from qe.formula.evaluate import holds_at
-from qe.formula.syntax import Formula, Relation
+from qe.formula.syntax import FALSE, Formula, Relation
+from qe.proof.entry import Entry
 from qe.proof.run_log import RunLog
 from qe.proof.step import Step
 from qe.rules.half_plane import _parts as parts_of
@@ -139,6 +142,18 @@ BY = {"real": "x", "imaginary": "y", "theory": NO_LEMMAS}
 def test_what_the_checker_says(before: str, after: str, reason: str) -> None:
     found = objection(check_half_plane, before, after, BY)
     assert reason in found and bool(found) is bool(reason)
+
+
+def test_determinants_out_of_reach_are_not_accepted() -> None:
+    """A sum of many terms in every coefficient: the checker stops, and says so."""
+    ring = Ring.of((*"abcdefgh", "x", "y"))
+    large = sum((ring.gen(i) for i in range(8)), ring.constant(1)) ** 4
+    real, imaginary = parts_of([large + k for k in range(5)], 8, 9)
+    body = conj((atom(real, Relation.EQ), atom(imaginary, Relation.EQ), atom(ring.var("x"), Relation.GE)))
+    assert steps_of(exists(("x", "y"), body)) == []
+    claim = Claim("", exists(("x", "y"), body), FALSE, ring, Entry(BY, "step"), "step")
+    with pytest.raises(Unable, match="too many terms"):
+        half_plane_goals(claim, ())
 
 
 @pytest.mark.parametrize("change", [{"real": "y", "imaginary": "x"}, {"imaginary": "x"}, {"imaginary": "z"}])
