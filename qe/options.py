@@ -50,6 +50,7 @@ class Stage(Enum):
     blocks of one kind are prepared as one. ``DISTRIBUTION``: disjuncts with equations are solved apart. ``VALUES``:
     atoms that some value of a variable meets, whatever the rest is, are dropped. ``ZEROS``: conditions on which
     variables vanish are dropped where they follow from the others. ``BALLS``: whether two balls meet is a closed form.
+    ``STABILITY``: whether a polynomial given by its real and imaginary part has roots in a half-plane is another.
     ``RANGES``: conditions that ranges of variables exclude are refuted. ``SEARCH``: sentences with many cases are
     searched by a SAT solver. ``SQUARES``: signs that sums of squares prove. ``MINISCOPING``: quantifiers are moved
     inwards, independent parts apart. ``EXCHANGE``: the sum and product of two variables that can be exchanged stand for
@@ -74,6 +75,7 @@ class Stage(Enum):
     VALUES = "values"
     ZEROS = "zeros"
     BALLS = "balls"
+    STABILITY = "stability"
     RANGES = "ranges"
     SEARCH = "search"
     SQUARES = "squares"

@@ -19,6 +19,7 @@ from qe.certify.distribution import check_distribution
 from qe.certify.elimination_set import check_elimination_set
 from qe.certify.exchange import check_exchange
 from qe.certify.gathering import check_gathering
+from qe.certify.half_plane import check_half_plane
 from qe.certify.independent_parts import check_independent_parts
 from qe.certify.inequations import check_inequations, check_only_nonzero
 from qe.certify.infinity_first import check_infinity_first
@@ -56,6 +57,7 @@ RULES: Mapping[str, Check] = {
     "Groebner basis of the equations": check_block,
     "multiple of an equation subtracted": check_block,
     "two balls": check_balls,
+    "roots in a half-plane": check_half_plane,
     "ranges that exclude each other": check_ranges,
     "conditions on zeros that follow": check_zeros,
     "independent parts and miniscoping": check_miniscoping,

@@ -44,6 +44,7 @@ SWITCHED = {
     Stage.ZEROS: {StepKind.ZEROS},
     Stage.RANGES: {StepKind.RANGES},
     Stage.BALLS: {StepKind.BALLS},
+    Stage.STABILITY: {StepKind.HALF_PLANE},
     Stage.SQUARES: {StepKind.SQUARES},
     Stage.EXCHANGE: {StepKind.EXCHANGE},
     Stage.MINISCOPING: {StepKind.MINISCOPE},

@@ -13,6 +13,7 @@ from qe.rules.cases import groebner_equations, split_factors, split_squares
 from qe.rules.degree_shift import shift_degree
 from qe.rules.exchange import exchange_variables
 from qe.rules.generic import drop_inequations
+from qe.rules.half_plane import root_in_half_plane
 from qe.rules.ranges import excluded_by_ranges
 from qe.rules.scaling import fix_scale
 from qe.rules.shear import linear_form
@@ -28,6 +29,7 @@ RULES: tuple[Rule, ...] = (
     excluded_by_ranges,
     independent_parts,
     two_balls,
+    root_in_half_plane,
     linear_equation,
     known_signs,
     drop_what_can_be_met,

@@ -1,6 +1,6 @@
 """Comparisons of polynomials that are nowhere negative, or nowhere positive, by an identity that says so.
 
-THEOREM. Where p is a sum of products that are nowhere negative (squares, and variables that the conditions beside it
+THEOREM. Where p is a sum of products that are nowhere negative (squares, and linear forms that the conditions beside it
 keep from being negative), p >= 0 holds, p < 0 does not, and p <= 0 says p = 0; if one of the products is a positive
 number, p > 0 holds. The identities are found in ``qe.positivity``.
 """
@@ -11,6 +11,7 @@ from qe.exact.ring import Poly, format_poly
 from qe.formula.build import atom
 from qe.formula.syntax import FALSE, TRUE, Atom, Formula, Relation, RootAtom
 from qe.formula.traverse import conjuncts, is_quantifier_free, map_atoms, polynomials
+from qe.positivity.cone import bounds_of, positive_on_cone
 from qe.positivity.identity import Identity, Positive
 from qe.positivity.prove import nowhere_negative
 from qe.rules.block_context import BlockContext, Found
@@ -32,6 +33,7 @@ def known_signs(variables: tuple[str, ...], body: Formula, context: BlockContext
     facts = context.facts.extended([p for p in conjuncts(body) if isinstance(p, Atom) and p.poly.total_degree == 1])
     ring = polys[0].ring
     orthant = frozenset(i for i in range(ring.size) if -1 not in facts.signs(generator(ring, i)))
+    bounds = bounds_of((*conjuncts(body), *context.known))
     signs: dict[Poly, frozenset[int]] = {}
     proofs: list[Identity] = []
 
@@ -46,7 +48,7 @@ def known_signs(variables: tuple[str, ...], body: Formula, context: BlockContext
 
     for poly in polys:
         for sign in (1, -1):
-            proof: Positive | None = nowhere_negative(poly * sign, orthant)
+            proof: Positive | None = nowhere_negative(poly * sign, orthant) or positive_on_cone(poly * sign, bounds)
             if proof is None:
                 continue
             signs[poly] = frozenset((sign,)) if proof.strict else frozenset((0, sign))
