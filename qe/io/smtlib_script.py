@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import count
 from typing import NamedTuple, cast
 
 from qe.errors import InputError
+from qe.formula.build import exists
 from qe.formula.syntax import Formula
 from qe.io import surface as s
 from qe.io.lowering import lower
+from qe.io.sharing import named
 from qe.io.smtlib_parser import Expression, Listing, Word
 from qe.io.smtlib_terms import Foreign, Macro, Meaning, Terms
 from qe.io.total import Fill, Total
@@ -145,9 +148,16 @@ class Script(Terms):
 
     # --- questions -------------------------------------------------------------------------------------------
     def formula_of(self, nodes: Sequence[s.Node], total: Total) -> Formula:
-        """The conjunction of the nodes; ``total`` is told about functions outside their domains."""
+        """The conjunction of the nodes; ``total`` is told about functions outside their domains.
+
+        What would be written out many times has names, which are quantified: a check binds them with the others.
+        Raises ``Unable`` where it is much too long all the same.
+        """
         total.bound = frozenset(self.bound)
-        return lower(s.Every(list(nodes)), self.fail, names=self.names, shared=self.used(nodes), total=total)
+        new = (name for k in count(1) if (name := f"part_{k}") not in self.taken)
+        known = named(nodes, self.used(nodes), self.bound, lambda: next(new))
+        whole, names = s.Every([*known.definitions, *known.nodes]), [*self.names, *known.names]
+        return exists(known.names, lower(whole, self.fail, names=names, shared=known.shared, total=total))
 
     def used(self, nodes: Sequence[s.Node]) -> list[s.Part]:
         """The shared parts that the nodes contain, in their order."""
