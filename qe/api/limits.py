@@ -65,6 +65,7 @@ def reading(
 ) -> Formula:
     """The formula, read under the limits where reading may take long. Raises ``BudgetExceeded`` at one."""
     total = arguments.flag(total_division, "total_division")
-    if not isinstance(formula, str) or not text_may_block(formula):
+    limited = limits.timeout is not None or limits.memory is not None
+    if not isinstance(formula, str) or not (text_may_block(formula) or (limited and "let" in formula)):
         return reader(formula, format, total)
     return perform(lambda budgets: reader(formula, format, total), limits, at_once=True)

@@ -135,7 +135,7 @@ class Checked(Solver):
 def ours(script: str, seconds: float) -> tuple[list[str], bool]:
     """Our answers, and whether all models satisfy all assertions."""
     solver = Checked(seconds)
-    solver.execute(script, "<script>")
+    solver.run([script], "<script>")
     return solver.answers, not solver.broken
 
 
