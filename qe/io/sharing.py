@@ -16,6 +16,8 @@ from typing import NamedTuple, TypeAlias, cast
 
 from qe.errors import Unable
 from qe.formula.relation import Relation
+from qe.formula.syntax import Formula
+from qe.formula.weight import written_out
 from qe.io import surface as s
 
 MOST_WRITTEN = 200_000
@@ -31,8 +33,6 @@ _SHORT = 8
 """Parts up to which what is shared stays where it is."""
 
 Make: TypeAlias = Callable[[], str]
-_ATOMIC = (s.Comparison, s.Truth)
-_CASED = (s.Choice, s.Apply, s.Quotient)
 _CASES = 2**64
 
 
@@ -51,7 +51,7 @@ def inside(part: s.Part) -> list[s.Part]:
     found: list[s.Part] = []
     for field in part:
         if isinstance(field, list):
-            found += [item for item in field if isinstance(item, tuple)]
+            found += [cast(s.Part, item) for item in field if isinstance(item, tuple)]
         elif isinstance(field, tuple):
             found.append(cast(s.Part, field))
     return found
@@ -81,14 +81,18 @@ def refuse_long(roots: Iterable[s.Node]) -> None:
     for part in parts:
         size = 1 + sum(sizes[id(child)] for child in inside(part)) if isinstance(part, s.Node) else 0
         sizes[id(part)] = min(2 * size if isinstance(part, s.Equivalence) else size, _CASES)
-    if (most := max(sizes.values(), default=0)) > max(MOST_WRITTEN, MUCH * len(parts)):
-        raise Unable(too_long(most))
+    _refuse(max(sizes.values(), default=0), len(parts))
 
 
-def too_long(size: int) -> str:
-    """What is said of a formula that would have so many parts."""
-    count = f"{size:,} parts" if size < 10**12 else "more than 10^12 parts"
-    return f"written out, <->, xor and shared parts make this {count}; say it with fewer, or name parts: ex p. (p > 0 <-> …) and …"
+def refuse_shared(formula: Formula) -> None:
+    """The same for a formula that is read."""
+    _refuse(*written_out(formula))
+
+
+def _refuse(size: int, different: int) -> None:
+    if size > max(MOST_WRITTEN, MUCH * different):
+        count = f"{size:,}" if size < 10**12 else "more than 10^12"
+        raise Unable(f"written out, <->, xor and shared parts make {count} parts; name some: ex p. (p > 0 <-> …) and …")
 
 
 def named(nodes: Sequence[s.Node], shared: Sequence[s.Part], bound: Collection[str], make: Make) -> Named:
@@ -120,14 +124,19 @@ def _sizes(parts: Sequence[s.Part]) -> dict[int, tuple[int, int]]:
             size, cases = size * cases, 1
         elif isinstance(part, s.Choice):
             cases = sizes[id(part.then)][1] + (1 if part.other is None else sizes[id(part.other)][1])
-        elif isinstance(part, s.Apply):
-            cases *= 2
-        elif isinstance(part, s.Quotient) and not isinstance(part.right, s.Number):
+        elif _has_cases(part):
             cases *= 2
         else:
             size = size if cases > 1 else 1
         sizes[id(part)] = min(size, _CASES), min(cases, _CASES)
     return sizes
+
+
+def _has_cases(part: s.Part) -> bool:
+    """Whether what a term is may depend on a case distinction."""
+    if isinstance(part, s.Quotient):
+        return not isinstance(part.right, s.Number)
+    return isinstance(part, s.Choice | s.Apply)
 
 
 def _times(part: s.Part, child: s.Part) -> int:
@@ -155,9 +164,8 @@ class _Naming:
         """Find what stands for a part, after those inside it."""
         children = inside(part)
         self.sizes[id(part)] = 1 + sum(self.sizes[id(child)] * _times(part, child) for child in children)
-        if (isinstance(part, s.Name) and part.name in self.bound) or isinstance(part, s.Root | s.Infinity):
-            self.fixed.add(id(part))
-        elif any(id(child) in self.fixed for child in children):
+        partial = isinstance(part, s.Root | s.Infinity) or (isinstance(part, s.Name) and part.name in self.bound)
+        if partial or any(id(child) in self.fixed for child in children):
             self.fixed.add(id(part))
         meant = self.meant[id(part)] = self.rebuilt(part)
         self.now[id(part)] = meant
@@ -166,10 +174,9 @@ class _Naming:
 
     def worth(self, part: s.Part) -> bool:
         if isinstance(part, s.Node):
-            return (
-                not isinstance(part, _ATOMIC) and self.uses.get(id(part), 0) > 1 and self.sizes[id(part)] > _SHORT
-            )
-        return isinstance(part, _CASED) and not (isinstance(part, s.Quotient) and isinstance(part.right, s.Number))
+            shared = self.uses.get(id(part), 0) > 1 and self.sizes[id(part)] > _SHORT
+            return shared and not isinstance(part, s.Comparison | s.Truth)
+        return _has_cases(part)
 
     def name(self, part: s.Part, meant: s.Part) -> None:
         name = self.make()
@@ -177,11 +184,12 @@ class _Naming:
         self.names.append(name)
         self.sizes[id(part)] = 1
         if isinstance(meant, s.Node):
-            self.now[id(part)] = s.Comparison([value, s.Number(0)], [Relation.GT], -1)
-            self.definitions.append(s.Equivalence(self.now[id(part)], meant))
+            truth = s.Comparison([value, s.Number(0)], [Relation.GT], -1)
+            self.definitions.append(s.Equivalence(truth, meant))
+            self.now[id(part)] = truth
         else:
-            self.now[id(part)] = value
             self.definitions.append(s.Comparison([value, meant], [Relation.EQ], -1))
+            self.now[id(part)] = value
 
     def rebuilt(self, part: s.Part) -> s.Part:
         """The part, made of what stands for those inside it."""
@@ -193,7 +201,7 @@ class _Naming:
             else self.now.get(id(field), field)
             for field in part
         ]
-        return cast(s.Part, type(part)(*fields))
+        return cast(Callable[..., s.Part], type(part))(*fields)
 
     def built(self, shared: Iterable[s.Part]) -> list[s.Part]:
         """What the shared parts mean now."""

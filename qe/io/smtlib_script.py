@@ -160,9 +160,7 @@ class Script(Terms):
         nodes = [*known.definitions, *known.nodes]
         return exists(known.names, self.lowered(nodes, total, [*self.names, *known.names], known.shared))
 
-    def lowered(
-        self, nodes: Sequence[s.Node], total: Total, names: Sequence[str], shared: Sequence[s.Part]
-    ) -> Formula:
+    def lowered(self, nodes: Sequence[s.Node], total: Total, names: Sequence[str], shared: Sequence[s.Part]) -> Formula:
         total.bound = frozenset(self.bound)
         return lower(s.Every(list(nodes)), self.fail, names=names, shared=shared, total=total)
 
