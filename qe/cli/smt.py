@@ -328,8 +328,9 @@ class Solver(Checks):
     def eliminated(self, command: Listing) -> str:
         """``get-qe``: an equivalent formula without quantifiers."""
         self.script.arity(command, 1)
-        total = Total(fill=Fill.ANY)
-        formula = self.script.formula_of([self.script.formula(command.items[1], self.script.globals)], total)
+        self.tick()
+        asked = self.script.formula(command.items[1], self.script.globals)
+        formula, total = self.formula([asked], Total(fill=Fill.ANY), self.left())
         answer = api.eliminate(total.checked(formula), timeout=self.left(), memory=self.memory)
         if answer.formula is None:
             raise Unable(answer.reason or "no answer")

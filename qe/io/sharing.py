@@ -12,6 +12,7 @@ denied: nested in each other k times they would be 2^k parts.
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Sequence
+from math import prod
 from typing import NamedTuple, TypeAlias, cast
 
 from qe.errors import Unable
@@ -29,8 +30,8 @@ MUCH = 8
 LONG = 400
 """Parts of a question, written out, up to which nothing is named."""
 
-_SHORT = 8
-"""Parts up to which what is shared stays where it is."""
+_SHORT, _MANY = 8, 16
+"""Parts up to which what is shared stays where it is; cases of a term from which on it gets a name."""
 
 Make: TypeAlias = Callable[[], str]
 _CASES = 2**64
@@ -76,12 +77,17 @@ def refuse_long(roots: Iterable[s.Node]) -> None:
 
     Terms count as one part, since equal ones are worked out once.
     """
-    sizes: dict[int, int] = {}
     parts = ordered(roots)
+    _refuse(_longest(parts), len(parts))
+
+
+def _longest(parts: Sequence[s.Part]) -> int:
+    """How long the longest part is written out, terms counted as one part."""
+    sizes: dict[int, int] = {}
     for part in parts:
         size = 1 + sum(sizes[id(child)] for child in inside(part)) if isinstance(part, s.Node) else 0
         sizes[id(part)] = min(2 * size if isinstance(part, s.Equivalence) else size, _CASES)
-    _refuse(max(sizes.values(), default=0), len(parts))
+    return max(sizes.values(), default=0)
 
 
 def refuse_shared(formula: Formula) -> None:
@@ -115,21 +121,19 @@ def _sizes(parts: Sequence[s.Part]) -> dict[int, tuple[int, int]]:
     """How long each part is written out, and how many cases a term has."""
     sizes: dict[int, tuple[int, int]] = {}
     for part in parts:
-        size, cases = 1, 1
-        for child in inside(part):
-            length, ways = sizes[id(child)]
-            size += length * _times(part, child)
-            cases *= ways
+        size = 1 + sum(sizes[id(child)][0] * _times(part, child) for child in inside(part))
+        cases = _cases(part, [sizes[id(child)][1] for child in inside(part)])
         if isinstance(part, s.Node):
             size, cases = size * cases, 1
-        elif isinstance(part, s.Choice):
-            cases = sizes[id(part.then)][1] + (1 if part.other is None else sizes[id(part.other)][1])
-        elif _has_cases(part):
-            cases *= 2
-        else:
-            size = size if cases > 1 else 1
-        sizes[id(part)] = min(size, _CASES), min(cases, _CASES)
+        sizes[id(part)] = min(size if cases > 1 or isinstance(part, s.Node) else 1, _CASES), min(cases, _CASES)
     return sizes
+
+
+def _cases(part: s.Part, inner: Sequence[int]) -> int:
+    """How many cases a term has, those inside having so many."""
+    if isinstance(part, s.Choice):
+        return sum(inner[1:])
+    return prod(inner) * (2 if _has_cases(part) else 1)
 
 
 def _has_cases(part: s.Part) -> bool:
@@ -152,6 +156,8 @@ class _Naming:
         self.now: dict[int, s.Part] = {}
         self.meant: dict[int, s.Part] = {}
         self.sizes: dict[int, int] = {}
+        self.cases: dict[int, int] = {}
+        self.logical = _longest(parts) > max(LONG, 2 * len(parts))
         self.fixed: set[int] = set()
         self.definitions: list[s.Node] = []
         self.names: list[str] = []
@@ -164,6 +170,8 @@ class _Naming:
         """Find what stands for a part, after those inside it."""
         children = inside(part)
         self.sizes[id(part)] = 1 + sum(self.sizes[id(child)] * _times(part, child) for child in children)
+        cases = _cases(part, [self.cases[id(child)] for child in children])
+        self.cases[id(part)] = 1 if isinstance(part, s.Node) else min(cases, _CASES)
         partial = isinstance(part, s.Root | s.Infinity) or (isinstance(part, s.Name) and part.name in self.bound)
         if partial or any(id(child) in self.fixed for child in children):
             self.fixed.add(id(part))
@@ -174,15 +182,15 @@ class _Naming:
 
     def worth(self, part: s.Part) -> bool:
         if isinstance(part, s.Node):
-            shared = self.uses.get(id(part), 0) > 1 and self.sizes[id(part)] > _SHORT
+            shared = self.logical and self.uses.get(id(part), 0) > 1 and self.sizes[id(part)] > _SHORT
             return shared and not isinstance(part, s.Comparison | s.Truth)
-        return _has_cases(part)
+        return _has_cases(part) and self.cases[id(part)] >= _MANY
 
     def name(self, part: s.Part, meant: s.Part) -> None:
         name = self.make()
         value = s.Name(name, -1)
         self.names.append(name)
-        self.sizes[id(part)] = 1
+        self.sizes[id(part)] = self.cases[id(part)] = 1
         if isinstance(meant, s.Node):
             truth = s.Comparison([value, s.Number(0)], [Relation.GT], -1)
             self.definitions.append(s.Equivalence(truth, meant))
