@@ -27,7 +27,7 @@ MOST_WRITTEN = 200_000
 MUCH = 8
 """How many times as long a question is written out that shares much."""
 
-LONG = 400
+LONG = 20_000
 """Parts of a question, written out, up to which nothing is named."""
 
 _SHORT, _MANY = 8, 16
