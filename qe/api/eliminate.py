@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from qe import arguments
 from qe.api.input import AnyFormula, read_formula
 from qe.api.limits import cluster_of, limits_of, performed, reading
-from qe.errors import BudgetExceeded, InputError, Unable
+from qe.errors import InputError, Unable
 from qe.formula.features import features
 from qe.formula.syntax import Formula
 from qe.formula.traverse import free_variables
@@ -111,7 +111,7 @@ def eliminate(
         raise InputError("race: cannot go with method, workers, cluster or process=False")
     try:
         given = reading(formula, format, limits, total_division)
-    except BudgetExceeded as error:
+    except Unable as error:
         return Answer(Status.UNABLE, None, reason=str(error))
     _check_order(options.order, given)
     whole = limits.shared(WHOLE_SHARE) if arguments.flag(anytime, "anytime") else limits

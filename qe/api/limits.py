@@ -12,6 +12,7 @@ from qe.api.input import AnyFormula, read_formula
 from qe.errors import InputError
 from qe.formula.syntax import Formula
 from qe.formula.weight import may_block, text_may_block
+from qe.io.sharing import refuse_shared
 from qe.options import Cluster
 from qe.processes.execution import Budgets, Limits, perform
 from qe.progress import Event
@@ -63,8 +64,13 @@ def cluster_of(workers: int, address: str | None) -> Cluster | None:
 def reading(
     formula: AnyFormula, format: str, limits: Limits, total_division: bool = False, *, reader: Reader = read_formula
 ) -> Formula:
-    """The formula, read under the limits where reading may take long. Raises ``BudgetExceeded`` at one."""
+    """The formula, read under the limits where reading may take long. Raises ``BudgetExceeded`` at one, ``Unable`` for
+    a formula whose parts are shared so much that no method, all of which write it out, comes to an end."""
     total = arguments.flag(total_division, "total_division")
-    if not isinstance(formula, str) or not text_may_block(formula):
-        return reader(formula, format, total)
-    return perform(lambda budgets: reader(formula, format, total), limits, at_once=True)
+    limited = limits.timeout is not None or limits.memory is not None
+    if isinstance(formula, str) and (text_may_block(formula) or (limited and "let" in formula)):
+        found = perform(lambda budgets: reader(formula, format, total), limits, at_once=True)
+    else:
+        found = reader(formula, format, total)
+    refuse_shared(found)
+    return found

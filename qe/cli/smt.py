@@ -10,7 +10,6 @@ import re
 import sys
 from collections.abc import Callable, Iterable, Sequence
 from fractions import Fraction
-from itertools import pairwise
 from typing import cast
 
 import qe
@@ -21,12 +20,13 @@ from qe.errors import InputError, ParseError, Unable
 from qe.io import smtlib
 from qe.io import surface as s
 from qe.io.grammar import Failing
-from qe.io.smtlib_parser import Expression, Listing, Word, complete, ends, parse, show
+from qe.io.smtlib_parser import Expression, Listing, Word, ends, parse, show
 from qe.io.smtlib_script import Script
 from qe.io.smtlib_terms import is_real
 from qe.io.total import Fill, Total
 
 MOST_LEVELS = 10_000
+_READ = re.compile(r"(?:\s+|;[^\n]*)*\(\s*(assert|declare-[a-z]+|define-[a-z-]+)\b")
 _INFO = {
     ":name": '"bezier-qe"',
     ":version": f'"{qe.__version__}"',
@@ -58,9 +58,10 @@ class Solver(Checks):
 
     def restart(self) -> None:
         """Forget everything but the options."""
-        self.script = Script(Failing("", "<smt>"))
+        self.script = Script(Failing("", "<smt>"), self.tick)
         self.lost: list[bool] = [False]
         self.result: Result | None = None
+        self.status = ""  # what the script says that the next check will answer
 
     # --- input -----------------------------------------------------------------------------------------------
     def run(self, lines: Iterable[str], source: str) -> None:
@@ -68,17 +69,19 @@ class Solver(Checks):
         text, line, column = "", 0, 0
         for piece in lines:
             text += piece if text or line or column else piece.removeprefix("\ufeff")
-            if end := complete(text):
-                self.execute(text[:end], source, line, column)
-                line, column = _behind(text[:end], line, column)
-                text = text[end:]
-            if self.done:
-                return
+            start = 0
+            for end in ends(text):
+                self.execute(text[start:end], source, line, column)
+                line, column = _behind(text[start:end], line, column)
+                start = end
+                if self.done:
+                    return
+            text = text[start:]
         if text.strip():
             self.execute(text, source, line, column)
 
     def execute(self, text: str, source: str, line: int = 0, column: int = 0) -> None:
-        """Answer the commands of a text that starts at this line and column (from 0) of ``source``."""
+        """Answer the command that is a text, which starts at this line and column (from 0) of ``source``."""
         place = Failing(text, source)
 
         def fail(message: str, at: int) -> ParseError:
@@ -89,14 +92,13 @@ class Solver(Checks):
             return error
 
         self.script.fail = fail
+        self.begin()
+        if self.late and (found := _READ.match(text)):
+            self.passed_over(found[1])
+            return
         try:
             commands = parse(text, fail)
         except InputError as error:
-            if max(pieces := [0, *ends(text)]) and len(pieces) > 2:  # only the bad ones are left out
-                for start, end in pairwise(pieces):
-                    if not self.done:
-                        self.execute(text[start:end], source, *_behind(text[:start], line, column))
-                return
             self.lost[-1] = self.lost[-1] or re.match(r"\s*\(\s*assert\b", text) is not None
             self.error(error)
             return
@@ -104,6 +106,12 @@ class Solver(Checks):
             self.answer(command, fail)
             if self.done:
                 return
+
+    def passed_over(self, head: str) -> None:
+        """A command that there was no time to read; what is asserted is not known any more."""
+        self.lost[-1] = self.lost[-1] or head == "assert"
+        if self.options.get(":print-success") == "true":
+            self.error(InputError("unable: time limit reached"))
 
     def error(self, error: Exception) -> None:
         self.failed = True
@@ -122,6 +130,7 @@ class Solver(Checks):
             self.lost[-1] = self.lost[-1] or not kept
             self.error(error)
         except Unable as error:
+            self.lost[-1] = self.lost[-1] or command_name(command) == "assert"
             self.error(InputError(f"unable: {error}"))
         except RecursionError:
             self.lost[-1] = self.lost[-1] or command_name(command) == "assert"
@@ -154,6 +163,8 @@ class Solver(Checks):
                 self.reset_assertions()
                 return None
             case "set-logic" | "set-info":
+                if [show(item) for item in rest[:1]] == [":status"]:
+                    self.status = show(rest[1]) if len(rest) > 1 else ""
                 return None
             case "set-option":
                 self.options[_word(rest, 0)] = show(rest[1]) if len(rest) > 1 else "true"
@@ -229,6 +240,9 @@ class Solver(Checks):
         if found.answer == "sat" and any(self.lost):
             found = Result("unknown", "(an assertion was not understood)")
         self.result = found._replace(asked=asked)
+        if {self.status, found.answer} == {"sat", "unsat"}:
+            self.warn(f"the script says :status {self.status}, but the answer is {found.answer}")
+        self.status = ""
         return found.answer
 
     def assuming(self, command: Listing) -> str:
@@ -314,8 +328,9 @@ class Solver(Checks):
     def eliminated(self, command: Listing) -> str:
         """``get-qe``: an equivalent formula without quantifiers."""
         self.script.arity(command, 1)
-        total = Total(fill=Fill.ANY)
-        formula = self.script.formula_of([self.script.formula(command.items[1], self.script.globals)], total)
+        self.tick()
+        asked = self.script.formula(command.items[1], self.script.globals)
+        formula, total = self.formula([asked], Total(fill=Fill.ANY), self.left())
         answer = api.eliminate(total.checked(formula), timeout=self.left(), memory=self.memory)
         if answer.formula is None:
             raise Unable(answer.reason or "no answer")

@@ -8,7 +8,7 @@ from typing import NamedTuple, TypeAlias
 
 import qe.api.eliminate as api
 from qe.cli.smt_values import Number
-from qe.errors import Unable
+from qe.errors import BudgetExceeded, Unable
 from qe.formula.build import exists, forall
 from qe.formula.syntax import Formula
 from qe.formula.traverse import free_variables
@@ -19,7 +19,7 @@ from qe.io.total import Fill, Total
 from qe.processes.execution import Limits, perform
 
 MOST_PARTS = 300
-"""Parts of a script up to which it is read at once, in this process."""
+"""Parts of a script up to which it is read in this process where no limit must hold."""
 
 Closing: TypeAlias = Callable[[Iterable[str], Formula], Formula]
 """Makes a sentence of a formula with these free variables."""
@@ -43,6 +43,21 @@ class Checks:
     def __init__(self, timeout: float | None, memory: int | None, each: bool) -> None:
         self.timeout, self.memory = timeout, memory
         self.until = None if timeout is None or each else time.monotonic() + timeout
+        self.begun = time.monotonic()
+
+    def begin(self) -> None:
+        """A command is read from now on."""
+        self.begun = time.monotonic()
+
+    @property
+    def late(self) -> bool:
+        """Whether the time for the whole run is over."""
+        return self.until is not None and time.monotonic() > self.until
+
+    def tick(self) -> None:
+        """Called while a command is read. Raises ``BudgetExceeded`` where that takes longer than a check may."""
+        if self.late or (self.timeout is not None and time.monotonic() > self.begun + self.timeout):
+            raise BudgetExceeded("time limit reached while reading")
 
     def left(self) -> float | None:
         """Seconds that a check may still take."""
@@ -87,24 +102,29 @@ class Checks:
             return Result("unknown", "timeout")
         try:
             formula, total = self.formula(nodes, total, left)
-        except Unable:
-            return Result("unknown", "timeout")
+        except Unable as error:
+            return Result("unknown", _reason(str(error)))
         closed = close(free_variables(formula), formula)
         rest = None if left is None else max(left - (time.monotonic() - start), 0.01)
         answer = api.eliminate(closed, timeout=rest, memory=self.memory)
         if answer.truth is None:
-            return Result("unknown", "timeout" if "time" in answer.reason else "incomplete")
+            return Result("unknown", _reason(answer.reason))
         if not answer.truth:
             return Result("unsat", total=total)
         point = dict(answer.witness) if answer.witness is not None else ({} if not free_variables(formula) else None)
         return Result("sat", point=point, total=total)
 
     def formula(self, nodes: Sequence[s.Node], total: Total, seconds: float | None) -> tuple[Formula, Total]:
-        """What the nodes mean together; a large script is read in a process of its own, which a limit ends."""
+        """What the nodes mean together; in a process of its own, which a limit ends, if there is one."""
 
         def read(_: object = None) -> tuple[Formula, Total]:
             return self.script.formula_of(nodes, total), total
 
-        if len(self.script.used(nodes)) <= MOST_PARTS:
+        if seconds is None and self.memory is None and len(self.script.used(nodes)) <= MOST_PARTS:
             return read()
         return perform(read, Limits(seconds, self.memory), at_once=True)
+
+
+def _reason(text: str) -> str:
+    """Why there is no answer, in the words of SMT-LIB."""
+    return "memout" if "memory" in text else "timeout" if "time limit" in text else "incomplete"

@@ -96,6 +96,11 @@ class Evaluation:
 
     def truth(self, node: s.Node) -> bool:
         """Whether a formula holds."""
+        if (known := self.known.get(id(node))) is None:
+            known = self.known[id(node)] = self._truth(node)
+        return bool(known)
+
+    def _truth(self, node: s.Node) -> bool:
         match node:
             case s.Truth(value):
                 return value

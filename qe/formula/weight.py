@@ -7,7 +7,7 @@ from itertools import islice
 
 from qe.exact.ring import Poly
 from qe.formula.syntax import Formula
-from qe.formula.traverse import atoms
+from qe.formula.traverse import atoms, children
 
 MOST_ATOMS = 300
 MOST_TERMS, MOST_DEGREE, MOST_BITS, MOST_WEIGHT = 60, 40, 2000, 300
@@ -23,6 +23,18 @@ def may_block(formula: Formula) -> bool:
     """
     found = list(islice(atoms(formula), MOST_ATOMS + 1))
     return len(found) > MOST_ATOMS or any(_is_large(a.poly) for a in found)
+
+
+def written_out(formula: Formula) -> tuple[int, int]:
+    """How many subformulas there are, every occurrence counted, and how many different nodes."""
+    sizes: dict[int, int] = {}
+
+    def size(f: Formula) -> int:
+        if (known := sizes.get(id(f))) is None:
+            known = sizes[id(f)] = 1 + sum(map(size, children(f)))
+        return known
+
+    return size(formula), len(sizes)
 
 
 def _is_large(poly: Poly) -> bool:

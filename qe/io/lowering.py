@@ -23,6 +23,7 @@ from qe.io.auxiliaries import Exhausted
 from qe.io.cases import Cases
 from qe.io.collecting import Names
 from qe.io.radicals import Place
+from qe.io.sharing import refuse_long
 from qe.io.surface import (
     Comparison,
     Equivalence,
@@ -63,8 +64,10 @@ def lower(
 
     With ``names`` (all names, for the ring) the tree may be a graph whose parts are shared; ``shared`` lists parts
     in an order in which each comes after those it uses, so that chains of definitions of any length are fine. With
-    ``total`` functions have values outside their domains too, of which it is told.
+    ``total`` functions have values outside their domains too, of which it is told. Raises ``Unable`` where nested
+    equivalences and shared parts would be much too long written out.
     """
+    refuse_long([node])
     found = Names(fail, meet)
     if not shared:
         found.node(node, frozenset(), 0)

@@ -68,11 +68,6 @@ def parse(text: str, fail: Fail) -> list[Expression]:
         raise fail(error.message, error.at) from None
 
 
-def complete(text: str) -> int:
-    """The offset behind the last whole expression of a text that may go on."""
-    return max(ends(text), default=0)
-
-
 def ends(text: str) -> Iterator[int]:
     """The offsets behind the whole expressions of a text that may go on; what is no token counts as one character.
 

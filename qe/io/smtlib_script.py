@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from itertools import count
 from typing import NamedTuple, cast
 
-from qe.errors import InputError
+from qe.errors import InputError, Unable
+from qe.formula.build import exists
 from qe.formula.syntax import Formula
 from qe.io import surface as s
 from qe.io.lowering import lower
+from qe.io.sharing import named
 from qe.io.smtlib_parser import Expression, Listing, Word
 from qe.io.smtlib_terms import Foreign, Macro, Meaning, Terms
 from qe.io.total import Fill, Total
@@ -35,8 +38,8 @@ class Level(NamedTuple):
 class Script(Terms):
     """``constants``: sort and name in formulas of every declared symbol, in order. ``assertions``: what holds."""
 
-    def __init__(self, fail: s.Fail) -> None:
-        super().__init__(fail)
+    def __init__(self, fail: s.Fail, tick: Callable[[], None] = lambda: None) -> None:
+        super().__init__(fail, tick)
         self.constants: dict[str, tuple[str, str]] = {}
         self.assertions: list[Assertion] = []
         self.levels: list[Level] = []
@@ -51,6 +54,7 @@ class Script(Terms):
         """Carry out a command that declares, defines or asserts; whether it is one."""
         head = cast(Word, command.items[0])
         rest = command.items[1:]
+        self.steps = 0
         match head.text:
             case "assert":
                 self.arity(command, 1)
@@ -140,14 +144,25 @@ class Script(Terms):
             del self.names[level.names :], self.shared[level.shared :], self.assertions[level.assertions :]
         kept = set(map(id, self.shared))
         self.forms = {form: part for form, part in self.forms.items() if id(part) in kept}
+        self.expanded.clear()
         self.fixed.intersection_update(self.names)
         self.varying.intersection_update(self.names)
 
     # --- questions -------------------------------------------------------------------------------------------
     def formula_of(self, nodes: Sequence[s.Node], total: Total) -> Formula:
-        """The conjunction of the nodes; ``total`` is told about functions outside their domains."""
+        """The conjunction of the nodes; ``total`` is told about functions outside their domains.
+
+        What would be written out many times has names, which are quantified: a check binds them with the others.
+        Raises ``Unable`` where it is much too long all the same.
+        """
+        new = (name for k in count(1) if (name := f"part_{k}") not in self.taken)
+        known = named(nodes, self.used(nodes), self.bound, lambda: next(new))
+        nodes = [*known.definitions, *known.nodes]
+        return exists(known.names, self.lowered(nodes, total, [*self.names, *known.names], known.shared))
+
+    def lowered(self, nodes: Sequence[s.Node], total: Total, names: Sequence[str], shared: Sequence[s.Part]) -> Formula:
         total.bound = frozenset(self.bound)
-        return lower(s.Every(list(nodes)), self.fail, names=self.names, shared=self.used(nodes), total=total)
+        return lower(s.Every(list(nodes)), self.fail, names=names, shared=shared, total=total)
 
     def used(self, nodes: Sequence[s.Node]) -> list[s.Part]:
         """The shared parts that the nodes contain, in their order."""
@@ -161,9 +176,14 @@ class Script(Terms):
         return [part for part in self.shared if id(part) in seen]
 
     def whole(self) -> Formula:
-        """The conjunction of all assertions. Raises where a value outside a domain cannot be written down."""
-        total = Total(fill=Fill.ANY)
-        return total.checked(self.formula_of([a.node for a in self.assertions], total))
+        """The conjunction of all assertions, with quantifiers in it only if there were some or it is too long without.
+        Raises where a value outside a domain cannot be written down."""
+        total, nodes = Total(fill=Fill.ANY), [a.node for a in self.assertions]
+        try:
+            formula = self.lowered(nodes, total, self.names, self.used(nodes))
+        except Unable:  # too long without names
+            formula = self.formula_of(nodes, total)
+        return total.checked(formula)
 
 
 def _label(written: Expression) -> str | None:

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from itertools import combinations, pairwise
 from typing import NamedTuple, Never, TypeAlias, cast
 
-from qe.errors import InputError
+from qe.errors import InputError, Unable
 from qe.formula.relation import Relation
 from qe.io import surface as s
 from qe.io.names import check_name
@@ -16,6 +16,9 @@ from qe.io.terms import TermError, decimal
 from qe.io.text_errors import way_out
 
 Meaning: TypeAlias = s.Term | s.Node
+
+MOST_STEPS = 1_000_000
+"""Terms of one command, definitions written out."""
 
 _RELATIONS = {"<": Relation.LT, "<=": Relation.LE, ">": Relation.GT, ">=": Relation.GE, "=": Relation.EQ}
 _CONNECTIVES = frozenset(("not", "and", "or", "xor", "=>", "implies"))
@@ -55,8 +58,9 @@ class Terms:
     which is free. ``fixed`` are such names where no variable stands inside, ``varying`` the others.
     """
 
-    def __init__(self, fail: s.Fail) -> None:
-        self.fail = fail
+    def __init__(self, fail: s.Fail, tick: Callable[[], None] = lambda: None) -> None:
+        self.fail, self.tick, self.steps = fail, tick, 0
+        self.expanded: dict[tuple[int, ...], tuple[object, Meaning]] = {}
         self.names: list[str] = []
         self.bound: set[str] = set()
         self.taken: set[str] = set()
@@ -144,6 +148,11 @@ class Terms:
         return cast(s.Term, self.expect(self.meaning(expression, scope), "Real", expression.at))
 
     def meaning(self, expression: Expression, scope: Scope) -> Meaning:
+        self.steps += 1
+        if self.steps % 256 == 0:
+            self.tick()
+        if self.steps > MOST_STEPS:
+            raise Unable(f"definitions written out make this more than {MOST_STEPS:,} terms")
         while isinstance(expression, Listing) and expression.items and expression.items[0][:2] == ("SYMBOL", "let"):
             expression, scope = self.let(expression, scope)
         try:
@@ -274,9 +283,15 @@ class Terms:
     def expand(self, macro: Macro, listing: Listing, scope: Scope) -> Meaning:
         self.arity(listing, len(macro.parameters))
         inner = dict(macro.scope)
+        values: list[Meaning] = []
         for (name, sort), argument in zip(macro.parameters, listing.items[1:], strict=True):
             inner[name] = self.expect(self.meaning(argument, scope), sort, argument.at)
-        return self.expect(self.meaning(macro.body, inner), macro.sort, listing.at)
+            values.append(cast(Meaning, inner[name]))
+        key = (id(macro.body), *map(id, values))
+        if key not in self.expanded:  # what the identities are of is kept with them
+            meant = self.expect(self.meaning(macro.body, inner), macro.sort, listing.at)
+            self.expanded[key] = (macro.body, values), meant
+        return self.expanded[key][1]
 
     def annotated(self, arguments: list[Expression], listing: Listing, scope: Scope) -> Meaning:
         if not arguments:

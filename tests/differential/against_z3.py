@@ -58,6 +58,7 @@ FAMILIES: dict[str, Callable[[random.Random], str]] = {
     "linear": _script(scripts.linear_script),
     "terms": _script(scripts.term_script),
     "levels": _script(scripts.level_script),
+    "sharing": _script(scripts.sharing_script),
 }
 
 

@@ -107,6 +107,31 @@ def level_script(rng: random.Random) -> str:
     return _script(names, [*lines, "(check-sat)"])
 
 
+def sharing_script(rng: random.Random) -> str:
+    """Definitions that use those before them again and again: written out, most would have millions of parts."""
+    names = NAMES[: rng.randint(1, 3)]
+    truths, terms, lines = ["p"], list(names), []
+    for k in range(rng.randint(20, 60)):
+        a, b, c = (rng.choice(truths[-3:]) for _ in range(3))
+        s, t = rng.choice(terms), rng.choice(terms[-2:])
+        kind = rng.random()
+        if kind < 0.25:
+            cased = (f"(ite {a} {s} {t})", f"(low {s} {t})", f"(size {t})", f"(/ {s} {t})")
+            lines.append(f"(define-fun t{k} () Real {rng.choice((*cased, f'(+ {t} {t})', f'(- {s} {t} 1.0)'))})")
+            terms.append(f"t{k}")
+            continue
+        other = rng.choice(truths)
+        ways = (
+            *(f"({rng.choice(RELATIONS)} {t} {value})" for value in (s, _number(rng), _number(rng))),
+            *(f"(xor {a} {b} {other})", f"(= {a} {b})", f"(and {a} (or {b} {c}))", f"(=> {a} {other})"),
+            *(f"(or (and {a} {b}) (and (not {a}) {c}))", f"(ite {a} {b} (not {c}))"),
+        )
+        lines.append(f"(define-fun b{k} () Bool {rng.choice(ways)})")
+        truths.append(f"b{k}")
+    lines += [f"(assert {rng.choice(truths[-4:])})" for _ in range(rng.randint(1, 3))]
+    return _script(names, ["(declare-const p Bool)", *lines, "(check-sat)"])
+
+
 def _script(names: tuple[str, ...], lines: list[str]) -> str:
     return "\n".join([*(f"(declare-const {name} Real)" for name in names), *FUNCTIONS, *lines])
 
@@ -135,7 +160,7 @@ class Checked(Solver):
 def ours(script: str, seconds: float) -> tuple[list[str], bool]:
     """Our answers, and whether all models satisfy all assertions."""
     solver = Checked(seconds)
-    solver.execute(script, "<script>")
+    solver.run([script], "<script>")
     return solver.answers, not solver.broken
 
 

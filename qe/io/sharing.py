@@ -1,0 +1,216 @@
+"""Names for parts of a question that others share, so that nothing is written out again and again.
+
+THEOREM. Let b be a new variable and P a part of F without bound variables. Then F has a solution iff
+``(b <-> P) and F'`` has one, F' being F with b in place of P (G. S. Tseitin, On the complexity of derivation in
+propositional calculus, 1968); so has it for a term t that always has a value and ``b = t``. A solution of F gives one
+of the other by the value of P there; and a solution of the other is one of F.
+
+Equivalences, exclusive disjunctions and conditions of case distinctions are said twice, once as they are and once
+denied: nested in each other k times they would be 2^k parts.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Iterable, Sequence
+from math import prod
+from typing import NamedTuple, TypeAlias, cast
+
+from qe.errors import Unable
+from qe.formula.relation import Relation
+from qe.formula.syntax import Formula
+from qe.formula.weight import written_out
+from qe.io import surface as s
+
+MOST_WRITTEN = 200_000
+"""Parts of a question, written out, that share much; beyond them it is refused."""
+
+MUCH = 8
+"""How many times as long a question is written out that shares much."""
+
+LONG = 20_000
+"""Parts of a question, written out, up to which nothing is named."""
+
+_SHORT, _MANY = 8, 16
+"""Parts up to which what is shared stays where it is; cases of a term from which on it gets a name."""
+
+Make: TypeAlias = Callable[[], str]
+_CASES = 2**64
+
+
+class Named(NamedTuple):
+    """``nodes`` with names in place of some parts; the ``definitions`` say what the ``names`` mean; ``shared`` are the
+    parts that stand in the place of those that were shared, in their order."""
+
+    nodes: list[s.Node]
+    definitions: list[s.Node]
+    names: list[str]
+    shared: list[s.Part]
+
+
+def inside(part: s.Part) -> list[s.Part]:
+    """The parts directly inside another."""
+    found: list[s.Part] = []
+    for field in part:
+        if isinstance(field, list):
+            found += [cast(s.Part, item) for item in field if isinstance(item, tuple)]
+        elif isinstance(field, tuple):
+            found.append(cast(s.Part, field))
+    return found
+
+
+def ordered(roots: Iterable[s.Part]) -> list[s.Part]:
+    """All different parts, each after those inside it."""
+    found: dict[int, s.Part] = {}
+    pending: list[tuple[s.Part, bool]] = [(root, False) for root in roots]
+    while pending:
+        part, done = pending.pop()
+        if done:
+            found.setdefault(id(part), part)
+        elif id(part) not in found:
+            pending.append((part, True))
+            pending += [(child, False) for child in inside(part)]
+    return list(found.values())
+
+
+def refuse_long(roots: Iterable[s.Node]) -> None:
+    """Raise ``Unable`` where equivalences nested in each other, and what is shared, would be far too much written out.
+
+    Terms count as one part, since equal ones are worked out once.
+    """
+    parts = ordered(roots)
+    _refuse(_longest(parts), len(parts))
+
+
+def _longest(parts: Sequence[s.Part]) -> int:
+    """How long the longest part is written out, terms counted as one part."""
+    sizes: dict[int, int] = {}
+    for part in parts:
+        size = 1 + sum(sizes[id(child)] for child in inside(part)) if isinstance(part, s.Node) else 0
+        sizes[id(part)] = min(2 * size if isinstance(part, s.Equivalence) else size, _CASES)
+    return max(sizes.values(), default=0)
+
+
+def refuse_shared(formula: Formula) -> None:
+    """The same for a formula that is read."""
+    _refuse(*written_out(formula))
+
+
+def _refuse(size: int, different: int) -> None:
+    if size > max(MOST_WRITTEN, MUCH * different):
+        count = f"{size:,}" if size < 10**12 else "more than 10^12"
+        raise Unable(f"written out, <->, xor and shared parts make {count} parts; name some: ex p. (p > 0 <-> …) and …")
+
+
+def named(nodes: Sequence[s.Node], shared: Sequence[s.Part], bound: Collection[str], make: Make) -> Named:
+    """The nodes, asserted together, with names for parts that would be written out many times; ``make`` makes a name.
+
+    ``bound``: the names that quantifiers bind; what contains one is left alone. So are small questions.
+    """
+    parts = ordered(nodes)
+    sizes = _sizes(parts)
+    if sum(sizes[id(node)][0] for node in nodes) <= max(LONG, 2 * len(parts)):
+        return Named(list(nodes), [], [], list(shared))
+    naming = _Naming(parts, bound, make)
+    for part in parts:
+        naming.replace(part)
+    new = naming.now
+    return Named([cast(s.Node, new[id(n)]) for n in nodes], naming.definitions, naming.names, naming.built(shared))
+
+
+def _sizes(parts: Sequence[s.Part]) -> dict[int, tuple[int, int]]:
+    """How long each part is written out, and how many cases a term has."""
+    sizes: dict[int, tuple[int, int]] = {}
+    for part in parts:
+        size = 1 + sum(sizes[id(child)][0] * _times(part, child) for child in inside(part))
+        cases = _cases(part, [sizes[id(child)][1] for child in inside(part)])
+        if isinstance(part, s.Node):
+            size, cases = size * cases, 1
+        sizes[id(part)] = min(size if cases > 1 or isinstance(part, s.Node) else 1, _CASES), min(cases, _CASES)
+    return sizes
+
+
+def _cases(part: s.Part, inner: Sequence[int]) -> int:
+    """How many cases a term has, those inside having so many."""
+    if isinstance(part, s.Choice):
+        return sum(inner[1:])
+    return prod(inner) * (2 if _has_cases(part) else 1)
+
+
+def _has_cases(part: s.Part) -> bool:
+    """Whether what a term is may depend on a case distinction."""
+    if isinstance(part, s.Quotient):
+        return not isinstance(part.right, s.Number)
+    return isinstance(part, s.Choice | s.Apply)
+
+
+def _times(part: s.Part, child: s.Part) -> int:
+    """How often a part says what is inside it."""
+    return 2 if isinstance(part, s.Equivalence) or (isinstance(part, s.Choice) and child is part.condition) else 1
+
+
+class _Naming:
+    """``now``: what stands for each part, by its identity."""
+
+    def __init__(self, parts: Sequence[s.Part], bound: Collection[str], make: Make) -> None:
+        self.bound, self.make = bound, make
+        self.now: dict[int, s.Part] = {}
+        self.meant: dict[int, s.Part] = {}
+        self.sizes: dict[int, int] = {}
+        self.cases: dict[int, int] = {}
+        self.logical = _longest(parts) > max(LONG, 2 * len(parts))
+        self.fixed: set[int] = set()
+        self.definitions: list[s.Node] = []
+        self.names: list[str] = []
+        self.uses: dict[int, int] = {}
+        for part in parts:
+            for child in inside(part):
+                self.uses[id(child)] = self.uses.get(id(child), 0) + _times(part, child)
+
+    def replace(self, part: s.Part) -> None:
+        """Find what stands for a part, after those inside it."""
+        children = inside(part)
+        self.sizes[id(part)] = 1 + sum(self.sizes[id(child)] * _times(part, child) for child in children)
+        cases = _cases(part, [self.cases[id(child)] for child in children])
+        self.cases[id(part)] = 1 if isinstance(part, s.Node) else min(cases, _CASES)
+        partial = isinstance(part, s.Root | s.Infinity) or (isinstance(part, s.Name) and part.name in self.bound)
+        if partial or any(id(child) in self.fixed for child in children):
+            self.fixed.add(id(part))
+        meant = self.meant[id(part)] = self.rebuilt(part)
+        self.now[id(part)] = meant
+        if id(part) not in self.fixed and self.worth(part):
+            self.name(part, meant)
+
+    def worth(self, part: s.Part) -> bool:
+        if isinstance(part, s.Node):
+            shared = self.logical and self.uses.get(id(part), 0) > 1 and self.sizes[id(part)] > _SHORT
+            return shared and not isinstance(part, s.Comparison | s.Truth)
+        return _has_cases(part) and self.cases[id(part)] >= _MANY
+
+    def name(self, part: s.Part, meant: s.Part) -> None:
+        name = self.make()
+        value = s.Name(name, -1)
+        self.names.append(name)
+        self.sizes[id(part)] = self.cases[id(part)] = 1
+        if isinstance(meant, s.Node):
+            truth = s.Comparison([value, s.Number(0)], [Relation.GT], -1)
+            self.definitions.append(s.Equivalence(truth, meant))
+            self.now[id(part)] = truth
+        else:
+            self.definitions.append(s.Comparison([value, meant], [Relation.EQ], -1))
+            self.now[id(part)] = value
+
+    def rebuilt(self, part: s.Part) -> s.Part:
+        """The part, made of what stands for those inside it."""
+        if all(self.now[id(child)] is child for child in inside(part)):
+            return part
+        fields = [
+            [self.now.get(id(item), item) for item in field]
+            if isinstance(field, list)
+            else self.now.get(id(field), field)
+            for field in part
+        ]
+        return cast(Callable[..., s.Part], type(part))(*fields)
+
+    def built(self, shared: Iterable[s.Part]) -> list[s.Part]:
+        """What the shared parts mean now."""
+        return [self.meant[id(part)] for part in shared]
