@@ -236,3 +236,10 @@ def _unchecked(text: str) -> tuple[str, ...]:
     step = Step("elimination set", formula, result.formula, TRUE, {"trace": result.trace})
     derivation = put_together(formula, [step], result.formula)
     return proved(derivation, result.formula, Options(), Budget(20)).unchecked
+
+
+def test_a_point_met_under_conditions_that_contradict_themselves_stays_real():
+    """They left the point without the condition that it is one (a plane that meets a ball was not proved)."""
+    text = "ex x, y. c^2*(x - p)^2 + c^2*(y - q)^2 + (c*s - d)^2 <= c^2*r^2"
+    answer = qe.eliminate(text, method="vs", check=True, process=False)
+    assert answer.guarantee is qe.Guarantee.CHECKED and not answer.unchecked_steps
