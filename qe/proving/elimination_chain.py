@@ -26,7 +26,10 @@ def chain(
     start: Sequence[Poly], free: int, enough: Callable[[Sequence[Poly]], bool], budget: Budget
 ) -> list[Row] | None:
     """Rows, each a combination of the polynomials before it (up to a constant), until ``enough`` is true of those in
-    the first ``free`` variables alone; None where the limits are reached or nothing more is found."""
+    the first ``free`` variables alone; None where the limits are reached, nothing more is found, or one of the first
+    polynomials is 0, which vanishes everywhere."""
+    if not all(start):
+        return None
     search = _Chain(start, free, budget)
     complete = search.run(lambda: enough([p for p in search.polys if p.level < free]))
     return search.needed() if complete else None
