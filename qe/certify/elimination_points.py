@@ -67,7 +67,7 @@ def _tried(entry: Entry, body: Formula, original: Formula, x: int, shift: int, r
         raise formula.fail("no test point is put into root atoms")  # the variable would be left, and mean another one
     found = Tried(where, condition, kept, frozenset(formula_from_json(s, ring) for s in settled.items()))
     _check_implication(found, whole, x, shift, formula)
-    if where is not None and not _is_real(where, conj((condition, *conjuncts(kept)))):
+    if where is not None and not is_real(where, conj((condition, *conjuncts(kept)))):
         raise guard.fail("the point may be none here")
     strict = all(isinstance(s, Atom) and s.relation.is_strict and s in conjuncts(kept) for s in found.settled)
     if found.settled and (not strict or where is None or not where.coefficients or not where.shift):
@@ -94,7 +94,7 @@ def is_free_of(formula: Formula, x: int) -> bool:
     return formula.is_quantifier_free and (ring is None or ring.names[x] not in formula.free)
 
 
-def _is_real(point: TestPoint, known: Formula) -> bool:
+def is_real(point: TestPoint, known: Formula) -> bool:
     """Whether known conjuncts say that the denominator is not 0, and the number under the square root not negative."""
     if not point.coefficients:
         return True

@@ -9,6 +9,7 @@ from qe.certify.balls import check_balls
 from qe.certify.block import check_block
 from qe.certify.boolean_search import check_boolean_search
 from qe.certify.constant import check_constant
+from qe.certify.constant_along import check_constant_along
 from qe.certify.counted_solutions import check_counted_solutions
 from qe.certify.covering import check_covering
 from qe.certify.critical_universal import check_critical_universal
@@ -79,6 +80,7 @@ RULES: Mapping[str, Check] = {
     "virtual substitution": check_replayed_block,
     "critical values": check_critical_values,
     "critical values of a universal block": check_critical_universal,
+    "constant along directions": check_constant_along,
     "degenerate truth set": check_degenerate_truth_set,
     "elimination set": check_elimination_set,
     "alternatives": check_alternatives,

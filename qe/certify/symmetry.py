@@ -13,6 +13,7 @@ Evidence: ``variable``, ``weights`` ([[name, rational], ...]); for scaling ``val
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Mapping, Set
 from fractions import Fraction
 
 from qe.certify.boolean import ByLemmas, Goal
@@ -31,14 +32,7 @@ def check_translation(claim: Claim, context: Context, limits: Limits) -> None:
     """The polynomials are constant along the direction, and 0 is put in."""
     variable, weights = only(claim, "variable", "weights")
     block, x, vector = _moved(variable, weights, claim)
-    for poly in _polynomials(block.body):
-        limits.tick()
-        total: dict[tuple[int, ...], Fraction] = {}
-        for i, w in vector.items():
-            for exponents, coefficient in poly.derivative(i).terms():
-                total[exponents] = total.get(exponents, Fraction(0)) + w * coefficient
-        if any(total.values()):
-            raise weights.fail("a polynomial is not constant along this direction")
+    check_constant_on(_polynomials(block.body), vector, weights, limits)
     rest = [v for v in block.variables if v != claim.ring.names[x]]
     if claim.after != exists(rest, at_number(block.body, x, Fraction(0), claim)):
         raise claim.fail("not the block with 0 for the variable")
@@ -75,16 +69,34 @@ def _moved(variable: Entry, weights: Entry, claim: Claim) -> tuple[Exists, int, 
     bound = {*block.variables, *inner}
     if set(inner) & set(block.variables) or bound & set(block.free) or set(inner) & set(block.body.free):
         raise claim.fail("a name is bound twice, or free and bound")
-    vector: dict[int, Fraction] = {}
-    for entry in weights.items():
-        parts = list(entry.items())
-        if len(parts) != 2 or parts[0].text() not in bound or claim.ring.index[parts[0].text()] in vector:
-            raise entry.fail("expected [bound variable, rational number], each variable once")
-        vector[claim.ring.index[parts[0].text()]] = parts[1].rational()
+    vector = read_vector(weights, bound, claim)
     x = claim.ring.index[name]
     if not vector.get(x):
         raise weights.fail(f"{name} does not move")
     return block, x, vector
+
+
+def read_vector(weights: Entry, names: Set[str], claim: Claim) -> dict[int, Fraction]:
+    """The numbers of a vector by variable, these variables alone; ``CertificateRejected`` for anything else."""
+    vector: dict[int, Fraction] = {}
+    for entry in weights.items():
+        parts = list(entry.items())
+        if len(parts) != 2 or parts[0].text() not in names or claim.ring.index[parts[0].text()] in vector:
+            raise entry.fail("expected [variable that may move, rational number], each variable once")
+        vector[claim.ring.index[parts[0].text()]] = parts[1].rational()
+    return vector
+
+
+def check_constant_on(polys: Iterable[Poly], vector: Mapping[int, Fraction], entry: Entry, limits: Limits) -> None:
+    """``CertificateRejected`` where a polynomial is not constant along the vector."""
+    for poly in polys:
+        limits.tick()
+        total: dict[tuple[int, ...], Fraction] = {}
+        for i, w in vector.items():
+            for exponents, coefficient in poly.derivative(i).terms():
+                total[exponents] = total.get(exponents, Fraction(0)) + w * coefficient
+        if any(total.values()):
+            raise entry.fail("a polynomial is not constant along this direction")
 
 
 def _polynomials(body: Formula) -> list[Poly]:

@@ -122,7 +122,7 @@ class Cover:
     def finite(self, formula: Formula, around: Around) -> Iterator[tuple[list[Met], Formula]]:
         """What meets all solutions, and the condition outside which there are finitely many."""
         match formula:
-            case Atom(poly, Relation.EQ) if poly.degree(self.x):
+            case Atom(poly, Relation.EQ) if poly.degree(self.x) and turns(formula, self.x, 1) is not None:
                 used = _all(self.meets(t, conj((*around, formula))) for t in self._turns(formula, 1))
                 if used is not None:
                     yield used, vanishing(poly, self.x)

@@ -52,6 +52,7 @@ RULES: Mapping[str, str] = {
     "(Collins 1975; Collins, Hong 1991).",
     "critical values": "The truth of a block over bounded fibres changes only at critical values.",
     "critical values of a universal block": "The parameters form a convex set whose boundary is at critical values.",
+    "constant along directions": "Both sides are constant along a direction of the parameters: one may be zero.",
     "degenerate truth set": "A convex truth set without interior points lies on a hyperplane.",
     "covering": "Intervals on each of which the formula is false cover the line, over a sample and near it.",
     "Boolean search": "Every choice of cases contains comparisons that no point satisfies together "

@@ -64,6 +64,7 @@ def refuting(goals: Sequence[Sequence[Formula]], ring: Ring, limits: Limits) -> 
         lambda: _chained(found, polys),
         lambda: _remainders(found, polys),
         lambda: _combinations(found, goals, limits.budget),
+        lambda: _modulo(found, goals, limits.budget),
     ]
     for stage, search in enumerate(stages):
         count = len(found.lemmas)
@@ -340,6 +341,24 @@ def _combinations(found: Lemmas, goals: Sequence[Sequence[Formula]], budget: Bud
             for beside in own:
                 if isinstance(beside, Atom) and beside.relation not in (Relation.EQ,):
                     _combined(found, [target.poly, beside.poly], generators, budget)
+
+
+def _modulo(found: Lemmas, goals: Sequence[Sequence[Formula]], budget: Budget) -> None:
+    """Polynomials of disjunctions that are the same, up to a factor, where all equations beside them hold, and those
+    that vanish there."""
+    sides = [conjuncts(normal(goal[-2])) for goal in goals if len(goal) > 1]
+    systems = [tuple(a.poly for a in side if isinstance(a, Atom) and a.relation is Relation.EQ) for side in sides]
+    inside = polynomials_outside(f for side in sides for f in side if isinstance(f, Or))
+    for system in dict.fromkeys(systems):
+        basis = groebner_basis(system, variables=range(found.ring.size)) if len(system) > 1 else None
+        alike: dict[Poly, list[Poly]] = {}
+        for p in inside:
+            if basis is not None:
+                rest = basis.reduce(p)[1]
+                alike.setdefault(content_of(rest)[1] if rest else rest, []).append(p)
+        for key, members in alike.items():
+            for targets in pairwise(members) if key else ((p,) for p in members):
+                _combined(found, targets, system, budget)
 
 
 def _combined(found: Lemmas, targets: Sequence[Poly], generators: Sequence[Poly], budget: Budget) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from qe.certify.elimination_points import Tried, implies
+from qe.certify.elimination_points import Tried, implies, is_real
 from qe.certify.elimination_set import require_cover
 from qe.certify.lowered_degree import lowered
 from qe.certify.step import Limits
@@ -142,9 +142,15 @@ class Points:
                 used.setdefault(k, []).append(conjuncts(condition))
         out = []
         for k, t in enumerate(tried):
-            found = used.get(k)
-            guard = t.guard if not found else conj(c for c in found[0] if all(c in other for other in found[1:]))
-            out.append(Tried(needs.points.get(k, t.point), guard, t.formula, t.settled))
+            found, point = used.get(k, []), needs.points.get(k, t.point)
+            guard = _common(found) if found else t.guard
+            if found and point is not None and not is_real(point, conj((guard, *conjuncts(t.formula)))):
+                # conditions that contradict themselves have nothing in common with the others, and need no point
+                impossible = [c for c in found if needs.is_impossible(c)]
+                kept |= dict.fromkeys(conj(c) for c in impossible)
+                found = [c for c in found if c not in impossible]
+                guard = _common(found) if found else t.guard
+            out.append(Tried(point, guard, t.formula, t.settled))
         return out + [Tried(None, condition, self.original, frozenset()) for condition in kept]
 
 
@@ -189,8 +195,16 @@ class _Needs(Cover):
         return self._impossible(under)
 
     def _impossible(self, under: Around) -> list[Met] | None:
-        condition = conj(under)
-        return [(-1, condition)] if simplify(conj((condition, *self._facts))) == FALSE else None
+        return [(-1, conj(under))] if self.is_impossible(under) else None
+
+    def is_impossible(self, under: Around) -> bool:
+        """Whether the engine knows that these conditions never hold beside the block's others."""
+        return simplify(conj((*under, *self._facts))) == FALSE
+
+
+def _common(lists: Sequence[Sequence[Formula]]) -> Formula:
+    """The conditions that stand in all lists."""
+    return conj(c for c in lists[0] if all(c in other for other in lists[1:]))
 
 
 def _as_checked(point: SymbolicPoint, ring: Ring) -> TestPoint:

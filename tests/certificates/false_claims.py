@@ -166,7 +166,7 @@ def _not_the_optimum(rng: random.Random, data: Data) -> bool:
         poly, _ = read_polynomial(Entry(constraint["terms"], "terms"), ring.names, ring)
         conditions.append(atom(poly, RELATIONS[constraint["relation"]]))
     try:
-        true = minimize(objective, conj(conditions), scale=scale, budget=Budget(SECONDS))
+        true = minimize(objective, conj(conditions), scale=Fraction(1, scale), budget=Budget(SECONDS))
     except (NotConvex, Unable):
         return False
     if true.status.name.lower() != payload["status"]:

@@ -158,3 +158,10 @@ def test_side_conditions_switched_off_in_the_producer_are_seen(patch, monkeypatc
     patch(monkeypatch)
     answer = qe.eliminate(PARABOLA, method="critical", check=True, process=False)
     assert RULE in answer.unchecked_steps
+
+
+def test_a_polynomial_that_is_zero_at_an_end_breaks_nothing():
+    """There was an internal error: the chain of elimination began with the polynomial 0 (Hong, Liska & Steinberg)."""
+    text = "all c. -1 <= c and c <= 1 -> a^2*(1 + 2*c - 2*c^3 - c^4) + c^2 + 2*c + 1 <= 4"
+    answer = qe.eliminate(text, check=True, process=False)
+    assert answer.guarantee is qe.Guarantee.CHECKED and qe.equivalent(answer.formula, "2*a^2 <= 1")

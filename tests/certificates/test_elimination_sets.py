@@ -18,6 +18,7 @@ from qe.formula.build import conj, convert, disj
 from qe.formula.syntax import FALSE, TRUE, Exists, Formula
 from qe.formula.traverse import conjuncts
 from qe.io.text import read
+from qe.proof.derivation import moved
 from tests.certificates.elimination_claims import (
     RING,
     accepted,
@@ -236,3 +237,21 @@ def _unchecked(text: str) -> tuple[str, ...]:
     step = Step("elimination set", formula, result.formula, TRUE, {"trace": result.trace})
     derivation = put_together(formula, [step], result.formula)
     return proved(derivation, result.formula, Options(), Budget(20)).unchecked
+
+
+def test_a_point_met_under_conditions_that_contradict_themselves_stays_real():
+    """They left the point without the condition that it is one (a plane that meets a ball was not proved)."""
+    text = "ex x, y. c^2*(x - p)^2 + c^2*(y - q)^2 + (c*s - d)^2 <= c^2*r^2"
+    answer = qe.eliminate(text, method="vs", check=True, process=False)
+    assert answer.guarantee is qe.Guarantee.CHECKED and not answer.unchecked_steps
+
+
+def test_an_equation_of_high_degree_before_one_that_is_solved_is_no_hindrance() -> None:
+    text = "x^3 + b*x - a = 0 and 2*x^2 + a*x + b = 0"
+    found = evidence_for(moved(read(text), RING))
+    assert found is not None
+    body, evidence = found["body"], found["evidence"]
+    assert accepted(body, claimed(body, evidence), evidence)
+    for k in range(len(evidence["points"])):
+        fewer = {**evidence, "points": evidence["points"][:k] + evidence["points"][k + 1 :]}
+        assert not accepted(body, claimed(body, fewer), fewer)

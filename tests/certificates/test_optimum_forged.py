@@ -82,3 +82,10 @@ def test_the_last_link_has_to_exclude_a_strict_condition() -> None:
     assert not verdict.accepted and verdict.step == "payload.links"
     verdict = verify_json(replaced(whole, ("payload", "links"), links[1:]))
     assert not verdict.accepted
+
+
+@pytest.mark.parametrize("status", [[], ["optimal"], {}, {"optimal": 1}, None, True, 1, "", "Optimal"])
+def test_a_status_of_another_type_is_refused_and_breaks_nothing(status: Any) -> None:
+    whole = json.loads(qe.minimize("x", "x >= 0").certificate.to_json())
+    verdict = verify_json(replaced(whole, ("payload", "status"), status))
+    assert not verdict.accepted and verdict.step == "payload.status"

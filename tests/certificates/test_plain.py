@@ -136,6 +136,21 @@ def test_an_entry_of_another_type_is_refused_by_both_and_breaks_neither(value: A
             assert {said(made), said_plainly(made)} != {"accepted", "rejected"}, made
 
 
+@pytest.mark.parametrize("other", [[], ["atom"], {}, {"x": 1}, None, 1])
+def test_rules_relations_and_quantifiers_that_nobody_knows_are_no_crash(other: Any) -> None:
+    derivation = json.loads(_derivation(True, []))
+    table = json.loads(cell_table(*TABLES[1], Projection.LAZARD).to_json())
+    altered = [
+        replaced(derivation, ("payload", "steps", 0, "rule"), other),
+        replaced(derivation, ("payload", "steps", 0, "evidence"), other),
+        replaced(derivation, ("payload", "start", 2, 1, 2), other),
+        replaced(table, ("payload", "quantifiers", 1), other),
+        replaced(table, ("payload", "projection"), other),
+    ]
+    for text in altered:
+        assert said(text) == "rejected" and said_plainly(text) != "accepted", text
+
+
 def test_the_version_is_that_of_what_a_certificate_holds() -> None:
     for text in certificates():
         whole = json.loads(text)

@@ -219,3 +219,10 @@ def test_what_refutes_a_sentence(text: str, refuted: list[Poly], accepted: bool)
     evidence: Any = {"certificates": [solutions_certificate(refuted).to_data()]}
     step = written("comprehensive Gröbner system", (), formula, FALSE, (), evidence)
     assert verify(qe.Certificate.derivation(("x", "y"), formula, [step], FALSE)).accepted == accepted
+
+
+@pytest.mark.parametrize("relation", [[], [">"], {}, None, True, 1, "", "<", "="])
+def test_an_unknown_relation_is_refused_and_breaks_nothing(relation: Any) -> None:
+    path = ("payload", "conditions", 0, 1)
+    found = verdict(replaced(DATA, path, relation))
+    assert not found.accepted and found.decided and found.step.startswith("payload.conditions[0]")

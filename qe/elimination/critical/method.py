@@ -41,10 +41,12 @@ from qe.formula.syntax import FALSE, TRUE, ForAll, Formula, Relation
 from qe.formula.traverse import conjuncts, polynomials
 from qe.options import Budget, Options, Projection, Stage
 from qe.proof.cells import FreeCell
+from qe.proof.step import Nested, Step
 from qe.simplify.simplify import simplify
 
 RULE = "critical values"
 UNIVERSAL_RULE = "critical values of a universal block"
+DIRECTIONS = "constant along directions"
 
 FEW = 2
 """So many parameters a convex truth set may have."""
@@ -130,18 +132,23 @@ class ConvexUniversal:
 
     def apart(self, problem: Problem, context: Context) -> Outcome | None:
         """The block by its pieces, each in one or two parameters."""
-        pieces, formulas = pieces_of(problem), list[Formula]()
-        for piece in pieces:
+        steps = list[Step]()
+        for piece in pieces_of(problem):
             order = _order(problem.variables, piece.body, context.options)
             formula = self.convex(problem.variables, piece.body, order, context)
             if formula is None:
                 return None
-            formulas.append(piece.back(formula))
-        blocks = [forall(problem.variables, nnf(piece.whole, negate=True)) for piece in pieces]
-        context.log.step("simplification", problem.formula, conj(blocks))
-        for block, formula in zip(blocks, formulas, strict=True):
-            context.log.step(RULE, block, formula)
-        return Outcome(conj(formulas))
+            block, whole = (forall(problem.variables, nnf(f, negate=True)) for f in (piece.body, piece.whole))
+            step = Step(UNIVERSAL_RULE, block, formula, evidence={"order": order})
+            if piece.steps:
+                directions = [[name, [[v, str(w)] for v, w in along.items()]] for name, along in piece.steps]
+                proof = {"directions": directions, "steps": Nested(block, (step,), formula)}
+                step = Step(DIRECTIONS, whole, piece.back(formula), evidence={"proof": proof})
+            steps.append(step)
+        context.log.step("simplification", problem.formula, conj(step.before for step in steps))
+        for step in steps:
+            context.log.step(step.rule, step.before, step.after, evidence=step.evidence)
+        return Outcome(conj(step.after for step in steps))
 
     def convex(
         self, variables: Sequence[str], negated: Formula, order: tuple[str, ...], context: Context

@@ -1,0 +1,89 @@
+"""Universal blocks by pieces that look at few parameters: proved in these alone; altered directions are refused."""
+
+from __future__ import annotations
+
+import functools
+import json
+import random
+from fractions import Fraction
+
+import pytest
+
+import qe
+import qe.elimination.critical.apart as apart
+from qe.api.input import read_formula
+from qe.certify.verify import verify_json
+from qe.elimination.critical.method import ConvexUniversal
+from qe.elimination.protocol import Context, Problem
+from qe.options import Budget, Options
+from qe.proof.certificate import Certificate
+from qe.proof.run_log import RunLog
+from qe.proof.step import Step
+from tests.certificates.mutation import leaves, replaced
+from tests.certificates.test_broken_producers import accepted
+
+RULE = "constant along directions"
+BAND = "all x. -1 <= x and x <= 1 -> -m <= a + b*x + x^2 and a + b*x + x^2 <= m"
+
+
+@functools.cache
+def example(text: str) -> str:
+    answer = qe.eliminate(text, method="critical", check=True, process=False)
+    assert RULE in [step.rule for step in answer.derivation.steps]
+    assert answer.guarantee is qe.Guarantee.CHECKED and not answer.unchecked_steps and answer.certificate is not None
+    return answer.certificate.to_json()
+
+
+def refused(text: str) -> bool:
+    verdict = verify_json(text)
+    return not verdict.accepted and verdict.step != "digest"
+
+
+def test_a_band_around_a_parabola_is_proved_side_by_side():
+    assert qe.verify(Certificate.from_json(example(BAND)), formula=BAND).accepted
+
+
+def test_random_pieces_are_accepted():
+    rng = random.Random(5)
+    for _ in range(2):
+        p, q, r = (rng.choice((-2, -1, 1, 2, 3)) for _ in range(3))
+        text = f"all x. 0 <= x and x <= 1 -> {p}*a + {q}*m + b*x <= x^2 and a*x + {r}*m*x + b <= 2"
+        whole = json.loads(example(text))
+        assert any(step["rule"] == RULE for step in whole["payload"]["steps"])
+
+
+def test_altered_directions_are_refused():
+    whole = json.loads(example(BAND))
+    places = [k for k, step in enumerate(whole["payload"]["steps"]) if step["rule"] == RULE]
+    assert len(places) == 2
+    for k in places:
+        evidence = ("payload", "steps", k, "evidence")
+        for path, value in list(leaves(whole)):
+            if path[:5] == (*evidence, "directions"):
+                others = [other for other in ("0", "7", "x", "nobody", None) if other != value]
+                assert all(refused(replaced(whole, path, other)) for other in others)
+        assert refused(replaced(whole, (*evidence, "directions"), []))
+        assert refused(replaced(whole, (*evidence, "steps"), []))
+
+
+def test_another_formula_of_the_same_form_is_refused():
+    whole = json.loads(example(BAND))
+    steps = whole["payload"]["steps"]
+    (k, other) = [i for i, step in enumerate(steps) if step["rule"] == RULE]
+    swapped = replaced(whole, ("payload", "steps", k, "after"), steps[other]["after"])
+    assert refused(swapped)
+
+
+def steps_of(text: str) -> list[Step]:
+    """The steps of the rule as the method logs them."""
+    problem, log = Problem.of(read_formula(text)), RunLog()
+    assert problem is not None
+    assert ConvexUniversal().run(problem, Context(Options(), Budget(20), log)) is not None
+    return [step for step in log.steps() if step.rule == RULE]
+
+
+def test_pieces_that_are_not_constant_are_not_proved(monkeypatch: pytest.MonkeyPatch):
+    """A producer that takes any direction for one of the null space."""
+    assert all(accepted(step) for step in steps_of(BAND))
+    monkeypatch.setattr(apart, "kernel_vector", lambda c, rows: dict.fromkeys(c, Fraction(1)) if len(c) > 2 else None)
+    assert [accepted(step) for step in steps_of(BAND)] == [False, False]
