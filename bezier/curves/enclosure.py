@@ -47,6 +47,16 @@ class Enclosure:
         except OverflowError:
             return inf if self.low > 0 else -inf
 
+    def shown(self, digits: int = 6) -> str:
+        """For people: as many digits as both ends agree in; both ends where they agree in none."""
+        if self.high is None:
+            return f"at least {self.to_json(digits)['low']}"
+        low, high = float(self.low), float(self.high)
+        for count in range(digits, 1, -1):
+            if f"{low:.{count}g}" == f"{high:.{count}g}":
+                return f"{low:.{count}g}"
+        return f"{self.to_json(digits)['low']} … {self.to_json(digits)['high']}"
+
     def to_json(self, digits: int = 12) -> dict[str, str]:
         """``{"low", "high"}`` as decimals rounded outwards; ``high`` is "inf" for an infinite number."""
         return {"low": _decimal(self.low, digits, ROUND_FLOOR), "high": _decimal(self.high, digits, ROUND_CEILING)}

@@ -220,7 +220,7 @@ def summary_lines(quality: Quality | None) -> list[str]:
     bent = {name: value for name, value in quality.curvatures.items() if value is not None}
     name = max(bent, key=lambda n: float(bent[n]), default=None)
     most = "" if name is None else f", largest curvature {_curvature_words(bent[name])} ({name})"
-    lines = [f"length {_short(quality.length)} mm{most}"]
+    lines = [f"length {quality.length.shown()} mm{most}"]
     if quality.motion is not None:
         lines.append(_motion_words(quality.motion))
         if not quality.motion.keeps_limits:
@@ -229,7 +229,7 @@ def summary_lines(quality: Quality | None) -> list[str]:
 
 
 def _curvature_words(value: Enclosure) -> str:
-    return f"{_short(value)} 1/mm" if value.is_bounded else "unbounded at a cusp"
+    return f"{value.shown()} 1/mm" if value.is_bounded else "unbounded at a cusp"
 
 
 def _motion_words(motion: Motion) -> str:

@@ -38,7 +38,7 @@ def cards(plan: Plan) -> list[Card]:
     if plan.path is None:
         found.append(Card("radius", f"{float(plan.problem.workspace.radius_squared) ** 0.5:.6g} mm"))
     if plan.quality is not None:
-        found.append(Card("length", f"{near(plan.quality.length)} mm"))
+        found.append(Card("length", f"{plan.quality.length.shown()} mm"))
     if plan.findings:
         found.append(_clearance(plan))
     if plan.quality is not None:
@@ -72,7 +72,7 @@ def _clearance(plan: Plan) -> Card:
     if not known or len(known) < len(distances):
         return Card(label, "clear, proved", "good", "no distance from an obstacle given by a formula")
     nearest = min(known, key=lambda d: d.low)
-    return Card(label, f"{near(nearest)} mm", "good", "clear for all t, proved")
+    return Card(label, f"{nearest.shown()} mm", "good", "clear for all t, proved")
 
 
 def _motion(plan: Plan) -> list[Card]:
@@ -102,18 +102,7 @@ def _curvature(bends: Iterable[Enclosure]) -> Card:
     if worst.high is None:
         return Card("largest curvature", "unbounded: a cusp", "bad")
     radius = f"radius at least {float(1 / worst.high) * (1 - 1e-5):.5g} mm" if worst.high else ""
-    return Card("largest curvature", f"{near(worst)} per mm", note=radius)
-
-
-def near(value: Enclosure, digits: int = 6) -> str:
-    """The middle of an enclosure, in as many digits as both ends agree in; both ends where that is none."""
-    if value.high is None:
-        return f"at least {value.to_json(digits)['low']}"
-    low, high = float(value.low), float(value.high)
-    for count in range(digits, 1, -1):
-        if f"{low:.{count}g}" == f"{high:.{count}g}":
-            return f"{low:.{count}g}"
-    return f"{value.to_json(digits)['low']} … {value.to_json(digits)['high']}"
+    return Card("largest curvature", f"{worst.shown()} per mm", note=radius)
 
 
 def duration(seconds: float) -> str:
