@@ -196,6 +196,12 @@ class Budget:
         """Seconds left, or None without a time limit."""
         return None if self.deadline is None else self.deadline - time.monotonic()
 
+    def time_left(self, phase: str) -> float | None:
+        """As ``remaining``, and more than 0: a limit for a part. Raises ``BudgetExceeded`` where nothing is left."""
+        self.check(phase)
+        left = self.remaining()
+        return None if left is None else max(left, 0.001)
+
     def share(self, fraction: float) -> Budget:
         """A budget for a part of the work: at most ``fraction`` of the time that remains."""
         left = self.remaining()

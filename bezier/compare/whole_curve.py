@@ -148,7 +148,7 @@ def implications(problem: Problem, plane: Plane, *, timeout: float | None = None
     for name, family in families(problem, plane).items():
         for c in problem.workspace.conditions:
             inside = Implies(every(WHOLE, family.polygon_inside([c])), _all([c], [family.at()]))
-            answer = qe.eliminate(for_all(order, inside).formula, timeout=budget.remaining(), order=order)
+            answer = qe.eliminate(for_all(order, inside).formula, timeout=budget.time_left("whole curves"), order=order)
             if answer.truth is None:
                 budget.check("whole curves")
                 raise Unable(answer.reason or "it was not decided")

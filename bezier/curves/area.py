@@ -39,7 +39,7 @@ def convex_area(region: qe.Region, rel: Fraction, *, timeout: float | None = Non
     budget = Budget(timeout)
     if region.is_empty:
         return Enclosure(Fraction(0), Fraction(0))
-    first, last = region.bounds(region.order[0], timeout=budget.remaining())
+    first, last = region.bounds(region.order[0], timeout=budget.time_left("area"))
     if first is None or last is None:
         raise InputError("the area of a bounded region can be enclosed only")
     (begin, inner_begin), (inner_end, end) = bounds(first), bounds(last)

@@ -162,7 +162,8 @@ class Region(SetOperations):
     def cells(self) -> list[Piece]:
         """The cylindrical pieces, merged from the true cells."""
         if self._pieces is None:
-            self._pieces = self._asked(lambda: merge(self.table, budget=self._current()))
+            unknown = self._table is None
+            self._pieces = self._asked(lambda: merge(self.table, budget=self._current()), at_once=unknown)
         return self._pieces
 
     @property

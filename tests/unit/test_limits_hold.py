@@ -13,6 +13,7 @@ import pytest
 import qe
 from qe.errors import BudgetExceeded, Unable
 from qe.exact.algebraic import RealAlgebraic
+from qe.options import Budget
 from qe.progress import Event
 
 SQRT2 = RealAlgebraic.from_root([-2, 0, 1], 1, 2)
@@ -230,3 +231,10 @@ def test_reading_holds_the_limit(monkeypatch):
     with pytest.raises(BudgetExceeded):
         qe.region("(x + y + z + 1)^70 > 0", timeout=LIMIT)
     assert time.monotonic() - start < 2 * BOUND
+
+
+def test_no_time_left_is_a_limit_and_no_wrong_argument():
+    """A comparison gave what was left of its time, less than nothing, to the next question: "a positive number"."""
+    assert Budget().time_left("later") is None and 0 < Budget(60).time_left("later") <= 60
+    with pytest.raises(Unable, match="limit"):
+        Budget(-1).time_left("later")
