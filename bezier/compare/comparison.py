@@ -185,12 +185,12 @@ class _Parts:
     unfinished: dict[str, str] = field(default_factory=dict)
 
     def take(self, name: str, share: int, work: Callable[[float], Found], most: float | None = None) -> Found | None:
-        """The result of a part, which gets one part in ``share`` of the time; None, with the reason noted."""
-        most = most or REGION_SECONDS
+        """The result of a part, which gets one part in ``share`` of the time asked for (``most`` where none is asked
+        for); None, with the reason noted."""
         try:
             with self.clock.step(name):
                 left = self.clock.remaining(name)
-                return work(most if left is None else min(most, left * (1 - OUTPUT_SHARE) / share))
+                return work((most or REGION_SECONDS) if left is None else left * (1 - OUTPUT_SHARE) / share)
         except Unable as error:
             self.unfinished[name] = str(error)
             self.clock.learn(name, f"not finished: {error}")

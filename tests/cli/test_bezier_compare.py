@@ -23,7 +23,7 @@ PROGRESS = re.compile(r".+ \.\.\. \(\d+\.\d s\)")
 
 
 def run(*arguments: object) -> subprocess.CompletedProcess[str]:
-    return command.run("bezier", *arguments, seconds=200)
+    return command.run("bezier", *arguments, seconds=400)
 
 
 @pytest.fixture(scope="module")
@@ -31,7 +31,7 @@ def compared(tmp_path_factory: pytest.TempPathFactory) -> tuple[str, Path]:
     """The table, and the folder with all files."""
     folder = tmp_path_factory.mktemp("compare")
     (folder / "problem.toml").write_text(PROBLEM)
-    process = run("compare", folder / "problem.toml", "--out", folder / "out")
+    process = run("compare", folder / "problem.toml", "--out", folder / "out", "--timeout", "300")
     assert process.returncode == 0, process.stderr
     lines = process.stderr.splitlines()
     assert lines and all(PROGRESS.fullmatch(line) for line in lines), "progress is told where there is no terminal"

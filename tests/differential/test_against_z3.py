@@ -20,7 +20,7 @@ def test_no_answer_differs(first: int) -> None:
 def test_no_answer_of_a_family_differs(family: str) -> None:
     counts, wrong = block([f"{family} {i}" for i in range(12)])
     assert not wrong
-    assert counts["agree"] >= 6
+    assert counts["agree"] >= 3
 
 
 @pytest.mark.deep
