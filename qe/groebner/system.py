@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -21,13 +20,17 @@ from qe.exact.tower import clear_denominators
 from qe.exact.zeros import Zero
 from qe.formula.build import atom, conj, disj
 from qe.formula.syntax import Formula, Relation
+from qe.groebner import files
 from qe.groebner.evidence import solutions_certificate
-from qe.groebner.segment import Segment, monomial_names
+from qe.groebner.segment import Segment
 from qe.groebner.writing import system_to_html, system_to_latex
 from qe.processes.execution import Limits, perform
 from qe.proof.certificate import Certificate
+from qe.proof.entry import Json
 
 Result = TypeVar("Result")
+
+_WHAT = "comprehensive Gröbner system"
 
 
 def outside() -> InputError:
@@ -199,37 +202,23 @@ class ComprehensiveGroebnerSystem:
         """The segment as a formula between parameters (and constants)."""
         return condition_of(arguments.instance(segment, Segment, "segment", "a segment of the system"))
 
-    def to_dict(self) -> dict[str, object]:
+    def to_dict(self) -> dict[str, Json]:
         """The system as plain data: polynomials as text."""
-
-        def texts(polys: Sequence[Poly]) -> list[str]:
-            return [format_poly(p) for p in polys]
-
-        def written(segment: Segment) -> dict[str, object]:
-            entries: dict[str, object] = {
-                "equal": texts(segment.equal),
-                "nonzero": texts(segment.nonzero),
-                "some_nonzero": texts(segment.some),
-                "basis": texts(segment.basis),
-                "leading": [monomial_names(e, self.variables) for e in segment.leads],
-                "dimension": segment.dimension,
-            }
-            return entries if segment.faithful is None else {**entries, "faithful": texts(segment.faithful)}
-
-        return {
-            "polynomials": texts(self.polys),
-            "variables": list(self.variables),
-            "parameters": list(self.parameters),
-            "constants": {name: str(value) for name, value in self.constants.items()},
-            "order": self.block.order.value,
-            "segments": [written(s) for s in self.segments],
-        }
+        return files.system_data(self.polys, self.block, self.constants, self.segments)
 
     def to_json(self, *, indent: int | None = None) -> str:
-        """``to_dict`` as JSON."""
-        if indent is not None:
-            arguments.whole(indent, "indent", 80)
-        return json.dumps(self.to_dict(), indent=indent, ensure_ascii=False)
+        """``to_dict`` as JSON, with format, version and digest."""
+        return files.written(_WHAT, self.to_dict(), indent)
+
+    @staticmethod
+    def from_json(text: str) -> ComprehensiveGroebnerSystem:
+        """The system that ``to_json`` wrote: an equal one. Raises ``InputError`` with one line naming what is wrong.
+
+        That the segments are right is not checked; ``certificate_at`` works from the given polynomials alone.
+        """
+        return files.read(
+            text, _WHAT, lambda entry: ComprehensiveGroebnerSystem(*files.system_parts(entry)), lambda s: s.to_dict()
+        )
 
     def to_latex(self) -> str:
         """An array of conditions and bases, for math mode."""
