@@ -9,6 +9,7 @@ from functools import cached_property
 from qe import arguments
 from qe.errors import Unable
 from qe.exact.ring import Poly
+from qe.exact.sample import Point
 from qe.formula.build import conj, convert, disj
 from qe.formula.evaluate import truth_under
 from qe.formula.syntax import FALSE, TRUE, Formula, Relation
@@ -16,7 +17,7 @@ from qe.groebner import files
 from qe.groebner.question import ParametricSystem
 from qe.groebner.segment import Segment
 from qe.groebner.signs import SignatureConditions, signatures_sum_to
-from qe.groebner.system import ComprehensiveGroebnerSystem, outside
+from qe.groebner.system import ComprehensiveGroebnerSystem, outside, within
 from qe.groebner.trace_form import ParametricQuotient
 from qe.options import Budget
 from qe.proof.certificate import Certificate, certificate_from
@@ -121,9 +122,11 @@ class RealRootClassification:
                 return found.condition
         raise arguments.wrong("count", f"one of {', '.join(str(c.count) for c in self.classes)}", count)
 
-    def at(self, point: Mapping[str, object] | Sequence[object]) -> int | None:
-        """The number of distinct real solutions at a point, exactly."""
-        place = self.system.place(point)
+    def at(self, point: Mapping[str, object] | Sequence[object], *, timeout: float | None = None) -> int | None:
+        """The number of distinct real solutions at a point, exactly; ``BudgetExceeded`` after ``timeout`` seconds."""
+        return within(timeout, lambda: self._at(self.system.place(point)))
+
+    def _at(self, place: Point) -> int | None:
         for found in self.classes:
             if truth_under(convert(found.condition, place.ring), place.sign):
                 return found.count
