@@ -132,14 +132,12 @@ def read_system(
     largest = arguments.names(variables, "variables") or ()
     named = arguments.names(parameters, "parameters")
     known = {*largest, *(named or ()), *fixed}
-    lists = [
-        _polynomials(given, what, known)
-        for given, what in ((polys, "polys"), (equal, "equal"), (nonzero, "nonzero"), (positive, "positive"))
-    ]
+    offers = {"polys": polys, "equal": equal, "nonzero": nonzero, "positive": positive}
+    lists = [_polynomials(given, what, known) for what, given in offers.items()]
     if not lists[0]:
         raise InputError("polys: at least one polynomial expected, none found")
-    occurring = sorted({name for group in lists for p in group for name in _names(p)} - {*largest, *fixed})
-    others = tuple(occurring) if named is None else named
+    occurring = {what: {n for p in group for n in _names(p)} for what, group in zip(offers, lists, strict=True)}
+    others = tuple(sorted(set[str]().union(*occurring.values()) - {*largest, *fixed})) if named is None else named
     _check_names(largest, others, fixed, occurring)
     ring = Ring.of((*fixed, *reversed(others), *reversed(largest)))
     block = Block(
@@ -157,7 +155,7 @@ def _check_names(
     variables: tuple[str, ...],
     parameters: tuple[str, ...],
     constants: Mapping[str, RealAlgebraic],
-    found: Sequence[str],
+    occurring: Mapping[str, set[str]],
 ) -> None:
     if not variables:
         raise InputError("variables: the name of at least one variable expected, none found")
@@ -167,12 +165,13 @@ def _check_names(
         raise InputError(
             f"parameters: every name once, as variable, parameter or constant, expected, {twice[0]} found twice"
         )
-    if unknown := [name for name in found if name not in everything]:
-        raise InputError(f"polys: variables and parameters as listed expected, {unknown[0]} found")
+    for what, names in occurring.items():
+        if unknown := sorted(names.difference(everything)):
+            raise InputError(f"{what}: variables and parameters as listed expected, {unknown[0]} found")
 
 
 def _polynomials(given: object, what: str, known: Container[str]) -> list[Poly]:
-    if isinstance(given, Mapping | set | frozenset):
+    if isinstance(given, str | Mapping | set | frozenset) or not hasattr(given, "__iter__"):
         raise arguments.wrong(what, "a list of polynomials", given)
     return [
         read_polynomial(p, f"{what}: entry {k}", known=known)[0]

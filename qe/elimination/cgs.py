@@ -5,11 +5,16 @@ segment with finitely many complex solutions there is a real solution with the r
 a combination of signatures of trace forms is positive, which is a condition on signs of polynomials in the parameters.
 Over the others a largest set of variables that the equations leave free joins the parameters and stays quantified
 (Weispfenning, A new approach to quantifier elimination for real algebra, 1998; Fukasaku, Iwane, Sato, ISSAC 2015).
+
+Where there is no equation at all, one variable x of strict inequalities g > 0, g /= 0 gets one. Their truth changes at
+zeros of the product P of the g only, and between two neighbouring zeros P has an extremum (Rolle). So they hold
+somewhere iff they hold at an end of the line or at a zero of P', whatever the parameters: where P' vanishes
+identically the ends decide, and where P does nothing holds. g >= 0 is g > 0 or the equation g = 0.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import product
 from math import prod
@@ -25,7 +30,7 @@ from qe.formula.build import atom, conj, convert, disj, exists
 from qe.formula.syntax import FALSE, TRUE, And, Atom, Constant, Formula, Or, Relation
 from qe.formula.traverse import atoms, free_variables, ring_of
 from qe.groebner.counting import SolutionCount
-from qe.groebner.evidence import solutions_certificate
+from qe.groebner.evidence import Condition, solutions_certificate
 from qe.groebner.kapur_sun_wang import segments
 from qe.groebner.segment import Segment
 from qe.groebner.system import condition_of
@@ -39,20 +44,16 @@ MOST_CONJUNCTIONS = 24
 
 
 class ComprehensiveGroebner:
-    """Blocks over disjunctions of conjunctions with equations in the block's variables."""
+    """Blocks over disjunctions of conjunctions."""
 
     name = "cgs"
 
     def suits(self, problem: Problem, options: Options) -> str | None:
-        """Flat blocks with an equation, or an inequation, between their variables."""
-        if not problem.is_flat:
-            return None
-        block, either = set(problem.variables), (Relation.EQ, Relation.NE)
-        found = any(a.relation in either and block & set(_names(a.poly)) for a in _atoms(problem.body))
-        return "equations bind quantified variables" if found else None
+        """Flat blocks."""
+        return "trace forms count its solutions" if problem.is_flat else None
 
     def run(self, problem: Problem, context: Context) -> Outcome | None:
-        """The block as far as its equations bind its variables; None for conditions of another kind.
+        """The block, but variables that its equations leave free; None for conditions of another kind.
 
         Raises ``Unable`` where bases or trace forms grow past their limits, ``BudgetExceeded``.
         """
@@ -63,8 +64,6 @@ class ComprehensiveGroebner:
             return None
         parts = list(_conjunctions(convert(dual.body, ring)))
         read = [_Conjunction.of(part, ring, dual.variables) for part in parts]
-        if not any(part.equations for part in read):
-            return None
         found: list[Formula] = []
         for part in read:
             zeros = None if free else part.zeros()
@@ -128,7 +127,7 @@ class _Conjunction:
     ring: Ring
     block: tuple[str, ...]
     equations: tuple[Poly, ...]
-    conditions: tuple[tuple[Poly, Relation], ...]
+    conditions: tuple[Condition, ...]
     outside: tuple[Atom, ...]
 
     @staticmethod
@@ -144,7 +143,7 @@ class _Conjunction:
     def eliminated(self, budget: Budget) -> Formula:
         """Equivalent, with quantifiers only where the equations leave variables free."""
         if not self.equations:
-            return conj([*self.outside, self._unbound(self.block)])
+            return conj([*self.outside, self._unbound(self.block, budget)])
         zero = [a.poly for a in self.outside if a.relation is Relation.EQ]
         nonzero = [a.poly for a in self.outside if a.relation is Relation.NE]
         return conj([*self.outside, self._over(self.equations, self.block, zero, nonzero, budget)])
@@ -171,15 +170,51 @@ class _Conjunction:
         if segment.dimension == 0:
             return SolutionCount(segment, self.conditions, budget).is_positive
         if segment.dimension == len(variables):  # nothing is bound
-            return self._unbound(variables)
+            return self._unbound(variables, budget)
         positions = next(independent_sets(segment.leads, len(variables)))
         free = tuple(variables[k] for k in positions)
         bound = [v for v in variables if v not in free]
         inside = self._over(segment.basis, bound, segment.equal, segment.nonzero, budget)
         return exists(free, conj([condition_of(segment), inside]))
 
-    def _unbound(self, variables: Sequence[str]) -> Formula:
-        return exists(tuple(variables), conj(atom(g, r) for g, r in self.conditions))
+    def _unbound(self, variables: Sequence[str], budget: Budget) -> Formula:
+        """``ex variables. conditions`` without one of the variables, that of the least degree."""
+        if not variables:
+            return conj(atom(g, r) for g, r in self.conditions)
+        index = self.ring.index
+        x = min(variables, key=lambda v: sum(g.degree(index[v]) for g, _ in self.conditions))
+        inside = [(g, r) for g, r in self.conditions if index[x] in g.variables]
+        outside = [atom(g, r) for g, r in self.conditions if index[x] not in g.variables]
+        others = tuple(v for v in variables if v != x)
+        return exists(others, conj([*outside, self._on_a_line(index[x], inside, budget)]))
+
+    def _on_a_line(self, x: int, conditions: Sequence[Condition], budget: Budget) -> Formula:
+        """That they hold for some x, all of which contain it: at an end of the line, or at a zero."""
+        if not conditions:
+            return TRUE
+        (g, relation), *rest = sorted(conditions, key=lambda c: c[1] is not Relation.GE)
+        if relation is Relation.GE:
+            strict = self._on_a_line(x, [(g, Relation.GT), *rest], budget)
+            return disj([strict, self._at_zeros(x, g, rest, budget, lambda: self._on_a_line(x, rest, budget))])
+        factors = dict.fromkeys(f for g, _ in conditions for f, _ in g.factors()[1] if x in f.variables)
+        slope = prod(factors, start=self.ring.constant(1)).derivative(x)
+        ends = [conj(_at_end(g, r, x, side) for g, r in conditions) for side in (1, -1)]
+        return disj([*ends, self._at_zeros(x, slope, conditions, budget, lambda: FALSE)])
+
+    def _at_zeros(
+        self, x: int, p: Poly, conditions: Sequence[Condition], budget: Budget, everywhere: Callable[[], Formula]
+    ) -> Formula:
+        """That they hold at a zero of p; ``everywhere``: for some x where all of p vanishes."""
+        if not p:
+            return everywhere()
+        others = tuple(i for i in reversed(range(self.ring.size)) if i != x)
+        found = []
+        for segment in segments((p,), Block((x,), others), budget):
+            if segment.dimension == 0:
+                found.append(conj([condition_of(segment), SolutionCount(segment, conditions, budget).is_positive]))
+            elif segment.dimension == 1:
+                found.append(conj([condition_of(segment), everywhere()]))
+        return disj(found)
 
     def zeros(self) -> list[Zero] | None:
         """All real solutions of equations without parameters; None where there are infinitely many complex ones."""
@@ -204,7 +239,16 @@ class _Conjunction:
         return None
 
 
-def _upward(found: Atom) -> tuple[Poly, Relation]:
+def _at_end(g: Poly, relation: Relation, x: int, side: int) -> Formula:
+    """That g > 0, or g /= 0, as x goes to plus (``side`` = 1) or minus (-1) infinity."""
+    found: Formula = FALSE
+    for (power,), c in sorted(g.collected((x,)).items()):
+        lead = c * side**power
+        found = disj([atom(lead, relation), conj([atom(lead, Relation.EQ), found])])
+    return found
+
+
+def _upward(found: Atom) -> Condition:
     """The polynomial and one of >, >=, /=."""
     turned = {Relation.LT: Relation.GT, Relation.LE: Relation.GE}
     if found.relation in turned:

@@ -23,9 +23,8 @@ from qe.formula.build import conj, convert, disj, exists, forall, neg
 from qe.formula.counting import without_root_atoms
 from qe.formula.features import features
 from qe.formula.normal import nnf, rename_apart
-from qe.formula.syntax import FALSE, TRUE, And, Atom, Constant, Exists, ForAll, Formula, Not, Or, Relation
-from qe.formula.traverse import atoms
-from qe.options import Budget, Method, Options, Stage
+from qe.formula.syntax import FALSE, TRUE, And, Constant, Exists, ForAll, Formula, Not, Or
+from qe.options import Budget, Options, Stage
 from qe.proof.answer import Answer, Status
 from qe.proof.derivation import negated
 from qe.proof.run_log import RunLog
@@ -104,14 +103,11 @@ class _Run:
     options: Options
     budget: Budget
     log: RunLog = field(default_factory=RunLog)
-    bound: bool = False
-    """Whether the question has equations: what they leave free may go on to other methods than that for equations."""
 
     # --- the question as a whole ---------------------------------------------------------------
     def question(self, formula: Formula) -> Outcome:
         """The answer; for sentences that begin with a quantifier also a witness or counterexample."""
         problem, mark = Problem.of(formula), self.log.mark()
-        self.bound = any(isinstance(a, Atom) and a.relation in (Relation.EQ, Relation.NE) for a in atoms(formula))
         found = None if problem is None else self.first_of(Scope.ASKED, problem)
         if found is None and problem is not None and not problem.free:
             found = self.sentence(problem)
@@ -282,15 +278,7 @@ class _Run:
 
     def block(self, problem: Problem) -> Outcome:
         """One block by the strategy; raises ``Unable`` where no attempt ends."""
-        scope = Scope.BLOCK if problem.is_flat else Scope.NESTED
-        found = self.first_of(scope, problem)
-        if found is None and self.bound and self.options.method is Method.CGS:  # without equations no trace forms
-            rest = replace(self, options=self.options.with_(method=Method.AUTO), budget=self.budget.part(SHORTCUT))
-            try:
-                found = rest.first_of(scope, problem)
-            except Unable as error:
-                self.budget.check("switch")
-                self.log.switch("other methods", error)
+        found = self.first_of(Scope.BLOCK if problem.is_flat else Scope.NESTED, problem)
         if found is None:
             raise alone(self.options.method.value)
         return found

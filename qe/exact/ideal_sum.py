@@ -5,7 +5,9 @@ of t, then t = 1 gives s*g - e in <F>, and t = 0 gives e in <E>. Every element t
 p in <F> + <E> whose part -q in <E> is known modulo <F>. What is free of t lies in both ideals: it makes the parts
 smaller, but no further pairs; pairs inside either ideal, whose bases are known, are needless. So this is Buchberger's
 algorithm for <F> + <E> alone, and it ends as soon as all members that are asked about have been reduced (the idea of
-Kapur, Sun and Wang 2013, with each pair as one polynomial).
+Kapur, Sun and Wang 2013, with each pair as one polynomial). Critical pairs are taken by sugar, the degree that they
+would have if everything had been homogeneous (Giovini, Mora, Niesi, Robbiano, Traverso, ISSAC 1991): a segment of the
+arm of three joints that took more than half a minute by the degree of the least common multiple takes 0.6 s.
 """
 
 from __future__ import annotations
@@ -69,7 +71,8 @@ class _Search:
         self.reducers: fmpz_mpoly_vec | None = None
         self.leads: list[tuple[int, ...]] = []
         self.sides: list[int] = []
-        self.pairs: list[tuple[int, tuple[int, ...], int, int]] = []
+        self.sugars: list[int] = []
+        self.pairs: list[tuple[int, int, tuple[int, ...], int, int]] = []
         self.done: set[tuple[int, int]] = set()
         self.shared = [self.inside(p) for p in bases[0] if p in bases[1]]
         self.shared += [self.inside(p * e) for p in bases[0] for e in bases[1] if p != e]
@@ -88,19 +91,22 @@ class _Search:
             raise Unable("taking the members of a sum of ideals apart grows past its limits")
         return found
 
-    def add(self, p: fmpz_mpoly, side: int = 2) -> None:
+    def add(self, p: fmpz_mpoly, side: int = 2, sugar: int = 0) -> None:
         """An element, and its pairs with those of another side (2: of neither ideal alone)."""
         place, lead = len(self.elements), tuple(int(k) for k in p.monomial(0))[1:]
+        sugar = sugar or max(sum(int(k) for k in e[1:]) for e in p.monoms())
         for k, other in enumerate(self.leads):
             if side == self.sides[k] != 2 or not any(map(min, lead, other)):
                 self.done.add((k, place))
             else:
                 top = tuple(map(max, lead, other))
-                heappush(self.pairs, (sum(top), top, k, place))
+                rise = max(sugar - sum(lead), self.sugars[k] - sum(other))
+                heappush(self.pairs, (sum(top) + rise, sum(top), top, k, place))
         self.reducers = None
         self.elements.append(p)
         self.leads.append(lead)
         self.sides.append(side)
+        self.sugars.append(sugar)
 
     def run(self, members: Sequence[Poly]) -> list[tuple[int, Poly]]:
         left, found = dict(enumerate(members)), dict[int, tuple[int, Poly]]()
@@ -136,13 +142,13 @@ class _Search:
         """Whether the next pair gives a new element."""
         if not self.pairs:
             raise InternalError("a polynomial is no member of a sum of ideals")
-        _, top, i, j = heappop(self.pairs)
+        sugar, _, top, i, j = heappop(self.pairs)
         self.done.add((i, j))
         if self.is_needless(i, j, top):
             return False
         rest = self.reduced(self.elements[i].spoly(self.elements[j]))
         if rest and int(rest.monomial(0)[0]):
-            self.add(rest)
+            self.add(rest, sugar=sugar)
             return True
         if rest and len(rest) <= MOST_SHARED:
             self.shared.append(rest)

@@ -9,17 +9,22 @@ from functools import cached_property
 from qe import arguments
 from qe.errors import Unable
 from qe.exact.ring import Poly
+from qe.exact.sample import Point
 from qe.formula.build import conj, convert, disj
 from qe.formula.evaluate import truth_under
 from qe.formula.syntax import FALSE, TRUE, Formula, Relation
+from qe.groebner import files
 from qe.groebner.question import ParametricSystem
 from qe.groebner.segment import Segment
 from qe.groebner.signs import SignatureConditions, signatures_sum_to
-from qe.groebner.system import ComprehensiveGroebnerSystem, outside
+from qe.groebner.system import ComprehensiveGroebnerSystem, outside, within
 from qe.groebner.trace_form import ParametricQuotient
 from qe.options import Budget
-from qe.proof.certificate import Certificate
+from qe.proof.certificate import Certificate, certificate_from
+from qe.proof.entry import Entry, Json, formula_from_json, formula_to_json
 from qe.simplify.simplify import simplify
+
+_WHAT = "real root classification"
 
 MOST_CASES = 3000
 """Cases of the signatures of all trace forms of a segment, in one formula."""
@@ -117,9 +122,11 @@ class RealRootClassification:
                 return found.condition
         raise arguments.wrong("count", f"one of {', '.join(str(c.count) for c in self.classes)}", count)
 
-    def at(self, point: Mapping[str, object] | Sequence[object]) -> int | None:
-        """The number of distinct real solutions at a point, exactly."""
-        place = self.system.place(point)
+    def at(self, point: Mapping[str, object] | Sequence[object], *, timeout: float | None = None) -> int | None:
+        """The number of distinct real solutions at a point, exactly; ``BudgetExceeded`` after ``timeout`` seconds."""
+        return within(timeout, lambda: self._at(self.system.place(point)))
+
+    def _at(self, place: Point) -> int | None:
         for found in self.classes:
             if truth_under(convert(found.condition, place.ring), place.sign):
                 return found.count
@@ -134,18 +141,53 @@ class RealRootClassification:
         """
         return self.system.certificate_at(point, self.positive, timeout=timeout)
 
-    def to_dict(self) -> dict[str, object]:
-        """The partition as plain data, formulas as text."""
+    def to_dict(self) -> dict[str, Json]:
+        """The partition as plain data, formulas as text and as trees."""
         return {
-            "variables": list(self.system.variables),
-            "parameters": list(self.system.parameters),
+            "variables": list[Json](self.system.variables),
+            "parameters": list[Json](self.system.parameters),
             "constants": {name: str(value) for name, value in self.system.constants.items()},
-            "classes": [{"count": c.count, "condition": str(c.condition)} for c in self.classes],
+            "positive": files.texts(self.positive),
+            "classes": [
+                {"count": c.count, "condition": str(c.condition), "formula": formula_to_json(c.condition)}
+                for c in self.classes
+            ],
+            "system": self.system.to_dict(),
+            "certificate": None if self.certificate is None else self.certificate.to_data(),
         }
+
+    def to_json(self, *, indent: int | None = None) -> str:
+        """``to_dict`` as JSON, with format, version and digest."""
+        return files.written(_WHAT, self.to_dict(), indent)
+
+    @staticmethod
+    def from_json(text: str) -> RealRootClassification:
+        """The partition that ``to_json`` wrote: an equal one. Raises ``InputError`` with one line naming what is wrong.
+
+        Nothing is verified; use ``qe.verify`` on ``certificate`` for that.
+        """
+        return files.read(text, _WHAT, _from_entry, lambda found: found.to_dict())
 
     def __str__(self) -> str:
         many = "infinitely many complex solutions"
         return "\n".join(f"{many if c.count is None else c.count}: {c.condition}" for c in self.classes)
+
+
+def _from_entry(entry: Entry) -> RealRootClassification:
+    names = ("variables", "parameters", "constants", "positive", "classes", "system", "certificate")
+    *_, positive, classes, inside, certificate = entry.fields(*names)
+    system = ComprehensiveGroebnerSystem(*files.system_parts(inside))
+    ring, found = system.polys[0].ring, list[RootClass]()
+    for part in classes.items():
+        count, _, tree = part.fields("count", "condition", "formula")
+        number, condition = None if count.value is None else count.integer(), formula_from_json(tree, ring)
+        if number in [c.count for c in found]:
+            raise count.fail("a count is listed twice")
+        if {*condition.free} & {*system.variables}:
+            raise tree.fail("expected a condition on the parameters")
+        found.append(RootClass(number, condition))
+    proof = None if certificate.value is None else certificate_from(certificate)
+    return RealRootClassification(system, tuple(found), files.polynomials(positive, ring), proof)
 
 
 def classified(question: ParametricSystem, positive: Sequence[Poly], budget: Budget) -> RealRootClassification:

@@ -68,12 +68,13 @@ def _minimal_polynomial(ring: Ring, i: int, number: RealAlgebraic) -> Poly:
 
 
 def _between(ring: Ring, i: int, number: RealAlgebraic) -> list[Condition]:
-    """That a variable lies in the isolating interval of a number, whose ends are no conjugates of it."""
+    """That a variable lies in the isolating interval of a number, whose ends are no conjugates of it: as one condition,
+    since the checker's work doubles with each."""
     if number.is_rational:
         return []
     low, high = number.interval()
     x = ring.gen(i)
-    return [(low.denominator * x - low.numerator, Relation.GT), (high.numerator - high.denominator * x, Relation.GT)]
+    return [((low.denominator * x - low.numerator) * (high.numerator - high.denominator * x), Relation.GT)]
 
 
 def _separating(found: Sequence[Zero], names: Sequence[str]) -> list[int]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -21,13 +20,17 @@ from qe.exact.tower import clear_denominators
 from qe.exact.zeros import Zero
 from qe.formula.build import atom, conj, disj
 from qe.formula.syntax import Formula, Relation
+from qe.groebner import files
 from qe.groebner.evidence import solutions_certificate
-from qe.groebner.segment import Segment, monomial_names
+from qe.groebner.segment import Segment
 from qe.groebner.writing import system_to_html, system_to_latex
 from qe.processes.execution import Limits, perform
 from qe.proof.certificate import Certificate
+from qe.proof.entry import Json
 
 Result = TypeVar("Result")
+
+_WHAT = "comprehensive Gröbner system"
 
 
 def outside() -> InputError:
@@ -70,9 +73,16 @@ class ComprehensiveGroebnerSystem:
         return iter(self.segments)
 
     # --- at a point --------------------------------------------------------------------------
-    def at(self, point: Mapping[str, object] | Sequence[object]) -> Segment:
-        """The segment of a point: exact numbers for the parameters, by name or in order. ``InputError`` otherwise."""
-        place = self._place(self._values(point))
+    def at(self, point: Mapping[str, object] | Sequence[object], *, timeout: float | None = None) -> Segment:
+        """The segment of a point: exact numbers for the parameters, by name or in order. ``InputError`` otherwise.
+
+        ``timeout`` in seconds: ``BudgetExceeded`` at the limit, here and below.
+        """
+        values = self._values(point)
+        return within(timeout, lambda: self._at(values))
+
+    def _at(self, values: Mapping[str, Number]) -> Segment:
+        place = self._place(values)
         for segment in self.segments:
             if _lies_in(place, segment):
                 return segment
@@ -87,12 +97,12 @@ class ComprehensiveGroebnerSystem:
         for them. ``timeout`` in seconds. Raises ``BudgetExceeded``, and ``Unable`` where the basis grows too large.
         """
         values = self._values(point)
-        return _within(timeout, lambda: self._basis_at(values))
+        return within(timeout, lambda: self._basis_at(values))
 
     def _basis_at(self, values: Mapping[str, Number]) -> tuple[Poly, ...]:
         ring, tower = self.polys[0].ring, self._place(values).tower
         # irreducible one over the other, so that what they divide out is a field
-        moduli, basis = [clear_denominators(ring, m) for m in tower.moduli], self.at(values).basis
+        moduli, basis = [clear_denominators(ring, m) for m in tower.moduli], self._at(values).basis
         special = [_specialised(p, values, self._names) for p in basis]
         found = parametric_basis([*special, *moduli], self.block)
         return tuple(p for p in found if not self.block.is_free(p) or p.is_constant)
@@ -106,7 +116,7 @@ class ComprehensiveGroebnerSystem:
         ``basis_at``.
         """
         values = self._values(point)
-        return _within(timeout, lambda: self._solutions_at(values))
+        return within(timeout, lambda: self._solutions_at(values))
 
     def _solutions_at(self, values: Mapping[str, Number]) -> list[Zero]:
         basis = self._basis_at(values)
@@ -132,7 +142,7 @@ class ComprehensiveGroebnerSystem:
         values, signed = self._values(point), arguments.by_place(positive, "positive")
         for poly in signed:
             arguments.instance(poly, Poly, "positive", "polynomials of this system's kind")
-        return _within(timeout, lambda: self._certificate_at(values, signed))
+        return within(timeout, lambda: self._certificate_at(values, signed))
 
     def _certificate_at(self, values: Mapping[str, Number], positive: Sequence[Poly]) -> Certificate:
         special = [_specialised(p, values, self._names) for p in self.polys]
@@ -151,10 +161,15 @@ class ComprehensiveGroebnerSystem:
         irrational = {n: v for n, v in values.items() if isinstance(v, RealAlgebraic)}
         return {index[n]: v for n, v in {**self.constants, **irrational}.items()}
 
-    def contains(self, poly: Poly | str, point: Mapping[str, object] | Sequence[object]) -> bool:
+    def contains(
+        self, poly: Poly | str, point: Mapping[str, object] | Sequence[object], *, timeout: float | None = None
+    ) -> bool:
         """Whether a polynomial in variables and parameters is in the ideal at a point, exactly."""
-        values = self._values(point)
-        _, rest = self.at(values).reduce(self._read(poly))
+        values, read = self._values(point), self._read(poly)
+        return within(timeout, lambda: self._contains(read, values))
+
+    def _contains(self, poly: Poly, values: Mapping[str, Number]) -> bool:
+        _, rest = self._at(values).reduce(poly)
         place = self._place(values)
         return all(place.sign(c) == 0 for c in self.block.terms(rest).values())
 
@@ -199,37 +214,23 @@ class ComprehensiveGroebnerSystem:
         """The segment as a formula between parameters (and constants)."""
         return condition_of(arguments.instance(segment, Segment, "segment", "a segment of the system"))
 
-    def to_dict(self) -> dict[str, object]:
+    def to_dict(self) -> dict[str, Json]:
         """The system as plain data: polynomials as text."""
-
-        def texts(polys: Sequence[Poly]) -> list[str]:
-            return [format_poly(p) for p in polys]
-
-        def written(segment: Segment) -> dict[str, object]:
-            entries: dict[str, object] = {
-                "equal": texts(segment.equal),
-                "nonzero": texts(segment.nonzero),
-                "some_nonzero": texts(segment.some),
-                "basis": texts(segment.basis),
-                "leading": [monomial_names(e, self.variables) for e in segment.leads],
-                "dimension": segment.dimension,
-            }
-            return entries if segment.faithful is None else {**entries, "faithful": texts(segment.faithful)}
-
-        return {
-            "polynomials": texts(self.polys),
-            "variables": list(self.variables),
-            "parameters": list(self.parameters),
-            "constants": {name: str(value) for name, value in self.constants.items()},
-            "order": self.block.order.value,
-            "segments": [written(s) for s in self.segments],
-        }
+        return files.system_data(self.polys, self.block, self.constants, self.segments)
 
     def to_json(self, *, indent: int | None = None) -> str:
-        """``to_dict`` as JSON."""
-        if indent is not None:
-            arguments.whole(indent, "indent", 80)
-        return json.dumps(self.to_dict(), indent=indent, ensure_ascii=False)
+        """``to_dict`` as JSON, with format, version and digest."""
+        return files.written(_WHAT, self.to_dict(), indent)
+
+    @staticmethod
+    def from_json(text: str) -> ComprehensiveGroebnerSystem:
+        """The system that ``to_json`` wrote: an equal one. Raises ``InputError`` with one line naming what is wrong.
+
+        That the segments are right is not checked; ``certificate_at`` works from the given polynomials alone.
+        """
+        return files.read(
+            text, _WHAT, lambda entry: ComprehensiveGroebnerSystem(*files.system_parts(entry)), lambda s: s.to_dict()
+        )
 
     def to_latex(self) -> str:
         """An array of conditions and bases, for math mode."""
@@ -267,7 +268,8 @@ def exact_number(value: object, what: str) -> Number:
     return arguments.rational(value, what)
 
 
-def _within(timeout: float | None, work: Callable[[], Result]) -> Result:
+def within(timeout: float | None, work: Callable[[], Result]) -> Result:
+    """What the work gives, within so many seconds."""
     limit = arguments.seconds(timeout)
     return work() if limit is None else perform(lambda budgets: work(), Limits(limit), at_once=True)
 

@@ -24,7 +24,8 @@ from qe.options import Budget
 
 MOST_MONOMIALS = 24
 MOST_TERMS = 20_000
-MOST_EXPANDED = 10
+MOST_EXPANDED = 16
+"""Complex solutions of which determinants are expanded; as many as the checker of the method takes."""
 
 Matrix = tuple[tuple[Poly, ...], ...]
 

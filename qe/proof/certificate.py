@@ -20,7 +20,7 @@ from qe.exact.ring import Poly, Ring
 from qe.formula.syntax import Formula
 from qe.proof.cells import CellTable
 from qe.proof.cells_json import CellEvidence, cells_from_json, cells_to_json
-from qe.proof.entry import Entry, Json, formula_to_json, poly_to_text
+from qe.proof.entry import Entry, Json, formula_to_json, poly_to_text, read_json
 
 FORMAT = "bezier-qe certificate"
 VERSIONS = (1, 2)
@@ -175,7 +175,7 @@ class Certificate:
         if not isinstance(text, str):
             raise InputError(f"certificate: text in JSON expected, {type(text).__name__} found")
         try:
-            whole = json.loads(text, parse_float=_no_floats, parse_constant=_no_floats, object_pairs_hook=_no_repeats)
+            whole = read_json(text)
         except (ValueError, RecursionError) as error:
             raise InputError(f"not a certificate: {error}") from None
         if not isinstance(whole, dict) or whole.get("format") != FORMAT:
@@ -261,14 +261,3 @@ def _member(entry: Entry) -> Labelled:
         raise entry.fail("expected an object")
     label = Entry(entry.value.get("label"), f"{entry.path}.label").text()
     return Labelled(label, certificate_from(entry, labelled=True))
-
-
-def _no_floats(text: str) -> Json:
-    raise ValueError(f"inexact number {text}")
-
-
-def _no_repeats(pairs: list[tuple[str, Json]]) -> dict[str, Json]:
-    found = dict(pairs)
-    if len(found) != len(pairs):
-        raise ValueError("a name occurs twice in one object")
-    return found

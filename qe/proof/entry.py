@@ -5,6 +5,7 @@ Readers raise ``CertificateRejected`` with the path of the entry and what was ex
 
 from __future__ import annotations
 
+import json
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -25,6 +26,26 @@ _NAME = rf"(?:{_PLAIN.pattern}|{QUOTED})"
 _POWER = re.compile(rf"({_NAME})(?:\^([1-9][0-9]*))?")
 _TERM = re.compile(rf"(-?)([1-9][0-9]*)?\*?({_POWER.pattern}(?:\*{_POWER.pattern})*)?")
 _SIGN = re.compile(r" ([+-]) ")
+
+
+def read_json(text: str) -> Json:
+    """The value of a JSON text without floating point and without a name that occurs twice in one object.
+
+    Raises ``ValueError``, ``RecursionError``.
+    """
+    found: Json = json.loads(text, parse_float=_no_floats, parse_constant=_no_floats, object_pairs_hook=_no_repeats)
+    return found
+
+
+def _no_floats(text: str) -> Json:
+    raise ValueError(f"inexact number {text}")
+
+
+def _no_repeats(pairs: list[tuple[str, Json]]) -> dict[str, Json]:
+    found = dict(pairs)
+    if len(found) != len(pairs):
+        raise ValueError("a name occurs twice in one object")
+    return found
 
 
 @dataclass(frozen=True, slots=True)

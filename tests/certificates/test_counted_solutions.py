@@ -183,8 +183,21 @@ def test_a_side_condition_switched_off_is_noticed(broken: Patch, text: str, monk
         proved(said)
 
 
+@pytest.mark.parametrize(
+    "text",
+    ["ex x. x^12 + a*x + 1 = 0", "ex x. x^9 + a*x + 1 = 0 and x > 0", "ex x, y. x^3 = y + a and y^3 = x"],
+)
+def test_many_solutions(text: str) -> None:
+    """Nine and twelve complex ones; more than eight were beyond the checker."""
+    said = step(text)
+    evidence: Any = proved(said)
+    check_counted_solutions(replace(said, evidence=Entry(evidence, "evidence")), (), limits())
+    assert evidence["proofs"] and is_contradicted(replace(said, after=neg(said.after)))
+    refused(replace(said, after=neg(said.after)), evidence)
+
+
 def test_beyond_the_limits() -> None:
-    said = step("ex x. x^9 = a")
+    said = replace(step("ex x. x^16 = a"), before=moved(read_formula("ex x. x^17 = a"), Ring.of(("a", "x"))))
     with pytest.raises(Unable, match="complex solutions"):
         list(sentences(said, lambda: None))
 

@@ -9,6 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import qe
+from qe.engine.strategy import Attempt
 from qe.formula.evaluate import holds_at
 
 PROBLEMS = {
@@ -36,16 +37,42 @@ def test_agrees_with_the_other_methods(name: str) -> None:
     assert qe.equivalent(found, qe.eliminate(PROBLEMS[name]), timeout=60)
 
 
-@pytest.mark.parametrize(
-    "text",
-    ["ex x, y. x^2 + y^2 = 1 and x + y >= a", "ex x, y. x*y = a and x + y > b", "ex x. a*x = b and x > 0 and x < 1"],
-)
-def test_what_no_equation_binds_goes_on_to_other_methods(text: str) -> None:
-    found = qe.eliminate(text, method="cgs", check=True, timeout=120)
-    if found.formula is None:
-        assert "inequalities" in found.reason
-    else:
-        assert found.guarantee is qe.Guarantee.CHECKED and qe.equivalent(found, text, timeout=60)
+FREE = [
+    "ex x, y. x^2 + y^2 = 1 and x + y >= a",
+    "ex x, y. x*y = a and x + y > b",
+    "ex x. a*x = b and x > 0 and x < 1",
+    "ex x. x^2 + a*x + b < 0",
+    "all x. x^2 + a*x + b >= 0",
+    "ex x. x >= a and x <= b and x /= 0",
+    "ex x. (x - a)*(x - b) <= 0 and x > 1",
+]
+
+
+@pytest.mark.parametrize("text", FREE)
+def test_what_no_equation_binds_has_points_between_zeros(text: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The method alone: nothing else is even loaded."""
+    loaded, load = set[str](), Attempt.load
+
+    def seen(attempt: Attempt) -> object:
+        loaded.add(attempt.method)
+        return load(attempt)
+
+    monkeypatch.setattr(Attempt, "load", seen)
+    found = qe.eliminate(text, method="cgs", process=False)
+    assert found.formula is not None and loaded == {"cgs"}
+    assert qe.equivalent(found, text, timeout=60)
+
+
+def test_answers_without_equations_are_checked() -> None:
+    found = qe.eliminate(FREE[0], method="cgs", check=True, process=False)
+    assert found.guarantee is qe.Guarantee.CHECKED
+
+
+@pytest.mark.parametrize("text", ["ex x, y. x^2 + y^2 < a and x*y > b", "ex x. x^3 + a*x > b and x < a and x > c"])
+def test_what_is_beyond_the_method_is_told_in_a_line(text: str) -> None:
+    found = qe.eliminate(text, method="cgs", timeout=60)
+    assert found.formula is None and "\n" not in found.reason
+    assert "Gröbner systems alone" in found.reason or "trace forms" in found.reason
 
 
 def test_the_step_is_named_and_derived() -> None:
@@ -82,6 +109,25 @@ def small_blocks(draw: st.DrawFn) -> str:
 def test_small_random_blocks_are_checked_and_agree_with_decomposition(text: str) -> None:
     found = qe.eliminate(text, method="cgs", check=True, process=False)
     assert found.guarantee is qe.Guarantee.CHECKED
+    assert qe.equivalent(found, qe.eliminate(text, method="cad", process=False), process=False)
+
+
+@st.composite
+def inequalities(draw: st.DrawFn) -> str:
+    """One or two conditions on x with parameter k; leading coefficients may vanish."""
+    coefficient, relation = (
+        st.sampled_from(["1", "-1", "2", "k", "(k - 1)", "0"]),
+        st.sampled_from([">", ">=", "/=", "<"]),
+    )
+    first = f"{draw(coefficient)}*x^2 + {draw(coefficient)}*x + {draw(coefficient)} {draw(relation)} 0"
+    second = f"{draw(coefficient)}*x {draw(relation)} {draw(coefficient)}"
+    return f"ex x. {first} and {second}"
+
+
+@settings(max_examples=12)
+@given(inequalities())
+def test_random_inequalities_agree_with_decomposition(text: str) -> None:
+    found = qe.eliminate(text, method="cgs", process=False)
     assert qe.equivalent(found, qe.eliminate(text, method="cad", process=False), process=False)
 
 

@@ -128,13 +128,28 @@ def test_conditions_on_the_parameters() -> None:
         ((["x - a"], "x", "b"), "a found"),
         ((["x - a"], []), "at least one variable"),
         ((["x - "], "x"), "a polynomial expected"),
-        (("x - a", "x"), "values in order"),
+        (("x - a", "x"), "polys: a list of polynomials"),
+        ((5, "x"), "polys: a list of polynomials"),
     ],
 )
 def test_bad_input_is_named_in_one_line(arguments: tuple[object, ...], message: str) -> None:
     with pytest.raises(qe.InputError, match=message) as caught:
         qe.comprehensive_groebner(*arguments)  # type: ignore[arg-type]
     assert "\n" not in str(caught.value)
+
+
+def test_the_argument_with_an_unknown_name_is_named() -> None:
+    with pytest.raises(qe.InputError, match="positive: variables and parameters as listed expected, q found"):
+        qe.real_root_classification(["x^2 - a"], "x", "a", positive=["q"])
+
+
+def test_questions_at_a_point_take_a_limit() -> None:
+    system, found = qe.comprehensive_groebner(["x - a"], "x"), qe.real_root_classification(["x - a"], "x")
+    assert system.at([1], timeout=60).dimension == 0 and system.contains("x - a", [1], timeout=60)
+    assert found.at([1], timeout=60) == 1
+    for ask in (system.at, found.at):
+        with pytest.raises(qe.InputError, match="timeout"):
+            ask([1], timeout=0)
 
 
 def test_bad_points() -> None:
