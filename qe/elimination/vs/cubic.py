@@ -71,7 +71,7 @@ def at_cubic(f: Poly, x: int, relation: Relation, e: CubicRoot, sign: int | None
         return _at_only(e, u, v, w, relation, atom)
     if e.index == SOME:
         return _at_some(symmetric(e, u, v, w), relation, atom)
-    if b * u == 3 * (a * v) and c * u == 3 * (a * w):
+    if 2 * (b * u) == 3 * (a * v) and c * u == 3 * (a * w):
         return _at_critical(e, u, relation, atom)
     return Ranked(e, u, v, w, atom).compare(relation)
 
