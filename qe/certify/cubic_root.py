@@ -13,9 +13,9 @@ multiplication by g modulo f. Let D be the discriminant of f.
   - g(x3) < 0 needs one more negative value than there are slopes m1, m2 that are not negative, because
     g(x3) < g(x1) iff m2 < 0 (or x1 = x3), and g(x3) < g(x2) iff m1 < 0 (or x2 = x3);
   - these are: both if n = 3, or n = 2 and u <= 0; at least one if n >= 2, or n = 1 and u <= 0.
-  For x1 positive slopes take the place of negative ones (turn the line round). For x2 with u >= 0: two negative values,
-  or one and m3 <= 0 <= m1 (then g(x2) is the least); with u <= 0: two, and not m1 <= 0 <= m3 (then it is the greatest), or
-  three.
+  For x1 positive slopes take the place of negative ones (turn the line round). For x2 with u >= 0: two negative
+  values, or one and m3 <= 0 <= m1 (then g(x2) is the least); with u <= 0: two, and not m1 <= 0 <= m3 (then it is the
+  greatest), or three.
 * Where g is k*f' with a number k: f' has the sign of a at x1 and x3, of -a at x2, and is 0 iff D = 0 and the root is
   double: always at x2; at x1 iff a*q <= 0, at x3 iff a*q >= 0, with q = 27*a^2*f(-b/(3*a)).
 * Some xk has g(xk) < 0 iff one value is negative; g(xk) = 0 iff E3 = 0; g(xk) /= 0 iff E1 or E2 is not 0.
@@ -42,7 +42,7 @@ Matrix = list[list[Poly]]
 
 def discriminant(coefficients: Sequence[Poly]) -> Poly:
     """D, by 4*p^3 - q^2 = 27*a^2*D for p = b^2 - 3*a*c and the q of the theorem."""
-    d, c, b, a = coefficients
+    _, c, b, a = coefficients
     p, q = b * b - 3 * (a * c), _inflection(coefficients)
     return (4 * (p * p * p) - q * q).exact_divide(27 * (a * a))
 
@@ -209,9 +209,7 @@ def _slopes(u: Poly, v: Poly, coefficients: Sequence[Poly]) -> Values:
     """a^2 times the symmetric values of the slopes."""
     _, _, b, a = coefficients
     by_x = _by_x(coefficients)
-    whole = [
-        [(a * v - b * u if i == j else a.ring.constant(0)) - u * by_x[i][j] for j in range(3)] for i in range(3)
-    ]
+    whole = [[(a * v - b * u if i == j else a.ring.constant(0)) - u * by_x[i][j] for j in range(3)] for i in range(3)]
     trace, minors, determinant = _symmetric(whole)
     return a * trace, minors, determinant.exact_divide(a)
 

@@ -31,8 +31,9 @@ EQ, NE, LT, LE, GT, GE = Relation.EQ, Relation.NE, Relation.LT, Relation.LE, Rel
 
 @dataclass(frozen=True, slots=True)
 class TestPoint:
-    """``coefficients`` from degree 0 up: one of its own (infinity: none), ``branch`` 1 or -1 for a quadratic, for a cubic
-    the number of the root (0: the only one; 4: whichever of three).
+    """``coefficients`` from degree 0 up: one of its own (infinity: none), ``branch`` 1 or -1 for a quadratic.
+
+    For a cubic ``branch`` is the number of the root (0: the only one; 4: whichever of three).
 
     ``shift``: 0 for the root itself, 1 or -1 for a point right or left of it; for infinity its sign.
     """

@@ -140,7 +140,9 @@ STRATEGY: tuple[Attempt, ...] = (
     Attempt(Scope.BLOCK, "infinity first", on.one_variable_and_parameters),
     Attempt(Scope.BLOCK, "critical", on.convex_conditions, FIRST),
     Attempt(Scope.BLOCK, "vs", on.low_degrees, FIRST, complete_if_closed, shorten=True),
-    Attempt(Scope.BLOCK, "vs, cubic", on.cubic_and_many_parameters, PROBE, complete_and_small, shorten=True, spare=True),
+    Attempt(
+        Scope.BLOCK, "vs, cubic", on.cubic_and_many_parameters, PROBE, complete_and_small, shorten=True, spare=True
+    ),
     Attempt(Scope.BLOCK, "vs", on.worth_a_short_try, PROBE, complete_and_small, shorten=True, spare=True),
     Attempt(Scope.BLOCK, "cad", on.complete),
     Attempt(Scope.BLOCK, "vs", on.always, None, complete_if_closed, shorten=True),

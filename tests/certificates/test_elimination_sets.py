@@ -14,7 +14,7 @@ import qe
 from qe.certify.elimination_points import implies
 from qe.elimination.vs import block, candidates, plan, radical_free, substitute
 from qe.formula.build import conj, convert, disj
-from qe.formula.syntax import FALSE, TRUE, Exists, Formula
+from qe.formula.syntax import FALSE, Formula
 from qe.formula.traverse import conjuncts
 from qe.io.text import read
 from qe.proof.derivation import moved

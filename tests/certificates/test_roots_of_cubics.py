@@ -126,7 +126,9 @@ def _complex_zeros_forgotten(patch: pytest.MonkeyPatch) -> None:
 
 def _double_roots_forgotten(patch: pytest.MonkeyPatch) -> None:
     rule = cubic._at_critical
-    patch.setattr(cubic, "_at_critical", lambda e, u, r, atom: rule(replace(e, index=2 if e.index != 2 else 1), u, r, atom))
+    patch.setattr(
+        cubic, "_at_critical", lambda e, u, r, atom: rule(replace(e, index=2 if e.index != 2 else 1), u, r, atom)
+    )
 
 
 BROKEN = [

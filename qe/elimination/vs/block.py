@@ -48,8 +48,8 @@ def eliminate_block(
     THEOREM (Loos & Weispfenning 1993, Weispfenning 1997): (exists x. F) iff the disjunction over an elimination set
     of (guard and F at the point). Disjunctions are distributed over, conjuncts without common block variables are
     solved apart, and the variable with the cheapest elimination set goes first; nothing is expanded.
-    ``simplify`` must return an equivalent formula. ``highest``: the degree (2 or 3) up to which variables are eliminated.
-    Raises ``BudgetExceeded``.
+    ``simplify`` must return an equivalent formula. ``highest``: the degree (2 or 3) up to which variables are
+    eliminated. Raises ``BudgetExceeded``.
     """
     formula = simplify(nnf(matrix))
     ring = formula.ring

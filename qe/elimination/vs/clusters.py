@@ -2,8 +2,8 @@
 
 THEOREM. Let no conjunction in F have two members that depend on x at the roots x1, x2, x3 (an atom does not if its
 polynomial is a constant modulo the cubic). Then F(x1) or F(x2) or F(x3) is F with every atom replaced by "it holds at
-some xk": "some" distributes over "or", and over "and" with what does not depend on x. (Kosta 2016, chapter 3, calls
-points that are tried together a cluster.)
+some xk": "some" distributes over "or", and over "and" with what does not depend on x. (Kosta 2016 calls points
+that are tried together a cluster.)
 """
 
 from __future__ import annotations

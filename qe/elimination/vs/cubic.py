@@ -17,9 +17,8 @@ same rule says when one of them is negative, from their symmetric values S1, S2,
 Each condition in a line implies that g(xk) is at most the value of that rank, and for one of the lines it is this
 value; so g(xk) < 0 iff some line holds whose value is < 0, and so with <=.
 
-Weispfenning 1994 and Kosta 2016, chapter 6, tell real types of f apart and list formulas for each; that three cases
-suffice, with this table, is by the theorems above (their proof is complete as it stands; ``qe.certify.cubic_root``
-has another form of it, and tests prove both tables by decomposition).
+Weispfenning 1994 and Kosta 2016 tell the real types of f apart and have formulas for each; here two cases suffice. The
+checker has a form of its own (``qe.certify.cubic_root``), and tests prove both by decomposition.
 """
 
 from __future__ import annotations
@@ -60,7 +59,7 @@ condition on the slopes holds, or u <= 0 and the second. It is always at most th
 
 def at_cubic(f: Poly, x: int, relation: Relation, e: CubicRoot, sign: int | None, atom: MakeAtom) -> Formula:
     """``f relation 0`` at the root, where ``e`` is real; ``sign``: of the leading coefficient, if it is known."""
-    d, c, b, a = e.coefficients
+    a = e.coefficients[3]
     g, odd = remainder(f, x, e)
     if odd:
         g = [p * (a if sign is None else sign) for p in g]
@@ -98,7 +97,9 @@ def symmetric(e: CubicRoot, u: Poly, v: Poly, w: Poly) -> Three:
     ab, squares, pairs = a * b, b * b - 2 * (a * c), 3 * (a * d) - b * c
     ends = c * c - 2 * (b * d)  # of the squares of two roots
     one = u * squares - v * ab + 3 * (w * a * a)
-    two = u * u * ends + u * v * pairs + 2 * (u * w * squares) + v * v * (a * c) - 2 * (v * w * ab) + 3 * (w * w * a * a)
+    two = (
+        u * u * ends + u * v * pairs + 2 * (u * w * squares) + v * v * (a * c) - 2 * (v * w * ab) + 3 * (w * w * a * a)
+    )
     three = (
         u * u * (u * d * d - v * (c * d) + w * ends)
         + u * v * (v * (b * d) + w * pairs)

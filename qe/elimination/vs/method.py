@@ -27,7 +27,9 @@ class VirtualSubstitution:
         """The block as far as substitution goes: what it could not eliminate stays quantified in the formula."""
         start = time.perf_counter()
         matrix = problem.positive
-        result = eliminate_block(problem.variables, matrix, budget=context.budget, simplify=simplify, highest=self.highest)
+        result = eliminate_block(
+            problem.variables, matrix, budget=context.budget, simplify=simplify, highest=self.highest
+        )
         seconds = round(time.perf_counter() - start, 6)
         context.log.work(self.name, {"variables": list(problem.variables), **result.stats, "seconds": seconds})
         evidence = {**result.stats, "trace": result.trace}

@@ -76,9 +76,7 @@ def choose(formula: Formula, block: frozenset[int], *, strict: bool, highest: in
     return best
 
 
-def _plan(
-    formula: Formula, x: int, others: frozenset[int], facts: Facts, strict: bool, highest: int
-) -> Plan | None:
+def _plan(formula: Formula, x: int, others: frozenset[int], facts: Facts, strict: bool, highest: int) -> Plan | None:
     if any(isinstance(a, RootAtom) and x in occurring(a) for a in atoms(formula)):
         return None
     ring = next(atoms(formula)).poly.ring
@@ -134,9 +132,7 @@ def _with_gauss(
     return Plan(x, exponent, formula, candidates + others, plain.infinities, gauss.degenerate, FALSE, cost + plain.cost)
 
 
-def _with_bounds(
-    formula: Formula, x: int, exponent: int, size: float, facts: Facts, highest: int
-) -> Plan | None:
+def _with_bounds(formula: Formula, x: int, exponent: int, size: float, facts: Facts, highest: int) -> Plan | None:
     """Lower bounds with -infinity, upper bounds with +infinity, or a set without radicals: the cheapest."""
     best: Plan | None = None
     for side in (1, -1):

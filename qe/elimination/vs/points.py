@@ -75,7 +75,8 @@ class CubicRoot:
     """A real root of the cubic with these ``coefficients`` (from degree 0 up), the last one not 0.
 
     ``index`` 0: the only one, where the discriminant is negative; k = 1, 2, 3: the k-th smallest, each counted as often
-    as it is a root, where it is not. ``SOME``: whichever of these three, for formulas that ask one thing of it at a time.
+    as it is a root, where it is not. ``SOME``: whichever of these three, for formulas that ask one thing of it
+    at a time (``clusters``).
     """
 
     coefficients: tuple[Poly, Poly, Poly, Poly]
