@@ -59,7 +59,7 @@ condition on the slopes holds, or u <= 0 and the second. It is always at most th
 
 def at_cubic(f: Poly, x: int, relation: Relation, e: CubicRoot, sign: int | None, atom: MakeAtom) -> Formula:
     """``f relation 0`` at the root, where ``e`` is real; ``sign``: of the leading coefficient, if it is known."""
-    a = e.coefficients[3]
+    _, c, b, a = e.coefficients
     g, odd = remainder(f, x, e)
     if odd:
         g = [p * (a if sign is None else sign) for p in g]

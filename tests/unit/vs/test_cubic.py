@@ -104,8 +104,8 @@ CASES = [
         for relation in (LE, LT)
     ),
 ]
-"""Leading coefficient of g (None: a letter), and p, q for the roots -p, 0, q of f. Any cubic with real roots and any g
-is one of these (or f = x^3) up to a translation, positive factors of x and g, and a mirror image, which makes x3 of x1."""
+"""Leading coefficient of g (None: a letter), and p, q for the roots -p, 0, q of f. Any cubic with real roots and
+any g is one of these (or f = x^3) up to a translation, positive factors of x and g, and the mirror (x3 becomes x1)."""
 
 
 @TABLES
