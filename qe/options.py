@@ -43,6 +43,7 @@ class Stage(Enum):
     leave, belongs to one.
 
     ``EQUATIONS``: linear equations and Gröbner bases before anything else. ``SUBSTITUTION``: virtual substitution.
+    ``CUBIC``: the same with roots of cubics.
     ``CONSTRAINTS``: projection and lifting restricted by equational constraints. ``PARTIAL``: stacks are left as
     soon as their truth is known. ``OPEN``: sectors only where all atoms are strict. ``MCCALLUM``: Brown–McCallum
     projection before Lazard's. ``ORDER``: the variable order is chosen, not taken as written. ``SYMMETRY``: variables
@@ -64,6 +65,7 @@ class Stage(Enum):
 
     EQUATIONS = "equations"
     SUBSTITUTION = "substitution"
+    CUBIC = "cubic"
     CONSTRAINTS = "constraints"
     PARTIAL = "partial"
     OPEN = "open"

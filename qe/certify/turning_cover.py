@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from qe.certify.elimination_points import Tried, implies, is_free_of
 from qe.certify.step import Limits
 from qe.certify.turning_points import Turn, inside, turns, vanishing
-from qe.certify.virtual_substitution import TestPoint
+from qe.certify.virtual_substitution import TestPoint, whichever
 from qe.errors import CertificateRejected
 from qe.exact.ring import Poly
 from qe.formula.build import conj, disj
@@ -55,7 +55,8 @@ class Cover:
 
     def there(self, point: TestPoint | None) -> list[int]:
         """The numbers of the points at a place (None: where all x stay quantified)."""
-        return self._by_point.get(point, [])
+        any_root = None if point is None else whichever(point)
+        return self._by_point.get(point, []) + (self._by_point.get(any_root, []) if any_root else [])
 
     def kept(self, under: Around) -> list[Met] | None:
         """Where these conditions hold, the problem itself is kept as one of the points."""

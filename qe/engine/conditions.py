@@ -8,7 +8,7 @@ from math import prod
 from qe.elimination.protocol import Problem
 from qe.formula.syntax import And, Atom, Formula, Or, Relation
 from qe.formula.traverse import conjuncts, connected, polynomials, subformulas
-from qe.options import Options
+from qe.options import Options, Stage
 
 Condition = Callable[[Problem, Options], str | None]
 
@@ -177,10 +177,28 @@ def low_degrees(problem: Problem, options: Options) -> str | None:
     return None if total <= CAD_FIRST_VARIABLES else f"{total} variables: substitution removes what it can first"
 
 
+def cubic_and_many_parameters(problem: Problem, options: Options) -> str | None:
+    """A variable of degree 3, and too many others for a quick decomposition."""
+    if Stage.CUBIC in options.without or convex_conditions(problem, options) is not None:
+        return None
+    total = _sizes(problem)[1]
+    if total <= CAD_VARIABLES or not _has_cubic(problem):
+        return None
+    return f"a short try of roots of cubics before decomposing {total} variables"
+
+
+def _has_cubic(problem: Problem) -> bool:
+    """Whether some polynomial has degree 3 in a quantified variable."""
+    bound = frozenset(problem.variables)
+    return any(p.degree(i) == 3 for p in polynomials(problem.body) for i in p.variables if p.ring.names[i] in bound)
+
+
 def worth_a_short_try(problem: Problem, options: Options) -> str | None:
     """Where decomposition goes first but has many variables: a small complete answer may come at once."""
     if low_degrees(problem, options) is not None or convex_conditions(problem, options) is not None:
         return None
+    if cubic_and_many_parameters(problem, options) is not None:
+        return None  # which tries the same, and roots of cubics
     total = _sizes(problem)[1]
     return f"a short try before decomposing {total} variables" if total > CAD_VARIABLES else None
 

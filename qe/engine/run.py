@@ -311,14 +311,20 @@ class _Run:
                 last = error
             steps = self.log.forget_steps(mark)
             if spare is not None:
-                self.log.choice(spare.name, problem.variables, "its answer is long, but known")
-                self.log.take_up(spare.steps)
-                return self.whole_of(spare.outcome, problem, spare.attempt, spare.name)
+                return self.spared(spare, problem)
             if found is not None and attempt.spare and complete(found, problem):
                 spare = _Spare(found, attempt, method.name, steps)
+        if spare is not None:
+            return self.spared(spare, problem)
         if last is not None and scope in (Scope.BLOCK, Scope.NESTED):
             raise last
         return None
+
+    def spared(self, spare: _Spare, problem: Problem) -> Outcome:
+        """The outcome that was put aside."""
+        self.log.choice(spare.name, problem.variables, "its answer is long, but known")
+        self.log.take_up(spare.steps)
+        return self.whole_of(spare.outcome, problem, spare.attempt, spare.name)
 
     def whole_of(self, found: Outcome, problem: Problem, attempt: Attempt, name: str) -> Outcome:
         """An outcome without what a method left quantified, and short where that is worth a look."""

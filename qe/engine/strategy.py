@@ -20,6 +20,7 @@ from qe.options import Method, Options, Stage
 
 METHODS = {
     "vs": ("qe.elimination.vs.method", "VirtualSubstitution"),
+    "vs, cubic": ("qe.elimination.vs.method", "CubicSubstitution"),
     "cad": ("qe.elimination.cad", "Decomposition"),
     "critical": ("qe.elimination.critical.method", "CriticalValues"),
     "critical, convex universal": ("qe.elimination.critical.method", "ConvexUniversal"),
@@ -35,6 +36,7 @@ METHODS = {
 
 LEFT_OUT_BY = {
     "vs": Stage.SUBSTITUTION,
+    "vs, cubic": Stage.CUBIC,
     "critical": Stage.CRITICAL,
     "critical, convex universal": Stage.CRITICAL,
     "convex": Stage.CONVEX,
@@ -138,6 +140,9 @@ STRATEGY: tuple[Attempt, ...] = (
     Attempt(Scope.BLOCK, "infinity first", on.one_variable_and_parameters),
     Attempt(Scope.BLOCK, "critical", on.convex_conditions, FIRST),
     Attempt(Scope.BLOCK, "vs", on.low_degrees, FIRST, complete_if_closed, shorten=True),
+    Attempt(
+        Scope.BLOCK, "vs, cubic", on.cubic_and_many_parameters, PROBE, complete_and_small, shorten=True, spare=True
+    ),
     Attempt(Scope.BLOCK, "vs", on.worth_a_short_try, PROBE, complete_and_small, shorten=True, spare=True),
     Attempt(Scope.BLOCK, "cad", on.complete),
     Attempt(Scope.BLOCK, "vs", on.always, None, complete_if_closed, shorten=True),

@@ -5,14 +5,15 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from qe.certify.cubic_root import SOME, existence
 from qe.certify.elimination_points import Tried, implies, is_real
 from qe.certify.elimination_set import require_cover
 from qe.certify.lowered_degree import lowered
 from qe.certify.step import Limits
 from qe.certify.turning_cover import Around, Cover, Met
 from qe.certify.turning_points import Turn
-from qe.certify.virtual_substitution import TestPoint
-from qe.elimination.vs.points import Infinity, LinearRoot, QuadraticRoot, SymbolicPoint
+from qe.certify.virtual_substitution import TestPoint, whichever
+from qe.elimination.vs.points import CubicRoot, Infinity, LinearRoot, QuadraticRoot, SymbolicPoint
 from qe.elimination.vs.radical_free import convex_family, lone_quadratic
 from qe.elimination.vs.trace import Attempt, Substituted, Trace
 from qe.exact.ring import Poly, Ring
@@ -167,9 +168,12 @@ class _Needs(Cover):
         self._facts = [m for m in conjuncts(original) if name not in m.free]
 
     def meets(self, turn: Turn, formula: Formula, before: int | None = None) -> list[Met] | None:
+        any_root = whichever(turn.point)
         there = [
             k
-            for k in self._places.get(_one_sign(turn.point), ())
+            for point in (turn.point, any_root)
+            if point is not None
+            for k in self._places.get(_one_sign(point), ())
             if (before is None or k < before) and implies(formula, self.tried[k].formula)
         ]
         chosen = next((k for k in there if self._follows(turn, formula, k)), None)
@@ -179,7 +183,7 @@ class _Needs(Cover):
             if impossible is not None or not there:
                 return impossible
             chosen = there[0]
-        self.points[chosen] = turn.point
+        self.points[chosen] = any_root if any_root and _is_any(self.tried[chosen].point) else turn.point
         return [(chosen, conj(turn.conditions))]
 
     def _follows(self, turn: Turn, formula: Formula, k: int) -> bool:
@@ -215,13 +219,20 @@ def _as_checked(point: SymbolicPoint, ring: Ring) -> TestPoint:
             return TestPoint((b.convert(ring), a.convert(ring)), 0, epsilon)
         case QuadraticRoot(a, b, c, branch, epsilon):
             return TestPoint((c.convert(ring), b.convert(ring), a.convert(ring)), branch, epsilon)
+        case CubicRoot(coefficients, index, epsilon):
+            return TestPoint(tuple(c.convert(ring) for c in coefficients), index, epsilon)
 
 
 def _one_sign(point: TestPoint) -> TestPoint:
     """The same point by a polynomial with a positive leading coefficient."""
     if not point.coefficients or point.coefficients[-1].normal()[0] > 0:
         return point
-    return TestPoint(tuple(-c for c in point.coefficients), -point.branch, point.shift)
+    branch = point.branch if len(point.coefficients) == 4 else -point.branch
+    return TestPoint(tuple(-c for c in point.coefficients), branch, point.shift)
+
+
+def _is_any(point: TestPoint | None) -> bool:
+    return point is not None and len(point.coefficients) == 4 and point.branch == SOME
 
 
 def _real(point: TestPoint) -> list[Formula]:
@@ -232,4 +243,6 @@ def _real(point: TestPoint) -> list[Formula]:
     if len(point.coefficients) == 3:
         c, b, a = point.coefficients
         found.append(atom(b * b - 4 * (a * c), Relation.GE))
+    if len(point.coefficients) == 4:
+        found.append(existence(point.coefficients, point.branch))
     return found

@@ -40,19 +40,22 @@ SUBSTITUTION_COST = 5
 """Units of work of one test point: its substitution and simplification take as long as five cells (measured)."""
 
 
-def eliminate_block(variables: Sequence[str], matrix: Formula, *, budget: Budget, simplify: Simplifier) -> BlockResult:
+def eliminate_block(
+    variables: Sequence[str], matrix: Formula, *, budget: Budget, simplify: Simplifier, highest: int = 2
+) -> BlockResult:
     """A formula equivalent to ``exists variables. matrix`` (matrix quantifier-free), see ``BlockResult``.
 
     THEOREM (Loos & Weispfenning 1993, Weispfenning 1997): (exists x. F) iff the disjunction over an elimination set
     of (guard and F at the point). Disjunctions are distributed over, conjuncts without common block variables are
     solved apart, and the variable with the cheapest elimination set goes first; nothing is expanded.
-    ``simplify`` must return an equivalent formula. Raises ``BudgetExceeded``.
+    ``simplify`` must return an equivalent formula. ``highest``: the degree (2 or 3) up to which variables are
+    eliminated. Raises ``BudgetExceeded``.
     """
     formula = simplify(nnf(matrix))
     ring = formula.ring
     if ring is None:
         return BlockResult(formula, (), Leaf((), formula))
-    run = _Run(ring, budget, simplify)
+    run = _Run(ring, budget, simplify, highest)
     block = frozenset(ring.index[v] for v in variables if v in ring.index)
     found, tree, trace = run.solve(formula, block)
     answer = simplify(found)
@@ -73,10 +76,10 @@ Solved = tuple[Formula, Node, Trace]
 class _Run:
     """One elimination: ``solve`` maps a subproblem to an equivalent formula, its tree of solutions, and its trace."""
 
-    __slots__ = ("budget", "done", "ring", "simplify", "stats")
+    __slots__ = ("budget", "done", "highest", "ring", "simplify", "stats")
 
-    def __init__(self, ring: Ring, budget: Budget, simplify: Simplifier) -> None:
-        self.ring, self.budget, self.simplify = ring, budget, simplify
+    def __init__(self, ring: Ring, budget: Budget, simplify: Simplifier, highest: int) -> None:
+        self.ring, self.budget, self.simplify, self.highest = ring, budget, simplify, highest
         self.done: dict[tuple[Formula, frozenset[int]], Solved] = {}
         self.stats = {"subproblems": 0, "test points": 0}
 
@@ -126,7 +129,7 @@ class _Run:
         if len(everything) == 1 and not has_root_atoms(part):
             return self._decide(part, self.ring.names[next(iter(inside))])
         strict = is_open(part, inside)
-        plan = choose(formula, inside, strict=strict)
+        plan = choose(formula, inside, strict=strict, highest=self.highest)
         if plan is not None:
             attempts: list[Attempt] = []
             answer, tree, traces = self._any(self._alternatives(plan, formula, inside, strict, attempts))

@@ -1,6 +1,6 @@
 """Elimination sets: test points such that a formula holds somewhere iff it holds at one of them.
 
-THEOREM. Let F be a positive (and/or) combination of atoms, of degree at most 2 in x after factoring, over fixed
+THEOREM. Let F be a positive (and/or) combination of atoms, of degree at most 3 in x after factoring, over fixed
 parameters. If F holds for some real x, then F holds at -infinity, or the leftmost point of a component of its
 truth set is a root e where F becomes true: at e (closed) or just right of e (open). Some atom occurrence turns
 true there, together with every subformula on the way to the root of the tree. Therefore
@@ -18,7 +18,8 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from itertools import chain
 
-from qe.elimination.vs.points import LinearRoot, QuadraticRoot
+from qe.elimination.vs.points import CubicRoot, LinearRoot, Root
+from qe.elimination.vs.roots import ROWS
 from qe.exact.ring import Poly
 from qe.formula.build import conj, disj
 from qe.formula.syntax import FALSE, And, Atom, Formula, Or, Relation
@@ -34,6 +35,7 @@ _UPWARD = (GT, GE)
 # number of test points by at most an eighth, and the terms of all answers by less than one in a hundred.
 _LINEAR = 2.0  # a linear root whose denominator has parameters: its sign matters for odd degrees
 _QUADRATIC = 6.0  # a root with a square root: the tables make up to five atoms of one
+_CUBIC = 20.0  # a root of a cubic: four to twenty-six atoms of one
 _EPSILON = 2.0  # factor for a point next to a root: each derivative adds a case
 _PER_DEGREE = 0.5  # per degree of a coefficient that is multiplied in (twice that for the leading one under a root)
 _DEGENERATE = 4.0  # a Gauss constituent that may vanish: the problem without it comes on top
@@ -46,7 +48,7 @@ class Candidate:
     ``source`` is the atom that turns true at the point; ``complete``: all such points of it are candidates.
     """
 
-    point: LinearRoot | QuadraticRoot
+    point: Root
     guard: Formula
     formula: Formula
     source: Atom
@@ -62,39 +64,41 @@ class Gauss:
 
 
 def bounds(
-    formula: Formula, x: int, side: int, facts: Facts, omit: frozenset[Poly] = frozenset()
+    formula: Formula, x: int, side: int, facts: Facts, omit: frozenset[Poly] = frozenset(), highest: int = 2
 ) -> tuple[Candidate, ...] | None:
     """Candidates for the lower (side 1) or upper (side -1) ends of the truth set; None if a degree is too high.
 
     The roots of the polynomials ``omit``, of degree 2, are left out where their leading coefficient is not 0.
+    ``highest``: the degree of a factor up to which its roots are points, at most that of ``roots.ROWS``.
     """
     match formula:
         case Atom(poly, _):
-            return _atom_points(formula, x, side, facts, omit) if poly.degree(x) else ()
+            return _atom_points(formula, x, side, facts, omit, highest) if poly.degree(x) else ()
         case And(args):
-            gauss = best_gauss([gauss_constituent(a, x, side, facts) for a in args])
+            gauss = best_gauss([gauss_constituent(a, x, side, facts, highest) for a in args])
             if gauss is not None:
-                return _with_gauss(formula, *gauss, x, side, facts, omit)
-            return _joined(_within(formula, args, k, bounds(arg, x, side, facts, omit)) for k, arg in enumerate(args))
+                return _with_gauss(formula, *gauss, x, side, facts, omit, highest)
+            found = (bounds(arg, x, side, facts, omit, highest) for arg in args)
+            return _joined(_within(formula, args, k, ends) for k, ends in enumerate(found))
         case Or(args):
-            return _joined(bounds(arg, x, side, facts, omit) for arg in args)
+            return _joined(bounds(arg, x, side, facts, omit, highest) for arg in args)
     return ()
 
 
-def gauss_constituent(formula: Formula, x: int, side: int, facts: Facts) -> Gauss | None:
+def gauss_constituent(formula: Formula, x: int, side: int, facts: Facts, highest: int = 2) -> Gauss | None:
     """The formula as a Gauss constituent, or None if it is none (or its degree is too high)."""
     match formula:
         case Atom(poly, Relation.EQ) if poly.degree(x):
-            points = _atom_points(formula, x, side, facts)
+            points = _atom_points(formula, x, side, facts, frozenset(), highest)
             return None if points is None else Gauss(points, vanishing(poly, x, facts))
         case Or(args):
-            parts = [gauss_constituent(a, x, side, facts) for a in args]
+            parts = [gauss_constituent(a, x, side, facts, highest) for a in args]
             found = [p for p in parts if p is not None]
             if len(found) < len(parts):
                 return None
             return Gauss(tuple(chain(*(p.candidates for p in found))), disj(p.degenerate for p in found))
         case And(args):
-            best = best_gauss([gauss_constituent(a, x, side, facts) for a in args])
+            best = best_gauss([gauss_constituent(a, x, side, facts, highest) for a in args])
             if best is None:
                 return None
             gauss, k = best
@@ -119,7 +123,9 @@ def points_cost(candidates: Iterable[Candidate]) -> float:
     total = 0.0
     for candidate in candidates:
         point = candidate.point
-        if isinstance(point, LinearRoot):
+        if isinstance(point, CubicRoot):
+            weight = _CUBIC + _PER_DEGREE * sum(c.total_degree for c in point.coefficients)
+        elif isinstance(point, LinearRoot):
             weight = 1.0 if point.a.is_constant else _LINEAR + _PER_DEGREE * point.a.total_degree
         else:
             weight = _QUADRATIC + _PER_DEGREE * (2 * point.a.total_degree + point.b.total_degree)
@@ -160,7 +166,7 @@ def vanishing(f: Poly, x: int, facts: Facts) -> Formula:
 
 
 def _with_gauss(
-    whole: And, gauss: Gauss, k: int, x: int, side: int, facts: Facts, omit: frozenset[Poly]
+    whole: And, gauss: Gauss, k: int, x: int, side: int, facts: Facts, omit: frozenset[Poly], highest: int
 ) -> tuple[Candidate, ...] | None:
     """The Gauss constituent's candidates, and where it degenerates those of the other conjuncts.
 
@@ -171,7 +177,7 @@ def _with_gauss(
     if gauss.degenerate == FALSE or inner is None:
         return inner
     kept = [j for j in range(len(args)) if j != k or any(isinstance(a, And) for a in disjuncts(args[k]))]
-    others = _joined(_within(whole, args, j, bounds(args[j], x, side, facts, omit)) for j in kept)
+    others = _joined(_within(whole, args, j, bounds(args[j], x, side, facts, omit, highest)) for j in kept)
     if others is None:
         return None
     return (*inner, *(replace(c, guard=conj((gauss.degenerate, c.guard))) for c in others))
@@ -197,11 +203,11 @@ def _joined(parts: Iterable[tuple[Candidate, ...] | None]) -> tuple[Candidate, .
 
 
 def _atom_points(
-    given: Atom, x: int, side: int, facts: Facts, omit: frozenset[Poly] = frozenset()
+    given: Atom, x: int, side: int, facts: Facts, omit: frozenset[Poly], highest: int
 ) -> tuple[Candidate, ...] | None:
     """The points where the atom can turn true, with guards."""
     inside = [(f, e) for f, e in factor_list(given.poly) if f.degree(x)]
-    if any(f.degree(x) > 2 for f, _ in inside):
+    if any(f.degree(x) > highest for f, _ in inside):
         return None
     relation = given.relation
     # A weak atom (=, <=, >=) is true at the root itself. A strict one is false there, and true right after it as seen
@@ -217,46 +223,40 @@ def _atom_points(
     direction = side if relation in _UPWARD else -side
     out: list[Candidate] = []
     for factor, _ in inside:
-        if factor.degree(x) == 1:
-            out += _linear(given, factor, x, epsilon, content, direction, facts)
-        else:
-            found = _quadratic(given, factor, x, epsilon, content, direction, facts)
-            # The roots of an omitted quadratic are replaced by other points (``radical_free``); where its leading
-            # coefficient vanishes it is linear, and that root stays. The atom's points are then not all candidates.
-            if factor in omit:
-                found = (replace(c, complete=False) for c in found if isinstance(c.point, LinearRoot))
-            out += found
+        found = _roots(given, factor.coefficients(x), epsilon, content, direction, facts)
+        # The roots of an omitted quadratic are replaced by other points (``radical_free``); where its leading
+        # coefficient vanishes it is linear, and that root stays. The atom's points are then not all candidates.
+        if factor in omit:
+            found = (replace(c, complete=False) for c in found if isinstance(c.point, LinearRoot))
+        out += found
     return tuple(out)
 
 
-def _linear(
-    given: Atom, f: Poly, x: int, epsilon: int, content: Poly | None, direction: int, facts: Facts
-) -> Iterable[Candidate]:
-    """-b/a: where content*a has the sign ``direction``, or a /= 0 if no direction is known."""
-    b, a = f.coefficients(x)
-    guard = atom_under(a, NE, facts) if content is None else atom_under(content * a, GT if direction > 0 else LT, facts)
-    if guard != FALSE:
-        yield Candidate(LinearRoot(a, b, epsilon), guard, given, given)
+def _roots(
+    given: Atom,
+    coefficients: tuple[Poly, ...],
+    epsilon: int,
+    content: Poly | None,
+    direction: int,
+    facts: Facts,
+    above: tuple[Formula, ...] = (),
+) -> Iterator[Candidate]:
+    """The roots of a factor by the rows of its degree, and where its leading coefficient is 0, of those below.
 
-
-def _quadratic(
-    given: Atom, f: Poly, x: int, epsilon: int, content: Poly | None, direction: int, facts: Facts
-) -> Iterable[Candidate]:
-    """Both roots (one, if the direction is known) where a /= 0 and D >= 0; -c/b where a = 0."""
-    c, b, a = f.coefficients(x)
-    proper = conj((atom_under(a, NE, facts), atom_under(b * b - 4 * (a * c), GE, facts)))
-    if proper != FALSE:
-        for branch in (-1, 1):
-            guard = proper
-            if content is not None:
-                guard = conj((proper, atom_under(content, GT if branch == direction else LT, facts)))
-            if guard != FALSE:
-                yield Candidate(QuadraticRoot(a, b, c, branch, epsilon), guard, given, given)
-    flat = atom_under(a, EQ, facts)
-    if flat != FALSE and b:
-        for candidate in _linear(given, _affine(f, b, c, x), x, epsilon, content, direction, facts):
-            yield replace(candidate, guard=conj((flat, candidate.guard)))
-
-
-def _affine(model: Poly, b: Poly, c: Poly, x: int) -> Poly:
-    return b * model.ring.gen(x) + c
+    Of a row those with the sign ``direction`` of content*slope, if a direction is known. ``above``: that the
+    coefficients of higher degrees vanish.
+    """
+    lead = coefficients[-1]
+    for row in ROWS[len(coefficients) - 1](coefficients, epsilon):
+        guard = [atom_under(p, relation, facts) for p, relation in row.real]
+        if content is None or row.slope.is_constant:
+            guard.insert(0, atom_under(lead, NE, facts))
+        if content is not None:
+            guard.append(atom_under(content * row.slope, GT if direction > 0 else LT, facts))
+        condition = conj((*above, *guard))
+        if condition != FALSE:
+            yield Candidate(row.point, condition, given, given)
+    flat = conj((*above, atom_under(lead, EQ, facts)))
+    lower = next((k for k in range(len(coefficients) - 1, 1, -1) if coefficients[k - 1]), 0)
+    if flat != FALSE and lower:
+        yield from _roots(given, coefficients[:lower], epsilon, content, direction, facts, (flat,))

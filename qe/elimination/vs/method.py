@@ -17,16 +17,19 @@ class VirtualSubstitution:
     """Elimination sets for variables of degree at most 2 (after factoring and degree shift); the others stay."""
 
     name = "vs"
+    highest = 2
 
     def suits(self, problem: Problem, options: Options) -> str | None:
         """Blocks over quantifier-free bodies."""
-        return "degrees up to 2 are eliminated" if problem.is_flat else None
+        return f"degrees up to {self.highest} are eliminated" if problem.is_flat else None
 
     def run(self, problem: Problem, context: Context) -> Outcome:
         """The block as far as substitution goes: what it could not eliminate stays quantified in the formula."""
         start = time.perf_counter()
         matrix = problem.positive
-        result = eliminate_block(problem.variables, matrix, budget=context.budget, simplify=simplify)
+        result = eliminate_block(
+            problem.variables, matrix, budget=context.budget, simplify=simplify, highest=self.highest
+        )
         seconds = round(time.perf_counter() - start, 6)
         context.log.work(self.name, {"variables": list(problem.variables), **result.stats, "seconds": seconds})
         evidence = {**result.stats, "trace": result.trace}
@@ -36,3 +39,10 @@ class VirtualSubstitution:
             certain = next((found for found in result.answers if simplify(found.guard) == TRUE), None)
             values = None if certain is None else witness(certain, budget=context.budget)
         return Outcome(answer, values)
+
+
+class CubicSubstitution(VirtualSubstitution):
+    """The same for degrees up to 3."""
+
+    name = "vs, cubic"
+    highest = 3

@@ -13,6 +13,7 @@ from qe.elimination.vs.candidates import (
     gauss_cost,
     points_cost,
 )
+from qe.elimination.vs.clusters import clustered
 from qe.elimination.vs.points import Infinity
 from qe.elimination.vs.radical_free import without_radicals
 from qe.formula.build import conj
@@ -57,15 +58,17 @@ def occurring(formula: Formula) -> frozenset[int]:
     return found
 
 
-def choose(formula: Formula, block: frozenset[int], *, strict: bool) -> Plan | None:
+def choose(formula: Formula, block: frozenset[int], *, strict: bool, highest: int = 2) -> Plan | None:
     """The cheapest plan over the variables of the block, all occurring; None if every degree is too high.
 
-    ``strict``: the solution set in the block is open (see ``qe.formula.openness``).
+    ``strict``: the solution set in the block is open (see ``qe.formula.openness``). ``highest``: see ``bounds``.
     """
     facts = NOTHING.extended(conjuncts(formula))
     best: Plan | None = None
     for x in sorted(block):
-        plan = _plan(formula, x, block - {x}, facts, strict)
+        plan = _plan(formula, x, block - {x}, facts, strict, highest)
+        if plan is not None and highest > 2:
+            plan = replace(plan, candidates=clustered(plan.candidates, x))
         if plan is not None and (best is None or plan.cost < best.cost):
             best = plan
             if best.cost <= _UNBEATABLE:
@@ -73,7 +76,7 @@ def choose(formula: Formula, block: frozenset[int], *, strict: bool) -> Plan | N
     return best
 
 
-def _plan(formula: Formula, x: int, others: frozenset[int], facts: Facts, strict: bool) -> Plan | None:
+def _plan(formula: Formula, x: int, others: frozenset[int], facts: Facts, strict: bool, highest: int) -> Plan | None:
     if any(isinstance(a, RootAtom) and x in occurring(a) for a in atoms(formula)):
         return None
     ring = next(atoms(formula)).poly.ring
@@ -84,12 +87,12 @@ def _plan(formula: Formula, x: int, others: frozenset[int], facts: Facts, strict
         formula = conj(args)
         facts = NOTHING.extended(args)
     size = sum(1.0 + _spread(a, x, others) for a in atoms(formula) if a.poly.degree(x))
-    gauss = best_gauss([gauss_constituent(a, x, 1, facts) for a in args])
+    gauss = best_gauss([gauss_constituent(a, x, 1, facts, highest) for a in args])
     if gauss is not None:
-        found = _with_gauss(formula, args, originals, *gauss, x, exponent, size, facts)
+        found = _with_gauss(formula, args, originals, *gauss, x, exponent, size, facts, highest)
         if found is not None:
             return found
-    return _with_bounds(formula, x, exponent, size, facts)
+    return _with_bounds(formula, x, exponent, size, facts, highest)
 
 
 def _spread(found: Atom | RootAtom, x: int, others: frozenset[int]) -> float:
@@ -109,6 +112,7 @@ def _with_gauss(
     exponent: int,
     size: float,
     facts: Facts,
+    highest: int,
 ) -> Plan | None:
     """Only the points of the Gauss constituent; where it vanishes identically, the problem without it."""
     rest = (*args[:k], *args[k + 1 :])
@@ -121,24 +125,24 @@ def _with_gauss(
     if isinstance(args[k], Atom):
         without = conj((gauss.degenerate, *originals[:k], *originals[k + 1 :]))
         return Plan(x, exponent, formula, candidates, (), None, without, cost)
-    plain = _with_bounds(formula, x, exponent, size, facts)
+    plain = _with_bounds(formula, x, exponent, size, facts, highest)
     if plain is None:
         return None
     others = tuple(replace(c, guard=conj((gauss.degenerate, c.guard))) for c in plain.candidates)
     return Plan(x, exponent, formula, candidates + others, plain.infinities, gauss.degenerate, FALSE, cost + plain.cost)
 
 
-def _with_bounds(formula: Formula, x: int, exponent: int, size: float, facts: Facts) -> Plan | None:
+def _with_bounds(formula: Formula, x: int, exponent: int, size: float, facts: Facts, highest: int) -> Plan | None:
     """Lower bounds with -infinity, upper bounds with +infinity, or a set without radicals: the cheapest."""
     best: Plan | None = None
     for side in (1, -1):
-        found = bounds(formula, x, side, facts)
+        found = bounds(formula, x, side, facts, frozenset(), highest)
         if found is None:
             return None
         cost = (points_cost(found) + _INFINITY_COST) * size
         if best is None or cost < best.cost:
             best = Plan(x, exponent, formula, found, (Infinity(-side),), None, FALSE, cost)
-    plain = without_radicals(formula, x, facts)
+    plain = without_radicals(formula, x, facts, highest)
     if plain is not None and best is not None:
         cost = (points_cost(plain) + 2 * _INFINITY_COST) * size
         if cost < best.cost:

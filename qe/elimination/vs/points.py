@@ -67,6 +67,37 @@ class QuadraticRoot:
         return f"({top})/{_bracket(bottom)}" + _suffix(self.epsilon)
 
 
+SOME = 4
+
+
+@dataclass(frozen=True, slots=True)
+class CubicRoot:
+    """A real root of the cubic with these ``coefficients`` (from degree 0 up), the last one not 0.
+
+    ``index`` 0: the only one, where the discriminant is negative; k = 1, 2, 3: the k-th smallest, each counted as often
+    as it is a root, where it is not. ``SOME``: whichever of these three, for formulas that ask one thing of it
+    at a time (``clusters``).
+    """
+
+    coefficients: tuple[Poly, Poly, Poly, Poly]
+    index: int
+    epsilon: int = 0
+
+    @property
+    def discriminant(self) -> Poly:
+        return cubic_discriminant(*self.coefficients)
+
+    def __str__(self) -> str:
+        d, c, b, a = map(_bracket, self.coefficients)
+        which = "a root" if self.index == SOME else f"root {self.index} of 3" if self.index else "the root"
+        return f"({which} of {a}*x^3 + {b}*x^2 + {c}*x + {d})" + _suffix(self.epsilon)
+
+
+def cubic_discriminant(d: Poly, c: Poly, b: Poly, a: Poly) -> Poly:
+    """That of a*x^3 + b*x^2 + c*x + d: a^4 times the squares of the differences of its roots."""
+    return b * b * c * c - 4 * (a * c * c * c + b * b * b * d) + 18 * (a * b * c * d) - 27 * (a * a * d * d)
+
+
 @dataclass(frozen=True, slots=True)
 class Value:
     """A number, found by sampling where no other variable occurred."""
@@ -77,7 +108,8 @@ class Value:
         return str(self.number)
 
 
-SymbolicPoint = Infinity | LinearRoot | QuadraticRoot
+Root = LinearRoot | QuadraticRoot | CubicRoot
+SymbolicPoint = Infinity | Root
 TestPoint = SymbolicPoint | Value
 
 

@@ -16,11 +16,11 @@ from qe.simplify.facts import Facts, factor_list
 EQ, NE, LT, LE, GT = Relation.EQ, Relation.NE, Relation.LT, Relation.LE, Relation.GT
 
 
-def without_radicals(formula: Formula, x: int, facts: Facts) -> tuple[Candidate, ...] | None:
+def without_radicals(formula: Formula, x: int, facts: Facts, highest: int = 2) -> tuple[Candidate, ...] | None:
     """Candidates that, with both infinities, are an elimination set without square roots; None if none applies."""
     family = convex_family(formula, x, facts)
     if family:
-        return _of_family(formula, family, x, facts)
+        return _of_family(formula, family, x, facts, highest)
     g = lone_quadratic(formula, x)
     return None if g is None else _of_lone(formula, g, x, facts)
 
@@ -56,7 +56,7 @@ def _of_lone(formula: Formula, g: Poly, x: int, facts: Facts) -> tuple[Candidate
     atoms in g. If they differ, the vertex of g is between them. If they coincide, the atom turns true at a root
     and false right after it, so it is the weak one and the root is double, the vertex.
     """
-    ends = _other_ends(formula, x, facts, frozenset((g,)))
+    ends = _other_ends(formula, x, facts, frozenset((g,)), 2)
     if ends is None:
         return None
     return (*ends, *_zero_of(g.derivative(x), x, facts, formula, Atom(g, LT), atom_under(g.leading(x), NE, facts)))
@@ -94,7 +94,9 @@ def _parabola(given: Atom, x: int, facts: Facts) -> Parabola | None:
     return Parabola(given, inside[0][0], f)
 
 
-def _of_family(formula: Formula, family: tuple[Parabola, ...], x: int, facts: Facts) -> tuple[Candidate, ...] | None:
+def _of_family(
+    formula: Formula, family: tuple[Parabola, ...], x: int, facts: Facts, highest: int
+) -> tuple[Candidate, ...] | None:
     """THEOREM. Let F = f1 ? 0 and ... and fm ? 0 and G (each ? is < or <=), fi with leading coefficient ai > 0. If F
 
     holds somewhere, it holds at an infinity, or at an end of a component of its truth set that comes from an atom
@@ -104,7 +106,7 @@ def _of_family(formula: Formula, family: tuple[Parabola, ...], x: int, facts: Fa
     and the root is double, the vertex. If e1 < e2 and hij changes sign, its root is inside. If hij(e1) = 0, then
     fj(e1) = 0 = fj(e2) and the vertex of fj is inside; if hij(e2) = 0, likewise for fi.
     """
-    ends = _other_ends(formula, x, facts, frozenset(p.factor for p in family))
+    ends = _other_ends(formula, x, facts, frozenset(p.factor for p in family), highest)
     if ends is None:
         return None
     out = list(ends)
@@ -115,9 +117,11 @@ def _of_family(formula: Formula, family: tuple[Parabola, ...], x: int, facts: Fa
     return tuple(out)
 
 
-def _other_ends(formula: Formula, x: int, facts: Facts, omit: frozenset[Poly]) -> tuple[Candidate, ...] | None:
+def _other_ends(
+    formula: Formula, x: int, facts: Facts, omit: frozenset[Poly], highest: int
+) -> tuple[Candidate, ...] | None:
     """The lower and the upper ends that come from other polynomials."""
-    lower, upper = (bounds(formula, x, side, facts, omit) for side in (1, -1))
+    lower, upper = (bounds(formula, x, side, facts, omit, highest) for side in (1, -1))
     return None if lower is None or upper is None else lower + upper
 
 

@@ -1,13 +1,14 @@
 """Substitution of a test point into a quantifier-free formula (virtual: no roots or infinitesimals appear).
 
-THEOREM (Weispfenning 1997; Loos & Weispfenning 1993 for the infinitesimals). Where the guard of the point and
-the given sign facts hold, the result is equivalent to the formula at the point: at a real root, at a root plus or
-minus every sufficiently small positive number, or at every sufficiently large (small) number.
+THEOREM (Weispfenning 1997; Loos & Weispfenning 1993 for the infinitesimals; ``cubic`` for roots of cubics). Where the
+guard of the point and the given sign facts hold, the result is equivalent to the formula at the point: at a real root,
+at a root plus or minus every sufficiently small positive number, or at every sufficiently large (small) number.
 """
 
 from __future__ import annotations
 
-from qe.elimination.vs.points import Infinity, LinearRoot, QuadraticRoot, SymbolicPoint
+from qe.elimination.vs.cubic import at_cubic
+from qe.elimination.vs.points import CubicRoot, Infinity, LinearRoot, QuadraticRoot, SymbolicPoint
 from qe.elimination.vs.tables import root_condition
 from qe.exact.ring import Poly
 from qe.formula.build import conj, disj
@@ -92,6 +93,8 @@ class Substitution:
         """``f relation 0`` at the real number."""
         if isinstance(self.point, LinearRoot):
             return self._at_quotient(f, relation, self.point)
+        if isinstance(self.point, CubicRoot):
+            return at_cubic(f, self.x, relation, self.point, self.facts.sign(self.point.coefficients[3]), self._known)
         assert isinstance(self.point, QuadraticRoot)
         return self._at_quadratic(f, relation, self.point)
 

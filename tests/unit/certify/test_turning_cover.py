@@ -106,4 +106,4 @@ def test_what_has_no_places() -> None:
     with pytest.raises(CertificateRejected, match="and/or combination"):
         cover("true").ends(formula("ex y. y > x"), (), 1)
     with pytest.raises(CertificateRejected, match="too high"):
-        cover("true").ends(formula("x^3 + a*x > b"), (), 1)
+        cover("true").ends(formula("x^4 + a*x > b"), (), 1)

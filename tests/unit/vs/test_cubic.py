@@ -1,0 +1,207 @@
+"""Sign conditions at roots of cubics against the roots themselves, for the engine's table and for the checker's."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from fractions import Fraction
+from itertools import product
+
+import pytest
+
+import qe
+from qe.certify.cubic_root import asks_one as checker_asks_one
+from qe.certify.cubic_root import at_root
+from qe.certify.cubic_root import discriminant as checker_discriminant
+from qe.elimination.vs.block import eliminate_block
+from qe.elimination.vs.clusters import asks_one
+from qe.elimination.vs.cubic import at_cubic
+from qe.elimination.vs.points import SOME, CubicRoot
+from qe.elimination.vs.witness import witness
+from qe.exact.ring import Poly, Ring
+from qe.formula.build import atom, conj, disj, exists, neg
+from qe.formula.evaluate import holds_at
+from qe.formula.normal import nnf
+from qe.formula.syntax import FALSE, TRUE, Exists, Formula, Relation
+from qe.formula.traverse import atoms
+from qe.io.text import read
+from qe.options import Budget
+from qe.simplify.simplify import simplify
+from tests.unit.vs.line import satisfiable, specialise
+
+RING = Ring.of(("q", "u", "v", "w", "x"))
+X = RING.gen(4)
+Table = Callable[[Poly, Relation, Poly, int], Formula]
+
+
+def by_engine(g: Poly, relation: Relation, f: Poly, index: int) -> Formula:
+    return at_cubic(g, 4, relation, CubicRoot(f.coefficients(4), index), None, atom)  # type: ignore[arg-type]
+
+
+def by_checker(g: Poly, relation: Relation, f: Poly, index: int) -> Formula:
+    return at_root(g, relation, 4, f.coefficients(4), index)
+
+
+TABLES = pytest.mark.parametrize("table", [by_engine, by_checker])
+
+
+def polynomial(*coefficients: int) -> Poly:
+    """From degree 0 up."""
+    return sum((c * X**k for k, c in enumerate(coefficients)), RING.constant(0))
+
+
+def others() -> Iterator[tuple[int, ...]]:
+    """Coefficients of polynomials of degree at most 2, and some beyond it."""
+    yield from product((-2, -1, 0, 1), (-3, -1, 0, 2), (-1, 0, 2))
+    yield from ((1, -2, 0, 1), (0, -2, 1, -1), (1, 0, 0, 0, -1), (-2, 1, 0, 0, 1, 1))
+
+
+ROOTS = [(-1, 0, 2), (-3, -1, 0), (0, 0, 1), (-1, -1, 2), (-2, 1, 1), (0, 1, 1), (-1, -1, -1)]
+"""All real types with D >= 0: three simple roots, a double one on either side, a triple one."""
+
+
+def value(coefficients: tuple[int, ...], at: int) -> int:
+    return sum(c * at**k for k, c in enumerate(coefficients))
+
+
+def sign(number: int) -> int:
+    return (number > 0) - (number < 0)
+
+
+@TABLES
+@pytest.mark.parametrize("roots", ROOTS)
+def test_three_real_roots(table: Table, roots: tuple[int, int, int]) -> None:
+    for lead in (1, -2):
+        f = lead * (X - roots[0]) * (X - roots[1]) * (X - roots[2])
+        slope = tuple(int(c.constant_value()) for c in f.derivative(4).coefficients(4))
+        for g in (*list(others())[lead % 3 :: 3], slope, tuple(-c for c in slope)):
+            signs = [sign(value(g, r)) for r in roots]
+            for relation in Relation:
+                expected = [relation.holds(s) for s in signs]
+                for index, holds in enumerate([*expected, any(expected)], start=1):
+                    assert table(polynomial(*g), relation, f, index) == (TRUE if holds else FALSE), (roots, g, index)
+
+
+@TABLES
+@pytest.mark.parametrize("lead", [1, -3])
+def test_one_real_root(table: Table, lead: int) -> None:
+    for real, middle, square in ((-1, 0, 1), (0, 1, 2), (2, 2, 1), (1, -1, 1)):
+        quadratic = (X - middle) ** 2 + square
+        f = lead * (X - real) * quadratic
+        multiples = [tuple(int(c.constant_value()) for c in (m * quadratic).coefficients(4)) for m in (1, -2)]
+        for g in (*list(others())[lead % 4 :: 4], *multiples):
+            for relation in Relation:
+                holds = relation.holds(sign(value(g, real)))
+                assert table(polynomial(*g), relation, f, 0) == (TRUE if holds else FALSE), (f, g, relation)
+
+
+LE, LT = Relation.LE, Relation.LT
+CASES = [
+    (1, 1, RING.gen(0), LE),
+    (0, 1, RING.gen(0), LE),
+    *(
+        pytest.param(*case, relation, marks=pytest.mark.deep)
+        for case in ((1, 1, RING.gen(0)), (-1, 1, RING.gen(0)), (0, 1, RING.gen(0)), (None, 0, RING.constant(1)))
+        for relation in (LE, LT)
+    ),
+]
+"""Leading coefficient of g (None: a letter), and p, q for the roots -p, 0, q of f. Any cubic with real roots and
+any g is one of these (or f = x^3) up to a translation, positive factors of x and g, and the mirror (x3 becomes x1)."""
+
+
+@TABLES
+@pytest.mark.parametrize(("square", "p", "q", "relation"), CASES)
+def test_decomposition_proves_the_table(table: Table, square: int | None, p: int, q: Poly, relation: Relation) -> None:
+    """There are no cubic and no quadratic polynomial for which the formula and the value at the root differ."""
+    u = RING.gen(1) if square is None else RING.constant(square)
+    v, w = RING.gen(2), RING.gen(3)
+    g, f = u * X**2 + v * X + w, X * (X + p) * (X - q)
+    for index, at_the_root in ((1, u * p * p - v * p + w), (2, w)):
+        formula, truth = table(g, relation, f, index), atom(at_the_root, relation)
+        differ = disj((conj((formula, nnf(neg(truth)))), conj((truth, nnf(neg(formula))))))
+        question = exists(("q", "u", "v", "w"), conj((atom(q, Relation.GE), differ)))
+        assert qe.decide(question, without="cubic") is False
+
+
+def test_the_two_discriminants_are_one() -> None:
+    c = tuple(RING.gen(k) for k in range(4))
+    assert CubicRoot(c, 0).discriminant == checker_discriminant(c)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("x > q", True),
+        ("x > q and u > 0 or x < w and v = 1", True),
+        ("x > q and x < u", False),
+        ("u > 0 and (x > q or (x < u and x < v))", False),
+        ("x > q and x^3 = v*x + w", True),
+        ("x > q and x^3 > v*x + u", True),
+    ],
+)
+def test_what_asks_one_thing_of_a_root(text: str, expected: bool) -> None:
+    """Of x^3 = v*x + w: what is constant there counts as nothing."""
+    formula = read(f"({text}) and q + u + v + w + x = 0")
+    from qe.formula.build import convert
+
+    body = convert(formula, RING).args[:-1]  # type: ignore[union-attr]
+    f = X**3 - RING.gen(2) * X - RING.gen(3)
+    for part in (conj(body),):
+        assert asks_one(part, 4, CubicRoot(f.coefficients(4), SOME)) is expected  # type: ignore[arg-type]
+        assert checker_asks_one(part, 4, f.coefficients(4)) is expected
+
+
+BLOCKS = [
+    "ex x. x^3 + a*x + b = 0 and x > a",
+    "ex x. a*x^3 + b*x^2 + x = 1 and x^2 < a",
+    "ex x. x^3 + a*x + b < 0 and x > b and x < 1",
+    "ex x. x^3 - a*x >= b and x^3 + b*x <= a",
+    "ex x. (a*x^3 + b*x > 1 or x < b) and x^2 >= a",
+    "ex x. (x - a)^2*(x + b) > 0 and x*b < 1 and x > -1",
+    "ex x. a*x^3 + b*x^2 + 1 /= 0 and x^2 = a + b",
+    "ex x. x^3 = a*x and (x > b or x < 0 and x^2 > b)",
+]
+
+
+@pytest.mark.parametrize("text", BLOCKS)
+def test_blocks_of_degree_three(text: str) -> None:
+    """The same truth as by the roots at every point of a grid, and values for x where it is true."""
+    block = read(text)
+    assert isinstance(block, Exists) and block.ring is not None
+    x = block.ring.index["x"]
+    found = eliminate_block(("x",), block.body, budget=Budget(20), simplify=simplify, highest=3)
+    assert not found.remaining
+    for a, b in product((-2, -1, 0, 1, 3), (-2, Fraction(-1, 2), 0, 1)):
+        values = {"a": Fraction(a), "b": Fraction(b)}
+        expected = satisfiable(specialise(block.body, values), x)
+        assert holds_at(found.formula, values) is expected, values
+        if expected and a > 0:
+            answer = next(r for r in found.answers if holds_at(r.guard, values))
+            assert holds_at_value(block.body, values, witness(answer, values, budget=Budget(20))["x"])
+
+
+def holds_at_value(body: Formula, values: dict[str, Fraction], x: object) -> bool:
+    from qe.exact.sample import Point
+    from qe.formula.evaluate import truth_under
+
+    assert body.ring is not None
+    line = specialise(body, values)
+    if line in (TRUE, FALSE):
+        return line == TRUE
+    from qe.formula.build import convert
+
+    point = Point.of(Ring.of(("x",)), [x])  # type: ignore[list-item]
+    return truth_under(convert(line, Ring.of(("x",))), point.sign) is True
+
+
+def test_answers_are_short() -> None:
+    """One condition is asked of any of three roots at a time; two roots of the falling kind are not tried."""
+
+    def size(text: str) -> int:
+        block = read(text)
+        assert isinstance(block, Exists)
+        found = eliminate_block(("x",), block.body, budget=Budget(20), simplify=simplify, highest=3)
+        return sum(1 for _ in atoms(found.formula))
+
+    assert size("ex x. x^3 + a*x + b = 0 and c*x + d > 0") <= 6
+    assert size("ex x. x^3 + a*x + b = 0 and x^3 + c*x + d = 0") == 1
+    assert size("ex x. x^3 + a*x^2 + b*x + c <= 0 and x >= 0 and x <= 1") <= 8
