@@ -19,6 +19,7 @@ from qe.formula.syntax import FALSE, TRUE, Exists, Formula
 from qe.formula.traverse import conjuncts
 from qe.io.text import read
 from qe.proof.derivation import moved
+from qe.proving.prover import Prover
 from tests.certificates.elimination_claims import (
     RING,
     accepted,
@@ -53,6 +54,25 @@ def test_every_step_of_virtual_substitution_is_checked(text: str) -> None:
     assert answer.unchecked_steps == ()
     assert answer.certificate is not None
     assert qe.verify(qe.Certificate.from_json(answer.certificate.to_json())).accepted
+
+
+def test_points_that_two_equations_share_have_the_guards_with_which_they_were_tried(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """0 and infinity are tried for more than one reason, of which the engine needed another than the checker first."""
+    monkeypatch.setattr(Prover, "_tabulated", lambda self, step: None)
+    both, neither = "f*x = c and f*x = 0 and d > 0", "(f*x /= c or f*x /= 0 or d <= 0)"
+    text = f"ex x. (a <= 0 or b = 0) and (x <= g and {neither} or {both} and x > g)"
+    answer = qe.eliminate(f"{text} or a > 0 and (x > g or {both}) and ({neither} or x <= g) and b /= 0", check=True)
+    assert answer.unchecked_steps == ()
+
+
+def test_a_shifted_variable_that_is_positive_is_not_said_to_be_nonnegative() -> None:
+    formula = convert(read("x > 0 and x^2 - a /= 0 and b >= 0"), RING)
+    found = plan.choose(formula, frozenset({RING.index["x"]}), strict=False)
+    assert found is not None
+    assert found.exponent == 2
+    assert found.formula == convert(read("x > 0 and x - a /= 0 and b >= 0"), RING)
 
 
 def _examined(seed: int, count: int) -> tuple[int, int]:
