@@ -30,6 +30,8 @@ from qe.rules.cancelling import difference
 from qe.simplify.facts import factor_list, key_of
 
 MOST_POLYNOMIALS, MOST_PAIRS, MOST_TRIED, MOST_TARGETS, MOST_CHAINED, MOST_BOUNDS = 120, 400, 16, 8, 12, 400
+FEW_CASES = 300
+"""A search with some of the lemmas, and one that shows that a lemma is not needed, has no more cases than this."""
 
 
 def polynomials_outside(formulas: Iterable[Formula]) -> dict[Poly, bool]:
@@ -71,15 +73,12 @@ def refuting(goals: Sequence[Sequence[Formula]], ring: Ring, limits: Limits) -> 
         search()
         if stage and count == len(found.lemmas):
             continue
-        try:
-            used = _used(found.theory(limits), goals)
-        except BudgetExceeded:
-            raise
-        except Unable:  # too many cases; further lemmas may settle most of them at once
-            continue
+        theory = replace(found.theory(limits), cases=FEW_CASES)
+        used = _used(theory, goals)
         if used is not None:
-            return found.only(_needed(found.theory(limits), goals, used))
-    return None
+            return found.only(_needed(theory, goals, used))
+    used = _used(found.theory(limits), goals)
+    return None if used is None else found.only(used)
 
 
 def _needed(theory: Theory, goals: Sequence[Sequence[Formula]], used: set[int]) -> list[int]:
@@ -93,10 +92,15 @@ def _needed(theory: Theory, goals: Sequence[Sequence[Formula]], used: set[int]) 
 
 
 def _used(theory: Theory, goals: Sequence[Sequence[Formula]]) -> set[int] | None:
-    """The lemmas by which all goals are refuted, or None."""
+    """The lemmas by which all goals are refuted; None where they are not, or not in the theory's number of cases."""
     used: set[int] = set()
     for goal in goals:
-        refutation = theory.used(goal)
+        try:
+            refutation = theory.used(goal)
+        except BudgetExceeded:
+            raise
+        except Unable:  # too many cases; further lemmas may settle most of them at once
+            return None
         if refutation is None:
             return None
         used |= refutation
