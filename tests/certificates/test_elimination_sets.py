@@ -5,6 +5,7 @@ from __future__ import annotations
 import random
 from collections.abc import Callable
 from dataclasses import replace
+from fractions import Fraction
 from typing import Any
 
 import pytest
@@ -15,7 +16,8 @@ import qe
 from qe.certify.elimination_points import implies
 from qe.elimination.vs import block, candidates, plan, radical_free, substitute
 from qe.formula.build import conj, convert, disj
-from qe.formula.syntax import FALSE, TRUE, Exists, Formula
+from qe.formula.evaluate import holds_at
+from qe.formula.syntax import FALSE, TRUE, Exists, Formula, Or
 from qe.formula.traverse import conjuncts
 from qe.io.text import read
 from qe.proof.derivation import moved
@@ -220,7 +222,31 @@ def _always_open(patch: pytest.MonkeyPatch) -> None:
     patch.setattr(block, "is_open", lambda formula, inside: True)
 
 
+def _one_disjunct(patch: pytest.MonkeyPatch) -> None:
+    whole = block._Run._solve
+
+    def first(self: Any, formula: Formula, inside: Any) -> Any:
+        return whole(self, formula.args[0] if isinstance(formula, Or) else formula, inside)
+
+    patch.setattr(block._Run, "_solve", first)
+
+
+def _every_part_alone(patch: pytest.MonkeyPatch) -> None:
+    patch.setattr(block, "connected", lambda parts, names: ((), [(frozenset(), (p,)) for p in parts]))
+
+
+def _any_number(patch: pytest.MonkeyPatch) -> None:
+    def found(formula: Formula, variable: str, known: object) -> Fraction:
+        return next(v for v in map(Fraction, range(99)) if not holds_at(formula, {variable: v}))
+
+    patch.setattr(block, "solution", found)
+    patch.setattr(Prover, "_tabulated", lambda self, step: None)  # by which the right answer is proved all the same
+
+
 BROKEN = [
+    (_one_disjunct, "ex x. x^2 = a and x > b or x < a and x > 3"),
+    (_every_part_alone, "ex x. a*x > b and x < c"),
+    (_any_number, "ex x, y. x*y > 1 and x^2 > y^2 + 5*x"),
     (_no_degenerate_case, "ex x. a*x = b and x > a"),
     (_no_infinity, "ex x. a*x > b and x < a"),
     (_wrong_direction, "ex x. a*x > b and x < a"),
