@@ -24,6 +24,7 @@ SUITES = {
     "classics": Suite(corpus.classics),
     "literature": Suite(corpus.literature),
     "hard": Suite(corpus.hard),
+    "wild": Suite(corpus.wild),
     "scaling": Suite(scaling.problems),
     "ablation": Suite(corpus.ablation, ("ours", *ABLATIONS)),
 }

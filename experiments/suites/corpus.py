@@ -9,7 +9,7 @@ from typing import Any
 
 from experiments.problem import ROOT, Problem
 from experiments.suites import paper, scaling
-from qe.errors import InputError
+from qe.errors import InputError, QEError
 
 CORPUS = ROOT / "experiments" / "corpus"
 MIDDLE_SIZES = ("degree-8", "via-6", "balls-2d-6", "balls-3d-6", "bits-64", "tower-3")
@@ -54,6 +54,34 @@ def literature(folder: Path = LITERATURE) -> list[Problem]:
 def hard(folder: Path = LITERATURE) -> list[Problem]:
     """The literature set ``hard``. Raises ``InputError`` where it is absent."""
     return _lines("hard", _present(folder) / "hard.jsonl")
+
+
+def wild(folder: Path = LITERATURE) -> list[Problem]:
+    """The questions and scripts from public threads that ask for a formula or a truth value and that can be read.
+
+    For a script: whether its assertions can hold together. Raises ``InputError`` where the set is absent.
+    """
+    lines = (_present(folder) / "wild.jsonl").read_text().splitlines()
+    asked = [record for record in map(json.loads, lines) if record["kind"] in ("smt2", "eliminate", "decide")]
+    return [Problem("wild", r["id"], text) for r in asked if (text := _of_thread(r)) is not None]
+
+
+def _of_thread(record: dict[str, Any]) -> str | None:
+    """The question as text; None where reading refuses it."""
+    from qe.api.input import read_formula
+    from qe.formula.build import exists
+    from qe.formula.traverse import free_variables
+
+    script, given = record["kind"] == "smt2", record["text"]
+    try:
+        if given.startswith("sympy:"):
+            import sympy
+
+            given = sympy.sympify(given.removeprefix("sympy:"), evaluate=False)
+        found = read_formula(given, "smtlib" if script else record.get("format", "text"))
+    except QEError:
+        return None
+    return str(exists(free_variables(found), found) if script else found)
 
 
 def _present(folder: Path) -> Path:

@@ -92,9 +92,10 @@ class Theory:
     polynomials: tuple[Poly, ...]
     lemmas: tuple[Lemma, ...]
     limits: Limits
+    cases: int = NODES
 
     def refutes(self, formulas: Iterable[Formula]) -> bool:
-        """Whether no signs that respect the lemmas make all formulas true. ``Unable`` past ``NODES`` cases."""
+        """Whether no signs that respect the lemmas make all formulas true. ``Unable`` past so many ``cases``."""
         return self.used(formulas) is not None
 
     def used(self, formulas: Iterable[Formula]) -> frozenset[int] | None:
@@ -171,8 +172,8 @@ class _Search:
         ``fixed``: domains from which the lemmas take nothing away; none are known where it is empty.
         """
         self.nodes += 1
-        if self.nodes > NODES:
-            raise Unable(f"more than {NODES} cases of signs")
+        if self.nodes > self.theory.cases:
+            raise Unable(f"more than {self.theory.cases} cases of signs")
         self.theory.limits.tick()
         left = self._settled(domains, list(pending), fixed)
         if left is None:

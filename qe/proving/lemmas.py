@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from itertools import pairwise
-from math import lcm
+from math import lcm, prod
 
 from qe.certify.boolean import Theory
 from qe.certify.negation import normal
@@ -24,13 +24,14 @@ from qe.formula.traverse import children, conjuncts
 from qe.options import Budget
 from qe.proof.entry import Json, poly_to_text
 from qe.proving.cofactors import cofactors
+from qe.proving.expansions import as_squares, ranges, shifted
 from qe.proving.lemma_list import Lemmas, Term, content_of
 from qe.rules.cancelling import difference
 from qe.simplify.facts import factor_list, key_of
-from qe.simplify.minima import minimum
 
-MOST_POLYNOMIALS, MOST_PAIRS, MOST_MONOMIALS, MOST_TRIED = 120, 400, 24, 16
-MOST_ALIKE, MOST_TARGETS, MOST_CHAINED, MOST_BOUNDS = 500, 8, 12, 400
+MOST_POLYNOMIALS, MOST_PAIRS, MOST_TRIED, MOST_TARGETS, MOST_CHAINED, MOST_BOUNDS = 120, 400, 16, 8, 12, 400
+FEW_CASES = 300
+"""A search with some of the lemmas, and one that shows that a lemma is not needed, has no more cases than this."""
 
 
 def polynomials_outside(formulas: Iterable[Formula]) -> dict[Poly, bool]:
@@ -60,7 +61,8 @@ def refuting(goals: Sequence[Sequence[Formula]], ring: Ring, limits: Limits) -> 
         lambda: _bounds(found, goals, limits),
         lambda: _algebra(found, polys),
         lambda: _lines(found, polys),
-        lambda: _ranges(found, polys),
+        lambda: ranges(found, polys),
+        lambda: shifted(found, polys),
         lambda: _chained(found, polys),
         lambda: _remainders(found, polys),
         lambda: _combinations(found, goals, limits.budget),
@@ -71,15 +73,12 @@ def refuting(goals: Sequence[Sequence[Formula]], ring: Ring, limits: Limits) -> 
         search()
         if stage and count == len(found.lemmas):
             continue
-        try:
-            used = _used(found.theory(limits), goals)
-        except BudgetExceeded:
-            raise
-        except Unable:  # too many cases; further lemmas may settle most of them at once
-            continue
+        theory = replace(found.theory(limits), cases=FEW_CASES)
+        used = _used(theory, goals)
         if used is not None:
-            return found.only(_needed(found.theory(limits), goals, used))
-    return None
+            return found.only(_needed(theory, goals, used))
+    used = _used(found.theory(limits), goals)
+    return None if used is None else found.only(used)
 
 
 def _needed(theory: Theory, goals: Sequence[Sequence[Formula]], used: set[int]) -> list[int]:
@@ -93,10 +92,15 @@ def _needed(theory: Theory, goals: Sequence[Sequence[Formula]], used: set[int]) 
 
 
 def _used(theory: Theory, goals: Sequence[Sequence[Formula]]) -> set[int] | None:
-    """The lemmas by which all goals are refuted, or None."""
+    """The lemmas by which all goals are refuted; None where they are not, or not in the theory's number of cases."""
     used: set[int] = set()
     for goal in goals:
-        refutation = theory.used(goal)
+        try:
+            refutation = theory.used(goal)
+        except BudgetExceeded:
+            raise
+        except Unable:  # too many cases; further lemmas may settle most of them at once
+            return None
         if refutation is None:
             return None
         used |= refutation
@@ -155,7 +159,7 @@ def _algebra(found: Lemmas, polys: dict[Poly, bool]) -> None:
                 pool.update(dict.fromkeys(_cancelled(found, poly, equation)))
     _differences(found, pool)
     for poly in pool:
-        _squares(found, poly)
+        as_squares(found, poly)
 
 
 def _chained(found: Lemmas, polys: dict[Poly, bool]) -> None:
@@ -180,7 +184,7 @@ def _chained(found: Lemmas, polys: dict[Poly, bool]) -> None:
             maybe.update(parts if poly in maybe else ())
     _differences(found, pool)
     for poly in pool:
-        _squares(found, poly)
+        as_squares(found, poly)
     _lines(found, pool)
 
 
@@ -188,10 +192,7 @@ def _factored(found: Lemmas, poly: Poly) -> list[Poly]:
     parts = [(f, e) for f, e in factor_list(poly) if not f.is_constant]
     if sum(e for _, e in parts) < 2:
         return [poly]
-    product = poly.ring.constant(1)
-    for factor, exponent in parts:
-        product = product * factor**exponent
-    content, primitive = content_of(product)
+    content, primitive = content_of(prod((f**e for f, e in parts), start=poly.ring.constant(1)))
     if primitive == poly:
         found.identity([(content, ((poly, 1),)), (-1, tuple(parts))])
     return [f for f, _ in parts]
@@ -239,46 +240,6 @@ def _differences(found: Lemmas, pool: Iterable[Poly]) -> None:
             found.identity([(v, ((p, 1),)), (-u, ((q, 1),)), (u * d - v * c, ())])
 
 
-def _squares(found: Lemmas, poly: Poly) -> None:
-    """The polynomial as a constant and positive multiples of squares (or of even monomials)."""
-    for sign in (1, -1):
-        least = minimum(poly * sign)
-        if least is not None:
-            _sum_of_squares(found, poly * sign, least.value, least.zeros)
-
-
-def _sum_of_squares(found: Lemmas, poly: Poly, value: Fraction, zeros: Sequence[Poly]) -> None:
-    if all(not any(k % 2 for k in e) for e, _ in poly.terms()):
-        found.identity([(-1, ((poly, 1),)), *_monomials(poly)])
-        return
-    weights: list[Fraction] = []
-    rest, scale = poly, 1
-    for zero in zeros:  # the first variable of each square stands in no later one
-        first = zero.variables[0]
-        lead = zero.leading(first).constant_value()
-        square = Fraction(_square_coefficient(rest, first), scale) / lead**2
-        weights.append(square)
-        common = lcm(scale, square.denominator)
-        rest = rest * (common // scale) - zero * zero * int(square * common)
-        scale = common
-    if not rest.is_constant or Fraction(rest.constant_value(), scale) != value:
-        return
-    squares: list[Term] = [(int(w * scale), ((z, 2),)) for w, z in zip(weights, zeros, strict=True)]
-    constant: list[Term] = [(rest.constant_value(), ())] if rest else []
-    found.identity([(-scale, ((poly, 1),)), *squares, *constant])
-
-
-def _square_coefficient(poly: Poly, x: int) -> int:
-    """The coefficient of x^2, for a polynomial of total degree 2."""
-    parts = poly.coefficients(x)
-    return parts[2].constant_value() if len(parts) > 2 else 0
-
-
-def _monomials(poly: Poly) -> list[Term]:
-    ring = poly.ring
-    return [(c, tuple((ring.gen(i), k) for i, k in enumerate(exponents) if k)) for exponents, c in poly.terms()]
-
-
 def _lines(found: Lemmas, polys: Iterable[Poly]) -> None:
     """All polynomials in one variable alone, by variable."""
     groups: dict[int, list[Poly]] = {}
@@ -288,14 +249,6 @@ def _lines(found: Lemmas, polys: Iterable[Poly]) -> None:
                 groups.setdefault(poly.variables[0], []).append(factor)
     for x, members in groups.items():
         found.line(list(dict.fromkeys(members)), x)
-
-
-def _ranges(found: Lemmas, polys: Iterable[Poly]) -> None:
-    """Polynomials as sums of monomials in their variables; long ones where all coefficients have one sign."""
-    for poly in dict.fromkeys((*found.numbers, *polys)):
-        count = poly.term_count()
-        if 1 < count <= MOST_MONOMIALS or (count <= MOST_ALIKE and len({c > 0 for _, c in poly.terms()}) == 1):
-            found.identity([(-1, ((poly, 1),)), *_monomials(poly)])
 
 
 def _remainders(found: Lemmas, polys: dict[Poly, bool]) -> None:
@@ -373,10 +326,7 @@ def _combined(found: Lemmas, targets: Sequence[Poly], generators: Sequence[Poly]
 def _squarefree(found: Lemmas, poly: Poly) -> Poly:
     """The product of the distinct factors, with lemmas that say so."""
     parts = _factored(found, poly)
-    product = poly.ring.constant(1)
-    for part in parts:
-        product = product * part
-    product = product.normal()[1]
-    if product != poly:
-        _factored(found, product)
-    return product
+    whole = prod(parts, start=poly.ring.constant(1)).normal()[1]
+    if whole != poly:
+        _factored(found, whole)
+    return whole

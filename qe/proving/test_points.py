@@ -144,8 +144,10 @@ class Points:
         out = []
         for k, t in enumerate(tried):
             found, point = used.get(k, []), needs.points.get(k, t.point)
-            guard = _common(found) if found else t.guard
-            if found and point is not None and not is_real(point, conj((guard, *conjuncts(t.formula)))):
+            tried_so = point is not None and point == t.point and all(implies(conj(c), t.guard) for c in found)
+            asked = found and not tried_so
+            guard = _common(found) if asked else t.guard
+            if asked and point is not None and not is_real(point, conj((guard, *conjuncts(t.formula)))):
                 # conditions that contradict themselves have nothing in common with the others, and need no point
                 impossible = [c for c in found if needs.is_impossible(c)]
                 kept |= dict.fromkeys(conj(c) for c in impossible)
@@ -174,7 +176,9 @@ class _Needs(Cover):
             for point in (turn.point, any_root)
             if point is not None
             for k in self._places.get(_one_sign(point), ())
-            if (before is None or k < before) and implies(formula, self.tried[k].formula)
+            if (before is None or k < before)
+            and implies(formula, self.tried[k].formula)
+            and not self.is_impossible((*turn.conditions, self.tried[k].guard))
         ]
         chosen = next((k for k in there if self._follows(turn, formula, k)), None)
         if chosen is None:

@@ -4,15 +4,21 @@ from __future__ import annotations
 
 import functools
 import json
+from collections.abc import Iterator
 from typing import Any
 
 from qe.api.input import read_formula
+from qe.elimination.nonzero import OnlyNonzero
+from qe.elimination.protocol import Context, Problem
 from qe.engine.run import solve
 from qe.formula.syntax import Formula
 from qe.options import Budget, Options
 from qe.proof.certificate import Certificate
 from qe.proof.derivation import Derivation, put_together
+from qe.proof.run_log import RunLog
 from qe.proving.prover import proved
+from qe.rules.preparation import prepare
+from qe.rules.step import StepKind
 
 CASES = {
     "names": "(ex x. x = a) and (ex x. x = b)",
@@ -54,7 +60,7 @@ CASES = {
     "taken": "ex x, y. (a^2 + 1)*x^5 - y*x = b and y^2 > a",
     "taken far out": "ex x. b > 0 and b*x^4 + x > a",
     "taken apart": "ex x, y. a - b = 0 and (a + b)*x = c",
-    "zeros": "ex x, y. (x /= 0 or y /= 0) and x^2 - 3*y^2 > a^2 and x + y > b",
+    "zeros": "ex x, y, z. (x /= 0 or y /= 0) and x*z + y*a + 2 < 0 and x^3 > y^2 + z",
     "balls": "s > 0 and ex x, y. (x - a)^2 + y^2 <= 4 and x^2 + y^2 < s^2",
     "half-plane": "ex x, y. x^2 - y^2 + a*x + b = 0 and 2*x*y + a*y = 0 and x >= c",
     "exchanged": "ex x, y. x^3 + y^3 = a and x > b and y > b",
@@ -64,16 +70,39 @@ CASES = {
     "radicands": "ex x, y. 2*x^2 + 2*y^2 - x <= a and x^2 + y^2 < b",
     "nowhere": "a^2 + b^2 + c^2 <= 9 and (ex x, y, z. x + a = 4 and y + b = 9 and z + c = 9 and x^2 + y^2 + z^2 <= 9)",
     "intervals": "all x. x > 3 -> x^2 - 2 > 0 and x /= 1",
+    "alternatives": "ex x, y. (x^2 < a or x^3*y > b) and (y < c or x > y)",
+    "parts": "ex x, y, z. x^2 = a and x*y^2 + c <= 0 and x*z^2 > b",
+    "chords": "ex x, y, z. y /= z and (x*(y - z) + y)^4 + a*(x*(y - z) + y)^2 + (x*(y - z) + y) + b = 0",
+    "sums of squares": "ex x, y. x^2 + (x - y)^2 = 0 and x + y > a",
+    "no roots": "ex x. a*x + b /= 0 and x /= c",
 }
+
+ALONE = {CASES["sums of squares"]: StepKind.SUM_OF_SQUARES, CASES["no roots"]: None}
+"""Steps of one rule alone, which others go before in the whole engine; None: of the method "nonzero"."""
 
 PROVED = Options(certify=True)
 
 
 def derived(text: str) -> tuple[Derivation, Formula]:
-    """The derivation of the engine's answer, and the answer."""
+    """The derivation of the engine's answer, and the answer; by one rule alone what that makes of the formula."""
     question = read_formula(text)
+    if text in ALONE:
+        return _by_one_rule(question, ALONE[text])
     found = solve(question, PROVED, Budget(20))
     return put_together(question, found.log.steps(), found.formula), found.formula
+
+
+def _by_one_rule(question: Formula, kind: StepKind | None) -> tuple[Derivation, Formula]:
+    log = RunLog()
+    if kind is None:
+        problem = Problem.of(question)
+        assert problem is not None
+        found = OnlyNonzero().run(problem, Context(Options(), Budget(), log))
+        assert found is not None
+        answer = found.formula
+    else:
+        answer = prepare(question, enabled={kind}, log=log).formula
+    return put_together(question, log.steps(), answer), answer
 
 
 @functools.cache
@@ -92,5 +121,13 @@ def data(text: str) -> dict[str, Any]:
 
 
 def rules(text: str) -> list[str]:
-    """The rules of the steps of a certificate."""
-    return [step["rule"] for step in data(text)["payload"]["steps"]]
+    """The rules of the steps of a certificate, those inside their evidence included."""
+    return list(_rules(data(text)["payload"]))
+
+
+def _rules(node: Any) -> Iterator[str]:
+    if isinstance(node, dict):
+        yield from (node["rule"],) if "rule" in node else ()
+        node = list(node.values())
+    for part in node if isinstance(node, list) else ():
+        yield from _rules(part)

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from dataclasses import replace
 from fractions import Fraction
 
 import pytest
 
 import qe.elimination.nonzero as nonzero
+import qe.rules.balls as balls
 import qe.rules.block as block
 import qe.rules.cases as cases
 import qe.rules.degree_shift as degree_shift
@@ -17,6 +19,7 @@ import qe.rules.preparation as preparation
 import qe.rules.scaling as scaling
 import qe.rules.structural as structural
 import qe.rules.translation as translation
+import qe.rules.zeros as zeros
 import qe.simplify.factors as factors
 from qe.api.input import read_formula
 from qe.elimination.protocol import Context, Problem
@@ -28,6 +31,7 @@ from qe.options import Budget, Options
 from qe.proof.run_log import RunLog
 from qe.proof.step import Step
 from qe.proving.prover import Prover
+from qe.rules.tree import Any
 
 Patch = Callable[[pytest.MonkeyPatch], None]
 
@@ -133,7 +137,65 @@ def wrong_factors(m: pytest.MonkeyPatch) -> None:
     m.setattr(factors, "_assemble", lambda relation, odd, even, settled: settled(factors.atom(odd, relation)))
 
 
+def one_case(m: pytest.MonkeyPatch) -> None:
+    """The boundary itself is forgotten."""
+    m.setattr(generic, "Any", lambda nodes: Any(nodes[:1]))
+    m.setattr(block, "RULES", (generic.drop_inequations,))
+
+
+def negated(m: pytest.MonkeyPatch) -> None:
+    """A negation gets lost."""
+    m.setattr(preparation, "nnf", lambda formula, negate=False: nnf(formula, negate=not negate))
+
+
+def any_pattern(m: pytest.MonkeyPatch) -> None:
+    """Whatever is zero, some other condition counts as false."""
+    m.setattr(zeros, "truth_under", lambda formula, signs: False)
+
+
+def alone(m: pytest.MonkeyPatch) -> None:
+    m.setattr(block, "RULES", (balls.two_balls,))
+
+
+def real_or_not(m: pytest.MonkeyPatch) -> None:
+    """Nobody asks whether the balls have points."""
+    alone(m)
+    m.setattr(balls, "conj", lambda parts: list(parts)[-1])
+
+
+def closed_balls(m: pytest.MonkeyPatch) -> None:
+    """Open balls count as closed ones."""
+    alone(m)
+    real = balls.Ball.of
+
+    def of(part: Formula, indices: Sequence[int]) -> balls.Ball | None:
+        found = real(part, indices)
+        return found and replace(found, strict=False)
+
+    m.setattr(balls.Ball, "of", staticmethod(of))
+
+
+def known_radii(m: pytest.MonkeyPatch) -> None:
+    """The product of the radii counts as positive."""
+    alone(m)
+    m.setattr(balls, "disj", lambda parts: next(iter(parts)))
+
+
+def one_coordinate(m: pytest.MonkeyPatch) -> None:
+    """Of the distance only one coordinate counts."""
+    alone(m)
+    m.setattr(balls, "_length", lambda vector: vector[0] * vector[0])
+
+
+DISCS = "ex x, y. (x - a)^2 + (y - b)^2 {} r^2 and x^2 + y^2 {} s^2"
 CASES: dict[str, tuple[Patch, str, str]] = {
+    "boundary": (one_case, "ex x. x^2 >= a and b*x /= 1", "boundary apart"),
+    "negation": (negated, "not (ex x. x^3 > a and x < b)", "negation normal form"),
+    "zeros": (any_pattern, "ex x, y. (x /= 0 or y /= 0) and x*y + a = 0", "conditions on zeros that follow"),
+    "empty balls": (real_or_not, "ex x, y. (x - a)^2 + (y - b)^2 <= r and x^2 + y^2 <= s", "two balls"),
+    "open balls": (closed_balls, DISCS.format("<", "<="), "two balls"),
+    "radii": (known_radii, DISCS.format("<=", "<="), "two balls"),
+    "distance": (one_coordinate, DISCS.format("<=", "<="), "two balls"),
     "sign": (known_sign, "ex x. a*x = b and x > c", "linear equation solved"),
     "guard": (no_guard, "ex x. a*x = b and x > c", "linear equation solved under a guard"),
     "no sign": (no_sign, "ex x. x^4 + a < 0 and x^2 + b > 0", "degree shift"),

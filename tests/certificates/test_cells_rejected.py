@@ -7,11 +7,15 @@ from typing import Any
 
 import pytest
 
-from qe.certify.verify import verify_json
+import qe.cad.projection as projection
+from qe.cad.decompose import decompose
+from qe.certify.verify import verify, verify_json
 from qe.errors import InputError
+from qe.io.text import read
+from qe.options import Budget, Projection
 from qe.proof.certificate import Certificate
 from tests.certificates.mutation import Path, leaves, lists, other_numbers, other_signs, replaced, without
-from tests.certificates.producing import cell_table
+from tests.certificates.producing import BOTH, cell_table
 
 LENS = ("x^2 + y^2 <= 4 and (x - 1)^2 + y^2 <= 4", "x y")
 SOLID = ("x^2 + y^2 + z^2 <= 4", "x y z")
@@ -165,3 +169,18 @@ def test_another_version_is_refused() -> None:
     text = replaced(_whole(LENS), ("version",), 3)
     with pytest.raises(InputError, match="version 3"):
         Certificate.from_json(text)
+
+
+@pytest.mark.parametrize("left_out", ["discriminant", "resultant"])
+@pytest.mark.parametrize("operator", BOTH)
+def test_a_projection_without_a_part_is_rejected(
+    left_out: str, operator: Projection, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    names, matrix = ("a", "b", "x"), read("x^3 + a*x + b < 0 and x^2 - a > b")
+    right = decompose(matrix, names, ("", "", "E"), budget=Budget(60), projection=operator).table
+    assert verify(Certificate.cells(right)).accepted
+    monkeypatch.setattr(projection, left_out, lambda f, *more: f.ring.constant(1))
+    wrong = decompose(matrix, names, ("", "", "E"), budget=Budget(60), projection=operator).table
+    verdict = verify(Certificate.cells(wrong))
+    assert not verdict.accepted
+    assert verdict.step

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from fractions import Fraction
 from typing import Any
 
 import pytest
@@ -14,10 +15,12 @@ import qe
 from qe.certify.elimination_points import implies
 from qe.elimination.vs import block, candidates, plan, radical_free, substitute
 from qe.formula.build import conj, convert, disj
-from qe.formula.syntax import FALSE, Formula
+from qe.formula.evaluate import holds_at
+from qe.formula.syntax import FALSE, Formula, Or
 from qe.formula.traverse import conjuncts
 from qe.io.text import read
 from qe.proof.derivation import moved
+from qe.proving.prover import Prover
 from tests.certificates.elimination_claims import (
     RING,
     accepted,
@@ -51,6 +54,25 @@ def test_every_step_of_virtual_substitution_is_checked(text: str) -> None:
     assert answer.unchecked_steps == ()
     assert answer.certificate is not None
     assert qe.verify(qe.Certificate.from_json(answer.certificate.to_json())).accepted
+
+
+def test_points_that_two_equations_share_have_the_guards_with_which_they_were_tried(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """0 and infinity are tried for more than one reason, of which the engine needed another than the checker first."""
+    monkeypatch.setattr(Prover, "_tabulated", lambda self, step: None)
+    both, neither = "f*x = c and f*x = 0 and d > 0", "(f*x /= c or f*x /= 0 or d <= 0)"
+    text = f"ex x. (a <= 0 or b = 0) and (x <= g and {neither} or {both} and x > g)"
+    answer = qe.eliminate(f"{text} or a > 0 and (x > g or {both}) and ({neither} or x <= g) and b /= 0", check=True)
+    assert answer.unchecked_steps == ()
+
+
+def test_a_shifted_variable_that_is_positive_is_not_said_to_be_nonnegative() -> None:
+    formula = convert(read("x > 0 and x^2 - a /= 0 and b >= 0"), RING)
+    found = plan.choose(formula, frozenset({RING.index["x"]}), strict=False)
+    assert found is not None
+    assert found.exponent == 2
+    assert found.formula == convert(read("x > 0 and x - a /= 0 and b >= 0"), RING)
 
 
 @settings(max_examples=8, deadline=None)
@@ -173,7 +195,31 @@ def _always_open(patch: pytest.MonkeyPatch) -> None:
     patch.setattr(block, "is_open", lambda formula, inside: True)
 
 
+def _one_disjunct(patch: pytest.MonkeyPatch) -> None:
+    whole = block._Run._solve
+
+    def first(self: Any, formula: Formula, inside: Any) -> Any:
+        return whole(self, formula.args[0] if isinstance(formula, Or) else formula, inside)
+
+    patch.setattr(block._Run, "_solve", first)
+
+
+def _every_part_alone(patch: pytest.MonkeyPatch) -> None:
+    patch.setattr(block, "connected", lambda parts, names: ((), [(frozenset(), (p,)) for p in parts]))
+
+
+def _any_number(patch: pytest.MonkeyPatch) -> None:
+    def found(formula: Formula, variable: str, known: object) -> Fraction:
+        return next(v for v in map(Fraction, range(99)) if not holds_at(formula, {variable: v}))
+
+    patch.setattr(block, "solution", found)
+    patch.setattr(Prover, "_tabulated", lambda self, step: None)  # by which the right answer is proved all the same
+
+
 BROKEN = [
+    (_one_disjunct, "ex x. x^2 = a and x > b or x < a and x > 3"),
+    (_every_part_alone, "ex x. a*x > b and x < c"),
+    (_any_number, "ex x, y. x*y > 1 and x^2 > y^2 + 5*x"),
     (_no_degenerate_case, "ex x. a*x = b and x > a"),
     (_no_infinity, "ex x. a*x > b and x < a"),
     (_wrong_direction, "ex x. a*x > b and x < a"),

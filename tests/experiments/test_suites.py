@@ -27,6 +27,12 @@ def test_literature_where_it_is_present(shared):
     assert {p.set for p in found} == {"public", "realgeom", "classics"} and len(found) > 200
 
 
+def test_questions_of_threads_where_they_are_present(shared):
+    found = corpus.wild(shared / "corpora")
+    assert len({p.id for p in found}) == len(found) > 80
+    assert all(not free_variables(read(p.formula)) for p in found if p.id.startswith("A-z3"))
+
+
 def test_literature_where_it_is_absent(tmp_path):
     with pytest.raises(InputError, match=r"^--suite literature: expected a folder") as error:
         corpus.literature(tmp_path / "corpora")

@@ -83,7 +83,9 @@ def _plan(formula: Formula, x: int, others: frozenset[int], facts: Facts, strict
     exponent = common_exponent(formula, x, nonnegative=-1 not in facts.signs(ring.gen(x)))
     originals = args = conjuncts(formula)
     if exponent > 1:
+        strict = strict or _is_positive(formula, x)
         args = (*(lowered(a, x, exponent) for a in originals), values(ring.gen(x), exponent, strict=strict))
+        args = tuple(dict.fromkeys(args))
         formula = conj(args)
         facts = NOTHING.extended(args)
     size = sum(1.0 + _spread(a, x, others) for a in atoms(formula) if a.poly.degree(x))
@@ -93,6 +95,13 @@ def _plan(formula: Formula, x: int, others: frozenset[int], facts: Facts, strict
         if found is not None:
             return found
     return _with_bounds(formula, x, exponent, size, facts, highest)
+
+
+def _is_positive(formula: Formula, x: int) -> bool:
+    """Whether a conjunct says x > 0 and the solutions for x are an open set: then nothing is added to it."""
+    with_x = [a for a in atoms(formula) if a.poly.degree(x)]
+    positive = any(isinstance(a, Atom) and a == Atom(a.poly.ring.gen(x), Relation.GT) for a in conjuncts(formula))
+    return positive and all(a.relation.is_strict for a in with_x)
 
 
 def _spread(found: Atom | RootAtom, x: int, others: frozenset[int]) -> float:

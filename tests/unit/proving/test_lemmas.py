@@ -46,7 +46,14 @@ CHAINS = [
 ]
 
 
-@pytest.mark.parametrize(("before", "after"), LINEAR + CHAINS)
+BOUNDED = [
+    ("a > 0 and b > 1 and a*b + 2*b <= 1", "false"),
+    ("a >= 0 and 2*b < 1 and 2*a*b - a + 4*b >= 3", "false"),
+    ("x > 2 and y > 3 and x*y - 3*x - 2*y + 6 <= 0", "false"),
+]
+
+
+@pytest.mark.parametrize(("before", "after"), LINEAR + CHAINS + BOUNDED)
 def test_what_follows_is_proved(before: str, after: str) -> None:
     assert is_proved(read(before), read(after))
 
@@ -60,6 +67,8 @@ def test_what_follows_is_proved(before: str, after: str) -> None:
         ("a = 1 and 3*x^2 - 2*x - a = 0", "a = 1 and 3*x = -1"),
         ("x = 0 and 2*x*y = y and 4*y^2 - 4*z^2 + 1 = 0", "x = 0 and y = 0 and 2*z = 1"),
         ("a = 1 and b = a and x = b and y = x + b and z = y^2 and z < 5", "false"),
+        ("a > 0 and b > 1 and a*b + 2*b <= 2 + a", "a = 0"),
+        ("x > 2 and y > 3 and x*y - 3*x - 2*y + 5 <= 0", "false"),
     ],
 )
 def test_what_does_not_follow_is_not(before: str, after: str) -> None:
@@ -86,6 +95,15 @@ def test_cycles_of_differences(steps: list[int], scale: int, signs: list[str]) -
         parts.append(atom(p * scale, Relation(sign)))
     strict = "<" in signs[: len(steps)]
     assert is_proved(conj(parts), FALSE) is (sum(steps) > 0 or (strict and sum(steps) == 0))
+
+
+@given(st.lists(st.tuples(st.integers(0, 4), *[st.integers(0, 2)] * 3), min_size=1, max_size=4), st.integers(-3, 3))
+def test_distances_from_bounds(terms: list[tuple[int, int, int, int]], bound: int) -> None:
+    """A sum of products of x - b, 2*y + 1 and z with positive coefficients is positive where these are."""
+    x, y, z = RING.var("x") - bound, RING.var("y") * 2 + 1, RING.var("z")
+    total = sum((x**i * y**j * z**k * c for c, i, j, k in terms), RING.constant(1))
+    given_ = conj((*(atom(p, Relation.GT) for p in (x, y, z)), atom(total, Relation.LE)))
+    assert is_proved(given_, FALSE)
 
 
 @given(st.lists(st.tuples(*[st.integers(-3, 3)] * 4, st.sampled_from(list(Relation))), min_size=1, max_size=6))
