@@ -15,8 +15,8 @@ NUMBERS = ("5", "0.25", "007", "1e3", "-1", " 5", "5 ", "1_000", "inf", "nan", "
 OTHERS = ("", "abc", "text", "TEXT", "vs", "x", "\udcff")
 
 
-@pytest.mark.parametrize("option", ["--timeout", "--memory", "--format", "--order", "--method"])
-@pytest.mark.parametrize("value", [*NUMBERS, *OTHERS])
+@pytest.mark.parametrize("option", ["--timeout", "--memory", "--format", "--order", "--method", "--certificate"])
+@pytest.mark.parametrize("value", [*NUMBERS, *OTHERS, ".", "no/such/file", "~/x", __file__])
 def test_plain_values_are_those_that_typer_would_make(option: str, value: str) -> None:
     def parsed(command: Any) -> object:
         try:
