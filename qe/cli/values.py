@@ -66,7 +66,8 @@ def _is_plain(value: object, annotation: Any, asked: Any) -> bool:
     if annotation is float:
         return type(value) is float or _DECIMAL.fullmatch(text) is not None
     if annotation is Path:
-        return (text.isprintable() and text != "" or isinstance(value, Path)) and _any_path_will_do(asked, str(value))
+        named = isinstance(value, Path) or (text.isprintable() and text != "")
+        return named and _any_path_will_do(asked, str(value))
     if issubclass(annotation, Enum):
         return isinstance(value, annotation) or text in [member.value for member in annotation]
     return False
@@ -74,12 +75,12 @@ def _is_plain(value: object, annotation: Any, asked: Any) -> bool:
 
 def _any_path_will_do(asked: Any, path: str) -> bool:
     """Whether a parameter asks nothing of its path but that it can be read where it exists, and this one does so."""
-    if (
-        asked.exists
-        or asked.writable
-        or asked.resolve_path
-        or asked.path_type
-        or not (asked.file_okay and asked.dir_okay)
-    ):
-        return False
-    return not os.path.exists(path) or os.access(path, os.R_OK)
+    conditions = (
+        asked.exists,
+        asked.writable,
+        asked.resolve_path,
+        asked.path_type,
+        not asked.file_okay,
+        not asked.dir_okay,
+    )
+    return not any(conditions) and (not os.path.exists(path) or os.access(path, os.R_OK))
