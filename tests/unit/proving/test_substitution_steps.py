@@ -21,7 +21,7 @@ from qe.proving.lemmas import refuting
 from qe.proving.substitution_steps import steps
 from qe.simplify.simplify import simplify
 
-LIMITS = limits_of(Budget(20), RULES, check_certificate)
+LIMITS = limits_of(Budget(), RULES, check_certificate)
 
 
 def simplification(before: Formula, after: Formula) -> Json:
