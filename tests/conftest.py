@@ -13,6 +13,8 @@ from pathlib import Path
 import pytest
 from hypothesis import HealthCheck, settings
 
+from qe.processes import execution
+
 ROOT = Path(__file__).resolve().parent.parent
 
 # Many tests start a process of their own, and pytest rewrites every test: compiled once, as Python does unless it is
@@ -25,6 +27,19 @@ _COMMON = {"deadline": None, "suppress_health_check": [HealthCheck.too_slow], "p
 settings.register_profile("ci", derandomize=True, database=None, max_examples=30, **_COMMON)
 settings.register_profile("explore", max_examples=400, **_COMMON)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "ci"))
+
+
+@pytest.fixture(autouse=True, scope="module")
+def work_moves_later(request: pytest.FixtureRequest) -> Iterator[None]:
+    """Work of up to a second stays in its process, except in tests that are marked to be about processes.
+
+    A process that has collected all tests takes as long to fork as many a question to answer, and what the child loads
+    is loaded again by the next one.
+    """
+    with pytest.MonkeyPatch.context() as patch:
+        if request.node.get_closest_marker("processes") is None:
+            patch.setattr(execution, "HERE", 1.0)
+        yield
 
 
 def pytest_collection_finish() -> None:

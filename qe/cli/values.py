@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Callable
 from enum import Enum
 from functools import partial
+from pathlib import Path
 from typing import Any
 
 _NATURAL = re.compile(r"0|[1-9][0-9]{0,14}")
@@ -63,6 +65,22 @@ def _is_plain(value: object, annotation: Any, asked: Any) -> bool:
         return type(value) is int or _NATURAL.fullmatch(text) is not None
     if annotation is float:
         return type(value) is float or _DECIMAL.fullmatch(text) is not None
+    if annotation is Path:
+        named = isinstance(value, Path) or (text.isprintable() and text != "")
+        return named and _any_path_will_do(asked, str(value))
     if issubclass(annotation, Enum):
         return isinstance(value, annotation) or text in [member.value for member in annotation]
     return False
+
+
+def _any_path_will_do(asked: Any, path: str) -> bool:
+    """Whether a parameter asks nothing of its path but that it can be read where it exists, and this one does so."""
+    conditions = (
+        asked.exists,
+        asked.writable,
+        asked.resolve_path,
+        asked.path_type,
+        not asked.file_okay,
+        not asked.dir_okay,
+    )
+    return not any(conditions) and (not os.path.exists(path) or os.access(path, os.R_OK))

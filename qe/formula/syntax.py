@@ -10,6 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
+from qe.errors import InternalError
 from qe.exact.ring import Poly, Ring
 from qe.formula.notation import Level, Notation, bracketed, chain, oriented, polynomial
 from qe.formula.operators import Connected
@@ -138,7 +139,8 @@ class Atom(Formula):
 
     __hash__ = Formula.__hash__
 
-    def _find_ring(self) -> Ring | None:
+    @property
+    def ring(self) -> Ring | None:
         return self.poly.ring
 
     def _find_free(self) -> tuple[str, ...]:
@@ -166,7 +168,8 @@ class RootAtom(Formula):
 
     __hash__ = Formula.__hash__
 
-    def _find_ring(self) -> Ring | None:
+    @property
+    def ring(self) -> Ring | None:
         return self.poly.ring
 
     def _find_free(self) -> tuple[str, ...]:
@@ -179,14 +182,23 @@ class RootAtom(Formula):
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Connective(Formula):
-    """Two or more formulas joined by one connective."""
+    """Two or more formulas joined by one connective. Raises ``InternalError`` for parts over different rings."""
 
     args: tuple[Formula, ...]
 
     __hash__ = Formula.__hash__
 
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "_ring", self._find_ring())
+
     def _find_ring(self) -> Ring | None:
-        return next((arg.ring for arg in self.args if arg.ring is not None), None)
+        ring = None
+        for arg in self.args:
+            if (own := arg.ring) is not ring and own is not None:
+                if ring is not None:
+                    raise InternalError(f"a formula over two rings: {ring!r} and {own!r}")
+                ring = own
+        return ring
 
     def _find_free(self) -> tuple[str, ...]:
         return _together(self.ring, self.args)

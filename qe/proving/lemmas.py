@@ -275,7 +275,7 @@ def _remainders(found: Lemmas, polys: dict[Poly, bool]) -> None:
 def _combinations(found: Lemmas, goals: Sequence[Sequence[Formula]], budget: Budget) -> None:
     """What stands on one side of an equivalence as a combination of the equations on the other, up to a multiple of an
     inequality there."""
-    if len(goals) != 2 or len(goals[0]) < 2:
+    if len(goals) != 2 or min(map(len, goals)) < 2:
         return
     sides = [conjuncts(normal(goal[-2])) for goal in goals]
     for own, other in (sides, reversed(sides)):

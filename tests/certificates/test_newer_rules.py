@@ -14,7 +14,7 @@ from qe.api.input import read_formula
 from qe.elimination.protocol import Context
 from qe.engine.untangle import untangled
 from qe.exact.ring import Poly, Ring
-from qe.formula.build import atom, conj, disj, exists, forall
+from qe.formula.build import atom, conj, convert, disj, exists, forall
 from qe.formula.syntax import Formula, Relation
 from qe.options import Budget, Options
 from qe.proof.derivation import moved
@@ -38,7 +38,8 @@ def nested(rng: random.Random) -> Formula:
         if not names:
             return own
         inner = part(names[1:], [*free, names[0]])
-        body = (conj if rng.random() < 0.6 else disj)((own, inner, formula(rng, ring, 0)))
+        join = conj if rng.random() < 0.6 else disj
+        body = join(convert(f, RING) for f in (own, inner, formula(rng, ring, 0)))
         return (exists if rng.random() < 0.6 else forall)(names[:1], body)
 
     return part(rng.sample(["x", "y", "z"], 3), [])

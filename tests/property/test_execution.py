@@ -14,6 +14,8 @@ from qe.formula.syntax import Formula
 from qe.options import Budget, Handover
 from tests.strategies import formulas
 
+pytestmark = pytest.mark.processes
+
 NAMES = ("x", "y")
 
 

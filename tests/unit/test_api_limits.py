@@ -12,6 +12,8 @@ from qe.options import Budget, Cluster, Method
 from qe.processes.execution import Limits
 from qe.proof.answer import Answer, Status
 
+pytestmark = pytest.mark.processes
+
 
 def test_clusters() -> None:
     assert cluster_of(0, None) is None

@@ -15,17 +15,16 @@ NUMBERS = ("5", "0.25", "007", "1e3", "-1", " 5", "5 ", "1_000", "inf", "nan", "
 OTHERS = ("", "abc", "text", "TEXT", "vs", "x", "\udcff")
 
 
-@pytest.mark.parametrize("option", ["--timeout", "--memory", "--format", "--order", "--method"])
-@pytest.mark.parametrize("value", [*NUMBERS, *OTHERS])
-def test_plain_values_are_those_that_typer_would_make(option: str, value: str) -> None:
-    def parsed(command: Any) -> object:
+@pytest.mark.parametrize("option", ["--timeout", "--memory", "--format", "--order", "--method", "--certificate"])
+def test_plain_values_are_those_that_typer_would_make(option: str) -> None:
+    def parsed(command: Any, value: str) -> object:
         try:
             made = command.commands["eliminate"].make_context("eliminate", ["x > 0", option, value])
         except typer.TyperException as error:
             return error.format_message()
         return {name: (type(found), str(found)) for name, found in made.params.items()}
 
-    command = get_command(app)
-    expected = parsed(command)
-    take_plain_values(command)
-    assert parsed(command) == expected
+    plain, converted = get_command(app), get_command(app)
+    take_plain_values(plain)
+    for value in (*NUMBERS, *OTHERS, ".", "no/such/file", "~/x", __file__):
+        assert parsed(plain, value) == parsed(converted, value), value

@@ -20,6 +20,8 @@ from qe.options import Budget
 from qe.processes.execution import HERE, SWITCH, Budgets, Limits, perform
 from qe.progress import Event
 
+pytestmark = pytest.mark.processes
+
 HARD = "ex a, b, c. all x, y. a*x^4*y + b*x*y^3 + c*x^2*y^2 + d*x + g*y + f > a^2*x^3 + b^2*y^5"
 """No method finishes this in minutes."""
 

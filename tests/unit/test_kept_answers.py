@@ -15,6 +15,8 @@ from qe.errors import InternalError, Unable
 from qe.processes.execution import Budgets, Limits, perform
 from qe.proof.answer import UNPROVED
 
+pytestmark = pytest.mark.processes
+
 LONG = 600.0
 """Seconds; no test waits for them."""
 

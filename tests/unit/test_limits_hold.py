@@ -16,6 +16,8 @@ from qe.exact.algebraic import RealAlgebraic
 from qe.options import Budget
 from qe.progress import Event
 
+pytestmark = pytest.mark.processes
+
 SQRT2 = RealAlgebraic.from_root([-2, 0, 1], 1, 2)
 DISC = "x^2 + y^2 <= 2"
 SHADOW = "ex u. x^2 + y^2 + u^2 <= 2 and x + y >= u"

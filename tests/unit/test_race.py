@@ -15,6 +15,8 @@ from qe.errors import InternalError
 from qe.processes.racing import first
 from qe.processes.worker import Channel, run
 
+pytestmark = pytest.mark.processes
+
 HARD = "ex a, b, c. all x, y. a*x^4*y + b*x*y^3 + c*x^2*y^2 + d*x + g*y + f > a^2*x^3 + b^2*y^5"
 
 

@@ -16,6 +16,8 @@ from qe.formula.syntax import Relation
 from qe.processes.worker import Channel, Known, WorkerDied, WorkerStopped, run
 from qe.progress import Event
 
+pytestmark = pytest.mark.processes
+
 
 @pytest.fixture(autouse=True)
 def no_zombie():

@@ -18,7 +18,7 @@ from qe.formula.build import atom, conj, convert, disj
 from qe.formula.monotone import direction
 from qe.formula.syntax import Formula, Relation
 from qe.io.text import read
-from qe.options import Budget
+from qe.options import Budget, Projection
 from qe.proof.cells import Cell, CellTable
 from qe.proof.certificate import Certificate
 
@@ -63,6 +63,9 @@ def test_one_change_along_the_last_free_variable(text: str, way: int) -> None:
         ("m*x^2 > 1 and y > 0", 1),
         ("m*x > 1", 0),
         ("m^2 > x", 0),
+        ("x > m*y^2", -1),
+        ("m*y^2 >= x and m > 1", 1),
+        ("m*(x^2 + 1) <= x or m < y", -1),
         ("m^3 + m > x or x < 0", 1),
         ("m > x and m < y", 0),
         ("m = x", 0),
@@ -70,7 +73,9 @@ def test_one_change_along_the_last_free_variable(text: str, way: int) -> None:
     ],
 )
 def test_directions(text: str, way: int) -> None:
-    assert direction(convert(read(text), Ring.of(ORDER)), 0) == way
+    matrix = convert(read(text), Ring.of(ORDER))
+    claimed = CellTable(ORDER, ("", "E", "E"), matrix, Projection.LAZARD, ((), (), ()), Cell("", None))
+    assert direction(matrix, 0) == way and one_way(claimed, 0) == (way or int(text == "x > y"))
 
 
 def random_matrix(rng: random.Random) -> Formula:
@@ -105,6 +110,17 @@ def test_an_altered_truth_is_refused(wanted: bool) -> None:
     k = next(k for k, cell in enumerate(cells) if cell.stack is None and cell.truth is wanted)
     cells[k] = replace(cells[k], truth=not wanted)
     altered = replace(part, root=replace(part.root, stack=replace(stack, cells=tuple(cells))))
+    assert not verify(Certificate.cells(altered, None)).accepted
+
+
+@pytest.mark.parametrize("wanted", [True, False])
+def test_truth_follows_from_decomposed_cells_alone(wanted: bool) -> None:
+    """Cells that say the same, and of which none is decomposed, do not prove each other."""
+    part = table(convert(read(QUESTION), Ring.of(ORDER)), "EE")
+    stack = part.root.stack
+    assert stack is not None and any(cell.stack is not None for cell in stack.cells if cell.truth is wanted)
+    cells = tuple(replace(cell, stack=None) if cell.truth is wanted else cell for cell in stack.cells)
+    altered = replace(part, root=replace(part.root, stack=replace(stack, cells=cells)))
     assert not verify(Certificate.cells(altered, None)).accepted
 
 

@@ -11,7 +11,7 @@ from qe.api.input import read_formula
 from qe.certify.table import is_prenex_form
 from qe.exact.ring import Ring
 from qe.formula.build import convert
-from qe.formula.syntax import Formula
+from qe.formula.syntax import FALSE, TRUE, Formula
 from qe.options import Projection
 from qe.proof.cells import Cell, CellTable
 from qe.proof.certificate import Certificate
@@ -55,6 +55,15 @@ def table(matrix: str, order: str, quantifiers: str) -> CellTable:
 )
 def test_prenex_forms(text: str, matrix: str, order: str, quantifiers: str, right: bool) -> None:
     assert is_prenex_form(formula(text), table(matrix, order, quantifiers)) is right
+
+
+def test_constants_and_a_ring_of_just_the_variables() -> None:
+    asked, claimed = convert(read_formula("ex x. x > a"), Ring.of(("a", "x"))), table("x > a", "a x", ".E")
+    assert is_prenex_form(asked, claimed)
+    for constant, other in ((TRUE, FALSE), (FALSE, TRUE)):
+        assert is_prenex_form(constant, table(str(constant), "a x", ".E"))
+        assert not is_prenex_form(constant, table(str(other), "a x", ".E"))
+        assert not is_prenex_form(constant, claimed) and not is_prenex_form(asked, table(str(constant), "a x", ".E"))
 
 
 @lru_cache

@@ -10,10 +10,13 @@ from hypothesis import strategies as st
 
 import qe
 from qe.api.input import read_formula
-from qe.elimination.critical.method import ConvexUniversal
+from qe.elimination.critical.block import ConvexBody
+from qe.elimination.critical.method import ConvexUniversal, procedures
+from qe.elimination.critical.universal import eliminate_universal, necessary_conditions
 from qe.elimination.protocol import Context, Problem
-from qe.formula.build import forall
+from qe.formula.build import forall, neg
 from qe.formula.evaluate import holds_at, substituted
+from qe.formula.normal import nnf
 from qe.formula.syntax import ForAll, Formula
 from qe.options import Budget, Method, Options
 from qe.proof.run_log import RunLog
@@ -169,3 +172,40 @@ def test_curves_that_meet_once_over_a_point_of_high_degree() -> None:
         others = [s for s in stack.sections if s.members != [0, 1]]
         assert len(others) == len(stack.sections) - 1
     assert real_roots(resultant.to_univariate(0))
+
+
+def asked(text: str, *parameters: str) -> tuple[tuple[str, ...], Formula, tuple[str, ...]]:
+    """The variables, the negated body and the parameters, as the functions below take them."""
+    given = block(text)
+    return given.variables, nnf(neg(given.body)), parameters
+
+
+def test_conditions_that_the_block_implies() -> None:
+    text = "all t. 0 <= t and t <= 2 -> x >= t^2 - t"
+    found = necessary_conditions(*asked(text, "x"))
+    assert found is not None
+    conditions, values = found
+    assert values == tuple(Fraction(k, 4) for k in range(9))
+    assert [holds_at(conditions, {"x": Fraction(k)}) for k in (1, 2, 3)] == [False, True, True]
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "all t, u. 0 <= t and t <= 1 and 0 <= u and u <= 1 -> x >= t*u",  # two variables
+        "all t. t >= 0 -> x >= -t",  # no upper end
+        "all t. t^2 <= 2 -> x >= t",  # the ends are not linear
+        "all t. 0 <= t and t <= 1 -> x /= t",  # an equation
+    ],
+)
+def test_no_conditions_elsewhere(text: str) -> None:
+    assert necessary_conditions(*asked(text, "x")) is None
+
+
+def test_the_set_itself() -> None:
+    budget = Budget(60)
+    found = eliminate_universal(*asked(DISCS, "x", "y"), procedures=procedures(budget), budget=budget)
+    assert found is not None and isinstance(found.found, ConvexBody) and found.stats["universal"] == 1
+    assert found.found.holds((Fraction(1, 2), Fraction(1, 2))) and not found.found.holds((Fraction(2), Fraction(0)))
+    dents = "all t. 0 <= t and t <= 1 -> (x - t)^2 + (y - t^2)^2 >= 2"
+    assert eliminate_universal(*asked(dents, "x", "y"), procedures=procedures(budget), budget=budget) is None

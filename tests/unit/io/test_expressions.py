@@ -16,6 +16,7 @@ import qe
 from qe.errors import InputError, NoTruthValue
 from qe.formula.evaluate import holds_at
 from qe.formula.syntax import Formula
+from qe.io import expressions
 from qe.io.substitution import substitute
 from qe.io.text import read, read_term
 from tests.strategies import formulas
@@ -143,3 +144,28 @@ def test_values_are_put_into_answers_too() -> None:
     assert str(qe.eliminate("ex x. x > 0").formula.substitute({"x": 1})) == "true"
     with pytest.raises(qe.InputError):
         answer.substitute(3)
+
+
+def test_values_and_connectives_without_the_operators() -> None:
+    assert str(expressions.graph_of("z", 1 / x)) == str(read("z = 1/x"))
+    assert expressions.substituted(read("x > y"), {y: 2}) == read("x > 2")
+    above, below = read("x > 1"), read("y < 0")
+    for way, text in {"and": "x > 1 and y < 0", "or": "x > 1 or y < 0", "implies": "x > 1 -> y < 0"}.items():
+        assert expressions.connected(way, above, below) == read(text)
+        assert expressions.connected(way, above, qe.Statement(below)) == qe.Statement(read(text))
+    assert expressions.connected("not", above) == read("x <= 1")
+    with pytest.raises(InputError):
+        expressions.connected("and", above, 3)
+
+
+def test_terms_as_text() -> None:
+    shown = {
+        x + 2 * y - 3: "((x + 2*y) - 3)",
+        (x - y) ** 2 / -y: "((x - y))^2/(-y)",
+        abs(x) * Fraction(1, 2): "abs(x)*(1/2)",
+        x + ROOT2: f"(x + ({ROOT2}))",
+        +(qe.variables("x1") ** -2): "(x1)^(-2)",
+    }
+    for made, text in shown.items():
+        assert repr(made) == text
+        assert qe.equivalent(expressions.graph_of("v", made), expressions.graph_of("v", text))

@@ -5,7 +5,8 @@ from __future__ import annotations
 import pytest
 
 import qe
-from qe.io import formats
+from qe.formula.traverse import polynomials
+from qe.io import formats, latex
 from qe.io.text import read
 
 
@@ -54,3 +55,39 @@ def test_mistakes_are_told_in_one_line(source: str, part: str) -> None:
 def test_letters_are_single_in_the_format_and_words_in_text() -> None:
     assert str(formats.read("ab < 1", "latex")) == "a*b - 1 < 0"
     assert str(formats.read("ab < 1")) == "ab - 1 < 0"
+
+
+@pytest.mark.parametrize(
+    ("text", "source"),
+    [
+        ("x1^2 + 2*alpha*y' - 3/2 <= 0", r"2\,x_{1}^{2} + 4\,\alpha\,y' - 3 \leq 0"),
+        ("speed /= `a_b#`", r"\mathrm{speed} - \mathrm{a\_b\#} \neq 0"),
+        ("Omega > 0 and (x = 1 or not (y = root(1, y^2 - x)))", None),
+        ("ex x, y. all z. x*y'^2 > z or z >= 1", None),
+        ("true", r"\top"),
+        ("false", r"\bot"),
+    ],
+)
+def test_what_is_written_is_read(text: str, source: str | None) -> None:
+    formula = read(text)
+    written = latex.write(formula)
+    assert source is None or written == source
+    assert "root" in text or "#" in text or latex.read(written) == formula
+
+
+def test_names_and_polynomials() -> None:
+    names = {"x": "x", "x12": "x_{12}", "y''": "y''", "Gamma": r"\Gamma", "pi_2": r"\pi_{2}", "pI": r"\mathrm{pI}"}
+    assert {name: latex.name(name) for name in names} == names
+    assert latex.name("a b^") == r"\mathrm{a\ b\char94 }"
+    poly = next(iter(polynomials(read("x^2*y - 1 > 0"))))
+    assert latex.term(poly) == r"x^{2}\,y - 1"
+
+
+def test_long_formulas_stand_in_lines() -> None:
+    parts = " and ".join(f"(x{k} > {k} or x{k} < y)" for k in range(6))
+    lines = latex.write(read(f"ex x0. {parts}")).splitlines()
+    assert lines[0] == r"\exists x_{0}\colon \begin{array}{rl}" and lines[-1] == r"\end{array}" and len(lines) == 8
+    assert lines[2] == r"\land\; & \left(x_{1} - 1 > 0 \lor y - x_{1} > 0\right) \\"
+    assert "array" not in latex.write(read("ex x0. x0^2 > 1")) and latex.write(read(parts)).startswith(r"\begin{array}")
+    either = latex.write(read(parts.replace(" and ", " # ").replace(" or ", " and ").replace(" # ", " or ")))
+    assert either.count(r"\lor\; &") == 5 and r"\left" not in either

@@ -78,6 +78,8 @@ def test_the_way_back_gives_values(text: str) -> None:
         "ex x, y. x^3 + y^3 = a and x > 1",
         "ex x, y. x^3 + 2*y^3 = a and x*y > 1",
         "ex x, y. x^3 + y^3 = a and (x > 1 or y > 2)",
+        "ex x, y. x^3 + y^3 = a and (x + y > 1 or y > 2)",
+        "ex x, y. x^3 + y^3 = a and (x > y or x*y > 1)",
         "ex x, y. x^3 + y^3 = a and (all y. y^2 > x)",
         "ex x, y. x^2 + y^2 < a and x + y > b",
         "ex x, y. x*y = a and x + y > b",

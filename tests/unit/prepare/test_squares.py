@@ -15,6 +15,8 @@ import qe
 from qe.certify.verdict import Verdict
 from qe.io.text import read
 from qe.proof.answer import Guarantee
+from qe.rules.preparation import prepare
+from qe.rules.step import StepKind
 
 RULE = "signs by sums of squares"
 
@@ -46,6 +48,28 @@ def test_what_is_left_of_a_condition(text: str, left: str) -> None:
     answer = qe.eliminate(text, check=True, timeout=60)
     assert answer.guarantee is Guarantee.CHECKED
     assert qe.equivalent(answer.formula, left)
+
+
+MEANS = "a^4 + b^4 + c^4 + d^4 - 4*a*b*c*d"
+
+
+@pytest.mark.parametrize(
+    ("condition", "left"),
+    [
+        (f"{MEANS} >= 0", "true"),
+        (f"{MEANS} < 0", "false"),
+        (f"{MEANS} <= 0", f"{MEANS} = 0"),
+        (f"{MEANS} > 0", f"{MEANS} > 0"),
+        (f"{MEANS} /= 0", f"{MEANS} /= 0"),
+        (f"{MEANS} + 1 <= 0", "false"),
+        ("2*a^4 + 2*b^4 + 2*c^4 + 2*d^4 < 1", None),  # with 1 added it would be nowhere negative
+        ("a >= 0 and b >= 0 and d >= 0 and a*b*d < 1", None),
+    ],
+)
+def test_what_one_sign_leaves_of_each_comparison(condition: str, left: str | None) -> None:
+    found = prepare(read(f"ex d. {condition}"), enabled={StepKind.SQUARES}).formula
+    wanted = left or condition
+    assert str(found) == str(read(wanted if wanted in ("true", "false") else f"ex d. {wanted}"))
 
 
 def altered(text: str, change: Callable[[list[Any]], Iterator[None]]) -> list[Verdict]:

@@ -52,6 +52,8 @@ def claim(before: Formula, after: Formula) -> Claim:
         ("ex x, y. (x /= 0 or y /= 0) and (x = 0 or y = 0) and x*y^3 + x >= 0", None),
         ("ex x, y. (x /= 0 or y /= 0) and x*y - 2 > 0", "ex x, y. x*y - 2 > 0"),
         ("ex x, y. (x /= 0 or y /= 0) and x*y - 2 < 0", None),
+        ("ex x, y, z, w. (x /= 0 or y /= 0) and (z /= 0 or w /= 0) and z^2 - z*w + x < 0", None),
+        ("ex x, y, z, w. (x /= 0 or y /= 0) and (z /= 0 or w /= 0) and w^2 - z*w + x < 0", None),
         ("all x, y. x = 0 and y = 0 or x*a - y*b = 0", "all x, y. x*a - y*b = 0"),
         ("all x, y. x = 0 and y = 0 or x*a - y*b > 0", None),
     ],

@@ -30,7 +30,7 @@ def test_what_is_given_is_known_in_a_copy() -> None:
 
 
 def test_steps_are_recorded_under_what_is_known() -> None:
-    known = read("x > 0"), read("y = 1")
+    known = read("x > 0"), read("x < 9")
     context = BlockContext(Budget(), frozenset()).given(known)
     context.step("a rule", read("x > 1"), read("x > 2"), "why", {"it": 1})
     context.step("a rule", read("x > 2"), read("x > 3"))

@@ -1,0 +1,78 @@
+"""Truth sets of blocks by critical values, as tables and as convex bodies, against sets that are known."""
+
+from __future__ import annotations
+
+from fractions import Fraction as F
+
+import pytest
+
+from qe.elimination.critical.block import ConvexBody, Disjunct, Tabulated, eliminate_block
+from qe.elimination.critical.method import procedures
+from qe.errors import Unable
+from qe.formula.syntax import Exists
+from qe.io.text import read
+from qe.options import Budget
+from qe.proof.cells import CellTable
+
+
+def found(text: str, *parameters: str) -> list[Disjunct]:
+    block = read(text)
+    assert isinstance(block, Exists)
+    return eliminate_block(block.variables, block.body, parameters, procedures=procedures(Budget()), budget=Budget())
+
+
+def truths(table: CellTable) -> dict[str, bool | None]:
+    """The cells of a line: the values between the roots, and the truth there; what is at a root comes after it."""
+    stack = table.root.stack
+    assert stack is not None
+    return {cell.signs: cell.truth for cell in stack.cells}
+
+
+def test_a_convex_body() -> None:
+    (part,) = found("ex x. (x - a)^2 <= 1 and x^2 <= 4", "a")
+    body = part.found
+    assert isinstance(body, ConvexBody) and body.bounded
+    assert [body.holds((F(k, 2),)) for k in (-7, -6, -1, 0, 5, 6, 7)] == [False, True, True, True, True, True, False]
+    assert {str(p) for p in body.boundary} == {"Poly(a - 3)", "Poly(a + 3)"}
+    cut = body.cut((F(5),))
+    assert cut is not None and cut.evaluate((F(5), F(0))) > 0
+    assert all(cut.evaluate((F(k), F(0))) <= 0 for k in range(-3, 4))
+    levels, cells = body.cells()
+    assert set(levels[0]) == body.boundary and [c.truth for c in cells] == [False, True, False]
+    made = body.tabulate()
+    assert truths(made.table) == {"--": False, "-0": True, "-+": True, "0+": True, "++": False} and not made.unsettled
+    assert truths(made.refine(frozenset((0,)))) == truths(made.table)
+
+
+def test_an_unbounded_body() -> None:
+    (part,) = found("ex x. (x - a)^2 <= 1 and x >= 0", "a")
+    assert isinstance(part.found, ConvexBody) and not part.found.bounded
+    assert [part.found.holds((F(k),)) for k in (-2, -1, 0, 9)] == [False, True, True, True]
+
+
+def test_any_set_as_a_table() -> None:
+    (part,) = found("ex x. (x - a)^2 < 1 and x^3 = 4*x", "a")
+    assert isinstance(part.found, Tabulated) and not part.found.unsettled
+    stack = part.found.table.root.stack
+    assert stack is not None
+    at = dict(zip(stack.sectors, [c.truth for c in stack.cells[::2]], strict=True))
+    assert at == {x: min(abs(x - r) for r in (-2, 0, 2)) < 1 for x in at} and set(at.values()) == {True, False}
+    borders = [c.truth for c in stack.cells[1::2] if "0" in c.signs]
+    assert False in borders, "a - 1 = 0 among others: the conditions are strict"
+
+
+def test_a_single_point_is_no_body() -> None:
+    (part,) = found("ex x. x^2 + a^2 <= 0", "a")
+    assert isinstance(part.found, Tabulated) and truths(part.found.table) == {"-": False, "0": True, "+": False}
+
+
+def test_sentences_and_disjuncts() -> None:
+    parts = found("ex x. x^2 <= 2 and x^2 = 2 or x^2 <= 1 and x > 2")
+    assert [p.found for p in parts] == [True, False]
+    assert str(parts[1].body) == "x^2 - 1 <= 0 and x - 2 > 0"
+
+
+@pytest.mark.parametrize("text", ["ex x. x > a", "ex x. a*x = 1", "ex x. x^2 <= 1 or x > a"])
+def test_unbounded_fibres_are_refused(text: str) -> None:
+    with pytest.raises(Unable, match="bounded"):
+        found(text, "a")

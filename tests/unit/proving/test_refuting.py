@@ -1,0 +1,71 @@
+"""Evidence that refutes lists of formulas: read by the checker's theory, no more of it than is needed."""
+
+from __future__ import annotations
+
+import pytest
+
+from qe.certify.boolean import Theory
+from qe.certify.derivation import limits_of
+from qe.certify.registry import RULES
+from qe.certify.signs import read_lemma, read_polynomials
+from qe.certify.verify import check_certificate
+from qe.exact.ring import Ring
+from qe.formula.build import convert
+from qe.formula.syntax import Formula
+from qe.io.text import read
+from qe.options import Budget
+from qe.proof.entry import Entry, Json
+from qe.proving.lemmas import polynomials_outside, refuting
+
+RING = Ring.of(("a", "x", "y", "z"))
+LIMITS = limits_of(Budget(), RULES, check_certificate)
+
+
+def goal(*texts: str) -> list[Formula]:
+    return [convert(read(text), RING) for text in texts]
+
+
+def lemmas(*goals: list[Formula]) -> list[dict[str, Json]] | None:
+    evidence = refuting(goals, RING, LIMITS)
+    if evidence is None:
+        return None
+    names, listed = Entry(evidence, "evidence").fields("polynomials", "lemmas")
+    polys = read_polynomials(names, RING)
+    theory = Theory(polys, tuple(read_lemma(item, polys, RING) for item in listed.items()), LIMITS)
+    assert all(theory.used(g) is not None for g in goals)
+    assert isinstance(evidence, dict)
+    return evidence["lemmas"]  # type: ignore[return-value]
+
+
+@pytest.mark.parametrize(
+    ("texts", "count"),
+    [
+        (("x > 0", "x <= 0"), 0),
+        (("x > 1", "x < 0"), 1),
+        (("x > y", "y > z", "z > x"), 1),
+        (("x^2 + 2*x + 2 <= 0",), 1),
+        (("x^2*y^2 + a^4 + 1 < 0",), 1),
+        (("x*y = 0", "x /= 0", "y > 0"), 1),
+        (("x = a + 1", "x^2 < a^2 + 2*a + 1"), 1),
+        (("x > 0", "x^5 + x < 0"), None),
+        (("a = 1", "x = a", "y = x", "y > 2"), None),
+    ],
+)
+def test_what_is_refuted(texts: tuple[str, ...], count: int | None) -> None:
+    found = lemmas(goal(*texts))
+    assert found is not None and (count is None or len(found) == count)
+
+
+@pytest.mark.parametrize("texts", [("x > 0",), ("x > 1", "x < 2"), ("x^2 + 2*x + 1 <= 0",), ("x*y = 0", "x /= 0")])
+def test_what_holds_somewhere_is_not(texts: tuple[str, ...]) -> None:
+    assert lemmas(goal(*texts)) is None
+
+
+def test_all_goals_are_refuted_or_none() -> None:
+    false, true = goal("x > 1", "x < 0"), goal("x > 0")
+    assert lemmas(false, false) is not None and lemmas(false, true) is None
+
+
+def test_polynomials_under_quantifiers_stay_outside() -> None:
+    found = polynomials_outside(goal("x > 0 and (y = 1 or z /= 2)", "ex z. z*x > a", "x = 0"))
+    assert {str(p): e for p, e in found.items()} == {"Poly(x)": True, "Poly(y - 1)": True, "Poly(z - 2)": True}
