@@ -105,6 +105,7 @@ def test_the_answer_that_was_meant(typed: str, meant: str) -> None:
 
 
 def test_a_list_holds_together() -> None:
+    assert qe.equivalent(sympy.real_root(sympy.Symbol("x", real=True), 3) <= -1, "x <= -1")
     assert qe.equivalent([X > 0, sympy.Eq(X + Y, 1)], "x > 0 and x + y = 1")
     assert qe.equivalent(("x > 0", X < Y), "0 < x and x < y")
     assert qe.find_instance(["x > 2", "x < 3", ["x^2 = 5"]]) is not None
