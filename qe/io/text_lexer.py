@@ -211,8 +211,9 @@ class State:
     """What stands before the next token: ``end`` is the offset where the last one ends.
 
     ``header``: inside a ``quantifier``, before its body, which may follow a comma where ``spoken``; ``bounded``: a
-    condition stands behind the last of its variables; ``within``: the level of brackets at which the set ends that its variables lie in. For every level of brackets: the bars that are open,
-    and whether there was a comparison since the last connective.
+    condition stands behind the last of its variables; ``within``: the level of brackets at which the set ends that its
+    variables lie in. For every level of brackets: the bars that are open, and whether there was a comparison since the
+    last connective.
     """
 
     def __init__(self, text: str, token: Make) -> None:
