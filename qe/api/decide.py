@@ -12,7 +12,7 @@ from qe.api.eliminate import Order, Progress, eliminate
 from qe.api.input import AnyFormula, read_polynomial, together
 from qe.api.limits import left_of, limits_of, read_under, reading
 from qe.errors import InputError, Unable
-from qe.exact.number import Assignment
+from qe.exact.number import Assignment, ExactPoint
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import convert, exists, forall, iff
 from qe.formula.counting import without_root_atoms
@@ -119,7 +119,7 @@ def find_instance(
         return None
     if answer.witness is None and free:
         raise Unable("the formula is satisfiable, but no witness was found")
-    return {name: (answer.witness or {}).get(name, Fraction(0)) for name in free}
+    return ExactPoint({name: (answer.witness or {}).get(name, Fraction(0)) for name in free})
 
 
 def check_witness(
