@@ -9,7 +9,9 @@ from __future__ import annotations
 
 import re
 
-WORD = r"[^\W\d⁰¹²³⁴-⁹][^\W⁰¹²³⁴-⁹]*'*"
+NUMERALS = "⁰¹²³⁴-⁹ⁱⁿ¼-¾⅐-⅟↉"
+"""Raised digits and letters and fractions of one character, which are no part of a plain word."""
+WORD = rf"[^\W\d{NUMERALS}][^\W{NUMERALS}]*'*"
 """A plain word: letters, digits and ``_``, not a digit first, perhaps with primes."""
 
 QUOTED = r"`(?:[^`\\\n]|\\.)+`"

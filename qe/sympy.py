@@ -16,6 +16,7 @@ import qe.api.decide as api_decide
 import qe.api.eliminate as api
 import qe.api.solve as api_solve
 from qe import arguments
+from qe.api.limits import read_under
 from qe.cells.pieces import Range, RootFunction
 from qe.errors import InputError, Unable
 from qe.formula.build import conj, forall
@@ -24,6 +25,7 @@ from qe.formula.traverse import free_variables
 from qe.io.substitution import over_one_ring
 from qe.io.sympy import Exists, ForAll, expression_from, from_sympy, polynomial_to_sympy, to_sympy
 from qe.io.sympy_numbers import number_to_sympy
+from qe.processes.execution import Limits
 
 __all__ = ["function_range", "is_true_for_all", "maximum", "minimum", "reduce_inequalities", "solve_region"]
 
@@ -41,7 +43,7 @@ def reduce_inequalities(
     of degree 3 or more with parameters), the conditions are simplified only. Equations, ``Ne``, ``And``, ``Or`` and
     parameters are taken, too; constants such as ``pi`` may occur wherever symbols may.
     """
-    question = _Question.of(inequalities)
+    question = _Question.of(inequalities, timeout)
     free = free_variables(question.formula)
     wanted = [name for name in _names(symbols) if name in free] or [
         name for name in free if name not in question.constants
@@ -55,7 +57,7 @@ def solve_region(condition: Condition, symbol: Any = None, *, timeout: float | N
 
     Intervals and points with exact ends. Raises ``InputError`` where there are several free symbols.
     """
-    question = _Question.of(condition)
+    question = _Question.of(condition, timeout)
     free = [name for name in free_variables(question.formula) if name not in question.constants]
     names = _names(() if symbol is None else symbol)
     others = [name for name in free if name not in names]
@@ -84,7 +86,7 @@ def function_range(
         value += "_"
     equation = sympy.Eq(sympy.Symbol(value, real=True), function, evaluate=False)
     parts = [equation] if condition is True else [equation, *_conditions(condition)]
-    question = _Question.of(parts)
+    question = _Question.of(parts, timeout)
     if names:
         question = replace(question, formula=Exists(names, question.formula).formula())
     return _set_of(question, value, timeout)
@@ -114,7 +116,7 @@ def is_true_for_all(condition: Condition, *, timeout: float | None = None) -> bo
     """Whether the condition holds for all real values of its symbols that fit their assumptions."""
     import sympy
 
-    question, symbols = _Question.of(condition), _symbols_of(condition)
+    question, symbols = _Question.of(condition, timeout), _symbols_of(condition)
     parts = question.parts
     whole = parts[0] if len(parts) == 1 else sympy.And(*parts, evaluate=False)
     formula = ForAll(list(symbols.values()), whole).formula() if symbols else question.formula
@@ -168,8 +170,12 @@ class _Question:
     parts: tuple[Any, ...]
 
     @staticmethod
-    def of(given: Condition) -> _Question:
-        """The conditions together."""
+    def of(given: Condition, timeout: float | None = None) -> _Question:
+        """The conditions together, read within the time."""
+        return read_under(Limits(arguments.seconds(timeout)), lambda: _Question._of(given), *_conditions(given))
+
+    @staticmethod
+    def _of(given: Condition) -> _Question:
         import sympy
 
         parts, symbols = [_boolean(part) for part in _conditions(given)], _symbols_of(given)

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from dataclasses import replace as changed
 from fractions import Fraction
 from functools import cached_property
+from html import escape
 from pathlib import Path as FilePath
 from typing import TYPE_CHECKING, Any
 
@@ -295,6 +296,16 @@ class Planned:
     def __str__(self) -> str:
         """The summary that ``bezier plan`` prints."""
         return "\n".join(words.lines(self.found))
+
+    def _repr_html_(self) -> str:
+        """The summary, with a picture of the path from above where there is one, for notebooks."""
+        picture = ""
+        if self.found.path is not None:
+            try:
+                picture = self.to_svg()
+            except Unable:  # a library that draws is not installed
+                picture = ""
+        return f"<div><pre>{escape(str(self))}</pre>{picture}</div>"
 
     def __repr__(self) -> str:
         if self.found.path is None:

@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Iterable, Mapping
 from fractions import Fraction
 from typing import Any
 
 from qe import arguments
 from qe.api.eliminate import Order, Progress, eliminate
-from qe.api.input import AnyFormula, read_formula, read_polynomial, together
+from qe.api.input import AnyFormula, read_polynomial, together
+from qe.api.limits import left_of, limits_of, read_under, reading
 from qe.errors import InputError, Unable
-from qe.exact.number import Assignment
+from qe.exact.number import Assignment, ExactPoint
+from qe.exact.ring import Poly, Ring
 from qe.formula.build import convert, exists, forall, iff
 from qe.formula.counting import without_root_atoms
 from qe.formula.features import features
@@ -42,13 +45,14 @@ def decide(
 
     Raises ``InputError`` for free variables and ``Unable`` at a limit.
     """
-    given = read_formula(formula, format, total_division)
+    limits = limits_of(timeout, memory, progress, process).begun(time.monotonic())
+    given = reading(formula, format, limits, total_division)
     free = free_variables(given)
     if free:
         raise InputError(f"a sentence expected; free: {', '.join(free)}")
     answer = eliminate(
         given,
-        timeout=timeout,
+        timeout=left_of(limits),
         memory=memory,
         method=method,
         order=order,
@@ -90,11 +94,12 @@ def find_instance(
 
     The keywords are those of ``eliminate``. Raises ``Unable`` at a limit.
     """
-    given = read_formula(formula, format, total_division)
+    limits = limits_of(timeout, memory, progress, process).begun(time.monotonic())
+    given = reading(formula, format, limits, total_division)
     free = free_variables(given)
     answer = eliminate(
         exists(free, given),
-        timeout=timeout,
+        timeout=left_of(limits),
         memory=memory,
         method=method,
         order=order,
@@ -114,7 +119,7 @@ def find_instance(
         return None
     if answer.witness is None and free:
         raise Unable("the formula is satisfiable, but no witness was found")
-    return {name: (answer.witness or {}).get(name, Fraction(0)) for name in free}
+    return ExactPoint({name: (answer.witness or {}).get(name, Fraction(0)) for name in free})
 
 
 def check_witness(
@@ -143,17 +148,21 @@ def check_witness(
     existentially quantified, or a polynomial in variables that are not known at its place.
     """
     from qe.elimination.witness import Term, instantiate
-    from qe.exact.ring import Ring
 
-    given = without_root_atoms(read_formula(sentence, format))
+    limits = limits_of(timeout, memory, progress, process).begun(time.monotonic())
+    given = without_root_atoms(reading(sentence, format, limits))
     offered, known = arguments.by_name(witness, "witness"), features(given).bound
-    read = {name: read_polynomial(term, f"witness: {name}", known=known) for name, term in offered.items()}
+
+    def polynomials() -> dict[str, tuple[Poly, Fraction]]:
+        return {name: read_polynomial(term, f"witness: {name}", known=known) for name, term in offered.items()}
+
+    read = read_under(limits, polynomials, offered)
     rings = [r for r in (ring_of(given), *(poly.ring for poly, _ in read.values())) if r is not None]
     ring = Ring.of(dict.fromkeys(name for r in rings for name in r.names))
     terms = {name: Term.of(poly.convert(ring), scale) for name, (poly, scale) in read.items()}
     return decide(
         instantiate(convert(given, ring), terms),
-        timeout=timeout,
+        timeout=left_of(limits),
         memory=memory,
         method=method,
         order=order,
@@ -192,11 +201,12 @@ def equivalent(
 
     The keywords are those of ``eliminate``. Raises ``Unable`` at a limit.
     """
-    f, g = together(read_formula(left, format), read_formula(right, format))
+    limits = limits_of(timeout, memory, progress, process).begun(time.monotonic())
+    f, g = together(reading(left, format, limits), reading(right, format, limits))
     free = dict.fromkeys((*free_variables(f), *free_variables(g)))
     return decide(
         forall(free, iff(f, g)),
-        timeout=timeout,
+        timeout=left_of(limits),
         memory=memory,
         method=method,
         order=order,

@@ -9,7 +9,7 @@ from typing import Any
 
 from qe import arguments
 from qe.api.input import read_polynomial
-from qe.api.limits import limits_of
+from qe.api.limits import limits_of, read_under
 from qe.errors import InputError
 from qe.exact.algebraic import RealAlgebraic
 from qe.exact.block_order import Block
@@ -69,7 +69,8 @@ def comprehensive_groebner(
     chosen = _ORDERS[arguments.member(order, Order, "order")]
     wanted = arguments.flag(faithful, "faithful")
     limits = limits_of(timeout, memory, progress, process).begun(start)
-    system, _ = read_system(polys, variables, parameters, chosen, constants, equal, nonzero)
+    given = polys, variables, parameters, chosen, constants, equal, nonzero
+    system, _ = read_under(limits, lambda: read_system(*given), polys, equal, nonzero)
 
     def work(budgets: Budgets) -> ComprehensiveGroebnerSystem:
         return system.solved(budgets(), faithful=wanted)
@@ -102,7 +103,8 @@ def real_root_classification(
     """
     start, check = time.monotonic(), arguments.flag(check, "check")
     limits = limits_of(timeout, memory, progress, process).begun(start)
-    asked = read_system(polys, variables, parameters, MonomialOrder.DEGREVLEX, constants, equal, nonzero, positive)
+    given = polys, variables, parameters, MonomialOrder.DEGREVLEX, constants, equal, nonzero, positive
+    asked = read_under(limits, lambda: read_system(*given), polys, equal, nonzero, positive)
 
     def work(budgets: Budgets) -> RealRootClassification:
         budget = budgets()

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+import time
+from collections.abc import Callable, Mapping
 from importlib import import_module
 from typing import TypeVar
 
@@ -23,6 +24,9 @@ Reader = Callable[[AnyFormula, str, bool], Formula]
 
 MOST_WORKERS = 256
 """Processes that one call starts at most."""
+
+LIMITED_POWER = 12
+"""The greatest exponent in what is read here although a limit is to hold: higher powers of sums are long."""
 
 _ADDRESS = re.compile(r"(?:[a-z]+://)?[^\s:/]+:[0-9]{1,5}")
 
@@ -67,10 +71,37 @@ def reading(
     """The formula, read under the limits where reading may take long. Raises ``BudgetExceeded`` at one, ``Unable`` for
     a formula whose parts are shared so much that no method, all of which write it out, comes to an end."""
     total = arguments.flag(total_division, "total_division")
-    limited = limits.timeout is not None or limits.memory is not None
-    if isinstance(formula, str) and (text_may_block(formula) or (limited and "let" in formula)):
-        found = perform(lambda budgets: reader(formula, format, total), limits, at_once=True)
-    else:
-        found = reader(formula, format, total)
+    found = read_under(limits, lambda: reader(formula, format, total), formula)
     refuse_shared(found)
     return found
+
+
+def read_under(limits: Limits, read: Callable[[], Result], *given: object) -> Result:
+    """What ``read`` makes of what was given, under the limits where that may take long."""
+    limited = limits.timeout is not None or limits.memory is not None
+    if any(_may_take_long(part, limited) for part in given):
+        return perform(lambda budgets: read(), limits, at_once=True)
+    return read()
+
+
+def _may_take_long(given: object, limited: bool) -> bool:
+    if isinstance(given, str):
+        if limited:
+            return text_may_block(given, LIMITED_POWER) or "let" in given
+        return text_may_block(given)
+    if isinstance(given, list | tuple | Mapping):
+        return any(_may_take_long(part, limited) for part in (given.values() if isinstance(given, Mapping) else given))
+    if not limited or not hasattr(given, "free_symbols"):  # SymPy's objects have these
+        return False
+    try:
+        return text_may_block(str(given), LIMITED_POWER)
+    except ValueError:  # a number that Python does not write
+        return True
+
+
+def left_of(limits: Limits) -> float | None:
+    """The seconds that are left of a limit, all of them where few have passed; what has none left ends at once."""
+    if limits.timeout is None or limits.start is None:
+        return limits.timeout
+    left = limits.start + limits.timeout - time.monotonic()
+    return limits.timeout if left > 0.9 * limits.timeout else max(left, limits.timeout * 1e-3)

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Iterable
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Literal, overload
 
 from qe import arguments
 from qe.api.input import AnyFormula, read_constraints, read_objective
-from qe.api.limits import Progress, limits_of, performed
+from qe.api.limits import Progress, limits_of, performed, read_under
 from qe.errors import InputError
 from qe.options import Budget
 from qe.processes.execution import Budgets, Limits
@@ -155,10 +156,12 @@ def _best(
     from qe.formula.traverse import ring_of
     from qe.optimization.values import Goal
 
-    conditions = read_constraints(constraints)
+    limits = limits.begun(time.monotonic())
+    conditions = read_under(limits, lambda: read_constraints(constraints), constraints)
     given, check = arguments.names(parameters, "parameters"), arguments.flag(check, "check")
     ring = ring_of(conditions)
-    term = read_objective(objective, (*(ring.names if ring is not None else ()), *(given or ())))
+    taken = (*(ring.names if ring is not None else ()), *(given or ()))
+    term = read_under(limits, lambda: read_objective(objective, taken), objective)
     if not isinstance(method, str) or method not in ("auto", "convex", "elimination"):
         raise arguments.wrong("method", "auto, convex or elimination", method)
     if given is not None and method == "convex":

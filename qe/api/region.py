@@ -10,8 +10,8 @@ from fractions import Fraction
 from typing import Any, TypeVar
 
 from qe import arguments
-from qe.api.input import read_formula, together
-from qe.api.limits import performed
+from qe.api.input import together
+from qe.api.limits import performed, reading
 from qe.cells.interval import Coordinate, Interval, Number, number_of
 from qe.engine.run import solve as eliminated
 from qe.errors import BudgetExceeded, InputError, InternalError, Unable
@@ -26,7 +26,7 @@ from qe.formula.traverse import free_variables
 from qe.io import surface as s
 from qe.io.lowering import lower
 from qe.options import Options
-from qe.processes.execution import Budgets
+from qe.processes.execution import Budgets, Limits
 from qe.regions import planar, spatial, topology
 from qe.regions.build import described
 from qe.regions.convex_region import ConvexRegion
@@ -39,7 +39,7 @@ T = TypeVar("T")
 # --- what the operators of regions do --------------------------------------------------------------------------
 def joined(way: str, left: Region, right: object) -> Region:
     """The set that an operator makes of two."""
-    f, g = _operands(left, right)
+    f, g = _operands(left, right, left.limits.begun(time.monotonic()))
     made = {
         "and": lambda: conj((f, g)),
         "or": lambda: disj((f, g)),
@@ -51,7 +51,8 @@ def joined(way: str, left: Region, right: object) -> Region:
 
 def compared(way: str, left: Region, right: object, timeout: float | None) -> bool:
     """Whether two sets stand in this relation."""
-    f, g = _operands(left, right)
+    limits = _limits(left, timeout).begun(time.monotonic())
+    f, g = _operands(left, right, limits)
     claim = {
         "subset": lambda: implies(f, g),
         "superset": lambda: implies(g, f),
@@ -65,7 +66,7 @@ def compared(way: str, left: Region, right: object, timeout: float | None) -> bo
             raise InternalError("a sentence has no truth value")
         return found.value
 
-    return _under(left, claim, timeout, work)
+    return performed(work, claim, limits)
 
 
 def complement(region: Region, timeout: float | None) -> Region:
@@ -210,8 +211,12 @@ def instances(region: Region, n: int, seed: int, timeout: float | None) -> list[
 # --- parts -------------------------------------------------------------------------------------------------------
 def _under(region: Region, formula: Formula, timeout: float | None, work: Callable[[Budgets], T]) -> T:
     """Work under the limits of a region, or the time that goes before them."""
-    limits = region.limits if timeout is None else replace(region.limits, timeout=arguments.seconds(timeout))
-    return performed(work, formula, limits.begun(time.monotonic()))
+    return performed(work, formula, _limits(region, timeout).begun(time.monotonic()))
+
+
+def _limits(region: Region, timeout: float | None) -> Limits:
+    """The limits of a region with this time, if there is one."""
+    return region.limits if timeout is None else replace(region.limits, timeout=arguments.seconds(timeout))
 
 
 def _region(region: Region, formula: Formula, order: tuple[str, ...], timeout: float | None) -> Region:
@@ -219,7 +224,7 @@ def _region(region: Region, formula: Formula, order: tuple[str, ...], timeout: f
     return _under(region, formula, timeout, lambda budgets: described(formula, order, budgets(), region.limits))
 
 
-def _operands(left: Region, right: object) -> tuple[Formula, Formula]:
+def _operands(left: Region, right: object, limits: Limits) -> tuple[Formula, Formula]:
     """The formulas of both, over one ring. Raises ``InputError`` for sets in other variables."""
     if isinstance(right, Region):
         if set(left.order) != set(right.order):
@@ -229,7 +234,7 @@ def _operands(left: Region, right: object) -> tuple[Formula, Formula]:
             )
         given = right.condition
     else:
-        given = read_formula(right)
+        given = reading(right, "text", limits)
         if strange := [v for v in free_variables(given) if v not in left.order]:
             raise InputError(f"a condition on {', '.join(left.order)} expected, {strange[0]} found")
     f, g = together(left.condition, given)

@@ -16,7 +16,7 @@ from qe.convex.system import NotConvex, atoms_of, read_system
 from qe.errors import Unable
 from qe.exact.algebraic import RealAlgebraic
 from qe.exact.field import FieldElement, NumberField
-from qe.exact.number import point_text
+from qe.exact.number import optimum_in_latex, point_text
 from qe.exact.quadratic_form import independent_rows
 from qe.exact.ring import Poly, Ring
 from qe.formula.syntax import Atom, Formula
@@ -78,6 +78,9 @@ class Optimum:
         if not self.is_optimal:
             return f"Optimum({self.status.value})"
         return f"Optimum({self.value}{f' at {point_text(self.point)}' if self.attained else ', not attained'})"
+
+    def _repr_latex_(self) -> str:
+        return optimum_in_latex(self.status.value, self.value, self.point if self.attained else {})
 
     @property
     def is_optimal(self) -> bool:

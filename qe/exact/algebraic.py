@@ -17,7 +17,7 @@ from flint import arb, fmpq, fmpz, fmpz_mpoly, fmpz_mpoly_ctx, fmpz_poly
 from qe import arguments
 from qe.arguments import shown
 from qe.errors import InputError
-from qe.exact.algebraic_text import format_root
+from qe.exact.algebraic_text import format_root, in_latex
 from qe.exact.balls import FIRST_PRECISION, ball_sign, hull, lower_end, precision, upper_end
 from qe.exact.isolate import Interval, isolate, sign_at
 from qe.sympy_form import SymPyForm
@@ -260,6 +260,9 @@ class RealAlgebraic(SymPyForm):
 
     def __repr__(self) -> str:
         return f"RealAlgebraic({self} ≈ {float(self):.6g})"
+
+    def _repr_latex_(self) -> str:
+        return f"${in_latex(self)}$"
 
 
 def _restore(coefficients: tuple[int, ...], index: int) -> RealAlgebraic:

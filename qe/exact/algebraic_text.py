@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from fractions import Fraction
 from math import gcd, isqrt
@@ -9,6 +10,7 @@ from math import gcd, isqrt
 from flint import fmpz
 
 _FACTORED_BITS, _TRIED = 110, 3000
+_QUOTIENT = re.compile(r"(?:\(([^()]*(?:\([^()]*\)[^()]*)?)\)|(-?)([^-/]+))/([0-9]+)")
 
 
 def format_root(coefficients: Sequence[int], index: int) -> str:
@@ -29,6 +31,19 @@ def format_root(coefficients: Sequence[int], index: int) -> str:
     text = " ".join(terms)
     text = text[2:] if text.startswith("+") else "-" + text[2:]
     return f"root({index + 1}, {text})"
+
+
+def in_latex(number: object) -> str:
+    """LaTeX of a number from its text: as ``format_root`` writes it, or of a rational number."""
+    text = str(number)
+    if text.startswith("root("):
+        index, _, poly = text[5:-1].partition(", ")
+        poly = re.sub(r"\^([0-9]+)", r"^{\1}", poly).replace("*", " ")
+        return rf"\operatorname{{root}}_{{{index}}}\left({poly}\right)"
+    if (quotient := _QUOTIENT.fullmatch(text)) is not None:
+        whole, sign, part, bottom = quotient.groups()
+        text = rf"{sign or ''}\frac{{{part if whole is None else whole}}}{{{bottom}}}"
+    return re.sub(r"sqrt\(([0-9]+)\)", r"\\sqrt{\1}", text).replace("*", " ")
 
 
 def square_part(n: int) -> int:

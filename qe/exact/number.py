@@ -2,17 +2,43 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from fractions import Fraction
 
 from flint import fmpz_poly
 
 from qe.exact.algebraic import RealAlgebraic, real_roots
+from qe.exact.algebraic_text import in_latex
 from qe.spelling import quoted
 
 Number = Fraction | RealAlgebraic
 Assignment = Mapping[str, Number]
 Values = dict[str, Number]
+
+
+class ExactPoint(dict[str, Number]):
+    """Exact values by the names of variables: a ``dict`` that notebooks set as formulas."""
+
+    def _repr_latex_(self) -> str:
+        return f"$\\displaystyle {point_in_latex(self)}$"
+
+
+def point_in_latex(point: Mapping[str, object]) -> str:
+    """A point for math mode."""
+    return r",\ ".join(rf"\mathit{{{_escaped(name)}}} = {in_latex(value)}" for name, value in point.items())
+
+
+def optimum_in_latex(status: str, value: object, point: Mapping[str, object]) -> str:
+    """An optimum as notebooks set it: its value, or why there is none, and a point that has it."""
+    if value is None:
+        return rf"$\text{{{status}}}$"
+    where = rf"\quad\text{{at}}\quad {point_in_latex(point)}" if point else r"\quad\text{(not attained)}"
+    return rf"$\displaystyle {in_latex(value)}{where}$"
+
+
+def _escaped(name: str) -> str:
+    return re.sub(r"([_#$%&{}])", r"\\\1", name).replace("^", r"\char94 ").replace("~", r"\sim ")
 
 
 def point_text(point: Mapping[str, object]) -> str:

@@ -44,8 +44,8 @@ def _is_large(poly: Poly) -> bool:
     return degree ** min(variables, 3) > MOST_WEIGHT or poly.height_bits() > MOST_BITS
 
 
-def text_may_block(text: str) -> bool:
-    """Whether reading may take long: a long text, or powers that may have to be multiplied out."""
+def text_may_block(text: str, most: int = MOST_DEGREE) -> bool:
+    """Whether reading may take long: a long text, or powers above ``most`` that may have to be multiplied out."""
     if len(text) > _LONG_TEXT:
         return True
-    return any(len(k) > 2 or int(k) > MOST_DEGREE for k in _POWER.findall(text))
+    return any(len(k) > 2 or int(k) > most for k in _POWER.findall(text))

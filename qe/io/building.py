@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from fractions import Fraction
+from functools import reduce
 from typing import Any
+from unicodedata import normalize
 
 from qe.formula.relation import Relation
 from qe.io import surface as s
@@ -25,6 +29,15 @@ FUNCTIONS = {
     **dict.fromkeys(("sgn", "Sgn"), "sign"),
     "CubeRoot": "cbrt",
 }
+OPERATIONS: dict[str, Callable[[s.Term, s.Term, int], s.Term]] = {
+    "Plus": lambda a, b, at: s.Sum([a, b]),
+    "Times": s.Product,
+    "Power": s.Power,
+    "Rational": s.Quotient,
+    "Divide": s.Quotient,
+    "Subtract": lambda a, b, at: s.Sum([a, s.Minus(b)]),
+}
+"""Mathematica's names for the signs of operations."""
 
 ARITHMETIC = """
 ?sum: product | sum PLUS product -> plus
@@ -120,6 +133,8 @@ class Builder:
         return s.Power(c[0], c[2], c[1].start_pos)
 
     def number(self, c: list[Any]) -> s.Term:
+        if not c[0].isascii():  # ½ and its kind
+            return s.Number(Fraction(normalize("NFKC", c[0]).replace("⁄", "/")))
         try:
             value = decimal(c[0])
         except TermError as error:
@@ -142,6 +157,8 @@ class Builder:
             if not least <= len(arguments) <= most:
                 raise SyntaxFailure(f"{name} takes {least} argument{'s' if least > 1 else ''}", name.start_pos)
             return s.Apply(function, arguments, name.start_pos)
+        if (operation := OPERATIONS.get(str(name))) is not None and (len(arguments) == 2 or name in ("Plus", "Times")):
+            return reduce(lambda left, right: operation(left, right, name.start_pos), arguments)
         if name not in ("root", "Root"):
             raise UnknownFunction(str(name), name.start_pos)
         variable = arguments[2] if len(arguments) == 3 else None

@@ -10,9 +10,10 @@ import re
 from collections.abc import Generator, Iterator
 
 from qe.io.lalr import Token
-from qe.io.text_errors import SyntaxFailure
+from qe.io.surface import FUNCTIONS
+from qe.io.text_errors import SyntaxFailure, way_out
 from qe.io.text_lexer import OPERAND_ENDS, Make, State
-from qe.spelling import visible
+from qe.spelling import NUMERALS, QUOTED, visible
 
 _COMMANDS = {
     **dict.fromkeys(("land", "wedge"), ("AND", "and")),
@@ -34,6 +35,8 @@ _COMMANDS = {
     "in": ("IN", "in"),
     "notin": ("NOTIN", "∉"),
     "cup": ("UNION", "∪"),
+    "cap": ("COMMON", "∩"),
+    "setminus": ("WITHOUT", "∖"),
     "infty": ("INFINITY", "oo"),
     "top": ("TRUE", "true"),
     "bot": ("FALSE", "false"),
@@ -58,33 +61,40 @@ _SIGNS = {
     ":": "DOT",
     "|": "BAR",
 }
+_NEGATED = {"=": "/=", "<": ">=", ">": "<=", "\\le": ">", "\\leq": ">", "\\ge": "<", "\\geq": "<"}
 _SPACES = frozenset((",", ";", ":", "!", " ", "quad", "qquad", "thinspace"))
 _SKIPPED = frozenset(("left", "right", "big", "Big", "bigl", "bigr", "Bigl", "Bigr", "displaystyle", "limits", "\\"))
 _FONTS = frozenset(("mathrm", "mathit", "mathbf", "operatorname", "textrm", "textit"))
 _WORDS = {"and": "AND", "or": "OR", "not": "NOT", "implies": "IMPLIES", "iff": "IFF", "if": "IF"}
+_LETTERS = re.compile(
+    r"(?:var)?(?:epsilon|theta|pi|rho|sigma|phi)|alpha|beta|gamma|delta|zeta|eta|iota|kappa|lambda|mu|nu|xi|omicron|tau"
+    r"|upsilon|chi|psi|omega|Gamma|Delta|Theta|Lambda|Xi|Pi|Sigma|Upsilon|Phi|Psi|Omega|ell|hbar|imath|jmath|aleph"
+)
 _FUNCTIONS = frozenset(("min", "max", "sin", "cos", "tan", "exp", "log", "ln", "arctan", "arcsin", "arccos"))
 _TOKEN = re.compile(
     r"(?P<SPACE>[\s&~$]+|%[^\n]*)"
     r"|\\(?:begin|end)\{(?P<FRAME>[a-z]+\*?)\}(?:\{[a-z|]*\})?"
     r"|\\(?P<COMMAND>[A-Za-z]+|.)"
     r"|(?P<NUMBER>[0-9]+(?:\.[0-9]+)?|\.[0-9]+)"
-    r"|(?P<LETTER>[^\W\d_])"
+    rf"|(?P<LETTER>[^\W\d_{NUMERALS}])"
     r"|(?P<GROUP>\{)"
     r"|(?P<SIGN>[-+*/^()\[\],.:|=<>])"
 )
 _INDEX = re.compile(r"_(?:\{([A-Za-z0-9]+)\}|([A-Za-z0-9]))")
-_MARK = re.compile(
-    r"(?<!/)\\(?:"
-    + "|".join((*(c for c in _COMMANDS if c.isalpha()), *_FUNCTIONS, *_SKIPPED - {"\\"}, "frac", "sqrt", "mathbb"))
-    + r")\b"
+_NOT = re.compile(r"\s*(=|<|>|\\[A-Za-z]+)")
+_MARK = re.compile(r"(?<!/)\\(?:[A-Za-z]|[{,;!|])|\$|[_^]\{")
+_BACKQUOTED = re.compile(QUOTED)
+_GAP = r"(?:\s|\\[,;:! ]|\\q?quad\b)*"
+_NEXT = re.compile(
+    rf"{_GAP}(?:[A-Za-z]|\\(?:{_LETTERS.pattern})\b)(?:_(?:\{{\w+\}}|\w))?'*{_GAP}"
+    r"(?:[,.:(\[]|\\(?:in|colon|exists|forall|mid)\b|(?:[<>]|\\(?:le|ge)\w*)[^:\\]*(?::|\\colon))"
 )
+"""Another variable of a quantifier behind a comma, not the body."""
 
 
 def is_latex(text: str) -> bool:
     """Whether commands or groups of LaTeX occur that nothing else can be."""
-    if "\\" in text and _MARK.search(text) is not None:
-        return True
-    return "`" not in text and re.search(r"[_^]\{", text) is not None
+    return _MARK.search(_BACKQUOTED.sub("", text) if "`" in text else text) is not None
 
 
 def tokens(text: str, token: Make) -> Iterator[Token]:
@@ -95,6 +105,8 @@ def tokens(text: str, token: Make) -> Iterator[Token]:
 class _Source:
     def __init__(self, text: str, token: Make) -> None:
         self.text, self.state = text, State(text, token)
+        self.sets: list[bool] = []  # of the braces that are open: whether they stand around arguments
+        self.rows = False  # inside cases, whose rows hold together
 
     def put(self, kind: str, value: str, at: int) -> Iterator[Token]:
         """The token, with the sign of a product in front where two factors stand side by side."""
@@ -108,6 +120,8 @@ class _Source:
         if kind == "BAR":
             yield from self.state.bar(at)
             return
+        if kind == "COMMA" and self.state.header and not _NEXT.match(self.text, at + 1):
+            kind = "DOT"
         self.state.note(kind)
         yield self.state.token(kind, value, at)
 
@@ -119,6 +133,10 @@ class _Source:
                 raise SyntaxFailure(f"'{visible(self.text[at])}' cannot be read in LaTeX", at)
             kind, value, after = found.lastgroup, found.group(), found.end()
             match kind:
+                case "FRAME":
+                    self.rows = found["FRAME"] == "cases" and value.startswith("\\begin")
+                case "SPACE" if "&" in value and self.rows:
+                    raise SyntaxFailure("a choice between cases is written if c then a else b", at)
                 case "COMMAND":
                     after = yield from self.command(found["COMMAND"], at, after)
                 case "LETTER":
@@ -140,8 +158,22 @@ class _Source:
                 and not re.match(r"\s*(,|\\in\b|\\(exists|forall))", self.text[after:])
             ):
                 yield from self.plain("DOT", ".", at)
+        elif name in ("{", "lbrace") and (self.state.last == "FUNCTION" or any(self.sets[-1:])):
+            self.sets.append(True)
+            yield from self.plain("OPEN", "(", at)
+        elif name in ("}", "rbrace") and self.sets and self.sets.pop():
+            yield from self.plain("CLOSE", ")", at)
         elif name in _COMMANDS:
+            if name in ("{", "lbrace"):
+                self.sets.append(False)
             yield from self.put(*_COMMANDS[name], at)
+        elif name == "not":
+            after = yield from self.negated(at, after)
+        elif name == "nexists":
+            yield from self.plain("NOT", "not", at)
+            yield from self.plain("QUANTIFIER", "ex", at)
+        elif name == "mid" and self.state.header:
+            yield from self.plain("DOT", ".", at)
         elif name in ("frac", "dfrac", "tfrac"):
             yield from self.put("OPEN", "(", at)
             after = yield from self.group(after)
@@ -153,11 +185,37 @@ class _Source:
         elif name in _FONTS or name in ("text", "mathbb"):
             after = yield from self.word(name, at, after)
         elif name in _FUNCTIONS:
-            yield from self.put("NAME", name, at)
-            self.state.last = "FUNCTION"
-        elif name not in _SKIPPED and name not in "()[]":
+            if name not in FUNCTIONS:
+                raise SyntaxFailure(f"\\{name}: {way_out(name)}", at)
+            yield from self.function(name, at)
+        elif name == "\\" and self.rows and self.state.last in OPERAND_ENDS:
+            if not re.match(r"\s*\\end\b", self.text[after:]):
+                yield from self.plain("AND", "and", at)
+        elif _LETTERS.fullmatch(name):
             after = yield from self.name(name, at, after)
+        elif name not in _SKIPPED and name not in "()[]":
+            raise SyntaxFailure(f"\\{visible(name)} cannot be read in LaTeX", at)
         return after
+
+    def function(self, name: str, at: int) -> Iterator[Token]:
+        """The name of a function, behind which a bracket opens its arguments."""
+        yield from self.put("NAME", name, at)
+        self.state.last = "FUNCTION"
+
+    def negated(self, at: int, after: int) -> Generator[Token, None, int]:
+        """``\\not`` and the relation behind it; returns the offset behind both."""
+        found = _NOT.match(self.text, after)
+        sign = "" if found is None else found[1]
+        if sign == "\\in":
+            yield from self.plain("NOTIN", "∉", at)
+        elif sign in _NEGATED:
+            yield from self.plain("RELATION", _NEGATED[sign], at)
+        elif sign == "\\exists":
+            yield from self.plain("NOT", "not", at)
+            yield from self.plain("QUANTIFIER", "ex", at)
+        else:
+            raise SyntaxFailure("\\not cannot be read in LaTeX here", at)
+        return after if found is None else found.end()
 
     def closing(self, at: int) -> tuple[int, int]:
         """The offsets inside the braces, or around the one character, at this place."""
@@ -181,20 +239,23 @@ class _Source:
         return end + 1 if self.text[inner - 1 : inner] == "{" else end
 
     def root(self, at: int, after: int) -> Generator[Token, None, int]:
-        """``\\sqrt{t}`` or ``\\sqrt[n]{t}``, the power with exponent 1/n."""
-        degree = re.compile(r"\s*\[\s*([0-9]+)\s*\]").match(self.text, after)
+        """``\\sqrt{t}`` or ``\\sqrt[n]{t}``: the power with exponent 1/n; for odd n, as in print, of all numbers."""
+        found = re.compile(r"\s*\[\s*([0-9]{1,4})\s*\]").match(self.text, after)
+        degree, inside = ("2", after) if found is None else (found[1], found.end())
         if self.state.last in OPERAND_ENDS:
             yield from self.plain("TIMES", "*", at)
-        after = yield from self.group(after if degree is None else degree.end())
+        if degree == "3":
+            yield from self.function("cbrt", at)
+            return (yield from self.group(inside))
+        if int(degree) % 2:
+            yield from self.function("sign", at)
+            yield from self.group(inside)
+            yield from self.plain("TIMES", "*", at)
+            yield from self.function("abs", at)
+        after = yield from self.group(inside)
         yield from self.plain("POWER", "^", at)
-        for kind, value in (
-            ("OPEN", "("),
-            ("NUMBER", "1"),
-            ("OVER", "/"),
-            ("NUMBER", "2" if degree is None else degree[1]),
-        ):
+        for kind, value in (("OPEN", "("), ("NUMBER", "1"), ("OVER", "/"), ("NUMBER", degree), ("CLOSE", ")")):
             yield from self.plain(kind, value, at)
-        yield from self.plain("CLOSE", ")", at)
         return after
 
     def word(self, font: str, at: int, after: int) -> Generator[Token, None, int]:
@@ -210,6 +271,8 @@ class _Source:
             yield from self.plain(_WORDS[word], word, at)
         elif not re.fullmatch(r"[^\W\d_]\w*", word):
             raise SyntaxFailure(f"'{visible(word)}' cannot be read in LaTeX", at)
+        elif len(word) > 1 and re.match(r"\s*(\\left|\\bigl?)?\s*\(", self.text[behind:]):
+            yield from self.function(word, at)
         else:
             behind = yield from self.name(word, at, behind)
         return behind

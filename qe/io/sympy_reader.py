@@ -70,6 +70,8 @@ class Reader:
         sp = self.sympy
         if e in (sp.true, sp.false):
             return s.Truth(e is sp.true)
+        if isinstance(e, sp.Eq) and isinstance(e.lhs, sp.MatrixBase) and e.lhs.shape == getattr(e.rhs, "shape", None):
+            return s.Every([self.boolean(sp.Eq(a, b, evaluate=False)) for a, b in zip(e.lhs, e.rhs)])
         if isinstance(e, sp.core.relational.Relational):
             return s.Comparison([self.real(e.lhs), self.real(e.rhs)], [_RELATIONS[e.rel_op]], -1)
         if isinstance(e, sp.And):
@@ -89,8 +91,16 @@ class Reader:
             condition, then, other = (self.boolean(a) for a in e.args)
             return s.Every([s.Implication(condition, then), s.Some([condition, other])])
         if isinstance(e, sp.Contains):
-            return self.member(self.real(e.args[0]), e.args[1])
-        raise InputError(f"a Boolean combination of relations expected, {shown(e)} found")
+            element, within = e.args
+            if isinstance(element, sp.Tuple) and isinstance(within, sp.ProductSet) and len(element) == len(within.args):
+                return s.Every([self.member(self.real(a), part) for a, part in zip(element, within.args)])
+            return self.member(self.real(element), within)
+        if isinstance(e, sp.assumptions.AppliedPredicate):
+            relation = _ASSUMED.get(str(e.function).removeprefix("Q."))
+            if relation is not None and len(e.arguments) == 1:
+                return s.Comparison([self.real(e.arguments[0]), s.Number(0)], [relation], -1)
+        hint = f"; a truth value may be written {shown(e)} > 0" if isinstance(e, sp.Symbol) else ""
+        raise InputError(f"a Boolean combination of relations expected, {shown(e)} found{hint}")
 
     def member(self, term: s.Term, e: Any) -> s.Node:
         """``term in e`` for a set of real numbers."""
@@ -131,20 +141,43 @@ class Reader:
             return s.Sum([self.real(a) for a in e.args])
         if isinstance(e, sp.Mul):
             return _product([self.real(a) for a in e.args])
-        if isinstance(e, sp.Pow) and isinstance(e.exp, sp.Rational):
-            return s.Power(self.real(e.base), s.Number(Fraction(int(e.exp.p), int(e.exp.q))), -1)
+        if isinstance(e, sp.Pow) and isinstance(e.exp, sp.Rational | sp.Float):
+            return s.Power(self.real(e.base), self.real(e.exp), -1)
         if isinstance(e, sp.Abs | sp.sign | sp.Max | sp.Min):
             return s.Apply(type(e).__name__.lower(), [self.real(a) for a in e.args], -1)
         if isinstance(e, sp.Piecewise):
             return self.piecewise(e)
+        if isinstance(e, sp.Heaviside):
+            x, zero = self.real(e.args[0]), s.Number(0)
+            at_most = s.Choice(s.Comparison([x, zero], [Relation.EQ], -1), self.real(e.args[1]), zero, -1)
+            return s.Choice(s.Comparison([x, zero], [Relation.GT], -1), s.Number(1), at_most, -1)
+        if isinstance(e, sp.re | sp.im | sp.conjugate) and _is_polynomial(e.args[0]):
+            return s.Number(0) if isinstance(e, sp.im) else self.real(e.args[0])
+        if self.is_to_be_done(e):
+            return self.real(e.doit())
         if e.is_number and (number := number_from_sympy(e)) is not None:
             return s.Algebraic(number, -1)
         raise InputError(self.refusal(e))
 
+    def is_to_be_done(self, e: Any) -> bool:
+        """Whether SymPy has left something undone that has one polynomial for its value, whatever the variables are."""
+        sp = self.sympy
+        if isinstance(e, sp.UnevaluatedExpr):
+            return True
+        if isinstance(e, sp.Determinant):
+            return isinstance(e.arg, sp.MatrixBase) and all(map(_is_polynomial, e.arg))
+        if isinstance(e, sp.Sum | sp.Integral):
+            finite = all(len(limit) == 3 and limit[1].is_Rational and limit[2].is_Rational for limit in e.limits)
+            whole = isinstance(e, sp.Integral) or all(end.is_Integer for limit in e.limits for end in limit[1:])
+            return finite and whole and _is_polynomial(e.args[0])
+        return isinstance(e, sp.Derivative) and _is_polynomial(e.args[0])
+
     def refusal(self, e: Any) -> str:
         """Why an expression is no term, and what to write instead where that is known."""
         sp = self.sympy
-        if e in (sp.pi, sp.E):
+        if e is sp.I:
+            return "all numbers are real here, I is not; a complex number is written as its real and imaginary part"
+        if isinstance(e, sp.NumberSymbol):
             hint = "put a rational number in its place, or a symbol and bounds for it"
             return f"{e} is no algebraic number, coefficients are rational or algebraic; {hint}"
         if isinstance(e, sp.Pow):
@@ -170,6 +203,11 @@ class Reader:
                 result = s.Choice(self.boolean(condition), self.real(value), result, -1)
         assert result is not None
         return result
+
+
+def _is_polynomial(e: Any) -> bool:
+    """Whether an expression is a polynomial in all its symbols, of which none is an exponent."""
+    return bool(e.is_polynomial(*e.free_symbols))
 
 
 def _product(factors: list[s.Term]) -> s.Term:

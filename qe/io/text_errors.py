@@ -20,6 +20,7 @@ _CHARACTERS = {
     "⌈": "all variables are real, integers cannot be asked for",
     "$": "formulas are plain text",
     "\\": "'or' is written or, 'and' is written and",
+    **dict.fromkeys("ⁱⁿ", "an exponent is a rational number, without variables"),
 }
 _SHOWN = {
     "RELATION": "a relation (= /= < <= > >=)",
@@ -45,8 +46,9 @@ class UnknownFunction(SyntaxFailure):
     def about(self, text: str) -> str:
         """The message, with the whole application that cannot be read."""
         depth = 0
-        if text[self.at :].partition("(")[0].count("[") and "unknown function" in self.message:
-            name = text[self.at :].partition("[")[0]
+        name = text[self.at :].partition("[")[0]
+        is_function = len(name) > 2 and name[0].isupper()  # of Mathematica's, which we do not know
+        if "[" in text[self.at :].partition("(")[0] and "unknown function" in self.message and not is_function:
             hint = f"a variable with an index is written {name}1 or {name}_i, or `{name}[1]` between backquotes"
             return f"{name}[…] is no function; {hint}"
         for end in range(self.at, min(len(text), self.at + 60)):
@@ -94,6 +96,11 @@ def _hint(text: str, before: str, kind: str, value: str, at: int, expected: Coll
         return f"the bars near '{value}' are ambiguous; write abs(x) for an absolute value, or for 'or'"
     if kind == "NOT" and value == "!" and previous in ("∃", "x", "s") and "NAME" in expected and "PLUS" not in expected:
         return "there is no ∃!; write ex x. f and all y. … -> y = x"
+    reversed_ends = kind == "RIGHT" and re.search(r"(∈|∉|\bin)$", before) is not None
+    if reversed_ends or (kind == "LEFT" and {"CLOSE", "RIGHT"} <= {*expected}):
+        return "an interval without its ends is written (0, 1), one without its upper end [0, 1)"
+    if kind == "QUANTIFIER" and {"TIMES", "AND", "PLUS"} & {*expected}:
+        return "a quantifier stands in front of its formula: all x. x^2 >= 0"
     if kind == "NOT" and value == "!":
         return "'!' stands before the formula that it negates; it is no factorial"
     if value == ">" and previous == "=":

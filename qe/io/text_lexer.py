@@ -21,20 +21,21 @@ _LIST = rf"(?:{WORD}|{QUOTED})"
 _PREFIXES = r"(?:(?:E|A|ex|all|exists|forall)\s+|[∃∀]\s*|[EA](?=[a-z][0-9]*\s*\)))"
 _TOKEN = re.compile(
     rf"(?P<SPACE>\s+|\#[^\n]*|[Tt]here\s+(?=exists\b))"
+    r"|(?P<NONE>∄)"
     rf"|(?P<PREFIX>\(\s*{_PREFIXES}{_LIST}\s*(?:,\s*{_LIST}\s*)*\)(?=\s*[(\[]))"
     r"|(?P<EVERY>[Ff]or\s+(?:all|every|each|any)\b)"
-    r"|(?P<SOME>[Ff]or\s+some\b)"
-    r"|(?P<THAT>such\s+that\b|s\.\s?t\.)"
+    r"|(?P<SOME>[Ff]or\s+some\b|[Tt]here\s+(?:is|are)\b)"
+    r"|(?P<THAT>such\s+that\b|s\.\s?t\.|with\b)"
     r"|(?P<NOTIN>not\s+in\b|∉)"
     rf"|(?P<QUANTIFIER>[EA](?=\s+{_LIST}\s*(?:,\s*{_LIST}\s*)*[.:]))\b"
     r"|(?P<CALL>(?:And|Or|Not|Implies|Equivalent|Xor|Eq|Equal|Ne|Unequal|Lt|Less|Le|LessEqual|Gt|Greater|Ge|GreaterEqual"
-    r"|Element|If|ITE|ite)(?=\s*[(\[]))\b"
+    r"|Inequality|Element|If|ITE|ite)(?=\s*[(\[]))\b"
     rf"|(?P<NAME>{WORD})"
-    r"|(?P<NUMBER>(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]+)?)"
+    r"|(?P<NUMBER>(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]+)?|[¼-¾⅐-⅞↉])"
     rf"|(?P<QUOTED>{QUOTED})"
     r"|(?P<RAISED>⁻?[⁰¹²³⁴-⁹]+)"
     r"|(?P<OPERATOR><==>|<->|<=>|==>|=>|->|=<|=/=|=!=|<=|>=|==|/=|!=|~=|<>|/\\|\\/|&&|\|\||\*\*|\\\[\w+\]"
-    r"|[-+*/^()=<>~,.:∃∀∧∨¬→↔⇒⇔≤≥⩽⩾≠−·×⋅÷∈∞√∛∪&|!{}]|\[|\])"
+    r"|[-+*/^()=<>~,.:∃∀∧∨¬→↔⇒⇔⟹⟺⟶⟷⊤⊥≤≥⩽⩾≠−·×⋅÷⁄∕∈∞√∛∪∩∖&|!{}]|\[|\])"
 )
 KEYWORDS = {
     **dict.fromkeys(("ex", "exists", "Ex", "Exists", "EXISTS", "all", "forall", "All"), "QUANTIFIER"),
@@ -60,7 +61,7 @@ _OPERATORS = {
     "+": "PLUS",
     **dict.fromkeys(("-", "−"), "MINUS"),
     **dict.fromkeys(("*", "·", "×", "⋅"), "TIMES"),
-    **dict.fromkeys(("/", "÷"), "OVER"),
+    **dict.fromkeys(("/", "÷", "⁄", "∕"), "OVER"),
     **dict.fromkeys(("^", "**"), "POWER"),
     "(": "OPEN",
     ")": "CLOSE",
@@ -73,12 +74,16 @@ _OPERATORS = {
     **dict.fromkeys(("/\\", "∧", "&", "&&"), "AND"),
     **dict.fromkeys(("\\/", "∨", "||"), "OR"),
     **dict.fromkeys(("~", "¬", "!"), "NOT"),
-    **dict.fromkeys(("->", "==>", "→", "⇒", "=>"), "IMPLIES"),
-    **dict.fromkeys(("<->", "<=>", "<==>", "↔", "⇔"), "IFF"),
+    **dict.fromkeys(("->", "==>", "→", "⇒", "⟹", "⟶", "=>"), "IMPLIES"),
+    **dict.fromkeys(("<->", "<=>", "<==>", "↔", "⇔", "⟺", "⟷"), "IFF"),
+    "⊤": "TRUE",
+    "⊥": "FALSE",
     "∈": "IN",
     "∞": "INFINITY",
     **dict.fromkeys(("√", "∛"), "RADICAL"),
     "∪": "UNION",
+    "∩": "COMMON",
+    "∖": "WITHOUT",
     "|": "BAR",
 }
 _NAMED = {
@@ -95,7 +100,7 @@ _NAMED = {
 _CALLS = {
     **dict.fromkeys(("And", "Or", "Not", "Implies", "Equivalent", "Xor"), "CONNECTIVE"),
     **dict.fromkeys(("Eq", "Equal", "Ne", "Unequal", "Lt", "Less", "Le", "LessEqual"), "COMPARE"),
-    **dict.fromkeys(("Gt", "Greater", "Ge", "GreaterEqual"), "COMPARE"),
+    **dict.fromkeys(("Gt", "Greater", "Ge", "GreaterEqual", "Inequality"), "COMPARE"),
     **dict.fromkeys(("If", "ITE", "ite"), "CHOICE"),
     "Element": "ELEMENT",
 }
@@ -105,6 +110,9 @@ OPERAND_ENDS = frozenset(("NAME", "NUMBER", "CLOSE", "RIGHT", "END", "CLOSEBAR",
 
 _HEXADECIMAL = re.compile(r"0[xX][0-9a-fA-F]")
 _NEXT_NAME = re.compile(rf"\s*({_LIST})\s*(?=[,.:(\[∈∃∀]|{_LIST})")
+_NEXT_BOUNDED = re.compile(
+    rf"\s*(?:{_LIST})\s*(?:<=|>=|=<|!=|/=|[<>≤≥≠∈]|in\b)[^:;∃∀&|∧∨→⇒]*?(?<!,)(?::(?!=)|\.(?=\s)|\bsuch\s+that\b|\bs\.t\.)"
+)
 _ANOTHER = re.compile(rf"\s+{_LIST}")
 _SHORT = frozenset(("ex", "Ex", "all", "All", "E", "A"))
 """Quantifiers whose variables end with a dot; behind the others a comma may end them too: ``forall x, x^2 >= 0``."""
@@ -149,6 +157,8 @@ def tokens(text: str, token: Make) -> Iterator[Token]:
                 raise SyntaxFailure("numbers are decimal; a product with zero is written 0*x", at)
             if text.startswith("_", at + len(value)):
                 raise SyntaxFailure("a number is written without _ between its digits", at)
+            if not value.isascii() and state.last == "NUMBER":
+                raise SyntaxFailure("a mixed number is written as one fraction: 5/2", at)
             yield from state.put("NUMBER", value, at)
         elif kind == "QUOTED":
             yield from state.put("NAME", quoted_name(value, at), at)
@@ -162,8 +172,13 @@ def tokens(text: str, token: Make) -> Iterator[Token]:
             yield from state.put("QUANTIFIER", "forall", at)
         elif kind == "SOME":
             yield from state.put("QUANTIFIER", "exists", at)
+        elif kind == "NONE":
+            yield from state.put("NOT", "not", at)
+            yield from state.put("QUANTIFIER", "∃", at)
         elif kind == "THAT" and state.header:
             yield from state.put("DOT", ".", at)
+        elif value == "with":
+            yield from state.put("NAME", value, at)
         elif kind == "THAT":
             raise SyntaxFailure(f"'{value}' stands only behind the variables of a quantifier", at)
         elif kind != "SPACE":
@@ -195,15 +210,16 @@ def quoted_name(text: str, at: int) -> str:
 class State:
     """What stands before the next token: ``end`` is the offset where the last one ends.
 
-    ``header``: inside a quantifier, before its body, which may follow a comma where ``spoken``; ``within``: the level
-    of brackets at which the set ends that its variables lie in. For every level of brackets: the bars that are open,
-    and whether there was a comparison since the last connective.
+    ``header``: inside a ``quantifier``, before its body, which may follow a comma where ``spoken``; ``bounded``: a
+    condition stands behind the last of its variables; ``within``: the level of brackets at which the set ends that its
+    variables lie in. For every level of brackets: the bars that are open, and whether there was a comparison since the
+    last connective.
     """
 
     def __init__(self, text: str, token: Make) -> None:
         self.text, self.token, self.end = text, token, 0
         self.last = ""
-        self.header, self.spoken = False, False
+        self.header, self.spoken, self.bounded, self.quantifier = False, False, False, ""
         self.divided = False
         self.bars, self.compared = [0], [False]
         self.within = 0
@@ -220,13 +236,19 @@ class State:
             raise SyntaxFailure(_KINDS_OF_NUMBERS[value], at)
         if kind == "NAME" and value in ("union", "Union") and self.last in ("CLOSE", "RIGHT", "END"):
             kind = "UNION"
-        if kind == "COMMA" and self.header and self.spoken and not self.goes_on(at + 1):
-            kind = "DOT"
+        if kind == "COMMA" and self.header:
+            more = self.goes_on(at + 1)
+            if self.bounded and (more or self.bounds_another(at + 1)):  # ∃ x > 0, y > 0: …
+                kind, value = "QUANTIFIER", self.quantifier
+            elif self.spoken and not (more or self.bounds_another(at + 1)):
+                kind = "DOT"
         if value == "=>" and not self.compared[-1]:
             message = "'=>' is not used here; write >= for a comparison or -> for an implication"
             raise SyntaxFailure(message, at + 1)
         if kind == "QUANTIFIER":
-            self.spoken = value not in _SHORT
+            self.spoken, self.quantifier, self.bounded = value not in _SHORT, value, False
+        elif self.header and kind in ("RELATION", "IN"):
+            self.bounded = True
         if kind in ("NAME", "OPEN") and self.last == "NUMBER" and self.end == at and not self.header:
             if self.divided:
                 shown = f"{self.text[:at].split()[-1]}{value}"
@@ -260,6 +282,10 @@ class State:
         """Whether another variable of the quantifier comes here, not its body."""
         found = _NEXT_NAME.match(self.text, at)
         return found is not None and found[1] not in KEYWORDS and found[1].lower() not in FUNCTIONS
+
+    def bounds_another(self, at: int) -> bool:
+        """Whether another variable comes here with a condition of its own, as in ``∃ x > 0, y > 0: x*y = a``."""
+        return _NEXT_BOUNDED.match(self.text, at) is not None
 
     def raised(self, digits: str, at: int) -> Iterator[Token]:
         """A raised number is an exponent."""

@@ -20,7 +20,7 @@ _UNIVERSAL = frozenset(("all", "forall", "All", "A", "∀", "ForAll", "Forall", 
 _FORMULAS = """
 %declare QUANTIFIER NAME NUMBER RELATION PLUS MINUS TIMES OVER POWER OPEN CLOSE COMMA DOT
 %declare AND OR NOT IMPLIES IFF TRUE FALSE LEFT RIGHT BEGIN END OPENBAR CLOSEBAR IN REALS INFINITY RADICAL
-%declare IF THEN ELSE CONNECTIVE COMPARE CHOICE ELEMENT NOTIN UNION
+%declare IF THEN ELSE CONNECTIVE COMPARE CHOICE ELEMENT NOTIN UNION COMMON WITHOUT
 ?start: c4 | o4
 ?c4: c3 | c4 IFF c3             -> iff
 ?o4: o3 | c4 IFF o3             -> iff
@@ -61,7 +61,9 @@ names: NAME | names COMMA NAME | names NAME -> names_side_by_side
      | LEFT names RIGHT         -> brackets
      | BEGIN names END          -> brackets
 formulas: start | formulas COMMA start -> more
-?set: simple | set UNION simple -> union
+?set: meet | set UNION meet     -> union
+     | set WITHOUT meet         -> difference
+?meet: simple | meet COMMON simple -> common
 simple: (OPEN | LEFT) term COMMA term (CLOSE | RIGHT) -> interval
      | BEGIN arguments END      -> finite
      | REALS                    -> reals
@@ -93,7 +95,7 @@ def text_parser(start: str = "start") -> Parser:
 
 def _tokens(text: str, token: Make) -> Iterator[Token]:
     """The tokens of a text, which may be LaTeX."""
-    if "\\" in text or "{" in text:
+    if "\\" in text or "{" in text or "$" in text:
         from qe.io import latex_lexer
 
         if latex_lexer.is_latex(text):
@@ -186,6 +188,12 @@ class TextBuilder(Builder):
         at, sides = c[0].start_pos, c[2]
         if len(sides) < 2:
             raise SyntaxFailure(f"{c[0]} compares two terms", at)
+        if c[0] == "Inequality":
+            named = [RELATIONS.get(part.name) if isinstance(part, s.Name) else None for part in sides[1::2]]
+            relations = [relation for relation in named if relation is not None]
+            if len(relations) < len(named) or len(sides) % 2 == 0:
+                raise SyntaxFailure("Inequality takes terms and relations: Inequality[0, Less, x, LessEqual, 1]", at)
+            return s.Comparison(sides[::2], relations, at)
         return s.Comparison(sides, [RELATIONS[c[0]]] * (len(sides) - 1), at)
 
     # --- sets: functions from a term and a place to a formula ------------------------------------------------
@@ -206,6 +214,12 @@ class TextBuilder(Builder):
 
     def union(self, c: list[Any]) -> Any:
         return lambda term, at: s.Some([c[0](term, at), c[2](term, at)])
+
+    def difference(self, c: list[Any]) -> Any:
+        return lambda term, at: s.Every([c[0](term, at), s.Negation(c[2](term, at))])
+
+    def common(self, c: list[Any]) -> Any:
+        return lambda term, at: s.Every([c[0](term, at), c[2](term, at)])
 
     def outside(self, c: list[Any]) -> s.Node:
         return s.Negation(c[2](c[0], c[1].start_pos))

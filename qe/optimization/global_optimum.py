@@ -12,7 +12,7 @@ from qe.elimination.protocol import Problem
 from qe.engine.run import solve
 from qe.errors import Unable
 from qe.exact.algebraic import RealAlgebraic
-from qe.exact.number import Values, point_text, simplest
+from qe.exact.number import Values, optimum_in_latex, point_text, simplest
 from qe.exact.polynomial_system import solve_system
 from qe.exact.ring import Ring
 from qe.formula.build import atom, conj, convert, exists
@@ -70,6 +70,9 @@ class GlobalOptimum:
         if self.value is not None and "root(" in value.replace("sqrt(", ""):
             value += f" ≈ {float(self.value):.6g}"
         return f"GlobalOptimum({value}{f' at {point_text(self.point)}' if self.point else ', not attained'})"
+
+    def _repr_latex_(self) -> str:
+        return optimum_in_latex(self.status.value, self.value, self.point)
 
     @property
     def is_optimal(self) -> bool:

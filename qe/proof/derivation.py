@@ -49,6 +49,12 @@ class Derivation:
         complete = self.is_complete
         return writing.page(self.start, self.steps, self.answer, is_complete=complete, title=title, note=note)
 
+    def _repr_html_(self) -> str:
+        """The question, the answer and the steps, for notebooks."""
+        from qe.proof import writing
+
+        return writing.fragment(self.start, self.steps, self.answer)
+
     @property
     def answer(self) -> Formula:
         """The formula after the last step."""

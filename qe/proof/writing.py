@@ -97,6 +97,11 @@ def page(
     )
 
 
+def fragment(start: Formula, steps: Sequence[Step], answer: Formula) -> str:
+    """The claim and the steps, to stand in another page."""
+    return f"<div><p>{_math(start)}</p><p>⟺ {_math(answer)}</p>{_list(steps)}</div>"
+
+
 STYLE = (
     "body{font:16px/1.5 system-ui,sans-serif;max-width:60rem;margin:2rem auto;padding:0 1rem;color-scheme:light dark}"
     "li{margin:1.2rem 0}.rule{font-weight:600}.says{opacity:.75}p{overflow-x:auto}"

@@ -19,6 +19,7 @@ from qe.cells.pieces import Piece, merge
 from qe.cells.sampled_cells import Place, coordinates, free_part, leaves
 from qe.errors import InputError, Unable
 from qe.exact.algebraic import RealAlgebraic
+from qe.exact.number import ExactPoint
 from qe.exact.ring import Poly, Ring
 from qe.exact.sample import Point
 from qe.extras import wanted
@@ -234,7 +235,7 @@ class Region(SetOperations):
         points: list[dict[str, Number]] = []
         for place in places:
             self._current().check("sample points", len(points))
-            points.append(coordinates(self.table, place))
+            points.append(ExactPoint(coordinates(self.table, place)))
         return points
 
     def bounds(self, variable: str, *, timeout: float | None = None) -> Interval:

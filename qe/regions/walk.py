@@ -8,7 +8,7 @@ from random import Random
 
 from qe.cells.interval import Interval, Number
 from qe.exact.nearby import rational_between
-from qe.exact.number import Values, simplest
+from qe.exact.number import ExactPoint, Values, simplest
 from qe.options import Budget
 from qe.regions.region import Region
 
@@ -31,7 +31,7 @@ def walked(region: Region, random: Random, budget: Budget) -> Values | None:
         budget.check("walk to a point", len(values))
         offered = region.fibre(values)
         values.append(_value(random.choice(offered), random))
-    return dict(zip(region.order, values, strict=True))
+    return ExactPoint(zip(region.order, values, strict=True))
 
 
 def different_points(region: Region, n: int, random: Random, budget: Budget) -> list[Values]:

@@ -86,6 +86,18 @@ QE = Path(sys.executable).with_name("qe")
         ("∛x > 2", "x > 8"),
         ("x < inf", "true"),
         ("x > 0.", "x > 0"),
+        ("x ≠ ½ and ⅓x < ¾", "2*x /= 1 and 4*x < 9"),
+        ("¬(x<1 ∨ y≥2) ∧ ⊤", "x >= 1 and y < 2"),
+        ("x > 0 ⟹ y > 0", "x <= 0 or y > 0"),
+        ("x ∈ {1, 2, 3} ∖ {2}", "x = 1 or x = 3"),
+        ("x ∈ [0,2] ∩ [1,3] ∪ {5}", "1 <= x <= 2 or x = 5"),
+        ("exists x > 0, y > 0: x*y = a and x + y = b", "a > 0 and b > 0 and b^2 >= 4*a"),
+        ("∃ x, y > 0: x*y = a ∧ x + y = b", "a > 0 and b > 0 and b^2 >= 4*a"),
+        ("∀ x ∈ [0,1], y ∈ [0,1]: x + y ≤ a", "a >= 2"),
+        ("there is x with x^2 = a", "a >= 0"),
+        ("∄x: x² = a", "a < 0"),
+        ("Inequality[0, Less, x, LessEqual, 1]", "0 < x <= 1"),
+        ("Power[x, 2] < Times[2, y, z] + Plus[x, Rational[1, 2]]", "2*x^2 < 4*y*z + 2*x + 1"),
     ],
 )
 def test_the_answer_that_was_meant(typed: str, meant: str) -> None:
@@ -93,6 +105,7 @@ def test_the_answer_that_was_meant(typed: str, meant: str) -> None:
 
 
 def test_a_list_holds_together() -> None:
+    assert qe.equivalent(sympy.real_root(sympy.Symbol("x", real=True), 3) <= -1, "x <= -1")
     assert qe.equivalent([X > 0, sympy.Eq(X + Y, 1)], "x > 0 and x + y = 1")
     assert qe.equivalent(("x > 0", X < Y), "0 < x and x < y")
     assert qe.find_instance(["x > 2", "x < 3", ["x^2 = 5"]]) is not None
@@ -116,6 +129,12 @@ def test_a_list_holds_together() -> None:
         (lambda: qe.eliminate("x(y + 1) > 1"), "x*(…)"),
         (lambda: qe.eliminate("2|x| > 1"), "2*|x|"),
         (lambda: qe.eliminate("x = y = "), "too early"),
+        (lambda: qe.eliminate("2½ < x"), "one fraction: 5/2"),
+        (lambda: qe.eliminate("xⁿ > 0"), "an exponent is a rational number"),
+        (lambda: qe.eliminate("x ∈ ]0,1["), "(0, 1)"),
+        (lambda: qe.eliminate("x^2 + a > 0 for all x"), "stands in front"),
+        (lambda: qe.eliminate("Inequality[0, Less, x, 1]"), "Inequality[0, Less, x, LessEqual, 1]"),
+        (lambda: qe.eliminate("UnitStep[x] = 1"), "unknown function UnitStep"),
         (lambda: qe.eliminate("x^2^3 = 1"), "brackets"),
         (lambda: qe.eliminate("Resolve[Exists[x, x^2 == y], Reals]"), "Resolve is a command"),
         (lambda: qe.eliminate("y = Piecewise((x, x > 0), (-x, True))"), "if c then a else b"),

@@ -9,6 +9,7 @@ from fractions import Fraction
 from pathlib import Path
 
 import pytest
+import sympy
 
 import qe
 from qe.errors import BudgetExceeded, Unable
@@ -233,6 +234,36 @@ def test_reading_holds_the_limit(monkeypatch):
     with pytest.raises(BudgetExceeded):
         qe.region("(x + y + z + 1)^70 > 0", timeout=LIMIT)
     assert time.monotonic() - start < 2 * BOUND
+
+
+LONG = "(x + y + z + 1)^70"
+
+
+@pytest.mark.parametrize(
+    ("place", "call"),
+    [
+        ("qe.api.optimum.read_objective", lambda: qe.minimize(LONG, timeout=LIMIT)),
+        ("qe.api.optimum.read_constraints", lambda: qe.minimize("x", f"{LONG} > 0", timeout=LIMIT)),
+        ("qe.api.decide.read_polynomial", lambda: qe.check_witness("ex x. x > y", {"x": LONG}, timeout=LIMIT)),
+        ("qe.api.groebner.read_polynomial", lambda: qe.comprehensive_groebner([LONG], "x", timeout=LIMIT)),
+        ("qe.sympy.from_sympy", lambda: qe.sympy.minimum(sum(sympy.symbols("x y z")) ** 70, timeout=LIMIT)),
+        ("qe.api.input.read_polynomial", lambda: qe.maximize(sympy.Symbol("x") ** 70, timeout=LIMIT)),
+    ],
+)
+def test_reading_holds_the_limit_in_every_function(place, call, monkeypatch):
+    """Texts and SymPy objects that have to be multiplied out were read without the limit, for seconds."""
+    monkeypatch.setattr(place, stuck)
+    start = time.monotonic()
+    with pytest.raises(Unable, match="limit"):
+        call()
+    assert time.monotonic() - start < BOUND
+
+
+def test_reading_holds_the_limit_of_operations_on_regions():
+    start = time.monotonic()
+    with pytest.raises(Unable, match="limit"):
+        qe.region("x^2 + y^2 + z^2 <= 1").is_subset("(x + y + z + 1)^90 > (x - y*z)^45", timeout=LIMIT)
+    assert time.monotonic() - start < BOUND
 
 
 def test_no_time_left_is_a_limit_and_no_wrong_argument():

@@ -18,6 +18,7 @@ from qe.elimination.vs.result import Answer
 from qe.elimination.vs.witness import witness
 from qe.errors import DegreeTooHigh, InputError, Unable
 from qe.exact.algebraic import RealAlgebraic
+from qe.exact.number import ExactPoint
 from qe.exact.sample import Point
 from qe.formula.build import disj
 from qe.formula.evaluate import truth_under
@@ -71,7 +72,7 @@ class ParametricWitness:
         if not _holds(self.guard, given):
             raise InputError("parameters: the guard does not hold there")
         found = witness(self._answer, given, budget=budget)
-        return {name: found.get(name, Fraction(0)) for name in self._variables}
+        return ExactPoint({name: found.get(name, Fraction(0)) for name in self._variables})
 
     def __str__(self) -> str:
         terms = ", ".join(f"{name} = {term}" for name, term in self.terms.items())
