@@ -4,11 +4,11 @@ LEMMA. Let the boundary of T lie in the zeros of polynomials U and T in a closed
 those of U that have a zero in B. (T is closed, so its boundary is in T and so in B.)
 
 THEOREM. Let T be a closed bounded convex set of points (x, y) with interior points, (a, b) the interior of its
-projection onto x, and let its boundary lie in the zeros of irreducible polynomials U. Let W be some of those with y, and
-a = x_0 < ... < x_n = b contain all zeros in (a, b) of the members of U without y, and of the leading coefficient (in y)
-and the discriminant of each f in W and its resultants with all others of U. If for some x in each (x_k, x_k+1) the ends
-of the fibre of T over x are zeros of members of W and of no others of U, the boundary lies in the zeros of W and of the
-members without y.
+projection onto x, and let its boundary lie in the zeros of irreducible polynomials U. Let W be some of those with y,
+and a = x_0 < ... < x_n = b contain all zeros in (a, b) of the members of U without y, and of the leading coefficient
+(in y) and the discriminant of each f in W and its resultants with all others of U. If for some x in each
+(x_k, x_k+1) the ends of the fibre of T over x are zeros of members of W and of no others of U, the boundary lies in the
+zeros of W and of the members without y.
 PROOF. The upper end u(x) of the fibre is continuous on (a, b). Where it is a zero of f in W over (x_k, x_k+1), that is
 a simple zero, which is the graph of one function nearby, and no other member of U vanishes there, so u is
 that function nearby: such x are an open set, also a closed one, and there is one. The lower end is alike. What is left
@@ -125,7 +125,7 @@ def _turns(upright: Sequence[Poly], walls: frozenset[Poly], others: Sequence[Pol
 
 
 def _between(left: Number, right: Number, polys: Iterable[Poly]) -> list[Fraction]:
-    """A rational number in each of the intervals into which zeros of the polynomials divide the one from left to right."""
+    """A rational number in each part into which zeros of the polynomials divide the interval from left to right."""
     factors = {f for p in polys for f, _ in p.factors()[1] if f.level == 0}
     roots = {root for f in factors for root in real_roots(f.to_univariate(0)) if left < root < right}
     ends = [left, *sorted(roots), right]
