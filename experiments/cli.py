@@ -19,18 +19,14 @@ from experiments.results import BadLine, Log, Status, read_log
 from experiments.solvers import OURS, solver
 from experiments.suites import suite
 from experiments.sweep.grid import Method
-from qe.cli.shell import BUG, OK, enter
+from qe import __version__
+from qe.cli.shell import BUG, OK, enter, examples
 from qe.errors import InputError
 
 if TYPE_CHECKING:
     from experiments.baseline import Entry
 
-app = typer.Typer(
-    add_completion=False,
-    pretty_exceptions_enable=False,
-    rich_markup_mode=None,
-    help="Experiments: run solvers on suites of problems; results are lines of JSON that are only ever added to.",
-)
+app = typer.Typer(pretty_exceptions_enable=False, rich_markup_mode=None)
 
 baselines = typer.Typer(help="Freeze a baseline of the engine, and compare two.", no_args_is_help=True)
 app.add_typer(baselines, name="baseline")
@@ -42,13 +38,30 @@ RESULTS = OUT / "corpus.jsonl"
 Results = Annotated[list[Path] | None, typer.Option("--results", help="Result files [default: out/corpus.jsonl].")]
 
 
-@app.command()
+def _version(wanted: bool) -> None:
+    if wanted:
+        typer.echo(f"experiments {__version__}")
+        raise typer.Exit
+
+
+@app.callback(epilog=examples("experiments run --suite paper --limit 15", "experiments table", "experiments report"))
+def whole(
+    version: Annotated[
+        bool, typer.Option("--version", callback=_version, is_eager=True, help="Print the version and stop.")
+    ] = False,
+) -> None:
+    """Experiments: run solvers on suites of problems; results are lines of JSON that are only ever added to."""
+
+
+@app.command(short_help="Run suites through solvers.")
 def run(
     suites: Annotated[
         list[str], typer.Option("--suite", help="paper, classics, literature, scaling, ablation or arm.")
     ],
     solvers: Annotated[list[str] | None, typer.Option("--solver", help="A solver; default: ours.")] = None,
-    limit: Annotated[float, typer.Option(min=0.01, help="Seconds of solving time for each problem.")] = 15.0,
+    limit: Annotated[
+        float, typer.Option("--limit", "--timeout", min=0.01, help="Seconds of solving time for each problem.")
+    ] = 15.0,
     memory: Annotated[int, typer.Option(min=1, help="MiB for each problem.")] = 2048,
     repeat: Annotated[int, typer.Option(help="Repetitions; the median counts.", min=1)] = 1,
     jobs: Annotated[int, typer.Option(help="Problems at a time.", min=1)] = 1,
@@ -110,7 +123,7 @@ def html(
     _write_html(_read(results), out)
 
 
-@app.command()
+@app.command(short_help="The tables, figures and page in one.")
 def report(
     results: Results = None,
     out: Annotated[Path, typer.Option(help="The folder for benchmarks.md, images and benchmarks.html.")] = OUT,
@@ -124,7 +137,7 @@ def report(
     _write_html(log, out / "benchmarks.html")
 
 
-@app.command()
+@app.command(short_help="How many answers are proved, and how long.")
 def proofs(
     suites: Annotated[list[str] | None, typer.Option("--suite", help="A suite; default: classics.")] = None,
     limit: Annotated[float, typer.Option(min=0.01, help="Seconds for each answer, the check included.")] = 15.0,
@@ -142,10 +155,12 @@ def proofs(
         print(text)
 
 
-@app.command()
+@app.command(short_help="Run SMT-LIB scripts through qe smt.")
 def scripts(
     folder: Annotated[Path, typer.Argument(exists=True, file_okay=False, help="A folder of SMT-LIB scripts (*.smt2).")],
-    limit: Annotated[float, typer.Option(min=0.01, help="Seconds for each script, the start included.")] = 20.0,
+    limit: Annotated[
+        float, typer.Option("--limit", "--timeout", min=0.01, help="Seconds for each script, the start included.")
+    ] = 20.0,
     memory: Annotated[int, typer.Option(min=1, help="MiB for each script.")] = 2048,
     only: Annotated[str, typer.Option(help="Scripts whose name contains this.")] = "",
 ) -> int:
@@ -163,10 +178,12 @@ def scripts(
     return BUG if any(each.wrong for each in ran) else OK
 
 
-@baselines.command()
+@baselines.command(short_help="Run the corpora and keep the results.")
 def freeze(
     out: Annotated[Path, typer.Argument(help="The file to write.")],
-    limit: Annotated[float, typer.Option(min=0.01, help="Seconds of solving time for each problem.")] = 15.0,
+    limit: Annotated[
+        float, typer.Option("--limit", "--timeout", min=0.01, help="Seconds of solving time for each problem.")
+    ] = 15.0,
     memory: Annotated[int, typer.Option(min=1, help="MiB for each problem.")] = 2048,
     repeat: Annotated[int, typer.Option(help="Repetitions; the median counts.", min=1)] = 3,
     seed: Annotated[int, typer.Option(help="Of the random order.")] = 1,
@@ -186,7 +203,7 @@ def freeze(
     print(out)
 
 
-@baselines.command()
+@baselines.command(short_help="Compare two baseline files.")
 def compare(
     old: Annotated[Path, typer.Argument(help="The older baseline file.")],
     new: Annotated[Path, typer.Argument(help="The newer one.")],
@@ -201,7 +218,7 @@ def compare(
     return _differences(baseline.different(before, after, memory=memory))
 
 
-@baselines.command()
+@baselines.command(short_help="Run the engines of two folders in turn.")
 def pair(
     old: Annotated[Path, typer.Argument(help="A folder with an older state of this project.")],
     new: Annotated[Path, typer.Argument(help="Another [default: this one].")] = ROOT,
@@ -238,7 +255,7 @@ def _differences(found: Iterable[tuple[Entry, Entry, str]]) -> int:
     return worst
 
 
-@app.command()
+@app.command(short_help="Solve a grid of problems, draw the atlas.")
 def sweep(
     half_width: Annotated[str, typer.Option(help="d of the via points (-d, 0, k), (d, 0, k).")] = "1/12:3:36",
     height: Annotated[str, typer.Option(help="k of the via points; A,B,... or FIRST:LAST:COUNT.")] = "1/12:3:36",
@@ -337,4 +354,4 @@ def _warn(bad: Sequence[BadLine]) -> None:
 
 def main(argv: Sequence[str] | None = None) -> int:
     """The console script."""
-    return enter(app, argv, name="experiments")
+    return enter(app, (sys.argv[1:] if argv is None else argv) or ["--help"], name="experiments")

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path as FilePath
+from time import perf_counter
 
 from bezier.compare.comparison import Comparison, compare
 from bezier.compare.output import table, to_json
@@ -13,6 +14,7 @@ from bezier.planner.command import Reply
 from bezier.planner.outputs import COMPARED, COMPARISON
 from bezier.plans import Clock
 from bezier.problem import Problem
+from bezier.report.first import DRAWING
 from qe.cli.shell import OK
 from qe.processes.worker import Channel
 
@@ -46,13 +48,15 @@ def run(channel: Channel, request: Request) -> Reply:
 
 def _write(found: Comparison, folder: FilePath, target: FilePath, *, plots: bool) -> list[str]:
     """All files into ``folder``; the places where they will be."""
-    names, drawings = [PAGE, DATA], {}
+    names, drawings, first = [PAGE, DATA], {}, None
     if plots:
+        start = perf_counter()
         from bezier.compare import pictures as plot_compare
 
         regions = plot_compare.regions_of(found)
         names += plot_compare.save(found, folder, regions)
-        drawings = plot_compare.charts(found, regions)
+        drawings, first = plot_compare.charts(found, regions), plot_compare.first(found)
+        found = replace(found, seconds={**found.seconds, DRAWING[0]: perf_counter() - start})
     from bezier.compare.page import render
 
     files_of = found.derivation_pages
@@ -61,7 +65,7 @@ def _write(found: Comparison, folder: FilePath, target: FilePath, *, plots: bool
     for name, text in texts.items():
         (folder / name).write_text(text, encoding="utf-8")
     files = [str(target / name) for name in sorted([*names, *texts])]
-    (folder / PAGE).write_text(render(found, drawings), encoding="utf-8")
+    (folder / PAGE).write_text(render(found, drawings, first), encoding="utf-8")
     text = json.dumps(to_json(found, files), indent=1, ensure_ascii=False)
     (folder / DATA).write_text(text + "\n", encoding="utf-8")
     return files

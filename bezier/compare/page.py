@@ -12,6 +12,7 @@ from bezier.compare.output import TITLES, Row, duration, notes, rows, step_rows
 from bezier.pictures.picture import Chart
 from bezier.plans import Outcome
 from bezier.report import html, parts
+from bezier.report.first import DRAWING
 from bezier.report.html import Card, Page, Section, Text
 from bezier.report.page import PAPER
 
@@ -26,13 +27,14 @@ REPORTED = (
 )
 
 
-def render(found: Comparison, drawings: Mapping[str, Sequence[Chart]]) -> str:
-    """The page; ``drawings``: those of the paths and of the regions, none of them needed."""
+def render(found: Comparison, drawings: Mapping[str, Sequence[Chart]], first: Markup | None = None) -> str:
+    """The page; ``drawings``: of the paths and the regions; ``first``: both paths in space; none of them is needed."""
     file = FilePath(found.problem.source).name
     page = Page(
         title=f"{file.removesuffix('.toml').replace('_', ' ')}: quadratic and cubic curves side by side",
         lead="three quadratic curves with C¹ joins, formula (8), and three cubic curves with C² joins, formula (7)",
         cards=_cards(found),
+        first=first,
         sections=[
             _results(found, drawings),
             _regions(found, drawings),
@@ -48,10 +50,20 @@ def render(found: Comparison, drawings: Mapping[str, Sequence[Chart]]) -> str:
 def _cards(found: Comparison) -> list[Card]:
     cards = []
     for method in METHODS:
-        plan = found.sides[method].plan
-        good = plan.outcome is Outcome.SOLVED
-        note = f"eliminated in {duration(plan.seconds['elimination'])}"
-        cards.append(Card(f"{method.value} curves", "path found" if good else "no path", html.tone(good), note))
+        side = found.sides[method]
+        good = side.plan.outcome is Outcome.SOLVED
+        facts = [f"eliminated in {duration(side.plan.seconds['elimination'])}"]
+        if side.length is not None and side.curvature is not None:
+            bend = "a cusp" if side.curvature.high is None else f"curvature at most {side.curvature.shown()} per mm"
+            facts = [f"length {side.length.shown()} mm", bend, *facts]
+        cards.append(
+            Card(f"{method.value} curves", "path found" if good else "no path", html.tone(good), "; ".join(facts))
+        )
+    drawing = sum(found.seconds.get(name, 0.0) for name in DRAWING)
+    solving = sum(found.seconds.values()) - drawing
+    cards.append(
+        Card("computed in", f"{duration(solving)} solving", note=f"{duration(drawing)} drawing" if drawing else "")
+    )
     return cards
 
 

@@ -6,15 +6,20 @@ from pathlib import Path as FilePath
 from typing import Any
 
 import numpy as np
+from markupsafe import Markup
 
 from bezier.compare.comparison import METHODS, Comparison
 from bezier.compare.output import TITLES
 from bezier.compare.planar import plane_coordinates
-from bezier.pictures import labels
+from bezier.motion.pieces import pieces
+from bezier.motion.track import Track
+from bezier.pictures import labels, scene
 from bezier.pictures.mesh import Array
-from bezier.pictures.picture import COLOURS, GRID, INK, PALE, Chart, curve_pictures, numbers
-from bezier.pictures.plot import new_figure, svg_text
+from bezier.pictures.picture import GRID, INK, Chart, PathPicture, numbers, path_picture
+from bezier.pictures.plot import VIEWS, letter, new_figure, path_view, svg_text
 from bezier.problem import PlanMethod
+from bezier.report.first import scene_box
+from bezier.report.parts import GIVEN
 from qe.regions.region import Region
 
 REGION_COLOURS = {"(7)": "#2e9e6b", "(8*)": "#d1a03b", "(8)": "#2364aa"}
@@ -23,15 +28,16 @@ LABELS = {
     "(8*)": "(8*): whole quadratic curves",
     "(8)": "(8): their control polygons",
 }
-VIEWS = (("top view", 0, 1), ("front view", 0, 2))
+TONES = {PlanMethod.QUADRATIC: "p", PlanMethod.CUBIC: "q"}
+NAMES = ("P0", "Q0", "R0", "goal")
 
 
 def save(found: Comparison, folder: FilePath, regions: Any) -> list[str]:
     """``regions.png`` (of the figure that ``regions_of`` makes) and ``paths.png``."""
-    paths = new_figure(11, 8)
-    for k, method in enumerate(METHODS):
-        for column in range(len(VIEWS)):
-            _view(paths.add_axes((0.06 + 0.5 * column, 0.56 - 0.5 * k, 0.41, 0.37)), found, method, column)
+    paths = new_figure(11, 8.4)
+    for row, method in enumerate(METHODS):
+        for column in range(2):
+            _view(paths.add_axes((0.08 + 0.5 * column, 0.56 - 0.5 * row, 0.4, 0.38)), found, method, column)
     for name, figure in (("regions.png", regions), ("paths.png", paths)):
         figure.savefig(folder / name, dpi=120, pil_kwargs={"compress_level": 4})
     return ["regions.png", "paths.png"]
@@ -41,42 +47,71 @@ def charts(found: Comparison, regions: Any) -> dict[str, tuple[Chart, ...]]:
     """The same for the page."""
     paths = []
     for method in METHODS:
-        for column, (title, _i, _j) in enumerate(VIEWS):
+        for column, (title, _i, _j) in enumerate(VIEWS[:2]):
             figure = new_figure(5.6, 4.2)
-            _view(figure.add_axes((0.1, 0.1, 0.88, 0.81)), found, method, column)
+            _view(figure.add_axes((0.12, 0.14, 0.85, 0.77)), found, method, column)
             paths.append((svg_text(figure), f"{TITLES[method]}: {title} of the path and its control polygons"))
     words = "where Q1 may be, in the plane of O, Q0 and R0"
     return {"regions": ((svg_text(regions), words),), "paths": tuple(paths)}
 
 
+def first(found: Comparison) -> Markup:
+    """Both paths in one turnable scene; the point moves along the last one that exists."""
+    shown = {method: _picture(found, method) for method in METHODS if found.sides[method].plan.path is not None}
+    given = dict(zip(GIVEN, numbers(list(found.problem.named_points.values())), strict=True))
+    base, track = _picture(found, METHODS[0]), None
+    for method in shown:
+        path = found.sides[method].plan.path
+        assert path is not None
+        track = Track.of(pieces(path, None))
+    data = scene.path_scene(base, track, timed=False, given=given)
+    reach, own = base.radius, [(TONES[m], curve) for m, picture in shown.items() for curve in picture.curves]
+    data["curves"] = [scene.curve(curve, reach, tone) for tone, curve in own]
+    data["marks"] = data["marks"][: len(given)]
+    words = f"the paths of {' and '.join(TITLES[m] for m in shown) or 'neither method'} in the workspace, seen in space"
+    legend = [(TITLES[method], f"var(--{TONES[method]})") for method in shown]
+    return scene_box(scene.text(data), words, "paths.png", legend, moving=track is not None)
+
+
 def regions_of(found: Comparison) -> Any:
     """The figure of the planar regions, with axes in mm along and across R0 - Q0."""
-    figure = new_figure(6, 6.6)
-    axis = figure.add_axes((0.1, 0.2, 0.87, 0.75))
     plane = found.planar.plane
     unit = [float(np.linalg.norm(np.array([float(c) for c in v]))) for v in (plane.first, plane.second)]
+    lines = {name: _scaled(found, name, unit) for name in REGION_COLOURS}
+    marks = [
+        (text, tuple(float(c) * s for c, s in zip(plane.place(point), unit, strict=True)))
+        for text, point in _marks(found).items()
+    ]
+    everything = np.concatenate([*lines.values(), np.array([place for _, place in marks])])
+    wide, high = np.ptp(everything, axis=0)
+    tall = float(np.clip(5.2 * high / (wide or 1.0), 2.2, 5.2))
+    figure = new_figure(6, tall + 1.9)
+    axis = figure.add_axes((0.1, 1.45 / (tall + 1.9), 0.87, tall / (tall + 1.9)))
     for name, colour in REGION_COLOURS.items():
-        region = found.planar.named[name].region
-        if region is None or region.is_empty:
-            continue
-        across = outline(region) * (unit if region.order == plane_coordinates("Q1") else unit[::-1])
-        x, y = across.T if region.order == plane_coordinates("Q1") else across.T[::-1]
-        axis.fill(x, y, color=colour, alpha=0.3, linewidth=0, label=LABELS[name])
-        axis.plot(x, y, color=colour, linewidth=1.4)
-    marks = []
-    for text, point in _marks(found).items():
-        u, v = (float(c) * s for c, s in zip(plane.place(point), unit, strict=True))
-        axis.plot([u], [v], "o", color=INK, markersize=5)
-        marks.append((text, (u, v)))
+        if len(lines[name]):
+            axis.fill(*lines[name].T, color=colour, alpha=0.3, linewidth=0, label=LABELS[name])
+            axis.plot(*lines[name].T, color=colour, linewidth=1.4)
+    axis.plot(*np.array([place for _, place in marks]).T, "o", color=INK, markersize=5)
+    axis.margins(0.06)
     axis.set_aspect("equal", adjustable="datalim")
     axis.set_title("where Q₁ may be, in the plane of O, Q₀ and R₀", fontsize=11, color=INK)
-    axis.set_xlabel("along R₀ − Q₀, mm")
-    axis.set_ylabel("across, mm")
+    axis.set_xlabel("along R₀ − Q₀ (mm)")
+    axis.set_ylabel("across (mm)")
     axis.grid(color=GRID, linewidth=0.6)
     axis.set_axisbelow(True)
-    labels.place(axis, marks, np.zeros((0, 2)), size=9)
+    labels.place(axis, marks, np.concatenate(list(lines.values())), size=9)
     figure.legend(loc="lower left", bbox_to_anchor=(0.08, 0.0), frameon=False, fontsize=10)
     return figure
+
+
+def _scaled(found: Comparison, name: str, unit: list[float]) -> Array:
+    """The outline of a planar region in mm, first along and then across; no points where there is none."""
+    region = found.planar.named[name].region
+    if region is None or region.is_empty:
+        return np.zeros((0, 2))
+    straight = region.order == plane_coordinates("Q1")
+    around = outline(region) * (unit if straight else unit[::-1])
+    return around if straight else around[:, ::-1]
 
 
 def outline(region: Region) -> Array:
@@ -106,21 +141,13 @@ def _marks(found: Comparison) -> dict[str, Any]:
     return marks
 
 
+def _picture(found: Comparison, method: PlanMethod) -> PathPicture:
+    given = dict(zip(NAMES, found.problem.named_points.values(), strict=True))
+    return path_picture(found.problem, found.sides[method].plan.path, given, region=None, hatted_names=False)
+
+
 def _view(axis: Any, found: Comparison, method: PlanMethod, column: int) -> None:
-    path, (title, i, j) = found.sides[method].plan.path, VIEWS[column]
-    reach = float(found.problem.workspace.radius_squared) ** 0.5
-    angle = np.linspace(0, 2 * np.pi, 181)
-    axis.plot(reach * np.cos(angle), reach * np.sin(angle), color=PALE, linewidth=1)
-    drawn = [np.zeros((0, 2))]
-    for curve in curve_pictures(path.curves) if path is not None else ():
-        colour = COLOURS.get(curve.name, INK)
-        axis.plot(curve.polygon[:, i], curve.polygon[:, j], "--o", color=colour, linewidth=0.8, markersize=3, alpha=0.8)
-        axis.plot(curve.points[:, i], curve.points[:, j], color=colour, linewidth=2.2)
-        drawn += [curve.points[:, [i, j]], curve.polygon[:, [i, j]]]
-    axis.set_aspect("equal", adjustable="datalim")
-    axis.set_title(f"{TITLES[method]}: {title}", fontsize=10, color=INK)
-    axis.grid(color=GRID, linewidth=0.6)
-    axis.set_axisbelow(True)
-    given: Array = numbers(list(found.problem.named_points.values()))
-    names = ("P₀", "Q₀", "R₀", "goal")
-    labels.place(axis, [(n, (p[i], p[j])) for n, p in zip(names, given, strict=True)], np.concatenate(drawn))
+    title, i, j = VIEWS[column]
+    none = "" if found.sides[method].plan.path is not None else ", no path"
+    path_view(axis, _picture(found, method), f"{TITLES[method]}{none}: {title}", i, j)
+    letter(axis, method is PlanMethod.QUADRATIC)

@@ -84,7 +84,7 @@ def save_path(picture: PathPicture, path: Path) -> None:
         handles, texts = axis.get_legend_handles_labels()
         figure.legend(handles, texts, loc="upper left", bbox_to_anchor=(0.02, 0.98), frameon=False)
     for column, (title, i, j) in enumerate(VIEWS):
-        _path_view(figure.add_axes((0.055 + 0.325 * column, 0.055, 0.27, 0.26)), picture, title, i, j)
+        path_view(figure.add_axes((0.055 + 0.325 * column, 0.055, 0.27, 0.26)), picture, title, i, j)
     _save(figure, path, picture.hatted_names)
 
 
@@ -93,8 +93,8 @@ def views(picture: PathPicture) -> tuple[Chart, ...]:
     found = []
     for title, i, j in VIEWS:
         figure = new_figure(4.4, 3.7)
-        _path_view(figure.add_axes((0.16, 0.14, 0.81, 0.77)), picture, title, i, j)
-        _letter(figure, picture.hatted_names)
+        path_view(figure.add_axes((0.16, 0.14, 0.81, 0.77)), picture, title, i, j)
+        letter(figure, picture.hatted_names)
         found.append((svg_text(figure), f"{title} ({AXES[i]}{AXES[j]}): {WORDS[title]}"))
     return tuple(found)
 
@@ -130,15 +130,15 @@ def new_figure(width: float, height: float) -> Any:
 
 
 def _save(figure: Any, path: Path, hatted_names: bool) -> None:
-    _letter(figure, hatted_names)
+    letter(figure, hatted_names)
     figure.savefig(path, dpi=120, pil_kwargs={"compress_level": 4})
 
 
-def _letter(figure: Any, hatted_names: bool) -> None:
-    """Take the hats off the names of points if they are not wanted."""
+def letter(drawn: Any, hatted_names: bool) -> None:
+    """Take the hats off the names of points in a figure or on axes if they are not wanted."""
     from matplotlib.text import Text
 
-    for item in [] if hatted_names else figure.findobj(Text):
+    for item in [] if hatted_names else drawn.findobj(Text):
         item.set_text(item.get_text().replace("\u0302", ""))
 
 
@@ -244,9 +244,11 @@ def _region_view(axis: Any, region: RegionPicture, title: str, i: int, j: int) -
     _flat(axis, title, i, j)
 
 
-def _path_view(axis: Any, picture: PathPicture, title: str, i: int, j: int) -> None:
+def path_view(axis: Any, picture: PathPicture, title: str, i: int, j: int) -> None:
+    """The path, or the given points alone, along one axis, in the outline of the workspace."""
     angle = np.linspace(0, np.pi if picture.has_floor and j == 2 else 2 * np.pi, 181)
-    axis.plot(picture.radius * np.cos(angle), picture.radius * np.sin(angle), color=PALE, linewidth=1)
+    rim = picture.radius * np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    axis.plot(*rim.T, color=PALE, linewidth=1)
     if picture.has_floor and j == 2:
         axis.plot([-picture.radius, picture.radius], [0, 0], color=FLOOR, linewidth=1.5)
     for obstacle in picture.obstacles:
@@ -260,8 +262,10 @@ def _path_view(axis: Any, picture: PathPicture, title: str, i: int, j: int) -> N
         axis.plot(curve.polygon[:, i], curve.polygon[:, j], "--o", linewidth=0.8, markersize=3, alpha=0.8, **style)
         axis.plot(curve.points[:, i], curve.points[:, j], linewidth=2.2, **style)
     _flat(axis, title, i, j)
+    if not picture.curves:
+        axis.plot(*np.array(list(picture.marks.values()))[:, [i, j]].T, "o", color=INK, markersize=3)
     drawn = [part[:, [i, j]] for curve in picture.curves for part in (curve.points, _along(curve.polygon))]
-    labels.place(axis, _grouped(picture, i, j), np.concatenate(drawn) if drawn else np.zeros((0, 2)))
+    labels.place(axis, _grouped(picture, i, j), np.concatenate([rim, *drawn]))
 
 
 def _grouped(picture: PathPicture, i: int, j: int) -> list[tuple[str, tuple[float, float]]]:
@@ -280,8 +284,8 @@ def _grouped(picture: PathPicture, i: int, j: int) -> list[tuple[str, tuple[floa
 def _flat(axis: Any, title: str, i: int, j: int) -> None:
     axis.set_aspect("equal", adjustable="datalim")
     axis.set_title(f"{title} ({AXES[i]}{AXES[j]})", fontsize=10, color=INK)
-    axis.set_xlabel(AXES[i])
-    axis.set_ylabel(AXES[j])
+    axis.set_xlabel(f"{AXES[i]} (mm)")
+    axis.set_ylabel(f"{AXES[j]} (mm)")
     axis.grid(color=GRID, linewidth=0.6)
     axis.set_axisbelow(True)
 

@@ -21,6 +21,7 @@ from bezier.pictures.picture import CurvePicture, PathPicture, RegionPicture, bo
 FRAMES = 181
 VIEW = (20.0, -62.0)
 """Elevation and azimuth of the first look, in degrees."""
+TONES = {"P": "p", "Q": "q", "R": "r"}
 Scene = dict[str, Any]
 
 
@@ -45,7 +46,7 @@ def path_scene(picture: PathPicture, track: Track | None, *, timed: bool, given:
         "clouds": [
             {"colour": o.colour, "v": _flat(o.vertices, picture.radius)} for o in picture.obstacles if o.faces is None
         ],
-        "curves": [_curve(c, picture.radius) for c in picture.curves],
+        "curves": [curve(c, picture.radius, TONES.get(c.name, "ink")) for c in picture.curves],
         "marks": marks,
         "motion": None if track is None else _motion(track, picture.radius, timed),
         "arm": None,
@@ -95,8 +96,8 @@ def text(scene: Scene) -> str:
     return json.dumps(scene, separators=(",", ":"), allow_nan=False).replace("</", "<\\/")
 
 
-def _curve(curve: CurvePicture, size: float) -> dict[str, Any]:
-    tone = {"P": "p", "Q": "q", "R": "r"}.get(curve.name, "ink")
+def curve(curve: CurvePicture, size: float, tone: str) -> dict[str, Any]:
+    """A curve with its polygon; ``tone``: the name of a colour of the page."""
     return {"tone": tone, "colour": curve.colour, "v": _flat(curve.points, size), "polygon": _flat(curve.polygon, size)}
 
 

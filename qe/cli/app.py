@@ -16,7 +16,7 @@ from typing import Annotated
 import typer
 
 from qe import __version__, arguments
-from qe.cli.shell import check_writable, enter, limited, remaining, write_file
+from qe.cli.shell import check_writable, enter, examples, limited, remaining, write_file
 from qe.cli.source import ProofFormat, no_file, read_source
 from qe.cli.work import Reply, Request
 from qe.io.formats import READABLE, Format
@@ -70,7 +70,14 @@ def _version(wanted: bool) -> None:
         raise typer.Exit
 
 
-@app.callback()
+@app.callback(
+    epilog=examples(
+        'qe eliminate "ex x. x^2 + b*x + c = 0"',
+        'qe decide "all x. ex y. y^3 = x"',
+        'qe region "x^2 + y^2 <= 4 and y >= x" --plot region.png',
+        'qe minimize "x + y" "x^2 + y^2 <= 1"',
+    )
+)
 def whole(
     version: Annotated[
         bool, typer.Option("--version", callback=_version, is_eager=True, help="Print the version and stop.")
@@ -79,7 +86,11 @@ def whole(
     """Exact real quantifier elimination. FORMULA is text ('ex x. x^2 + b*x + c = 0'), a file, or - for stdin."""
 
 
-@app.command(context_settings=_LENIENT, short_help="A quantifier-free formula equivalent to FORMULA.")
+@app.command(
+    context_settings=_LENIENT,
+    short_help="A quantifier-free formula equivalent to FORMULA.",
+    epilog=examples('qe eliminate "ex x. x^2 + b*x + c = 0"', 'qe eliminate "all x. x^2 >= a*x" --explain'),
+)
 def eliminate(
     formula: Formula,
     format: InputFormat = None,
@@ -110,7 +121,11 @@ def eliminate(
     return deliver(reply, {"certificate": certificate}, explain=explain)
 
 
-@app.command(context_settings=_LENIENT, short_help="Whether a sentence is true, a script satisfiable.")
+@app.command(
+    context_settings=_LENIENT,
+    short_help="Whether a sentence is true, a script satisfiable.",
+    epilog=examples('qe decide "all x. ex y. y^3 = x"'),
+)
 def decide(
     formula: Formula,
     format: InputFormat = None,
@@ -135,7 +150,11 @@ def decide(
     return deliver(reply, {"certificate": certificate}, explain=explain)
 
 
-@app.command(context_settings=_LENIENT, short_help="The set of points that satisfy FORMULA.")
+@app.command(
+    context_settings=_LENIENT,
+    short_help="The set of points that satisfy FORMULA.",
+    epilog=examples('qe region "x^2 + y^2 <= 4 and y >= x" --plot region.png'),
+)
 def region(
     formula: Formula,
     format: InputFormat = None,
@@ -158,7 +177,11 @@ def region(
     return deliver(reply, {"certificate": certificate, "plot": plot})
 
 
-@app.command(context_settings=_LENIENT, short_help="All solutions of FORMULA, case by case.")
+@app.command(
+    context_settings=_LENIENT,
+    short_help="All solutions of FORMULA, case by case.",
+    epilog=examples('qe solve "x^2 + y^2 = 1 and x >= y" --variables x,y'),
+)
 def solve(
     formula: Formula,
     variables: Annotated[
@@ -181,7 +204,11 @@ def solve(
     return deliver(reply, {"certificate": certificate})
 
 
-@app.command(context_settings=_LENIENT, short_help="The exact least value under CONSTRAINTS.")
+@app.command(
+    context_settings=_LENIENT,
+    short_help="The exact least value under CONSTRAINTS.",
+    epilog=examples('qe minimize "x + y" "x^2 + y^2 <= 1"'),
+)
 def minimize(
     objective: Annotated[str, typer.Argument(metavar="OBJECTIVE", show_default=False)],
     constraints: Annotated[str, typer.Argument(metavar="CONSTRAINTS|FILE|-", show_default=False)] = "true",
@@ -204,7 +231,10 @@ def minimize(
     return deliver(reply, {"certificate": certificate})
 
 
-@app.command(short_help="Verify a certificate.")
+@app.command(
+    short_help="Verify a certificate.",
+    epilog=examples('qe eliminate "ex x. x^2 = a" --certificate c.json', "qe check c.json"),
+)
 def check(
     certificate: Annotated[str, typer.Argument(metavar="CERTIFICATE|-", show_default=False)],
     formula: Annotated[
@@ -254,7 +284,11 @@ def export_proof(
     return deliver(limited(work, timeout=seconds, memory=memory, plain=True), {})
 
 
-@app.command(context_settings=_LENIENT, short_help="FORMULA in another format.")
+@app.command(
+    context_settings=_LENIENT,
+    short_help="FORMULA in another format.",
+    epilog=examples('qe convert "ex x. x^2 = a" --output smtlib'),
+)
 def convert(
     formula: Formula,
     format: InputFormat = None,
@@ -269,7 +303,10 @@ def convert(
     return deliver(limited(work, timeout=timeout, memory=None, plain=True), {})
 
 
-@app.command(short_help="Run an SMT-LIB script as a solver.")
+@app.command(
+    short_help="Run an SMT-LIB script as a solver.",
+    epilog=examples("qe smt problem.smt2 --timeout 60"),
+)
 def smt(
     script: Annotated[str, typer.Argument(metavar="FILE|-", show_default=False)] = "-",
     timeout: Annotated[

@@ -97,6 +97,11 @@ def enter(app: typer.Typer, argv: Sequence[str] | None, *, name: str) -> int:
         return _unheard(name, stop.__context__)
 
 
+def examples(*lines: str) -> str:
+    """What stands below the help of a command, line by line as it can be typed."""
+    return "\n".join(("\b", "Examples:", *(f"  {line}" for line in lines)))
+
+
 def _put(data: dict[str, object]) -> OSError | None:
     """Write an object on stdout; the error that kept it from being written."""
     try:

@@ -134,4 +134,7 @@ def polynomial(parts: list[Monomial], draw: Draw = name) -> str:
 
 
 def _power(base: str, k: int) -> str:
-    return base if k == 1 else f"<msup>{base}<mn>{k}</mn></msup>"
+    if k == 1:
+        return base
+    indexed = base.startswith("<msub>")  # the power then stands above the index, not after it
+    return f"<msubsup>{base[6:-7]}<mn>{k}</mn></msubsup>" if indexed else f"<msup>{base}<mn>{k}</mn></msup>"

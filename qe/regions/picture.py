@@ -9,8 +9,11 @@ from typing import Any
 from qe.errors import InputError
 from qe.regions.sketch import Sketch
 from qe.regions.space import draw_space
+from qe.regions.upright import isolated, uprights
 
 FILL, EDGE = "#4c78a8", "#1f3b5c"
+LONGEST = 20.0
+"""A picture longer than that, as a share of its height, is not drawn to scale."""
 FLAT, TURNABLE = (".png", ".svg", ".pdf"), ".html"
 
 
@@ -99,7 +102,9 @@ def _line(sketch: Sketch, axes: Any) -> None:
     for part in sketch.segments:
         axes.plot([part.low, part.high], [0, 0], color=FILL, linewidth=6, solid_capstyle="butt")
         for end, closed in ((part.low, part.lower), (part.high, part.upper)):
-            axes.plot([end], [0], "o", markersize=9, markerfacecolor=FILL if closed else "white", markeredgecolor=EDGE)
+            if closed is not None:
+                face = FILL if closed else "white"
+                axes.plot([end], [0], "o", markersize=9, markerfacecolor=face, markeredgecolor=EDGE)
     axes.set_xlim(*sketch.spans[0])
     axes.set_ylim(-1, 1)
     axes.set_yticks([])
@@ -108,22 +113,26 @@ def _line(sketch: Sketch, axes: Any) -> None:
 
 
 def _plane(sketch: Sketch, axes: Any) -> None:
+    (left, right), (bottom, top) = sketch.spans
     for band in sketch.bands:
         if len(band.xs) == 1:
-            isolated = band.low == band.high and not band.seam
-            width = 0.4 if band.seam else 1.2
-            ends = [band.low[0], band.high[0]]
-            axes.plot(
-                [band.xs[0]] * 2, ends, color=EDGE, marker="o" if isolated else None, markersize=5, linewidth=width
-            )
             continue
         axes.fill_between(band.xs, band.low, band.high, color=FILL, alpha=0.55, linewidth=0)
         for closed, curve in ((band.lower, band.low), (band.upper, band.high)):
             if closed is not None:
                 axes.plot(band.xs, curve, color=EDGE, linewidth=1.2, linestyle="-" if closed else "--")
-    axes.set_xlim(*sketch.spans[0])
-    axes.set_ylim(*sketch.spans[1])
-    axes.set_aspect("equal", adjustable="box")
+    for place in isolated(sketch.bands, top - bottom):
+        axes.plot(*[[c] for c in place], color=EDGE, marker="o", markersize=5)
+    for line in uprights(sketch.bands, top - bottom):
+        axes.plot(
+            [line.x] * 2, [line.low, line.high], color=EDGE, linewidth=1.2, linestyle="-" if line.closed else "--"
+        )
+        for end in line.open_ends:
+            axes.plot([line.x], [end], "o", markersize=5, markerfacecolor="white", markeredgecolor=EDGE)
+    axes.set_xlim(left, right)
+    axes.set_ylim(bottom, top)
+    shares = (right - left) / (top - bottom)
+    axes.set_aspect("equal" if 1 / LONGEST <= shares <= LONGEST else "auto", adjustable="box")
     axes.grid(color="0.9")
     axes.set_axisbelow(True)
     axes.set_xlabel(sketch.order[0])

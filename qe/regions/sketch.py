@@ -5,14 +5,13 @@ A sketch is data for looking only; it can be sent between processes and painted 
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
-from qe.cells.pieces import Piece
+from qe.cells.pieces import Piece, Range
 from qe.errors import InputError
 from qe.regions.described import Described as Region
 from qe.regions.ends import Span, ends
@@ -29,12 +28,15 @@ INSIDE = 1e-7
 """The share of a range left out at its ends, where the roots above may coincide or vanish."""
 
 
+Border = tuple[float, bool]
+
+
 @dataclass(frozen=True, slots=True)
 class Band:
     """A piece in the plane: values of the first variable, both ends above them, and what is known of the ends.
 
-    ``lower``, ``upper``: whether the end belongs to the piece, None where the piece goes on for ever.
-    ``seam``: the piece lies over one value of the first variable, between two other pieces.
+    ``lower``, ``upper``: whether the end belongs to the piece, None where the piece goes on for ever. ``start``,
+    ``stop``: the first and the last value, and whether they belong to it, alike.
     """
 
     xs: Sequence[float]
@@ -42,17 +44,23 @@ class Band:
     high: Sequence[float]
     lower: bool | None
     upper: bool | None
-    seam: bool
+    start: Border | None
+    stop: Border | None
+
+    @property
+    def borders(self) -> list[Border]:
+        """Both ends, where it has any."""
+        return [end for end in (self.start, self.stop) if end is not None]
 
 
 @dataclass(frozen=True, slots=True)
 class Segment:
-    """A piece of a line: its ends and whether they belong to it."""
+    """A piece of a line: its ends and whether they belong to it, None where it goes on for ever."""
 
     low: float
     high: float
-    lower: bool
-    upper: bool
+    lower: bool | None
+    upper: bool | None
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,8 +91,7 @@ def sketch(region: Region) -> Sketch:
     if len(order) == 1:
         segments = [_segment(piece, spans[0]) for piece in region.cells]
         return Sketch(order, region.is_empty, spans, segments=tuple(segments))
-    seams = _seams(region.cells)
-    return Sketch(order, region.is_empty, spans, bands=tuple(_band(p, spans, seams) for p in region.cells))
+    return Sketch(order, region.is_empty, spans, bands=tuple(_band(p, spans) for p in region.cells))
 
 
 def _span(region: Region, variable: str) -> Span:
@@ -94,31 +101,27 @@ def _span(region: Region, variable: str) -> Span:
     lower, upper = region.bounds(variable)
     lo = float(lower) if lower is not None else (float(upper) if upper is not None else 0.0) - UNBOUNDED
     hi = float(upper) if upper is not None else (float(lower) if lower is not None else 0.0) + UNBOUNDED
-    pad = MARGIN * (hi - lo) or 1.0
+    pad = MARGIN * (hi - lo) or max(1.0, MARGIN * abs(lo))  # more than the spacing of floats
     return lo - pad, hi + pad
 
 
 def _segment(piece: Piece, span: Span) -> Segment:
-    return Segment(*ends(piece, 0, {}, span), piece.ranges[0].lower_closed, piece.ranges[0].upper_closed)
+    own = piece.ranges[0]
+    return Segment(*ends(piece, 0, {}, span), *_closed(own))
 
 
-def _seams(pieces: Sequence[Piece]) -> frozenset[Any]:
-    """The values of the first variable where several pieces meet: inner lines, not the region's outline."""
-    met: Counter[Any] = Counter()
-    for piece in pieces:
-        met.update({end.value for end in (piece.ranges[0].lower, piece.ranges[0].upper) if end is not None})
-    return frozenset(value for value, count in met.items() if count > 1)
+def _closed(own: Range) -> tuple[bool | None, bool | None]:
+    """Whether the ends of a range belong to it, None for those it does not have."""
+    return None if own.lower is None else own.lower_closed, None if own.upper is None else own.upper_closed
 
 
-def _band(piece: Piece, spans: Sequence[Span], seams: frozenset[Any]) -> Band:
+def _band(piece: Piece, spans: Sequence[Span]) -> Band:
     first, up = piece.ranges
     lo, hi = ends(piece, 0, {}, spans[0])
     xs = [lo] if first.is_point else list(lo + (hi - lo) * _inner_grid(SAMPLES))
     found = [ends(piece, 1, {0: x}, spans[1]) for x in xs]
-    lower = None if up.lower is None else up.lower_closed
-    upper = None if up.upper is None else up.upper_closed
-    seam = first.is_point and first.lower is not None and first.lower.value in seams
-    return Band(xs, [low for low, _ in found], [high for _, high in found], lower, upper, seam)
+    start, stop = (None if has is None else (x, has) for x, has in zip((lo, hi), _closed(first), strict=True))
+    return Band(xs, [low for low, _ in found], [high for _, high in found], *_closed(up), start, stop)
 
 
 def _inner_grid(count: int) -> Any:
@@ -129,5 +132,5 @@ def _inner_grid(count: int) -> Any:
 def bands(region: Region) -> list[tuple[Sequence[float], Sequence[float], Sequence[float]]]:
     """A bounded region in two variables as areas between curves: values of the first variable, both ends over them."""
     nowhere = ((0.0, 0.0), (0.0, 0.0))  # every piece has ends of its own
-    found = [_band(piece, nowhere, frozenset()) for piece in region.cells if not piece.ranges[0].is_point]
+    found = [_band(piece, nowhere) for piece in region.cells if not piece.ranges[0].is_point]
     return [(band.xs, band.low, band.high) for band in found]

@@ -21,6 +21,8 @@ CREASE = 0.8
 """The cosine between two triangles' normals below which their common edge is drawn."""
 LIFT, BACK = 0.02, 0.1
 """How far lines are moved towards the viewer, and inner walls away, as a share of the drawn box."""
+TOUCHING = 0.01
+"""The distance from a line, as a share of the size, within which a point is not marked."""
 FLATTEST = 1 / 5
 """The least side of the drawn box as a share of its greatest one."""
 
@@ -80,16 +82,17 @@ def draw_space(shape: Solid, frame: Frame, order: tuple[str, ...], axes: Any) ->
     drawn = _Drawn(low, size / box, towards)
     for surface in shape.surfaces:
         drawn.add(surface, _cut_faces(surface, order, frame, size))
+    curves = [line for line in shape.lines if len(line) > 1]
     for line in shape.lines:
         if len(line) > 1:
             drawn.strokes(line[:-1], line[1:], width=2.0)
-        else:
+        elif not any(np.abs((other - line) / size).max(axis=1).min() < TOUCHING for other in curves):
             axes.scatter(*line.T, color=[EDGE], s=30)
     if drawn.polygons:
         colours = np.array(drawn.colours)
-        axes.add_collection3d(
-            Poly3DCollection(drawn.polygons, facecolors=colours, edgecolors=colours, linewidths=drawn.widths)
-        )
+        faces = Poly3DCollection(drawn.polygons, facecolors=colours, edgecolors=colours, linewidths=drawn.widths)
+        faces.set_rasterized(True)  # thousands of triangles: as outlines a file of a megabyte
+        axes.add_collection3d(faces)
     for axis, start, end, side, name in zip("xyz", low, high, box, order, strict=True):
         getattr(axes, f"set_{axis}lim")(start, end)
         getattr(axes, f"{axis}axis").set_major_locator(MaxNLocator(5 if side > 0.5 else 3))

@@ -28,7 +28,8 @@ from bezier.planner.planning import make_plan
 from bezier.problem import _KEYS, load_problem
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
-PROBLEMS = sorted(path.name for path in EXAMPLES.glob("*.toml") if path.name != "obstacle_curves.toml")
+CURVES = ("obstacle_curves.toml", "arm_curve.toml")
+PROBLEMS = sorted(path.name for path in EXAMPLES.glob("*.toml") if path.name not in CURVES)
 QUICK = ("single.toml", "three_balls.toml", "obstacle_motion.toml")
 FOUR = {"start": [-4, 0, 3], "via": [[-2, 1, 3], [2, 1, 3]], "goal": [4, 0, 3], "radius": 6}
 CUBIC = {**FOUR, "method": "cubic"}

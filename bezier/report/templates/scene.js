@@ -134,6 +134,11 @@ function show(box, data) {
     on.save(); on.textBaseline = "middle"; on.textAlign = "left"; on.lineJoin = "round";
     const taken = data.marks.map(m => { const [x, y] = place(m[1]), s = 5 * ratio; return [x - s, y - s, x + s, y + s]; });
     const busy = curves.flatMap(c => c.points.filter((_, i) => i % 3 === 0).map(place));
+    // The arm moves over the names: they stand where it comes least.
+    if (arm) for (let k = 0; k <= 12; k++) {
+      const p = arm.frames[Math.round(k * (count - 1) / 12)].p;
+      p.slice(1).forEach((b, i) => { for (const s of [0, 0.25, 0.5, 0.75]) busy.push(place(p[i].map((a, j) => a + s * (b[j] - a)))); });
+    }
     const hit = (a, b) => Math.max(0, Math.min(a[2], b[2]) - Math.max(a[0], b[0])) * Math.max(0, Math.min(a[3], b[3]) - Math.max(a[1], b[1]));
     for (const [name, point, main] of [...data.marks].sort((a, b) => b[2] - a[2])) {
       on.font = `${main ? 600 : 400} ${(main ? 13 : 12) * ratio}px system-ui, sans-serif`;

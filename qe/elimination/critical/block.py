@@ -15,6 +15,7 @@ from qe.elimination.critical.procedures import Levels, Procedures
 from qe.elimination.critical.separate import separated
 from qe.elimination.critical.system import System, systems
 from qe.elimination.critical.table import Shape, TableBuilder, Truth
+from qe.elimination.critical.walls import FEW, Box, Walls, box_around, walls_in_plane
 from qe.errors import NotWellOriented, Unable
 from qe.exact.nearby import nearby
 from qe.exact.quadratic_form import quadratic
@@ -135,24 +136,28 @@ class Run:
     def convex(self) -> ConvexBody | None:
         """A closed convex truth set, if it has interior points."""
         surfaces = critical_hypersurfaces(self.system, thin_parts=False, procedures=self.procedures, budget=self.budget)
-        return self.body(surfaces, self._hint())
+        many = self.system.free == 2 and len(surfaces) > FEW
+        return self.body(surfaces, self._hint(), box_around(self.system, self.budget) if many else None)
 
-    def body(self, surfaces: frozenset[Poly], hint: tuple[Fraction, ...]) -> ConvexBody | None:
+    def body(self, surfaces: frozenset[Poly], hint: tuple[Fraction, ...], box: Box | None = None) -> ConvexBody | None:
         """The closed convex truth set with its boundary in the zeros of ``surfaces``, if it has interior points.
+
+        ``box``: the smallest one around it in the plane, if it is known.
 
         A point p on a boundary polynomial belongs to such a set T iff the segment from p to an interior point c
         begins in it: then all of (p, c] is interior (Rockafellar 1970, Theorem 6.1), and otherwise p has a
         neighbourhood outside.
         """
         origin = Point(self.system.ring, watch=Watch(self.budget.check))
-        exploration = OpenCells(self._levels(surfaces), self.fibres.hold_at, self.budget, hint)
-        exploration.explore(origin)
-        self.stats.update({"hypersurfaces": len(surfaces), "cells decided": exploration.decided})
-        if not exploration.inside:
+        if box is None:
+            found = self._explored(surfaces, hint, origin)
+        else:
+            found = walls_in_plane(surfaces, box, self.fibres.hold_at, origin, self.budget)
+        boundary = found.polys
+        self.stats.update({"hypersurfaces": len(surfaces), "cells decided": found.decided, "boundary": len(boundary)})
+        if not found.inside:
             return None
-        boundary = frozenset(exploration.walls() | {f for f in surfaces if f.level < self.system.free - 1})
-        self.stats["boundary"] = len(boundary)
-        centre = exploration.inside[len(exploration.inside) // 2]
+        centre = found.inside[len(found.inside) // 2]
 
         def truth(point: Point, vanishing: frozenset[Poly]) -> bool:
             if not vanishing and not point.algebraic:
@@ -160,18 +165,24 @@ class Run:
             return self.fibres.hold_at(nearby(point, tuple(boundary), vanishing, centre))
 
         def explored(polys: frozenset[Poly]) -> tuple[Levels, list[OpenCell]]:
-            found = OpenCells(self._levels(polys), self.fibres.hold_at, self.budget, centre)
-            found.explore(origin)
-            return found.levels, list(found.cells(origin))
+            cells = OpenCells(self._levels(polys), self.fibres.hold_at, self.budget, centre)
+            cells.explore(origin)
+            return cells.levels, list(cells.cells(origin))
 
         return ConvexBody(
             boundary,
             lambda: separated(boundary, explored),
             self.fibres.hold_at,
             self.fibres.cut,
-            exploration.is_bounded(),
+            found.bounded,
             lambda: self._tabulated(boundary, Shape.CONVEX, truth),
         )
+
+    def _explored(self, surfaces: frozenset[Poly], hint: tuple[Fraction, ...], origin: Point) -> Walls:
+        cells = OpenCells(self._levels(surfaces), self.fibres.hold_at, self.budget, hint)
+        cells.explore(origin)
+        boundary = frozenset(cells.walls() | {f for f in surfaces if f.level < self.system.free - 1})
+        return Walls(boundary, tuple(cells.inside), cells.is_bounded(), cells.decided)
 
     def _hint(self) -> tuple[Fraction, ...]:
         """A point of the truth set, if one is proposed; the origin otherwise."""

@@ -79,7 +79,7 @@ class OpenCells:
         def test(k: int) -> bool:
             return self._any_true(isolation.sample(2 * k), (*path, k), (*values, samples[k]))
 
-        run = _run(samples, self._near[level], test)
+        run = true_run(samples, self._near[level], test)
         if run:
             self._near[level] = samples[(run.start + run.stop) // 2]
         self._stacks[path] = isolation, run
@@ -117,7 +117,7 @@ class OpenCells:
             yield from self._cells(isolation.sample(2 * k), (*path, k), (*signs, texts[2 * k]), (*values, value), here)
 
 
-def _run(samples: Sequence[Fraction], near: Fraction, test: Callable[[int], bool]) -> range:
+def true_run(samples: Sequence[Fraction], near: Fraction, test: Callable[[int], bool]) -> range:
     """The indices with a true test, which follow one another; sought from the sample nearest to a number."""
     first = next((k for k in sorted(range(len(samples)), key=lambda k: abs(samples[k] - near)) if test(k)), None)
     if first is None:

@@ -148,7 +148,7 @@ def test_latex() -> None:
 def test_mathml() -> None:
     written = formats.write(text("ex x1. a*x1^2 < 2 or y > 0"), "mathml")
     assert written.startswith("<math") and "<mo>∃</mo>" in written and "&lt;" in written
-    assert "<msup><msub><mi>x</mi><mn>1</mn></msub><mn>2</mn></msup>" in written
+    assert "<msubsup><mi>x</mi><mn>1</mn><mn>2</mn></msubsup>" in written
 
 
 def test_the_door() -> None:

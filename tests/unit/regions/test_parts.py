@@ -19,6 +19,7 @@ from qe.options import Budget
 from qe.processes.execution import Limits
 from qe.regions import build, operators, picture, planar, sketch, slices, solutions, turnable, volume, walk
 from qe.regions.region import Region
+from qe.regions.upright import isolated, uprights
 
 
 def region(text: str, order: str) -> Region:
@@ -52,12 +53,48 @@ def test_unbounded_directions_are_cut() -> None:
     assert sketch.sketch(region("x > 3", "x")).spans[0][1] > 3 + sketch.UNBOUNDED
 
 
-def test_inner_lines_are_seams() -> None:
-    found = sketch.sketch(region("x^2 + y^2 <= 4 and (y >= 0 or x <= 0)", "x y"))
-    lines = [b for b in found.bands if len(b.xs) == 1]
-    assert any(b.seam for b in lines) or len(found.bands) == 2
-    alone = sketch.sketch(region("x = 1 and 0 <= y and y <= 1", "x y"))
-    assert [(list(b.xs), b.seam) for b in alone.bands] == [([1.0], False)]
+def upright(text: str) -> list[tuple[float, float, float, bool]]:
+    found = sketch.sketch(region(text, "x y"))
+    (_, _), (bottom, top) = found.spans
+    lines = uprights(found.bands, top - bottom)
+    return [(line.x, round(line.low, 2), round(line.high, 2), line.closed) for line in lines]
+
+
+@pytest.mark.parametrize(
+    ("text", "lines"),
+    [
+        ("0 <= x and x < 1 and 0 <= y and y <= 1", [(0, 0, 1, True), (1, 0, 1, False)]),
+        ("0 <= x and x <= 2 and 0 <= y and y <= 1 and x != 1", [(0, 0, 1, True), (1, 0, 1, False), (2, 0, 1, True)]),
+        ("x^2 + y^2 <= 4 and (y >= 0 or x <= 0)", [(0, -2, 0, True)]),
+        ("x*y = 0 and x^2 + y^2 <= 4", [(0, -2, 0, True), (0, 0, 2, True)]),
+        ("x^2 + y^2 < 4", []),
+        ("x = 1 and 0 <= y and y < 2", [(1, 0, 2, True)]),
+    ],
+)
+def test_upright_borders(text: str, lines: list[tuple[float, float, float, bool]]) -> None:
+    """Where a region ends over one value of x: closed, open, and not where it goes on."""
+    assert upright(text) == lines
+
+
+def test_the_open_end_of_an_upright_segment() -> None:
+    (line,) = uprights(sketch.sketch(region("x = 1 and 0 <= y and y < 2", "x y")).bands, 2.0)
+    assert line.open_ends == (2.0,)
+
+
+def test_points_where_others_end_are_not_isolated() -> None:
+    tips = sketch.sketch(region("x^2 + y^2 <= 1 and (x < 1 or y = 0) or x = 5 and y = 1", "x y"))
+    assert isolated(tips.bands, 2.0) == [(5.0, 1.0)]
+
+
+def test_what_goes_on_for_ever_has_no_end() -> None:
+    (segment,) = sketch.sketch(region("x > 3", "x")).segments
+    assert (segment.lower, segment.upper) == (False, None)
+
+
+def test_one_place_of_floats_has_a_frame() -> None:
+    """Numbers so near to each other that floats do not tell them apart gave limits that are equal."""
+    low, high = sketch.sketch(region("x > 10^20 and x < 10^20 + 1", "x")).spans[0]
+    assert low < 1e20 < high
 
 
 def test_nothing_and_too_much() -> None:
