@@ -5,7 +5,7 @@ q(L) have the same sign where l = 0 if b > 0, opposite ones if b < 0, and vanish
 variable y, for conditions p on which this is known, ex x (p rel 0 and f) iff ex y (q(y) rel' 0 and ex x (y = L and f)),
 where rel' is rel, turned round where b < 0. A universal block is the negation of an existential one.
 
-Evidence: ``scales``, the numbers b, for the outer conditions in their order. L is read off the inner block.
+Evidence: ``scales``, the numbers |b|, for the outer conditions in their order. L is read off the inner block.
 """
 
 from __future__ import annotations
@@ -66,9 +66,10 @@ def _inner(block: Exists, before: Exists, name: str, claim: Claim) -> tuple[Poly
 
 
 def _agree(p: Atom, q: Atom, number: Fraction, name: str, form: Poly, lines: list[Poly]) -> bool:
-    """Whether b*p = q(L) + m*l for one of the equations, and the relations go with the sign of b."""
-    if not number or q.relation is not (p.relation if number > 0 else p.relation.flipped):
-        return False
-    y = form.ring.index[name]
-    difference = p.poly * number.numerator - q.poly.compose({y: form}) * number.denominator
-    return not difference or any(difference.gcd(line) in (line, -line) for line in lines)
+    """Whether b*p = q(L) + m*l or -b*p = q(L) + m*l for one of the equations, and the relations go with the sign."""
+    y, found = form.ring.index[name], False
+    for sign, relation in ((1, p.relation), (-1, p.relation.flipped)):
+        difference = p.poly * number.numerator - q.poly.compose({y: form}) * number.denominator * sign
+        multiple = not difference or any(difference.gcd(line) in (line, -line) for line in lines)
+        found = found or (number > 0 and q.relation is relation and multiple)
+    return found

@@ -60,6 +60,11 @@ class _Block:
         """The degree in the variables of the block."""
         return max((sum(exponents) for exponents in poly.collected(self.indices)), default=0)
 
+    def is_entangled(self, line: Poly) -> bool:
+        """Whether a linear equation cannot be solved without a sum in the denominator."""
+        slopes = [c for c in (line.derivative(i) for i in self.indices) if c]
+        return bool(slopes) and all(c.term_count() > 1 for c in slopes)
+
     def part(self, poly: Poly, degree: int) -> Poly:
         """The homogeneous part of this degree in the variables of the block."""
         ring, total = poly.ring, poly.ring.constant(0)
@@ -112,7 +117,7 @@ class _Quadratic:
 
 
 def _named(problem: Problem) -> tuple[Formula, list[Fraction]] | None:
-    """The nested problem, and the numbers b of the theorem, for the outer conditions in their order."""
+    """The nested problem, and for its outer conditions the numbers b of the theorem (for the atoms as they stand)."""
     parts, ring = conjuncts(problem.body), problem.body.ring
     assert ring is not None
     indices = tuple(ring.index[v] for v in problem.variables)
@@ -122,7 +127,7 @@ def _named(problem: Problem) -> tuple[Formula, list[Fraction]] | None:
     conditions = [p for p in curved if isinstance(p, Atom) and _is_plane_curve(p.poly, plain)]
     if not curved or len(conditions) < len(curved) or not any(set(p.free) & set(problem.variables) for p in linear):
         return None
-    lines = [p.poly for p in linear if isinstance(p, Atom) and p.relation is Relation.EQ and plain.degree(p.poly)]
+    lines = [p.poly for p in linear if isinstance(p, Atom) and p.relation is Relation.EQ and plain.is_entangled(p.poly)]
     for line in (*lines, None):
         block = _Block(indices, line)
         for form in _forms(block.part(conditions[0].poly, 2), block):
@@ -202,4 +207,4 @@ def _nested(
         return None
     inner = conj((*(convert(part, wider) for part in linear), atom(y - form.convert(wider), Relation.EQ)))
     nested = exists((name,), conj((*outer, exists(problem.variables, inner))))
-    return nested, [Fraction(q.scale, image.normal()[0]) for q, image in zip(found, images, strict=True)]
+    return nested, [Fraction(q.scale, abs(image.normal()[0])) for q, image in zip(found, images, strict=True)]
