@@ -50,9 +50,10 @@ class Stage(Enum):
     are taken from a block by translations, rotations and scalings that leave its truth alone. ``GATHERING``: nested
     blocks of one kind are prepared as one. ``DISTRIBUTION``: disjuncts with equations are solved apart. ``VALUES``:
     atoms that some value of a variable meets, whatever the rest is, are dropped. ``ZEROS``: conditions on which
-    variables vanish are dropped where they follow from the others. ``BALLS``: whether two balls meet is a closed form.
-    ``STABILITY``: whether a polynomial given by its real and imaginary part has roots in a half-plane is another.
-    ``RANGES``: conditions that ranges of variables exclude are refuted. ``SEARCH``: sentences with many cases are
+    variables vanish are dropped where they follow from the others. ``BALLS``: whether two balls meet is a closed form,
+    and a sphere seen along one direction a segment. ``STABILITY``: whether a polynomial given by its real and imaginary
+    part has roots in a half-plane is another. ``RANGES``: conditions that ranges of variables exclude are refuted.
+    ``SEARCH``: sentences with many cases are
     searched by a SAT solver. ``SQUARES``: signs that sums of squares prove. ``MINISCOPING``: quantifiers are moved
     inwards, independent parts apart. ``EXCHANGE``: the sum and product of two variables that can be exchanged stand for
     them. ``SHIFT``: x^k is named x. ``GENERIC``: inequations that remove no interior are
@@ -60,7 +61,8 @@ class Stage(Enum):
     polynomial is a sum of squares, gives cases. ``EARLY``: small blocks that say equations are eliminated before what
     stands beside them. ``NONZERO``, ``INFINITY``, ``CRITICAL``, ``CONVEX``, ``CGS``, ``WITNESS``: variables that are
     only asked to be no root; truth at infinity first; critical values; convex optimisation; comprehensive Gröbner
-    systems; polynomial witnesses. ``SHORTENING``: a last look for a shorter or constant answer.
+    systems; polynomial witnesses. ``NAMING``: a linear form that curved conditions look at gets a
+    name. ``SHORTENING``: a last look for a shorter or constant answer.
     """
 
     EQUATIONS = "equations"
@@ -90,6 +92,7 @@ class Stage(Enum):
     EARLY = "early"
     NONZERO = "nonzero"
     INFINITY = "infinity"
+    NAMING = "naming"
     CRITICAL = "critical"
     CONVEX = "convex"
     CGS = "cgs"

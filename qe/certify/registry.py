@@ -28,6 +28,7 @@ from qe.certify.instance import check_instance
 from qe.certify.linear_equation import check_guarded_linear, check_linear
 from qe.certify.miniscoping import check_miniscoping
 from qe.certify.mirror import check_mirror
+from qe.certify.named_form import check_named_form
 from qe.certify.negation import check_negation
 from qe.certify.open_block import check_open_block
 from qe.certify.ranges import check_ranges
@@ -37,6 +38,7 @@ from qe.certify.roots_counted import check_roots_counted
 from qe.certify.rotation import check_rotation
 from qe.certify.sentence import check_sentence
 from qe.certify.shear import check_shear
+from qe.certify.sphere import check_sphere
 from qe.certify.step import Check
 from qe.certify.symmetry import check_scaling, check_translation
 from qe.certify.table import check_table
@@ -58,6 +60,7 @@ RULES: Mapping[str, Check] = {
     "Groebner basis of the equations": check_block,
     "multiple of an equation subtracted": check_block,
     "two balls": check_balls,
+    "sphere seen along a form": check_sphere,
     "roots in a half-plane": check_half_plane,
     "ranges that exclude each other": check_ranges,
     "conditions on zeros that follow": check_zeros,
@@ -70,6 +73,7 @@ RULES: Mapping[str, Check] = {
     "homogeneous scaling": check_scaling,
     "rotation of the axes": check_rotation,
     "linear form as a variable": check_shear,
+    "linear form named": check_named_form,
     "mirror images of a convex set": check_mirror,
     "nested blocks of one kind gathered": check_gathering,
     "disjuncts with equations apart": check_distribution,

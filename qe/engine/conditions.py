@@ -150,6 +150,12 @@ def parameters(problem: Problem, options: Options) -> str | None:
     return "a block with parameters" if problem.free else None
 
 
+def several_parameters(problem: Problem, options: Options) -> str | None:
+    """More variables in all than decomposition takes."""
+    total = len(problem.body.free)
+    return f"{total} variables in all" if problem.free and total > CAD_FIRST_VARIABLES else None
+
+
 def one_variable_and_parameters(problem: Problem, options: Options) -> str | None:
     """A block of one variable with parameters."""
     return "one variable and parameters" if len(problem.variables) == 1 and problem.free else None

@@ -42,7 +42,7 @@ SWITCHED = {
     Stage.VALUES: {StepKind.TAKES_VALUE},
     Stage.ZEROS: {StepKind.ZEROS},
     Stage.RANGES: {StepKind.RANGES},
-    Stage.BALLS: {StepKind.BALLS},
+    Stage.BALLS: {StepKind.BALLS, StepKind.SPHERE},
     Stage.STABILITY: {StepKind.HALF_PLANE},
     Stage.SQUARES: {StepKind.SQUARES},
     Stage.EXCHANGE: {StepKind.EXCHANGE},

@@ -31,6 +31,7 @@ METHODS = {
     "coverings": ("qe.elimination.coverings", "Coverings"),
     "only asked to be no root": ("qe.elimination.nonzero", "OnlyNonzero"),
     "infinity first": ("qe.elimination.vs.infinity_first", "InfinityFirst"),
+    "linear form named": ("qe.elimination.named_form", "NamedForm"),
 }
 """Where each method stands; it is loaded when it is first tried."""
 
@@ -45,6 +46,7 @@ LEFT_OUT_BY = {
     "cgs": Stage.CGS,
     "only asked to be no root": Stage.NONZERO,
     "infinity first": Stage.INFINITY,
+    "linear form named": Stage.NAMING,
 }
 """The stage without which a method is not tried. Decomposition takes what all others leave, and nobody but the caller
 asks for coverings."""
@@ -135,6 +137,7 @@ STRATEGY: tuple[Attempt, ...] = (
     Attempt(Scope.ASKED, "convex", on.closed_in_many_variables, SHORTCUT),
     Attempt(Scope.ASKED, "cgs", on.equations_bind_a_sentence, SHORTCUT, complete),
     Attempt(Scope.ASKED, "critical, convex universal", on.curved_in_the_block, SHORTCUT),
+    Attempt(Scope.ASKED, "linear form named", on.several_parameters),
     Attempt(Scope.PREPARED, "critical", on.convex_conditions, SHORTCUT),
     Attempt(Scope.BLOCK, "only asked to be no root", on.parameters),
     Attempt(Scope.BLOCK, "infinity first", on.one_variable_and_parameters),

@@ -17,6 +17,7 @@ from qe.rules.half_plane import root_in_half_plane
 from qe.rules.ranges import excluded_by_ranges
 from qe.rules.scaling import fix_scale
 from qe.rules.shear import linear_form
+from qe.rules.sphere import sphere_along_form
 from qe.rules.squares import known_signs
 from qe.rules.step import StepKind
 from qe.rules.structural import guarded_linear_equation, independent_parts, linear_equation, solvable_disjuncts
@@ -29,6 +30,7 @@ RULES: tuple[Rule, ...] = (
     excluded_by_ranges,
     independent_parts,
     two_balls,
+    sphere_along_form,
     root_in_half_plane,
     linear_equation,
     known_signs,

@@ -15,6 +15,7 @@ class StepKind(Enum):
     GUARDED_LINEAR = "linear equation solved under a guard"
     DEGREE_SHIFT = "degree shift"
     BALLS = "two balls"
+    SPHERE = "sphere seen along a form"
     HALF_PLANE = "roots in a half-plane"
     ZEROS = "conditions on zeros that follow"
     TAKES_VALUE = "value that is taken"

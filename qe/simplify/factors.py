@@ -5,7 +5,9 @@ For p = s * f1^e1 * ... * fk^ek (s = +1 or -1, fi irreducible), with the signs t
 * in p = 0 and p /= 0 every exponent becomes 1 and factors that are never zero are dropped;
 * p = 0 where 0 is the least value of p says that simpler polynomials vanish (``qe.simplify.minima``);
 * let E be the factors whose power fi^ei is never negative (after flips), O the others. Then
-  p < 0  iff  (every E factor /= 0) and s*prod(O) < 0;   p <= 0  iff  (some E factor = 0) or s*prod(O) <= 0.
+  p < 0  iff  (every E factor /= 0) and s*prod(O) < 0;   p <= 0  iff  (some E factor = 0) or s*prod(O) <= 0;
+* f*(f + k) < 0, k > 0, says that f < 0 < f + k, and f*(f + k) > 0 that f > 0 or f + k < 0; likewise <= and >=. Linear
+  factors stay together: x^2 - 1 <= 0 is short.
 The sum over the atoms of total degree times number of variables never grows.
 """
 
@@ -87,8 +89,23 @@ def reduce_atom(given: Atom, facts: Facts, conjunctive: bool) -> Formula:
         return _reduce_equation(given, parts, kept, conjunctive)
     sign, even, odd = _by_sign(parts, facts)
     if not even and sign == 1 and len(odd) == len(parts) and all(e == 1 for _, e in parts):
-        return given
+        return _between(given, odd)
     return _assemble(given.relation, prod(odd, start=given.poly.ring.constant(1)) * sign, even, lambda made: made)
+
+
+def _between(given: Atom, factors: Sequence[Poly]) -> Formula:
+    """The last rule above, for an inequality between 0 and the product of the factors; the atom if it does not apply."""
+    if len(factors) != 2 or factors[0].total_degree < 2:
+        return given
+    first, second = factors
+    for sign in (1, -1):
+        gap = second * sign - first  # the product is sign * first * (first + gap)
+        if gap.is_constant:
+            low, high = (first, first + gap) if gap.constant_value() > 0 else (first + gap, first)
+            relation = given.relation if sign > 0 else given.relation.flipped
+            join = conj if relation in (Relation.LT, Relation.LE) else disj
+            return join((atom(low, relation), atom(high, relation.flipped)))
+    return given
 
 
 def _assemble(relation: Relation, odd: Poly, even: Sequence[Poly], settled: Callable[[Formula], Formula]) -> Formula:

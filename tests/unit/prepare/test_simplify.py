@@ -37,6 +37,11 @@ CASES = [
     ("x > 0 and x*y < 0", "x > 0 and y < 0"),
     ("x < 0 and x*y < 0", "x < 0 and y > 0"),
     ("x*y /= 0 and z > 0", "z > 0 and x /= 0 and y /= 0"),
+    # products of two that differ by a number
+    ("(x^2 + y^2 - 1)*(x^2 + y^2 - 9) <= 0", "x^2 + y^2 - 9 <= 0 and x^2 + y^2 - 1 >= 0"),
+    ("(x^2 + y^2 - 1)*(x^2 + y^2 - 9) > 0", "x^2 + y^2 - 9 > 0 or x^2 + y^2 - 1 < 0"),
+    ("(x*y - 1)*(3 - x*y) >= 0", "x*y - 3 <= 0 and x*y - 1 >= 0"),
+    ("(x - 1)*(x + 1) < 0", "x^2 - 1 < 0"),
     # variables with a known value
     ("x = 0 and x*y + z = 0 and (z > 1 or y + x < 0)", "x = 0 and z = 0 and y < 0"),
     ("x /= 2 or x*y > 0", "x /= 2 or y > 0"),

@@ -1,0 +1,136 @@
+"""A sphere, or a ball, that is looked at along one direction only: a segment in its place.
+
+THEOREM. Let v be n variables, c > 0 a number, b and l vectors of polynomials and e a polynomial without v, and
+R = |b|^2 - 4*c*e. The values of l.v on the sphere c*|v|^2 + b.v + e = 0, n >= 2, or on the ball (<= 0), n >= 1, are the
+t with (2*c*t + l.b)^2 <= |l|^2*R, if R >= 0; there are none if R < 0. On the open ball (< 0) they are those with < if
+R > 0 and l is not 0. So if everything else in f sees v by t = l.v alone, ex v, x (c*|v|^2 + b.v + e = 0 and f(l.v, x))
+iff ex t, x (R >= 0 and (2*c*t + l.b)^2 <= |l|^2*R and f(t, x)). Where |l|^2 is a positive number, R >= 0 follows.
+PROOF. With w = 2*c*v + b the sphere is |w|^2 = R. There l.w takes all values between -|l|*sqrt(R) and |l|*sqrt(R), by
+Cauchy's inequality and since a sphere of dimension 1 and more is connected; so does it on the ball, which is convex.
+
+On the sphere, polynomials that contain |v|^2 are linear in v after a multiple of its equation has been subtracted.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from functools import reduce
+from itertools import combinations
+from math import prod
+
+from qe.exact.ring import Poly, format_poly
+from qe.formula.build import atom, conj
+from qe.formula.syntax import TRUE, Atom, Formula, Relation, RootAtom
+from qe.formula.traverse import atoms, conjuncts, has_root_atoms, map_atoms
+from qe.rules.balls import Ball
+from qe.rules.block_context import BlockContext, Found
+from qe.rules.step import StepKind
+from qe.rules.tree import Pending
+
+_PARTS, _VARIABLES, _TERMS = 12, 6, 300
+"""Conjuncts of a block that is looked at, its variables in a sphere, terms of all atoms."""
+
+
+def sphere_along_form(variables: tuple[str, ...], body: Formula, context: BlockContext) -> Found | None:
+    """The theorem on the first sphere or ball in two variables of the block or more, where there are parameters."""
+    if StepKind.SPHERE not in context.enabled or len(variables) < 2 or set(body.free) <= set(variables):
+        return None
+    parts = conjuncts(body)
+    if len(parts) > _PARTS or not body.is_quantifier_free or has_root_atoms(body):
+        return None
+    if sum(a.poly.term_count() for a in atoms(body)) > _TERMS:
+        return None
+    for part in parts:
+        rest = [p for p in parts if p != part]
+        for own in _candidates(part, variables):
+            context.budget.check("prepare")
+            ball = _ball(part, own)
+            found = None if ball is None else _along(ball, own, rest)
+            if found is not None:
+                form, after = found
+                left = tuple(v for v in variables if v not in own[1:])
+                proof = {"sphere": part, "variables": list(own), "form": form}
+                return Found(StepKind.SPHERE, f"{format_poly(form)} for {', '.join(own)}", Pending(left, after), proof)
+    return None
+
+
+def _candidates(part: Formula, variables: Sequence[str]) -> Iterator[tuple[str, ...]]:
+    """Variables of the block in which the conjunct may be a sphere or ball, many first."""
+    if isinstance(part, Atom) and part.relation is not Relation.NE:
+        ring = part.poly.ring
+        square = [v for v in variables if v in part.free and part.poly.degree(ring.index[v]) == 2]
+        for size in range(min(len(square), _VARIABLES), 1, -1):
+            yield from combinations(square, size)
+
+
+def _ball(part: Formula, names: Sequence[str]) -> tuple[Ball, Poly | None] | None:
+    """What a conjunct is in these variables; with the polynomial of the equation (leading coefficients positive) where
+    it is a sphere."""
+    if not isinstance(part, Atom):
+        return None
+    ring = part.poly.ring
+    indices = [ring.index[v] for v in names]
+    if part.relation is not Relation.EQ:
+        ball = Ball.of(part, indices)
+        return None if ball is None else (ball, None)
+    for poly, relation in ((part.poly, Relation.LE), (-part.poly, Relation.GE)):
+        ball = Ball.of(Atom(part.poly, relation), indices)
+        if ball is not None:
+            return ball, poly
+    return None
+
+
+def _along(
+    given: tuple[Ball, Poly | None], names: Sequence[str], rest: Sequence[Formula]
+) -> tuple[Poly, Formula] | None:
+    """The form, and the block's body with its value under the first of the names; None where the others see more."""
+    (ball, equation), ring = given, given[0].rest.ring
+    indices = [ring.index[v] for v in names]
+    factors = dict.fromkeys(f for p in rest for a in atoms(p) for f, _ in a.poly.factors()[1])
+    linear = {f: _reduced(f, ball.lead, equation, indices) for f in factors if set(indices) & set(f.variables)}
+    form = next((_form(p, indices) for p in linear.values() if any(p.degree(i) for i in indices)), None)
+    if form is None:
+        return None
+    direction = [form.derivative(i) for i in indices]
+    length = sum((p * p for p in direction), ring.constant(0))
+    images = {f: _image(linear[f], form, indices) if f in linear else f for f in factors}
+    if any(image is None for image in images.values()) or (ball.strict and not length.is_constant):
+        return None
+
+    def change(found: Atom | RootAtom) -> Formula:
+        unit, parts = found.poly.factors()
+        return atom(prod((images[f] ** k for f, k in parts), start=ring.constant(unit)), found.relation)
+
+    offset = sum((p * q for p, q in zip(direction, ball.linear, strict=True)), ring.constant(0))
+    bound = (ring.gen(indices[0]) * (2 * ball.lead) + offset) ** 2 - length * ball.radicand(1)
+    radius = TRUE if length.is_constant else atom(ball.radicand(1), Relation.GE)
+    values = atom(bound, Relation.LT if ball.strict else Relation.LE)
+    return form, conj((radius, values, *(map_atoms(p, change) for p in rest)))
+
+
+def _reduced(poly: Poly, lead: int, equation: Poly | None, indices: Sequence[int]) -> Poly:
+    """A positive multiple of the polynomial on the sphere, without squares where it had |v|^2."""
+    square = poly.coefficients(indices[0])[2:]
+    return poly if equation is None or len(square) != 1 else poly * lead - square[0] * equation
+
+
+def _form(poly: Poly, indices: Sequence[int]) -> Poly | None:
+    """l.v for a polynomial that is linear in v."""
+    slopes = [poly.derivative(i) for i in indices]
+    if any(p.degree(i) for p in slopes for i in indices):
+        return None
+    common = reduce(lambda p, q: p.gcd(q), slopes)
+    ring = poly.ring
+    form = sum((p.exact_divide(common) * ring.gen(i) for p, i in zip(slopes, indices, strict=True)), ring.constant(0))
+    return form.normal()[1]
+
+
+def _image(poly: Poly, form: Poly, indices: Sequence[int]) -> Poly | None:
+    """The polynomial with t, under the first of the names, for l.v; None where it is not one in l.v."""
+    x = next(i for i in indices if form.degree(i))
+    slope, unit = poly.derivative(x), form.derivative(x)
+    if any(slope.degree(i) for i in indices) or slope.gcd(unit) not in (unit, -unit):
+        return None
+    scale = slope.exact_divide(unit)
+    offset = poly - scale * form
+    return None if any(offset.degree(i) for i in indices) else offset + scale * poly.ring.gen(indices[0])
