@@ -1,6 +1,6 @@
 """Inverse kinematics at a pose (a point and an orientation): arms with three neighbouring parallel axes.
 
-Planar arms with three joints, and arms with six joints whose axes 2, 3, 4 are parallel and whose axes 5 and 6 meet (or
+Planar arms with three joints, also with a fourth one that slides along their axes, and arms with six joints whose axes 2, 3, 4 are parallel and whose axes 5 and 6 meet (or
 the same read from the hand back to the base), like the myCobot 280 (arXiv 2509.00823) and the UR arms. With
 T = A0 M1 A1 (M2 A2 M3 A3 M4) A4 M5 A5 M6 A6, P' = A0^-1 T A6^-1, Π the part in brackets, a motion of a plane, n1 the
 axis of joint 2 seen from joint 1 and C the point in which axes 5 and 6 meet, which the pose alone gives:
@@ -21,7 +21,7 @@ changes; so one t between each two, these zeros and θ1 = π decide.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
 from itertools import pairwise
@@ -29,7 +29,7 @@ from typing import Any
 
 from bezier.arm.choices import Arc, Choice, End, arcs_of, by_turns
 from bezier.arm.elimination import Quotient, quotient, weights
-from bezier.arm.model import Arm, Chain, Matrix, Motion, apply, inverse
+from bezier.arm.model import Arm, Chain, Matrix, Motion, apply, inverse, product
 from bezier.arm.ratio import Ratio, reduced
 from bezier.arm.roots_of_squares import Rules, Scaled, Turn, fixed, turned
 from bezier.arm.value import Known
@@ -49,19 +49,27 @@ ZERO = Fraction(0)
 @dataclass(frozen=True)
 class Shape:
     """Which of the arms above: ``chain`` read in the direction of the derivation; ``first``: the place of the first of
-    the three parallel axes, 0 (three joints) or 1 (six joints)."""
+    the three parallel axes, 0 (three joints) or 1 (six joints). ``slide``: the place and the direction, seen from the
+    base, of a joint that slides along three parallel axes; it is left out of the chain."""
 
     chain: Chain
     is_reversed: bool
     first: int
+    slide: tuple[int, tuple[Any, ...]] | None = None
 
 
 def shape_of(arm: Arm) -> Shape:
     """Raises ``Unable`` for an arm that the derivation does not fit."""
     chain = arm.chain
-    needed = "a spherical wrist, or three parallel axes, alone or with two neighbouring axes that meet after one before"
+    needed = (
+        "a spherical wrist, or three parallel axes, alone, with a joint that slides along them, or with two neighbouring"
+        " axes that meet after one before"
+    )
     refused = Unable(f"inverse kinematics at a pose needs {needed}; {arm.name} is none")
-    if any(joint.motion is not Motion.REVOLUTE for joint in chain.joints):
+    sliding = [k for k, joint in enumerate(chain.joints) if joint.motion is Motion.PRISMATIC]
+    if len(chain.joints) == 4 and len(sliding) == 1 and (shape := _with_slide(chain, sliding[0])) is not None:
+        return shape
+    if sliding:
         raise refused
     if len(chain.joints) == 3 and _are_parallel(chain, 0):
         return Shape(chain, False, 0)
@@ -71,6 +79,18 @@ def shape_of(arm: Arm) -> Shape:
             if _are_parallel(one, 1) and _meet(one) is not None:
                 return Shape(one, is_reversed, 1)
     raise refused
+
+
+def _with_slide(chain: Chain, k: int) -> Shape | None:
+    """Three parallel joints and one that slides along them, as in a SCARA arm: its length moves nothing else."""
+    between = chain.constants[1:4]
+    if any(not is_zero(m[i][2]) for m in between for i in range(2)):
+        return None
+    axis, merged = chain.constants[0], product(chain.constants[k], chain.constants[k + 1])
+    for m in between[:k]:
+        axis = product(axis, m)
+    rest = Chain((*chain.constants[:k], merged, *chain.constants[k + 2 :]), (*chain.joints[:k], *chain.joints[k + 1 :]))
+    return Shape(rest, False, 0, (k, tuple(row[2] for row in axis))) if _are_parallel(rest, 0) else None
 
 
 def _are_parallel(chain: Chain, first: int) -> bool:
@@ -126,6 +146,9 @@ class Search:
 
     def solutions(self, place: Point) -> Iterator[Found]:
         """Every solution once."""
+        if self.shape.slide is not None:
+            yield from self._slid(*self.shape.slide, place)
+            return
         if self.shape.first == 0:
             tower = self._planar_arm(place)
         else:
@@ -155,6 +178,24 @@ class Search:
             elif any(here.point.sign(d) for d in defects):
                 raise InternalError("the solutions at a pose contradict the forward kinematics")
             yield here, joints, multiple, choices
+
+    def _slid(self, k: int, axis: tuple[Any, ...], place: Point) -> Iterator[Found]:
+        """The height along the axes is the length of the joint that slides; the rest is as without it."""
+        rules, origin = self.rules, [row[3] for row in self.shape.chain.constants[0]]
+        turning = self.shape.chain.constants
+        height, _ = _height(turning[1:3])
+        z = [row[2] for row in turning[0]]  # the axes seen from the base
+        last = inverse(turning[3])
+        end, _ = self.pose.image([row[3] for row in last])
+        along = rules.tidy(sum(((end[i] - origin[i]) * z[i] for i in range(3)), end[0] * 0) - height)
+        sign = sum((a * b for a, b in zip(axis, z, strict=True)), ZERO)
+        length = along * sign
+        rows = tuple((*row[:3], rules.tidy(row[3] - length * c)) for row, c in zip(self.pose.rows, axis, strict=True))
+        rest = Search(replace(self.shape, slide=None), rules, Scaled(rows, self.pose.scale, rules))
+        slid = (quotient(length, rules.number(1)),)
+        for here, joints, multiple, choices in rest.solutions(place):
+            moved: Joints = {j + (j >= k): known for j, known in joints.items()}
+            yield here, {**moved, k: slid}, multiple, tuple(Choice(c.joint + (c.joint >= k), c.arcs) for c in choices)
 
     def _followed(self, place: Point) -> tuple[Arc, ...] | None:
         """The angles of the first joint that the other joints can follow."""

@@ -1,4 +1,4 @@
-"""Joint positions at a pose: three parallel axes, alone or in an arm of six joints, and spherical wrists.
+"""Joint positions at a pose: three parallel axes, alone, with a slide or in an arm of six joints; spherical wrists.
 
 T = A0 M1 A1 ... M6 A6 is the pose. Three parallel axes (2, 3, 4, and 5 and 6 meet; or so read from the hand to the
 base; D. L. Pieper 1968): with B = A0^-1 T A6^-1, Π = M2 A2 M3 A3 M4, a motion of a plane that takes heights z to h ± z,
@@ -40,7 +40,35 @@ def parallel_axes(chain: Chain, pose: Motion, entry: Entry, budget: Budget) -> l
                 return list(_six_joints(chain.constants, pose, entry, budget))
             if _has_parallel_axes(chain.reversed):
                 return [p.backwards for p in _six_joints(chain.reversed.constants, back(pose), entry, budget)]
+    if len(chain.turns) == 4 and sum(chain.turns) == 3 and _only_heights(chain.constants[1:4]):
+        return list(_with_slide(chain, pose))
     raise Unable("poses are for three parallel axes, alone or with two that meet, and for spherical wrists")
+
+
+def _only_heights(between: Sequence[Motion]) -> bool:
+    """Whether all axes have one direction, or its opposite."""
+    return all(not (m[0][0][2] or m[0][1][2]) for m in between)
+
+
+def _with_slide(chain: Chain, pose: Motion) -> Iterator[Position]:
+    """Three parallel joints and one that slides along their axes: d in A M(θ) ... Tz(d) ... moves the end by d times
+    the direction of the axes and does nothing else, so the height alone tells it, and the rest is as without it."""
+    k, constants = chain.turns.index(False), chain.constants
+    merged = (*constants[:k], together(constants[k], constants[k + 1]), *constants[k + 2 :])
+    if not _are_parallel(merged[1:3]):
+        raise Unable("two axes are one")
+    axis = constants[0]
+    for m in constants[1 : k + 1]:
+        axis = together(axis, m)
+    based = together(together(back(merged[0]), pose), back(merged[3]))
+    slide = tuple(row[2] for row in axis[0])
+    sign = dot(slide, [row[2] for row in merged[0][0]])
+    length = sign * (based[1][2] - _height(merged[1:3])[0])
+    lowered = based[0], (*based[1][:2], based[1][2] - sign * length)
+    slid = Joint(nested(length), None, nested(ONE))
+    for found in _in_plane(merged[1:3], lowered):
+        joints = [*found.joints[:k], slid, *found.joints[k:]]
+        yield Position(joints, {j + (j >= k): arcs for j, arcs in found.chosen.items()})
 
 
 def _are_parallel(pair: Sequence[Motion]) -> bool:
