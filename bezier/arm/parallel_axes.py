@@ -1,7 +1,8 @@
 """Inverse kinematics at a pose (a point and an orientation): arms with three neighbouring parallel axes.
 
-Planar arms with three joints, also with a fourth one that slides along their axes, and arms with six joints whose axes 2, 3, 4 are parallel and whose axes 5 and 6 meet (or
-the same read from the hand back to the base), like the myCobot 280 (arXiv 2509.00823) and the UR arms. With
+Planar arms with three joints, also with a fourth one that slides along their axes, and arms with six joints whose axes
+2, 3, 4 are parallel and whose axes 5 and 6 meet (or the same read from the hand back to the base), like the myCobot 280
+(arXiv 2509.00823) and the UR arms. With
 T = A0 M1 A1 (M2 A2 M3 A3 M4) A4 M5 A5 M6 A6, P' = A0^-1 T A6^-1, Π the part in brackets, a motion of a plane, n1 the
 axis of joint 2 seen from joint 1 and C the point in which axes 5 and 6 meet, which the pose alone gives:
 
@@ -62,8 +63,8 @@ def shape_of(arm: Arm) -> Shape:
     """Raises ``Unable`` for an arm that the derivation does not fit."""
     chain = arm.chain
     needed = (
-        "a spherical wrist, or three parallel axes, alone, with a joint that slides along them, or with two neighbouring"
-        " axes that meet after one before"
+        "a spherical wrist, or three parallel axes, alone, with a joint that slides along them, or with two"
+        " neighbouring axes that meet after one before"
     )
     refused = Unable(f"inverse kinematics at a pose needs {needed}; {arm.name} is none")
     sliding = [k for k, joint in enumerate(chain.joints) if joint.motion is Motion.PRISMATIC]

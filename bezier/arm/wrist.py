@@ -19,7 +19,7 @@ from fractions import Fraction
 from functools import lru_cache
 from typing import Any
 
-from bezier.arm.angles import Angle
+from bezier.arm.angles import Angle, field_of
 from bezier.arm.choices import Arc, Choice, by_turns
 from bezier.arm.elimination import TURNS, M, Quotient, Reduction, T, quotient, weights
 from bezier.arm.inverse import Inverse, Solution, geometry_of, solve_at
@@ -83,11 +83,13 @@ def meeting(m: Sequence[Sequence[Any]]) -> tuple[Any, Any] | None:
 
 
 def _first(arm: Arm, height: Fraction) -> Arm:
-    """The first three joints, with the centre of the wrist as end point."""
+    """The first three joints, with the centre of the wrist as end point. The last turn moves nothing: it is there so
+    that the field of the constants is that of the whole arm."""
     moving = [k for k, row in enumerate(arm.rows) if row.joint is not None]
     fourth = arm.rows[moving[3]]
     a, alpha = (fourth.a, fourth.alpha) if arm.convention is Convention.MODIFIED else (ZERO, Angle())
-    return Arm(arm.name, arm.convention, (*arm.rows[: moving[3]], Row(a, alpha, height, Angle())))
+    turn = next(Angle(k) for k in (0, 2, 3, 1) if field_of((Angle(k),)) == arm.field)
+    return Arm(arm.name, arm.convention, (*arm.rows[: moving[3]], Row(a, alpha, height, turn)))
 
 
 def centre_at(wrist: Wrist, found: Inverse) -> tuple[Any, ...]:
