@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from math import pi
 
 from bezier.arm.elimination import TURNS
 from bezier.arm.limits import full_turns, length_side, side
@@ -67,6 +68,13 @@ class Edge:
     end: End | None = None
     turns: int = 0
     limit: Fraction | None = None
+
+    @property
+    def value(self) -> float | None:
+        """The number, where there is one."""
+        if self.end is not None:
+            return float(self.end.value()) + self.turns * 2 * pi
+        return None if self.limit is None else float(self.limit)
 
 
 Span = tuple[Edge, Edge]

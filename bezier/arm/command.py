@@ -5,7 +5,7 @@ from __future__ import annotations
 import json as json_text
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
-from math import degrees, pi
+from math import degrees
 from typing import Any
 
 from bezier.arm import path_report
@@ -118,15 +118,9 @@ def _arc(arc: Arc) -> dict[str, Any]:
 
 
 def _edge(edge: Edge) -> Any:
-    if edge.limit is not None:
-        return {"value": float(edge.limit), "limit": str(edge.limit)}
-    return None if edge.end is None else {"value": _number(edge), "limit": None}
-
-
-def _number(edge: Edge) -> float:
-    """The value at an end that is no limit."""
-    assert edge.end is not None, "it is no limit"
-    return float(edge.end.value()) + edge.turns * 2 * pi
+    return (
+        None if edge.value is None else {"value": edge.value, "limit": None if edge.limit is None else str(edge.limit)}
+    )
 
 
 def _joint(value: Value) -> dict[str, Any]:
@@ -184,7 +178,7 @@ def _range(joint: Joint, choice: Choice) -> str:
     if listed == [(Edge(), Edge())]:
         return "free"
     unit = "mm" if joint.motion is Motion.PRISMATIC else "rad"
-    told = [_between(*(None if e is None else e["value"] for e in map(_edge, ends))) for ends in listed]
+    told = [_between(*(edge.value for edge in ends)) for ends in listed]
     return f"free {' and '.join(told)} {unit}" + (" (its limits)" if choice.arcs is None else "")
 
 
