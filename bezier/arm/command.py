@@ -9,12 +9,14 @@ from math import degrees
 from typing import Any
 
 from bezier.arm import path_report
+from bezier.arm.choices import Arc, Choice, Edge, spans
 from bezier.arm.evidence import certificates
-from bezier.arm.inverse import Ends, Inverse, Solution, Value, solve
+from bezier.arm.inverse import Inverse, Solution, solve
 from bezier.arm.inverse_evidence import inverse_certificate
 from bezier.arm.joint_path import joint_path
-from bezier.arm.model import Arm
+from bezier.arm.model import Arm, Joint, Motion
 from bezier.arm.pose import rotation_of, solve_pose
+from bezier.arm.value import Ends, Value
 from bezier.curves.curve import Bezier
 from bezier.curves.scalar import brief, decimal_text, described
 from qe.certify.verify import verify
@@ -69,7 +71,11 @@ def to_json(found: Inverse) -> dict[str, Any]:
 
     ``count``: of different solutions, null for infinitely many; then the joints in ``free`` can be chosen (null in the
     solutions). Each joint of a solution has its ``angle`` (rad), ``cos`` and ``sin``, or its ``length`` (mm), and a
-    ``box`` that isolates the solution: exact rational bounds of these.
+    ``box`` that isolates the solution: exact rational bounds of these. A solution with ``choices`` is a family: for
+    each joint that can be chosen (independently, if there are two), ``possible`` says for which values there are
+    positions: "all", or intervals by the bounds of their ends (angles from ``low`` on the way round to ``high``).
+    ``values``: those of them between the joint's limits, as numbers, exact where an end is a ``limit``; an end is null
+    where there is none. ``follow``: the other joints without a value, whose limits are left aside.
     """
     return {
         "arm": found.arm.name,
@@ -88,7 +94,33 @@ def _solution(arm: Arm, solution: Solution) -> dict[str, Any]:
     joints: dict[str, Any] = {}
     for joint, value in zip(arm.joints, solution.values, strict=True):
         joints[joint.name] = None if value is None else _joint(value)
-    return {"joints": joints, "multiple": solution.multiple, "within_limits": solution.allowed}
+    found = {"joints": joints, "multiple": solution.multiple, "within_limits": solution.allowed}
+    if solution.choices:
+        found["choices"] = [_choice(arm.joints[choice.joint], choice) for choice in solution.choices]
+        found["follow"] = _followers(arm, solution)
+    return found
+
+
+def _followers(arm: Arm, solution: Solution) -> list[str]:
+    chosen = {choice.joint for choice in solution.choices}
+    return [j.name for k, j in enumerate(arm.joints) if solution.values[k] is None and k not in chosen]
+
+
+def _choice(joint: Joint, choice: Choice) -> dict[str, Any]:
+    arcs: Any = "all" if choice.arcs is None else [_arc(arc) for arc in choice.arcs]
+    values = [{"low": _edge(low), "high": _edge(high)} for low, high in spans(joint, choice)]
+    return {"joint": joint.name, "possible": arcs, "values": values}
+
+
+def _arc(arc: Arc) -> dict[str, Any]:
+    low, high = (None if end is None else _joint(end.value()) for end in arc)
+    return {"low": low, "high": high}
+
+
+def _edge(edge: Edge) -> Any:
+    return (
+        None if edge.value is None else {"value": edge.value, "limit": None if edge.limit is None else str(edge.limit)}
+    )
 
 
 def _joint(value: Value) -> dict[str, Any]:
@@ -112,15 +144,17 @@ def in_words(found: Inverse) -> list[str]:
         what = what if found.rotation else "point (proved: the equation of the last joint has no real root)"
         return [*lines, f"no joint position reaches the {what}"]
     if found.free:
-        listed = f"; {_families(found)}" if found.solutions else ""
-        lines.append(f"infinitely many solutions, {', '.join(found.free)} free{listed}")
+        lines.append(f"infinitely many solutions, {', '.join(found.free)} free; {_families(found)}")
     else:
         lines.append(f"{len(found.solutions)} solution{'s' if len(found.solutions) != 1 else ''} (proved), in rad:")
     for k, solution in enumerate(found.solutions, start=1):
         parts = [
-            f"{joint.name} = {'free' if value is None else _told(value)}"
+            f"{joint.name} follows" if value is None else f"{joint.name} = {_told(value)}"
             for joint, value in zip(found.arm.joints, solution.values, strict=True)
         ]
+        for choice in solution.choices:
+            joint = found.arm.joints[choice.joint]
+            parts[choice.joint] = f"{joint.name} {_range(joint, choice)}"
         notes = ["two solutions meet"] * solution.multiple + ["outside the limits of the joints"] * (
             not solution.allowed
         )
@@ -134,6 +168,26 @@ def _families(found: Inverse) -> str:
     count = len(found.solutions) - single
     families = f"{count} famil{'y' if count == 1 else 'ies'}"
     return families + (f" and {single} single solution{'s' if single != 1 else ''}" if single else "")
+
+
+def _range(joint: Joint, choice: Choice) -> str:
+    """Which values of a joint can be chosen."""
+    listed = list(spans(joint, choice))
+    if not listed:
+        return "free, but not between its limits"
+    if listed == [(Edge(), Edge())]:
+        return "free"
+    unit = "mm" if joint.motion is Motion.PRISMATIC else "rad"
+    told = [_between(*(edge.value for edge in ends)) for ends in listed]
+    return f"free {' and '.join(told)} {unit}" + (" (its limits)" if choice.arcs is None else "")
+
+
+def _between(low: float | None, high: float | None) -> str:
+    if low == high and low is not None:
+        return f"at {low:.9f}"
+    if low is None or high is None:
+        return f"up to {high:.9f}" if high is not None else f"from {low:.9f} on"
+    return f"from {low:.9f} to {high:.9f}"
 
 
 def _told(value: Value) -> str:

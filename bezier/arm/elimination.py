@@ -133,6 +133,11 @@ class Geometry:
         """Which joints turn."""
         return tuple(joint.motion is Motion.REVOLUTE for joint in self.arm.joints)
 
+    @cached_property
+    def moves_last(self) -> bool:
+        """Whether the last joint moves the point at all: one on its own axis stays where it is."""
+        return any(not is_zero(c) for f in self.v[1:] for c in f)
+
     @property
     def rows(self) -> tuple[Vector, Vector]:
         """What the two equations take of M(q2) v: g and n, or two rows of R."""
@@ -148,18 +153,18 @@ class Geometry:
         """The reduction for a point whose coordinates are polynomials of the ring, with φ of this cosine and sine."""
         field, target = self.arm.field, self.based(point)
         t, one = Ratio(ring.var(T), 1, field), constant(ring, 1, field)
-        norm, weights = _weights(t, one, turn) if self.turns[2] else (one, (one, t))
-        v = [sum((w * f[i] for w, f in zip(weights, self.v, strict=True)), one * 0) for i in range(3)]
+        norm, factors = weights(t, one, turn) if self.turns[2] else (one, (one, t))
+        v = [sum((w * f[i] for w, f in zip(factors, self.v, strict=True)), one * 0) for i in range(3)]
         left = _Left(self, norm, v, target, Ratio(ring.var(M), 1, field))
         equation, square, image, second, kappa = left.second_turns() if self.turns[1] else left.second_slides()
         q = [dot(row, image) + norm * o for row, o in zip(self.turn, self.shift, strict=True)]
         x, y, z = target
         axis = x * x + y * y
-        first: tuple[Quotient, ...] = (_quotient(norm * z - q[2], norm),)
+        first: tuple[Quotient, ...] = (quotient(norm * z - q[2], norm),)
         if self.turns[0]:
             bottom = axis * norm
-            first = (_quotient(x * q[0] + y * q[1], bottom), _quotient(y * q[0] - x * q[1], bottom))
-        last = tuple(_quotient(w, norm) for w in weights[1:])
+            first = (quotient(x * q[0] + y * q[1], bottom), quotient(y * q[0] - x * q[1], bottom))
+        last = tuple(quotient(w, norm) for w in factors[1:])
         degree = (4 if square is None and left.is_quadratic else 2) if self.turns[2] else None
         shoulder = (axis - dot(self.shift[:2], self.shift[:2]), z - self.shift[2]) if all(self.turns[:2]) else ()
         return Reduction(
@@ -230,7 +235,7 @@ class _Left:
         b1, b2 = (b - v[2] * row[2] for b, row in zip(self.linear(), (g, n), strict=True))
         kappa = v[0] * v[0] + v[1] * v[1]
         equation, square, u = _planar(g, n, b1, b2, kappa, self.m)
-        pair = (_quotient(u[0] * v[0] + u[1] * v[1], kappa), _quotient(v[0] * u[1] - v[1] * u[0], kappa))
+        pair = (quotient(u[0] * v[0] + u[1] * v[1], kappa), quotient(v[0] * u[1] - v[1] * u[0], kappa))
         return equation, square, (*u, v[2]), pair, kappa
 
     def second_slides(self) -> Parts:
@@ -254,7 +259,7 @@ class _Left:
             else:
                 d = height / g.nu[2]
                 equation = d * d + 2 * (d * middle) - norm * wanted
-        return equation, square, (v[0], v[1], v[2] + d), (_quotient(d, norm),), None
+        return equation, square, (v[0], v[1], v[2] + d), (quotient(d, norm),), None
 
 
 def _determinant(g: Vector, n: Vector) -> Any:
@@ -282,12 +287,13 @@ def _planar(
     return equation, Ratio(square.top * square.bottom, 1, square.field), u
 
 
-def _weights(t: Ratio, one: Ratio, turn: tuple[Fraction, Fraction]) -> tuple[Ratio, tuple[Ratio, Ratio, Ratio]]:
+def weights(t: Ratio, one: Ratio, turn: tuple[Fraction, Fraction]) -> tuple[Ratio, tuple[Ratio, Ratio, Ratio]]:
     """1 + t², and 1, cos θ and sin θ times it, for θ = φ + 2 arctan t."""
     c, s = turn
     norm, minus, double = one + t * t, one - t * t, t * 2
     return norm, (norm, minus * c - double * s, minus * s + double * c)
 
 
-def _quotient(top: Ratio, bottom: Ratio) -> Quotient:
+def quotient(top: Ratio, bottom: Ratio) -> Quotient:
+    """One over the other."""
     return Quotient(top.top, bottom.top, Fraction(bottom.bottom, top.bottom))

@@ -16,9 +16,10 @@ from functools import lru_cache
 from operator import attrgetter
 
 from bezier.arm.critical import powers
-from bezier.arm.inverse import Solution, Value
+from bezier.arm.inverse import Solution
 from bezier.arm.kinematics import wrapped
 from bezier.arm.model import Arm, Motion
+from bezier.arm.value import Value
 from bezier.curves.curve import Bezier
 from bezier.curves.scalar import exactly
 from qe.exact.motion_chain import MotionChain, Piece

@@ -14,66 +14,42 @@ from functools import lru_cache, partial
 from numbers import Integral
 from typing import Any
 
-from bezier.arm.elimination import LIFTED, TURNS, Geometry, M, Quotient, Reduction, T
+from bezier.arm.choices import Choice, not_negative, spans
+from bezier.arm.elimination import LIFTED, TURNS, Geometry, M, Reduction, T
 from bezier.arm.limits import allowed
 from bezier.arm.model import Arm
 from bezier.arm.ratio import variable
 from bezier.arm.substitute_back import confirm
+from bezier.arm.value import BITS, Known, Value, value_of
 from bezier.curves.scalar import rational
 from qe.errors import InputError, InternalError
 from qe.exact.algebraic import RealAlgebraic
-from qe.exact.point_values import Ball, Evaluation, angle, multiple_roots, roots_above
+from qe.exact.point_values import Evaluation, multiple_roots, roots_above
 from qe.exact.ring import Poly, Ring
 from qe.exact.sample import FibreRoot, Point
 
-Ends = tuple[Fraction, Fraction]
 Reductions = Callable[[int], Reduction]
 
-BITS = 64
 LARGEST = 10**100
 """Coordinates in mm: larger ones have no decimal that a float holds."""
 
 NAMES = ("w", "x", "y", "z", "t", "m")
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Value:
-    """One joint of one solution: its angle in (-pi, pi] (rad) or its length (mm), in a ball at most 2^-60 wide, and
-    cosine and sine of an angle."""
-
-    ball: Ball
-    pair: tuple[Ball, Ball] | None = None
-
-    def __float__(self) -> float:
-        return float(self.ball)
-
-    @property
-    def ends(self) -> Ends:
-        """An interval around the angle or the length."""
-        return self.ball.ends
-
-    @property
-    def cosine(self) -> Ends | None:
-        """An interval around the cosine; None for a length."""
-        return None if self.pair is None else self.pair[0].ends
-
-    @property
-    def sine(self) -> Ends | None:
-        """An interval around the sine; None for a length."""
-        return None if self.pair is None else self.pair[1].ends
-
-
 @dataclass(frozen=True, eq=False)
 class Solution:
-    """One solution. ``values``: one for each joint, None where it is free; ``multiple``: two solutions meet here;
-    ``allowed``: whether it keeps the limits of the joints. ``place``: the exact point that it was read from.
+    """One solution, or a family. ``values``: one for each joint, None where it is free; ``multiple``: two solutions
+    meet here; ``allowed``: whether it keeps the limits of the joints. ``place``: the exact point that it was read from.
+    ``choices``: the joints of a family that can be chosen, independently of each other, and which of their values are
+    possible: exactly for these there are positions. Other free joints follow them, and their limits are left aside.
     """
 
     values: tuple[Value | None, ...]
     multiple: bool
     allowed: bool
     place: Evaluation
-    quotients: tuple[tuple[Quotient, ...] | None, ...]
+    quotients: tuple[Known | None, ...]
+    choices: tuple[Choice, ...] = ()
 
     @property
     def angles(self) -> tuple[float | None, ...]:
@@ -90,9 +66,9 @@ class Solution:
 class Inverse:
     """All solutions at a point (mm).
 
-    ``free``: the joints whose angle is not determined; then every solution stands for a family, and there are
-    infinitely many. ``cases``: the names of what is special about the point. ``rotation``: the rows of the orientation
-    that was asked for, if one was.
+    ``free``: the joints whose value is not determined; then there are infinitely many solutions, and each of those that
+    leave one of them open stands for a family. ``cases``: the names of what is special about the point. ``rotation``:
+    the rows of the orientation that was asked for, if one was.
     """
 
     arm: Arm
@@ -110,7 +86,7 @@ class Inverse:
     @property
     def is_reachable(self) -> bool:
         """Whether there is a solution."""
-        return bool(self.solutions or self.free)
+        return bool(self.solutions)
 
 
 def solve(arm: Arm, point: Sequence[Any]) -> Inverse:
@@ -133,29 +109,40 @@ def solve_at(arm: Arm, here: Point, numbers: tuple[Any, ...], reductions: Reduct
     cases = (f"on the axis of {arm.joints[0].name}",) * on_axis + (
         f"on the circle of the shoulder, the centre of {arm.joints[1].name}",
     ) * on_shoulder
-    values = Evaluation(here)
+    values, t = Evaluation(here), first.ring.index[T]
+    if not geometry_of(arm).moves_last:
+        place = Evaluation(here.extend(RealAlgebraic.rational(Fraction(0))))
+        reached = place.point.sign(first.equation) == 0
+        found = list(_at_root(arm, place, first, on_axis, False, is_still=True)) if reached else []
+        return _listed(arm, numbers, found, (*cases, *(f"{arm.joints[2].name} does not move the point",) * reached))
     for k in range(len(TURNS)):
         reduction = reductions(k)
-        roots = roots_above(here, reduction.ring.index[T], reduction.equation)
+        roots = roots_above(here, t, reduction.equation)
         if roots is None:
-            if _misses(here, reduction.square, None if reduction.degree is None else LIFTED, reduction.ring.index[T]):
+            if _misses(here, reduction.square, None if reduction.degree is None else LIFTED, t):
                 continue
             roots = _isolated(here, reduction)
             if roots is None:
-                return _family(arm, numbers, on_axis, cases)
-        elif _misses(here, reduction.equation, reduction.degree, reduction.ring.index[T]):
+                cases = (*cases, f"{arm.joints[2].name} can be chosen")
+                return _listed(arm, numbers, [_family(arm, values, reduction, on_axis)], cases)
+        elif _misses(here, reduction.equation, reduction.degree, t):
             continue  # the angle that t misses may be a solution: another φ tells
         found = [
             solution
             for root, multiple in zip(roots, multiple_roots(roots), strict=True)
             for solution in _at_root(arm, values.extend(root), reduction, on_axis, multiple)
         ]
-        found.sort(key=lambda s: [v for v in s.angles if v is not None])
-        undetermined = {name for s in found for name, v in zip(_names(arm), s.values, strict=True) if v is None}
         if any(s.multiple for s in found) and not on_axis:
             cases = (*cases, "two solutions meet: the arm is singular here")
-        return Inverse(arm, numbers, tuple(found), tuple(n for n in _names(arm) if n in undetermined), cases)
+        return _listed(arm, numbers, found, cases)
     raise InternalError("an equation of degree four has more than four roots")
+
+
+def _listed(arm: Arm, numbers: tuple[Any, ...], found: list[Solution], cases: tuple[str, ...]) -> Inverse:
+    found.sort(key=lambda s: [v for v in s.angles if v is not None])
+    names = tuple(joint.name for joint in arm.joints)
+    open_ones = {name for s in found for name, v in zip(names, s.values, strict=True) if v is None}
+    return Inverse(arm, numbers, tuple(found), tuple(n for n in names if n in open_ones), cases)
 
 
 def _misses(here: Point, p: Poly | None, degree: int | None, t: int) -> bool:
@@ -212,14 +199,22 @@ def exact_number(value: Any, what: str) -> Fraction | RealAlgebraic:
     return algebraic
 
 
-def _names(arm: Arm) -> tuple[str, ...]:
-    return tuple(joint.name for joint in arm.joints)
+def solution_of(
+    arm: Arm, here: Evaluation, known: Sequence[Known | None], multiple: bool, choices: Sequence[Choice]
+) -> Solution:
+    """The solution at an exact point whose joints have these values there, within their limits or not."""
+    values = tuple(None if k is None else value_of(here, k, BITS) for k in known)
+    keeps = all(k is None or allowed(joint, here, k) for joint, k in zip(arm.joints, known, strict=True))
+    keeps = keeps and all(spans(arm.joints[choice.joint], choice) for choice in choices)
+    return Solution(values, multiple, keeps, here, tuple(known), tuple(choices))
 
 
-def _at_root(arm: Arm, here: Evaluation, reduction: Reduction, on_axis: bool, multiple: bool) -> Iterator[Solution]:
+def _at_root(
+    arm: Arm, here: Evaluation, reduction: Reduction, on_axis: bool, multiple: bool, *, is_still: bool = False
+) -> Iterator[Solution]:
     """The solutions that belong to one root of the equation in t: one, or two, one or none where m is needed."""
     if reduction.square is None:
-        yield _solution(arm, here, reduction, on_axis, multiple)
+        yield _solution(arm, here, reduction, (on_axis, is_still), multiple)
         return
     side = here.point.sign(reduction.square)
     if side < 0:
@@ -227,27 +222,16 @@ def _at_root(arm: Arm, here: Evaluation, reduction: Reduction, on_axis: bool, mu
     m = reduction.ring.var(M)
     roots = roots_above(here.point, reduction.ring.index[M], m * m - reduction.square)
     for root in roots or ():
-        yield _solution(arm, here.extend(root), reduction, on_axis, multiple or side == 0)
+        yield _solution(arm, here.extend(root), reduction, (on_axis, is_still), multiple or side == 0)
 
 
-def _solution(arm: Arm, here: Evaluation, reduction: Reduction, on_axis: bool, multiple: bool) -> Solution:
+def _solution(arm: Arm, here: Evaluation, reduction: Reduction, ends: tuple[bool, bool], multiple: bool) -> Solution:
+    """``ends``: whether the first joint, and the last one, can be chosen."""
     first, second, last = reduction.values
     turns = reduction.kappa is not None and here.point.sign(reduction.kappa) == 0
-    known = (None if on_axis else first, None if turns else second, last)
-    values = tuple(None if quotients is None else value_of(here, quotients, BITS) for quotients in known)
-    keeps = all(
-        quotients is None or allowed(joint, here, quotients, value_of)
-        for joint, quotients in zip(arm.joints, known, strict=True)
-    )
-    return Solution(values, multiple, keeps, here, known)
-
-
-def value_of(here: Evaluation, quotients: tuple[Quotient, ...], bits: int) -> Value:
-    """A joint at a point: from its cosine and sine, or from its length alone."""
-    if len(quotients) == 1:
-        return Value(quotients[0].at(here, bits))
-    pair = quotients[0].at(here, bits), quotients[1].at(here, bits)
-    return Value(angle(*pair, bits), pair)
+    free = (ends[0], turns, ends[1])
+    known = tuple(None if f else k for f, k in zip(free, (first, second, last), strict=True))
+    return solution_of(arm, here, known, multiple, [Choice(k) for k in range(3) if free[k]])
 
 
 def _isolated(here: Point, reduction: Reduction) -> list[FibreRoot] | None:
@@ -265,7 +249,12 @@ def _isolated(here: Point, reduction: Reduction) -> list[FibreRoot] | None:
     return roots if degree % 2 == 0 and signs[degree] < 0 and all(multiple_roots(roots)) else None
 
 
-def _family(arm: Arm, numbers: tuple[Any, ...], on_axis: bool, cases: tuple[str, ...]) -> Inverse:
-    """The equation holds for all t, and so do solutions for an interval of them."""
-    free = _names(arm)[0 if on_axis else 1 :]
-    return Inverse(arm, numbers, (), free, (*cases, f"{arm.joints[2].name} can be chosen"))
+def _family(arm: Arm, values: Evaluation, reduction: Reduction, on_axis: bool) -> Solution:
+    """The equation holds for all t, and so do solutions where m² is not negative."""
+    here, kappa, t = values.point, reduction.kappa, reduction.ring.index[T]
+    last = arm.joints[2]
+    turns = kappa is not None and not any(here.sign(c) for c in kappa.coefficients(t))
+    square = reduction.square
+    arcs = None if square is None else not_negative(values, square, t, reduction.values[2], last.motion)
+    choices = [Choice(k) for k, free in enumerate((on_axis, turns)) if free]
+    return solution_of(arm, values, (None, None, None), False, [*choices, Choice(2, arcs)])

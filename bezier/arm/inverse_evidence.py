@@ -6,11 +6,13 @@ from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from typing import Any
 
+from bezier.arm.choices import Choice
 from bezier.arm.elimination import TURNS
 from bezier.arm.evidence import arm_json
-from bezier.arm.inverse import Inverse, Solution, solve
-from bezier.arm.model import Motion
+from bezier.arm.inverse import Inverse, Solution, geometry_of, solve
+from bezier.arm.model import Arm, Motion
 from bezier.arm.square_roots import square_roots
+from bezier.arm.value import Value
 from bezier.arm.wrist import centre_at, wrist_of
 from qe.certify.verify import verify
 from qe.errors import Unable
@@ -25,16 +27,15 @@ FAR = 8
 
 
 def inverse_certificate(found: Inverse) -> Certificate:
-    """The certificate that these are all solutions, accepted by the checker.
+    """The certificate that these are all solutions, and all families of them, accepted by the checker.
 
-    Raises ``Unable`` where there is none: a joint is free, or a coordinate is not a sum of square roots.
+    Raises ``Unable`` where there is none: a coordinate is not a sum of square roots, or the first of six joints with
+    three parallel axes can be chosen.
     """
-    if found.free:
-        raise Unable("certificates of joint positions are for points and poses where no joint is free")
     listed: dict[str, Json] = {"arm": arm_json(found.arm), "point": _triple(found.point)}
     if found.rotation:
         listed["rotation"] = [_triple(row) for row in found.rotation]
-    listed["count"] = len(found.solutions)
+    listed["count"] = found.count
     verdict = None
     for bits, places in ATTEMPTS:
         for payload in _payloads(found, bits, places):
@@ -54,27 +55,44 @@ def _payloads(found: Inverse, bits: int, places: int) -> Iterator[dict[str, Json
         yield {"solutions": [_box(s, places) for s in found.solutions]}
         return
     arm, place = (found.arm, found.point) if wrist is None else (wrist.first, centre_at(wrist, found))
-    positions = found.solutions if wrist is None else solve(arm, place).solutions
-    if arm.joints[2].motion is Motion.PRISMATIC:
-        t = [_length(s, bits) for s in positions], [_length(s, bits) for s in found.solutions]
-        yield {"turn": None, "roots": list(_roots(*t, found.solutions, bits, places))}
+    positions = solve(arm, place).solutions if wrist is not None else found.solutions
+    if any(s.values[:3] == (None, None, None) for s in positions):
+        yield from _over_marks(found, positions[0], bits, places)
         return
+    turns = (None,) if _is_still(arm) or arm.joints[2].motion is Motion.PRISMATIC else TURNS
+    for turn in turns:
+        t = [_parameter(s, turn, bits) for s in positions], [_parameter(s, turn, bits) for s in found.solutions]
+        if turn is None or all(abs(v) <= FAR for v in t[0]):
+            written: Json = None if turn is None else [str(v) for v in turn]
+            yield {"turn": written, "roots": list(_roots(*t, found.solutions, bits, places))}
+
+
+def _is_still(arm: Arm) -> bool:
+    return not geometry_of(arm).moves_last
+
+
+def _over_marks(found: Inverse, family: Solution, bits: int, places: int) -> Iterator[dict[str, Json]]:
+    """Where the third joint can be chosen alone: intervals around its ends, and around other zeros of m²."""
+    width = Fraction(1, 1 << bits)
     for turn in TURNS:
-        t = [_tangent(s, turn, bits) for s in positions], [_tangent(s, turn, bits) for s in found.solutions]
-        if all(abs(v) <= FAR for v in t[0]):
-            yield {"turn": [str(v) for v in turn], "roots": list(_roots(*t, found.solutions, bits, places))}
+        ends = [e for c in family.choices for arc in c.arcs or () for e in arc if e is not None and c.joint == 2]
+        t = sorted({round(_tangent(end.value(bits + 20), turn) / width) for end in ends})
+        if all(abs(k) * width <= FAR for k in t):
+            marks: list[Json] = [[str((k - 4) * width), str((k + 4) * width)] for k in t]
+            solutions: list[Json] = [_box(s, places) for s in found.solutions]
+            yield {"turn": [str(v) for v in turn], "marks": marks, "solutions": solutions}
 
 
-def _length(solution: Solution, bits: int) -> Fraction:
+def _parameter(solution: Solution, turn: tuple[Fraction, Fraction] | None, bits: int) -> Fraction:
+    """About t: tan((θ3 - φ)/2), the length of the third joint, or 0 where every angle of it will do."""
     value = solution.refined(2, bits + 20)
-    assert value is not None, "no joint is free"
-    return sum(value.ends, Fraction(0)) / 2
+    if value is None:
+        return Fraction(0)
+    return sum(value.ends, Fraction(0)) / 2 if turn is None else _tangent(value, turn)
 
 
-def _tangent(solution: Solution, turn: tuple[Fraction, Fraction], bits: int) -> Fraction:
-    """About tan((θ3 - φ)/2)."""
-    value = solution.refined(2, bits + 20)
-    assert value is not None and value.cosine is not None and value.sine is not None, "no joint is free"
+def _tangent(value: Value, turn: tuple[Fraction, Fraction]) -> Fraction:
+    assert value.cosine is not None and value.sine is not None, "the joint turns"
     c, s = ((low + high) / 2 for low, high in (value.cosine, value.sine))
     cosine, sine = c * turn[0] + s * turn[1], s * turn[0] - c * turn[1]
     return sine / (1 + cosine) if 1 + cosine > Fraction(1, FAR**3) else Fraction(FAR * FAR)
@@ -94,13 +112,28 @@ def _roots(
 
 
 def _box(solution: Solution, places: int) -> Json:
-    found: list[Json] = []
-    for k in range(len(solution.values)):
-        value = solution.refined(k, places + 20)
-        assert value is not None, "no joint is free"
-        parts = [value.ends] if value.cosine is None or value.sine is None else [value.cosine, value.sine]
-        found.append([_around(ends, places) for ends in parts])
-    return found
+    boxes: list[Json] = [
+        None if known is None else _of(solution.refined(k, places + 20), places)
+        for k, known in enumerate(solution.quotients)
+    ]
+    if not solution.choices:
+        return boxes
+    chosen: list[Json] = [[c.joint, _arcs(c, places)] for c in solution.choices]
+    return {"box": boxes, "chosen": chosen}
+
+
+def _arcs(choice: Choice, places: int) -> Json:
+    if choice.arcs is None:
+        return None
+    if any(end is None for arc in choice.arcs for end in arc):
+        raise Unable("certificates of joint positions are for ranges of angles")
+    return [[_of(end and end.value(places + 20), places) for end in arc] for arc in choice.arcs]
+
+
+def _of(value: Value | None, places: int) -> Json:
+    assert value is not None, "the joint is not free"
+    parts = [value.ends] if value.cosine is None or value.sine is None else [value.cosine, value.sine]
+    return [_around(ends, places) for ends in parts]
 
 
 def _around(ends: tuple[Fraction, Fraction], places: int) -> Json:

@@ -1,7 +1,8 @@
 """Inverse kinematics at a pose (a point and an orientation): arms with three neighbouring parallel axes.
 
-Planar arms with three joints, and arms with six joints whose axes 2, 3, 4 are parallel and whose axes 5 and 6 meet (or
-the same read from the hand back to the base), like the myCobot 280 (arXiv 2509.00823) and the UR arms. With
+Planar arms with three joints, also with a fourth one that slides along their axes, and arms with six joints whose axes
+2, 3, 4 are parallel and whose axes 5 and 6 meet (or the same read from the hand back to the base), like the myCobot 280
+(arXiv 2509.00823) and the UR arms. With
 T = A0 M1 A1 (M2 A2 M3 A3 M4) A4 M5 A5 M6 A6, P' = A0^-1 T A6^-1, Π the part in brackets, a motion of a plane, n1 the
 axis of joint 2 seen from joint 1 and C the point in which axes 5 and 6 meet, which the pose alone gives:
 
@@ -20,17 +21,20 @@ changes; so one t between each two, these zeros and θ1 = π decide.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from fractions import Fraction
+from functools import partial
 from itertools import pairwise
 from typing import Any
 
-from bezier.arm.elimination import Quotient
-from bezier.arm.model import Arm, Chain, Matrix, Motion, apply, inverse
+from bezier.arm.choices import Arc, Choice, End, arcs_of, by_turns
+from bezier.arm.elimination import Quotient, quotient, weights
+from bezier.arm.model import Arm, Chain, Matrix, Motion, apply, inverse, product
 from bezier.arm.ratio import Ratio, reduced
 from bezier.arm.roots_of_squares import Rules, Scaled, Turn, fixed, turned
-from bezier.arm.wrist import Found, Known, meeting
+from bezier.arm.value import Known
+from bezier.arm.wrist import Found, Joints, meeting
 from bezier.curves.scalar import dot, is_zero
 from qe.errors import InternalError, Unable
 from qe.exact.algebraic import RealAlgebraic, irreducible_roots
@@ -46,19 +50,27 @@ ZERO = Fraction(0)
 @dataclass(frozen=True)
 class Shape:
     """Which of the arms above: ``chain`` read in the direction of the derivation; ``first``: the place of the first of
-    the three parallel axes, 0 (three joints) or 1 (six joints)."""
+    the three parallel axes, 0 (three joints) or 1 (six joints). ``slide``: the place and the direction, seen from the
+    base, of a joint that slides along three parallel axes; it is left out of the chain."""
 
     chain: Chain
     is_reversed: bool
     first: int
+    slide: tuple[int, tuple[Any, ...]] | None = None
 
 
 def shape_of(arm: Arm) -> Shape:
     """Raises ``Unable`` for an arm that the derivation does not fit."""
     chain = arm.chain
-    needed = "a spherical wrist, or three parallel axes, alone or with two neighbouring axes that meet after one before"
+    needed = (
+        "a spherical wrist, or three parallel axes, alone, with a joint that slides along them, or with two"
+        " neighbouring axes that meet after one before"
+    )
     refused = Unable(f"inverse kinematics at a pose needs {needed}; {arm.name} is none")
-    if any(joint.motion is not Motion.REVOLUTE for joint in chain.joints):
+    sliding = [k for k, joint in enumerate(chain.joints) if joint.motion is Motion.PRISMATIC]
+    if len(chain.joints) == 4 and len(sliding) == 1 and (shape := _with_slide(chain, sliding[0])) is not None:
+        return shape
+    if sliding:
         raise refused
     if len(chain.joints) == 3 and _are_parallel(chain, 0):
         return Shape(chain, False, 0)
@@ -68,6 +80,18 @@ def shape_of(arm: Arm) -> Shape:
             if _are_parallel(one, 1) and _meet(one) is not None:
                 return Shape(one, is_reversed, 1)
     raise refused
+
+
+def _with_slide(chain: Chain, k: int) -> Shape | None:
+    """Three parallel joints and one that slides along them, as in a SCARA arm: its length moves nothing else."""
+    between = chain.constants[1:4]
+    if any(not is_zero(m[i][2]) for m in between for i in range(2)):
+        return None
+    axis, merged = chain.constants[0], product(chain.constants[k], chain.constants[k + 1])
+    for m in between[:k]:
+        axis = product(axis, m)
+    rest = Chain((*chain.constants[:k], merged, *chain.constants[k + 2 :]), (*chain.joints[:k], *chain.joints[k + 1 :]))
+    return Shape(rest, False, 0, (k, tuple(row[2] for row in axis))) if _are_parallel(rest, 0) else None
 
 
 def _are_parallel(chain: Chain, first: int) -> bool:
@@ -87,29 +111,16 @@ def _meet(chain: Chain) -> tuple[Any, Any] | None:
 
 @dataclass(frozen=True, eq=False)
 class _Parallel:
-    """Where ``below`` vanishes the last axis is parallel to the three parallel ones, and its joint can be chosen.
-
-    Then four links close in a plane: the two between the parallel axes, and two of squared lengths A and B that the
-    last joint connects. With C, D those of the former, they close for some of its angles iff the longest is at most
-    the sum of the others, that is iff sqrt(AB) + sqrt(CD) >= |A + B - C - D|/2: iff ``gap`` <= 0 or ``room`` >= 0 for
-    gap = (A + B - C - D)²/4 - AB - CD and room = 4ABCD - gap².
-    """
+    """Where ``below`` vanishes the last axis is parallel to the three parallel ones, and its joint can be chosen: the
+    parallel ones follow where ``elbow``, a polynomial of degree 4 in the tangent of half its angle, is not negative."""
 
     below: Poly
-    gap: Poly
-    room: Poly
+    elbow: Callable[[tuple[Fraction, Fraction]], tuple[Poly, Known]]
+    var: int
 
-    @staticmethod
-    def of(below: Ratio, sizes: Sequence[Ratio], rules: Rules) -> _Parallel:
-        """``sizes``: A, B, C, D, all times one positive number."""
-        a, b, c, d = sizes
-        half = (a + b - c - d) * Fraction(1, 2)
-        gap = rules.tidy(half * half - a * b - c * d)
-        return _Parallel(below.top, gap.top, rules.tidy(a * b * c * d * 4 - gap * gap).top)
-
-    def closes(self, place: Point) -> bool:
-        """Whether there is an angle of the last joint with a solution."""
-        return place.sign(self.gap) <= 0 or place.sign(self.room) >= 0
+    def arcs(self, place: Evaluation) -> tuple[Arc, ...] | None:
+        """The angles of the last joint for which there are solutions."""
+        return by_turns(self.elbow, place, self.var, 4)
 
 
 Stage = tuple[str, Poly, _Parallel | None]
@@ -136,13 +147,16 @@ class Search:
 
     def solutions(self, place: Point) -> Iterator[Found]:
         """Every solution once."""
+        if self.shape.slide is not None:
+            yield from self._slid(*self.shape.slide, place)
+            return
         if self.shape.first == 0:
             tower = self._planar_arm(place)
         else:
             k, first = self._first(place)
             if first is None:
-                if place.sign(k.top) == 0 and self._follows(place):
-                    yield Evaluation(place), dict.fromkeys(range(6)), False
+                if place.sign(k.top) == 0 and (arcs := self._followed(place)) != ():
+                    yield Evaluation(place), dict.fromkeys(range(6)), False, (Choice(0, arcs),)
                 return
             stage: Stage = (ROOTS[0], first.square.top, None)
             tower = self._after_first(first.motion, first.scale, [stage], {0: first.pair})
@@ -152,18 +166,40 @@ class Search:
             place = place.extend(RealAlgebraic.rational(ZERO))
         defects = self._defects(tower.joints)
         for here, multiple in self._leaves(Evaluation(place), tower.stages):
-            joints: Known = dict(tower.joints)
-            first_parallel = self.shape.first
+            joints: Joints = dict(tower.joints)
+            first_parallel, choices = self.shape.first, tuple[Choice, ...]()
             if here.point.depth < self.rules.ring.size:  # the last joint can be chosen, and the others follow it
                 joints |= dict.fromkeys((1, 2, 3, 5))
+                guard = tower.stages[-2][2]
+                assert guard is not None, "the last joint is free only after the first and the fifth"
+                choices = (Choice(5, guard.arcs(here)),)
             elif here.point.sign(tower.size) == 0:
                 joints |= {first_parallel: None, first_parallel + 2: None}
+                choices = (Choice(first_parallel),)
             elif any(here.point.sign(d) for d in defects):
                 raise InternalError("the solutions at a pose contradict the forward kinematics")
-            yield here, joints, multiple
+            yield here, joints, multiple, choices
 
-    def _follows(self, place: Point) -> bool:
-        """Whether the other joints can follow the first one, for some angle of it."""
+    def _slid(self, k: int, axis: tuple[Any, ...], place: Point) -> Iterator[Found]:
+        """The height along the axes is the length of the joint that slides; the rest is as without it."""
+        rules, origin = self.rules, [row[3] for row in self.shape.chain.constants[0]]
+        turning = self.shape.chain.constants
+        height, _ = _height(turning[1:3])
+        z = [row[2] for row in turning[0]]  # the axes seen from the base
+        last = inverse(turning[3])
+        end, _ = self.pose.image([row[3] for row in last])
+        along = rules.tidy(sum(((end[i] - origin[i]) * z[i] for i in range(3)), end[0] * 0) - height)
+        sign = sum((a * b for a, b in zip(axis, z, strict=True)), ZERO)
+        length = along * sign
+        rows = tuple((*row[:3], rules.tidy(row[3] - length * c)) for row, c in zip(self.pose.rows, axis, strict=True))
+        rest = Search(replace(self.shape, slide=None), rules, Scaled(rows, self.pose.scale, rules))
+        slid = (quotient(length, rules.number(1)),)
+        for here, joints, multiple, choices in rest.solutions(place):
+            moved: Joints = {j + (j >= k): known for j, known in joints.items()}
+            yield here, {**moved, k: slid}, multiple, tuple(Choice(c.joint + (c.joint >= k), c.arcs) for c in choices)
+
+    def _followed(self, place: Point) -> tuple[Arc, ...] | None:
+        """The angles of the first joint that the other joints can follow."""
         rules, one = self.rules, self.rules.number(1)
         t = Ratio(rules.ring.var(ROOTS[0]), 1, one.field)
         around = self._after_first(turned((one - t * t, t * 2), one + t * t), one + t * t)
@@ -171,12 +207,20 @@ class Search:
         assert guard is not None, "the last joint may be free"
         p, q = (*third.coefficients(rules.ring.index[ROOTS[1]]), third * 0, third * 0)[:2]
         norm = reduced(p * p - q * q * second, one.field)
-        for value in _samples(place, rules.ring.index[ROOTS[0]], (second, guard.below, norm, p, q)):
-            if any(True for _ in self._leaves(Evaluation(place.extend(value)), around.stages)):
-                return True
+        var, known = rules.ring.index[ROOTS[0]], (quotient(one - t * t, one + t * t), quotient(t * 2, one + t * t))
+
+        def holds(stages: Sequence[Stage], value: RealAlgebraic) -> bool:
+            return any(True for _ in self._leaves(Evaluation(place.extend(value)), stages))
+
+        marks = _marks(place, var, (second, guard.below, norm, p, q))
+        gaps = [RealAlgebraic.rational(rational_between(*pair)) for pair in pairwise([None, *marks, None])]
         behind = self._after_first(turned((-one, one * 0), one), one)
-        here = Evaluation(place.extend(RealAlgebraic.rational(ZERO)))
-        return any(True for _ in self._leaves(here, behind.stages))
+        origin = Evaluation(place.extend(RealAlgebraic.rational(ZERO)))
+        ends = [End(origin, (quotient(-one, one), quotient(one * 0, one)))]
+        ends += [End(Evaluation(place.extend(value)), known) for value in marks]
+        at = [holds(behind.stages, RealAlgebraic.rational(ZERO)), *(holds(around.stages, value) for value in marks)]
+        after = [holds(around.stages, value) for value in gaps]
+        return arcs_of(ends, at, after)
 
     def _based(self) -> Scaled:
         constants = self.shape.chain.constants
@@ -231,32 +275,45 @@ class Search:
         backs = fixed(inverse(constants[5]), rules), fifth.motion.inverse(), fixed(inverse(constants[4]), rules)
         far = backs[0] @ backs[1] @ backs[2]
         found = near @ turn6.inverse() @ backs[0] @ backs[1] @ backs[2]
-        parallel = _Parallel.of(below, self._links(near, far), rules)
+        parallel = _Parallel(below.top, partial(self._elbow_over_last, near, far), rules.ring.index[ROOTS[2]])
         joints, size_of_plane, square = self._three(found)
         after: tuple[Stage, ...] = ((ROOTS[1], fifth.square.top, parallel), (ROOTS[2], square, None))
         pairs = {**(known or {}), 4: fifth.pair, 5: turn6.pair, **joints}
         return _Tower((*stages, *after), pairs, size_of_plane)
 
-    def _links(self, near: Scaled, far: Scaled) -> list[Ratio]:
-        """The squared lengths of four links in the plane of the parallel axes, times one positive number."""
-        pair = self.shape.chain.constants[self.shape.first + 1 : self.shape.first + 3]
-        scales = [self.rules.tidy(m.scale * m.scale) for m in (near, far)]
-        a, b = (dot(v, v) for m in (near, far) for v in [[m.rows[i][3] for i in range(2)]])
-        c, d = (m[0][3] * m[0][3] + m[1][3] * m[1][3] for m in pair)
-        whole = scales[0] * scales[1]
-        return [self.rules.tidy(v) for v in (a * scales[1], b * scales[0], whole * c, whole * d)]
+    def _elbow_over_last(self, near: Scaled, far: Scaled, turn: tuple[Fraction, Fraction]) -> tuple[Poly, Known]:
+        """The square of the root of the elbow as a polynomial in t, θ6 = φ + 2 arctan t, and what θ6 is.
+
+        With the last axis parallel to the three, Π's shift is x + c y + s z in their plane, c and s of θ6, and y and z
+        are orthogonal and equally long.
+        """
+        rules, zero, one = self.rules, self.rules.number(0), self.rules.number(1)
+        parts = ((zero, zero, one), (one, zero, zero), (zero, one, zero))
+        shifts = [near @ turned((c, s), scale).inverse() @ far for c, s, scale in parts]
+        x, y, z = ([m.rows[i][3] for i in range(2)] for m in shifts)
+        norm, (_, c, s) = weights(Ratio(rules.ring.var(ROOTS[2]), 1, rules.field), one, turn)
+        size = norm * rules.tidy(dot(x, x) + dot(y, y)) + (c * rules.tidy(dot(x, y)) + s * rules.tidy(dot(x, z))) * 2
+        a, b, k, scale = self._elbow(size, norm * rules.tidy(shifts[0].scale * shifts[0].scale))
+        square = (a * a + b * b) * scale * scale - k * k
+        return square.top, (quotient(c, norm), quotient(s, norm))
+
+    def _elbow(self, size: Ratio, squared: Ratio) -> tuple[Ratio, Ratio, Ratio, Ratio]:
+        """a, b, k and the scale in a cos θ + b sin θ = k / scale for the second of the parallel joints: size / squared
+        is the square of the length of Π's shift."""
+        second, third = self.shape.chain.constants[self.shape.first + 1 : self.shape.first + 3]
+        o2, o3 = ([row[3] for row in m[:2]] for m in (second, third))
+        g = [second[0][j] * o2[0] + second[1][j] * o2[1] for j in range(2)]
+        k = (size - squared * (dot(o2, o2) + dot(o3, o3))) * Fraction(1, 2)
+        one = k * 0 + 1
+        return one * dot(g, o3), one * (g[1] * o3[0] - g[0] * o3[1]), k, squared
 
     def _three(self, found: Scaled) -> tuple[dict[int, tuple[Quotient, ...]], Poly, Poly]:
         """The three parallel joints with Π = ``found``, the square of the length of its shift, and m3²."""
         rules, first = self.rules, self.shape.first
         second, third = self.shape.chain.constants[first + 1 : first + 3]
-        o2, o3 = ([row[3] for row in m[:2]] for m in (second, third))
-        g = [second[0][j] * o2[0] + second[1][j] * o2[1] for j in range(2)]
         across = [found.rows[i][3] for i in range(2)]
-        size, squared = rules.tidy(dot(across, across)), rules.tidy(found.scale * found.scale)
-        k = (size - squared * (dot(o2, o2) + dot(o3, o3))) * Fraction(1, 2)
-        one = k * 0 + 1
-        elbow = rules.turn(one * dot(g, o3), one * (g[1] * o3[0] - g[0] * o3[1]), k, squared, ROOTS[2])
+        size = rules.tidy(dot(across, across))
+        elbow = rules.turn(*self._elbow(size, rules.tidy(found.scale * found.scale)), ROOTS[2])
         assert elbow is not None, "no two neighbours of the parallel axes coincide"
         inner = fixed(second, rules) @ elbow.motion @ fixed(third, rules)
         f = [inner.rows[i][3] for i in range(2)]  # its length is that of Π's shift, but for the scales
@@ -277,7 +334,7 @@ class Search:
         for root in roots:
             there = here.extend(root)
             if guard is not None and there.point.sign(guard.below) == 0:
-                if guard.closes(there.point):
+                if guard.arcs(there) != ():
                     yield there, len(roots) == 1
                 continue
             for leaf, multiple in self._leaves(there, rest):
@@ -312,16 +369,13 @@ def _out_of_plane(found: Scaled, pair: Sequence[Matrix]) -> Iterator[Any]:
     yield found.rows[2][3] - found.scale * height
 
 
-def _samples(place: Point, var: int, polynomials: Sequence[Poly]) -> Iterator[RealAlgebraic]:
-    """Numbers in all intervals that the zeros of polynomials at a point leave, and then these zeros, among others."""
+def _marks(place: Point, var: int, polynomials: Sequence[Poly]) -> list[RealAlgebraic]:
+    """All zeros of polynomials at a point, among others, ascending."""
     marks: set[RealAlgebraic] = set()
     for factor in dict.fromkeys(f for p in polynomials if p for f, _ in p.factors()[1]):
         if any(place.sign(c) for c in factor.coefficients(var)):  # one that vanishes everywhere changes nothing
             marks |= set(_zeros_of_norm(place, var, factor))
-    listed = sorted(marks)
-    for pair in pairwise([None, *listed, None]):
-        yield RealAlgebraic.rational(rational_between(*pair))
-    yield from listed
+    return sorted(marks)
 
 
 def _zeros_of_norm(place: Point, var: int, p: Poly) -> Iterator[RealAlgebraic]:

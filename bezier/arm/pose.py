@@ -4,16 +4,15 @@ six joints with three parallel axes, ``bezier.arm.wrist`` for spherical wrists."
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from typing import Any
 
-from bezier.arm.inverse import BITS, Inverse, Solution, exact_number, listed, value_of
-from bezier.arm.limits import allowed
+from bezier.arm.choices import Choice, backwards
+from bezier.arm.inverse import Inverse, Solution, exact_number, listed, solution_of
 from bezier.arm.model import Arm, Matrix, inverse
 from bezier.arm.parallel_axes import ROOTS, Search, shape_of
 from bezier.arm.roots_of_squares import Rules, fixed
 from bezier.arm.wrist import ROOTS as WRIST_ROOTS
-from bezier.arm.wrist import Known, solve_wrist, wrist_of
+from bezier.arm.wrist import Joints, solve_wrist, wrist_of
 from bezier.curves.scalar import dot, rational
 from qe.errors import InputError
 from qe.exact.point_values import Evaluation
@@ -71,7 +70,7 @@ def solve_pose(arm: Arm, point: Sequence[Any], rotation: Sequence[Sequence[Any]]
     else:
         wanted = fixed(pose, rules) if not shape.is_reversed else fixed(inverse(pose), rules)
         leaves = Search(shape, rules, wanted).solutions(place)
-        solutions = [_solution(arm, *leaf, shape.is_reversed) for leaf in leaves]
+        solutions = [_solution(arm, *leaf, is_reversed=shape.is_reversed) for leaf in leaves]
     found = tuple(sorted(solutions, key=lambda s: [v for v in s.angles if v is not None]))
     names = [joint.name for joint in arm.joints]
     free = {name for s in found for name, v in zip(names, s.values, strict=True) if v is None}
@@ -105,11 +104,11 @@ def _check_rotation(pose: Matrix, rules: Rules, place: Point) -> None:
         raise InputError("rotation: a matrix with orthogonal columns of length 1 and determinant 1 expected")
 
 
-def _solution(arm: Arm, here: Evaluation, known: Known, multiple: bool, is_reversed: bool = False) -> Solution:
+def _solution(
+    arm: Arm, here: Evaluation, known: Joints, multiple: bool, choices: tuple[Choice, ...], is_reversed: bool = False
+) -> Solution:
     listed = [known[k] for k in sorted(known)]
     if is_reversed:
-        listed = [None if p is None else (p[0], replace(p[1], scale=-p[1].scale)) for p in reversed(listed)]
-    values = tuple(None if p is None else value_of(here, p, BITS) for p in listed)
-    pairs = zip(arm.joints, listed, strict=True)
-    keeps = all(p is None or allowed(joint, here, p, value_of) for joint, p in pairs)
-    return Solution(values, multiple, keeps, here, tuple(listed))
+        listed = [None if k is None else backwards(k) for k in reversed(listed)]
+        choices = tuple(choice.backwards(len(listed)) for choice in choices)
+    return solution_of(arm, here, listed, multiple, choices)

@@ -9,7 +9,7 @@ from math import gcd
 from typing import Any
 
 from bezier.arm.angles import root_in
-from bezier.arm.elimination import Quotient
+from bezier.arm.elimination import Quotient, quotient
 from bezier.arm.model import Matrix
 from bezier.arm.ratio import Ratio, constant, reduced, variable
 from bezier.arm.square_roots import Terms, square_roots
@@ -180,11 +180,6 @@ def turned(pair: tuple[Ratio, Ratio], scale: Ratio) -> Scaled:
     """The turn about z with cosine and sine ``pair / scale``."""
     (c, s), zero = pair, scale * 0
     return Scaled(((c, -s, zero, zero), (s, c, zero, zero), (zero, zero, scale, zero)), scale, None)
-
-
-def quotient(top: Ratio, bottom: Ratio) -> Quotient:
-    """One over the other."""
-    return Quotient(top.top, bottom.top, Fraction(bottom.bottom, top.bottom))
 
 
 def _sum_of_roots(value: RealAlgebraic) -> Terms | None:

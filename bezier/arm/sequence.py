@@ -16,6 +16,7 @@ from typing import Any
 
 import networkx as nx
 
+from bezier.arm.choices import spans
 from bezier.arm.follow import Branch
 from bezier.arm.inverse import Solution, solve
 from bezier.arm.joint_path import JointPath
@@ -124,7 +125,7 @@ def _layers(found: JointPath, samples: Sequence[Sample], note: Note) -> Iterator
         stands = [
             Stand(angles, _runs(found, places, sample.s, solution))
             for solution in solutions
-            for angles in _offered(solution, around or [0.0])
+            for angles in _offered(found.arm, solution, around)
         ]
         if not stands:
             where = f"s = {float(sample.s):.6g} of curve {sample.curve + 1}"
@@ -132,13 +133,21 @@ def _layers(found: JointPath, samples: Sequence[Sample], note: Note) -> Iterator
         yield stands
 
 
-def _offered(solution: Solution, around: list[float]) -> Iterator[tuple[float, ...]]:
-    """The angles of a solution, with those of the neighbours where the first joint is free (0 for any other free
-    one)."""
-    first, *rest = solution.angles
-    others = tuple(0.0 if a is None else a for a in rest)
-    for angle in dict.fromkeys(around) if first is None else [first]:
-        yield (angle, *others)
+def _offered(arm: Arm, solution: Solution, around: list[float]) -> Iterator[tuple[float, ...]]:
+    """The angles of a solution; where joints can be chosen, for the first one those of the neighbours, which keep its
+    limits, and the middle of what its limits leave for all others."""
+    first, *rest = (_middle(arm, solution, k) if a is None else a for k, a in enumerate(solution.angles))
+    for angle in dict.fromkeys(around) if solution.angles[0] is None and around else [first]:
+        yield (angle, *rest)
+
+
+def _middle(arm: Arm, solution: Solution, joint: int) -> float:
+    """The middle of the first range of a joint that can be chosen; 0 where it follows another one, or has none."""
+    for choice in solution.choices:
+        if choice.joint == joint:
+            ends = [edge.value for edge in spans(arm.joints[joint], choice)[0]]
+            return sum(v for v in ends if v is not None) / 2 if None not in ends else 0.0
+    return 0.0
 
 
 def _places(found: JointPath, sample: Sample) -> list[tuple[int, Branch, tuple[float, ...]]]:

@@ -14,21 +14,24 @@ solutions is followed by two for the wrist, one (double) or none, by the sign of
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import lru_cache
 from typing import Any
 
-from bezier.arm.angles import Angle
-from bezier.arm.elimination import TURNS, M, Quotient, Reduction, T
+from bezier.arm.angles import Angle, field_of
+from bezier.arm.choices import Arc, Choice, by_turns
+from bezier.arm.elimination import TURNS, M, Quotient, Reduction, T, quotient, weights
 from bezier.arm.inverse import Inverse, Solution, geometry_of, solve_at
-from bezier.arm.model import Arm, Chain, Convention, Matrix, Motion, Row, apply, inverse, product, turn_z
+from bezier.arm.model import Arm, Chain, Convention, Matrix, Motion, Row, apply, inverse, motion, product
 from bezier.arm.ratio import Ratio
-from bezier.arm.roots_of_squares import Rules, Scaled, fixed, quotient, turned
+from bezier.arm.roots_of_squares import Rules, Scaled, fixed, turned
+from bezier.arm.value import Known
 from bezier.curves.scalar import dot, is_zero, rational
 from qe.errors import InternalError, Unable
 from qe.exact.algebraic import RealAlgebraic
 from qe.exact.point_values import Evaluation, roots_above
+from qe.exact.ring import Poly
 from qe.exact.sample import Point
 
 N = "n"
@@ -37,9 +40,10 @@ ZERO = Fraction(0)
 CLOSE = 1e-6
 """How far, relative to its size, floating point may be off."""
 
-Known = dict[int, tuple[Quotient, ...] | None]
-Found = tuple[Evaluation, Known, bool]
-"""A solution: its place, what the joints (from 0 on) are there, and whether two solutions meet in it."""
+Joints = dict[int, Known | None]
+Found = tuple[Evaluation, Joints, bool, tuple[Choice, ...]]
+"""A solution: its place, what the joints (from 0 on) are there, whether two solutions meet in it, and which joints can
+be chosen."""
 
 
 @dataclass(frozen=True)
@@ -53,9 +57,10 @@ class Wrist:
 
 @lru_cache(maxsize=64)
 def wrist_of(arm: Arm) -> Wrist | None:
-    """The wrist, or None. Raises ``Unable`` where its centre has no rational height, which no model here has."""
+    """The wrist, or None: joints before it may slide. Raises ``Unable`` where its centre has no rational height, which
+    no model here has."""
     chain = arm.chain
-    if len(chain.joints) != 6 or any(j.motion is not Motion.REVOLUTE for j in chain.joints):
+    if len(chain.joints) != 6 or any(j.motion is not Motion.REVOLUTE for j in chain.joints[3:]):
         return None
     between, beyond = meeting(chain.constants[4]), meeting(chain.constants[5])
     if between is None or beyond is None or not is_zero(between[0] - beyond[1]):
@@ -78,11 +83,13 @@ def meeting(m: Sequence[Sequence[Any]]) -> tuple[Any, Any] | None:
 
 
 def _first(arm: Arm, height: Fraction) -> Arm:
-    """The first three joints, with the centre of the wrist as end point."""
+    """The first three joints, with the centre of the wrist as end point. The last turn moves nothing: it is there so
+    that the field of the constants is that of the whole arm."""
     moving = [k for k, row in enumerate(arm.rows) if row.joint is not None]
     fourth = arm.rows[moving[3]]
     a, alpha = (fourth.a, fourth.alpha) if arm.convention is Convention.MODIFIED else (ZERO, Angle())
-    return Arm(arm.name, arm.convention, (*arm.rows[: moving[3]], Row(a, alpha, height, Angle())))
+    turn = next(Angle(k) for k in (0, 2, 3, 1) if field_of((Angle(k),)) == arm.field)
+    return Arm(arm.name, arm.convention, (*arm.rows[: moving[3]], Row(a, alpha, height, turn)))
 
 
 def centre_at(wrist: Wrist, found: Inverse) -> tuple[Any, ...]:
@@ -104,17 +111,19 @@ def solve_wrist(wrist: Wrist, rules: Rules, here: Point, pose: Matrix) -> Iterat
     def reductions(k: int) -> Reduction:
         return geometry_of(wrist.first).reduce(rules.ring, target, TURNS[k])
 
-    found = solve_at(wrist.first, here, (), reductions)
-    if found.free and not found.solutions:
-        if not _is_orthogonal(wrist):
-            raise Unable("two joints before the wrist can be chosen: whether they reach the pose is not decided")
-        yield Evaluation(here), dict.fromkeys(range(6)), False
-    for position in found.solutions:
+    orthogonal = _is_orthogonal(wrist)
+    for position in solve_at(wrist.first, here, (), reductions).solutions:
         over = _Turned(wrist, rules, wanted, based, position)
-        if None not in position.quotients:
+        choices = position.choices
+        if not choices:
             yield from over.solutions()
-        elif over.reaches_somewhere():
-            yield position.place, dict(enumerate((*position.quotients, None, None, None))), position.multiple
+            continue
+        if not orthogonal:
+            if position.quotients.count(None) > 1:
+                raise Unable("joints before the wrist can be chosen: for which values it follows is not decided")
+            choices = (Choice(choices[0].joint, over.reached(choices[0].joint)),)
+        if choices[0].arcs != ():
+            yield position.place, dict(enumerate((*position.quotients, None, None, None))), position.multiple, choices
 
 
 def _number(value: Any, rules: Rules) -> Quotient:
@@ -137,48 +146,49 @@ class _Turned:
     based: Scaled
     position: Solution
 
-    def reaches_somewhere(self) -> bool:
-        """Whether the wrist reaches the rotation for some angle of the joint before it that can be chosen.
+    def reached(self, free: int) -> tuple[Arc, ...] | None:
+        """The angles of a joint before the wrist that can be chosen at which the wrist reaches the rotation."""
+        place, ring = self._place(), self.rules.ring
+        rules = replace(self.rules, squares={k: v for k, v in self.rules.squares.items() if k != ring.index[N]})
+        t, one = Ratio(ring.var(N), 1, rules.field), rules.number(1)
 
-        With b the direction of axis 4 and y that of axis 6, seen from that joint, k runs from b_z y_z - c - R to
-        b_z y_z - c + R, R = |(b_x, b_y)| |(y_x, y_y)|; the wrist needs |k| <= L. So |b_z y_z - c| <= R + L, which
-        squares tell.
-        """
-        if _is_orthogonal(self.wrist):
-            return True
-        free = [k for k, pair in enumerate(self.position.quotients) if pair is None]
-        if len(free) > 1:
-            raise Unable("two joints before the wrist can be chosen: whether they reach the pose is not decided")
-        rules, constants = self.rules, self.wrist.chain.constants
-        before, after = fixed(constants[0], rules).rotation, fixed(constants[free[0] + 1], rules).rotation
-        for k, (pair, constant) in enumerate(zip(self.position.quotients, constants[1:4], strict=True)):
-            if pair is not None and k < free[0]:
-                before = before @ self._turn(pair) @ fixed(constant, rules).rotation
-            elif pair is not None:
-                after = after @ self._turn(pair) @ fixed(constant, rules).rotation
-        y = [row[2] for row in (before.inverse() @ self.based.rotation).rows]
-        b, scale = [row[2] for row in after.rows], before.scale * self.based.scale * after.scale
+        def attempt(turn: tuple[Fraction, Fraction]) -> tuple[Poly, Known]:
+            norm, (_, c, s) = weights(t, one, turn)
+            a, b, k, scale = self._fifth(self._rest(rules, {free: turned((c, s), norm)}))
+            square = rules.tidy((a * a + b * b) * scale * scale - k * k)
+            return square.top, (quotient(c, norm), quotient(s, norm))
+
+        return by_turns(attempt, place, ring.index[N], 4)
+
+    def _place(self) -> Evaluation:
+        """Where everything but the root of the wrist is known."""
+        here = self.position.place
+        while here.point.depth < self.rules.ring.index[N]:  # no m was needed
+            here = Evaluation(here.point.extend(RealAlgebraic.rational(ZERO)), here)
+        return here
+
+    def _rest(self, rules: Rules, turns: dict[int, Scaled]) -> Scaled:
+        """What the wrist has to turn, by the turns of the joints that are not determined."""
+        constants, kinds = self.wrist.chain.constants, self.wrist.chain.joints
+        before = fixed(constants[0], rules).rotation
+        for k, (known, constant) in enumerate(zip(self.position.quotients, constants[1:4], strict=True)):
+            if kinds[k].motion is Motion.REVOLUTE:
+                before = before @ (turns[k] if known is None else self._turn(known))
+            before = before @ fixed(constant, rules).rotation
+        return before.inverse() @ self.based.rotation
+
+    def _fifth(self, w: Scaled) -> tuple[Ratio, Ratio, Ratio, Ratio]:
+        """a, b, k and the scale in a cos θ5 + b sin θ5 = k / scale."""
+        constants, one = self.wrist.chain.constants, self.rules.number(1)
         r, n = constants[4][2], [row[2] for row in constants[5]]
-        middle = b[2] * y[2] - scale * (r[2] * n[2])
-        wide, reach = dot(b[:2], b[:2]) * dot(y[:2], y[:2]), scale * scale * (dot(r[:2], r[:2]) * dot(n[:2], n[:2]))
-        beyond = rules.tidy(middle * middle - wide - reach)
-        place = self.position.place.point
-        return place.sign(beyond.top) <= 0 or place.sign(rules.tidy(beyond * beyond - wide * reach * 4).top) <= 0
+        a, b = r[0] * n[0] + r[1] * n[1], r[1] * n[0] - r[0] * n[1]
+        return one * a, one * b, w.rows[2][2] - w.scale * (r[2] * n[2]), w.scale
 
     def solutions(self) -> Iterator[Found]:
         """Two, one or none."""
-        rules, constants, one = self.rules, self.wrist.chain.constants, self.rules.number(1)
-        here = self.position.place
-        while here.point.depth < rules.ring.index[N]:  # no m was needed
-            here = Evaluation(here.point.extend(RealAlgebraic.rational(ZERO)), here)
-        before = fixed(constants[0], rules).rotation
-        for pair, constant in zip(self.position.quotients, constants[1:4], strict=True):
-            assert pair is not None, "no joint is free"
-            before = before @ self._turn(pair) @ fixed(constant, rules).rotation
-        w = before.inverse() @ self.based.rotation
-        r, n = constants[4][2], [row[2] for row in constants[5]]
-        a, b = r[0] * n[0] + r[1] * n[1], r[1] * n[0] - r[0] * n[1]
-        fifth = rules.turn(one * a, one * b, w.rows[2][2] - w.scale * (r[2] * n[2]), w.scale, N)
+        rules, constants, here = self.rules, self.wrist.chain.constants, self._place()
+        w = self._rest(rules, {})
+        fifth = rules.turn(*self._fifth(w), N)
         assert fifth is not None, "neighbouring axes of a wrist are not parallel"
         roots = roots_above(here.point, rules.ring.index[N], rules.ring.var(N) ** 2 - fifth.square.top) or []
         inner = fixed(constants[4], rules).rotation @ fifth.motion @ fixed(constants[5], rules).rotation
@@ -186,22 +196,25 @@ class _Turned:
         sixth = _between(inner.rows[2][:2], w.rows[2][:2], inner, w, rules, rows=True)
         for root in roots:
             there = here.extend(root)
-            known: Known = {**dict(enumerate(self.position.quotients)), 3: None, 4: fifth.pair, 5: None}
+            known: Joints = {**dict(enumerate(self.position.quotients)), 3: None, 4: fifth.pair, 5: None}
+            choices = (Choice(3),)
             if there.point.sign(rules.tidy(dot(w.rows[2][:2], w.rows[2][:2])).top):
                 known |= {3: fourth, 5: sixth}
+                choices = ()
                 self._confirm(there, known)
-            yield there, known, self.position.multiple or len(roots) == 1
+            yield there, known, self.position.multiple or len(roots) == 1, choices
 
     def _turn(self, known: tuple[Quotient, ...]) -> Scaled:
         return turned(self.rules.numbers(known), self.rules.number(known[0].bottom))
 
-    def _confirm(self, there: Evaluation, known: Known) -> None:
+    def _confirm(self, there: Evaluation, known: Joints) -> None:
         """Forward kinematics in floating point: a slip of the derivation would show."""
         constants = [_floats(m) for m in self.wrist.chain.constants]
         whole = constants[0]
         for k, constant in enumerate(constants[1:]):
-            c, s = (float(q.at(there, 53)) for q in known[k] or ())
-            whole = product(product(whole, turn_z((c, s))), constant)
+            values = [float(q.at(there, 53)) for q in known[k] or ()]
+            moved = motion(self.wrist.chain.joints[k], values if len(values) > 1 else values[0])
+            whole = product(product(whole, moved), constant)
         pairs = [pair for rows in zip(whole, self.wanted, strict=True) for pair in zip(*rows, strict=True)]
         if any(abs(found - wanted) > CLOSE * (1 + abs(wanted)) for found, wanted in pairs):
             raise InternalError("the solutions at a pose contradict the forward kinematics")

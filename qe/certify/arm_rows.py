@@ -13,7 +13,7 @@ from qe.proof.entry import Entry
 
 MOST_ROWS, MOST_TERMS, MOST_BITS = 40, 16, 20_000
 Box = tuple[Interval, ...]
-"""Cosine and sine, or the length, of every joint."""
+"""Cosine and sine, or the length, of a joint."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -128,14 +128,9 @@ def _surd(entry: Entry) -> Surd:
     return Surd.of(pairs)
 
 
-def read_box(entry: Entry, turns: tuple[bool, ...]) -> Box:
-    """[[low, high] of cosine, [low, high] of sine] of every joint that turns, [[low, high] of the length] of others."""
-    found, joints = list[Interval](), list(entry.items())
-    if len(joints) != len(turns):
-        raise entry.fail(f"expected {len(turns)} joints")
-    for joint, turning in zip(joints, turns, strict=True):
-        parts = [[read_number(v) for v in part.items()] for part in joint.items()]
-        if [len(ends) for ends in parts] != [2] * (1 + turning):
-            raise joint.fail("expected two ends of cosine and sine" if turning else "expected two ends of a length")
-        found += [(low, high) for low, high in parts]
-    return tuple(found)
+def read_joint(entry: Entry, turning: bool) -> Box:
+    """[[low, high] of cosine, [low, high] of sine] of a joint that turns, [[low, high] of the length] of others."""
+    parts = [[read_number(v) for v in part.items()] for part in entry.items()]
+    if [len(ends) for ends in parts] != [2] * (1 + turning):
+        raise entry.fail("expected two ends of cosine and sine" if turning else "expected two ends of a length")
+    return tuple((low, high) for low, high in parts)

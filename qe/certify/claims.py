@@ -64,10 +64,11 @@ def claim_of(certificate: Certificate) -> Claim:
         case Kind.CLASSIFICATION:
             return _of_classification(entry)
         case Kind.INVERSE:
-            rest = ("turn", "roots", "rotation", "solutions")
-            count, *_, rotation, _ = entry.fields("arm", "point", "count", optional=rest)[2:]
+            rest = ("rotation", "turn", "roots", "marks", "solutions")
+            count, rotation, *_ = entry.fields("arm", "point", "count", optional=rest)[2:]
             where = "point" if rotation.value is None else "pose"
-            told = f"an arm has exactly {count.integer()} joint positions at a {where}"
+            number = "families of" if count.value is None else f"exactly {count.integer()}"
+            told = f"an arm has {number} joint positions at a {where}"
             return Claim((f"inverse: {told}, see the entries of its payload",))
     return Claim((f"{certificate.kind.value}: about a curve, see the entries of its payload",))
 

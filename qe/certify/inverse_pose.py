@@ -1,4 +1,4 @@
-"""Joint positions at a pose: three parallel axes, alone or in an arm of six joints, and spherical wrists.
+"""Joint positions at a pose: three parallel axes, alone, with a slide or in an arm of six joints; spherical wrists.
 
 T = A0 M1 A1 ... M6 A6 is the pose. Three parallel axes (2, 3, 4, and 5 and 6 meet; or so read from the hand to the
 base; D. L. Pieper 1968): with B = A0^-1 T A6^-1, Π = M2 A2 M3 A3 M4, a motion of a plane that takes heights z to h ± z,
@@ -17,10 +17,11 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from qe.certify.arithmetic.motions import Motion, Triple, back, dot, image, together
-from qe.certify.arithmetic.nested_roots import Joint, Nested, Vector, angle, nested, turns
+from qe.certify.arithmetic.nested_roots import Joint, Nested, Vector, angle, basis, nested, turns
 from qe.certify.arithmetic.nested_roots import dot as inner
 from qe.certify.arithmetic.square_roots import ONE, ZERO, Surd
 from qe.certify.arm_rows import Chain
+from qe.certify.families import Arcs, Position, bounded
 from qe.errors import Unable
 from qe.options import Budget
 from qe.proof.entry import Entry
@@ -28,19 +29,46 @@ from qe.proof.entry import Entry
 FREE = "a joint can be chosen here"
 
 
-def parallel_axes(chain: Chain, pose: Motion, entry: Entry, budget: Budget) -> list[list[Joint]]:
+def parallel_axes(chain: Chain, pose: Motion, entry: Entry, budget: Budget) -> list[Position]:
     """All positions of an arm with three parallel axes. Raises ``Unable`` for another one."""
     if all(chain.turns):
         if len(chain.turns) == 3 and _are_parallel(chain.constants[1:3]):
             based = together(together(back(chain.constants[0]), pose), back(chain.constants[3]))
-            return list(_in_plane(chain.constants[1:3], based, entry))
+            return list(_in_plane(chain.constants[1:3], based))
         if len(chain.turns) == 6:
             if _has_parallel_axes(chain):
                 return list(_six_joints(chain.constants, pose, entry, budget))
             if _has_parallel_axes(chain.reversed):
-                found = _six_joints(chain.reversed.constants, back(pose), entry, budget)
-                return [[Joint(j.c, None if j.s is None else -j.s, j.w) for j in joints[::-1]] for joints in found]
+                return [p.backwards for p in _six_joints(chain.reversed.constants, back(pose), entry, budget)]
+    if len(chain.turns) == 4 and sum(chain.turns) == 3 and _only_heights(chain.constants[1:4]):
+        return list(_with_slide(chain, pose))
     raise Unable("poses are for three parallel axes, alone or with two that meet, and for spherical wrists")
+
+
+def _only_heights(between: Sequence[Motion]) -> bool:
+    """Whether all axes have one direction, or its opposite."""
+    return all(not (m[0][0][2] or m[0][1][2]) for m in between)
+
+
+def _with_slide(chain: Chain, pose: Motion) -> Iterator[Position]:
+    """Three parallel joints and one that slides along their axes: d in A M(θ) ... Tz(d) ... moves the end by d times
+    the direction of the axes and does nothing else, so the height alone tells it, and the rest is as without it."""
+    k, constants = chain.turns.index(False), chain.constants
+    merged = (*constants[:k], together(constants[k], constants[k + 1]), *constants[k + 2 :])
+    if not _are_parallel(merged[1:3]):
+        raise Unable("two axes are one")
+    axis = constants[0]
+    for m in constants[1 : k + 1]:
+        axis = together(axis, m)
+    based = together(together(back(merged[0]), pose), back(merged[3]))
+    slide = tuple(row[2] for row in axis[0])
+    sign = dot(slide, [row[2] for row in merged[0][0]])
+    length = sign * (based[1][2] - _height(merged[1:3])[0])
+    lowered = based[0], (*based[1][:2], based[1][2] - sign * length)
+    slid = Joint(nested(length), None, nested(ONE))
+    for found in _in_plane(merged[1:3], lowered):
+        joints = [*found.joints[:k], slid, *found.joints[k:]]
+        yield Position(joints, {j + (j >= k): arcs for j, arcs in found.chosen.items()})
 
 
 def _are_parallel(pair: Sequence[Motion]) -> bool:
@@ -80,7 +108,7 @@ def _point(place: Triple, *, is_point: bool = True) -> Vector:
     return Vector((x, y, z), nested(ONE), is_point)
 
 
-def _six_joints(constants: Sequence[Motion], pose: Motion, entry: Entry, budget: Budget) -> Iterator[list[Joint]]:
+def _six_joints(constants: Sequence[Motion], pose: Motion, entry: Entry, budget: Budget) -> Iterator[Position]:
     _, before, *pair, after, last, _ = constants
     based = together(together(back(constants[0]), pose), back(constants[6]))
     heights = meeting(last)
@@ -96,60 +124,72 @@ def _six_joints(constants: Sequence[Motion], pose: Motion, entry: Entry, budget:
     unturned = (based[0], (ZERO, ZERO, ZERO))
     for first in turns(*_constant(a, b, k, ONE)):
         u = _point(n, is_point=False).turned(first).moved(back(unturned))
-        for fifth, sixth in _last_two(u, side, after, last, entry):
+        for fifth, sixth in _last_two(u, side, after, last):
             budget.check()
-            whole = [
-                _point(start, is_point=kind)
-                .moved(back(after))
-                .turned(fifth, -1)
-                .moved(back(last))
-                .turned(sixth, -1)
-                .moved(based)
-                .turned(first, -1)
-                .moved(back(before))
-                for start, kind in (((ZERO, ZERO, ZERO), True), ((ONE, ZERO, ZERO), False))
-            ]
-            for middle in _three(pair, whole[0], whole[1], entry):
-                yield [first, *middle, fifth, sixth]
+
+            def middle(vector: Vector, sixth: Joint, first: Joint = first, fifth: Joint = fifth) -> Vector:
+                near = vector.moved(back(after)).turned(fifth, -1).moved(back(last)).turned(sixth, -1)
+                return near.moved(based).turned(first, -1).moved(back(before))
+
+            origin, e_x = _point((ZERO, ZERO, ZERO)), _point((ONE, ZERO, ZERO), is_point=False)
+            if sixth is None:
+                arcs = _closed(pair, [middle(origin, joint) for joint in basis(origin.scale)])
+                if arcs != ():
+                    yield Position([first, None, None, None, fifth, None], {5: arcs})
+                continue
+            for three in _three(pair, middle(origin, sixth), middle(e_x, sixth)):
+                yield Position([first, *three.joints, fifth, sixth], {k + 1: v for k, v in three.chosen.items()})
 
 
-def _last_two(u: Vector, side: Surd, after: Motion, last: Motion, entry: Entry) -> Iterator[tuple[Joint, Joint]]:
-    """θ5 and θ6, by the direction u of the parallel axes seen from the end effector."""
+def _closed(pair: Sequence[Motion], shifts: Sequence[Vector]) -> Arcs:
+    """The θ6 for which the parallel joints can follow, where axis 6 is parallel to theirs: Π 0 = c x + s y + z, c and s
+    of θ6, x and y orthogonal and equally long, and its length between the difference and the sum of those of A2 and A3,
+    (|Π 0|² - |A2 0|² - |A3 0|²)² <= 4 |A2 0|² |A3 0|²."""
+    x, y, z = (v.parts[:2] for v in shifts)
+    if inner(x, y).sign() or (inner(x, x) - inner(y, y)).sign():
+        raise Unable("the last axis is not parallel to the three")
+    (_, o), (_, p) = pair
+    second, third = dot(o[:2], o[:2]), dot(p[:2], p[:2])
+    squared, two, four = shifts[2].scale * shifts[2].scale, Surd.rational(2), Surd.rational(4)
+    size = inner(x, x) + inner(z, z) - squared.by(second + third)
+    return bounded(inner(x, z).by(two), inner(y, z).by(two), size, (squared * squared).by(four * second * third))
+
+
+def _last_two(u: Vector, side: Surd, after: Motion, last: Motion) -> Iterator[tuple[Joint, Joint | None]]:
+    """θ5 and θ6, by the direction u of the parallel axes seen from the end effector; None where θ6 is free."""
     r, n = after[0][2], tuple(row[2] for row in last[0])
     a, b = _constant(r[0] * n[0] + r[1] * n[1], r[1] * n[0] - r[0] * n[1])
     k = u.parts[2].by(side) - u.scale.by(r[2] * n[2])
     start = _point(tuple(side * c for c in r), is_point=False)
     for fifth in turns(a, b, k, u.scale):
         w = start.turned(fifth, -1).moved(back(last))
-        sixth = angle(u.parts, w.parts, (u.scale, w.scale))
-        if sixth is None:
-            raise entry.fail(FREE)
-        yield fifth, sixth
+        yield fifth, angle(u.parts, w.parts, (u.scale, w.scale))
 
 
-def _in_plane(pair: Sequence[Motion], based: Motion, entry: Entry) -> Iterator[list[Joint]]:
+def _in_plane(pair: Sequence[Motion], based: Motion) -> Iterator[Position]:
     (rows, shift), (height, side) = based, _height(pair)
     if rows[2][0] or rows[2][1] or rows[2][2] - side or shift[2] - height:
         return
-    yield from _three(pair, _point(shift), _point(tuple(row[0] for row in rows), is_point=False), entry)
+    yield from _three(pair, _point(shift), _point(tuple(row[0] for row in rows), is_point=False))
 
 
-def _three(pair: Sequence[Motion], x: Vector, d: Vector, entry: Entry) -> Iterator[list[Joint]]:
-    """The parallel joints, by what Π does to the origin (x) and to e_x (d)."""
+def _three(pair: Sequence[Motion], x: Vector, d: Vector) -> Iterator[Position]:
+    """The parallel joints, by what Π does to the origin (x) and to e_x (d). Where Π leaves the origin in its place the
+    first one can be chosen, and the last one follows."""
     (rows, o), (_, p) = pair
     g = [dot(column[:2], o[:2]) for column in zip(*rows, strict=True)]
     size = inner(x.parts[:2], x.parts[:2])
-    if not size.sign():
-        raise entry.fail(FREE)
     two, squared = Surd.rational(2), x.scale * x.scale
     a, b = _constant(two * dot(g[:2], p[:2]), two * (g[1] * p[0] - g[0] * p[1]))
     k = size - squared.by(dot(o[:2], o[:2]) + dot(p[:2], p[:2]))
     for elbow in turns(a, b, k, squared):
         f = _point(p).turned(elbow).moved(pair[0])
         shoulder = angle(f.parts, x.parts, (f.scale, x.scale))
-        assert shoulder is not None, "it was tested"
+        if shoulder is None:
+            yield Position([None, elbow, None], {0: None})
+            continue
         e = d.turned(shoulder, -1).moved(back(pair[0])).turned(elbow, -1).moved(back(pair[1]))
-        yield [shoulder, elbow, Joint(e.parts[0], e.parts[1], e.scale)]
+        yield Position([shoulder, elbow, Joint(e.parts[0], e.parts[1], e.scale)])
 
 
 # --- spherical wrists --------------------------------------------------------------------------------------------
@@ -163,31 +203,49 @@ def centre(chain: Chain) -> tuple[Surd, Surd] | None:
     return between[1], beyond[0]
 
 
-def wrist(chain: Chain, pose: Motion, arm: Sequence[Joint], entry: Entry) -> Iterator[list[Joint]]:
-    """The last three joints, over a position of the first three."""
-    constants, unit = chain.constants, arm[0].w.unit
+def wrist(chain: Chain, pose: Motion, arm: Position, entry: Entry) -> Iterator[Position]:
+    """The last three joints, over a position of the first three, or over a family of them."""
+    constants, joints = chain.constants, arm.joints
+    r, n = constants[4][0][2], [line[2] for line in constants[5][0]]
+    if arm.chosen and not (r[2] or n[2]):  # neighbouring axes of the wrist are orthogonal: it reaches every rotation
+        yield Position([*joints, None, None, None], arm.chosen)
+        return
+    if (open_ones := [k for k in range(3) if joints[k] is None])[1:]:
+        raise entry.fail(FREE)
+    unit = next(joint.w.unit for joint in joints if joint is not None)
     end = together(pose, back(constants[6]))
 
     def direction(values: Sequence[Surd]) -> Vector:
         x, y, z = (unit.by(v) for v in values)
         return Vector((x, y, z), unit, False)
 
-    column = direction([row[2] for row in end[0]])  # W e_z
-    for joint, constant in zip(arm, constants, strict=False):
-        column = column.moved(back(constant)).turned(joint, -1)
-    column = column.moved(back(constants[3]))
-    row = direction([r[2] for r in constants[3][0]])  # W^T e_z
-    for joint, constant in zip(arm[::-1], constants[2::-1], strict=True):
+    def column_of(first: Sequence[Joint]) -> Vector:  # W e_z
+        column = direction([row[2] for row in end[0]])
+        for joint, constant in zip(first, constants, strict=False):
+            column = column.moved(back(constant)).turned(joint, -1)
+        return column.moved(back(constants[3]))
+
+    def wanted(column: Vector) -> Nested:
+        return column.parts[2] - column.scale.by(r[2] * n[2])
+
+    a, b = unit.by(r[0] * n[0] + r[1] * n[1]), unit.by(r[1] * n[0] - r[0] * n[1])
+    if open_ones:
+        columns = [column_of([joint or other for joint in joints]) for other in basis(unit)]
+        reach = (a * a + b * b) * columns[2].scale * columns[2].scale
+        arcs = bounded(*map(wanted, columns), reach)
+        if arcs != ():
+            yield Position([*joints, None, None, None], {open_ones[0]: arcs})
+        return
+    known = [joint for joint in joints if joint is not None]
+    column, row = column_of(known), direction([line[2] for line in constants[3][0]])  # W^T e_z
+    for joint, constant in zip(known[::-1], constants[2::-1], strict=True):
         row = row.turned(joint).moved(constant)
     row = row.moved(back(end))
-    r, n = constants[4][0][2], [line[2] for line in constants[5][0]]
-    a, b = unit.by(r[0] * n[0] + r[1] * n[1]), unit.by(r[1] * n[0] - r[0] * n[1])
-    k = column.parts[2] - column.scale.by(r[2] * n[2])
-    for fifth in turns(a, b, k, column.scale):
+    for fifth in turns(a, b, wanted(column), column.scale):
         bent = direction(n).turned(fifth).moved(constants[4])
         line = direction(r).turned(fifth, -1).moved(back(constants[5]))
         fourth = angle(bent.parts, column.parts, (bent.scale, column.scale))
         sixth = angle(row.parts, line.parts, (row.scale, line.scale))
-        if fourth is None or sixth is None:
-            raise entry.fail(FREE)
-        yield [fourth, fifth, sixth]
+        if (fourth is None) != (sixth is None):
+            raise entry.fail("axes 4 and 6 are in line, and are not")
+        yield Position([*known, fourth, fifth, sixth], {} if fourth is not None else {3: None})

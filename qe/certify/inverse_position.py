@@ -7,7 +7,9 @@ theorems count over Q with square roots. With a ``rotation`` it is a pose: six j
 the same way, each position of the first three with those of the wrist; or three parallel axes, where square roots alone
 tell all positions, in ``solutions`` (``qe.certify.inverse_pose``). Every position that was found has to lie in one of
 the boxes, each of which holds one, and no two of which meet: so there are as many positions as boxes, one in each. An
-empty list proves that there is none.
+empty list proves that there is none. Families have no box for their free joints, and list which of these can be chosen
+and for exactly which values (``qe.certify.families``); ``count`` is null then. Where the third joint can be chosen
+alone, ``marks`` stands for ``roots``: intervals of t around the places where a sign may change.
 """
 
 from __future__ import annotations
@@ -16,11 +18,11 @@ from collections.abc import Sequence
 from itertools import combinations
 
 from qe.certify.arithmetic.motions import Motion, Triple, back, image, is_motion
-from qe.certify.arithmetic.nested_roots import Joint
-from qe.certify.arithmetic.square_roots import ZERO, Interval
-from qe.certify.arm_rows import Box, Chain, read_box, read_chain, read_circle, read_number, read_triple
+from qe.certify.arithmetic.square_roots import ZERO
+from qe.certify.arm_rows import Chain, read_chain, read_circle, read_number, read_triple
+from qe.certify.families import Listed, Position, read_listed
 from qe.certify.inverse_pose import centre, parallel_axes, wrist
-from qe.certify.three_joints import Positions
+from qe.certify.three_joints import Positions, is_still
 from qe.errors import Unable
 from qe.options import Budget
 from qe.proof.entry import Entry, Json
@@ -29,24 +31,32 @@ from qe.proof.entry import Entry, Json
 def check_inverse(payload: dict[str, Json], budget: Budget | None = None) -> None:
     """Accept silently, or raise ``CertificateRejected`` naming the entry that fails."""
     whole, budget = Entry(payload, "payload"), budget or Budget()
+    rest: tuple[str, ...] = ("rotation",) if "rotation" in payload else ()
     if "roots" in payload:
-        arm, point, turn, count, roots, rotation = whole.fields(
-            "arm", "point", "turn", "count", "roots", optional=("rotation",)
-        )
-        chain = read_chain(arm)
-        pose = _pose(rotation, read_triple(point)) if "rotation" in payload else None
-        positions = _positions(chain, read_triple(point), pose, turn)
-        boxes = _over_roots(chain, pose, positions, roots, budget)
+        arm, point, turn, count, roots, *rotation = whole.fields("arm", "point", "turn", "count", "roots", *rest)
+        chain, place = read_chain(arm), read_triple(point)
+        pose = _pose(rotation[0], place) if rotation else None
+        listed = _over_roots(chain, pose, _positions(chain, place, pose, turn), roots, budget)
+    elif "marks" in payload:
+        names = ("arm", "point", "turn", "count", "marks", "solutions", *rest)
+        arm, point, turn, count, marks, solutions, *rotation = whole.fields(*names)
+        chain, place = read_chain(arm), read_triple(point)
+        pose = _pose(rotation[0], place) if rotation else None
+        family = _positions(chain, place, pose, turn).family(marks, budget)
+        found = [family] if pose is None else list(wrist(chain, pose, family, marks))
+        listed = _matched([p for p in found if () not in p.chosen.values()], chain, solutions)
     else:
-        arm, point, rotation, count, solutions = whole.fields("arm", "point", "rotation", "count", "solutions")
+        arm, point, rotated, count, solutions = whole.fields("arm", "point", "rotation", "count", "solutions")
         chain = read_chain(arm)
-        found = parallel_axes(chain, _pose(rotation, read_triple(point)), whole, budget)
-        boxes = _matched(found, [read_box(box, chain.turns) for box in solutions.items()], solutions)
-    if len(boxes) != count.integer():
+        found = parallel_axes(chain, _pose(rotated, read_triple(point)), whole, budget)
+        listed = _matched(found, chain, solutions)
+    if any(one.chosen for one in listed):
+        if count.value is not None:
+            raise count.fail("expected null: a joint can be chosen")
+    elif len(listed) != count.integer():
         raise count.fail("not the number of solutions")
-    for one, other in combinations(boxes, 2):
-        if all(max(a[0], b[0]) <= min(a[1], b[1]) for a, b in zip(one, other, strict=True)):
-            raise whole.fail("two boxes meet")
+    if any(one.meets(other) for one, other in combinations(listed, 2)):
+        raise whole.fail("two boxes meet")
 
 
 def _pose(rotation: Entry, place: Triple) -> Motion:
@@ -69,39 +79,40 @@ def _positions(chain: Chain, place: Triple, pose: Motion | None, turn: Entry) ->
             raise Unable("the last three axes do not meet in one point")
         end = image(constants[3], (ZERO, ZERO, heights[0]))
         place = image(pose, image(back(constants[6]), (ZERO, ZERO, heights[1])))
-    if not chain.turns[2] and turn.value is not None:
-        raise turn.fail("expected null: the third joint slides")
-    return Positions.of(constants[:3], chain.turns, end, place, read_circle(turn) if chain.turns[2] else None, turn)
+    counts = chain.turns[2] and not is_still(chain.turns, end)
+    if not counts and turn.value is not None:
+        raise turn.fail("expected null: the third joint slides, or the point is on its axis")
+    return Positions.of(constants[:3], chain.turns[:3], end, place, read_circle(turn) if counts else None, turn)
 
 
-def _over_roots(chain: Chain, pose: Motion | None, positions: Positions, roots: Entry, budget: Budget) -> list[Box]:
-    boxes, last, listed = list[Box](), list[Interval](), 0
+def _over_roots(chain: Chain, pose: Motion | None, positions: Positions, roots: Entry, budget: Budget) -> list[Listed]:
+    found, last, total = list[Listed](), None, 0
     for entry in roots.items():
         budget.check()
         low, high, solutions = entry.fields("low", "high", "solutions")
         between = read_number(low), read_number(high)
-        if not between[0] < between[1] or (last and between[0] <= last[-1][1]):
+        if not between[0] < between[1] or (last and between[0] <= last[1]):
             raise entry.fail("expected intervals in ascending order")
-        last.append(between)
-        found = list(positions.at_root(between, entry))
-        listed += len(found)
+        last = between
+        here = list(positions.at_root(between, entry))
+        total += len(here)
         if pose is not None:
-            found = [[*arm, *rest] for arm in found for rest in wrist(chain, pose, arm, entry)]
-        boxes += _matched(found, [read_box(box, chain.turns) for box in solutions.items()], solutions)
-    if listed != positions.total():
+            here = [whole for arm in here for whole in wrist(chain, pose, arm, entry)]
+        found += _matched(here, chain, solutions)
+    if total != positions.total(roots):
         raise roots.fail("not all roots with a solution are listed")
-    return boxes
+    return found
 
 
-def _matched(found: Sequence[Sequence[Joint]], boxes: list[Box], entry: Entry) -> list[Box]:
-    """The boxes, if each of them holds one of the positions."""
-    if len(found) != len(boxes):
-        raise entry.fail("not the number of solutions")
-    left = list(boxes)
+def _matched(found: Sequence[Position], chain: Chain, solutions: Entry) -> list[Listed]:
+    """What is listed, if each holds one of the positions, or families."""
+    listed = [read_listed(entry, chain.turns) for entry in solutions.items()]
+    if len(found) != len(listed):
+        raise solutions.fail("not the number of solutions")
+    left = list(listed)
     for position in found:
-        ends = [part for joint in position for part in joint.intervals()]
-        held = [box for box in left if all(a <= c and d <= b for (a, b), (c, d) in zip(box, ends, strict=True))]
-        if not held:
-            raise entry.fail("a solution is not proved to lie in a box of its own")
-        left.remove(held[0])
-    return boxes
+        held = next((one for one in left if one.holds(position)), None)
+        if held is None:
+            raise solutions.fail("a solution is not proved to lie in a box of its own")
+        left.remove(held)
+    return listed

@@ -6,8 +6,10 @@ same x and y (one that slides) (D. L. Pieper 1968). These two are linear in u, o
 |(v_x, v_y)|. With θ3 = φ + 2 arctan t, or t the length of the third joint, all over powers of 1 + t² or of 1: either
 they determine u or d, and the equation E in t is left; or a combination E of the two is free of u or d, and S = m² is
 left for what it does not name. θ2 is the angle from (v_x, v_y) to u, unique where they are not 0, θ1 the one from
-A1 M2 v to p', unique where p' is not on the first axis. So different (t, m) are different positions. Where E is the
-zero polynomial there are as many as roots of S, if S is negative everywhere else.
+A1 M2 v to p', unique where p' is not on the first axis; where they are not unique every angle will do, as M1 and M2
+move nothing then. So different (t, m) are different positions, or families. Where E is the zero polynomial there are
+as many as roots of S, if S is negative everywhere else; if not, the third joint can be chosen, where S >= 0. A point on
+the third axis stands still: nothing depends on that joint, and t = 0 stands for all of its angles.
 """
 
 from __future__ import annotations
@@ -20,7 +22,9 @@ from qe.certify.arithmetic import square_roots as sr
 from qe.certify.arithmetic.motions import Motion, Triple, back, dot, image
 from qe.certify.arithmetic.nested_roots import Joint, Nested, Place, angle, nested
 from qe.certify.arithmetic.square_roots import ONE, ZERO, Interval, Polynomial, Surd
+from qe.certify.families import Arcs, Position, not_negative
 from qe.errors import Unable
+from qe.options import Budget
 from qe.proof.entry import Entry
 
 HALF = Surd.rational(Fraction(1, 2))
@@ -43,7 +47,7 @@ class Positions:
     image: tuple[Linear, Linear, Linear]
     second: Linear
     v: list[Polynomial]
-    third: tuple[Polynomial, ...]
+    third: tuple[Polynomial, ...] | None
     norm: Polynomial
     first: Motion
     target: Triple
@@ -58,29 +62,45 @@ class Positions:
         phi: tuple[Fraction, Fraction] | None,
         entry: Entry,
     ) -> Positions:
-        """The equations of the derivation above; ``constants``: A0, A1, A2. ``phi`` is None where t is a length."""
+        """The equations of the derivation above; ``constants``: A0, A1, A2. ``phi`` is None where t is a length, or
+        where the point stands still."""
         target = image(back(constants[0]), place)
-        norm, third, v = _last(constants[2], e, phi)
+        stands = is_still(turns, e)
+        norm, third, v = _last(constants[2], e, phi, stands)
         parts = _Parts(constants[1], target, norm, v)
         equation, full, square, moved, second = (
             parts.second_turns(turns[0]) if turns[1] else parts.second_slides(turns[0])
         )
         full = 0 if phi is None else full
-        only_at_roots = not equation and square is not None
+        if stands and not equation:
+            equation = [ZERO, ONE]
+        only_at_roots = not equation
         if only_at_roots:
             equation, full = square or [], 0 if phi is None else 8
         while full and len(equation) > 2 and not (divided := sr.divided(equation, norm))[1]:
             equation, full = divided[0], full - 2
-        if not equation or len(equation) <= full:
-            raise entry.fail("the equation vanishes at the angle that t misses, or everywhere")
-        if only_at_roots and (len(equation) % 2 == 0 or equation[-1].sign() > 0):
-            raise entry.fail(FREE)
+        if equation and len(equation) <= full:
+            raise entry.fail("the equation vanishes at the angle that t misses")
         return Positions(
             equation, full, square, only_at_roots, moved, second, v, third, norm, constants[1], target, turns
         )
 
-    def total(self) -> int:
+    def family(self, marks: Entry, budget: Budget) -> Position:
+        """The positions where E is the zero polynomial: the third joint can be chosen."""
+        if not self.only_at_roots or self.third is None or not self.turns[2]:
+            raise marks.fail("the equation of a third joint that turns does not hold everywhere")
+        free = [
+            self.turns[0] and not (self.target[0] or self.target[1]),
+            self.turns[1] and not (self.v[0] or self.v[1]),
+        ]
+        chosen: dict[int, Arcs] = {k: None for k in range(2) if free[k]}
+        arcs = not_negative(self.equation, self.third, self.norm, marks, budget) if self.equation else None
+        return Position([None, None, None], {**chosen, 2: arcs})
+
+    def total(self, entry: Entry) -> int:
         """The number of positions (t, m) with t real."""
+        if self.only_at_roots and (len(self.equation) % 2 == 0 or self.equation[-1].sign() > 0):
+            raise entry.fail(FREE)
         if len(self.equation) == 1:
             return 0
         roots = sr.tarski(self.equation, [ONE])
@@ -90,7 +110,7 @@ class Positions:
         nonzero = sr.tarski(self.equation, sr.times(self.square, self.square))
         return (nonzero + signs) + (roots - nonzero)  # two for each positive one, one where it vanishes
 
-    def at_root(self, between: Interval, entry: Entry) -> Iterator[list[Joint]]:
+    def at_root(self, between: Interval, entry: Entry) -> Iterator[Position]:
         """The positions over the one root in an interval."""
         ends = [sr.at(self.equation, x) for x in between]
         if not all(ends):
@@ -103,9 +123,9 @@ class Positions:
         nothing = self.square is None or self.only_at_roots
         square = Nested({}) if nothing else nested(place.value(self.square or []))
         for m in square.square_roots():
-            yield self._joints(place, m, entry)
+            yield self._position(place, m)
 
-    def _joints(self, place: Place, m: Nested, entry: Entry) -> list[Joint]:
+    def _position(self, place: Place, m: Nested) -> Position:
         def at(p: Polynomial) -> Nested:
             return nested(place.value(p))
 
@@ -121,25 +141,36 @@ class Positions:
         first = angle(q, goal, (norm2, one)) if self.turns[0] else Joint(norm2 * goal[2] - q[2], None, norm2)
         part, factor = self.second
         second = angle(v, moved, (norm, norm2)) if self.turns[1] else Joint(at(part) + m.by(factor), None, norm2)
-        if first is None or second is None:
-            raise entry.fail(FREE)
-        c, *s = (at(p) for p in self.third)
-        return [first, second, Joint(c, s[0] if s else None, norm)]
+        third = None
+        if self.third is not None:
+            c, *sine = (at(p) for p in self.third)
+            third = Joint(c, sine[0] if sine else None, norm)
+        joints = [first, second, third]
+        return Position(joints, {k: None for k in range(3) if joints[k] is None})
+
+
+def is_still(turns: tuple[bool, ...], e: Triple) -> bool:
+    """Whether the point lies on the axis of the third joint, which turns."""
+    return turns[2] and not (e[0] or e[1])
 
 
 def _last(
-    constant: Motion, e: Triple, phi: tuple[Fraction, Fraction] | None
-) -> tuple[Polynomial, tuple[Polynomial, ...], list[Polynomial]]:
+    constant: Motion, e: Triple, phi: tuple[Fraction, Fraction] | None, stands: bool
+) -> tuple[Polynomial, tuple[Polynomial, ...] | None, list[Polynomial]]:
     """What all is multiplied by, the third joint, and v."""
-    third: tuple[Polynomial, ...]
-    if phi is None:
+    third: tuple[Polynomial, ...] | None
+    if stands:
+        norm, third = [ONE], None
+        moved = [[], [], sr.trimmed([e[2]])]
+    elif phi is None:
         norm, third = [ONE], ([ZERO, ONE],)
         moved = [sr.trimmed([e[0]]), sr.trimmed([e[1]]), [e[2], ONE]]
     else:
-        norm, third = [ONE, ZERO, ONE], _circle(*phi)
+        cosine, sine = third = _circle(*phi)
+        norm = [ONE, ZERO, ONE]
         moved = [
-            sr.add(sr.scaled(third[0], e[0]), sr.scaled(third[1], -e[1])),
-            sr.add(sr.scaled(third[1], e[0]), sr.scaled(third[0], e[1])),
+            sr.add(sr.scaled(cosine, e[0]), sr.scaled(sine, -e[1])),
+            sr.add(sr.scaled(sine, e[0]), sr.scaled(cosine, e[1])),
             sr.scaled(norm, e[2]),
         ]
     v = [sr.add(_combined(row, moved), sr.scaled(norm, o)) for row, o in zip(*constant, strict=True)]

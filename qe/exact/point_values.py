@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
+from itertools import pairwise
 
 from flint import arb, arb_poly, fmpq
 
@@ -48,6 +49,19 @@ def multiple_roots(roots: list[FibreRoot]) -> list[bool]:
             open_ones = [k for k in open_ones if places[k].enclose(slope, bits).contains(0)]
         bits *= 2
     return [k in open_ones and (lost == 1 or places[k].sign(slope) == 0) for k in range(len(roots))]
+
+
+def signs_around(point: Point, var: int, f: Poly, roots: list[FibreRoot]) -> list[int]:
+    """The signs of the polynomial whose roots ``roots_above`` found: below the first one, between two, above the
+    last."""
+    samples, bits = list[fmpq](), EXACT_FROM
+    while roots and not samples:
+        balls = [root.ball(bits) for root in roots]
+        gaps = [(upper_end(a), lower_end(b)) for a, b in pairwise(balls)]
+        if all(low < high for low, high in gaps):
+            samples = [lower_end(balls[0]) - 1, *((a + b) / 2 for a, b in gaps), upper_end(balls[-1]) + 1]
+        bits *= 2
+    return [point.extend(sample).sign(f) for sample in samples or [fmpq(0)]]
 
 
 def roots_between(f: Poly, var: int) -> list[Fraction | RealAlgebraic]:

@@ -243,6 +243,12 @@ def angle(a: Sequence[Nested], b: Sequence[Nested], over: tuple[Nested, Nested])
     return Joint(dot(a[:2], b[:2]) * over[1], (a[0] * b[1] - a[1] * b[0]) * over[1], size * over[0])
 
 
+def basis(unit: Nested) -> tuple[Joint, Joint, Joint]:
+    """What stands for an unknown turn: whatever is linear in its c, s and w is known by what these three give."""
+    zero = Nested({})
+    return Joint(unit, zero, zero), Joint(zero, unit, zero), Joint(zero, zero, unit)
+
+
 def turns(a: Nested, b: Nested, k: Nested, scale: Nested) -> Iterator[Joint]:
     """All angles with a cos + b sin = k / scale, where a and b are not both 0: cosine and sine are
     (a k - b m, b k + a m) / ((a² + b²) scale), m² = (a² + b²) scale² - k²."""

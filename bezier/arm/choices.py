@@ -1,0 +1,192 @@
+"""Joints that can be chosen: exactly which values of such a joint the other ones can follow, and which of these lie
+between its limits.
+
+Where the others can follow is the set of angles (or lengths) at which a polynomial in t is not negative, with θ = φ +
+2 arctan t: between its real roots its sign is constant, so one rational t each decides.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from math import pi
+
+from bezier.arm.elimination import TURNS
+from bezier.arm.limits import full_turns, length_side, side
+from bezier.arm.model import Joint, Motion
+from bezier.arm.value import BITS, Known, Value, value_of
+from qe.errors import InternalError
+from qe.exact.point_values import Evaluation, roots_above, signs_around
+from qe.exact.ring import Poly
+
+
+@dataclass(frozen=True, eq=False)
+class End:
+    """An exact value of a joint at which a range ends."""
+
+    place: Evaluation
+    known: Known
+
+    def value(self, bits: int = BITS) -> Value:
+        """The angle or the length, with intervals at most about 2^-bits wide."""
+        return value_of(self.place, self.known, bits)
+
+
+Arc = tuple[End | None, End | None]
+"""All angles from one on the way round to the other, or all lengths between two; both ends belong to it, and may be
+one. None: there is no end on this side."""
+
+
+@dataclass(frozen=True, eq=False)
+class Choice:
+    """A joint that can be chosen, by its place in the arm; ``arcs``: which values are possible, None for all."""
+
+    joint: int
+    arcs: tuple[Arc, ...] | None = None
+
+    def backwards(self, count: int) -> Choice:
+        """The same of an arm of so many joints that is read from the hand to the base: all turn the other way."""
+        joint = count - 1 - self.joint
+        if self.arcs is None:
+            return Choice(joint)
+        ends = {e: End(e.place, backwards(e.known)) for arc in self.arcs for e in arc if e is not None}
+        return Choice(joint, tuple((ends[b], ends[a]) for a, b in self.arcs if a and b))
+
+
+def backwards(known: Known) -> Known:
+    """Cosine and sine of the opposite angle."""
+    cosine, sine = known
+    return cosine, replace(sine, scale=-sine.scale)
+
+
+@dataclass(frozen=True)
+class Edge:
+    """Where a range of values between the limits of a joint ends: at ``end``, full turns added, or at a ``limit``;
+    nowhere where both are None."""
+
+    end: End | None = None
+    turns: int = 0
+    limit: Fraction | None = None
+
+    @property
+    def value(self) -> float | None:
+        """The number, where there is one."""
+        if self.end is not None:
+            return float(self.end.value()) + self.turns * 2 * pi
+        return None if self.limit is None else float(self.limit)
+
+
+Span = tuple[Edge, Edge]
+
+
+def arcs_of(marks: Sequence[End | None], at: Sequence[bool], after: Sequence[bool]) -> tuple[Arc, ...] | None:
+    """The closed set of angles that has marks, the way round, where ``at`` says so, and what lies after one, where
+    ``after`` does; None for the whole circle, if marks there are."""
+    if all(after):
+        return None
+    found, n = list[Arc](), len(marks)
+    for i in range(n):
+        if at[i] and not after[i - 1]:
+            j = i
+            while after[j % n]:
+                j += 1
+            found.append((marks[i], marks[j % n]))
+    return tuple(found)
+
+
+def not_negative(
+    here: Evaluation, p: Poly, var: int, known: Known, motion: Motion = Motion.REVOLUTE
+) -> tuple[Arc, ...] | None:
+    """The values ``known`` of a joint, in the variable ``var`` next after the place, at which p is not negative. The
+    angle that t misses must be no zero of p, unless it vanishes everywhere."""
+    roots = roots_above(here.point, var, p)
+    if roots is None:
+        return None
+    signs = [s > 0 for s in signs_around(here.point, var, p, roots)]
+    ends = [End(here.extend(root), known) for root in roots]
+    if motion is Motion.PRISMATIC:
+        if not roots:
+            return None if signs[0] else ()
+        return arcs_of([None, *ends, None], [signs[0], *[True] * len(ends), signs[-1]], [*signs, False])
+    if signs[0] != signs[-1]:
+        raise InternalError("a range of angles has a zero where t is infinite")
+    if not roots:
+        return None if signs[0] else ()
+    return arcs_of(ends, [True] * len(ends), signs[1:])
+
+
+def by_turns(
+    attempt: Callable[[tuple[Fraction, Fraction]], tuple[Poly, Known]], here: Evaluation, var: int, full: int
+) -> tuple[Arc, ...] | None:
+    """``not_negative`` of a polynomial that ``attempt`` gives for cosine and sine of φ, of degree ``full`` in t where
+    it does not vanish at the angle that t misses."""
+    for turn in TURNS:
+        p, known = attempt(turn)
+        coefficients = p.coefficients(var)
+        signs = [here.point.sign(c) for c in coefficients]
+        if (len(signs) > full and signs[full]) or not any(signs):
+            return not_negative(here, p, var, known)
+    raise InternalError("a polynomial of degree four has more than four roots")
+
+
+def spans(joint: Joint, choice: Choice) -> tuple[Span, ...]:
+    """The values of the joint between its limits, ascending and disjoint."""
+    if joint.motion is Motion.PRISMATIC:
+        return tuple(_lengths(joint, choice))
+    return tuple(_angles(joint, choice))
+
+
+def _lengths(joint: Joint, choice: Choice) -> Iterator[Span]:
+    least, most = joint.limits or (None, None)
+    for low, high in ((None, None),) if choice.arcs is None else choice.arcs:
+        ends = [Edge(low), Edge(high)]
+        if least is not None and most is not None:
+            over, under = _length(high, least, 1), _length(low, most, -1)
+            if over < 0 or under > 0:
+                continue
+            ends = [
+                Edge(low) if _length(low, least, -1) >= 0 else Edge(limit=least),
+                Edge(high) if _length(high, most, 1) <= 0 else Edge(limit=most),
+            ]
+        yield ends[0], ends[1]
+
+
+def _length(end: End | None, limit: Fraction, infinite: int) -> int:
+    return infinite if end is None else length_side(end.place, end.known[0], limit)
+
+
+def _angles(joint: Joint, choice: Choice) -> Iterator[Span]:
+    if choice.arcs is None:
+        least, most = joint.limits or (None, None)
+        yield Edge(limit=least), Edge(limit=most)
+        return
+    arcs = sorted(((a, b) for a, b in choice.arcs if a and b), key=lambda arc: float(arc[0].value()))
+    wraps = [int(_is_before(high, low)) for low, high in arcs]
+    if joint.limits is None:
+        yield from ((Edge(low), Edge(high, k)) for (low, high), k in zip(arcs, wraps, strict=True))
+        return
+    least, most = joint.limits
+    for turns in full_turns(joint.limits):
+        for (low, high), wrap in zip(arcs, wraps, strict=True):
+            if _side(low, turns, most) > 0 or _side(high, turns + wrap, least) < 0:
+                continue
+            yield (
+                Edge(low, turns) if _side(low, turns, least) >= 0 else Edge(limit=least),
+                Edge(high, turns + wrap) if _side(high, turns + wrap, most) <= 0 else Edge(limit=most),
+            )
+
+
+def _side(end: End, turns: int, limit: Fraction) -> int:
+    return side(end.place, end.known, turns, limit)
+
+
+def _is_before(one: End, other: End) -> bool:
+    """Whether the first of two different angles in (-pi, pi] is the smaller one; they are the same only as objects."""
+    bits = BITS
+    while one is not other:
+        (a, b), (c, d) = one.value(bits).ends, other.value(bits).ends
+        if b < c or d < a:
+            return b < c
+        bits *= 2
+    return False

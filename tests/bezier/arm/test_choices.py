@@ -1,0 +1,211 @@
+"""Joints that can be chosen: for which of their values the others follow, against geometry in floats, and limits."""
+
+from __future__ import annotations
+
+import json
+from fractions import Fraction
+from math import cos, hypot, isclose, pi, sin
+
+import numpy as np
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from bezier.arm import command
+from bezier.arm.choices import Choice, spans
+from bezier.arm.inverse import Inverse, Solution, solve
+from bezier.arm.kinematics import pose
+from bezier.arm.model import Arm, Joint, Motion
+from bezier.arm.pose import rotation_of, solve_pose
+from bezier.arm.reader import load_arm, read_arm
+from tests.bezier.arm.test_pose import SIX, SKEW_FREE, arm_of
+
+PLANAR = load_arm("planar-3r")
+SKEW_WRIST = arm_of('alpha = "pi/2"', "a = 60", 'alpha = "pi/2"', 'alpha = "pi/6"; d = 60', 'alpha = "pi/6"', "d = 17")
+"""Neighbouring axes of the wrist are 30 degrees apart."""
+
+STILL = arm_of('alpha = "pi/2"; d = 40', 'a = 70; alpha = "pi/2"', "d = 25")
+"""The end point lies on the last axis."""
+
+
+def ranges(choice: Choice) -> list[tuple[float, float]] | None:
+    if choice.arcs is None:
+        return None
+    return [(float(a.value()), float(b.value())) for a, b in choice.arcs if a and b]
+
+
+def is_in(angle: float, choice: Choice) -> bool | None:
+    """Whether the angle is possible; None close to an end."""
+    arcs = ranges(choice)
+    if arcs is None:
+        return True
+    if any(abs((angle - end + pi) % (2 * pi) - pi) < 1e-6 for arc in arcs for end in arc):
+        return None
+    return any((angle - low) % (2 * pi) < (high - low) % (2 * pi) for low, high in arcs)
+
+
+def family(found: Inverse) -> Solution:
+    return next(s for s in found.solutions if s.choices)
+
+
+ANGLES = [k * 2 * pi / 40 + 0.01 for k in range(40)]
+
+
+@settings(max_examples=12)
+@given(st.fractions(-230, 230, max_denominator=7), st.fractions(-230, 230, max_denominator=7))
+def test_a_planar_arm_at_a_point(x: Fraction, y: Fraction) -> None:
+    """Joint 3 determines how far the end is from axis 2: two links remain."""
+    found = solve(PLANAR, (x, y, 0))
+    far = hypot(x, y)
+
+    def reaches(angle: float) -> bool:
+        inner = hypot(80 + 50 * cos(angle), 50 * sin(angle))
+        return abs(100 - inner) <= far <= 100 + inner
+
+    if not found.solutions or not family(found).choices or x == y == 0:
+        assert not any(map(reaches, ANGLES)) or x == y == 0
+        return
+    (choice,) = family(found).choices
+    assert choice.joint == 2 and found.free == ("theta1", "theta2", "theta3")
+    for angle in ANGLES:
+        assert is_in(angle, choice) in (None, reaches(angle))
+
+
+@settings(max_examples=10)
+@given(st.tuples(*[st.integers(-4, 4)] * 4), st.integers(20, 110))
+def test_a_skew_wrist_over_the_first_axis(quaternion: tuple[int, ...], height: int) -> None:
+    """The wrist turns axis 6 at most 60 degrees away from axis 4, wherever joint 1 has brought that."""
+    if not any(quaternion):
+        return
+    rotation = rotation_of(quaternion)
+    point = [17 * row[2] + height * (k == 2) for k, row in enumerate(rotation)]
+    found = solve_pose(SKEW_WRIST, point, rotation)
+    wanted = [float(row[2]) for row in rotation]
+    for s in found.solutions:
+        (choice,) = s.choices
+        forearm = float(s.angles[1] or 0) + float(s.angles[2] or 0)
+        for angle in ANGLES:
+            axis = np.array([cos(angle) * sin(forearm), sin(angle) * sin(forearm), -cos(forearm)])
+            assert is_in(angle, choice) in (None, float(axis @ wanted) >= 0.5)
+
+
+@settings(max_examples=10)
+@given(st.fractions(1, 300, max_denominator=9))
+def test_four_links_in_a_plane(along: Fraction) -> None:
+    """Axis 6 is parallel to axes 2, 3, 4: links of 110.4 and 96, and one of 75.05 that joint 6 turns."""
+    m = pose(SIX, {f"theta{k}": (0, -1) if k == 5 else (1, 0) for k in range(1, 7)})
+    found = solve_pose(SIX, (along, m[1][3], Fraction("131.22")), [row[:3] for row in m])
+    families = [s for s in found.solutions if s.choices]
+    closes = [14.4 <= hypot(along + 75.05 * cos(a), 75.05 * sin(a)) <= 206.4 for a in ANGLES]
+    if not families:
+        assert not any(closes)
+        return
+    (choice,) = families[0].choices
+    assert choice.joint == 5
+    inside = [is_in(a, choice) for a in ANGLES]
+    # the link's direction is that of joint 6 up to a shift and a side: as many angles of the one as of the other
+    assert abs(sum(map(bool, inside)) - sum(closes)) <= 4
+
+
+def test_an_end_point_on_the_last_axis() -> None:
+    """The first two joints were named free with the last one, though they are determined."""
+    at = pose(STILL, {"q1": (Fraction(3, 5), Fraction(4, 5)), "q2": (Fraction(4, 5), Fraction(3, 5)), "q3": (1, 0)})
+    found = solve(STILL, [row[3] for row in at])
+    assert found.free == ("q3",) and found.cases == ("q3 does not move the point",)
+    assert all(None not in s.values[:2] and s.choices[0].arcs is None for s in found.solutions)
+    assert any(isclose(cos(s.angles[0] or 0), 0.6) for s in found.solutions)
+    assert solve(STILL, (500, 0, 0)).count == 0
+
+
+@settings(max_examples=6)
+@given(st.tuples(*[st.integers(-3, 3)] * 4), st.integers(0, 220))
+def test_the_first_joint_of_parallel_axes(quaternion: tuple[int, ...], height: int) -> None:
+    """Two links of 60 and 55 have to reach axis 4. It lies 7 along axis 5, which is orthogonal to axis 6 and to them."""
+    if not any(quaternion):
+        return
+    rotation = rotation_of(quaternion)
+    last = np.array([float(row[2]) for row in rotation])
+    found = solve_pose(SKEW_FREE, [30 * row[2] + height * (k == 2) for k, row in enumerate(rotation)], rotation)
+
+    def reaches(angle: float) -> bool:
+        across = np.cross([sin(angle), -cos(angle), 0], last)
+        ends = [np.array([0, 0, height - 90]) + side * across / np.linalg.norm(across) for side in (7, -7)]
+        return any(5 <= np.linalg.norm(end) <= 115 for end in ends)
+
+    choices = [c for s in found.solutions for c in s.choices if c.joint == 0]
+    for angle in ANGLES:
+        assert (is_in(angle, choices[0]) if choices else False) in (None, reaches(angle))
+
+
+# --- limits --------------------------------------------------------------------------------------------------------
+def limited(low: str, high: str) -> Joint:
+    return Joint("q", Motion.REVOLUTE, (Fraction(low), Fraction(high)))
+
+
+def shown(joint: Joint, choice: Choice) -> list[tuple[float, float]]:
+    return [
+        tuple(float(e.limit) if e.limit is not None else float(e.end.value()) + 2 * pi * e.turns for e in ends)  # type: ignore[union-attr,misc]
+        for ends in spans(joint, choice)
+    ]
+
+
+def test_a_whole_circle_between_limits() -> None:
+    assert shown(limited("-3", "3"), Choice(0)) == [(-3.0, 3.0)]
+
+
+def test_arcs_between_limits() -> None:
+    """At (10, 20) joint 3 may be between 0.709 and 1.938 in absolute value."""
+    (choice,) = family(solve(PLANAR, (10, 20, 0))).choices
+    low, high = 0.7089943725154361, 1.9380107836813947
+    for limits, expected in (
+        (("-1", "1"), [(-1, -low), (low, 1)]),
+        (("0", "6"), [(low, high), (2 * pi - high, 2 * pi - low)]),
+        (("2", "4"), []),
+        (("-7/10", "7/10"), []),
+        (("1", "3/2"), [(1, 1.5)]),
+        (("13", "14"), [(4 * pi + low, 14)]),
+    ):
+        assert (
+            np.allclose(shown(limited(*limits), choice), expected) if expected else not shown(limited(*limits), choice)
+        )
+
+
+def test_an_arc_through_half_a_turn() -> None:
+    found = solve_pose(SKEW_WRIST, (17, 0, 100), rotation_of((1, 0, 1, 0)))
+    (arc,) = [s.choices[0] for s in found.solutions if float(s.angles[1] or 0) < 1]
+    ((low, high),) = shown(Joint("q", Motion.REVOLUTE), arc)
+    assert low < pi < high < low + 2 * pi
+    assert np.allclose(shown(limited("-3", "3"), arc), [(-3, high - 2 * pi), (low, 3)])
+    assert np.allclose(shown(limited("3", "7/2"), arc), [(3, 3.5)])
+
+
+def test_an_end_that_is_the_limit_zero() -> None:
+    """The arm can only be stretched: its last joint is exactly at 0, where its limits end."""
+    text = 'convention = "standard"\n' + "".join(f'[[row]]\njoint = "q{k}"\na = 10\n' for k in range(3))
+    for limits, kept in (("[0, 1]", True), ("[-1, 0]", True), ('["1/1000000000000", 1]', False)):
+        found = solve(read_arm(f"{text}limits = {limits}\n"), (30, 0, 0))
+        assert [s.allowed for s in found.solutions] == [kept]
+
+
+def test_a_family_outside_the_limits() -> None:
+    text = 'convention = "standard"\n' + "".join(
+        f'[[row]]\njoint = "q{k}"\na = {a}\n' for k, a in enumerate((100, 80, 50))
+    )
+    arm: Arm = read_arm(text + "limits = [2, 4]\n")
+    found = solve(arm, (10, 20, 0))
+    assert not family(found).allowed
+    assert "not between its limits" in "\n".join(command.in_words(found))
+
+
+def test_as_json_and_in_words() -> None:
+    said = json.loads(command.inverse(None, load_arm("shoulder-3r"), (0, 0, 150), json=True)[0])  # type: ignore[arg-type]
+    assert said["count"] is None and said["free"] == ["theta1"]
+    (choice,) = said["solutions"][0]["choices"]
+    assert choice["joint"] == "theta1" and choice["possible"] == "all"
+    assert choice["values"] == [{"low": {"value": -3.0, "limit": "-3"}, "high": {"value": 3.0, "limit": "3"}}]
+    told = command.in_words(solve(load_arm("shoulder-3r"), (0, 0, 150)))
+    assert any("theta1 free from -3.000000000 to 3.000000000 rad (its limits)" in line for line in told)
+    said = json.loads(command.inverse(None, PLANAR, (10, 20, 0), json=True)[0])  # type: ignore[arg-type]
+    assert said["solutions"][0]["follow"] == ["theta1", "theta2"]
+    (_, positive) = said["solutions"][0]["choices"][0]["possible"]
+    low, high = (Fraction(v) for v in positive["low"]["box"]["cos"])
+    assert low <= Fraction(cos(0.7089943725154361)) <= high or high - low < Fraction(1, 2**50)
