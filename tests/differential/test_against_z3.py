@@ -18,9 +18,9 @@ def test_no_answer_differs(first: int) -> None:
 
 @pytest.mark.parametrize("family", ["alternations", "linear", "terms", "levels", "sharing"])
 def test_no_answer_of_a_family_differs(family: str) -> None:
-    counts, wrong = block([f"{family} {i}" for i in range(12)])
+    counts, wrong = block([f"{family} {i}" for i in range(8)])
     assert not wrong
-    assert counts["agree"] >= 6
+    assert counts["agree"] >= 4
 
 
 @pytest.mark.deep
