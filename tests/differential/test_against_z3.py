@@ -18,9 +18,9 @@ def test_no_answer_differs(first: int) -> None:
 
 @pytest.mark.parametrize("family", ["alternations", "linear", "terms", "levels", "sharing"])
 def test_no_answer_of_a_family_differs(family: str) -> None:
-    counts, wrong = block([f"{family} {i}" for i in range(12)])
+    counts, wrong = block([f"{family} {i}" for i in range(8)])
     assert not wrong
-    assert counts["agree"] >= 3
+    assert counts["agree"] >= 2
 
 
 @pytest.mark.deep
@@ -29,7 +29,7 @@ def test_no_answer_of_a_family_differs(family: str) -> None:
 def test_no_answer_of_a_family_differs_in_thousands(family: str, first: int) -> None:
     counts, wrong = block([f"{family} {i}" for i in range(first, first + 1000)])
     assert not wrong
-    assert counts["agree"] >= 300
+    assert counts["agree"] >= 200
 
 
 @pytest.mark.deep
@@ -37,4 +37,4 @@ def test_no_answer_of_a_family_differs_in_thousands(family: str, first: int) -> 
 def test_no_answer_differs_in_a_hundred_thousand(first: int) -> None:
     counts, wrong = block([f"z3 {i}" for i in range(first, first + 1000)])
     assert not wrong
-    assert counts["agree"] >= 300
+    assert counts["agree"] >= 200
