@@ -30,7 +30,7 @@ def test_the_version(name: str) -> None:
 
 @pytest.mark.parametrize("name", APPS)
 def test_no_line_of_a_help_is_cut(name: str) -> None:
-    commands = getattr(get_command(APPS[name]), "commands")  # noqa: B009
+    commands = getattr(get_command(APPS[name]), "commands")
     for words in ((), *((command,) for command in commands)):
         lines = help_of(name, *words).splitlines()
         assert not [line for line in lines if line.rstrip().endswith("...") and not line.startswith("Usage")]
@@ -39,7 +39,7 @@ def test_no_line_of_a_help_is_cut(name: str) -> None:
 
 @pytest.mark.parametrize("name", APPS)
 def test_the_help_has_examples_that_name_commands(name: str) -> None:
-    commands = getattr(get_command(APPS[name]), "commands")  # noqa: B009
+    commands = getattr(get_command(APPS[name]), "commands")
     examples = help_of(name).partition("Examples:")[2].split("\n")
     words = [shlex.split(line) for line in examples if line.strip()]
     assert words and all(line[0] == name and line[1] in commands for line in words)
