@@ -24,6 +24,7 @@ extensions = [
 exclude_patterns = ["gallery/*.ipynb", "gallery/*.py", "gallery/*.json", "gallery/*.zip", "sg_execution_times.rst"]
 suppress_warnings = ["config.cache"]
 
+html_show_copyright = False
 html_theme = "furo"
 html_title = "bezier-qe"
 myst_enable_extensions = ["dollarmath", "colon_fence"]

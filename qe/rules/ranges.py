@@ -44,7 +44,7 @@ def excluded_by_ranges(variables: tuple[str, ...], body: Formula, context: Block
         return None
     if all(a.poly.total_degree < 2 for _, a in found):
         return None  # linear conditions have methods of their own
-    search = _Search([(k, p, a) for k, a in found for p in _at_most_zero(a)])
+    search = _Search([_Condition(k, p, a.relation, _terms(p)) for k, a in found for p in _at_most_zero(a)])
     failing = search.failing()
     if failing is None:
         return None
@@ -60,9 +60,27 @@ def _at_most_zero(a: Atom) -> Iterator[Poly]:
         yield -a.poly
 
 
+Term = tuple[tuple[tuple[int, int], ...], int]
+"""The variables of a monomial with their powers, and its coefficient."""
+
+
+def _terms(poly: Poly) -> list[Term]:
+    return [(tuple((i, e) for i, e in enumerate(exponents) if e), c) for exponents, c in poly.terms()]
+
+
+@dataclass(frozen=True, slots=True)
+class _Condition:
+    """A polynomial that is at most 0 by the part at ``position``, whose relation is given."""
+
+    position: int
+    poly: Poly
+    relation: Relation
+    terms: list[Term]
+
+
 @dataclass(slots=True)
 class _Search:
-    conditions: Sequence[tuple[int, Poly, Atom]]
+    conditions: Sequence[_Condition]
     low: dict[int, Number] = field(default_factory=dict)
     high: dict[int, Number] = field(default_factory=dict)
     bounds: list[Bound] = field(default_factory=list)
@@ -71,41 +89,41 @@ class _Search:
         """The position of a condition that cannot hold, once some bounds are found."""
         for _ in range(ROUNDS):
             before = len(self.bounds)
-            for k, poly, found in self.conditions:
-                least = [self.least(exponents, c) for exponents, c in poly.terms()]
+            for condition in self.conditions:
+                least = [self.least(powers, c) for powers, c in condition.terms]
                 total = _sum(least)
-                if total > 0 or (total == 0 and found.relation in (Relation.LT, Relation.GT)):
-                    return k
-                self._bound(k, poly, least)
+                if total > 0 or (total == 0 and condition.relation in (Relation.LT, Relation.GT)):
+                    return condition.position
+                if least.count(-inf) < 2:  # else the rest of every term is unbounded
+                    self._bound(condition, least)
             if len(self.bounds) == before:
                 return None
         return None
 
-    def least(self, exponents: tuple[int, ...], c: int) -> Number:
+    def least(self, powers: tuple[tuple[int, int], ...], c: int) -> Number:
         """A lower bound of c * x^e over the ranges."""
         low: Number = Fraction(c)
         high: Number = low
-        for i, k in enumerate(exponents):
-            if k:
-                a, b = self.low.get(i, -inf), self.high.get(i, inf)
-                ends = [_power(a, k), _power(b, k)]
-                if k % 2 == 0 and a < 0 < b:
-                    ends.append(Fraction(0))
-                products = [_times(u, v) for u in (low, high) for v in (min(ends), max(ends))]
-                low, high = min(products), max(products)
+        for i, k in powers:
+            a, b = self.low.get(i, -inf), self.high.get(i, inf)
+            ends = [_power(a, k), _power(b, k)]
+            if k % 2 == 0 and a < 0 < b:
+                ends.append(Fraction(0))
+            ends = [min(ends), max(ends)]
+            products = [_times(u, v) for u in ((low,) if low is high else (low, high)) for v in ends]
+            low, high = min(products), max(products)
         return low
 
-    def _bound(self, position: int, poly: Poly, least: list[Number]) -> None:
+    def _bound(self, condition: _Condition, least: list[Number]) -> None:
         """The bounds that a condition p <= 0 gives by its terms in one variable alone."""
-        for k, (exponents, c) in enumerate(poly.terms()):
-            inside = [i for i, e in enumerate(exponents) if e]
+        position, poly = condition.position, condition.poly
+        for k, (powers, c) in enumerate(condition.terms):
+            if len(powers) != 1 or (c < 0 and powers[0][1] % 2 == 0):
+                continue
             rest = _sum(least[:k] + least[k + 1 :])
-            if len(inside) != 1 or rest == -inf:
+            if rest == -inf:
                 continue
-            (i,), most = inside, Fraction(-rest) / c  # c*x^e <= -rest
-            power = exponents[i]
-            if c < 0 and power % 2 == 0:
-                continue
+            ((i, power),), most = powers, Fraction(-rest) / c  # c*x^e <= -rest
             size = _root_above(abs(most), power)
             if power % 2 == 0:
                 if most >= 0:

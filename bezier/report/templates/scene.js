@@ -137,7 +137,7 @@ function show(box, data) {
     // The arm moves over the names: they stand where it comes least.
     if (arm) for (let k = 0; k <= 12; k++) {
       const p = arm.frames[Math.round(k * (count - 1) / 12)].p;
-      p.slice(1).forEach((b, i) => { for (const s of [0, 0.25, 0.5, 0.75]) busy.push(place(p[i].map((a, j) => a + s * (b[j] - a)))); });
+      p.slice(1).forEach((b, i) => { for (let s = 0; s <= 1; s += 1 / 16) busy.push(place(p[i].map((a, j) => a + s * (b[j] - a)))); });
     }
     const hit = (a, b) => Math.max(0, Math.min(a[2], b[2]) - Math.max(a[0], b[0])) * Math.max(0, Math.min(a[3], b[3]) - Math.max(a[1], b[1]));
     for (const [name, point, main] of [...data.marks].sort((a, b) => b[2] - a[2])) {
