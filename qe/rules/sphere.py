@@ -93,8 +93,9 @@ def _along(
         return None
     direction = [form.derivative(i) for i in indices]
     length = sum((p * p for p in direction), ring.constant(0))
-    images = {f: _image(linear[f], form, indices) if f in linear else f for f in factors}
-    if any(image is None for image in images.values()) or (ball.strict and not length.is_constant):
+    found = {f: _image(linear[f], form, indices) if f in linear else f for f in factors}
+    images = {f: image for f, image in found.items() if image is not None}
+    if len(images) < len(found) or (ball.strict and not length.is_constant):
         return None
 
     def change(found: Atom | RootAtom) -> Formula:
