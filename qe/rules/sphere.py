@@ -44,7 +44,7 @@ def sphere_along_form(variables: tuple[str, ...], body: Formula, context: BlockC
         rest = [p for p in parts if p != part]
         for own in _candidates(part, variables):
             context.budget.check("prepare")
-            ball = _ball(part, own)
+            ball = None if _is_solved(own, rest) else _ball(part, own)
             found = None if ball is None else _along(ball, own, rest)
             if found is not None:
                 form, after = found
@@ -61,6 +61,14 @@ def _candidates(part: Formula, variables: Sequence[str]) -> Iterator[tuple[str, 
         square = [v for v in variables if v in part.free and part.poly.degree(ring.index[v]) == 2]
         for size in range(min(len(square), _VARIABLES), 1, -1):
             yield from combinations(square, size)
+
+
+def _is_solved(names: Sequence[str], rest: Sequence[Formula]) -> bool:
+    """Whether an equation gives one of the variables without a denominator: then it is for the rule on those."""
+    lines = (p.poly for p in rest if isinstance(p, Atom) and p.relation is Relation.EQ)
+    return any(
+        p.degree(i) == 1 and p.leading(i).is_constant for p in lines for i in map(p.ring.index.__getitem__, names)
+    )
 
 
 def _ball(part: Formula, names: Sequence[str]) -> tuple[Ball, Poly | None] | None:
