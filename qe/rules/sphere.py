@@ -44,7 +44,7 @@ def sphere_along_form(variables: tuple[str, ...], body: Formula, context: BlockC
         rest = [p for p in parts if p != part]
         for own in _candidates(part, variables):
             context.budget.check("prepare")
-            ball = _ball(part, own)
+            ball = None if _is_solved(own, rest) else _ball(part, own)
             found = None if ball is None else _along(ball, own, rest)
             if found is not None:
                 form, after = found
@@ -61,6 +61,14 @@ def _candidates(part: Formula, variables: Sequence[str]) -> Iterator[tuple[str, 
         square = [v for v in variables if v in part.free and part.poly.degree(ring.index[v]) == 2]
         for size in range(min(len(square), _VARIABLES), 1, -1):
             yield from combinations(square, size)
+
+
+def _is_solved(names: Sequence[str], rest: Sequence[Formula]) -> bool:
+    """Whether an equation gives one of the variables without a denominator: then it is for the rule on those."""
+    lines = (p.poly for p in rest if isinstance(p, Atom) and p.relation is Relation.EQ)
+    return any(
+        p.degree(i) == 1 and p.leading(i).is_constant for p in lines for i in map(p.ring.index.__getitem__, names)
+    )
 
 
 def _ball(part: Formula, names: Sequence[str]) -> tuple[Ball, Poly | None] | None:
@@ -93,8 +101,9 @@ def _along(
         return None
     direction = [form.derivative(i) for i in indices]
     length = sum((p * p for p in direction), ring.constant(0))
-    images = {f: _image(linear[f], form, indices) if f in linear else f for f in factors}
-    if any(image is None for image in images.values()) or (ball.strict and not length.is_constant):
+    found = {f: _image(linear[f], form, indices) if f in linear else f for f in factors}
+    images = {f: image for f, image in found.items() if image is not None}
+    if len(images) < len(found) or (ball.strict and not length.is_constant):
         return None
 
     def change(found: Atom | RootAtom) -> Formula:

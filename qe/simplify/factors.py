@@ -94,7 +94,7 @@ def reduce_atom(given: Atom, facts: Facts, conjunctive: bool) -> Formula:
 
 
 def _between(given: Atom, factors: Sequence[Poly]) -> Formula:
-    """The last rule above, for an inequality between 0 and the product of the factors; the atom if it does not apply."""
+    """The last rule above, for an inequality on the product of the factors; the atom where it does not apply."""
     if len(factors) != 2 or factors[0].total_degree < 2:
         return given
     first, second = factors

@@ -62,6 +62,8 @@ CASES = {
     "taken apart": "ex x, y. a - b = 0 and (a + b)*x = c",
     "zeros": "ex x, y, z. (x /= 0 or y /= 0) and x*z + y*a + 2 < 0 and x^3 > y^2 + z",
     "balls": "s > 0 and ex x, y. (x - a)^2 + y^2 <= 4 and x^2 + y^2 < s^2",
+    "sphere": "ex x, y. x^2 + y^2 = a and b*x + y > c",
+    "named": "ex x, y. (a + b)*x + (a - b)*y = s and (a^2 - b^2)*x*y >= p and x > a",
     "half-plane": "ex x, y. x^2 - y^2 + a*x + b = 0 and 2*x*y + a*y = 0 and x >= c",
     "exchanged": "ex x, y. x^3 + y^3 = a and x > b and y > b",
     "cancelled": "ex x, y. x^3 + a*x = b and y^3 + a*y = b and x < y and a*x*y > 1",
