@@ -75,7 +75,7 @@ def _over_marks(found: Inverse, family: Solution, bits: int, places: int) -> Ite
     """Where the third joint can be chosen alone: intervals around its ends, and around other zeros of m²."""
     width = Fraction(1, 1 << bits)
     for turn in TURNS:
-        ends = [e for c in family.choices for arc in c.arcs or () for e in arc if e is not None and c.joint == 2]
+        ends = [end for choice in family.choices for end in choice.zeros]
         t = sorted({round(_tangent(end.value(bits + 20), turn) / width) for end in ends})
         if all(abs(k) * width <= FAR for k in t):
             marks: list[Json] = [[str((k - 4) * width), str((k + 4) * width)] for k in t]
