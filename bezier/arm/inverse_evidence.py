@@ -127,7 +127,7 @@ def _arcs(choice: Choice, places: int) -> Json:
         return None
     if any(end is None for arc in choice.arcs for end in arc):
         raise Unable("certificates of joint positions are for ranges of angles")
-    return [[_of(end and end.value(places + 20), places) for end in arc] for arc in choice.arcs]
+    return [[_of(None if end is None else end.value(places + 20), places) for end in arc] for arc in choice.arcs]
 
 
 def _of(value: Value | None, places: int) -> Json:
