@@ -40,10 +40,12 @@ one. None: there is no end on this side."""
 
 @dataclass(frozen=True, eq=False)
 class Choice:
-    """A joint that can be chosen, by its place in the arm; ``arcs``: which values are possible, None for all."""
+    """A joint that can be chosen, by its place in the arm; ``arcs``: which values are possible, None for all.
+    ``zeros``: where a sign was found to vanish, ends among others."""
 
     joint: int
     arcs: tuple[Arc, ...] | None = None
+    zeros: tuple[End, ...] = ()
 
     def backwards(self, count: int) -> Choice:
         """The same of an arm of so many joints that is read from the hand to the base: all turn the other way."""
@@ -114,6 +116,11 @@ def not_negative(
     if not roots:
         return None if signs[0] else ()
     return arcs_of(ends, [True] * len(ends), signs[1:])
+
+
+def zeros(here: Evaluation, p: Poly, var: int, known: Known) -> tuple[End, ...]:
+    """The values of a joint at which p vanishes; none where it vanishes everywhere."""
+    return tuple(End(here.extend(root), known) for root in roots_above(here.point, var, p) or ())
 
 
 def by_turns(

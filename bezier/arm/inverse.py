@@ -14,7 +14,7 @@ from functools import lru_cache, partial
 from numbers import Integral
 from typing import Any
 
-from bezier.arm.choices import Choice, not_negative, spans
+from bezier.arm.choices import Choice, not_negative, spans, zeros
 from bezier.arm.elimination import LIFTED, TURNS, Geometry, M, Reduction, T
 from bezier.arm.limits import allowed
 from bezier.arm.model import Arm
@@ -255,6 +255,8 @@ def _family(arm: Arm, values: Evaluation, reduction: Reduction, on_axis: bool) -
     last = arm.joints[2]
     turns = kappa is not None and not any(here.sign(c) for c in kappa.coefficients(t))
     square = reduction.square
-    arcs = None if square is None else not_negative(values, square, t, reduction.values[2], last.motion)
+    known = reduction.values[2]
+    arcs = None if square is None else not_negative(values, square, t, known, last.motion)
+    marks = () if square is None else zeros(values, square, t, known)
     choices = [Choice(k) for k, free in enumerate((on_axis, turns)) if free]
-    return solution_of(arm, values, (None, None, None), False, [*choices, Choice(2, arcs)])
+    return solution_of(arm, values, (None, None, None), False, [*choices, Choice(2, arcs, marks)])

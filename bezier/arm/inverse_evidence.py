@@ -75,7 +75,7 @@ def _over_marks(found: Inverse, family: Solution, bits: int, places: int) -> Ite
     """Where the third joint can be chosen alone: intervals around its ends, and around other zeros of m²."""
     width = Fraction(1, 1 << bits)
     for turn in TURNS:
-        ends = [e for c in family.choices for arc in c.arcs or () for e in arc if e is not None and c.joint == 2]
+        ends = [end for choice in family.choices for end in choice.zeros]
         t = sorted({round(_tangent(end.value(bits + 20), turn) / width) for end in ends})
         if all(abs(k) * width <= FAR for k in t):
             marks: list[Json] = [[str((k - 4) * width), str((k + 4) * width)] for k in t]
@@ -127,7 +127,7 @@ def _arcs(choice: Choice, places: int) -> Json:
         return None
     if any(end is None for arc in choice.arcs for end in arc):
         raise Unable("certificates of joint positions are for ranges of angles")
-    return [[_of(end and end.value(places + 20), places) for end in arc] for arc in choice.arcs]
+    return [[_of(None if end is None else end.value(places + 20), places) for end in arc] for arc in choice.arcs]
 
 
 def _of(value: Value | None, places: int) -> Json:

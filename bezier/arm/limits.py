@@ -12,6 +12,8 @@ from qe.errors import Unable
 from qe.exact.point_values import Evaluation, pi_ends
 
 MOST_BITS = 4096
+MOST_RADIANS = 25
+"""Limits of joints that turn: four full turns. Larger ones may be degrees."""
 
 
 def allowed(joint: Joint, here: Evaluation, known: Known) -> bool:

@@ -17,6 +17,7 @@ from importlib.resources import files
 from pathlib import Path
 
 from bezier.arm.angles import EXPECTED, Angle, read_angle
+from bezier.arm.limits import MOST_RADIANS
 from bezier.arm.model import Arm, Convention, Joint, Motion, Row
 from bezier.input.files import read_text
 from bezier.input.numbers import NotANumber, describe
@@ -24,7 +25,6 @@ from bezier.input.toml_table import Table
 from qe.errors import InputError
 
 MAX_ROWS = 24
-MOST_RADIANS = 25
 SUFFIX = ".toml"
 ALIASES = {"ev3": "ev3-120"}
 _OF_JOINTS = ("kind", "limits", "max_velocity", "max_acceleration")

@@ -10,12 +10,15 @@ from __future__ import annotations
 
 import math
 import re
+import warnings
 from collections.abc import Iterator
 from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
+from xml.etree import ElementTree
 
 from bezier.arm.angles import STEP, Angle
+from bezier.arm.limits import MOST_RADIANS
 from bezier.arm.model import Arm, Convention, Joint, Motion, Row
 from bezier.input.files import read_text
 from bezier.input.numbers import shorten
@@ -41,7 +44,7 @@ MOVING = {"revolute": Motion.REVOLUTE, "continuous": Motion.REVOLUTE, "prismatic
 def load_urdf(name: str) -> Arm:
     """The arm of a file. Raises ``InputError``, and ``Unable`` where the parser is not installed."""
     file, _, tip = name.partition("#")
-    read_text(Path(file))  # what is wrong with the file itself is told as for every other file
+    _check_text(file, read_text(Path(file)))
     try:
         import yourdfpy
     except ImportError as error:
@@ -49,16 +52,31 @@ def load_urdf(name: str) -> Arm:
             raise told from None
         raise
     try:
-        model = yourdfpy.URDF.load(file, build_scene_graph=False, load_meshes=False)
+        with warnings.catch_warnings():  # about numbers that are none, which are told below
+            warnings.simplefilter("ignore", RuntimeWarning)
+            model = yourdfpy.URDF.load(file, build_scene_graph=False, load_meshes=False)
         joints = list(model.robot.joints)
     except (SyntaxError, ValueError, TypeError, KeyError, AttributeError) as error:
         raise InputError(
             f"{file}: a robot in URDF expected, found what its parser refuses: {shorten(str(error))}"
         ) from None
     rows = [row for joint in _path(file, joints, tip) for row in _rows(file, joint)]
-    if not any(row.joint is not None for row in rows):
+    names = [row.joint.name for row in rows if row.joint is not None]
+    if not names:
         raise InputError(f"{file}: a joint that moves expected, none found")
+    if len(set(names)) < len(names):
+        raise InputError(f"{file}: different names of joints expected, {shorten(', '.join(names))} found")
     return Arm(str(model.robot.name or file), Convention.MODIFIED, tuple(rows), file)
+
+
+def _check_text(file: str, text: str) -> None:
+    """The parser repairs damaged files, and would read another arm from them."""
+    try:
+        ElementTree.fromstring(text)
+    except ElementTree.ParseError as error:
+        raise InputError(f"{file}: a robot in URDF expected, found no XML: {error}") from None
+    if "<!DOCTYPE" in text:
+        raise InputError(f"{file}: a robot in URDF expected, found a document type, which may refer to other files")
 
 
 def _path(file: str, joints: list[Any], tip: str) -> list[Any]:
@@ -67,6 +85,8 @@ def _path(file: str, joints: list[Any], tip: str) -> list[Any]:
     if len(above) != len(joints):
         raise InputError(f"{file}: links with one joint each above them expected")
     ends = sorted(set(above) - {joint.parent for joint in joints})
+    if not ends:
+        raise InputError(f"{file}: a tree of links expected, {'a circle' if joints else 'no joint'} found")
     if not tip and len(ends) != 1:
         raise InputError(
             f"{file}: a tree with the ends {shorten(', '.join(ends))}: one of them expected, as {file}#LINK"
@@ -113,8 +133,8 @@ def _tilt(axis: Any, where: str) -> tuple[int, int]:
     known = {(0, 0, 1): (0, 0), (0, 0, -1): (STEP, 0), (0, 1, 0): (-QUARTER, 0), (0, -1, 0): (QUARTER, 0)}
     known |= {(1, 0, 0): (0, QUARTER), (-1, 0, 0): (0, -QUARTER)}
     values = [1.0, 0.0, 0.0] if axis is None else [float(v) for v in axis]
-    nearest = tuple(round(v) for v in values)
-    if nearest not in known or max(abs(v - n) for v, n in zip(values, nearest, strict=True)) > CLOSE:
+    nearest = tuple(round(v) if math.isfinite(v) else 0 for v in values)
+    if nearest not in known or any(not abs(v - n) <= CLOSE for v, n in zip(values, nearest, strict=True)):
         raise InputError(f"{where}: an axis along x, y or z expected, {values} found")
     return known[nearest]
 
@@ -124,7 +144,9 @@ def _origin(matrix: Floats | None, where: str) -> tuple[tuple[Fraction, ...], tu
     if matrix is None:
         return (Fraction(0),) * 3, (0, 0, 0)
     entries = [[float(v) for v in row] for row in matrix]
-    shift = tuple(_length(row[3]) for row in entries[:3])
+    if not all(math.isfinite(v) for row in entries for v in row):
+        raise InputError(f"{where}: finite numbers expected as origin, {entries[:3]} found")
+    shift = tuple(round(Fraction(repr(row[3])) * TO_MM, DIGITS - 3) for row in entries[:3])
     pitch = math.asin(max(-1.0, min(1.0, -entries[2][0])))
     if math.cos(pitch) > CLOSE:
         roll, yaw = math.atan2(entries[2][1], entries[2][2]), math.atan2(entries[1][0], entries[0][0])
@@ -151,21 +173,25 @@ def _joint(joint: Any, where: str) -> Joint:
     limit, limits, velocity = joint.limit, None, None
     if limit is not None:
         if joint.type != "continuous" and limit.lower is not None and limit.upper is not None:
-            low, high = (_exact(float(v)) * factor for v in (limit.lower, limit.upper))
+            low, high = (_exact(float(v), where) * factor for v in (limit.lower, limit.upper))
             if low > high:
                 raise InputError(f"{where}: a lower limit below the upper one expected, {low} and {high} found")
+            if motion is Motion.REVOLUTE and max(-low, high) > MOST_RADIANS:
+                raise InputError(f"{where}: limits in rad expected, {float(low):g} and {float(high):g} found")
             limits = (low, high) if low < high else None
-        velocity = _exact(float(limit.velocity)) * factor if limit.velocity else None
+        velocity = _exact(float(limit.velocity), where) * factor if limit.velocity else None
         if velocity is not None and velocity < 0:
             raise InputError(f"{where}: a velocity above zero expected, {velocity} found")
-    return Joint(re.sub(r"\W", "_", joint.name), motion, limits, velocity)
+    return Joint(_name(joint.name), motion, limits, velocity)
 
 
-def _length(metres: float) -> Fraction:
-    return round(Fraction(repr(metres)) * TO_MM, DIGITS - 3) if math.isfinite(metres) else _exact(metres)
+def _name(text: str) -> str:
+    """A name as in TOML files."""
+    plain = re.sub(r"\W", "_", text)
+    return plain if plain.isidentifier() else f"_{plain}"
 
 
-def _exact(value: float) -> Fraction:
+def _exact(value: float, where: str) -> Fraction:
     if not math.isfinite(value):
-        raise InputError(f"a finite number expected, {value} found")
+        raise InputError(f"{where}: a finite number expected, {value} found")
     return round(Fraction(repr(value)), DIGITS)

@@ -197,7 +197,7 @@ class _Turned:
         for root in roots:
             there = here.extend(root)
             known: Joints = {**dict(enumerate(self.position.quotients)), 3: None, 4: fifth.pair, 5: None}
-            choices = (Choice(3),)
+            choices: tuple[Choice, ...] = (Choice(3),)
             if there.point.sign(rules.tidy(dot(w.rows[2][:2], w.rows[2][:2])).top):
                 known |= {3: fourth, 5: sixth}
                 choices = ()

@@ -232,7 +232,8 @@ def wrist(chain: Chain, pose: Motion, arm: Position, entry: Entry) -> Iterator[P
     if open_ones:
         columns = [column_of([joint or other for joint in joints]) for other in basis(unit)]
         reach = (a * a + b * b) * columns[2].scale * columns[2].scale
-        arcs = bounded(*map(wanted, columns), reach)
+        cosine, sine, rest = map(wanted, columns)
+        arcs = bounded(cosine, sine, rest, reach)
         if arcs != ():
             yield Position([*joints, None, None, None], {open_ones[0]: arcs})
         return

@@ -50,14 +50,13 @@ def square_part(n: int) -> int:
     """An s with s^2 dividing n > 0: the largest one, where n has at most ``_FACTORED_BITS`` bits or is easy to factor.
 
     Larger numbers are divided by small primes only, since factoring them may take for ever; what remains is taken out
-    where it is a square as a whole.
+    where it is a square.
     """
-    outside, rest = 1, 1
-    for prime, power in fmpz(n).factor(trial_limit=None if n.bit_length() <= _FACTORED_BITS else _TRIED):
-        outside *= int(prime) ** (int(power) // 2)
-        rest *= int(prime) ** (int(power) % 2)
-    root = isqrt(rest)
-    return outside * root if root * root == rest else outside
+    outside = 1
+    for factor, power in fmpz(n).factor(trial_limit=None if n.bit_length() <= _FACTORED_BITS else _TRIED):
+        root = isqrt(int(factor))
+        outside *= root ** int(power) if root * root == factor else int(factor) ** (int(power) // 2)
+    return outside
 
 
 def _format_quadratic(coefficients: Sequence[int], index: int) -> str:

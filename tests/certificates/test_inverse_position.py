@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 
 from bezier.arm.exact_text import read_exact
 from bezier.arm.inverse import solve
-from bezier.arm.inverse_evidence import _roots, _tangent, inverse_certificate
+from bezier.arm.inverse_evidence import _parameter, _roots, inverse_certificate
 from bezier.arm.kinematics import position
 from bezier.arm.reader import load_arm, read_arm
 from bezier.arm.square_roots import square_roots
@@ -22,6 +22,7 @@ from qe.certify.arithmetic import square_roots as sr
 from qe.certify.arithmetic.square_roots import ONE, Surd
 from qe.certify.verify import verify, verify_json
 from qe.errors import Unable
+from qe.exact.algebraic import RealAlgebraic
 from qe.proof.certificate import Certificate, Kind
 from tests.certificates.mutation import leaves
 
@@ -168,7 +169,7 @@ def test_the_angle_that_t_misses_cannot_hide_a_solution() -> None:
     assert payload["turn"] != ["1", "0"] and payload["count"] == 4
     others = [s for s in found.solutions if abs(s.angles[2] or 0) < 3.1]
     turn = (Fraction(1), Fraction(0))
-    t = [_tangent(s, turn, 100) for s in others]
+    t = [_parameter(s, turn, 100) for s in others]
     roots = list(_roots(t, t, others, 100, 30))
     assert len(roots) == 3
     assert not accepted({**payload, "turn": ["1", "0"], "count": 3, "roots": roots})
@@ -183,8 +184,6 @@ def test_as_text() -> None:
 def test_what_has_no_certificate() -> None:
     cubic = read_exact("0") + solve(load_arm("ev3-120"), (1, 2, 3)).point[0]
     assert cubic == 1
-    from qe.exact.algebraic import RealAlgebraic
-
     root = RealAlgebraic.from_root([-2, 0, 0, 1], 1, 2)
     with pytest.raises(Unable, match="certificates of joint positions"):
         inverse_certificate(solve(load_arm("ev3-120"), (root, 0, 100)))
@@ -237,6 +236,14 @@ def test_tarskis_query(roots: list[int], other: list[int]) -> None:
     half = Fraction(-1, 2), Fraction(9, 2)
     assert sr.tarski(p, s, half) == sum(map(sign, inside))
     assert sr.tarski(sr.times(p, [ONE, Surd(()), ONE]), [ONE]) == len(set(roots))
+
+
+def test_a_large_square_under_a_square_root() -> None:
+    """Three times the square of a large prime was not recognised: there was no certificate."""
+    for large in (2**61 - 1, (2**61 - 1) * (2**89 - 1), 10**40 + 121):
+        for d in (2, 3, 6):
+            root = RealAlgebraic.from_root([-d * large * large, 0, 7], 0, large * 3)
+            assert square_roots(root) == {7 * d: Fraction(large, 7)}
 
 
 def test_coordinates_as_square_roots() -> None:

@@ -119,7 +119,7 @@ def test_an_end_point_on_the_last_axis() -> None:
 @settings(max_examples=6)
 @given(st.tuples(*[st.integers(-3, 3)] * 4), st.integers(0, 220))
 def test_the_first_joint_of_parallel_axes(quaternion: tuple[int, ...], height: int) -> None:
-    """Two links of 60 and 55 have to reach axis 4. It lies 7 along axis 5, which is orthogonal to axis 6 and to them."""
+    """Two links of 60 and 55 have to reach axis 4. It lies 7 along axis 5, which is orthogonal to these and to 6."""
     if not any(quaternion):
         return
     rotation = rotation_of(quaternion)

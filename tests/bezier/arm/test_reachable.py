@@ -47,7 +47,7 @@ def test_arms_of_other_shapes() -> None:
 
 def test_shipped_arms_answer_what_they_can() -> None:
     assert Robot.load("shoulder-3r").inverse((100, 50, 120)).count == 4
-    assert Robot.load("planar-3r").inverse((100, 50, 0)).free == ("theta2", "theta3")
+    assert Robot.load("planar-3r").inverse((100, 50, 0)).free == ("theta1", "theta2", "theta3")
     six = Robot.load("six-joints")
     assert np.isfinite(six.positions([[0.1] * 6])).all()
     with pytest.raises(Unable, match="three joints"):

@@ -161,3 +161,14 @@ def test_the_command(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None
     rows = list(csv.reader((out / "joints.csv").read_text().splitlines()))
     assert len(rows) == 12 and rows[-1][0] == "20.000000000"
     assert main(["joints", "ev3-120", str(source), "--out", str(out), "--duration", "0"]) == 2
+
+
+def test_an_angle_that_can_be_chosen_keeps_its_limits() -> None:
+    """With all samples on the axis, the first joint was put to 0, outside its limits."""
+    rows = ('alpha = "pi/2"\nd = 100\nlimits = ["1/2", "5/2"]', "a = 120", "a = 90")
+    body = "".join(f'[[row]]\njoint = "q{k}"\n{row}\n' for k, row in enumerate(rows))
+    arm = read_arm('convention = "standard"\n' + body)
+    found = joint_path(arm, {"c": Bezier.of([(0, 0, 150), (20, 60, 160), (0, 0, 200)])})
+    for count in (2, 3):
+        sequence = joint_sequence(found, samples_of([Fraction(1)], TimeLaw.of(Law.QUINTIC), count))
+        assert all(0.5 <= first <= 2.5 for first, *_ in sequence.angles)

@@ -100,10 +100,10 @@ def test_a_rotation_that_a_skew_wrist_does_not_reach() -> None:
 
 def test_shapes() -> None:
     slide = 'kind = "prismatic"\nalpha = "pi/2"'
-    rows = ('alpha = "pi/2"', "a = 70", slide, 'alpha = "-pi/2"', 'alpha = "pi/2"', "d = 1")
-    body = "".join(f'[[row]]\njoint = "q{k}"\n{rest}\n' for k, rest in enumerate(rows))
-    sliding = read_arm('convention = "standard"\n' + body)
-    assert wrist_of(sliding) is None
+    rows = ['alpha = "pi/2"', "a = 70", 'alpha = "pi/2"', 'alpha = "-pi/2"', 'alpha = "pi/2"', "d = 1"]
+    for k, is_wrist in ((2, True), (3, False), (4, False)):
+        body = "".join(f'[[row]]\njoint = "q{i}"\n{slide if i == k else row}\n' for i, row in enumerate(rows))
+        assert (wrist_of(read_arm('convention = "standard"\n' + body)) is not None) == is_wrist
     assert wrist_of(PUMA) is not None and wrist_of(SIX) is None and wrist_of(SKEW) is None
     wrist = wrist_of(STANDARD)
     assert wrist is not None and wrist.height == 0 and len(wrist.first.joints) == 3
