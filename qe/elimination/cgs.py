@@ -53,7 +53,7 @@ class ComprehensiveGroebner:
         return "trace forms count its solutions" if problem.is_flat else None
 
     def run(self, problem: Problem, context: Context) -> Outcome | None:
-        """The block, but variables that its equations leave free; None for conditions of another kind.
+        """The block; of variables that no equation binds one goes, others stay. None for conditions of another kind.
 
         Raises ``Unable`` where bases or trace forms grow past their limits, ``BudgetExceeded``.
         """
