@@ -64,14 +64,15 @@ class ComprehensiveGroebner:
             return None
         parts = list(_conjunctions(convert(dual.body, ring)))
         read = [_Conjunction.of(part, ring, dual.variables) for part in parts]
-        found: list[Formula] = []
+        found, listed = list[Formula](), not free
         for part in read:
             zeros = None if free else part.zeros()
             if zeros is None:
+                listed = False
                 found.append(part.eliminated(context.budget))
             elif (witness := part.witness(zeros)) is not None:
                 return _outcome(problem, context, TRUE, witness)
-        refuted = OnDemand(_Conjunctions(tuple(read)).certificates)
+        refuted = OnDemand(_Conjunctions(tuple(read)).certificates) if listed else None
         return _outcome(problem, context, simplify(disj(found)), None, refuted)
 
 
@@ -81,7 +82,7 @@ def _outcome(
     # back into the ring of the formula it came from: it is joined with parts of that formula
     ring = ring_of(problem.formula)
     moved = found if ring is None else convert(found, ring)
-    evidence = {"refuted": refuted} if found == FALSE and not problem.free else {}
+    evidence = {} if refuted is None or found != FALSE else {"refuted": refuted}
     answer = context.log.step("comprehensive Gröbner system", problem.formula, problem.asked(moved), evidence=evidence)
     return Outcome(answer, witness)
 

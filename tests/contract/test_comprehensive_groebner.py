@@ -63,9 +63,19 @@ def test_what_no_equation_binds_has_points_between_zeros(text: str, monkeypatch:
     assert qe.equivalent(found, text, timeout=60)
 
 
-def test_answers_without_equations_are_checked() -> None:
-    found = qe.eliminate(FREE[0], method="cgs", check=True, process=False)
-    assert found.guarantee is qe.Guarantee.CHECKED
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        (FREE[0], "a^2 <= 2 or a < 0"),
+        ("ex x. x^2 + x + 1 <= 0", "false"),
+        ("all x. x^4 - x + 1 > 0", "true"),
+        ("ex x, y. x^2 + y^2 = 1 and x + y > 2", "false"),
+        ("ex x, y. x^2 = 2 and y > x", "true"),
+    ],
+)
+def test_answers_without_equations_are_checked(text: str, expected: str) -> None:
+    found = qe.eliminate(text, method="cgs", check=True, process=False)
+    assert found.guarantee is qe.Guarantee.CHECKED and qe.equivalent(found.formula, expected)
 
 
 @pytest.mark.parametrize("text", ["ex x, y. x^2 + y^2 < a and x*y > b", "ex x. x^3 + a*x > b and x < a and x > c"])
