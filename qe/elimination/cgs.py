@@ -16,6 +16,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from itertools import product
 from math import prod
 
@@ -71,7 +72,8 @@ class ComprehensiveGroebner:
                 listed = False
                 found.append(part.eliminated(context.budget))
             elif (witness := part.witness(zeros)) is not None:
-                return _outcome(problem, context, TRUE, witness)
+                # whatever does not occur in this conjunction may be 0
+                return _outcome(problem, context, TRUE, {v: witness.get(v, Fraction(0)) for v in problem.variables})
         refuted = OnDemand(_Conjunctions(tuple(read)).certificates) if listed else None
         return _outcome(problem, context, simplify(disj(found)), None, refuted)
 

@@ -97,6 +97,14 @@ def test_a_witness_is_exact_and_checked() -> None:
     assert found.witness is not None and found.witness["y"] ** 6 == 2
 
 
+@pytest.mark.parametrize("text", ["ex x, y. y^2 = 4 and y > 0 or x > y and x < y", "ex x, y. x^2 + 1 = 0 or y^3 = 2"])
+def test_a_witness_has_all_variables_of_the_block(text: str) -> None:
+    """Those that do not occur in the conjunction that holds were missing: an internal error."""
+    found = qe.eliminate(text, method="cgs", check=True, process=False)
+    assert found.truth and found.witness is not None and set(found.witness) == {"x", "y"}
+    assert found.guarantee is qe.Guarantee.CHECKED
+
+
 def test_systems_are_taken_by_themselves_where_that_helps() -> None:
     """The cyclic 5-roots: decomposition does not end in a time that a test could wait for."""
     equations = "a+b+c+d+e = 0 and a*b+b*c+c*d+d*e+e*a = 0 and a*b*c+b*c*d+c*d*e+d*e*a+e*a*b = 0 and a*b*c*d*e = 1"
