@@ -16,6 +16,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from itertools import product
 from math import prod
 
@@ -53,7 +54,7 @@ class ComprehensiveGroebner:
         return "trace forms count its solutions" if problem.is_flat else None
 
     def run(self, problem: Problem, context: Context) -> Outcome | None:
-        """The block, but variables that its equations leave free; None for conditions of another kind.
+        """The block; of variables that no equation binds one goes, others stay. None for conditions of another kind.
 
         Raises ``Unable`` where bases or trace forms grow past their limits, ``BudgetExceeded``.
         """
@@ -64,14 +65,16 @@ class ComprehensiveGroebner:
             return None
         parts = list(_conjunctions(convert(dual.body, ring)))
         read = [_Conjunction.of(part, ring, dual.variables) for part in parts]
-        found: list[Formula] = []
+        found, listed = list[Formula](), not free
         for part in read:
             zeros = None if free else part.zeros()
             if zeros is None:
+                listed = False
                 found.append(part.eliminated(context.budget))
             elif (witness := part.witness(zeros)) is not None:
-                return _outcome(problem, context, TRUE, witness)
-        refuted = OnDemand(_Conjunctions(tuple(read)).certificates)
+                # whatever does not occur in this conjunction may be 0
+                return _outcome(problem, context, TRUE, {v: witness.get(v, Fraction(0)) for v in problem.variables})
+        refuted = OnDemand(_Conjunctions(tuple(read)).certificates) if listed else None
         return _outcome(problem, context, simplify(disj(found)), None, refuted)
 
 
@@ -81,7 +84,7 @@ def _outcome(
     # back into the ring of the formula it came from: it is joined with parts of that formula
     ring = ring_of(problem.formula)
     moved = found if ring is None else convert(found, ring)
-    evidence = {"refuted": refuted} if found == FALSE and not problem.free else {}
+    evidence = {} if refuted is None or found != FALSE else {"refuted": refuted}
     answer = context.log.step("comprehensive Gröbner system", problem.formula, problem.asked(moved), evidence=evidence)
     return Outcome(answer, witness)
 

@@ -66,6 +66,15 @@ class RealAlgebraic(SymPyForm):
         return inside[0]
 
     # --- access ----------------------------------------------------------------------------
+    @staticmethod
+    def by_index(coefficients: Iterable[int], index: int) -> RealAlgebraic:
+        """The number with this ``minimal_polynomial`` and ``index``. Raises ``InputError`` where there is none."""
+        p = fmpz_poly(arguments.integers(coefficients, "coefficients"))
+        roots = irreducible_roots(p) if irreducible_factors(p) == [(p, 1)] else []
+        if not roots:
+            raise InputError("coefficients: an irreducible polynomial with a real root, the leading one > 0, expected")
+        return roots[arguments.whole(index, "index", len(roots) - 1)]
+
     @property
     def degree(self) -> int:
         return int(self.poly.degree())

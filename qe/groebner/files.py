@@ -12,11 +12,9 @@ from collections.abc import Callable, Mapping, Sequence
 from itertools import zip_longest
 from typing import TypeVar
 
-from flint import fmpz_poly
-
 from qe import arguments
 from qe.errors import CertificateRejected, InputError
-from qe.exact.algebraic import RealAlgebraic, irreducible_factors, irreducible_roots
+from qe.exact.algebraic import RealAlgebraic
 from qe.exact.block_order import Block
 from qe.exact.groebner import MonomialOrder
 from qe.exact.ring import Poly, Ring
@@ -148,16 +146,11 @@ def _number(entry: Entry) -> RealAlgebraic:
     parts = list(entry.items())
     if len(parts) != 2:
         raise entry.fail("expected [coefficients of a minimal polynomial, index of a root]")
-    listed = list(parts[0].items())
-    if not all(isinstance(e.value, int) and not isinstance(e.value, bool) for e in listed):
-        raise parts[0].fail("expected integers")
-    minimal, index = fmpz_poly([e.value for e in listed]), parts[1].integer()
-    if irreducible_factors(minimal) != [(minimal, 1)]:
-        raise parts[0].fail("expected an irreducible polynomial with positive leading coefficient")
-    roots = irreducible_roots(minimal)
-    if index >= len(roots):
-        raise parts[1].fail(f"expected the index of one of {len(roots)} real roots")
-    return roots[index]
+    coefficients, index = [e.value for e in parts[0].items()], parts[1].integer()
+    try:
+        return RealAlgebraic.by_index(arguments.integers(coefficients, "coefficients"), index)
+    except InputError as error:
+        raise entry.fail(str(error)) from None
 
 
 def _segment(entry: Entry, block: Block, ring: Ring) -> Segment:

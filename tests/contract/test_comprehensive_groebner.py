@@ -63,9 +63,19 @@ def test_what_no_equation_binds_has_points_between_zeros(text: str, monkeypatch:
     assert qe.equivalent(found, text, timeout=60)
 
 
-def test_answers_without_equations_are_checked() -> None:
-    found = qe.eliminate(FREE[0], method="cgs", check=True, process=False)
-    assert found.guarantee is qe.Guarantee.CHECKED
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        (FREE[0], "a^2 <= 2 or a < 0"),
+        ("ex x. x^2 + x + 1 <= 0", "false"),
+        ("all x. x^4 - x + 1 > 0", "true"),
+        ("ex x, y. x^2 + y^2 = 1 and x + y > 2", "false"),
+        ("ex x, y. x^2 = 2 and y > x", "true"),
+    ],
+)
+def test_answers_without_equations_are_checked(text: str, expected: str) -> None:
+    found = qe.eliminate(text, method="cgs", check=True, process=False)
+    assert found.guarantee is qe.Guarantee.CHECKED and qe.equivalent(found.formula, expected)
 
 
 @pytest.mark.parametrize("text", ["ex x, y. x^2 + y^2 < a and x*y > b", "ex x. x^3 + a*x > b and x < a and x > c"])
@@ -85,6 +95,14 @@ def test_a_witness_is_exact_and_checked() -> None:
     found = qe.eliminate("ex x, y. x^2 = 2 and y^3 = x and y > 1", method="cgs")
     assert found.truth and found.guarantee.value == "checked"
     assert found.witness is not None and found.witness["y"] ** 6 == 2
+
+
+@pytest.mark.parametrize("text", ["ex x, y. y^2 = 4 and y > 0 or x > y and x < y", "ex x, y. x^2 + 1 = 0 or y^3 = 2"])
+def test_a_witness_has_all_variables_of_the_block(text: str) -> None:
+    """Those that do not occur in the conjunction that holds were missing: an internal error."""
+    found = qe.eliminate(text, method="cgs", check=True, process=False)
+    assert found.truth and found.witness is not None and set(found.witness) == {"x", "y"}
+    assert found.guarantee is qe.Guarantee.CHECKED
 
 
 def test_systems_are_taken_by_themselves_where_that_helps() -> None:
