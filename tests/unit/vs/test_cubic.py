@@ -72,13 +72,32 @@ def sign(number: int) -> int:
 def test_three_real_roots(table: Table, roots: tuple[int, int, int]) -> None:
     for lead in (1, -2):
         f = lead * (X - roots[0]) * (X - roots[1]) * (X - roots[2])
-        slope = tuple(int(c.constant_value()) for c in f.derivative(4).coefficients(4))
+        slope = slope_of(f)
         for g in (*list(others())[lead % 3 :: 3], slope, tuple(-c for c in slope)):
             signs = [sign(value(g, r)) for r in roots]
             for relation in Relation:
                 expected = [relation.holds(s) for s in signs]
                 for index, holds in enumerate([*expected, any(expected)], start=1):
                     assert table(polynomial(*g), relation, f, index) == (TRUE if holds else FALSE), (roots, g, index)
+
+
+def slope_of(f: Poly) -> tuple[int, ...]:
+    return tuple(int(c.constant_value()) for c in f.derivative(4).coefficients(4))
+
+
+@TABLES
+@pytest.mark.parametrize("roots", ROOTS)
+def test_factors_that_may_vanish(table: Table, roots: tuple[int, int, int]) -> None:
+    """A multiple q*f' of the derivative was said not to be 0 at a simple root, for q = 0, too."""
+    q, lead = RING.gen(0), RING.gen(1)
+    f = (X - roots[0]) * (X - roots[1]) * (X - roots[2])
+    for g in (slope_of(f), *list(others())[::7]):
+        for relation, index in product(Relation, (1, 2, 3, SOME)):
+            formula = table(q * polynomial(*g), relation, lead * f, index)
+            for here, a in ((-1, 1), (0, 1), (0, -2), (2, -2)):
+                at = [relation.holds(sign(here * value(g, r))) for r in roots]
+                found = holds_at(formula, {"q": Fraction(here), "u": Fraction(a)})
+                assert found is (any(at) if index == SOME else at[index - 1]), (g, relation, index, here, a)
 
 
 @TABLES
