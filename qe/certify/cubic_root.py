@@ -16,8 +16,8 @@ multiplication by g modulo f. Let D be the discriminant of f.
   For x1 positive slopes take the place of negative ones (turn the line round). For x2 with u >= 0: two negative
   values, or one and m3 <= 0 <= m1 (then g(x2) is the least); with u <= 0: two, and not m1 <= 0 <= m3 (then it is the
   greatest), or three.
-* Where g is k*f' with a number k: f' has the sign of a at x1 and x3, of -a at x2, and is 0 iff D = 0 and the root is
-  double: always at x2; at x1 iff a*q <= 0, at x3 iff a*q >= 0, with q = 27*a^2*f(-b/(3*a)).
+* Where g is k*f' (k = u/(3*a) may be 0): f' has the sign of a at x1 and x3, of -a at x2, and is 0 iff D = 0 and the
+  root is double: always at x2; at x1 iff a*q <= 0, at x3 iff a*q >= 0, with q = 27*a^2*f(-b/(3*a)).
 * Some xk has g(xk) < 0 iff one value is negative; g(xk) = 0 iff E3 = 0; g(xk) /= 0 iff E1 or E2 is not 0.
 Weispfenning 1994 (cubic roots by their real type); Kosta 2016.
 """
@@ -156,9 +156,9 @@ def _slope_at_root(u: Poly, relation: Relation, coefficients: Sequence[Poly], in
     simple = [atom(disc, NE), *([atom(q, GT)] if index == 1 else [atom(q, LT)] if index == 3 else [])]
     match relation:
         case Relation.EQ:
-            return conj(double)
+            return disj((conj(double), atom(u, EQ)))
         case Relation.NE:
-            return disj(simple)
+            return conj((disj(simple), atom(u, NE)))
         case Relation.LT:
             return conj((disj(simple), atom(sign, LT)))
     return disj((conj(double), atom(sign, LE)))

@@ -148,7 +148,7 @@ def _at_some(values: Three, relation: Relation, atom: MakeAtom) -> Formula:
 
 
 def _at_critical(e: CubicRoot, u: Poly, relation: Relation, atom: MakeAtom) -> Formula:
-    """The sign of u*f'/a: that of u at x1 and x3, of -u at x2, unless the root is double.
+    """The sign of u*f'/a: that of u at x1 and x3, of -u at x2, unless the root is double (u may be 0).
 
     For D = 0, the double root is x1 iff a*q <= 0, and x3 iff a*q >= 0, q = 2*b^3 - 9*a*b*c + 27*a^2*d (f at the
     inflection -b/(3*a), times 27*a^2).
@@ -163,9 +163,9 @@ def _at_critical(e: CubicRoot, u: Poly, relation: Relation, atom: MakeAtom) -> F
         simple = disj((simple, atom(q, GT if e.index == 1 else LT)))
     sign = -u if e.index == 2 else u
     if relation is EQ:
-        return double
+        return disj((double, atom(u, EQ)))
     if relation is NE:
-        return simple
+        return conj((simple, atom(u, NE)))
     if relation.is_strict:
         return conj((simple, atom(sign, relation)))
     return disj((double, atom(sign, relation)))

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
+
 import pytest
 
 import qe
 from qe.engine import run as engine
+from qe.formula.evaluate import holds_at
 from qe.io.text import read
 from qe.proof.run_log import RunLog
 
@@ -33,6 +36,22 @@ def test_the_next_method_is_taken_where_it_ends(monkeypatch: pytest.MonkeyPatch)
     answer = qe.eliminate("ex x, y. x^2 + y^2 < 1 and x*y > a and x + y > b", process=False)
     assert "its answer is long" in answer.explanation
     assert "elimination set" not in [step.rule for step in answer.derivation.steps]
+
+
+def test_a_long_answer_is_not_lost_where_no_method_is_left() -> None:
+    """With ``method="vs"`` nothing came after it, and the question was not answered."""
+    question = "ex x. a*x^3 + b*x^2 + c*x + d = 0 and x > 0"
+    answer = qe.eliminate(question, method="vs", process=False)
+    assert answer.formula is not None and "its answer is long, but known" in answer.explanation
+    points = {(1, 0, 0, -1): True, (1, 0, 0, 1): False, (-1, 3, -3, 1): True, (0, 0, 1, -1): True, (0, 0, 0, 0): True}
+    for values, expected in points.items():
+        assert holds_at(answer.formula, dict(zip("abcd", map(Fraction, values), strict=True))) is expected
+
+
+def test_a_long_answer_in_many_variables_is_taken_at_once() -> None:
+    """Decomposition, which was asked for a shorter one, did not end in 15 s; the answer took 0.1 s."""
+    answer = qe.eliminate("ex x. a*x^3 + b*x^2 + c*x + d = 0 and p*x^2 + q*x + r < 0", process=False)
+    assert "vs, cubic for x: a short try" in answer.explanation and "cad" not in answer.explanation
 
 
 def test_steps_are_left_out_and_taken_up_again() -> None:

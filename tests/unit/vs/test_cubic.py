@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import random
 from collections.abc import Callable, Iterator
 from fractions import Fraction
 from itertools import product
@@ -18,7 +19,7 @@ from qe.elimination.vs.cubic import at_cubic
 from qe.elimination.vs.points import SOME, CubicRoot
 from qe.elimination.vs.witness import witness
 from qe.exact.ring import Poly, Ring
-from qe.formula.build import atom, conj, disj, exists, neg
+from qe.formula.build import atom, conj, convert, disj, exists, neg
 from qe.formula.evaluate import holds_at
 from qe.formula.normal import nnf
 from qe.formula.syntax import FALSE, TRUE, Exists, Formula, Relation
@@ -30,15 +31,17 @@ from tests.unit.vs.line import satisfiable, specialise
 
 RING = Ring.of(("q", "u", "v", "w", "x"))
 X = RING.gen(4)
-Table = Callable[[Poly, Relation, Poly, int], Formula]
+Table = Callable[[Poly, Relation, Poly, int], Formula]  # g, its relation to 0, the cubic, which root
 
 
 def by_engine(g: Poly, relation: Relation, f: Poly, index: int) -> Formula:
-    return at_cubic(g, 4, relation, CubicRoot(f.coefficients(4), index), None, atom)  # type: ignore[arg-type]
+    x = g.ring.index["x"]
+    return at_cubic(g, x, relation, CubicRoot(f.coefficients(x), index), None, atom)  # type: ignore[arg-type]
 
 
 def by_checker(g: Poly, relation: Relation, f: Poly, index: int) -> Formula:
-    return at_root(g, relation, 4, f.coefficients(4), index)
+    x = g.ring.index["x"]
+    return at_root(g, relation, x, f.coefficients(x), index)
 
 
 TABLES = pytest.mark.parametrize("table", [by_engine, by_checker])
@@ -72,13 +75,32 @@ def sign(number: int) -> int:
 def test_three_real_roots(table: Table, roots: tuple[int, int, int]) -> None:
     for lead in (1, -2):
         f = lead * (X - roots[0]) * (X - roots[1]) * (X - roots[2])
-        slope = tuple(int(c.constant_value()) for c in f.derivative(4).coefficients(4))
+        slope = slope_of(f)
         for g in (*list(others())[lead % 3 :: 3], slope, tuple(-c for c in slope)):
             signs = [sign(value(g, r)) for r in roots]
             for relation in Relation:
                 expected = [relation.holds(s) for s in signs]
                 for index, holds in enumerate([*expected, any(expected)], start=1):
                     assert table(polynomial(*g), relation, f, index) == (TRUE if holds else FALSE), (roots, g, index)
+
+
+def slope_of(f: Poly) -> tuple[int, ...]:
+    return tuple(int(c.constant_value()) for c in f.derivative(4).coefficients(4))
+
+
+@TABLES
+@pytest.mark.parametrize("roots", ROOTS)
+def test_factors_that_may_vanish(table: Table, roots: tuple[int, int, int]) -> None:
+    """A multiple q*f' of the derivative was said not to be 0 at a simple root, for q = 0, too."""
+    q, lead = RING.gen(0), RING.gen(1)
+    f = (X - roots[0]) * (X - roots[1]) * (X - roots[2])
+    for g in (slope_of(f), *list(others())[::7]):
+        for relation, index in product(Relation, (1, 2, 3, SOME)):
+            formula = table(q * polynomial(*g), relation, lead * f, index)
+            for here, a in ((-1, 1), (0, 1), (0, -2), (2, -2)):
+                at = [relation.holds(sign(here * value(g, r))) for r in roots]
+                found = holds_at(formula, {"q": Fraction(here), "u": Fraction(a)})
+                assert found is (any(at) if index == SOME else at[index - 1]), (g, relation, index, here, a)
 
 
 @TABLES
@@ -92,6 +114,29 @@ def test_one_real_root(table: Table, lead: int) -> None:
             for relation in Relation:
                 holds = relation.holds(sign(value(g, real)))
                 assert table(polynomial(*g), relation, f, 0) == (TRUE if holds else FALSE), (f, g, relation)
+
+
+LETTERS = Ring.of(("a", "b", "c", "d", "u", "v", "w", "x"))
+
+
+@TABLES
+@pytest.mark.parametrize("text", ["u*x^2 + v*x + w = 0", "v*x^4 - x + u*w = 0", "u*(3*a*x^2 + 2*b*x + c) = 0"])
+@pytest.mark.parametrize("relation", Relation)
+def test_all_coefficients_as_letters(table: Table, text: str, relation: Relation) -> None:
+    """The formulas with letters, at numbers for them, against the value at the root."""
+    f, g = (convert(read(t), LETTERS).poly for t in ("a*x^3 + b*x^2 + c*x + d = 0", text))  # type: ignore[union-attr]
+    formulas = [table(g, relation, f, index) for index in range(5)]
+    chance = random.Random(f"{text} {relation}")
+    for _ in range(25):
+        lead, numbers = chance.choice((1, -2)), [chance.randint(-2, 2) for _ in range(6)]
+        roots = sorted(numbers[:3]) if chance.random() < 0.6 else numbers[:1]
+        last = (-roots[1] - roots[2], roots[1] * roots[2]) if len(roots) == 3 else (2, chance.randint(2, 3))
+        cubic = (-roots[0] * last[1], last[1] - roots[0] * last[0], last[0] - roots[0], 1)
+        values = dict(zip("dcbauvw", map(Fraction, (*(lead * k for k in cubic), *numbers[3:])), strict=True))
+        at = [holds_at(atom(g, relation), {**values, "x": Fraction(r)}) for r in roots]
+        expected = {0: at[0]} if len(at) == 1 else {1: at[0], 2: at[1], 3: at[2], SOME: any(at)}
+        for index, holds in expected.items():
+            assert holds_at(formulas[index], values) is holds, (values, roots, index)
 
 
 LE, LT = Relation.LE, Relation.LT
@@ -141,8 +186,6 @@ def test_the_two_discriminants_are_one() -> None:
 def test_what_asks_one_thing_of_a_root(text: str, expected: bool) -> None:
     """Of x^3 = v*x + w: what is constant there counts as nothing."""
     formula = read(f"({text}) and q + u + v + w + x = 0")
-    from qe.formula.build import convert
-
     body = convert(formula, RING).args[:-1]  # type: ignore[union-attr]
     f = X**3 - RING.gen(2) * X - RING.gen(3)
     for part in (conj(body),):
@@ -187,8 +230,6 @@ def holds_at_value(body: Formula, values: dict[str, Fraction], x: object) -> boo
     line = specialise(body, values)
     if line in (TRUE, FALSE):
         return line == TRUE
-    from qe.formula.build import convert
-
     point = Point.of(Ring.of(("x",)), [x])  # type: ignore[list-item]
     return truth_under(convert(line, Ring.of(("x",))), point.sign) is True
 
