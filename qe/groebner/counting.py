@@ -108,10 +108,8 @@ class RealRootClassification:
     certificate: Certificate | None = None
 
     def __repr__(self) -> str:
-        cases = ", ".join(
-            f"{'infinite' if c.count is None else c.count}: {c.condition.brief()}" for c in self.classes[:4]
-        )
-        return f"RealRootClassification({cases}{', …' if len(self.classes) > 4 else ''})"
+        cases = [f"{'infinite' if c.count is None else c.count}: {c.condition.brief()}" for c in self.classes]
+        return f"RealRootClassification({', '.join(cases[:4])}{', …' if len(cases) > 4 else ''})"
 
     def __iter__(self) -> Iterator[RootClass]:
         return iter(self.classes)
