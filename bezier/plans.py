@@ -154,6 +154,9 @@ class Plan:
     derivations: Mapping[str, Derived] = field(default_factory=dict)
     unproved: Mapping[str, str] = field(default_factory=dict)
 
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}({self.outcome.value}, {self.path!r})"
+
     @property
     def unit(self) -> str:
         """The unit of the objective."""

@@ -76,6 +76,9 @@ class Problem:
     single: SingleCurve | None = None
     arm: str | None = None
 
+    def __repr__(self) -> str:
+        return f"Problem({self.method.value}, {self.source}, {len(self.obstacles)} obstacles)"
+
     @property
     def point_conditions(self) -> tuple[PointCondition, ...]:
         """The half-spaces for control points: those given and those above the top of an obstacle."""

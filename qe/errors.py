@@ -8,6 +8,10 @@ from qe.spelling import on_one_line
 class QEError(Exception):
     """Base class of every error this package raises on purpose."""
 
+    def __reduce__(self) -> tuple[object, tuple[object, ...]]:
+        """Pickled without its constructor, which makes a message of other arguments."""
+        return _restored, (type(self), self.args, vars(self))
+
 
 class InputError(QEError):
     """The caller's input cannot be understood; the message is one line saying what was expected."""
@@ -74,3 +78,9 @@ class CertificateRejected(QEError):
 
 class InternalError(QEError):
     """A broken invariant: a bug in this package."""
+
+
+def _restored(kind: type[QEError], arguments: tuple[object, ...], attributes: dict[str, object]) -> QEError:
+    error = kind.__new__(kind, *arguments)
+    vars(error).update(attributes)
+    return error

@@ -190,7 +190,7 @@ class Budget:
         self.work, self.used, self.listener, self.parent = work, 0, listener, parent
         self.handover: Handover | None = handover if parent is None else parent.handover
         self.helpers: Helpers | None = None if parent is None else parent.helpers
-        self.keep = keep
+        self.keep: Callable[[object], None] = keep
         self._cancelled, self._last_note = False, 0.0
 
     def cancel(self) -> None:

@@ -9,7 +9,7 @@ from fractions import Fraction
 import numpy as np
 
 from bezier.motion.track import Array, Track
-from qe.arguments import wrong
+from qe.arguments import shown, wrong
 from qe.errors import InputError
 
 ROWS = 101
@@ -31,7 +31,7 @@ def ros_trajectory(
     """
     names = ["end_effector"] if joints is None else _joints(joints)
     if not 2 <= rows <= MOST_ROWS:
-        raise InputError(f"rows: a number from 2 to {MOST_ROWS} expected, {rows} found")
+        raise InputError(f"rows: a number from 2 to {MOST_ROWS} expected, {shown(rows)} found")
     ticks = [round(Fraction(k, rows - 1) * Fraction(track.end) * NANO) for k in range(rows)]
     if ticks[-1] // NANO >= LONGEST:
         raise InputError(f"to_ros: a motion of less than 2^31 s expected, one of {track.end:.3g} s found")

@@ -79,6 +79,9 @@ class Motion:
     duration: Fraction
     extremes: Extremes
 
+    def __repr__(self) -> str:
+        return f"Motion({float(self.duration):.6g} s, {'within' if self.keeps_limits else 'not within'} its limits)"
+
     @property
     def kept(self) -> dict[str, bool | None]:
         """Whether each limit is kept at all times: proved, refuted, or (None) closer than the enclosure."""
@@ -128,6 +131,9 @@ class Quality:
     lengths: Mapping[str, Enclosure]
     curvatures: Mapping[str, Enclosure | None]
     motion: Motion | None
+
+    def __repr__(self) -> str:
+        return f"Quality(length {float(self.length.low):.6g} mm{'' if self.motion is None else f', {self.motion!r}'})"
 
     @property
     def length(self) -> Enclosure:

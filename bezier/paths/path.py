@@ -51,6 +51,10 @@ class Path:
     proofs: tuple[Proof, ...]
     durations: Mapping[str, Fraction] = field(default_factory=dict)
 
+    def __repr__(self) -> str:
+        curves = ", ".join(f"{name} of degree {curve.degree}" for name, curve in self.curves.items())
+        return f"Path({curves}; {'inside' if self.is_inside else 'not proved inside'})"
+
     def duration(self, curve: str) -> Fraction:
         """The time that a curve takes."""
         return self.durations.get(curve, Fraction(1))

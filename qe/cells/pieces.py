@@ -22,6 +22,9 @@ from qe.spelling import quoted
 LONGEST = 200
 """Characters of one bound in texts for people."""
 
+LONGEST_BITS = 10_000
+"""Of a coefficient that Python writes in decimals."""
+
 
 @dataclass(frozen=True, slots=True)
 class RootFunction:
@@ -336,4 +339,9 @@ def _piece(table: CellTable, ranges: tuple[Range, ...], place: Place) -> Piece:
 def _chosen(candidates: Candidates | None) -> RootFunction | None:
     if candidates is None:
         return None
-    return min(candidates, key=lambda r: (r.poly.degree(r.poly.level), r.poly.term_count(), str(r.poly.terms()), r.k))
+    return min(candidates, key=lambda r: (r.poly.degree(r.poly.level), r.poly.term_count(), _as_text(r.poly), r.k))
+
+
+def _as_text(poly: Poly) -> str:
+    """The terms as text; of numbers that are too long for that, none."""
+    return str(poly.terms()) if poly.height_bits() < LONGEST_BITS else ""

@@ -16,7 +16,7 @@ from flint import arb, fmpq, fmpz, fmpz_mpoly, fmpz_mpoly_ctx, fmpz_poly
 
 from qe import arguments
 from qe.arguments import shown
-from qe.errors import InputError
+from qe.errors import InputError, Unable
 from qe.exact.algebraic_text import format_root, in_latex
 from qe.exact.balls import FIRST_PRECISION, ball_sign, hull, lower_end, precision, upper_end
 from qe.exact.isolate import Interval, isolate, sign_at
@@ -255,6 +255,8 @@ class RealAlgebraic(SymPyForm):
     def __pow__(self, exponent: int) -> RealAlgebraic:
         if not isinstance(exponent, int):
             return NotImplemented
+        if abs(exponent) > MAX_EXPONENT:
+            raise Unable(f"powers of real algebraic numbers have exponents up to {MAX_EXPONENT} here")
         if exponent < 0:
             return self.inverse() ** -exponent
         if self.is_rational or exponent < 2:
@@ -351,6 +353,7 @@ def _image(a: RealAlgebraic, transform: Callable[[fmpz_poly], fmpz_poly], value:
     return select_root(transform(a.poly), enclosure)
 
 
+MAX_EXPONENT = 10_000
 _PAIR = fmpz_mpoly_ctx.get(("y", "z"), "lex")
 
 

@@ -12,7 +12,7 @@ LONGEST = 4000
 
 
 class Connected:
-    """``f & g``, ``f | g``, ``~f``, ``f >> g`` (implication), with formulas of any kind that ``qe`` takes.
+    """``f & g``, ``f | g``, ``f ^ g``, ``~f``, ``f >> g`` (implication), with formulas of any kind that ``qe`` takes.
 
     The result is a ``Formula``, or a ``Statement`` where the other operand is one. Raises ``InputError`` for what is no
     formula.
@@ -31,6 +31,12 @@ class Connected:
 
     def __ror__(self, other: object) -> Any:
         return later("connected")("or", other, self)
+
+    def __xor__(self, other: object) -> Any:
+        return later("connected")("xor", self, other)
+
+    def __rxor__(self, other: object) -> Any:
+        return later("connected")("xor", other, self)
 
     def __rshift__(self, other: object) -> Any:
         return later("connected")("implies", self, other)

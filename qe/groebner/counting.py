@@ -112,6 +112,10 @@ class RealRootClassification:
     positive: tuple[Poly, ...] = ()
     certificate: Certificate | None = None
 
+    def __repr__(self) -> str:
+        cases = [f"{'infinite' if c.count is None else c.count}: {c.condition.brief()}" for c in self.classes]
+        return f"RealRootClassification({', '.join(cases[:4])}{', …' if len(cases) > 4 else ''})"
+
     def __iter__(self) -> Iterator[RootClass]:
         return iter(self.classes)
 

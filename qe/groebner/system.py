@@ -66,6 +66,10 @@ class ComprehensiveGroebnerSystem:
     def _names(self) -> tuple[str, ...]:
         return self.polys[0].ring.names
 
+    def __repr__(self) -> str:
+        over = f"{', '.join(self.variables)}; {', '.join(self.parameters) or 'no parameters'}"
+        return f"ComprehensiveGroebnerSystem({over}: {len(self)} segment{'s' if len(self) != 1 else ''})"
+
     def __len__(self) -> int:
         return len(self.segments)
 

@@ -158,7 +158,8 @@ class Builder:
                 raise SyntaxFailure(f"{name} takes {least} argument{'s' if least > 1 else ''}", name.start_pos)
             return s.Apply(function, arguments, name.start_pos)
         if (operation := OPERATIONS.get(str(name))) is not None and (len(arguments) == 2 or name in ("Plus", "Times")):
-            return reduce(lambda left, right: operation(left, right, name.start_pos), arguments)
+            made: s.Term = reduce(lambda left, right: operation(left, right, name.start_pos), arguments)
+            return made
         if name not in ("root", "Root"):
             raise UnknownFunction(str(name), name.start_pos)
         variable = arguments[2] if len(arguments) == 3 else None

@@ -1,7 +1,7 @@
 """Formulas in Python without text: ``x, y = qe.variables("x y")``, ``(x**2 + y <= 1) & (y > x)``, ``qe.exists(x, f)``.
 
 An ``Expression`` is a term, made of variables and exact numbers by ``+ - * / **`` and ``abs``; comparing two makes a
-``Statement``, which is connected by ``& | ~ >>`` and accepted wherever a formula is. The meaning is that of the text.
+``Statement``, which is connected by ``& | ^ ~ >>`` and accepted wherever a formula is. The meaning is that of the text.
 """
 
 from __future__ import annotations
@@ -120,6 +120,11 @@ class Expression:
     def __repr__(self) -> str:
         return _shown(self.term)
 
+    def _sympy_(self) -> Any:
+        from qe.io.sympy import term_to_sympy
+
+        return term_to_sympy(self.term)
+
 
 class Statement:
     """A formula that Python's operators connect: ``f & g``, ``f | g``, ``~f``, ``f >> g`` (implication)."""
@@ -155,6 +160,12 @@ class Statement:
 
     def __ror__(self, other: object) -> Statement:
         return _connected("or", other, self)
+
+    def __xor__(self, other: object) -> Statement:
+        return _connected("xor", self, other)
+
+    def __rxor__(self, other: object) -> Statement:
+        return _connected("xor", other, self)
 
     def __rshift__(self, other: object) -> Statement:
         return _connected("implies", self, other)
@@ -227,10 +238,16 @@ def _formula(given: object) -> Formula:
         return given
     if isinstance(given, Statement):
         return given.formula
+    if isinstance(given, Expression):
+        raise InputError(f"a formula expected, the term {given} found")
     if isinstance(given, str):
         from qe.io.text import read
 
         return read(given)
+    if type(given).__module__.partition(".")[0] == "z3":
+        from qe.io.z3_door import from_z3
+
+        return from_z3(given)
     from qe.io.sympy import from_sympy
 
     return from_sympy(given)
@@ -241,6 +258,7 @@ _JOINS: dict[str, Callable[..., Formula]] = {
     "or": lambda *parts: build.disj(parts),
     "implies": build.implies,
     "not": build.neg,
+    "xor": lambda left, right: build.neg(build.iff(left, right)),
 }
 
 
@@ -251,7 +269,7 @@ def substituted(formula: Formula, values: Mapping[Any, object]) -> Formula:
 
 
 def connected(way: str, *parts: object) -> Formula | Statement:
-    """The formula that ``and``, ``or``, ``implies`` or ``not`` makes; a ``Statement`` where one takes part."""
+    """The formula that ``and``, ``or``, ``xor``, ``implies`` or ``not`` makes; a ``Statement`` where one takes part."""
     made = _JOINS[way](*over_one_ring(*map(_formula, parts)))
     return Statement(made) if any(isinstance(part, Statement) for part in parts) else made
 

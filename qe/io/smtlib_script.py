@@ -75,6 +75,8 @@ class Script(Terms):
                 self.define(rest[0], self.parameters(rest[1]), rest[2], rest[3])
             case "define-fun-rec" | "define-funs-rec":
                 self.error("recursive functions are not supported", head.at)
+            case "define-sort" if len(rest) == 3 and isinstance(rest[1], Listing) and not rest[1].items:
+                self.sorts[self.symbol(rest[0])] = self.sort(rest[2])
             case "declare-sort" | "declare-datatype" | "declare-datatypes" | "define-sort":
                 self.error("only the sorts Real and Bool are supported", head.at)
             case _:

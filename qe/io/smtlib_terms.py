@@ -65,6 +65,7 @@ class Terms:
         self.bound: set[str] = set()
         self.taken: set[str] = set()
         self.reserved: set[str] = set()
+        self.sorts: dict[str, str] = {}  # names of sorts that are defined
         self.shared: list[s.Part] = []
         self.forms: dict[object, Meaning] = {}
         self.globals: dict[str, Meaning | Macro | Foreign] = {}
@@ -94,6 +95,7 @@ class Terms:
 
     def sort(self, word: Expression) -> str:
         name = show(word)[:40]
+        name = self.sorts.get(name, name)
         if name not in ("Real", "Bool"):
             hint = "; all numbers are real here" if name == "Int" else ""
             self.error(f"sort Real or Bool expected, {name} found{hint}", word.at)

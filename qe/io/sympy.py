@@ -37,6 +37,7 @@ _CLASSES = {
     Relation.GT: "Gt",
     Relation.GE: "Ge",
 }
+_FUNCTIONS = {"abs": "Abs", "sign": "sign", "sqrt": "sqrt", "min": "Min", "max": "Max"}
 
 
 class _Operators:
@@ -226,6 +227,32 @@ def polynomial_from_sympy(expression: object) -> tuple[Poly, Fraction]:
     except RecursionError:
         raise InputError("the expression is nested too deeply") from None
     return value.poly, Fraction(1, value.den)
+
+
+def term_to_sympy(term: s.Term) -> Any:
+    """The SymPy expression of a surface tree. Raises ``InputError`` for parts that SymPy has no function for."""
+    import sympy as sp
+
+    match term:
+        case s.Name(name):
+            return sp.Symbol(name)
+        case s.Number(value):
+            return sp.Rational(value.numerator, value.denominator)
+        case s.Algebraic(number):
+            return number_to_sympy(number)
+        case s.Sum(parts):
+            return sp.Add(*map(term_to_sympy, parts))
+        case s.Product(left, right):
+            return term_to_sympy(left) * term_to_sympy(right)
+        case s.Quotient(left, right):
+            return term_to_sympy(left) / term_to_sympy(right)
+        case s.Power(base, exponent):
+            return term_to_sympy(base) ** term_to_sympy(exponent)
+        case s.Minus(part):
+            return -term_to_sympy(part)
+        case s.Apply(function, parts) if function in _FUNCTIONS:
+            return getattr(sp, _FUNCTIONS[function])(*map(term_to_sympy, parts))
+    raise InputError("SymPy has no form for this term")
 
 
 def expression_from(given: object) -> Any:

@@ -39,6 +39,7 @@ WRONG: dict[str, object] = {
     "function": len,
     "class": int,
     "error": ValueError("x"),
+    "module": math,
 }
 NUMBERS = {"int", "huge", "negative", "zero"}
 REGION = qe.region("x^2 + y^2 <= 1")

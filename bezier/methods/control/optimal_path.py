@@ -85,7 +85,7 @@ def restored_optimum(system: System, certificate: qe.Certificate) -> Certified:
     return Certified.of(system, qe.Certificate(Kind.OPTIMUM, payload))
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True, kw_only=True, repr=False)
 class SystemPlan(Plan):
     """The plan of a method with a system of control points.
 

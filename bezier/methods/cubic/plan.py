@@ -45,7 +45,7 @@ class Trivial:
     slowest: Mapping[str, Slowest]
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True, kw_only=True, repr=False)
 class CubicPlan(SystemPlan):
     """``slowest``: of each curve of the path (empty without a path)."""
 

@@ -66,7 +66,7 @@ class Gap:
         return self.example is not None
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True, kw_only=True, repr=False)
 class QuadraticPlan(SystemPlan):
     """``region``: of Q1. ``gap``: what the printed formula leaves open about the table."""
 

@@ -59,7 +59,7 @@ class Printed:
         return not self.dips and not self.leaving
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True, kw_only=True, repr=False)
 class SinglePlan(Plan):
     """``chosen``: (4) for each raised axis; ``printed``: its curve, None when an axis has no solution.
 

@@ -169,3 +169,16 @@ def test_terms_as_text() -> None:
     for made, text in shown.items():
         assert repr(made) == text
         assert qe.equivalent(expressions.graph_of("v", made), expressions.graph_of("v", text))
+
+
+def test_what_meets_other_systems() -> None:
+    """``^`` was refused by Python, z3's conditions by ``&``, and terms by SymPy's functions."""
+    x, y = qe.variables("x y")
+    assert qe.equivalent((x > 0) ^ (y > 0), "x > 0 and y <= 0 or x <= 0 and y > 0")
+    assert qe.equivalent((x > 0).formula ^ "y > 0", (x > 0) ^ (y > 0))
+    sx, sy = sympy.symbols("x y")
+    assert sympy.sqrt(x) == sympy.sqrt(sx)
+    term = sympy.sympify(x**2 / (y - 1) + abs(x) * 0.5 - 2)
+    assert sympy.simplify(term - (sx**2 / (sy - 1) + sympy.Abs(sx) / 2 - 2)) == 0
+    z3 = pytest.importorskip("z3")
+    assert qe.equivalent((x > 0) & (z3.Real("y") > 1), "x > 0 and y > 1")
