@@ -18,7 +18,7 @@ from dataclasses import dataclass
 
 from qe.certify.boolean import ByLemmas, Goal
 from qe.certify.negation import negation
-from qe.certify.step import Claim, Context, Limits, only
+from qe.certify.step import Claim, Context, Limits, only, outside
 from qe.certify.substitution import mapped, quotient
 from qe.exact.ring import Poly
 from qe.formula.build import atom, conj, disj, exists
@@ -33,8 +33,8 @@ def linear_goals(claim: Claim, context: Context) -> list[Goal]:
     """The substitutions are carried out and compared with what stands after; signs are to be shown."""
     solved = only(claim, "solved", "theory")[0]
     goals: list[Goal] = []
-    block, body = _block(claim)
-    known = [f for f in context if not set(block) & set(f.free)]
+    block, body = claim.block().variables, claim.block().body
+    known = outside(context, block)
     for entry in solved.items():
         pivot = _pivot(entry, block, body, claim)
         if pivot.sign is not None:
@@ -53,7 +53,7 @@ check_linear = ByLemmas(linear_goals)
 def check_guarded_linear(claim: Claim, context: Context, limits: Limits) -> None:
     """Both cases are compared with what stands after."""
     entry, *more = only(claim, "solved")[0].items()
-    block, body = _block(claim)
+    block, body = claim.block().variables, claim.block().body
     pivot = _pivot(entry, block, body, claim)
     if more or pivot.sign is not None:
         raise claim.fail("expected one equation with a coefficient of unknown sign")
@@ -80,12 +80,6 @@ class Pivot:
     def equation(self) -> Poly:
         """The polynomial that is 0."""
         return self.lead * self.lead.ring.gen(self.x) + self.rest
-
-
-def _block(claim: Claim) -> tuple[tuple[str, ...], Formula]:
-    if not isinstance(claim.before, Exists):
-        raise claim.fail("expected an existential block")
-    return claim.before.variables, claim.before.body
 
 
 def _pivot(entry: Entry, block: Sequence[str], body: Formula, claim: Claim) -> Pivot:
