@@ -83,31 +83,31 @@ class Pivot:
 
 
 def _pivot(entry: Entry, block: Sequence[str], body: Formula, claim: Claim) -> Pivot:
-    parts = list(entry.items())
-    if len(parts) != 3 or parts[0].text() not in block:
-        raise entry.fail("expected [variable of the block, equation, sign]")
-    name, equation = parts[0].text(), polynomial_from_json(parts[1], claim.ring)
-    x, sign = claim.ring.index[name], parts[2].value
+    variable, solved, of_lead = entry.row("variable of the block", "equation", "sign")
+    name, equation, sign = variable.text(), polynomial_from_json(solved, claim.ring), of_lead.value
+    if name not in block:
+        raise variable.fail("expected a variable of the block")
+    x = claim.ring.index[name]
     if isinstance(sign, bool) or sign not in (1, -1, 0, None):
-        raise parts[2].fail("expected 1, -1, 0 or null")
+        raise of_lead.fail("expected 1, -1, 0 or null")
     if equation.degree(x) != 1 or Atom(equation, Relation.EQ) not in conjuncts(body):
-        raise parts[1].fail("no conjunct here that is linear in the variable")
+        raise solved.fail("no conjunct here that is linear in the variable")
     rest, lead = equation.coefficients(x)
     if lead.is_constant and sign != (1 if lead.constant_value() > 0 else -1):
-        raise parts[2].fail("not the sign of this number")
+        raise of_lead.fail("not the sign of this number")
     others = conj(p for p in conjuncts(body) if p != Atom(equation, Relation.EQ))
     return Pivot(x, name, lead, rest, sign if isinstance(sign, int) else None, others)
 
 
 def term(entry: Entry, names: Sequence[str], others: Formula, claim: Claim) -> Pivot:
     """The substitution that an equation [variable, polynomial] gives whose coefficient is a number."""
-    parts = list(entry.items())
-    if len(parts) != 2 or parts[0].text() not in names:
-        raise entry.fail("expected [variable, equation]")
-    name, equation = parts[0].text(), polynomial_from_json(parts[1], claim.ring)
+    variable, solved = entry.row("variable", "equation")
+    name, equation = variable.text(), polynomial_from_json(solved, claim.ring)
+    if name not in names:
+        raise variable.fail("expected a variable of the block")
     x = claim.ring.index[name]
     if equation.degree(x) != 1 or not equation.leading(x).is_constant:
-        raise parts[1].fail("expected an equation that is linear in the variable, with a number as its coefficient")
+        raise solved.fail("expected an equation that is linear in the variable, with a number as its coefficient")
     rest, lead = equation.coefficients(x)
     return Pivot(x, name, lead, rest, 1 if lead.constant_value() > 0 else -1, others)
 

@@ -68,10 +68,10 @@ def check_solutions(payload: dict[str, Json], budget: Budget | None = None) -> N
 
 
 def _condition(entry: Entry, ring: Ring) -> tuple[Poly, str]:
-    parts = list(entry.items())
-    if len(parts) != 2 or parts[1].text() not in INDICATORS:
-        raise entry.fail('expected [polynomial, ">" or ">=" or "/="]')
-    return parts[0].polynomial(ring), parts[1].text()
+    poly, relation = entry.row("polynomial", '">" or ">=" or "/="')
+    if relation.text() not in INDICATORS:
+        raise relation.fail('expected ">" or ">=" or "/="')
+    return poly.polynomial(ring), relation.text()
 
 
 def _weight(entry: Entry) -> int:

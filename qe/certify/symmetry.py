@@ -77,10 +77,10 @@ def read_vector(weights: Entry, names: Set[str], claim: Claim) -> dict[int, Frac
     """The numbers of a vector by variable, these variables alone; ``CertificateRejected`` for anything else."""
     vector: dict[int, Fraction] = {}
     for entry in weights.items():
-        parts = list(entry.items())
-        if len(parts) != 2 or parts[0].text() not in names or claim.ring.index[parts[0].text()] in vector:
-            raise entry.fail("expected [variable that may move, rational number], each variable once")
-        vector[claim.ring.index[parts[0].text()]] = parts[1].rational()
+        variable, number = entry.row("variable that may move", "rational number")
+        if variable.text() not in names or claim.ring.index[variable.text()] in vector:
+            raise entry.fail("expected variables that may move, each once")
+        vector[claim.ring.index[variable.text()]] = number.rational()
     return vector
 
 
