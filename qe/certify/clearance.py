@@ -83,11 +83,11 @@ def _along(entry: Entry, curve: _Curve) -> Constraint:
     terms, strict = entry.fields("terms", "strict")
     read: dict[tuple[int, ...], Fraction] = {}
     for term in terms.items():
-        powers, coefficient = term.row("exponents", "coefficient")
+        powers, number = term.row("exponents", "coefficient")
         exponents = tuple(e.integer() for e in powers.items())
         if len(exponents) != curve.dimension or exponents in read:
             raise powers.fail(f"expected {curve.dimension} exponents, each combination once")
-        read[exponents] = coefficient.rational()
+        read[exponents] = number.rational()
     power = max((sum(e) for e in read), default=0)
     degree = power * curve.degree
     if max(degree, power) > MAX_DEGREE:
