@@ -16,7 +16,7 @@ from fractions import Fraction
 from math import isqrt
 
 from qe.certify.boolean import ByLemmas, Goal
-from qe.certify.step import Claim, Context, only
+from qe.certify.step import Claim, Context, only, outside
 from qe.exact.ring import Poly
 from qe.formula.build import atom, conj, disj
 from qe.formula.syntax import And, Atom, Exists, Formula, Relation
@@ -42,13 +42,12 @@ def balls_goals(claim: Claim, context: Context) -> list[Goal]:
     if root.value is None:
         near = disj((atom(gap, relation), atom(gap * gap - 4 * first * second, relation)))
     else:
-        parts = list(root.items())
-        if len(parts) != 3 or parts[0].text() != "T" or (used := parts[2].integer(-1)) > 1:
+        letter, product, sign = root.row("T", "polynomial", "sign")
+        if letter.text() != "T" or (used := sign.integer(-1)) > 1:
             raise root.fail("expected T, a polynomial and a sign")
-        t = _root(parts[1].polynomial(claim.ring), 4 * first * second, root)
+        t = _root(product.polynomial(claim.ring), 4 * first * second, root)
         near = disj(atom(gap - s * t, relation) for s in (1, -1) if s * used >= 0)
-        known = [f for f in context if not set(before.variables) & set(f.free)]
-        goals = [(*known, atom(t, _FALSE_SIGN[used]))] if used else []
+        goals = [(*outside(context, before.variables), atom(t, _FALSE_SIGN[used]))] if used else []
     if claim.after != conj((*radii, near)):
         raise claim.fail("not the condition that the balls meet")
     return goals

@@ -17,7 +17,7 @@ from collections.abc import Sequence
 
 from qe.certify.boolean import ByLemmas, Goal, equivalence
 from qe.certify.negation import negation, normal
-from qe.certify.step import Claim, Context, only
+from qe.certify.step import Claim, Context, only, outside
 from qe.formula.build import disj, exists
 from qe.formula.syntax import FALSE, Exists, ForAll, Formula
 from qe.formula.traverse import disjuncts
@@ -31,7 +31,7 @@ def block_goals(claim: Claim, context: Context) -> list[Goal]:
         return equivalence(before, after, context)
     names = before.variables
     bodies = disj(opened(piece, names, claim) for piece in disjuncts(after))
-    return equivalence(before.body, bodies, [f for f in context if not set(names) & set(f.free)])
+    return equivalence(before.body, bodies, outside(context, names))
 
 
 check_block = ByLemmas(block_goals)

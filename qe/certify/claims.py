@@ -11,11 +11,12 @@ from dataclasses import dataclass
 from qe.certify.negation import negation, normal
 from qe.certify.renaming import arranged, same_up_to_names
 from qe.certify.sentence import RELATIONS, read_polynomial
+from qe.certify.solutions import system_of
 from qe.certify.table import is_prenex_form
 from qe.exact.ring import Ring, format_poly
 from qe.formula.build import atom, conj, convert, exists, forall
 from qe.formula.normal import rename_apart
-from qe.formula.syntax import FALSE, TRUE, Constant, Formula, Relation
+from qe.formula.syntax import FALSE, TRUE, Constant, Formula
 from qe.proof.cells import CellTable
 from qe.proof.cells_json import CellEvidence
 from qe.proof.certificate import Certificate, Kind
@@ -154,14 +155,7 @@ def _size(table: CellTable) -> int:
 
 
 def _of_solutions(entry: Entry) -> Claim:
-    order, equations, conditions, _, _, solutions = entry.fields(
-        "order", "equations", "conditions", "weights", "form", "solutions"
-    )
-    ring = Ring.of(order.names())
-    parts = [atom(e.polynomial(ring), Relation.EQ) for e in equations.items()]
-    for condition in conditions.items():
-        poly, relation = list(condition.items())
-        parts.append(atom(poly.polynomial(ring), Relation(relation.text())))
+    ring, parts, solutions = system_of(entry)
     where, count = conj(parts), len(list(solutions.items()))
     question = exists(ring.names, where)
     number = ("no real solution", "exactly 1 real solution")[count] if count < 2 else f"exactly {count} real solutions"

@@ -112,13 +112,11 @@ def read_question(payload: Entry) -> tuple[Question, Classes, Entry]:
         minimal.append(poly)
     found: list[tuple[int | None, Formula]] = []
     for entry in classes_entry.items():
-        pair = list(entry.items())
-        if len(pair) != 2:
-            raise entry.fail("expected [count or null, condition]")
-        count = None if pair[0].value is None else pair[0].integer()
+        number, condition = entry.row("count or null", "condition")
+        count = None if number.value is None else number.integer()
         if count in [known for known, _ in found]:
             raise entry.fail("a count is listed twice")
-        found.append((count, formula_from_json(pair[1], ring)))
+        found.append((count, formula_from_json(condition, ring)))
     split = [tuple(_split(p, ring, len(variables)) for p in group) for group in (polys, positive)]
     question = Question(ring, tuple(constants), split[0], split[1], (*minimal, *equal), tuple(nonzero), len(variables))
     return question, tuple(found), proofs

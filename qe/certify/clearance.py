@@ -83,13 +83,11 @@ def _along(entry: Entry, curve: _Curve) -> Constraint:
     terms, strict = entry.fields("terms", "strict")
     read: dict[tuple[int, ...], Fraction] = {}
     for term in terms.items():
-        parts = list(term.items())
-        if len(parts) != 2:
-            raise term.fail("expected exponents and a coefficient")
-        exponents = tuple(e.integer() for e in parts[0].items())
+        powers, number = term.row("exponents", "coefficient")
+        exponents = tuple(e.integer() for e in powers.items())
         if len(exponents) != curve.dimension or exponents in read:
-            raise parts[0].fail(f"expected {curve.dimension} exponents, each combination once")
-        read[exponents] = parts[1].rational()
+            raise powers.fail(f"expected {curve.dimension} exponents, each combination once")
+        read[exponents] = number.rational()
     power = max((sum(e) for e in read), default=0)
     degree = power * curve.degree
     if max(degree, power) > MAX_DEGREE:
@@ -109,9 +107,7 @@ def _check_cover(constraints: list[Constraint], spans: Entry, field: RootField, 
     """The spans follow one another from 0 to ``until``, and on each the constraint it names fails."""
     reached = Fraction(0)
     for span in spans.items():
-        low, high, index = (list(span.items()) + [None] * 3)[:3]
-        if low is None or high is None or index is None or len(list(span.items())) != 3:
-            raise span.fail("expected low, high and the index of a constraint")
+        low, high, index = span.row("low", "high", "index of a constraint")
         start, end, i = low.rational(), high.rational(), index.integer()
         if start != reached or not start < end <= until:
             raise span.fail(f"expected an interval from {reached}")

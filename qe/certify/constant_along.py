@@ -25,14 +25,12 @@ def check_constant_along(claim: Claim, context: Context, limits: Limits) -> None
     sides = [claim.before, claim.after]
     bound = {v for side in sides for f in subformulas(side) if isinstance(f, Exists | ForAll) for v in f.variables}
     for direction in directions.items():
-        parts = list(direction.items())
-        if len(parts) != 2 or parts[0].text() not in claim.ring.index:
-            raise direction.fail("expected [variable, vector]")
-        name, vector = parts[0].text(), read_vector(parts[1], set(claim.ring.names) - bound, claim)
-        if not vector.get(claim.ring.index[name]):
-            raise direction.fail(f"{name} does not move")
+        variable, along = direction.row("variable", "vector")
+        name, vector = variable.text(), read_vector(along, set(claim.ring.names) - bound, claim)
+        if name not in claim.ring.index or not vector.get(claim.ring.index[name]):
+            raise direction.fail(f"{name} is no variable that moves")
         for side in sides:
-            check_constant_on(polynomials(side), vector, parts[1], limits)
+            check_constant_on(polynomials(side), vector, along, limits)
         sides = [at_number(side, claim.ring.index[name], Fraction(0), claim) for side in sides]
     if limits.replay(steps, sides[0], (), claim.ring) != sides[1]:
         raise steps.fail("the steps do not lead there")

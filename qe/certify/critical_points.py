@@ -72,10 +72,10 @@ def vanishing(start: Sequence[Poly], chain: Entry, free: int, ring: Ring) -> lis
     for row in chain.items():
         total = ring.constant(0)
         for term in row.items():
-            parts = list(term.items())
-            if len(parts) != 2 or parts[0].integer() >= len(polys):
-                raise term.fail("expected [number of a polynomial before it, coefficient]")
-            factor, poly = parts[1].polynomial(ring), polys[parts[0].integer()]
+            number, coefficient = term.row("number of a polynomial", "coefficient")
+            if number.integer() >= len(polys):
+                raise number.fail("expected the number of a polynomial before it")
+            factor, poly = coefficient.polynomial(ring), polys[number.integer()]
             if factor.term_count() * poly.term_count() > MOST_TERMS:
                 raise Unable(f"a product of more than {MOST_TERMS} terms")
             total = total + factor * poly

@@ -199,10 +199,10 @@ def _zeros_inside(factor: Poly, low: Fraction, high: Fraction) -> int:
 
 
 def _exception(entry: Entry, parts: Sequence[Exceeding]) -> tuple[Exceeding, Fraction]:
-    pair = list(entry.items())
-    if len(pair) != 2 or pair[0].integer() >= len(parts):
-        raise entry.fail("expected [number of a case, number]")
-    part, y = parts[pair[0].integer()], pair[1].rational()
+    case, number = entry.row("number of a case", "number")
+    if case.integer() >= len(parts):
+        raise case.fail("there is no such case")
+    part, y = parts[case.integer()], number.rational()
     if not part.low <= y <= part.high:
         raise entry.fail("not in the interval of its case")
     return part, y

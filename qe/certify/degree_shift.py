@@ -11,21 +11,18 @@ from __future__ import annotations
 
 from qe.certify.boolean import ByLemmas, Goal
 from qe.certify.lowered_degree import asks_sign, divided
-from qe.certify.step import Claim, Context, only
+from qe.certify.step import Claim, Context, only, outside
 from qe.certify.substitution import mapped
 from qe.formula.build import atom, conj, exists
-from qe.formula.syntax import TRUE, Atom, Exists, Formula, Relation
+from qe.formula.syntax import TRUE, Atom, Formula, Relation
 from qe.formula.traverse import conjuncts
 
 
 def shift_goals(claim: Claim, context: Context) -> list[Goal]:
     """The exponents are divided and the result compared with what stands after; x >= 0 is to be shown where needed."""
     variable, exponent, _ = only(claim, "variable", "exponent", "theory")
-    name, k, before = variable.text(), exponent.integer(2), claim.before
-    if not isinstance(before, Exists) or name not in before.variables:
-        raise variable.fail("expected a variable of the existential block")
-    ring = claim.ring
-    x, asked = ring.index[name], []
+    k, ring, asked = exponent.integer(2), claim.ring, []
+    before, name, x = claim.variable(variable)
 
     def change(given: Atom) -> Formula:
         asked.append(asks_sign(given, x))
@@ -37,8 +34,7 @@ def shift_goals(claim: Claim, context: Context) -> list[Goal]:
         raise claim.fail("not what the shift of degrees gives")
     if k % 2 or not any(asked):
         return []
-    known = [f for f in context if not set(before.variables) & set(f.free)]
-    return [(*known, *conjuncts(before.body), atom(ring.gen(x), Relation.LT))]
+    return [(*outside(context, before.variables), *conjuncts(before.body), atom(ring.gen(x), Relation.LT))]
 
 
 check_degree_shift = ByLemmas(shift_goals)

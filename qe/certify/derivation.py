@@ -19,7 +19,7 @@ import json
 from collections.abc import Callable, Mapping, Sequence
 
 from qe.certify.negation import negation
-from qe.certify.step import Check, Claim, Context, Limits
+from qe.certify.step import Check, Claim, Context, Limits, outside
 from qe.errors import CertificateRejected, Unable
 from qe.exact.ring import Ring
 from qe.formula.build import conj, disj, exists, forall, neg
@@ -141,8 +141,7 @@ def replaced(
             found, changed = replaced(arg, place[1:], before, after, facts, entry)
             return found, neg(changed) if isinstance(changed, Constant) else Not(changed)
         case Exists(variables, body) | ForAll(variables, body) if place and place[0] == 0:
-            kept = tuple(f for f in facts if not set(variables) & set(f.free))
-            found, changed = replaced(body, place[1:], before, after, kept, entry)
+            found, changed = replaced(body, place[1:], before, after, outside(facts, variables), entry)
             return found, (exists if isinstance(formula, Exists) else forall)(variables, changed)
     raise entry.fail("what the step replaces does not stand there")
 

@@ -33,7 +33,7 @@ from qe.certify.turning_cover import Cover, Met
 from qe.errors import CertificateRejected
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import conj, disj, exists
-from qe.formula.syntax import FALSE, TRUE, Exists, Formula
+from qe.formula.syntax import FALSE, TRUE, Formula
 from qe.formula.traverse import conjuncts
 from qe.proof.entry import Entry
 
@@ -43,12 +43,9 @@ def check_elimination_set(claim: Claim, context: Context, limits: Limits) -> Non
     variable, exponent, side, quadratics, points, parts = only(
         claim, "variable", "exponent", "side", "quadratics", "points", "parts"
     )
-    block, name = claim.before, variable.text()
-    if not isinstance(block, Exists) or not block.body.is_quantifier_free:
-        raise claim.fail("an existential block over a quantifier-free formula expected")
-    if name not in block.variables or name not in claim.ring.index:
-        raise variable.fail("a variable of the block expected")
-    x, shift = claim.ring.index[name], exponent.integer(1)
+    (block, name, x), shift = claim.variable(variable), exponent.integer(1)
+    if not block.body.is_quantifier_free:
+        raise claim.fail("expected a quantifier-free formula in the block")
     body = lowered(block.body, x, shift, exponent)
     tried = read_points(points, body, block.body, x, shift, claim.ring)
     direction = side.integer(-1)

@@ -21,7 +21,7 @@ from qe.certify.block import existential
 from qe.certify.boolean import ByLemmas, Goal, equivalence
 from qe.certify.limits import check_power
 from qe.certify.negation import negation
-from qe.certify.step import Claim, Context, only
+from qe.certify.step import Claim, Context, only, outside
 from qe.errors import Unable
 from qe.exact.ring import Poly
 from qe.formula.build import atom, conj, disj
@@ -50,8 +50,7 @@ def half_plane_goals(claim: Claim, context: Context) -> list[Goal]:
     if len(equations) != 2:
         raise claim.fail("two equations and a weak bound expected")
     q = _moved(_polynomial(equations, x, y, claim), bounds[0], (x, y), claim)
-    known = [f for f in context if not set(before.variables) & set(f.free)]
-    return equivalence(negation(_stable(q)), after, known)
+    return equivalence(negation(_stable(q)), after, outside(context, before.variables))
 
 
 check_half_plane = ByLemmas(half_plane_goals)

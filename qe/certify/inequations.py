@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from qe.certify.block import existential
 from qe.certify.boolean import ByLemmas, Goal, equivalence
-from qe.certify.step import Claim, Context, Limits, only
+from qe.certify.step import Claim, Context, Limits, only, outside
 from qe.formula.build import atom, conj, disj, exists
 from qe.formula.syntax import And, Atom, Constant, Exists, Formula, Or, Relation
 from qe.formula.traverse import conjuncts
@@ -20,9 +20,8 @@ from qe.formula.traverse import conjuncts
 def check_inequations(claim: Claim, context: Context, limits: Limits) -> None:
     """The conditions on coefficients take the place of the inequations."""
     only(claim)
-    if not isinstance(claim.before, Exists):
-        raise claim.fail("expected an existential block")
-    if claim.after != exists(claim.before.variables, generic(claim.before, claim)):
+    block = claim.block()
+    if claim.after != exists(block.variables, generic(block, claim)):
         raise claim.fail("not what the theorem gives")
 
 
@@ -35,7 +34,7 @@ def only_nonzero_goals(claim: Claim, context: Context) -> list[Goal]:
     conditions = generic(before, claim)
     if set(before.variables) & set(conditions.free):
         raise claim.fail("more is asked of the variables of the block than that polynomials do not vanish")
-    return equivalence(conditions, after, [f for f in context if not set(before.variables) & set(f.free)])
+    return equivalence(conditions, after, outside(context, before.variables))
 
 
 check_only_nonzero = ByLemmas(only_nonzero_goals)

@@ -15,7 +15,7 @@ from collections.abc import Sequence
 
 from qe.certify.block import existential
 from qe.certify.negation import negation, normal
-from qe.certify.step import Claim, Context, Limits, only
+from qe.certify.step import Claim, Context, Limits, only, outside
 from qe.certify.virtual_substitution import TestPoint, put
 from qe.formula.build import conj, disj, exists
 from qe.formula.syntax import TRUE, Atom, Exists, Formula
@@ -32,7 +32,7 @@ def check_infinity_first(claim: Claim, context: Context, limits: Limits) -> None
     if has_root_atoms(before.body):
         raise claim.fail("no root atoms expected")
     x = claim.ring.index[name]
-    known = tuple(f for f in context if name not in f.free)
+    known = outside(context, [name])
     listed = [formula_from_json(entry, claim.ring) for entry in cases.items()]
     if not _leave_out_nothing(listed):
         raise cases.fail("expected comparisons of one polynomial with 0 that leave out no sign")

@@ -18,7 +18,7 @@ from dataclasses import dataclass
 
 from qe.certify.boolean import ByLemmas, Goal
 from qe.certify.negation import negation
-from qe.certify.step import Claim, Context, Limits, only
+from qe.certify.step import Claim, Context, Limits, only, outside
 from qe.certify.substitution import mapped, quotient
 from qe.exact.ring import Poly
 from qe.formula.build import atom, conj, disj, exists
@@ -33,8 +33,8 @@ def linear_goals(claim: Claim, context: Context) -> list[Goal]:
     """The substitutions are carried out and compared with what stands after; signs are to be shown."""
     solved = only(claim, "solved", "theory")[0]
     goals: list[Goal] = []
-    block, body = _block(claim)
-    known = [f for f in context if not set(block) & set(f.free)]
+    block, body = claim.block().variables, claim.block().body
+    known = outside(context, block)
     for entry in solved.items():
         pivot = _pivot(entry, block, body, claim)
         if pivot.sign is not None:
@@ -53,7 +53,7 @@ check_linear = ByLemmas(linear_goals)
 def check_guarded_linear(claim: Claim, context: Context, limits: Limits) -> None:
     """Both cases are compared with what stands after."""
     entry, *more = only(claim, "solved")[0].items()
-    block, body = _block(claim)
+    block, body = claim.block().variables, claim.block().body
     pivot = _pivot(entry, block, body, claim)
     if more or pivot.sign is not None:
         raise claim.fail("expected one equation with a coefficient of unknown sign")
@@ -82,38 +82,32 @@ class Pivot:
         return self.lead * self.lead.ring.gen(self.x) + self.rest
 
 
-def _block(claim: Claim) -> tuple[tuple[str, ...], Formula]:
-    if not isinstance(claim.before, Exists):
-        raise claim.fail("expected an existential block")
-    return claim.before.variables, claim.before.body
-
-
 def _pivot(entry: Entry, block: Sequence[str], body: Formula, claim: Claim) -> Pivot:
-    parts = list(entry.items())
-    if len(parts) != 3 or parts[0].text() not in block:
-        raise entry.fail("expected [variable of the block, equation, sign]")
-    name, equation = parts[0].text(), polynomial_from_json(parts[1], claim.ring)
-    x, sign = claim.ring.index[name], parts[2].value
+    variable, solved, of_lead = entry.row("variable of the block", "equation", "sign")
+    name, equation, sign = variable.text(), polynomial_from_json(solved, claim.ring), of_lead.value
+    if name not in block:
+        raise variable.fail("expected a variable of the block")
+    x = claim.ring.index[name]
     if isinstance(sign, bool) or sign not in (1, -1, 0, None):
-        raise parts[2].fail("expected 1, -1, 0 or null")
+        raise of_lead.fail("expected 1, -1, 0 or null")
     if equation.degree(x) != 1 or Atom(equation, Relation.EQ) not in conjuncts(body):
-        raise parts[1].fail("no conjunct here that is linear in the variable")
+        raise solved.fail("no conjunct here that is linear in the variable")
     rest, lead = equation.coefficients(x)
     if lead.is_constant and sign != (1 if lead.constant_value() > 0 else -1):
-        raise parts[2].fail("not the sign of this number")
+        raise of_lead.fail("not the sign of this number")
     others = conj(p for p in conjuncts(body) if p != Atom(equation, Relation.EQ))
     return Pivot(x, name, lead, rest, sign if isinstance(sign, int) else None, others)
 
 
 def term(entry: Entry, names: Sequence[str], others: Formula, claim: Claim) -> Pivot:
     """The substitution that an equation [variable, polynomial] gives whose coefficient is a number."""
-    parts = list(entry.items())
-    if len(parts) != 2 or parts[0].text() not in names:
-        raise entry.fail("expected [variable, equation]")
-    name, equation = parts[0].text(), polynomial_from_json(parts[1], claim.ring)
+    variable, solved = entry.row("variable", "equation")
+    name, equation = variable.text(), polynomial_from_json(solved, claim.ring)
+    if name not in names:
+        raise variable.fail("expected a variable of the block")
     x = claim.ring.index[name]
     if equation.degree(x) != 1 or not equation.leading(x).is_constant:
-        raise parts[1].fail("expected an equation that is linear in the variable, with a number as its coefficient")
+        raise solved.fail("expected an equation that is linear in the variable, with a number as its coefficient")
     rest, lead = equation.coefficients(x)
     return Pivot(x, name, lead, rest, 1 if lead.constant_value() > 0 else -1, others)
 

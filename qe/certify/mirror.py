@@ -62,13 +62,13 @@ def _images(evidence: Entry, block: Exists, claim: Claim) -> Images:
         raise claim.fail("a name is bound twice, or free and bound")
     found: dict[str, tuple[str, int]] = {}
     for entry in evidence.items():
-        parts = list(entry.items())
-        if len(parts) != 3 or parts[2].integer(-1) not in (1, -1):
-            raise entry.fail("expected [variable, variable, 1 or -1]")
-        name, image = parts[0].text(), parts[1].text()
+        variable, mirrored, side = entry.row("variable", "variable", "1 or -1")
+        name, image, sign = variable.text(), mirrored.text(), side.integer(-1)
+        if sign not in (1, -1):
+            raise side.fail("expected 1 or -1")
         if name in found or not any({name, image} <= set(variables) for variables in blocks):
             raise entry.fail("expected each variable once, with one that the same quantifier binds")
-        found[name] = image, parts[2].integer(-1)
+        found[name] = image, sign
     if any(found.get(image) != (name, sign) for name, (image, sign) in found.items()):
         raise evidence.fail("done twice, it does not leave the variables alone")
     ring = claim.ring

@@ -13,11 +13,11 @@ from itertools import product
 
 from qe.certify.block import refuted_block
 from qe.certify.negation import normal
+from qe.certify.solutions import system_of
 from qe.certify.step import Claim, Context, Limits, only
 from qe.errors import Unable
-from qe.exact.ring import Ring
-from qe.formula.build import atom
-from qe.formula.syntax import FALSE, And, Constant, Formula, Or, Relation
+from qe.formula.build import convert
+from qe.formula.syntax import FALSE, And, Constant, Formula, Or
 from qe.proof.certificate import Kind
 from qe.proof.entry import Entry
 
@@ -40,19 +40,12 @@ def _system(entry: Entry, claim: Claim, limits: Limits) -> frozenset[Formula]:
     certificate = limits.leaf(entry)
     if certificate.kind is not Kind.SOLUTIONS or not isinstance(certificate.payload, dict):
         raise entry.fail("expected a certificate of kind solutions")
-    order, equations, conditions, _, _, solutions = Entry(certificate.payload, f"{entry.path}.payload").fields(
-        "order", "equations", "conditions", "weights", "form", "solutions"
-    )
+    ring, parts, solutions = system_of(Entry(certificate.payload, f"{entry.path}.payload"))
     if solutions.value != []:
         raise solutions.fail("expected no solution")
-    ring = Ring.of(order.names())
     if not set(ring.names) <= set(claim.ring.names):
-        raise order.fail("other variables than those of the sentence")
-    found = {atom(e.polynomial(ring).convert(claim.ring), Relation.EQ) for e in equations.items()}
-    for condition in conditions.items():
-        poly, relation = list(condition.items())
-        found.add(atom(poly.polynomial(ring).convert(claim.ring), Relation(relation.text())))
-    return frozenset(found)
+        raise entry.fail("other variables than those of the sentence")
+    return frozenset(convert(part, claim.ring) for part in parts)
 
 
 def conjunctions(formula: Formula) -> Iterator[frozenset[Formula]]:

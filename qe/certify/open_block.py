@@ -15,9 +15,9 @@ from __future__ import annotations
 from collections.abc import Collection
 
 from qe.certify.elimination_set import block_of, check_parts
-from qe.certify.step import Claim, Context, Limits, only
+from qe.certify.step import Claim, Context, Limits, only, outside
 from qe.formula.build import atom, conj, disj
-from qe.formula.syntax import And, Atom, Constant, Exists, Formula, Or, Relation, RootAtom
+from qe.formula.syntax import And, Atom, Constant, Formula, Or, Relation, RootAtom
 from qe.formula.traverse import map_atoms
 from qe.proof.entry import formula_from_json
 
@@ -25,13 +25,11 @@ from qe.proof.entry import formula_from_json
 def check_open_block(claim: Claim, context: Context, limits: Limits) -> None:
     """Accept silently, or raise ``CertificateRejected`` naming the entry that fails."""
     variable, steps, pieces, parts = only(claim, "variable", "steps", "pieces", "parts")
-    block, name = claim.before, variable.text()
-    if not isinstance(block, Exists) or name not in block.variables:
-        raise variable.fail("a variable of an existential block expected")
+    block, name, _ = claim.variable(variable)
     if not shows_open(block.body, set(block.variables)):
         raise claim.fail("the solutions need not form an open set")
     listed = [formula_from_json(piece, claim.ring, quantified=True) for piece in pieces.items()]
-    known = tuple(f for f in context if not set(block.variables) & set(f.free))
+    known = outside(context, block.variables)
     if limits.replay(steps, block_of((name,), block.body, claim.ring), known, claim.ring) != disj(listed):
         raise pieces.fail("not the formulas to which the steps lead")
     rest = [v for v in block.variables if v != name]

@@ -42,10 +42,7 @@ def check_ranges(claim: Claim, context: Context, limits: Limits) -> None:
     parts, ranges = conjuncts(before.body), dict[int, Ends]()
     for entry in listed.items():
         limits.tick()
-        members = list(entry.items())
-        if len(members) != 5:
-            raise entry.fail("a condition, a variable, a power, a side and a value expected")
-        condition, name, power, side, value = members
+        condition, name, power, side, value = entry.row("condition", "variable", "power", "side", "value")
         i, upper = claim.ring.index.get(name.text()), side.integer(-1) == 1
         if i is None or side.integer(-1) not in (-1, 1):
             raise entry.fail("a variable and a side (1 or -1) expected")

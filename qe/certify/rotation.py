@@ -70,10 +70,8 @@ def _skew(plane: Entry, blocks: Sequence[Sequence[str]], claim: Claim) -> Skew:
     """The matrix, by its entries for pairs of variables that one quantifier binds."""
     found: Skew = {}
     for entry in plane.items():
-        parts = list(entry.items())
-        if len(parts) != 3:
-            raise entry.fail("expected [variable, variable, rational number]")
-        left, right, value = parts[0].text(), parts[1].text(), parts[2].rational()
+        first, second, number = entry.row("variable", "variable", "rational number")
+        left, right, value = first.text(), second.text(), number.rational()
         if left == right or not any({left, right} <= set(block) for block in blocks):
             raise entry.fail("expected two variables that one quantifier binds")
         i, j = claim.ring.index[left], claim.ring.index[right]

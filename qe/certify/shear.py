@@ -22,11 +22,9 @@ from qe.formula.traverse import subformulas
 def check_shear(claim: Claim, context: Context, limits: Limits) -> None:
     """The form is put in, and the result is compared with what stands after."""
     variable, form = only(claim, "variable", "form")
-    name, block, ring = variable.text(), claim.before, claim.ring
-    if not isinstance(block, Exists) or name not in block.variables:
-        raise variable.fail("expected a variable of the existential block")
+    (block, name, x), ring = claim.variable(variable), claim.ring
     inner = {v for f in subformulas(block.body) if isinstance(f, Exists | ForAll) for v in f.variables}
-    x, given_form = ring.index[name], form.polynomial(ring)
+    given_form = form.polynomial(ring)
     if given_form.degree(x) != 1:
         raise form.fail("expected a polynomial of degree 1 in the variable")
     if inner & {ring.names[i] for i in given_form.variables}:

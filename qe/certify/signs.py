@@ -152,21 +152,19 @@ def _read_identity(entry: Entry, polys: Sequence[Poly], ring: Ring) -> Identity:
     total = ring.constant(0)
     terms: list[tuple[int, tuple[tuple[int, bool], ...]]] = []
     for term in entry.items():
-        parts = list(term.items())
-        if len(parts) != 2:
-            raise term.fail("expected [coefficient, [[polynomial, exponent], ...]]")
-        coefficient = parts[0].rational()
+        number, factors = term.row("coefficient", "[[polynomial, exponent], ...]")
+        coefficient = number.rational()
         if not coefficient or coefficient.denominator != 1:
-            raise parts[0].fail("expected an integer that is not 0")
-        powers = tuple(_power(power, len(polys)) for power in parts[1].items())
+            raise number.fail("expected an integer that is not 0")
+        powers = tuple(_power(power, len(polys)) for power in factors.items())
         if len({i for i, _ in powers}) < len(powers):
-            raise parts[1].fail("a polynomial stands twice in a product")
+            raise factors.fail("a polynomial stands twice in a product")
         product = ring.constant(int(coefficient))
         for i, exponent in powers:
             check_power(polys[i], exponent)
             factor = polys[i] ** exponent
             if factor.term_count() * product.term_count() > MOST_TERMS:
-                raise parts[1].fail("a product of too many terms")
+                raise factors.fail("a product of too many terms")
             product = product * factor
         total = total + product
         terms.append((sign_bit(coefficient), tuple((i, e % 2 == 1) for i, e in powers)))
@@ -176,10 +174,10 @@ def _read_identity(entry: Entry, polys: Sequence[Poly], ring: Ring) -> Identity:
 
 
 def _power(entry: Entry, count: int) -> tuple[int, int]:
-    parts = list(entry.items())
-    if len(parts) != 2 or parts[0].integer() >= count:
-        raise entry.fail("expected [polynomial, exponent]")
-    return parts[0].integer(), parts[1].integer(1)
+    number, exponent = entry.row("polynomial", "exponent")
+    if number.integer() >= count:
+        raise number.fail("there is no such polynomial")
+    return number.integer(), exponent.integer(1)
 
 
 def _read_line(entry: Entry, polys: Sequence[Poly]) -> Line:

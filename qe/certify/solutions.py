@@ -23,6 +23,8 @@ from qe.certify.arithmetic.numbers import read_field, read_number
 from qe.certify.arithmetic.residue import Residue, RootField, add, of_rationals, scale
 from qe.errors import Unable
 from qe.exact.ring import Poly, Ring
+from qe.formula.build import atom
+from qe.formula.syntax import Formula, Relation
 from qe.options import Budget
 from qe.proof.entry import Entry, Json
 
@@ -67,11 +69,22 @@ def check_solutions(payload: dict[str, Json], budget: Budget | None = None) -> N
         raise listed.fail(f"there are {found} solutions, and {len(points)} are listed")
 
 
+def system_of(payload: Entry) -> tuple[Ring, tuple[Formula, ...], Entry]:
+    """The ring of such a certificate, its equations and conditions as comparisons with 0, and its list of solutions."""
+    order, equations, conditions, _, _, solutions = payload.fields(
+        "order", "equations", "conditions", "weights", "form", "solutions"
+    )
+    ring = Ring.of(order.names())
+    listed = [_condition(e, ring) for e in conditions.items()]
+    parts = [atom(e.polynomial(ring), Relation.EQ) for e in equations.items()]
+    return ring, (*parts, *(atom(p, Relation(relation)) for p, relation in listed)), solutions
+
+
 def _condition(entry: Entry, ring: Ring) -> tuple[Poly, str]:
-    parts = list(entry.items())
-    if len(parts) != 2 or parts[1].text() not in INDICATORS:
-        raise entry.fail('expected [polynomial, ">" or ">=" or "/="]')
-    return parts[0].polynomial(ring), parts[1].text()
+    poly, relation = entry.row("polynomial", '">" or ">=" or "/="')
+    if relation.text() not in INDICATORS:
+        raise relation.fail('expected ">" or ">=" or "/="')
+    return poly.polynomial(ring), relation.text()
 
 
 def _weight(entry: Entry) -> int:

@@ -7,12 +7,12 @@ holds over R for all values of the variables for which every formula of ``contex
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 
 from qe.errors import CertificateRejected
 from qe.exact.ring import Ring
-from qe.formula.syntax import Formula
+from qe.formula.syntax import Exists, Formula
 from qe.options import Budget
 from qe.proof.certificate import Certificate
 from qe.proof.entry import Entry
@@ -35,6 +35,19 @@ class Claim:
         """The error that names this step."""
         return CertificateRejected(self.path, f"{self.rule}: {reason}")
 
+    def block(self) -> Exists:
+        """The formula before, which has to be an existential block."""
+        if not isinstance(self.before, Exists):
+            raise self.fail("expected an existential block")
+        return self.before
+
+    def variable(self, entry: Entry) -> tuple[Exists, str, int]:
+        """The existential block, and its variable that the entry names, with its index in the ring."""
+        block, name = self.block(), entry.text()
+        if name not in block.variables or name not in self.ring.index:
+            raise entry.fail("expected a variable of the existential block")
+        return block, name, self.ring.index[name]
+
 
 @dataclass(frozen=True, slots=True)
 class Limits:
@@ -52,6 +65,12 @@ class Limits:
 
 
 Check = Callable[[Claim, Context, Limits], None]
+
+
+def outside(context: Context, names: Iterable[str]) -> Context:
+    """What of a context holds inside a block over these names: formulas with one of them are about another variable."""
+    inner = set(names)
+    return tuple(f for f in context if not inner & set(f.free))
 
 
 def only(claim: Claim, *names: str, optional: Sequence[str] = ()) -> list[Entry]:

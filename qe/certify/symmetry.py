@@ -17,7 +17,7 @@ from collections.abc import Iterable, Mapping, Set
 from fractions import Fraction
 
 from qe.certify.boolean import ByLemmas, Goal
-from qe.certify.step import Claim, Context, Limits, only
+from qe.certify.step import Claim, Context, Limits, only, outside
 from qe.certify.substitution import at_number
 from qe.exact.ring import Poly
 from qe.formula.build import atom, disj, exists
@@ -49,7 +49,7 @@ def scaling_goals(claim: Claim, context: Context) -> list[Goal]:
     ring, kept = claim.ring, [e.integer(-1) for e in values.items()]
     if kept != [s for s in (1, 0, -1) if s in kept]:
         raise values.fail("expected some of 1, 0, -1, in this order")
-    known = [f for f in context if not set(block.variables) & set(f.free)]
+    known = outside(context, block.variables)
     rest = [v for v in block.variables if v != ring.names[x]]
     if claim.after != disj(exists(rest, at_number(block.body, x, Fraction(s), claim)) for s in kept):
         raise claim.fail("not the block with these values for the variable")
@@ -62,15 +62,12 @@ check_scaling = ByLemmas(scaling_goals)
 
 def _moved(variable: Entry, weights: Entry, claim: Claim) -> tuple[Exists, int, dict[int, Fraction]]:
     """The block, the variable for which a number is put in, and the weights."""
-    name, block = variable.text(), claim.before
-    if not isinstance(block, Exists) or name not in block.variables:
-        raise variable.fail("expected a variable of the existential block")
+    block, name, x = claim.variable(variable)
     inner = [v for f in subformulas(block.body) if isinstance(f, Exists | ForAll) for v in f.variables]
     bound = {*block.variables, *inner}
     if set(inner) & set(block.variables) or bound & set(block.free) or set(inner) & set(block.body.free):
         raise claim.fail("a name is bound twice, or free and bound")
     vector = read_vector(weights, bound, claim)
-    x = claim.ring.index[name]
     if not vector.get(x):
         raise weights.fail(f"{name} does not move")
     return block, x, vector
@@ -80,10 +77,10 @@ def read_vector(weights: Entry, names: Set[str], claim: Claim) -> dict[int, Frac
     """The numbers of a vector by variable, these variables alone; ``CertificateRejected`` for anything else."""
     vector: dict[int, Fraction] = {}
     for entry in weights.items():
-        parts = list(entry.items())
-        if len(parts) != 2 or parts[0].text() not in names or claim.ring.index[parts[0].text()] in vector:
-            raise entry.fail("expected [variable that may move, rational number], each variable once")
-        vector[claim.ring.index[parts[0].text()]] = parts[1].rational()
+        variable, number = entry.row("variable that may move", "rational number")
+        if variable.text() not in names or claim.ring.index[variable.text()] in vector:
+            raise entry.fail("expected variables that may move, each once")
+        vector[claim.ring.index[variable.text()]] = number.rational()
     return vector
 
 

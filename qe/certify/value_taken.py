@@ -12,9 +12,9 @@ from __future__ import annotations
 
 from qe.certify.boolean import ByLemmas, Goal
 from qe.certify.negation import negation
-from qe.certify.step import Claim, Context, only
+from qe.certify.step import Claim, Context, only, outside
 from qe.formula.build import atom, conj, exists
-from qe.formula.syntax import Atom, Exists, Relation
+from qe.formula.syntax import Atom, Relation
 from qe.formula.traverse import conjuncts
 
 _FAR = {Relation.GT: Relation.GT, Relation.GE: Relation.GT, Relation.LT: Relation.LT, Relation.LE: Relation.LT}
@@ -23,13 +23,11 @@ _FAR = {Relation.GT: Relation.GT, Relation.GE: Relation.GT, Relation.LT: Relatio
 def value_goals(claim: Claim, context: Context) -> list[Goal]:
     """The conjunct is left out; where the others hold, its leading coefficient is as the theorem wants it."""
     variable, _ = only(claim, "variable", "theory")
-    block, name = claim.before, variable.text()
-    if not isinstance(block, Exists) or name not in block.variables:
-        raise variable.fail("expected a variable of the existential block")
+    block, name, x = claim.variable(variable)
     parts = conjuncts(block.body)
     having = [part for part in parts if name in part.free]
     others = [part for part in parts if name not in part.free]
-    met, x = having[0] if len(having) == 1 else None, claim.ring.index[name]
+    met = having[0] if len(having) == 1 else None
     if not isinstance(met, Atom):
         raise claim.fail(f"expected one comparison with {name}")
     if claim.after != exists([v for v in block.variables if v != name], conj(others)):
@@ -40,8 +38,7 @@ def value_goals(claim: Claim, context: Context) -> list[Goal]:
         raise claim.fail("a polynomial of even degree need not vanish")
     else:
         wanted = _FAR[met.relation]
-    known = [f for f in context if not set(block.variables) & set(f.free)]
-    return [(*known, *others, negation(atom(met.poly.leading(x), wanted)))]
+    return [(*outside(context, block.variables), *others, negation(atom(met.poly.leading(x), wanted)))]
 
 
 check_value_taken = ByLemmas(value_goals)

@@ -12,7 +12,7 @@ from __future__ import annotations
 from qe.certify.boolean import ByLemmas, Goal
 from qe.certify.linear_equation import substituted, term
 from qe.certify.negation import negation
-from qe.certify.step import Claim, Context, only
+from qe.certify.step import Claim, Context, only, outside
 from qe.formula.syntax import TRUE, Exists
 
 
@@ -26,7 +26,7 @@ def witness_goals(claim: Claim, context: Context) -> list[Goal]:
         body = substituted(term(entry, block.variables, body, claim), claim)
     if names & set(body.free):
         raise equations.fail("a variable of the block is left")
-    return [(*(f for f in context if not names & set(f.free)), negation(body))]
+    return [(*outside(context, names), negation(body))]
 
 
 check_witness_in_parameters = ByLemmas(witness_goals)

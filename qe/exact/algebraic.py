@@ -12,13 +12,14 @@ from fractions import Fraction
 from functools import total_ordering
 from typing import Any
 
-from flint import arb, fmpq, fmpz, fmpz_mpoly, fmpz_mpoly_ctx, fmpz_poly
+from flint import arb, fmpq, fmpz_poly
 
 from qe import arguments
 from qe.arguments import shown
 from qe.errors import InputError, Unable
 from qe.exact.algebraic_text import format_root, in_latex
 from qe.exact.balls import FIRST_PRECISION, ball_sign, hull, lower_end, precision, upper_end
+from qe.exact.combined_roots import combined_polynomial, power_polynomial
 from qe.exact.isolate import Interval, isolate, sign_at
 from qe.sympy_form import SymPyForm
 
@@ -261,7 +262,7 @@ class RealAlgebraic(SymPyForm):
             return self.inverse() ** -exponent
         if self.is_rational or exponent < 2:
             return self if exponent == 1 else RealAlgebraic.rational(self.as_fmpq() ** exponent if exponent else 1)
-        return _image(self, lambda p: _power_polynomial(p, exponent), lambda x: x**exponent)
+        return _image(self, lambda p: power_polynomial(p, exponent), lambda x: x**exponent)
 
     def __reduce__(self) -> tuple[object, tuple[object, ...]]:
         return _restore, (self.minimal_polynomial, self.index)
@@ -354,7 +355,6 @@ def _image(a: RealAlgebraic, transform: Callable[[fmpz_poly], fmpz_poly], value:
 
 
 MAX_EXPONENT = 10_000
-_PAIR = fmpz_mpoly_ctx.get(("y", "z"), "lex")
 
 
 def _combine(a: RealAlgebraic, b: RealAlgebraic | None, operation: str) -> Any:
@@ -372,34 +372,4 @@ def _combine(a: RealAlgebraic, b: RealAlgebraic | None, operation: str) -> Any:
             x, y = a.ball(bits), b.ball(bits)
             return x + y if operation == "+" else x - y if operation == "-" else x * y
 
-    return select_root(_combined_polynomial(a.poly, b.poly, operation), enclosure)
-
-
-def _combined_polynomial(p: fmpz_poly, q: fmpz_poly, operation: str) -> fmpz_poly:
-    """A polynomial in z with root x∘y for all roots x of p, y of q: Res_y(q(y), p(z ∓ y)) or Res_y(q, y^n p(z/y))."""
-    y, z = _PAIR.gens()
-    second = _PAIR.constant(0)
-    for i, c in enumerate(q.coeffs()):
-        second += c * y**i
-    first = _PAIR.constant(0)
-    n = p.degree()
-    base = z - y if operation == "+" else z + y
-    for i, c in enumerate(p.coeffs()):
-        if c:
-            first += c * (base**i if operation != "*" else z**i * y ** (n - i))
-    return _eliminated(first, second)
-
-
-def _power_polynomial(p: fmpz_poly, exponent: int) -> fmpz_poly:
-    """A polynomial in z with root x^exponent for every root x of p: Res_y(z - y^exponent, p(y))."""
-    y, z = _PAIR.gens()
-    return _eliminated(z - y**exponent, sum((c * y**i for i, c in enumerate(p.coeffs())), _PAIR.constant(0)))
-
-
-def _eliminated(first: fmpz_mpoly, second: fmpz_mpoly) -> fmpz_poly:
-    """Their resultant with respect to y, a polynomial in z."""
-    resultant = first.resultant(second, 0)
-    out = [fmpz(0)] * (int(resultant.degrees()[1]) + 1)
-    for exponents, c in resultant.terms():
-        out[int(exponents[1])] = c
-    return fmpz_poly(out)
+    return select_root(combined_polynomial(a.poly, b.poly, operation), enclosure)

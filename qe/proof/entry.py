@@ -79,6 +79,13 @@ class Entry:
         for i, value in enumerate(self.value):
             yield Entry(value, f"{self.path}[{i}]")
 
+    def row(self, *members: str) -> list[Entry]:
+        """The elements of a list that has one for each of these, which the error names."""
+        found = list(self.items())
+        if len(found) != len(members):
+            raise self.fail(f"expected [{', '.join(members)}]")
+        return found
+
     def names(self) -> tuple[str, ...]:
         """A list of names of variables, none of them empty, each once."""
         found = tuple(entry.text() for entry in self.items())

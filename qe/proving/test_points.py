@@ -176,17 +176,18 @@ class _Needs(Cover):
             for point in (turn.point, any_root)
             if point is not None
             for k in self._places.get(_one_sign(point), ())
-            if (before is None or k < before)
-            and implies(formula, self.tried[k].formula)
-            and not self.is_impossible((*turn.conditions, self.tried[k].guard))
+            if (before is None or k < before) and implies(formula, self.tried[k].formula)
         ]
         chosen = next((k for k in there if self._follows(turn, formula, k)), None)
         if chosen is None:
             self.missing = f"a place where {formula} can turn true"
             impossible = self._impossible(turn.conditions)
-            if impossible is not None or not there:
+            if impossible is not None:
                 return impossible
-            chosen = there[0]
+            with_guards = ((k, (*turn.conditions, self.tried[k].guard)) for k in there)
+            chosen = next((k for k, under in with_guards if not self.is_impossible(under)), None)
+            if chosen is None:
+                return None
         self.points[chosen] = any_root if any_root and _is_any(self.tried[chosen].point) else turn.point
         return [(chosen, conj(turn.conditions))]
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
@@ -9,7 +10,6 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from qe.certify import boolean
 from qe.certify.boolean import ByLemmas, Theory, equivalence
 from qe.certify.signs import read_lemma
 from qe.errors import Unable
@@ -72,12 +72,11 @@ def test_cases_of_signs_that_lemmas_need() -> None:
     assert not known.refutes(map(formula, ("a*b < 0", "a*c < 0", "b*c > 0")))
 
 
-def test_the_search_is_limited(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_search_is_limited() -> None:
     hard = [formula(f"a > {k} or b > {k}") for k in range(12)] + [formula("c > 0 and c < 1 or c = 7")]
     assert not theory().refutes(hard)
-    monkeypatch.setattr(boolean, "NODES", 3)
-    with pytest.raises(Unable):
-        theory().refutes(hard)
+    with pytest.raises(Unable, match="more than 3 cases"):
+        replace(theory(), cases=3).refutes(hard)
 
 
 @st.composite
