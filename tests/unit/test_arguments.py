@@ -226,12 +226,17 @@ DOORS = {
     "ComprehensiveGroebnerSystem.contains": Door(
         SYSTEM.contains, {"poly": SYSTEM.basis_at({"a": 2})[0], "point": {"a": 2}}, {"poly": {"digits"}}
     ),
+    "ComprehensiveGroebnerSystem.from_json": Door(
+        qe.ComprehensiveGroebnerSystem.from_json, {"text": SYSTEM.to_json()}
+    ),
     "ComprehensiveGroebnerSystem.place": Door(SYSTEM.place, {"point": {"a": 2}}),
     "ComprehensiveGroebnerSystem.place value": Door(
         SYSTEM.place, {"point": 2}, {"point": {*NUMBERS, "float", "digits"}}, {"point": lambda v: {"a": v}}
     ),
     "ComprehensiveGroebnerSystem.solutions_at": Door(SYSTEM.solutions_at, {"point": {"a": 2}}),
     "ComprehensiveGroebnerSystem.to_json": Door(SYSTEM.to_json, {"indent": 1}, {"indent": {"int", "zero", "none"}}),
+    "RealRootClassification.from_json": Door(qe.RealRootClassification.from_json, {"text": COUNTED.to_json()}),
+    "RealRootClassification.to_json": Door(COUNTED.to_json, {"indent": 1}, {"indent": {"int", "zero", "none"}}),
     "RealRootClassification.at": Door(COUNTED.at, {"point": {"a": 2}}),
     "RealRootClassification.certificate_at": Door(COUNTED.certificate_at, {"point": {"a": 2}}),
     "RealRootClassification.condition": Door(
@@ -318,7 +323,18 @@ def test_the_table_knows_every_public_function() -> None:
     assert functions <= set(DOORS)
 
 
-ENGINE = {"of", "cells", "bundle", "witness", "substitution", "derivation", "ball", "compare", "compare_rational"}
+ENGINE = {
+    "of",
+    "by_index",
+    "cells",
+    "bundle",
+    "witness",
+    "substitution",
+    "derivation",
+    "ball",
+    "compare",
+    "compare_rational",
+}
 """Methods that take values of the engine."""
 
 

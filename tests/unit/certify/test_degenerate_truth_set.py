@@ -53,7 +53,7 @@ def test_instances_without_a_common_solution(before: str, after: str, evidence: 
         (TWICE, "2*a - b = 0", by(["1", "-1"], HALF, ["a", "2*a - b"]), "not what the theorem gives"),
         ("all y. a*y >= 0", "a = 0", by(["1", "-1"], SIGNS, ["a", "a + y"]), "an equation of the parameters"),
         ("all y. a*y >= 0", "a = 0", by(["1", "-1"], SIGNS, ["a", "a^2"]), "linear in the variable"),
-        ("all y. a*y >= 0", "a = 0", by(["1", "-1"], SIGNS, ["y", "y"]), "[variable, equation]"),
+        ("all y. a*y >= 0", "a = 0", by(["1", "-1"], SIGNS, ["y", "y"]), "a variable of the block"),
         ("ex y. a*y > 1", "false", by(["0"], [[]]), "universal block"),
         ("all y, x. a*y > x", "false", by(["0"], [[]]), "universal block"),
         ("all y. a*y > 1", "false", by(["0"], [[]], variable="x"), "universal block"),

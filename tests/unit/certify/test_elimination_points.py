@@ -89,7 +89,12 @@ def test_sets_of_points(before: str, after: str, evidence: Any) -> None:
         ("ex x. x = a", "true", by(point(["-a", "1"], 2)), "-1, 0 or 1"),
         ("ex x. x = a", "true", by(point([])), "not 0 for infinity"),
         ("ex x. x > a", "a < 0", by(point(["-a", "1"], 1), side=2), "expected -1, 0 or 1"),
-        ("ex x. x > a and x < b", "a < b", by(FAR, point(["-a", "1"], 1), variable="a"), "variable of the block"),
+        (
+            "ex x. x > a and x < b",
+            "a < b",
+            by(FAR, point(["-a", "1"], 1), variable="a"),
+            "of the existential block",
+        ),
         ("ex x. x^2 > a and x < b", "true", by(FAR, exponent=2), "not all exponents are multiples"),
         ("all x. x > a", "true", by(FAR), "existential block"),
         ("ex x. x > a and (ex y. y > x)", "true", by(FAR), "quantifier-free"),

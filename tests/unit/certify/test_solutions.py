@@ -66,7 +66,7 @@ def test_the_solutions(other: Any) -> None:
         ({"solutions": ONE * 2}, "meets that of another"),
         ({"conditions": [["x", ">"]]}, "do not satisfy a condition"),
         ({"conditions": [["x^2 - 2", ">"]]}, "do not satisfy a condition"),
-        ({"conditions": [["x", "<"]]}, "expected .polynomial"),
+        ({"conditions": [["x", "<"]]}, 'expected ">" or ">=" or "/="'),
         ({"form": [0, 1]}, "the linear form has another value"),
         ({"form": [2, 0]}, "the linear form has another value"),
         ({"form": [1]}, "expected 2 integers"),

@@ -41,7 +41,7 @@ def test_the_origin_moves_along_the_diagonal() -> None:
         (DIFFERENCE, "ex y. y^2 < a and y > b", along("x", ("x", "1"), ("y", "1")), "with 0 for the variable"),
         (DIFFERENCE, "y^2 < a and -y > b", along("x", ("x", "1"), ("y", "1")), "with 0 for the variable"),
         (DIFFERENCE, "ex y. y^2 < a and -y > b", along("a", ("a", "1")), "existential block"),
-        (DIFFERENCE, "ex y. y^2 < a and -y > b", along("x", ("x", "1"), ("x", "1")), "each variable once"),
+        (DIFFERENCE, "ex y. y^2 < a and -y > b", along("x", ("x", "1"), ("x", "1")), "each once"),
         ("ex x. x - y > b", "-y > b", along("x", ("x", "1"), ("y", "1")), "may move"),  # y is given
         ("all x. x - y > b", "-y > b", along("x", ("x", "1")), "existential block"),
         ("ex x, y. x - y > b and (all y. y^2 > x - x)", "ex y. -y > b", along("x", ("x", "1"), ("y", "1")), ""),

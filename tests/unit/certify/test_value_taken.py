@@ -48,7 +48,7 @@ def test_a_comparison_that_can_be_met(before: str, after: str, given: str) -> No
         ("ex x. x > a or x < b", "true", "true", "one comparison with x"),
         ("ex x. x = a and b > 0", "true", "true", "not the block without"),
         ("ex x, y. x = a and y > b", "y > b", "true", "not the block without"),
-        ("all x. x = a and b > 0", "b > 0", "true", "a variable of the existential block"),
+        ("all x. x = a and b > 0", "b > 0", "true", "an existential block"),
         ("ex y. x = a and y > 0", "ex y. y > 0", "true", "a variable of the existential block"),
         ("ex x, y. y*x > b", "true", "y > 0", "do not exclude"),  # of another y
     ],

@@ -41,7 +41,7 @@ def test_terms_that_satisfy_the_block(before: str, given: str, evidence: Any) ->
         ("all x. x > a or x < b", "true", "a < b", by(MIDDLE), "block that holds"),
         ("ex x, y. y = 2*x and x = a", "true", "true", by(("x", "a - x"), ("y", "2*x - y")), "is left"),
         ("ex x. x > a", "true", "true", by(("x", "a*x - 1")), "a number as its coefficient"),
-        ("ex x. x > a", "true", "true", by(("b", "b - x")), "[variable, equation]"),
+        ("ex x. x > a", "true", "true", by(("b", "b - x")), "a variable of the block"),
         ("ex x. x^2 > a", "true", "x > a", by(("x", "x - 1")), "do not exclude"),  # of another x
     ],
 )
