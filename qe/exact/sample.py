@@ -241,7 +241,7 @@ class Fibre:
 
     def value_sign(self, q: fmpq) -> int:
         """The sign of the polynomial as given (``source``) at a rational number that is not a root of it."""
-        bits = FIRST_PRECISION
+        bits = min(self._values, default=FIRST_PRECISION)
         while True:
             with precision(bits + 16):
                 values = self._values.get(bits)
@@ -273,6 +273,8 @@ class Fibre:
         """Disjoint balls around the distinct real roots, ascending; the polynomial is not zero at the point."""
         if self._roots is not None and self._bits >= bits:
             return self._roots
+        if len(self.coefficients) > 3:  # fewer bits leave balls so wide that all roots are looked for once more
+            bits = max(bits, EXACT_FROM)
         enough = max(COUNTED_TO, 4 * bits)
         while True:
             with precision(bits + 16):

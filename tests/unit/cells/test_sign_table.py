@@ -27,7 +27,7 @@ def test_free_cells_in_their_order() -> None:
     found = list(free_cells(table("x^2 < 2", "x", ("",))))
     assert [c.path for c in found] == [(k,) for k in range(5)]
     assert [c.truth for c in found] == [False, False, True, False, False]
-    assert [c.signs[0][0] for c in found] == [1, 0, -1, 0, 1]
+    assert [c.signs for c in found] == [("+",), ("0",), ("-",), ("0",), ("+",)]
 
 
 def test_quantified_levels_are_not_walked() -> None:
@@ -37,10 +37,10 @@ def test_quantified_levels_are_not_walked() -> None:
 
 
 CELLS = [
-    FreeCell((0,), ({0: -1},), True),
-    FreeCell((1,), ({0: 0},), True),
-    FreeCell((2,), ({0: 1},), False),
-    FreeCell((3,), ({},), False),
+    FreeCell((0,), ("-",), True),
+    FreeCell((1,), ("0",), True),
+    FreeCell((2,), ("+",), False),
+    FreeCell((3,), ("",), False),
 ]
 
 
@@ -54,9 +54,9 @@ def test_literals_by_their_cells() -> None:
 
 
 def test_a_sign_that_is_not_known_covers_nothing_and_excludes_nothing() -> None:
-    cells = [FreeCell((0,), ({},), True), FreeCell((1,), ({0: 1},), True), FreeCell((2,), ({},), False)]
+    cells = [FreeCell((0,), ("",), True), FreeCell((1,), ("+",), True), FreeCell((2,), ("",), False)]
     assert SignTable([[X]], cells).literals == []
-    deeper = SignTable([[X], [Y]], [FreeCell((0,), ({0: 1},), True), FreeCell((1,), ({0: -1}, {0: 1}), False)])
+    deeper = SignTable([[X], [Y]], [FreeCell((0,), ("+",), True), FreeCell((1,), ("-", "+"), False)])
     assert all(a.poly == X for a in deeper.literals)
 
 
