@@ -8,9 +8,10 @@ factor over Q, or by a greatest common divisor over the tower), never by toleran
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
+from types import MappingProxyType
 
 from flint import arb, fmpq, fmpz_poly
 
@@ -54,6 +55,7 @@ class Isolation:
     sectors: tuple[fmpq, ...]
     signs: tuple[tuple[int, ...], ...]
     nullified: tuple[int, ...] = field(default=())
+    shapes: Mapping[Poly, Shape] = field(default_factory=dict, compare=False, repr=False)  # over the point
 
     @property
     def samples(self) -> tuple[Fraction, ...]:
@@ -97,11 +99,14 @@ class Isolation:
         return texts
 
 
-def isolate_over(point: Point, polys: tuple[Poly, ...], *, lazard: bool = False) -> Isolation:
+def isolate_over(
+    point: Point, polys: tuple[Poly, ...], *, lazard: bool = False, known: Mapping[Poly, Shape] = MappingProxyType({})
+) -> Isolation:
     """The stack of ``polys`` (in variables up to ``point.depth``) over the point.
 
     With ``lazard`` a polynomial that vanishes identically over the point contributes the roots of its Lazard
-    evaluation (McCallum, Parusiński, Păunescu 2019); its sign is 0 all the same.
+    evaluation (McCallum, Parusiński, Păunescu 2019); its sign is 0 all the same. ``known``: the ``shapes`` of another
+    stack over the point, whose roots are not looked for again.
     """
     var = point.depth
     shapes: list[Shape] = []
@@ -109,7 +114,7 @@ def isolate_over(point: Point, polys: tuple[Poly, ...], *, lazard: bool = False)
     sections: dict[tuple[object, int], Section] = {}
     loose: list[Section] = []
     for j, f in enumerate(polys):
-        shape = _specialise(point, f, var)
+        shape = known[f] if f in known else _specialise(point, f, var)
         shapes.append(shape)
         if shape is None:
             nullified.append(j)
@@ -125,7 +130,8 @@ def isolate_over(point: Point, polys: tuple[Poly, ...], *, lazard: bool = False)
         for j in section.members:
             changes[j].append(sector)
     signs = tuple(_signs(shape, sectors, own) for shape, own in zip(shapes, changes, strict=True))
-    return Isolation(point, polys, tuple(ordered), tuple(sectors), signs, tuple(nullified))
+    given = dict(zip(polys, shapes, strict=True))
+    return Isolation(point, polys, tuple(ordered), tuple(sectors), signs, tuple(nullified), given)
 
 
 def _specialise(point: Point, f: Poly, var: int) -> Shape:
