@@ -36,6 +36,13 @@ def test_quantified_levels_are_not_walked() -> None:
     assert [c.truth for c in free_cells(table("x^2 < 0", "x", ("E",)))] == [False]
 
 
+def test_signs_that_a_stack_does_not_need_are_not_known() -> None:
+    found = table("x > 0 and y > 0 or x < 0 and y + 1 > 0", "x y", ("", ""))
+    assert [str(f) for f in found.factors[1]] == ["Poly(y)", "Poly(y + 1)"]
+    signs = [c.signs for c in free_cells(found)]
+    assert signs == [*(("-", f"?{c}") for c in "-0+"), ("0",), *(("+", c) for c in "-0+")]
+
+
 CELLS = [
     FreeCell((0,), ("-",), True),
     FreeCell((1,), ("0",), True),
