@@ -59,7 +59,7 @@ def restricted_stack(
     signs = {j: [place.apparent_sign(factors[j]) for place in known.values()] for j in others}
     unsettled = [j for j in others if None in signs[j]]
     if unsettled and not core.nullified:
-        signs |= _common_stack(point, factors, own, unsettled)
+        signs |= _common_stack(core.isolation, factors, own, unsettled)
     texts: list[str] = []
     for position, text in enumerate(core.texts):
         characters = dict(zip(own, text, strict=True))
@@ -70,12 +70,12 @@ def restricted_stack(
 
 
 def _common_stack(
-    point: Point, factors: Sequence[Poly], own: tuple[int, ...], others: Sequence[int]
+    core: Isolation, factors: Sequence[Poly], own: tuple[int, ...], others: Sequence[int]
 ) -> dict[int, list[int | None]]:
-    """The signs of ``others`` on the sections of ``own``, from the stack of them all: no coordinate above the point
-    has to be computed with to prove a zero.
+    """The signs of ``others`` on the sections of ``own``, those of ``core``, from the stack of them all: no coordinate
+    above the point has to be computed with to prove a zero.
     """
-    fine = isolate_over(point, tuple(factors[j] for j in (*own, *others)))
+    fine = isolate_over(core.point, tuple(factors[j] for j in (*own, *others)), known=core.shapes)
     found: dict[int, list[int | None]] = {j: [] for j in others}
     for sector, section in enumerate(fine.sections):
         if min(section.members) < len(own):

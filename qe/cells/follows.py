@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from qe.cad.matrix import Node, compile_matrix, specialise
+from qe.cad.matrix import Node, compile_matrix, mentioned, specialise
 from qe.exact.ring import Ring
 from qe.formula.build import convert
 from qe.formula.syntax import Formula
@@ -43,10 +43,14 @@ def signs_of(stack: Stack, cell: Cell) -> dict[int, int]:
 def _agrees(cell: Cell, node: Node, level: int, free: int) -> bool:
     if cell.stack is None or level == free:
         return node is cell.truth
+    wanted = mentioned(node, level)
+    places = [(p, j) for p, j in enumerate(cell.stack.used) if j in wanted]
     known: dict[str, Node] = {}  # neighbours often have the same signs
     for below in cell.stack.cells:
-        if below.signs not in known:
-            known[below.signs] = specialise(node, level, signs_of(cell.stack, below))
-        if not _agrees(below, known[below.signs], level + 1, free):
+        spoken = "".join([below.signs[p] for p, _ in places])
+        if spoken not in known:
+            signs = {j: _VALUE[c] for (_, j), c in zip(places, spoken, strict=True) if c != "?"}
+            known[spoken] = specialise(node, level, signs)
+        if not _agrees(below, known[spoken], level + 1, free):
             return False
     return True

@@ -66,28 +66,19 @@ def _clash(cells: list[FreeCell]) -> int | None:
 
     A cell left undecomposed has no signs above its depth, so prefixes are compared as well.
     """
-    seen: dict[tuple[object, ...], FreeCell] = {}
+    seen: dict[tuple[str, ...], FreeCell] = {}
     by_depth: dict[int, list[FreeCell]] = {}
     for cell in cells:
         by_depth.setdefault(len(cell.signs), []).append(cell)
     depths = sorted(by_depth)
-    known: dict[int, tuple[tuple[int, int], ...]] = {}
-
-    def ordered(signs: Mapping[int, int]) -> tuple[tuple[int, int], ...]:
-        found = known.get(id(signs))
-        if found is None:
-            found = known[id(signs)] = tuple(sorted(signs.items()))
-        return found
-
     for depth in depths:
-        keys = [(cell, tuple(map(ordered, cell.signs))) for cell in by_depth[depth]]
-        for cell, whole in keys:
+        for cell in by_depth[depth]:
             for d in depths:
-                other = seen.get(whole[:d]) if d <= depth else None
+                other = seen.get(cell.signs[:d]) if d <= depth else None
                 if other is not None and other.truth is not cell.truth:
                     return next(k for k, (a, b) in enumerate(zip(other.path, cell.path, strict=False)) if a != b)
-        for cell, whole in keys:
-            other = seen.setdefault(whole, cell)
+        for cell in by_depth[depth]:
+            other = seen.setdefault(cell.signs, cell)
             if other.truth is not cell.truth:
                 return next(k for k, (a, b) in enumerate(zip(other.path, cell.path, strict=False)) if a != b)
     return None

@@ -10,7 +10,6 @@ from qe.exact.ring import Poly
 from qe.formula.syntax import Relation
 from qe.proof.cells import Cell, CellTable, FreeCell
 
-_VALUE = {"+": 1, "-": -1, "0": 0}
 _CHARACTER: dict[int | None, str] = {1: "+", -1: "-", 0: "0", None: "?"}
 _BITS = {own: {ord(c): "01"[c == own] for c in "+-0?"} for own in "+-0?"}
 _WEAK_FIRST = (Relation.LE, Relation.GE, Relation.NE, Relation.EQ, Relation.LT, Relation.GT)
@@ -19,21 +18,25 @@ _WEAK_FIRST = (Relation.LE, Relation.GE, Relation.NE, Relation.EQ, Relation.LT, 
 def free_cells(table: CellTable) -> Iterator[FreeCell]:
     """All cells over the free variables at which the truth value is known."""
     free = sum(q == "" for q in table.quantifiers)
-    met: dict[tuple[tuple[int, ...], str], dict[int, int]] = {}  # equal signs of a level are one object
 
-    def walk(cell: Cell, path: tuple[int, ...], signs: tuple[dict[int, int], ...]) -> Iterator[FreeCell]:
+    def walk(cell: Cell, path: tuple[int, ...], signs: tuple[str, ...]) -> Iterator[FreeCell]:
         if cell.stack is None or len(path) == free:
             assert cell.truth is not None
             yield FreeCell(path, signs, cell.truth)
             return
+        used = cell.stack.used
+        all_used = used == tuple(range(len(used)))
         for position, below in enumerate(cell.stack.cells):
-            key = cell.stack.used, below.signs
-            own = met.get(key)
-            if own is None:
-                own = met[key] = {j: _VALUE[c] for j, c in zip(*key, strict=True) if c != "?"}
+            own = (below.signs if all_used else _placed(used, below.signs)).rstrip("?")
             yield from walk(below, (*path, position), (*signs, own))
 
     return walk(table.root, (), ())
+
+
+def _placed(used: tuple[int, ...], signs: str) -> str:
+    """The signs of some factors of a level among those of all."""
+    known = dict(zip(used, signs, strict=True))
+    return "".join([known.get(j, "?") for j in range(max(used, default=-1) + 1)])
 
 
 Masks = Mapping[int | None, int]
@@ -54,7 +57,7 @@ class SignTable:
     """Bit masks over the true cells and over the false cells, one bit for all that have the same signs."""
 
     def __init__(self, factors: Sequence[Sequence[Poly]], cells: Iterable[FreeCell]) -> None:
-        listing = list({(c.truth, *map(id, c.signs)): c for c in reversed(list(cells))}.values())[::-1]
+        listing = list({(c.truth, *c.signs): c for c in reversed(list(cells))}.values())[::-1]
         self.true = [c for c in listing if c.truth]
         self.false = [c for c in listing if not c.truth]
         polys = [factor for level in factors for factor in level]
@@ -85,12 +88,9 @@ class SignTable:
 def _columns(cells: Sequence[FreeCell], factors: Sequence[Sequence[Poly]]) -> Iterator[Masks]:
     """For every factor and every sign, None for one that is not known, the cells that have it."""
     for level, polys in enumerate(factors):
-        width, rows = len(polys), dict[int, str]()
-        for cell in cells:
-            if level < len(cell.signs) and id(cell.signs[level]) not in rows:
-                signs = cell.signs[level]
-                rows[id(signs)] = "".join([_CHARACTER[signs.get(j)] for j in range(width)])
-        text = "".join([rows[id(c.signs[level])] if level < len(c.signs) else "?" * width for c in reversed(cells)])
+        width = len(polys)
+        rows = [c.signs[level] if level < len(c.signs) else "" for c in reversed(cells)]
+        text = "".join([row.ljust(width, "?") for row in rows])
         for j in range(width):
             column = text[j::width]
             yield {sign: int("0" + column.translate(_BITS[own]), 2) for sign, own in _CHARACTER.items()}

@@ -17,6 +17,10 @@ from flint import acb, acb_poly, arb, arb_poly
 from qe.exact.balls import EXACT_FROM, ball_sign
 from qe.exact.counted_roots import counted_roots
 
+FINER = 4
+"""Bits by which balls are narrower than half the precision: what is asked for is mostly just that, and a ball that
+misses it is looked for again with twice the precision."""
+
 COARSE = 64
 """Bits with which clusters are first looked for: FLINT takes longer to find closer roots, or does not."""
 
@@ -73,7 +77,7 @@ def distinct_roots(c: list[arb], bits: int, most: int | None = None) -> list[acb
     # The tolerance is absolute, and half the bits: cancellation in the coefficients costs some. Roots that are large
     # for their coefficients do not reach it at any precision, and FLINT would try for ever: hence the bound on the
     # precision, and a second call without tolerance. ``FibreRoot.ball`` asks again with more bits where it needs them.
-    for tolerance in (arb(2) ** -(bits // 2), None)[: 1 + (bits > EXACT_FROM)]:
+    for tolerance in (arb(2) ** -(bits // 2 + FINER), None)[: 1 + (bits > EXACT_FROM)]:
         with suppress(ValueError):
             return list(acb_poly(arb_poly(c)).roots(tol=tolerance, maxprec=2 * bits))
     return None
@@ -114,7 +118,7 @@ def _refined(p: acb_poly, group: list[acb], bits: int) -> list[acb]:
         x = _exact(x - p(x) / slope(x))
     if size == 1:
         return [x]
-    reach = (1 + abs(x)) * arb(2) ** -(bits // size)
+    reach = (1 + abs(x)) * arb(2) ** -(bits // size + FINER)
     return [_exact(x + acb(arb(2 * k) / size).exp_pi_i() * reach) for k in range(size)]
 
 

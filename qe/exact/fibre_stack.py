@@ -8,9 +8,10 @@ factor over Q, or by a greatest common divisor over the tower), never by toleran
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
+from types import MappingProxyType
 
 from flint import arb, fmpq, fmpz_poly
 
@@ -18,13 +19,13 @@ from qe.errors import InternalError
 from qe.exact.algebraic import RealAlgebraic, irreducible_factors, irreducible_roots
 from qe.exact.balls import EXACT_FROM, FIRST_PRECISION, lower_end, precision, upper_end
 from qe.exact.coincidence import Shape, Side, seen_to_be_equal
-from qe.exact.isolate import simplest_between
+from qe.exact.isolate import sign_at, simplest_between
 from qe.exact.lazard import lazard_evaluation
 from qe.exact.ring import Poly
 from qe.exact.sample import Fibre, FibreRoot, Point, common_fibre
 from qe.exact.univariate import from_univariate
 
-_CHARACTER = {1: "+", -1: "-", 0: "0"}
+_CHARACTER = {1: ord("+"), -1: ord("-"), 0: ord("0")}
 
 
 @dataclass(slots=True)
@@ -54,6 +55,7 @@ class Isolation:
     sectors: tuple[fmpq, ...]
     signs: tuple[tuple[int, ...], ...]
     nullified: tuple[int, ...] = field(default=())
+    shapes: Mapping[Poly, Shape] = field(default_factory=dict, compare=False, repr=False)  # over the point
 
     @property
     def samples(self) -> tuple[Fraction, ...]:
@@ -85,24 +87,26 @@ class Isolation:
 
     def sign_texts(self) -> list[str]:
         """The signs of the polynomials on every cell of the stack from below, one character of ``+-0`` each."""
-        rows = [[_CHARACTER[sign] for sign in row] for row in self.signs]
-        columns = list(zip(*rows, strict=True)) if rows else [()] * len(self.sectors)
-        texts: list[str] = []
-        for sector, column in enumerate(columns):
-            texts.append("".join(column))
-            if sector < len(self.sections):
-                own = list(column)
-                for j in self.sections[sector].members:
-                    own[j] = "0"
-                texts.append("".join(own))
+        current = bytearray(_CHARACTER[row[0]] for row in self.signs)
+        texts = [current.decode()]
+        for sector, section in enumerate(self.sections, start=1):
+            for j in section.members:
+                current[j] = _CHARACTER[0]
+            texts.append(current.decode())
+            for j in section.members:  # only their signs change
+                current[j] = _CHARACTER[self.signs[j][sector]]
+            texts.append(current.decode())
         return texts
 
 
-def isolate_over(point: Point, polys: tuple[Poly, ...], *, lazard: bool = False) -> Isolation:
+def isolate_over(
+    point: Point, polys: tuple[Poly, ...], *, lazard: bool = False, known: Mapping[Poly, Shape] = MappingProxyType({})
+) -> Isolation:
     """The stack of ``polys`` (in variables up to ``point.depth``) over the point.
 
     With ``lazard`` a polynomial that vanishes identically over the point contributes the roots of its Lazard
-    evaluation (McCallum, Parusiński, Păunescu 2019); its sign is 0 all the same.
+    evaluation (McCallum, Parusiński, Păunescu 2019); its sign is 0 all the same. ``known``: the ``shapes`` of another
+    stack over the point, whose roots are not looked for again.
     """
     var = point.depth
     shapes: list[Shape] = []
@@ -110,7 +114,7 @@ def isolate_over(point: Point, polys: tuple[Poly, ...], *, lazard: bool = False)
     sections: dict[tuple[object, int], Section] = {}
     loose: list[Section] = []
     for j, f in enumerate(polys):
-        shape = _specialise(point, f, var)
+        shape = known[f] if f in known else _specialise(point, f, var)
         shapes.append(shape)
         if shape is None:
             nullified.append(j)
@@ -121,8 +125,13 @@ def isolate_over(point: Point, polys: tuple[Poly, ...], *, lazard: bool = False)
             _collect(point, var, j, shape, sections, loose)
     ordered = _separate(point, [*sections.values(), *loose], polys, shapes)
     sectors = _sector_samples(ordered)
-    signs = tuple(_signs(shape, j, sectors, ordered) for j, shape in enumerate(shapes))
-    return Isolation(point, polys, tuple(ordered), tuple(sectors), signs, tuple(nullified))
+    changes: list[list[int]] = [[0] for _ in polys]  # the sectors that begin at one of its roots, and the first
+    for sector, section in enumerate(ordered, start=1):
+        for j in section.members:
+            changes[j].append(sector)
+    signs = tuple(_signs(shape, sectors, own) for shape, own in zip(shapes, changes, strict=True))
+    given = dict(zip(polys, shapes, strict=True))
+    return Isolation(point, polys, tuple(ordered), tuple(sectors), signs, tuple(nullified), given)
 
 
 def _specialise(point: Point, f: Poly, var: int) -> Shape:
@@ -291,19 +300,14 @@ def _sector_samples(sections: list[Section]) -> list[fmpq]:
     return samples
 
 
-def _signs(shape: Shape, j: int, sectors: list[fmpq], sections: list[Section]) -> tuple[int, ...]:
-    """The signs of polynomial j at the sector samples; between two of its own roots one evaluation is enough."""
+def _signs(shape: Shape, sectors: list[fmpq], changes: list[int]) -> tuple[int, ...]:
+    """The signs of a polynomial at the sector samples; between two of its own roots one evaluation is enough."""
     if shape is None:
         return (0,) * len(sectors)
     signs: list[int] = []
-    for k, q in enumerate(sectors):
-        if k and j not in sections[k - 1].members:
-            signs.append(signs[-1])
-        elif isinstance(shape, fmpz_poly):
-            value = shape(q)
-            signs.append(int(value > 0) - int(value < 0))
-        else:
-            signs.append(shape.value_sign(q))
+    for first, end in itertools.pairwise((*changes, len(sectors))):
+        sign = sign_at(shape, sectors[first]) if isinstance(shape, fmpz_poly) else shape.value_sign(sectors[first])
+        signs += [sign] * (end - first)
     return tuple(signs)
 
 

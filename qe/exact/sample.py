@@ -219,7 +219,7 @@ class Point:
         return below.extended(i, modulus)
 
     def __repr__(self) -> str:
-        return "Point(" + ", ".join(str(self.number(i)) for i in range(self.depth)) + ")"
+        return f"Point({', '.join(str(self.number(i)) for i in range(self.depth))})"
 
 
 class Fibre:
@@ -241,13 +241,12 @@ class Fibre:
 
     def value_sign(self, q: fmpq) -> int:
         """The sign of the polynomial as given (``source``) at a rational number that is not a root of it."""
-        bits = FIRST_PRECISION
+        bits = min(self._values, default=FIRST_PRECISION)
         while True:
             with precision(bits + 16):
-                values = self._values.get(bits)
-                if values is None:
-                    values = self._values[bits] = arb_poly([self.point.enclose(c, bits) for c in self.source])
-                sign = ball_sign(values(arb(q)))
+                if bits not in self._values:
+                    self._values[bits] = arb_poly([self.point.enclose(c, bits) for c in self.source])
+                sign = ball_sign(self._values[bits](arb(q)))
             if sign is not None:
                 return sign
             bits *= 2
@@ -273,6 +272,7 @@ class Fibre:
         """Disjoint balls around the distinct real roots, ascending; the polynomial is not zero at the point."""
         if self._roots is not None and self._bits >= bits:
             return self._roots
+        bits = max(bits, EXACT_FROM if len(self.coefficients) > 3 else bits)  # fewer: too wide, looked for again
         enough = max(COUNTED_TO, 4 * bits)
         while True:
             with precision(bits + 16):

@@ -77,11 +77,12 @@ class CellTable:
 
 @dataclass(frozen=True, slots=True)
 class FreeCell:
-    """A cell of free-variable space with a truth value; ``signs[k]`` maps factor index to sign at level k.
+    """A cell of free-variable space with a truth value; ``signs[k]``: those of the factors of level k, one character of
+    ``+-0?`` each (``?``: not known; nor are those beyond the end, so no text ends with it).
 
     ``path`` are the positions from the root. A cell left undecomposed at a lower depth stands for its cylinder.
     """
 
     path: tuple[int, ...]
-    signs: tuple[dict[int, int], ...]
+    signs: tuple[str, ...]
     truth: bool

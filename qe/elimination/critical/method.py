@@ -334,8 +334,7 @@ def _owners(boundary: frozenset[Poly], factors: Sequence[Sequence[Poly]], cells:
 
 
 def _free_cell(cell: OpenCell) -> FreeCell:
-    signs = tuple({j: 1 if c == "+" else -1 for j, c in enumerate(text)} for text in cell.signs)
-    return FreeCell(tuple(2 * k for k in cell.path), signs, cell.truth)
+    return FreeCell(tuple(2 * k for k in cell.path), cell.signs, cell.truth)
 
 
 def cheapest_order(polys: Sequence[Poly], names: tuple[str, ...], budget: Budget) -> tuple[str, ...]:

@@ -27,7 +27,7 @@ def test_free_cells_in_their_order() -> None:
     found = list(free_cells(table("x^2 < 2", "x", ("",))))
     assert [c.path for c in found] == [(k,) for k in range(5)]
     assert [c.truth for c in found] == [False, False, True, False, False]
-    assert [c.signs[0][0] for c in found] == [1, 0, -1, 0, 1]
+    assert [c.signs for c in found] == [("+",), ("0",), ("-",), ("0",), ("+",)]
 
 
 def test_quantified_levels_are_not_walked() -> None:
@@ -36,11 +36,18 @@ def test_quantified_levels_are_not_walked() -> None:
     assert [c.truth for c in free_cells(table("x^2 < 0", "x", ("E",)))] == [False]
 
 
+def test_signs_that_a_stack_does_not_need_are_not_known() -> None:
+    found = table("x > 0 and y > 0 or x < 0 and y + 1 > 0", "x y", ("", ""))
+    assert [str(f) for f in found.factors[1]] == ["Poly(y)", "Poly(y + 1)"]
+    signs = [c.signs for c in free_cells(found)]
+    assert signs == [*(("-", f"?{c}") for c in "-0+"), ("0",), *(("+", c) for c in "-0+")]
+
+
 CELLS = [
-    FreeCell((0,), ({0: -1},), True),
-    FreeCell((1,), ({0: 0},), True),
-    FreeCell((2,), ({0: 1},), False),
-    FreeCell((3,), ({},), False),
+    FreeCell((0,), ("-",), True),
+    FreeCell((1,), ("0",), True),
+    FreeCell((2,), ("+",), False),
+    FreeCell((3,), ("",), False),
 ]
 
 
@@ -54,9 +61,9 @@ def test_literals_by_their_cells() -> None:
 
 
 def test_a_sign_that_is_not_known_covers_nothing_and_excludes_nothing() -> None:
-    cells = [FreeCell((0,), ({},), True), FreeCell((1,), ({0: 1},), True), FreeCell((2,), ({},), False)]
+    cells = [FreeCell((0,), ("",), True), FreeCell((1,), ("+",), True), FreeCell((2,), ("",), False)]
     assert SignTable([[X]], cells).literals == []
-    deeper = SignTable([[X], [Y]], [FreeCell((0,), ({0: 1},), True), FreeCell((1,), ({0: -1}, {0: 1}), False)])
+    deeper = SignTable([[X], [Y]], [FreeCell((0,), ("+",), True), FreeCell((1,), ("-", "+"), False)])
     assert all(a.poly == X for a in deeper.literals)
 
 

@@ -133,3 +133,14 @@ def test_a_nullified_polynomial_whose_lazard_evaluation_shares_a_root() -> None:
     point = isolate_over(Point(ring), (a**2 - 2,)).sample(3)
     found = isolate_over(point, (f, g), lazard=True)
     assert [tuple(s.members) for s in found.sections] == [(0, 1), (0, 1)] and found.nullified == (0,)
+
+
+@settings(max_examples=10)
+@given(TOWERS, st.lists(st.integers(0, 3), min_size=3, max_size=3))
+def test_a_stack_by_the_shapes_of_another_one(tower: tuple[Poly, ...], which: list[int]) -> None:
+    point = over(tower, which)
+    f, g = (X**2 - C) * (X - B), X**4 - A * X - B
+    core = isolate_over(point, (g,))
+    found, fresh = isolate_over(point, (g, f), known=core.shapes), isolate_over(point, (g, f))
+    assert found.shapes[g] is core.shapes[g] is not fresh.shapes[g]
+    assert found.sign_texts() == fresh.sign_texts() and shape_of(found) == shape_of(fresh)
