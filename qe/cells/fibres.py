@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from functools import lru_cache
 
 from qe.cells.interval import Interval, Number
@@ -40,6 +41,18 @@ def any_true(cell: Cell) -> bool:
     if cell.stack is None:
         return cell.truth is True
     return any(any_true(c) for c in cell.stack.cells)
+
+
+def first_shadow(table: CellTable) -> CellTable:
+    """The projection onto the first variable of the set of a table without quantifiers: over a cell of its stack
+    either all points have one of the set above them, or none."""
+    root, ring = table.root, Ring.of(table.order[:1])
+    if root.stack is not None:
+        root = replace(
+            root, stack=replace(root.stack, cells=tuple(Cell(c.signs, any_true(c)) for c in root.stack.cells))
+        )
+    factors = tuple(tuple(f.convert(ring) for f in level) for level in table.factors[:1])
+    return CellTable(table.order[:1], ("",), table.matrix, table.projection, factors, root)
 
 
 def _stack_over(table: CellTable, cell: Cell, point: Point) -> Isolation:

@@ -88,7 +88,6 @@ def universal_evidence(claim: Claim, order: Sequence[str], options: Options, bud
     names = tuple(order)
     parts, outer = read_parts(claim, names), Ring.of(names)
     holds = convert(normal(claim.after), outer)
-    regular = _table(normal(claim.after), outer, False, claim, options, budget)
     chains, walls = [], dict[Poly, None]()
     for start in (start for part in parts for start in part.critical()):
         found = chain(start, len(names), bool, budget)
@@ -98,6 +97,7 @@ def universal_evidence(claim: Claim, order: Sequence[str], options: Options, bud
         chains.append(rows)
         divisor = common(vanishing(start, Entry(rows, "chain"), len(names), parts[0].poly.ring))
         walls.update(dict.fromkeys(f.convert(outer) for f, _ in divisor.factors()[1]))
+    regular = _table(normal(claim.after), outer, False, claim, options, budget)
     answer = [f for p in polynomials(holds) for f, _ in p.factors()[1]]
     levels = factor_lists([*walls, *answer], len(names), Projection.BROWN_MCCALLUM, budget, frozenset())
     exceptions: list[tuple[int, Fraction]] = []

@@ -13,7 +13,7 @@ from qe.arguments import by_name, by_place, instance, name, ratio, seconds
 from qe.arguments import path as name_of_file
 from qe.arguments import point as point_of
 from qe.cad.decompose import decompose
-from qe.cells.fibres import any_true, fibre_of
+from qe.cells.fibres import any_true, fibre_of, first_shadow
 from qe.cells.interval import Coordinate, Interval, Number, number_of
 from qe.cells.pieces import Piece, merge
 from qe.cells.sampled_cells import Place, coordinates, free_part, leaves
@@ -250,10 +250,13 @@ class Region(SetOperations):
     def _bounded(self, variable: str) -> Interval:
         if self.is_empty:
             raise InputError("an empty region has no bounds")
-        order = (variable, *(v for v in reversed(self.order) if v != variable))
-        quantifiers = ("", *("E" for _ in order[1:]))
-        table = decompose(self.formula, order, quantifiers, budget=self._current()).table
-        pieces = merge(free_part(table), budget=self._current())
+        if variable == self.order[0] and self._table is not None:
+            shadow = first_shadow(self.table)
+        else:
+            order = (variable, *(v for v in reversed(self.order) if v != variable))
+            quantifiers = ("", *("E" for _ in order[1:]))
+            shadow = free_part(decompose(self.formula, order, quantifiers, budget=self._current()).table)
+        pieces = merge(shadow, budget=self._current())
         first, last = pieces[0].ranges[0], pieces[-1].ranges[0]
         lower = None if first.lower is None else _value(first.lower.value)
         upper = None if last.upper is None else _value(last.upper.value)

@@ -9,12 +9,17 @@ from itertools import islice
 
 import pytest
 from flint import fmpz_poly
-from hypothesis import assume, given
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from qe.cad.decompose import decompose
 from qe.certify.arithmetic.fibre import AlgebraicFibre, fibre
-from qe.certify.arithmetic.sturm import count_real_roots, count_roots_between, sylvester_determinant
+from qe.certify.arithmetic.sturm import (
+    _count_by_enclosure,
+    count_real_roots,
+    count_roots_between,
+    sylvester_determinant,
+)
 from qe.certify.arithmetic.triangular import ORIGIN, Coordinate
 from qe.certify.verify import verify
 from qe.errors import BudgetExceeded
@@ -125,6 +130,19 @@ def test_sturm_counts_what_isolation_finds(f: list[int], g: list[int], low: Frac
     if p.degree() > 0 and not any(r.compare(s) == 0 for r in roots for s in map(_number, (low, high))):
         inside = [r for r in roots if _number(low) < r < _number(high)]
         assert count_roots_between(p, low, high) == len(inside)
+
+
+@settings(max_examples=20)
+@given(st.lists(st.integers(-9, 9), min_size=1, max_size=4), st.integers(21, 27))
+def test_roots_of_long_polynomials_are_enclosed_as_they_are(f: list[int], count: int) -> None:
+    """With coefficients rounded to the working precision no enclosure told the roots of 1, 2, 3, … apart."""
+    p = fmpz_poly(f)
+    assume(p)
+    for k in range(1, count):
+        p *= fmpz_poly([-10 * k, 1])
+    p /= p.gcd(p.derivative())
+    assert p.degree() * p.height_bits() > 1500
+    assert _count_by_enclosure(p) == len(real_roots(p))
 
 
 def _number(x: Fraction):  # type: ignore[no-untyped-def]

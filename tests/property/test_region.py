@@ -47,6 +47,14 @@ def test_samples_and_certificate(formula) -> None:
     assert Region.from_json(region.to_json()).table == region.table
 
 
+@settings(max_examples=30)
+@given(formulas(names=("x", "y"), max_degree=2))
+def test_bounds_of_the_first_variable_are_read_off_the_table(formula) -> None:
+    region = Region.of(formula, ("x", "y"))
+    if not region.is_empty:
+        assert region.bounds("x") == Region.of(formula, ("y", "x")).bounds("x")
+
+
 @settings(max_examples=40)
 @given(st.lists(st.tuples(*[st.integers(-2, 2)] * 4), min_size=1, max_size=3), points(("x", "y", "z")))
 def test_balls(balls, point) -> None:

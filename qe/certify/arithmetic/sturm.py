@@ -107,7 +107,9 @@ def vanishes_on(p: fmpz_poly, low: Fraction, high: Fraction, check: Callable[[],
 
 def _count_by_enclosure(p: fmpz_poly) -> int | None:
     """Distinct real roots of a squarefree p from disjoint balls around all complex roots; None if that fails."""
-    roots = complex_enclosures(acb_poly(p), 20_000)
+    with precision(FIRST_PRECISION + p.height_bits()):  # no coefficient is rounded: no search is finer than they are
+        exactly = acb_poly(p)
+    roots = complex_enclosures(exactly, 20_000)
     return None if roots is None else real_among(roots)
 
 
