@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
-from functools import cached_property
 from typing import Any
 
 import qe
@@ -45,18 +44,18 @@ def above_label(point: str) -> str:
     return f"{point} above the table"
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class Gap:
     """Whether control points that the printed formula (8) allows can lie below the table {z = 0}.
 
     ``example``: control points that the formula allows, one of them below the table, or None when there are none.
-    ``corrected``: the conditions on Q1 with z >= 0 added for all control points, where there is a gap, or their region.
-    ``chosen``: what was found out about z >= 0 along the curves of the chosen path. ``certificates``: of the example,
-    or that the formula keeps each control point above the table. ``answers``: of the engine, by what was asked.
+    ``region``: the region with z >= 0 added for all control points, where there is a gap. ``chosen``: what was
+    found out about z >= 0 along the curves of the chosen path. ``certificates``: of the example, or that the formula
+    keeps each control point above the table. ``answers``: of the engine, by what was asked.
     """
 
     example: Mapping[str, Vector] | None
-    corrected: Formula | qe.Region | None
+    region: Any | None
     chosen: tuple[Proof, ...]
     certificates: tuple[tuple[str, qe.Certificate], ...] = ()
     answers: Mapping[str, Any] = field(default_factory=dict)
@@ -65,12 +64,6 @@ class Gap:
     def can_leave(self) -> bool:
         """Whether some allowed control point lies below the table."""
         return self.example is not None
-
-    @cached_property
-    def region(self) -> qe.Region | None:
-        """The region of ``corrected``; decomposed when it is asked for: the path does not need it."""
-        found = self.corrected
-        return qe.region(found, order=quadratic.FREE) if isinstance(found, Formula) else found
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, repr=False)
@@ -146,7 +139,8 @@ def _gap(problem: Problem, region: Any, path: Path | None, clock: Clock) -> Gap:
     if problem.workspace.kind is WorkspaceKind.HEMISPHERE:
         return Gap(example, region, chosen, shown, {TABLE: asked})
     answer = answered(qe.eliminate(quadratic.corrected(problem).statement().formula, timeout=clock.remaining()))
-    return Gap(example, answer.formula, chosen, shown, {TABLE: asked, CORRECTED: answer})
+    smaller = qe.region(answer.formula, order=quadratic.FREE, timeout=clock.remaining())
+    return Gap(example, smaller, chosen, shown, {TABLE: asked, CORRECTED: answer})
 
 
 def above_certificates(problem: Problem, clock: Clock) -> Iterator[tuple[str, qe.Certificate]]:
