@@ -9,6 +9,7 @@ import sys
 import warnings
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 from hypothesis import HealthCheck, settings
@@ -29,16 +30,26 @@ settings.register_profile("explore", max_examples=400, **_COMMON)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "ci"))
 
 
+FAR = 5.0
+"""Seconds: a longer limit is there for a fault; that it is met is no part of the test."""
+
+
 @pytest.fixture(autouse=True, scope="module")
 def work_moves_later(request: pytest.FixtureRequest) -> Iterator[None]:
     """Work of up to a second stays in its process, except in tests that are marked to be about processes.
 
     A process that has collected all tests takes as long to fork as many a question to answer, and what the child loads
-    is loaded again by the next one.
+    is loaded again by the next one. Limits that are far away hold all the same: work that takes longer moves.
     """
+    performed = execution._performed
+
+    def later(work: Any, limits: execution.Limits, at_once: bool, kept: list[Any]) -> Any:
+        return performed(work, limits, at_once and limits.timeout is not None and limits.timeout < FAR, kept)
+
     with pytest.MonkeyPatch.context() as patch:
         if request.node.get_closest_marker("processes") is None:
             patch.setattr(execution, "HERE", 1.0)
+            patch.setattr(execution, "_performed", later)
         yield
 
 

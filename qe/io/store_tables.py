@@ -5,18 +5,19 @@ from __future__ import annotations
 from qe.io import lalr, qepcad, redlog, smtlib_parser, text_parser
 
 GRAMMARS = {
-    "text": text_parser.GRAMMAR,
-    "qepcad": qepcad.GRAMMAR,
-    "redlog": redlog.GRAMMAR,
-    "smtlib": smtlib_parser.GRAMMAR,
+    "text": (text_parser.GRAMMAR, "start"),
+    "text_term": (text_parser.GRAMMAR, "term"),
+    "qepcad": (qepcad.GRAMMAR, "start"),
+    "redlog": (redlog.GRAMMAR, "start"),
+    "smtlib": (smtlib_parser.GRAMMAR, "start"),
 }
-START = "start"
+"""By the name of its tables: the grammar, and where it starts."""
 
 
 def main() -> None:
     """Store every table."""
-    for name, grammar in GRAMMARS.items():
-        lalr.store(name, grammar, START)
+    for name, (grammar, start) in GRAMMARS.items():
+        lalr.store(name, grammar, start)
 
 
 if __name__ == "__main__":

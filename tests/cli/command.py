@@ -17,6 +17,8 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import IO
 
+import pydantic
+
 import bezier.check.recheck
 import bezier.planner.command
 import bezier.planner.outputs
@@ -27,6 +29,7 @@ from bezier.cli import main as bezier_main
 from qe.cli.app import main as qe_main
 
 LOADED = (
+    pydantic.TypeAdapter,
     bezier.check.recheck,
     bezier.planner.command,
     bezier.planner.outputs,

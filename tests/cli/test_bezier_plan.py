@@ -75,7 +75,7 @@ def test_the_page_is_whole_and_needs_nothing_else(main_example: Path) -> None:
 
 
 def test_the_certificates_hold(main_example: Path) -> None:
-    assert command.in_a_shell(QE, "check", main_example / "certificate.json").returncode == 0
+    assert run("check", main_example / "certificate.json", program=QE).returncode == 0
     process = command.in_a_shell(BEZIER, "check", main_example)
     assert process.returncode == 0 and "C1 at every join" in process.stdout
 

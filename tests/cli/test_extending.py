@@ -50,7 +50,7 @@ def patched(before: str, change: str) -> str:
 def tree(tmp_path_factory: pytest.TempPathFactory) -> Path:
     place = tmp_path_factory.mktemp("tree")
     for package in ("qe", "bezier", "paper_repro", "experiments"):
-        shutil.copytree(ROOT / package, place / package, ignore=shutil.ignore_patterns("__pycache__"))
+        shutil.copytree(ROOT / package, place / package, ignore=shutil.ignore_patterns("*.pyc.*"))  # compiled ones, too
     for language, text in BLOCKS:
         if language in ("python", "toml"):
             name, rest = named(text)

@@ -14,7 +14,7 @@ from lark.exceptions import UnexpectedToken as LarkUnexpectedToken
 from lark.lexer import Lexer
 
 from qe.io import lalr
-from qe.io.store_tables import GRAMMARS, START
+from qe.io.store_tables import GRAMMARS
 
 NAMES = sorted(GRAMMARS)
 
@@ -48,13 +48,15 @@ def words(text: str, token: Any) -> Any:
 
 @cache
 def both(name: str) -> tuple[Lark, lalr.Parser]:
-    reference = Lark(GRAMMARS[name], parser="lalr", lexer=Split, transformer=Recorder(), maybe_placeholders=False)
-    return reference, lalr.Parser(lalr.tables(name, GRAMMARS[name], START), words, Recorder())
+    grammar, start = GRAMMARS[name]
+    options: dict[str, Any] = {"lexer": Split, "transformer": Recorder(), "maybe_placeholders": False}
+    reference = Lark(grammar, parser="lalr", start=start, **options)
+    return reference, lalr.Parser(lalr.tables(name, grammar, start), words, Recorder())
 
 
 @cache
 def terminals(name: str) -> list[str]:
-    return sorted({key for state in lalr.computed(GRAMMARS[name], START).states for key in state if key.isupper()})
+    return sorted({key for state in lalr.computed(*GRAMMARS[name]).states for key in state if key.isupper()})
 
 
 def outcome(parse: Any, text: str) -> tuple[object, ...]:
@@ -70,17 +72,18 @@ def outcome(parse: Any, text: str) -> tuple[object, ...]:
 
 @pytest.mark.parametrize("name", NAMES)
 def test_stored_tables_are_current(name: str) -> None:
-    stored = lalr.stored(name, GRAMMARS[name], START)
-    assert stored == lalr.computed(GRAMMARS[name], START), "run python -m qe.io.store_tables"
+    stored = lalr.stored(name, *GRAMMARS[name])
+    assert stored == lalr.computed(*GRAMMARS[name]), "run python -m qe.io.store_tables"
 
 
 @pytest.mark.parametrize("name", NAMES)
 def test_tables_of_another_grammar_are_not_used(name: str) -> None:
-    changed = GRAMMARS[name] + "\n"
-    assert lalr.stored(name, changed, START) is None
-    assert lalr.stored(name, GRAMMARS[name], "sum") is None
-    assert lalr.stored("nothing", GRAMMARS[name], START) is None
-    assert lalr.tables(name, changed, START) == lalr.computed(GRAMMARS[name], START)
+    grammar, start = GRAMMARS[name]
+    changed = grammar + "\n"
+    assert lalr.stored(name, changed, start) is None
+    assert lalr.stored(name, grammar, "sum") is None
+    assert lalr.stored("nothing", grammar, start) is None
+    assert lalr.tables(name, changed, start) == lalr.computed(grammar, start)
 
 
 @pytest.mark.parametrize("name", NAMES)
