@@ -63,9 +63,11 @@ class WithoutLocals:
 
 
 def without_locals(problem: Problem, options: Options, eliminate: Eliminate) -> WithoutLocals | None:
-    """An existential sentence without those local variables whose conditions do not grow; None where there are none."""
+    """An existential sentence, or the dual of a universal one, without local variables whose conditions do not grow;
+    None where there are none."""
     if hopeless_cases(problem, options) is None or any(p.total_degree > 1 for p in polynomials(problem.body)):
         return None
+    problem = problem.dual
     for most in SHARED_BY:
         found = [
             (own, parts, shorter)

@@ -152,12 +152,11 @@ class _Run:
         """A sentence by one without its local variables (``qe.engine.local``)."""
         if self.options.method is not Method.AUTO or Stage.MINISCOPING in self.options.without:
             return None
-        dual = problem.dual
-        shorter = without_locals(dual, self.options, self.shortly)
+        shorter = without_locals(problem, self.options, self.shortly)
         if shorter is None:
             return None
         if problem.universal:
-            self.log.step("duality", problem.formula, negated(dual.formula))
+            self.log.step("duality", problem.formula, negated(problem.dual.formula))
         self.log.take_up(shorter.steps)
         found = self.question(shorter.formula)
         known = shorter.values(found, lambda sentence: self.apart(sentence, self.budget))

@@ -64,8 +64,10 @@ def test_values_of_local_variables_satisfy_their_conditions() -> None:
 
 def test_a_universal_sentence_by_its_negation() -> None:
     sentence = diamonds(12, "x12 < x0")
-    answer = qe.eliminate(forall(sentence.variables, nnf(sentence.body, negate=True)), timeout=120)
-    assert answer.truth
+    question = forall(sentence.variables, nnf(sentence.body, negate=True))
+    answer = qe.eliminate(question, check=True, timeout=120)
+    assert (answer.truth, answer.unchecked_steps) == (True, ())
+    assert answer.certificate is not None and qe.verify(answer.certificate, formula=question).accepted
 
 
 def test_one_impossible_condition_refutes_the_sentence() -> None:
