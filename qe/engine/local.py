@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from qe.elimination.protocol import Outcome, Problem
-from qe.engine.conditions import hopeless_cases
+from qe.engine.conditions import has_cases, hopeless_cases
 from qe.exact.number import Values
 from qe.formula.build import conj, exists
 from qe.formula.evaluate import substituted
@@ -23,8 +23,11 @@ from qe.options import Options
 from qe.proof.step import Nested, Step
 from qe.rules.step import StepKind
 
-MOST_ATOMS = 24
-"""Conditions with more comparisons are left to the search."""
+MOST_ATOMS = 8
+"""Conditions with more comparisons are left to the search: what they have to say of the others takes longer to find."""
+
+WORK = 200
+"""Units of work for the variables of one condition."""
 
 SHARED_BY = 1, 2
 """Variables of one condition first; where there are none, of two."""
@@ -76,8 +79,15 @@ def without_locals(problem: Problem, options: Options, eliminate: Eliminate) -> 
         ]
         if found:
             false = [one for one in found if one[2].answer == FALSE]
-            return _without(problem, false[:1] or found)
+            shorter = _without(problem, false[:1] or found)
+            return shorter if shorter is not None and _is_left_to_search(shorter.formula, options) else None
     return None
+
+
+def _is_left_to_search(formula: Formula, options: Options) -> bool:
+    """Whether no cases are left, or still so many that the search takes them: a few are slower for other methods."""
+    left = Problem.of(formula)
+    return left is None or not has_cases(left) or hopeless_cases(left, options) is not None
 
 
 def _local(problem: Problem, most: int) -> Iterator[tuple[tuple[str, ...], list[Formula]]]:

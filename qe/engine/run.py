@@ -15,8 +15,8 @@ from fractions import Fraction
 from qe.elimination.protocol import Context, Outcome, Problem
 from qe.engine.early import early_parts, equations
 from qe.engine.finish import settled, shortened
-from qe.engine.local import without_locals
-from qe.engine.strategy import PROBE, SHORTCUT, SPARE, Attempt, Scope, alone, attempts, complete
+from qe.engine.local import WORK, without_locals
+from qe.engine.strategy import SHORTCUT, SPARE, Attempt, Scope, alone, attempts, complete
 from qe.errors import Unable
 from qe.exact.number import Values
 from qe.exact.ring import Ring
@@ -166,7 +166,7 @@ class _Run:
         """A block with parameters eliminated, if that takes little work and the answer need not be made shorter."""
         options = self.options.with_(without=self.options.without | {Stage.SHORTENING})
         try:
-            return self.decision(block, Context(options, self.budget.part(PROBE), self.log))
+            return self.decision(block, Context(options, self.budget.part(WORK), self.log))
         except Unable:
             self.budget.check("local variables")
             return None
