@@ -79,8 +79,8 @@ def without_locals(problem: Problem, options: Options, eliminate: Eliminate) -> 
         ]
         if found:
             false = [one for one in found if one[2].answer == FALSE]
-            shorter = _without(problem, false[:1] or found)
-            return shorter if shorter is not None and _is_left_to_search(shorter.formula, options) else None
+            made = _without(problem, false[:1] or found)
+            return made if made is not None and _is_left_to_search(made.formula, options) else None
     return None
 
 
