@@ -1,7 +1,8 @@
 """Rule "nested blocks of one kind gathered": quantifiers of one kind are drawn together.
 
 THEOREM. ex x (f and ex y g) iff ex x, y (f and g), for y that are not free in f and not among x; dually all x (f or all
-y g) iff all x, y (f or g). Several blocks are opened one after the other, each beside what stands there by then.
+y g) iff all x, y (f or g). Several blocks are opened one after the other, each beside what stands there by then. Either
+side may stand before: then variables move inwards.
 """
 
 from __future__ import annotations
@@ -18,6 +19,8 @@ def check_gathering(claim: Claim, context: Context, limits: Limits) -> None:
     before, after = claim.before, claim.after
     if not isinstance(before, Exists | ForAll) or type(after) is not type(before):
         raise claim.fail("expected two blocks of one kind")
+    if len(after.variables) < len(before.variables):
+        before, after = after, before
     split, join = (conjuncts, conj) if isinstance(before, Exists) else (disjuncts, disj)
     names, pending, parts = set(before.variables), list(split(before.body)), list[Formula]()
     while pending:

@@ -83,6 +83,11 @@ def hopeless_cases(problem: Problem, options: Options) -> str | None:
     return f"a sentence with {cases} case distinctions, too many for other methods"
 
 
+def has_cases(problem: Problem) -> bool:
+    """Whether a sentence of one block has disjunctions."""
+    return _cases(problem) > 0
+
+
 def _cases(problem: Problem) -> int:
     """The disjunctions in a sentence of one block that may be searched; 0 for any other."""
     if problem.free or not problem.is_flat:

@@ -15,6 +15,7 @@ from fractions import Fraction
 from qe.elimination.protocol import Context, Outcome, Problem
 from qe.engine.early import early_parts, equations
 from qe.engine.finish import settled, shortened
+from qe.engine.local import WORK, without_locals
 from qe.engine.strategy import SHORTCUT, SPARE, Attempt, Scope, alone, attempts, complete
 from qe.errors import Unable
 from qe.exact.number import Values
@@ -24,7 +25,7 @@ from qe.formula.counting import without_root_atoms
 from qe.formula.features import features
 from qe.formula.normal import nnf, rename_apart
 from qe.formula.syntax import FALSE, TRUE, And, Constant, Exists, ForAll, Formula, Not, Or
-from qe.options import Budget, Options, Stage
+from qe.options import Budget, Method, Options, Stage
 from qe.proof.answer import Answer, Status
 from qe.proof.derivation import negated
 from qe.proof.run_log import RunLog
@@ -108,7 +109,9 @@ class _Run:
     def question(self, formula: Formula) -> Outcome:
         """The answer; for sentences that begin with a quantifier also a witness or counterexample."""
         problem, mark = Problem.of(formula), self.log.mark()
-        found = None if problem is None else self.first_of(Scope.ASKED, problem)
+        found = None
+        if problem is not None:
+            found = self.by_local_variables(problem) or self.first_of(Scope.ASKED, problem)
         if found is None and problem is not None and not problem.free:
             found = self.sentence(problem)
             if found.witness is not None:
@@ -144,6 +147,29 @@ class _Run:
         except Unable as error:
             self.log.switch("no witness", error)
             return Outcome(truth)
+
+    def by_local_variables(self, problem: Problem) -> Outcome | None:
+        """A sentence by one without its local variables (``qe.engine.local``)."""
+        if self.options.method is not Method.AUTO or Stage.MINISCOPING in self.options.without:
+            return None
+        shorter = without_locals(problem, self.options, self.shortly)
+        if shorter is None:
+            return None
+        if problem.universal:
+            self.log.step("duality", problem.formula, negated(problem.dual.formula))
+        self.log.take_up(shorter.steps)
+        found = self.question(shorter.formula)
+        known = shorter.values(found, lambda sentence: self.apart(sentence, self.budget))
+        return Outcome(problem.asked(found.formula), known)
+
+    def shortly(self, block: Formula) -> Nested | None:
+        """A block with parameters eliminated, if that takes little work and the answer need not be made shorter."""
+        options = self.options.with_(without=self.options.without | {Stage.SHORTENING})
+        try:
+            return self.decision(block, Context(options, self.budget.part(WORK), self.log))
+        except Unable:
+            self.budget.check("local variables")
+            return None
 
     def formula(self, formula: Formula) -> Outcome:
         """A formula with parameters, or one that does not begin with a quantifier."""

@@ -7,7 +7,7 @@ infinitesimal: values are pairs (a, b) for a + b*delta, compared lexicographical
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Mapping
+from collections.abc import Callable, Hashable, Iterable, Mapping
 from fractions import Fraction
 
 from flint import fmpq
@@ -29,6 +29,7 @@ class LinearBounds:
         self.values: list[Value] = []
         self.lower: dict[int, Bound] = {}
         self.upper: dict[int, Bound] = {}
+        self.stuck: tuple[int, bool] | None = None
 
     def variable(self) -> int:
         """A new variable."""
@@ -86,7 +87,7 @@ class LinearBounds:
 
         No reason can be left out of them as long as the row stands. ``check`` is called between pivots.
         """
-        pivots = 0
+        pivots, self.stuck = 0, None
         while True:
             check()
             broken = self._broken(greedy=pivots < _GREEDY)
@@ -96,10 +97,41 @@ class LinearBounds:
             row = self.rows[x]
             open_ones = [y for y, c in row.items() if self._may_move(y, up == (c > 0))]
             if not open_ones:
-                own = self.lower[x] if up else self.upper[x]
-                return {own[1]} | {(self.upper if up == (c > 0) else self.lower)[y][1] for y, c in row.items()}
+                self.stuck = x, up
+                return {(self.upper if above else self.lower)[y][1] for y, above, _ in self._contradiction(x, up)}
             self._pivot(x, min(open_ones), wanted)
             pivots += 1
+
+    def weakened(self, offered: Callable[[int, bool], Iterable[tuple[Fraction, bool, Hashable]]]) -> set[Hashable]:
+        """After a conflict on a row: reasons that contradict each other as well, each bound exchanged for the first of
+        those ``offered`` (of a variable, upper ones or lower ones: bound, strict, reason) with which the row still
+        contradicts itself.
+
+        The sum of the bounds of a row, each times its coefficient, is negative; it grows by what a bound moves. Bounds
+        that can move only a little come first, so that in a sum of 2^k*x_k those of large k stay.
+        """
+        assert self.stuck is not None
+        terms = self._contradiction(*self.stuck)
+        total = _ZERO, _ZERO
+        moves: list[list[tuple[Value, Hashable]]] = []
+        for y, above, c in terms:
+            (a, b), reason = (self.upper if above else self.lower)[y]
+            total = total[0] + c * a, total[1] + c * b
+            one = -_ONE if above else _ONE
+            others = [
+                ((c * (fmpq(p.numerator, p.denominator) - a), c * (strict * one - b)), other)
+                for p, strict, other in offered(y, above)
+            ]
+            weaker = [] if reason is None else [move for move in others if move[0] >= (_ZERO, _ZERO)]
+            moves.append([*weaker, ((_ZERO, _ZERO), reason)])
+        found: set[Hashable] = set()
+        for choices in sorted(moves, key=lambda choices: choices[0][0]):
+            (p, q), reason = next(
+                ((p, q), other) for (p, q), other in choices if (total[0] + p, total[1] + q) < (_ZERO, _ZERO)
+            )
+            total = total[0] + p, total[1] + q
+            found.add(reason)
+        return found
 
     def side(self, x: int, bound: Fraction) -> int:
         """The sign of x - bound for the present value of x."""
@@ -118,6 +150,12 @@ class LinearBounds:
         return [Fraction(int(v.p), int(v.q)) for v in moved]
 
     # --- steps -------------------------------------------------------------------------------------
+    def _contradiction(self, x: int, up: bool) -> list[tuple[int, bool, fmpq]]:
+        """The bounds that contradict each other on the row of x: variables, whether it is the upper bound, and the
+        coefficient (negative for lower bounds)."""
+        sign = _ONE if up else -_ONE
+        return [(x, not up, -sign), *((y, up == (c > 0), sign * c) for y, c in self.rows[x].items())]
+
     def _may_move(self, y: int, up: bool) -> bool:
         if up:
             return y not in self.upper or self.values[y] < self.upper[y][0]

@@ -56,6 +56,7 @@ FAMILIES: dict[str, Callable[[random.Random], str]] = {
     "z3": _formula,
     "alternations": _alternation,
     "linear": _script(scripts.linear_script),
+    "local": _script(scripts.local_script),
     "terms": _script(scripts.term_script),
     "levels": _script(scripts.level_script),
     "sharing": _script(scripts.sharing_script),

@@ -84,6 +84,21 @@ def linear_script(rng: random.Random) -> str:
     return _script(names, [*(f"(declare-const {p} Bool)" for p in symbols), *parts, "(check-sat)"])
 
 
+def local_script(rng: random.Random) -> str:
+    """12 to 16 case distinctions over a few variables, most with variables of their own or of two of them."""
+    shared, own, parts = NAMES[: rng.randint(2, 4)], [f"l{k}" for k in range(12)], []
+    for k in range(rng.randint(12, 16)):
+        names = (
+            *rng.sample(shared, 2),
+            own[k % len(own)],
+            *([own[k - 1]] if 0 < k < 12 and rng.random() < 0.2 else []),
+        )
+        cases = [" ".join(random_sum(rng, names) for _ in range(rng.randint(1, 3))) for _ in range(rng.randint(2, 3))]
+        parts.append(f"(assert (or {' '.join(f'(and {case})' for case in cases)}))")
+    parts += [f"(assert {random_sum(rng, shared)})" for _ in range(rng.randint(0, 4))]
+    return _script((*shared, *own), [*parts, "(check-sat)"])
+
+
 def level_script(rng: random.Random) -> str:
     """Assertions and checks on several levels, and checks under assumptions."""
     names = NAMES[: rng.randint(1, 3)]

@@ -16,7 +16,7 @@ def test_no_answer_differs(first: int) -> None:
     assert counts["agree"] >= 15
 
 
-@pytest.mark.parametrize("family", ["alternations", "linear", "terms", "levels", "sharing"])
+@pytest.mark.parametrize("family", ["alternations", "linear", "local", "terms", "levels", "sharing"])
 def test_no_answer_of_a_family_differs(family: str) -> None:
     counts, wrong = block([f"{family} {i}" for i in range(8)])
     assert not wrong
@@ -24,7 +24,7 @@ def test_no_answer_of_a_family_differs(family: str) -> None:
 
 
 @pytest.mark.deep
-@pytest.mark.parametrize("family", ["alternations", "linear", "terms", "levels", "sharing"])
+@pytest.mark.parametrize("family", ["alternations", "linear", "local", "terms", "levels", "sharing"])
 @pytest.mark.parametrize("first", range(0, 5000, 1000))
 def test_no_answer_of_a_family_differs_in_thousands(family: str, first: int) -> None:
     counts, wrong = block([f"{family} {i}" for i in range(first, first + 1000)])

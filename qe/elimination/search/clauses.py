@@ -33,6 +33,11 @@ class Clauses:
         self._assert(formula)
         self._order()
 
+    @property
+    def polys(self) -> Iterable[Poly]:
+        """The polynomials that have literals."""
+        return self._signs.keys()
+
     def literal(self, given: Atom) -> int:
         """The literal of an atom."""
         positive, negative, zero = self._of(given.poly)

@@ -97,6 +97,7 @@ def found_point(body: Formula, context: Context) -> Values | Refuted:
         return outcome.witness
 
     clauses, theory = Clauses(body), Theory(ring, decided, context.budget)
+    theory.bounds.offer(clauses.polys)
     conflicts: list[tuple[Atom, ...]] = []
     with Solver(name="cadical153", bootstrap_with=clauses.clauses) as solver:
         while solver.solve():

@@ -6,7 +6,8 @@ cannot hold together at any point.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Iterable
+from collections import defaultdict
+from collections.abc import Callable, Hashable, Iterable, Iterator
 from fractions import Fraction
 
 from qe.elimination.search.linear_forms import LinearForm, Monomial, over_monomials
@@ -33,10 +34,33 @@ class MonomialBounds:
         self.forms: dict[object, int] = {}
         self.forms_of: dict[Poly, LinearForm] = {}
         self.known: dict[Atom, tuple[int, Fraction, Relation] | None] = {}
+        self.offered: defaultdict[int, list[tuple[Fraction, Poly, bool]]] = defaultdict(list)
+
+    def offer(self, polys: Iterable[Poly]) -> None:
+        """Bounds by these polynomials may stand in reasons (``weakened``)."""
+        for poly in polys:
+            form = self.forms_of[poly] = over_monomials(poly)
+            self.offered[self._form(form.direction)].append((form.bound, poly, form.scale > 0))
+        for bounds in self.offered.values():
+            bounds.sort(key=lambda bound: bound[0])
+
+    def weakened(self, conflict: set[Hashable]) -> list[Atom]:
+        """Atoms that contradict each other as those do that ``conflict`` found last, as weak as those offered can be:
+        x <= 3 for x = 0 where that is enough. They follow from these one by one."""
+        reasons = conflict if self.bounds.stuck is None else self.bounds.weakened(self._offered)
+        return [reason for reason in reasons if isinstance(reason, Atom)]
+
+    def _offered(self, x: int, above: bool) -> Iterator[tuple[Fraction, bool, Hashable]]:
+        """The bounds of a variable, the weakest first."""
+        ordered = self.offered[x]
+        for bound, poly, positive in reversed(ordered) if above else ordered:
+            for relation in (Relation.LE, Relation.LT):
+                yield bound, relation.is_strict, Atom(poly, relation if positive == above else relation.flipped)
 
     def conflict(self, atoms: Iterable[Atom], check: Callable[[], object]) -> set[Hashable] | None:
         """Atoms whose linear bounds contradict each other, with None where squares take part; or None."""
         self.bounds.clear()
+        self.bounds.stuck = None
         for monomial, x in self.monomials.items():
             if is_square(monomial):
                 self.bounds.at_least(x, Fraction(0), strict=False, reason=None)

@@ -68,14 +68,15 @@ class Theory:
         return values
 
     def _linear(self, atoms: Sequence[Atom]) -> list[list[Atom]]:
-        """Sets of atoms whose linear bounds contradict each other, no two with a common atom, until none is left."""
+        """Sets of atoms whose linear bounds contradict each other, until none is left: from conflicts without a common
+        atom, each atom as weak as may be."""
         rest = list(atoms)
         found: list[list[Atom]] = []
         while len(found) < _AT_ONCE:
             conflict = self.bounds.conflict(rest, lambda: self.budget.check("search: bounds"))
             if conflict is None:
                 break
-            found.append([a for a in rest if a in conflict])
+            found.append(self.bounds.weakened(conflict))
             rest = [a for a in rest if a not in conflict]
         return found
 

@@ -22,6 +22,7 @@ from tests.unit.certify.claims import objection
 )
 def test_inner_blocks_are_opened(before: str, after: str) -> None:
     assert objection(check_gathering, before, after) == ""
+    assert objection(check_gathering, after, before) == ""  # variables move inwards
 
 
 @pytest.mark.parametrize(
@@ -42,6 +43,7 @@ def test_inner_blocks_are_opened(before: str, after: str) -> None:
 )
 def test_what_is_no_gathering(before: str, after: str, reason: str) -> None:
     assert reason in objection(check_gathering, before, after)
+    assert objection(check_gathering, after, before)
 
 
 def test_there_is_no_evidence() -> None:

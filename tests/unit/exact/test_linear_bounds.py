@@ -66,6 +66,26 @@ def test_points_keep_bounds_and_reasons_contradict(questions: list[list[Conditio
             assert all(holds(c, [values[x] for x in asked.columns]) for c in conditions)
         else:
             assert not possible([conditions[k] for k in found if isinstance(k, int)])
+            if asked.bounds.stuck is not None:
+                check_weakened(asked, conditions, found)
+
+
+def check_weakened(asked: Asked, conditions: list[Condition], found: set[object]) -> None:
+    """Each bound exchanged for one that follows from it, and still a contradiction."""
+
+    def offered(x: int, above: bool) -> list[tuple[Fraction, bool, object]]:
+        form = next(c for c, y in asked.forms.items() if x == y) if x in asked.forms.values() else None
+        relations = ("<=", "<") if above else (">=", ">")
+        bounds = (range(6, -7, -1) if above else range(-6, 7)) if form else ()
+        return [(Fraction(b), "=" not in r, (form, b, r)) for b in bounds for r in relations]
+
+    weaker = [conditions[k] if isinstance(k, int) else k for k in asked.bounds.weakened(offered)]
+    assert len(weaker) <= len(found)
+    assert not possible(weaker)
+    for condition in weaker:
+        form, bound, relation = condition
+        opposite = form, bound, {"<": ">=", "<=": ">", ">": "<=", ">=": "<"}[relation]
+        assert any(not possible([conditions[k], opposite]) for k in found if isinstance(k, int))
 
 
 def test_strict_bounds_meet_at_no_point() -> None:

@@ -1,0 +1,127 @@
+"""Local variables first: those of a linear sentence with many cases that occur in one or two of its conditions.
+
+THEOREM. ex x, y (f and g) iff ex x (f and ex y g), for y that are not free in f. So where ex y g is equivalent to a
+formula that is no longer than g, the sentence loses the variables y, and with them cases that lead to the same:
+(x < y and y < z) or (x < u and u < z), with y and u in no other condition, says x < z.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+
+from qe.elimination.protocol import Outcome, Problem
+from qe.engine.conditions import has_cases, hopeless_cases
+from qe.exact.number import Values
+from qe.formula.build import conj, exists
+from qe.formula.evaluate import substituted
+from qe.formula.syntax import FALSE, TRUE, Exists, Formula
+from qe.formula.traverse import atoms, conjuncts, connected, polynomials
+from qe.options import Options
+from qe.proof.step import Nested, Step
+from qe.rules.step import StepKind
+
+MOST_ATOMS = 8
+"""Conditions with more comparisons are left to the search: what they have to say of the others takes longer to find."""
+
+WORK = 200
+"""Units of work for the variables of one condition."""
+
+SHARED_BY = 1, 2
+"""Variables of one condition first; where there are none, of two."""
+
+Eliminate = Callable[[Formula], Nested | None]
+"""How the variables of a block with parameters are eliminated, or None."""
+
+
+@dataclass(frozen=True, slots=True)
+class WithoutLocals:
+    """``formula``: the sentence without its local variables; ``steps`` lead to it; ``local``: conditions, each with the
+    variables that it has lost, in which values for them have to satisfy it."""
+
+    formula: Formula
+    steps: tuple[Step, ...]
+    local: tuple[tuple[tuple[str, ...], Formula], ...]
+
+    def values(self, found: Outcome, decide: Callable[[Formula], Outcome]) -> Values | None:
+        """Values for all variables from those with which the formula was found to be true; None where there are none.
+
+        ``decide``: the outcome for a sentence.
+        """
+        if found.formula != TRUE or (found.witness is None and self.formula != TRUE):
+            return None
+        values: Values = dict(found.witness or {})
+        for own, part in self.local:
+            outer = [values.setdefault(name, Fraction(0)) for name in part.free if name not in own]
+            if not all(isinstance(value, Fraction) for value in outer):
+                return None
+            known = {v: x for v, x in values.items() if v not in own and isinstance(x, Fraction)}
+            inner = decide(exists(own, substituted(part, known)))
+            if inner.formula != TRUE:
+                return None
+            values |= dict.fromkeys(own, Fraction(0)) | (inner.witness or {})
+        return values
+
+
+def without_locals(problem: Problem, options: Options, eliminate: Eliminate) -> WithoutLocals | None:
+    """An existential sentence, or the dual of a universal one, without local variables whose conditions do not grow;
+    None where there are none."""
+    if hopeless_cases(problem, options) is None or any(p.total_degree > 1 for p in polynomials(problem.body)):
+        return None
+    problem = problem.dual
+    for most in SHARED_BY:
+        found = [
+            (own, parts, shorter)
+            for own, parts in _local(problem, most)
+            if (shorter := _shorter(own, parts, eliminate))
+        ]
+        if found:
+            false = [one for one in found if one[2].answer == FALSE]
+            made = _without(problem, false[:1] or found)
+            return made if made is not None and _is_left_to_search(made.formula, options) else None
+    return None
+
+
+def _is_left_to_search(formula: Formula, options: Options) -> bool:
+    """Whether no cases are left, or still so many that the search takes them: a few are slower for other methods."""
+    left = Problem.of(formula)
+    return left is None or not has_cases(left) or hopeless_cases(left, options) is not None
+
+
+def _local(problem: Problem, most: int) -> Iterator[tuple[tuple[str, ...], list[Formula]]]:
+    """Conditions, some of all, and the variables that occur in no others, each of them in so many at most."""
+    parts = conjuncts(problem.body)
+    times = Counter(name for part in parts for name in part.free)
+    rare = frozenset(name for name in problem.variables if times[name] <= most)
+    for names, group in connected(parts, lambda part: rare.intersection(part.free))[1]:
+        if len(group) < len(parts) and sum(map(_size, group)) <= MOST_ATOMS:
+            yield tuple(name for name in problem.variables if name in names), list(group)
+
+
+def _shorter(own: tuple[str, ...], parts: list[Formula], eliminate: Eliminate) -> Nested | None:
+    """How the variables are eliminated, if the conditions do not become longer by that."""
+    found = eliminate(exists(own, conj(parts)))
+    if found is None or not found.answer.is_quantifier_free or _size(found.answer) > sum(map(_size, parts)):
+        return None
+    return found
+
+
+def _without(problem: Problem, found: list[tuple[tuple[str, ...], list[Formula], Nested]]) -> WithoutLocals | None:
+    """The sentence with these blocks moved inwards and eliminated; None where no other variable is left."""
+    gone = {name for own, _, _ in found for name in own}
+    left = tuple(name for name in problem.variables if name not in gone)
+    taken = {part for _, parts, _ in found for part in parts}
+    rest = [part for part in conjuncts(problem.body) if part not in taken]
+    nested = exists(left, conj((*rest, *(shorter.start for _, _, shorter in found))))
+    if not isinstance(nested, Exists) or nested.variables != left:
+        return None
+    opened = Step(StepKind.GATHERING.value, problem.formula, nested)
+    steps = (opened, *(step for _, _, shorter in found for step in shorter.steps))
+    formula = exists(left, conj((*rest, *(shorter.answer for _, _, shorter in found))))
+    return WithoutLocals(formula, steps, tuple((own, conj(parts)) for own, parts, _ in found))
+
+
+def _size(formula: Formula) -> int:
+    return sum(1 for _ in atoms(formula))
