@@ -182,7 +182,7 @@ def test_what_a_volume_is_known_to_be_is_told_at_the_limit():
 def test_memory_limits_hold_for_regions_and_their_questions(monkeypatch):
     region = qe.region(DISC, memory=2000)
     monkeypatch.setattr("qe.regions.region.decompose", lambda *arguments, **keywords: bytearray(1 << 33))
-    for call in (lambda: qe.region(DISC, memory=2000), lambda: region.bounds("x")):
+    for call in (lambda: qe.region(DISC, memory=2000), lambda: region.bounds("y")):
         with pytest.raises(BudgetExceeded) as caught:
             call()
         assert caught.value.limit == "memory"
