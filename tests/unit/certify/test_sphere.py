@@ -1,0 +1,20 @@
+"""Rule "sphere seen along a form": the open ball shows nothing of a form that vanishes."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from qe.certify.sphere import check_sphere
+from tests.unit.certify.claims import objection
+
+OPEN = "ex x, y. x^2 + y^2 < 1 and a*x + b*y >= c"
+
+
+def by(sphere: list[Any]) -> dict[str, Any]:
+    return {"sphere": sphere, "variables": ["x", "y"], "form": "a*x + b*y"}
+
+
+def test_an_open_ball_needs_a_form_that_does_not_vanish() -> None:
+    """At a = b = 0 the block says c <= 0, and x^2 < a^2 + b^2 nothing."""
+    after = "ex x. x^2 - a^2 - b^2 < 0 and x >= c"
+    assert "may vanish" in objection(check_sphere, OPEN, after, by(["atom", "x^2 + y^2 - 1", "<"]))
