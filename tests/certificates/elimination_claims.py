@@ -32,7 +32,7 @@ from qe.proof.step import Step
 from qe.proving.prover import proved
 from qe.proving.test_points import Points
 from qe.simplify.simplify import simplify
-from tests.unit.vs.line import holds, samples, specialise
+from tests.unit.elimination.vs.line import holds, samples, specialise
 
 RING = Ring.of(("a", "b", "x"))
 GRID = tuple(map(Fraction, ("-2", "-1", "-1/2", "0", "1/2", "1", "3/2", "3")))

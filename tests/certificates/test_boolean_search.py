@@ -26,7 +26,7 @@ from qe.proof.run_log import RunLog
 from qe.proof.step import Step
 from qe.proving.prover import Prover
 from tests.unit.certify.claims import objection
-from tests.unit.search.test_search import FORMULAS, RING, WITHOUT, many
+from tests.unit.elimination.search.test_method import FORMULAS, RING, WITHOUT, many
 
 pytest.importorskip("pysat")
 

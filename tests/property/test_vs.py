@@ -23,7 +23,7 @@ from qe.simplify.simplify import simplify
 from tests.enough import enough
 from tests.strategies import RELATIONS, atoms, rationals
 from tests.strategies import polynomials as polynomials_of
-from tests.unit.vs.line import satisfiable, specialise
+from tests.unit.elimination.vs.line import satisfiable, specialise
 
 RING = Ring.of(("a", "b", "x"))
 VALUES = st.one_of(st.sampled_from((Fraction(0), Fraction(1), Fraction(-1))), rationals(3, 2))

@@ -21,7 +21,7 @@ from qe.io.text import read
 from qe.options import Budget, Projection
 from qe.proof.cells import Cell
 from qe.proof.certificate import Certificate
-from tests.unit.vs.line import satisfiable, specialise
+from tests.unit.elimination.vs.line import satisfiable, specialise
 
 ORDER = ("a", "x", "y")
 

@@ -16,7 +16,7 @@ from qe.exact.ring import Poly
 from qe.formula.evaluate import holds_at
 from qe.formula.syntax import FALSE, Atom, Relation
 from tests.unit.certify.claims import RING, formula, poly
-from tests.unit.vs.line import holds, samples, specialise
+from tests.unit.elimination.vs.line import holds, samples, specialise
 
 X = RING.index["x"]
 POLYS = (

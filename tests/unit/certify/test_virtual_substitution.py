@@ -14,7 +14,7 @@ from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom
 from qe.formula.syntax import Atom, Formula, Relation
 from qe.formula.traverse import polynomials
-from tests.unit.vs.line import holds, samples, specialise
+from tests.unit.elimination.vs.line import holds, samples, specialise
 
 RING = Ring.of(("a", "x"))
 A, X = RING.gen(0), RING.gen(1)

@@ -73,5 +73,5 @@ def test_limits_of_the_machine() -> None:
 def test_a_foreign_exception_is_a_bug_with_its_place() -> None:
     found = sent(raised(ZeroDivisionError("two\nlines")))
     assert type(found) is InternalError
-    assert "ZeroDivisionError at unit/test_portable.py:" in str(found) and "\n" not in str(found)
+    assert "ZeroDivisionError at processes/test_portable.py:" in str(found) and "\n" not in str(found)
     assert "Traceback" in found.trace  # type: ignore[attr-defined]

@@ -76,7 +76,7 @@ def test_own_errors_arrive_as_they_were(error):
 
 
 def test_foreign_errors_arrive_as_internal_errors_with_their_place():
-    with pytest.raises(InternalError, match=r"ZeroDivisionError at unit/test_worker.py:\d+: ") as caught:
+    with pytest.raises(InternalError, match=r"ZeroDivisionError at processes/test_worker.py:\d+: ") as caught:
         run(lambda channel: 1 // 0)
     assert "Traceback" in caught.value.trace
 

@@ -16,7 +16,7 @@ from qe.exact.sample import Point
 from qe.formula.evaluate import holds_at
 from qe.io import formats
 from qe.options import Budget
-from tests.unit.critical.test_side_conditions import only
+from tests.unit.elimination.critical.test_side_conditions import only
 
 LENS = "y^2 + z^2 <= 4 and (y - p)^2 + (z - q)^2 <= 1 and p <= 3"
 NAMES = ("p", "q", "y", "z")

@@ -27,7 +27,7 @@ from qe.formula.traverse import atoms
 from qe.io.text import read
 from qe.options import Budget
 from qe.simplify.simplify import simplify
-from tests.unit.vs.line import satisfiable, specialise
+from tests.unit.elimination.vs.line import satisfiable, specialise
 
 RING = Ring.of(("q", "u", "v", "w", "x"))
 X = RING.gen(4)

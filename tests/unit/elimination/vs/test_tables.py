@@ -19,7 +19,7 @@ from qe.formula.syntax import FALSE, TRUE, Relation
 from qe.simplify.factors import atom_under
 from qe.simplify.facts import NOTHING
 from tests.strategies import polynomials, rationals
-from tests.unit.vs.line import between, samples, sign_at, specialise
+from tests.unit.elimination.vs.line import between, samples, sign_at, specialise
 
 RING = Ring.of(("a", "b", "x"))
 X = 2
