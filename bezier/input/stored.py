@@ -6,7 +6,6 @@ opened.
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from pathlib import Path as FilePath
@@ -15,6 +14,7 @@ from typing import Any
 from bezier.curves.scalar import Vector
 from bezier.input.numbers import NotANumber, parse
 from qe.errors import CertificateRejected, InputError
+from qe.proof.entry import read_json
 
 MAX_BYTES = 200_000_000
 MAX_CHARACTERS = 4000
@@ -47,18 +47,7 @@ def table(path: FilePath) -> dict[str, Any]:
 
 def parsed(raw: str) -> Any:
     """JSON with decimals kept as text. Raises ``ValueError`` for other text, NaN, infinity and repeated names."""
-    return json.loads(raw, parse_float=str, parse_constant=_refused, object_pairs_hook=_no_repeats)
-
-
-def _refused(name: str) -> Any:
-    raise ValueError(f"{name}, which is no number")
-
-
-def _no_repeats(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-    found = dict(pairs)
-    if len(found) != len(pairs):
-        raise ValueError("a name that occurs twice in one object")
-    return found
+    return read_json(raw, decimal=str)
 
 
 def entry(table: Mapping[str, Any], key: str, kind: type, place: str = "") -> Any:

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bezier.curves.workspace import Ball, Condition, HalfSpace
+from qe.regions.space import direction
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -278,12 +279,6 @@ def hull(points: Array) -> Array:
 
 def _turn(a: Sequence[float], b: Sequence[float], c: Sequence[float]) -> float:
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
-
-
-def direction(view: tuple[float, float]) -> Array:
-    """The unit vector towards a viewer at this elevation and azimuth, in degrees."""
-    up, around = np.radians(view)
-    return np.array([np.cos(up) * np.cos(around), np.cos(up) * np.sin(around), np.sin(up)])
 
 
 def best_view(mesh: RegionMesh) -> tuple[float, float]:

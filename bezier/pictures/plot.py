@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from bezier.pictures import labels
-from bezier.pictures.mesh import Array, best_view, direction, hull
+from bezier.pictures.mesh import Array, best_view, hull
 from bezier.pictures.obstacles import ObstaclePicture
 from bezier.pictures.picture import (
     COLOURS,
@@ -25,6 +25,7 @@ from bezier.pictures.picture import (
     boundary,
     written,
 )
+from qe.regions.space import direction
 
 VIEWS = (("top view", 0, 1), ("front view", 0, 2), ("side view", 1, 2))
 AXES = ("x", "y", "z")

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
+
 from flint import arb, ctx, fmpq
 
 FIRST_PRECISION = 64
@@ -41,6 +43,12 @@ def lower_end(x: arb) -> fmpq:
 def upper_end(x: arb) -> fmpq:
     """The upper end of a finite ball, exactly."""
     return x.mid().fmpq() + x.rad().fmpq()
+
+
+def ends(x: arb) -> tuple[Fraction, Fraction]:
+    """Both ends of a finite ball, as Python's numbers."""
+    low, high = lower_end(x), upper_end(x)
+    return Fraction(int(low.p), int(low.q)), Fraction(int(high.p), int(high.q))
 
 
 def hull(lo: fmpq, hi: fmpq) -> arb:

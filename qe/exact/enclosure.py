@@ -15,7 +15,7 @@ from flint import arb, arb_poly, ctx, fmpq
 
 from qe.exact.algebraic import RealAlgebraic
 from qe.exact.ball_roots import certified_roots
-from qe.exact.balls import hull, lower_end, upper_end
+from qe.exact.balls import hull
 from qe.exact.ring import Poly
 
 Sides = tuple[arb, ...]
@@ -212,9 +212,3 @@ def _isolated_root(c: list[Jet], k: int, sides: tuple[arb, ...]) -> Jet | None:
                 slopes.append(-arb_poly([a.slope[i] for a in c if a.slope is not None])(guess) / steepness)
             return Jet(guess, tuple(slopes), at_centre[k - 1], sides)
     return None
-
-
-def ends(x: arb) -> tuple[Fraction, Fraction]:
-    """Rational ends of a ball."""
-    lo, hi = lower_end(x), upper_end(x)
-    return Fraction(int(lo.p), int(lo.q)), Fraction(int(hi.p), int(hi.q))

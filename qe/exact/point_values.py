@@ -9,7 +9,7 @@ from itertools import pairwise
 from flint import arb, arb_poly, fmpq
 
 from qe.exact.algebraic import RealAlgebraic, irreducible_roots
-from qe.exact.balls import EXACT_FROM, lower_end, precision, upper_end
+from qe.exact.balls import EXACT_FROM, ends, lower_end, precision, upper_end
 from qe.exact.ring import Poly
 from qe.exact.sample import Fibre, FibreRoot, Point
 
@@ -82,7 +82,7 @@ class Ball:
     @property
     def ends(self) -> Ends:
         """The rational ends, exactly."""
-        return _ends(self.ball)
+        return ends(self.ball)
 
     def __float__(self) -> float:
         return float(self.ball.mid())
@@ -175,9 +175,4 @@ def angle(cosine: Ball, sine: Ball, bits: int) -> Ball:
 def pi_ends(bits: int) -> Ends:
     """An interval around pi."""
     with precision(bits):
-        return _ends(arb.pi())
-
-
-def _ends(x: arb) -> Ends:
-    low, high = lower_end(x), upper_end(x)
-    return Fraction(int(low.p), int(low.q)), Fraction(int(high.p), int(high.q))
+        return ends(arb.pi())

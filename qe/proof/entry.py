@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -28,17 +28,18 @@ _TERM = re.compile(rf"(-?)([1-9][0-9]*)?\*?({_POWER.pattern}(?:\*{_POWER.pattern
 _SIGN = re.compile(r" ([+-]) ")
 
 
-def read_json(text: str) -> Json:
-    """The value of a JSON text without floating point and without a name that occurs twice in one object.
-
-    Raises ``ValueError``, ``RecursionError``.
-    """
-    found: Json = json.loads(text, parse_float=_no_floats, parse_constant=_no_floats, object_pairs_hook=_no_repeats)
-    return found
-
-
-def _no_floats(text: str) -> Json:
+def no_floats(text: str) -> Json:
+    """Refuses a number that JSON writes with a point, an exponent or a name."""
     raise ValueError(f"inexact number {text}")
+
+
+def read_json(text: str, decimal: Callable[[str], Json] = no_floats) -> Json:
+    """The value of a JSON text without NaN, infinity and a name that occurs twice in one object.
+
+    Raises ``ValueError`` (for decimals also, unless ``decimal`` takes them), ``RecursionError``.
+    """
+    found: Json = json.loads(text, parse_float=decimal, parse_constant=no_floats, object_pairs_hook=_no_repeats)
+    return found
 
 
 def _no_repeats(pairs: list[tuple[str, Json]]) -> dict[str, Json]:

@@ -78,7 +78,7 @@ def draw_space(shape: Solid, frame: Frame, order: tuple[str, ...], axes: Any) ->
     size = np.where(high > low, high - low, max(1.0, float((high - low).max())))
     low, high = (low + high - size * (1 + 2 * MARGIN)) / 2, (low + high + size * (1 + 2 * MARGIN)) / 2
     box = np.maximum(size / size.max(), FLATTEST)
-    towards = _direction(VIEW)
+    towards = direction(VIEW)
     drawn = _Drawn(low, size / box, towards)
     for surface in shape.surfaces:
         drawn.add(surface, _cut_faces(surface, order, frame, size))
@@ -104,7 +104,7 @@ def draw_space(shape: Solid, frame: Frame, order: tuple[str, ...], axes: Any) ->
         axes.set_title("pale: cut by the frame, the region goes on", fontsize=9, color="0.35")
 
 
-def _direction(view: tuple[float, float]) -> Array:
+def direction(view: tuple[float, float]) -> Array:
     """The unit vector towards a viewer at this elevation and azimuth, in degrees."""
     up, around = np.radians(view)
     return np.array([np.cos(up) * np.cos(around), np.cos(up) * np.sin(around), np.sin(up)])

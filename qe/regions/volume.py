@@ -16,8 +16,8 @@ from fractions import Fraction
 from qe.cells.pieces import Piece, RootFunction
 from qe.errors import BudgetExceeded, Unable
 from qe.exact.algebraic import RealAlgebraic
-from qe.exact.balls import precision
-from qe.exact.enclosure import Jet, Sides, box_sides, constant, ends, root_jet, smooth_side
+from qe.exact.balls import ends, precision
+from qe.exact.enclosure import Jet, Sides, box_sides, constant, root_jet, smooth_side
 from qe.exact.nearby import rational_between
 from qe.exact.translate import translated
 from qe.options import Budget

@@ -11,12 +11,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from qe.exact.algebraic import RealAlgebraic
-from qe.exact.balls import precision
+from qe.exact.balls import ends, precision
 from qe.exact.enclosure import (
     Jet,
     box_sides,
     constant,
-    ends,
     evaluate,
     root_jet,
     smooth_side,
