@@ -18,3 +18,10 @@ def test_an_open_ball_needs_a_form_that_does_not_vanish() -> None:
     """At a = b = 0 the block says c <= 0, and x^2 < a^2 + b^2 nothing."""
     after = "ex x. x^2 - a^2 - b^2 < 0 and x >= c"
     assert "may vanish" in objection(check_sphere, OPEN, after, by(["atom", "x^2 + y^2 - 1", "<"]))
+
+
+def test_the_square_of_the_radius_has_a_number_before_it() -> None:
+    """a*x^2 + a*y^2 < 1 is no ball where a <= 0."""
+    after = "ex x. a*x^2 - a^2 - b^2 < 0 and x >= c"
+    before = "ex x, y. a*x^2 + a*y^2 < 1 and a*x + b*y >= c"
+    assert "a sphere or ball expected" in objection(check_sphere, before, after, by(["atom", "a*x^2 + a*y^2 - 1", "<"]))

@@ -6,19 +6,21 @@ from fractions import Fraction as F
 
 import pytest
 
+from qe.elimination.critical import block
 from qe.elimination.critical.block import ConvexBody, Disjunct, Tabulated, eliminate_block
 from qe.elimination.critical.method import procedures
-from qe.errors import Unable
+from qe.elimination.critical.table import Shape
+from qe.errors import NotWellOriented, Unable
 from qe.formula.syntax import Exists
 from qe.io.text import read
-from qe.options import Budget
+from qe.options import Budget, Projection
 from qe.proof.cells import CellTable
 
 
 def found(text: str, *parameters: str) -> list[Disjunct]:
-    block = read(text)
-    assert isinstance(block, Exists)
-    return eliminate_block(block.variables, block.body, parameters, procedures=procedures(Budget()), budget=Budget())
+    asked = read(text)
+    assert isinstance(asked, Exists)
+    return eliminate_block(asked.variables, asked.body, parameters, procedures=procedures(Budget()), budget=Budget())
 
 
 def truths(table: CellTable) -> dict[str, bool | None]:
@@ -64,6 +66,32 @@ def test_any_set_as_a_table() -> None:
 def test_a_single_point_is_no_body() -> None:
     (part,) = found("ex x. x^2 + a^2 <= 0", "a")
     assert isinstance(part.found, Tabulated) and truths(part.found.table) == {"-": False, "0": True, "+": False}
+
+
+def test_irrational_points_off_which_it_is_false() -> None:
+    """Decided at the points themselves: rational points next to them say no."""
+    (part,) = found("ex x. x^2 + (a^2 - 2)^2 <= 0", "a")
+    assert isinstance(part.found, Tabulated) and not part.found.unsettled
+    assert truths(part.found.table) == {"+": False, "0": True, "-": False}
+
+
+@pytest.mark.parametrize(("more", "shape"), [(" and x^2 <= 1", Shape.CONVEX), ("", Shape.CLOSED)])
+def test_in_space_only_bounded_convex_sets_are_taken_for_convex(
+    more: str, shape: Shape, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The theorem about convex sets needs a bounded set there, and the projection whose order it looks at."""
+    asked: list[tuple[Projection, Shape]] = []
+
+    def recorded(levels: object, projection: Projection, boundary: object, shape: Shape, *_: object) -> None:
+        asked.append((projection, shape))
+        raise NotWellOriented("as if")
+
+    (part,) = found(f"ex x. (x - a)^2 + b^2 + c^2 <= 1{more}", "a", "b", "c")
+    assert isinstance(part.found, ConvexBody)
+    monkeypatch.setattr(block, "TableBuilder", recorded)
+    with pytest.raises(NotWellOriented):
+        part.found.tabulate()
+    assert asked == [(Projection.BROWN_MCCALLUM, shape), (Projection.LAZARD, Shape.CLOSED)]
 
 
 def test_sentences_and_disjuncts() -> None:
