@@ -12,6 +12,7 @@ from qe.certify.registry import RULES
 from qe.elimination.protocol import Problem
 from qe.engine.run import SWITCHED, solve
 from qe.engine.strategy import LEFT_OUT_BY, METHODS, STRATEGY, Attempt, Scope, attempts
+from qe.formula.syntax import Formula
 from qe.io import formats
 from qe.options import Budget, Method, Options, Stage
 from qe.rules.step import StepKind
@@ -95,10 +96,18 @@ def test_the_order_of_attempts_follows_from_the_problem() -> None:
     assert methods("ex x. a*x + b > 0", method=Method.CAD) == ["cad"]
 
 
-@pytest.mark.parametrize("seed", range(12))
-def test_the_form_of_an_answer_does_not_depend_on_the_clock(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
+KINDS = (*SMALL, *LARGE, *NESTED)
+TIMED: dict[str, str | Formula] = {
+    **QUESTIONS,
+    **{f"random {k}": random_formula(random.Random(7000 + k), KINDS[k]) for k in range(12)},
+    "a rotation": "ex x, y, u, v. x*v - y*u /= 0 and x^2 + y^2 + u^2 + v^2 < a",
+}
+
+
+@pytest.mark.parametrize("name", TIMED)
+def test_the_form_of_an_answer_does_not_depend_on_the_clock(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """On a machine four times slower the same answer comes, or none in time; never another one."""
-    formula = random_formula(random.Random(7000 + seed), (*SMALL, *LARGE, *NESTED)[seed])
+    formula = TIMED[name]
     quick = qe.eliminate(formula, timeout=60, check=True)
     start, clock = time.monotonic(), time.monotonic
     monkeypatch.setattr("qe.options.time.monotonic", lambda: start + 4 * (clock() - start))
