@@ -25,3 +25,9 @@ def test_the_square_of_the_radius_has_a_number_before_it() -> None:
     after = "ex x. a*x^2 - a^2 - b^2 < 0 and x >= c"
     before = "ex x, y. a*x^2 + a*y^2 < 1 and a*x + b*y >= c"
     assert "a sphere or ball expected" in objection(check_sphere, before, after, by(["atom", "a*x^2 + a*y^2 - 1", "<"]))
+
+
+def test_products_of_the_variables_are_in_no_sphere() -> None:
+    before = "ex x, y. x^2 + x*y + y^2 < 1 and a*x + b*y >= c"
+    said = objection(check_sphere, before, "ex x. x >= c", by(["atom", "x^2 + x*y + y^2 - 1", "<"]))
+    assert "a sphere or ball expected" in said

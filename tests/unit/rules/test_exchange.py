@@ -83,6 +83,8 @@ def test_the_way_back_gives_values(text: str) -> None:
         "ex x, y. x^3 + y^3 = a and (all y. y^2 > x)",
         "ex x, y. x^2 + y^2 < a and x + y > b",
         "ex x, y. x*y = a and x + y > b",
+        "ex x, y. x^3 + y^3 = a and x /= 1",
+        "ex x, y. x^3 + y^3 = a and x + 2*y = 1",
     ],
 )
 def test_what_changes_or_is_easy_anyway_is_left_alone(text: str) -> None:
