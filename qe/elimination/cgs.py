@@ -89,10 +89,6 @@ def _outcome(
     return Outcome(answer, witness)
 
 
-def _atoms(formula: Formula) -> Iterator[Atom]:
-    return (a for a in atoms(formula) if isinstance(a, Atom))
-
-
 def _names(poly: Poly) -> list[str]:
     return [poly.ring.names[i] for i in poly.variables]
 

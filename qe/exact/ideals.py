@@ -1,4 +1,4 @@
-"""Questions about ideals of Q[x]: membership in the ideal and in its radical, common zeros outside others."""
+"""Common complex zeros of polynomials that are no zeros of others."""
 
 from __future__ import annotations
 
@@ -10,23 +10,6 @@ from qe.exact.groebner import Limits, groebner_basis
 from qe.exact.ring import Poly, Ring
 
 LIMITS = Limits(elements=600, terms=20_000, bits=40_000, modular=True)
-
-
-def in_ideal(poly: Poly, generators: Sequence[Poly]) -> bool:
-    """Whether the polynomial is a combination of the generators. Raises ``Unable`` at a limit."""
-    given = [g for g in generators if g]
-    if not given:
-        return not poly
-    variables = sorted({i for g in (poly, *given) for i in g.variables}, reverse=True)
-    basis = groebner_basis(given, variables=variables, limits=LIMITS)
-    if basis is None:
-        raise Unable("a Gröbner basis grows past its limits")
-    return basis.contains(poly)
-
-
-def in_radical(poly: Poly, generators: Sequence[Poly]) -> bool:
-    """Whether the polynomial vanishes at all common complex zeros of the generators (Hilbert's Nullstellensatz)."""
-    return not has_zeros(generators, [poly])
 
 
 def has_zeros(equations: Sequence[Poly], nonzero: Sequence[Poly] = ()) -> bool:

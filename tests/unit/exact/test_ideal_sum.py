@@ -8,9 +8,9 @@ from hypothesis import strategies as st
 
 from qe.errors import InternalError
 from qe.exact.ideal_sum import graded_basis, taken_apart
-from qe.exact.ideals import in_ideal
 from qe.exact.ring import Poly, Ring
 from tests.strategies import polynomials
+from tests.unit.exact.ideal_membership import in_ideal
 
 RING = Ring.of(("a", "x", "y"))
 A, X, Y = (RING.gen(i) for i in range(3))

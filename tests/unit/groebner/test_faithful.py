@@ -7,11 +7,11 @@ from dataclasses import replace
 import pytest
 
 from qe.exact.block_order import Block
-from qe.exact.ideals import in_ideal
 from qe.exact.ring import Poly, Ring
 from qe.groebner.faithful import with_faithful
 from qe.groebner.kapur_sun_wang import segments
 from qe.options import Budget
+from tests.unit.exact.ideal_membership import in_ideal
 
 RING = Ring.of(("a", "b", "x", "y"))
 A, B, X, Y = (RING.var(name) for name in RING.names)

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from qe.exact.algebraic import RealAlgebraic
 from qe.exact.block_order import Block
-from qe.exact.ideals import in_ideal
 from qe.exact.ring import Ring
 from qe.groebner.question import ParametricSystem
 from qe.options import Budget
+from tests.unit.exact.ideal_membership import in_ideal
 
 RING = Ring.of(("a", "w", "x"))
 A, W, X = (RING.var(name) for name in RING.names)

@@ -8,10 +8,10 @@ from hypothesis import strategies as st
 
 from qe.exact.block_order import Block
 from qe.exact.groebner import MonomialOrder, groebner_basis
-from qe.exact.ideals import in_ideal
 from qe.exact.ring import Poly, Ring
 from qe.groebner.reduction import Divisor, cleared, divides, joined, monomial, reduced_basis, remainder
 from tests.strategies import polynomials
+from tests.unit.exact.ideal_membership import in_ideal
 
 RING = Ring.of(("a", "b", "x", "y"))
 A, B, X, Y = (RING.var(name) for name in RING.names)

@@ -13,11 +13,11 @@ from hypothesis import strategies as st
 import qe
 from qe.exact.block_order import Block, parametric_basis
 from qe.exact.groebner import MonomialOrder
-from qe.exact.ideals import in_ideal
 from qe.exact.quotient import PositiveDimensional
 from qe.exact.ring import Poly, Ring
 from qe.formula.evaluate import holds_at
 from qe.groebner.system import condition_of, exact_number
+from tests.unit.exact.ideal_membership import in_ideal
 from tests.unit.groebner.support import Place, places
 
 ROOT_2 = qe.RealAlgebraic.from_root([-2, 0, 1], 1, 2)
