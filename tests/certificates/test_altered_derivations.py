@@ -17,6 +17,7 @@ from tests.certificates.altered_derivations import ALTERATIONS, Data, altered_de
 from tests.certificates.derivations import CASES, data
 from tests.certificates.false_claims import derivation, not_equivalent, text_of
 from tests.certificates.false_claims_of_rules import derivation_by_a_rule
+from tests.certificates.mutation import lists
 
 TRIES = 25
 """Alterations of one derivation."""
@@ -72,3 +73,16 @@ def test_every_alteration_changes_something(alteration: Callable[[random.Random,
     for copy in made:
         alteration(rng, copy)
     assert any(copy != given for copy in made)
+
+
+@pytest.mark.parametrize("name", ["guard", "turned", "exchanged"])
+def test_an_emptied_list_is_no_internal_error(name: str) -> None:
+    """``solved`` without an equation was one, for "linear equation solved under a guard"."""
+    given = data(CASES[name])
+    for path, _ in lists(given["payload"]):
+        made = deepcopy(given)
+        node = made["payload"]
+        for key in path[:-1]:
+            node = node[key]
+        node[path[-1]] = []
+        is_accepted(text_of(made))
