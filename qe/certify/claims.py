@@ -179,7 +179,7 @@ def _of_classification(entry: Entry) -> Claim:
         f"for all real values of {', '.join(_texts(parameters))}" + "".join(f", where {text}" for text in given),
     ]
     for pair in classes.items():
-        count, condition = pair.items()
+        count, condition = pair.row("number", "condition")
         many = "infinitely many complex" if count.value is None else f"exactly {count.integer()} real"
         words.append(f"has {many} solutions iff  {formula_from_json(condition, ring)}")
     return Claim((*words, "and no other number, by signatures of trace forms"))

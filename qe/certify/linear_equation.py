@@ -52,11 +52,11 @@ check_linear = ByLemmas(linear_goals)
 
 def check_guarded_linear(claim: Claim, context: Context, limits: Limits) -> None:
     """Both cases are compared with what stands after."""
-    entry, *more = only(claim, "solved")[0].items()
+    (entry,) = only(claim, "solved")[0].row("equation")
     block, body = claim.block().variables, claim.block().body
     pivot = _pivot(entry, block, body, claim)
-    if more or pivot.sign is not None:
-        raise claim.fail("expected one equation with a coefficient of unknown sign")
+    if pivot.sign is not None:
+        raise claim.fail("expected an equation with a coefficient of unknown sign")
     lead, rest = pivot.lead, pivot.rest
     regular = conj((atom(lead, Relation.NE), substituted(pivot, claim)))
     vanishing = conj((atom(lead, Relation.EQ), atom(rest, Relation.EQ), pivot.others))

@@ -6,6 +6,8 @@ and so on. So two formulas with one negation normal form are equivalent. Root at
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 from qe.certify.step import Claim, Context, Limits, only
 from qe.formula.build import conj, disj, exists, forall, neg
 from qe.formula.syntax import And, Exists, ForAll, Formula, Not, Or
@@ -20,22 +22,23 @@ def check_negation(claim: Claim, context: Context, limits: Limits) -> None:
 
 def normal(formula: Formula) -> Formula:
     """The formula with its negations in the atoms."""
-    return _pushed(formula, negative=False)
+    return _pushed(formula, False)
 
 
 def negation(formula: Formula) -> Formula:
     """The negation, with negations in the atoms."""
-    return _pushed(formula, negative=True)
+    return _pushed(formula, True)
 
 
-def _pushed(formula: Formula, *, negative: bool) -> Formula:
+@lru_cache(maxsize=8192)  # a checker asks for the parts of one formula again and again
+def _pushed(formula: Formula, negative: bool) -> Formula:
     match formula:
         case Not(arg):
-            return _pushed(arg, negative=not negative)
+            return _pushed(arg, not negative)
         case And(args) | Or(args):
             join = conj if isinstance(formula, And) is not negative else disj
-            return join(_pushed(a, negative=negative) for a in args)
+            return join(_pushed(a, negative) for a in args)
         case Exists(variables, body) | ForAll(variables, body):
             quantify = exists if isinstance(formula, Exists) is not negative else forall
-            return quantify(variables, _pushed(body, negative=negative))
+            return quantify(variables, _pushed(body, negative))
     return neg(formula) if negative else formula

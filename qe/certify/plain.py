@@ -124,10 +124,7 @@ def formula(value: Any, names: Sequence[str], where: str, depth: int = 0) -> For
         return ("not", formula(rest[0], names, f"{where}[1]", depth + 1))
     if kind == "atom" and len(rest) == 2:
         require(rest[1] in [*_RELATIONS], where, "unknown relation")
-        p = polynomial(rest[0], names, where)
-        primitive = any(map(any, p)) and gcd(*p.values()) == 1 and p[max(p, key=lambda e: e[::-1])] > 0
-        require(primitive, where, "expected a primitive polynomial with positive leading coefficient")
-        return comparison(p, rest[1])
+        return comparison(primitive(rest[0], names, where), rest[1])
     if kind in ("exists", "forall") and len(rest) == 2:
         bound = _variables(rest[0], where)
         require(bound and set(bound) <= set(names), where, "unknown variable")
@@ -135,6 +132,14 @@ def formula(value: Any, names: Sequence[str], where: str, depth: int = 0) -> For
     if kind == "root":
         raise Undecided(f"{where}: a root atom")
     raise Rejected(where, "expected a formula")
+
+
+def primitive(value: Any, names: Sequence[str], where: str) -> Poly:
+    """A polynomial as atoms have it."""
+    p = polynomial(value, names, where)
+    right = any(map(any, p)) and gcd(*p.values()) == 1 and p[max(p, key=lambda e: e[::-1])] > 0
+    require(right, where, "expected a primitive polynomial with positive leading coefficient")
+    return p
 
 
 def comparison(p: Poly, relation: str) -> Formula:
@@ -768,8 +773,7 @@ def _check_unique(claim: Any, place: Place, weights: Sequence[Line], known: Sequ
         elif place.field.sign(w):
             rows += [list(r) for r in form.hessian]
             if place.field.degree == 1:
-                root = -place.field.root.p[0] / place.field.root.p[1]
-                rows.append([_at(s, root) for s in place.slope(form)])
+                rows.append([_at(s, -place.field.root.p[0] / place.field.root.p[1]) for s in place.slope(form)])
     require(_rank(rows) == place.problem.size, "payload.unique", "does not follow")
 
 
@@ -1189,15 +1193,14 @@ class Theory:
 
     def __init__(self, value: Any, names: Sequence[str], where: str) -> None:
         texts, lemmas = fields(value, where, "polynomials lemmas")
-        self.polys = [polynomial(t, names, where) for t in _members(texts, where)]
-        normal = [comparison(p, ">") for p in self.polys]
-        require(all(isinstance(f, tuple) for f in normal), where, "a constant in place of a polynomial")
+        self.polys = [primitive(t, names, where) for t in _members(texts, where)]
+        normal: list[Any] = [comparison(p, ">") for p in self.polys]
         self.keys = [("p", f[1]) for f in normal]
+        require(len(set(self.keys)) == len(self.keys), where, "a polynomial is listed twice")
         self.flips = [1 if f[2] == ">" else -1 for f in normal]
         self.names = names
         self.identities: list[list[tuple[int, list[tuple[int, int]]]]] = []
         self.lines: list[tuple[list[int], list[tuple[int, ...]]]] = []
-        self.cases = 0
         for k, lemma in enumerate(_members(lemmas, where)):
             self._read(lemma, f"{where}.lemmas[{k}]")
 
@@ -1423,12 +1426,10 @@ def _check_block(
 
 def _opened(piece: Formula, bound: Sequence[str], names: Sequence[str], where: str) -> Formula:
     """A formula of which the piece says that it holds for some values of the bound variables."""
-    inside = set(piece[1]) if isinstance(piece, tuple) and piece[0] == "exists" else set()
-    free = occurring(piece) - {names.index(n) for n in inside}
+    own = piece[1] if isinstance(piece, tuple) and piece[0] == "exists" else None
+    free = occurring(piece) - {names.index(n) for n in own or ()}
     require(not free & {names.index(n) for n in bound}, where, "a bound variable is free afterwards")
-    if isinstance(piece, tuple) and piece[0] == "exists":
-        return quantified("exists", [n for n in piece[1] if n not in bound], piece[2])
-    return piece
+    return piece if own is None else quantified("exists", [n for n in own if n not in bound], piece[2])
 
 
 # --- certificates ----------------------------------------------------------------------------------------------
@@ -1453,16 +1454,15 @@ def check(text: str) -> None:
 
 
 def _check(value: Any, where: str, labelled: bool = False) -> None:
-    label = " label" if labelled else ""
     kind = value.get("kind") if isinstance(value, dict) else None
     if kind == "bundle":
-        inner = fields(value, where or "certificate", "kind certificates" + label)[1]
+        inner = fields(value, where or "certificate", "kind certificates" + " label" * labelled)[1]
         require(inner, f"{where}certificates", "an empty bundle proves nothing")
         for k, member in enumerate(_members(inner, "certificates")):
             _check(member, f"{where}certificates[{k}].", True)
         return
     require(isinstance(kind, str), f"{where}kind", "expected a kind")
-    payload = fields(value, where or "certificate", "kind payload" + label)[1]
+    payload = fields(value, where or "certificate", "kind payload" + " label" * labelled)[1]
     if kind not in _CHECKS:
         raise Undecided(f"certificates of kind {kind!r} are not read here")
     try:

@@ -72,7 +72,7 @@ def read_polynomial(terms: Entry, names: Sequence[str], ring: Ring) -> tuple[Pol
     """(p, c) such that the terms, [rational coefficient, exponents of the names], add up to p/c with c > 0."""
     found: dict[tuple[int, ...], Fraction] = {}
     for term in terms.items():
-        coefficient, exponents = term.items()
+        coefficient, exponents = term.row("coefficient", "exponents")
         powers = [0] * ring.size
         for name, exponent in zip(names, exponents.items(), strict=True):
             powers[ring.index[name]] = exponent.integer()

@@ -11,6 +11,7 @@ factors; the signs of the other factors are computed at the sections and are unk
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
@@ -176,15 +177,12 @@ class StackChecker:
                 return Branch(i, f, [0] * len(at), True, None)
         elif not lead and self.projection is Projection.BROWN_MCCALLUM:
             self._check_nowhere_nullified(i, sample, fail)
-        signs = f.signs(at)
-        if 0 in signs:
-            raise fail(f"sectors[{signs.index(0)}]", f"factor {i} is zero at this sector sample")
         discriminant = None
         if i in self.closure.discriminants[k] and not nullified:
             discriminant = sign(self.closure.discriminants[k][i], sample.signs)
             if not discriminant and f.degree != self.lists.lists[k][i].degree(k):
                 discriminant = None  # it is zero because the degree drops, which says nothing about multiple roots
-        simple = check_roots(f, signs, at, listed, discriminant, lambda e, r: fail(e, f"factor {i}: {r}"))
+        signs, simple = roots_and_signs(f, at, listed, discriminant, lambda e, r: fail(e, f"factor {i}: {r}"))
         return Branch(i, f, signs, nullified, simple)
 
     def _allow_nullified(self, i: int, sample: Sample, fail: Fail) -> None:
@@ -295,6 +293,37 @@ def _check_shape(stack: Stack, factors: int, last: bool, fail: Fail) -> None:
             raise fail(f"sections[{j}]", "not a nonempty ascending list of used factors")
 
 
+def roots_and_signs(
+    f: Fibre, at: Values, listed: list[int], discriminant: int | None, fail: Fail
+) -> tuple[list[int], Simple | None]:
+    """``check_roots``, with the signs of f at the samples.
+
+    First with few signs (``_signs_beside``): where that is accepted, f has no roots but one in each listed section, so
+    the others are what they were taken for. Otherwise with all, to name what is wrong.
+    """
+    signs = _signs_beside(f, at, listed)
+    if 0 not in signs:
+        with suppress(CertificateRejected):
+            return signs, check_roots(f, signs, at, listed, discriminant, fail)
+    signs = f.signs(at)
+    if 0 in signs:
+        raise fail(f"sectors[{signs.index(0)}]", "it is zero at this sector sample")
+    return signs, check_roots(f, signs, at, listed, discriminant, fail)
+
+
+def _signs_beside(f: Simple, at: Values, listed: list[int]) -> list[int]:
+    """The signs at the first and last sample and on both sides of the listed sections; elsewhere the last one before.
+
+    So a sign that changes inside a section is seen there, and one that changes outside all of them in no listed one.
+    """
+    places = sorted({0, len(at) - 1, *listed, *(j + 1 for j in listed)})
+    known = dict(zip(places, f.signs([at[k] for k in places]), strict=True))
+    signs: list[int] = []
+    for k in range(len(at)):
+        signs.append(known[k] if k in known else signs[-1])
+    return signs
+
+
 def check_roots(
     f: Simple, signs: list[int], at: Values, listed: list[int], discriminant: int | None, fail: Fail
 ) -> Simple | None:
@@ -314,7 +343,7 @@ def check_roots(
         return f
     if discriminant == 0:
         simple = f.derivative() if f.degree == 2 and not isinstance(f, SimplePart) else f.squarefree()
-        return check_roots(simple, simple.signs(at), at, listed, None, fail) or simple
+        return check_roots(simple, _signs_beside(simple, at, listed), at, listed, None, fail) or simple
     if changes == listed:
         missing = _distinct_roots(f, len(changes), discriminant) - len(changes)
         if missing:
@@ -323,7 +352,7 @@ def check_roots(
     simple = f if discriminant else f.squarefree()
     if simple.degree == f.degree:
         raise fail(f"sections[{next(j for j in listed if j not in changes)}]", "it has no root here")
-    return check_roots(simple, simple.signs(at), at, listed, None, fail) or simple
+    return check_roots(simple, _signs_beside(simple, at, listed), at, listed, None, fail) or simple
 
 
 def _distinct_roots(f: Simple, seen: int, discriminant: int | None) -> int:
@@ -342,11 +371,11 @@ def _distinct_roots(f: Simple, seen: int, discriminant: int | None) -> int:
 
 
 def _sign_rows(stack: Stack, branches: dict[int, Branch], factors: int) -> list[list[int | None]]:
-    rows: list[list[int | None]] = []
-    for position in range(len(stack.cells)):
-        row: list[int | None] = [None] * factors
-        zero = stack.sections[position // 2] if position % 2 else ()
-        for i, branch in branches.items():
-            row[i] = 0 if branch.nullified or i in zero else branch.signs[position // 2]
-        rows.append(row)
-    return rows
+    columns: list[list[int | None]] = [[None] * len(stack.cells) for _ in range(factors)]
+    for i, branch in branches.items():
+        signs = [0] * len(branch.signs) if branch.nullified else branch.signs
+        columns[i][::2], columns[i][1::2] = signs, signs[1:]
+    for j, section in enumerate(stack.sections):
+        for i in section:
+            columns[i][2 * j + 1] = 0
+    return [list(row) for row in zip(*columns, strict=True)] if columns else [[] for _ in stack.cells]

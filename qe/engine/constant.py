@@ -64,9 +64,9 @@ def constant_value(
         return None
     if holds_at(formula, _middle(formula, names)) is not always:
         return None
-    if not cheap and any(_at(formula, names, pattern) for pattern in _scattered(len(names))):
-        return None
     if not always and (reached := _pulled(formula, names)) is not None and holds_at(formula, reached):
+        return None
+    if not cheap and any(_at(formula, names, pattern) for pattern in _scattered(len(names))):
         return None
     exception = nnf(formula, negate=always)
     if question is not None and not always and (not cheap or _size(question) < _size(formula)):

@@ -342,8 +342,8 @@ class Poly:
         """The value at a rational point (one value per ring variable)."""
         if self.ring.size == 0:
             return Fraction(self.constant_value())
-        point = [Fraction(v) for v in values]
-        value = fmpq_mpoly(self.p, self.ring.qctx)(*[fmpq(v.numerator, v.denominator) for v in reversed(point)])
+        point = [fmpq(v.numerator, v.denominator) for v in values]
+        value = fmpq_mpoly(self.p, self.ring.qctx)(*reversed(point))
         return Fraction(int(value.p), int(value.q))
 
     def at_quotient(self, i: int, top: Poly, bottom: Poly, *, most_terms: int | None = None) -> Poly:

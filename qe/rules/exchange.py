@@ -49,10 +49,10 @@ def exchange_variables(variables: tuple[str, ...], body: Formula, context: Block
 
 def _is_easy(body: Formula, i: int, j: int) -> bool:
     """Whether the degrees in both variables differ, are too large, or substitution and convexity have them anyway."""
-    degree, other, both = _degrees(body, i, j)
+    degree, other = (max(a.poly.degree(k) for a in atoms(body)) for k in (i, j))
     if degree != other or not 2 <= degree <= _DEGREE:
         return True
-    return both <= 2 and not any(isinstance(a, Atom) and a.relation is Relation.EQ for a in atoms(body))
+    return _degrees(body, i, j)[2] <= 2 and not any(isinstance(a, Atom) and a.relation is Relation.EQ for a in atoms(body))
 
 
 def _is_simpler(new: Formula, body: Formula, i: int, j: int) -> bool:
@@ -65,7 +65,7 @@ def _is_simpler(new: Formula, body: Formula, i: int, j: int) -> bool:
 
 def _degrees(body: Formula, i: int, j: int) -> tuple[int, int, int]:
     """The degrees in two variables, and in both together."""
-    found = [exponents for a in atoms(body) for exponents in a.poly.collected((i, j))]
+    found = [(e[i], e[j]) for a in atoms(body) for e, _ in a.poly.terms()]
     return (
         max((k for k, _ in found), default=0),
         max((k for _, k in found), default=0),

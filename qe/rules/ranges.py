@@ -45,7 +45,7 @@ def excluded_by_ranges(variables: tuple[str, ...], body: Formula, context: Block
         return None
     if all(a.poly.total_degree < 2 for _, a in found):
         return None  # linear conditions have methods of their own
-    conditions = [_Condition(k, p, a.relation, _terms(p)) for k, a in found for p in _at_most_zero(a)]
+    conditions = [_Condition(k, p, a.relation, _terms(p), _names(p)) for k, a in found for p in _at_most_zero(a)]
     if not _may_fail(conditions):
         return None
     search = _Search(conditions)
@@ -72,6 +72,10 @@ def _terms(poly: Poly) -> list[Term]:
     return [(tuple((i, e) for i, e in enumerate(exponents) if e), c) for exponents, c in poly.terms()]
 
 
+def _names(poly: Poly) -> frozenset[str]:
+    return frozenset(poly.ring.names[i] for i in poly.variables)
+
+
 @dataclass(frozen=True, slots=True)
 class _Condition:
     """A polynomial that is at most 0 by the part at ``position``, whose relation is given."""
@@ -80,6 +84,7 @@ class _Condition:
     poly: Poly
     relation: Relation
     terms: list[Term]
+    names: frozenset[str]
 
 
 def _may_fail(conditions: Sequence[_Condition]) -> bool:
@@ -99,9 +104,13 @@ class _Search:
 
     def failing(self) -> int | None:
         """The position of a condition that cannot hold, once some bounds are found."""
+        looked: dict[int, int] = {}  # how many bounds were known when a condition was looked at
         for _ in range(ROUNDS):
             before = len(self.bounds)
-            for condition in self.conditions:
+            for number, condition in enumerate(self.conditions):
+                since, looked[number] = looked.get(number), len(self.bounds)
+                if since is not None and not any(bound[1] in condition.names for bound in self.bounds[since:]):
+                    continue  # it says what it said
                 least = [self.least(powers, c) for powers, c in condition.terms]
                 if self.excludes(least, condition.relation):
                     return condition.position
@@ -113,7 +122,7 @@ class _Search:
 
     def excludes(self, least: Sequence[Number], relation: Relation) -> bool:
         """Whether a polynomial with these lower bounds of its terms cannot be at most 0, or less than 0."""
-        total = _sum(least)
+        total = _sum(least, self.number(0))
         return total > 0 or (total == 0 and relation in (Relation.LT, Relation.GT))
 
     def number(self, value: int) -> Number:
@@ -147,7 +156,7 @@ class _Search:
         for k, (powers, c) in enumerate(condition.terms):
             if len(powers) != 1 or (c < 0 and powers[0][1] % 2 == 0):
                 continue
-            rest = _sum(least[:k] + least[k + 1 :])
+            rest = _sum(least[:k] + least[k + 1 :], self.number(0))
             if rest == -inf:
                 continue
             ((i, power),) = powers
@@ -179,7 +188,7 @@ class _Rough(_Search):
     __slots__ = ()
 
     def excludes(self, least: Sequence[Number], relation: Relation) -> bool:
-        total, sizes = float(_sum(least)), [abs(float(v)) for v in least]
+        total, sizes = float(_sum(least, 0.0)), [abs(float(v)) for v in least]
         return total >= -SLACK * max(sizes) if isfinite(total) else total > 0
 
     def number(self, value: int) -> Number:
@@ -192,9 +201,9 @@ class _Rough(_Search):
     below = above
 
 
-def _sum(values: Sequence[Number]) -> Number:
+def _sum(values: Sequence[Number], zero: Number) -> Number:
     """The sum of lower bounds."""
-    return -inf if any(isinstance(v, float) and v == -inf for v in values) else sum(values, Fraction(0))
+    return -inf if -inf in values else sum(values, zero)
 
 
 def _power(a: Number, k: int) -> Number:

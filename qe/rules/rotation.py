@@ -96,11 +96,11 @@ def _plane(variables: Sequence[str], body: Formula, polys: Sequence[Poly], wante
     names = [name for block in blocks for name in block]
     if len(names) != len(set(names)) or set(names[len(variables) :]) & set(body.free):
         return None
-    occurring = {i for p in polys for i in p.variables}
+    movable = _movable(polys, {ring.index[v] for v in names if v in ring.index})
     pairs = [
         pair
         for block in blocks
-        for pair in combinations(sorted(ring.index[v] for v in block if ring.index.get(v) in occurring), 2)
+        for pair in combinations(sorted(ring.index[v] for v in block if ring.index.get(v) in movable), 2)
     ]
     if not pairs or len(pairs) > _PAIRS:
         return None
@@ -119,6 +119,31 @@ def _plane(variables: Sequence[str], body: Formula, polys: Sequence[Poly], wante
                 named = tuple((ring.names[a], ring.names[b], s / skew[i, j]) for (a, b), s in skew.items())
                 best = rank, Turn(ring.names[u], ring.names[v], frozenset(ring.names[k] for k in moved & outer), named)
     return best and best[1]
+
+
+def _movable(polys: Sequence[Poly], candidates: set[int]) -> set[int]:
+    """Those of the candidates that occur and that a rotation may move, seen without its equations.
+
+    X keeps the other variables and the degree in those that it moves. So it annihilates p only if it annihilates each
+    part of p with the same other variables and the same degree; where such a part has one variable x_i of the
+    candidates, X p = 0 says S_ij = 0 for all j: x_i stays where it is.
+    """
+    exponents = [[e for e, _ in p.terms()] for p in polys]
+    movable = candidates & {i for p in polys for i in p.variables}
+    while movable:
+        lonely: set[int] = set()
+        for listed in exponents:
+            parts: dict[object, set[int]] = {}
+            for e in listed:
+                inside = [i for i in movable if e[i]]
+                if inside:
+                    other = tuple(0 if i in movable else k for i, k in enumerate(e))
+                    parts.setdefault((other, sum(e[i] for i in inside)), set()).update(inside)
+            lonely.update(*(part for part in parts.values() if len(part) == 1))
+        if not lonely:
+            break
+        movable -= lonely
+    return movable
 
 
 def rotations(polys: Sequence[Poly], pairs: Sequence[Pair]) -> list[Skew]:

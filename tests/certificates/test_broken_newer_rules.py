@@ -151,7 +151,7 @@ CASES: dict[str, tuple[Patch, str, StepKind]] = {
     "captured": (captured, "ex x. x > y and ex y. x*y > 1", GATHERED),
     "captured, dual": (captured, "all x. x > y or (all y. x*y > 1)", GATHERED),
     "disjunction": (under_or, "ex x. x > a or ex y. x*y > 1", GATHERED),
-    "not constant": (one_rotation, "ex x, y. x^2 + y^2 + x < a", TURNED),
+    "not constant": (one_rotation, "ex x, y. x^2 + 2*y^2 + x + y < a", TURNED),
     "not constant, dual": (one_rotation, "all x, y. x^2 + 2*y^2 > a or x*y > b", TURNED),
     "axis": (no_plane, "ex x, y, z. x^2 + y^2 + z^2 < a and x + y + z > b", TURNED),
     "inequalities": (all_equations, "ex x, y. x^2 + 2*x*y - y^2 > 0 and x^2 - 2*x*y - y^2 > 0", TURNED),

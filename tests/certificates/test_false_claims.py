@@ -57,8 +57,9 @@ def true_certificates(rng: random.Random, kind: str) -> Iterator[Data]:
     make, _ = KINDS[kind]
     while True:
         certificate = make(rng)
-        if certificate is not None:
-            assert verify(certificate, Budget(20)).accepted
+        verdict = verify(certificate, Budget(20)) if certificate is not None else None
+        if certificate is not None and verdict is not None and verdict.decided:  # a busy machine leaves some undecided
+            assert verdict.accepted, verdict
             yield json.loads(certificate.to_json())
 
 

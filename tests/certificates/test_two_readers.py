@@ -72,6 +72,23 @@ def test_what_both_refuse() -> None:
     assert (said(nested), said_plainly(nested)) == ("rejected", "rejected")
 
 
+@pytest.mark.parametrize("listed", [["x"], ["x", "x"], ["2*x"], ["-x"], ["1"]])
+def test_polynomials_of_lemmas_have_one_spelling_and_are_listed_once(listed: list[str]) -> None:
+    step = {
+        "rule": "simplification",
+        "at": [],
+        "context": [],
+        "before": ["atom", "x", ">"],
+        "after": ["atom", "x", ">"],
+    }
+    evidence = {"theory": {"polynomials": listed, "lemmas": []}}
+    payload = {"order": ["x"], "start": step["before"], "steps": [{**step, "evidence": evidence}]}
+    whole = {"format": "bezier-qe certificate", "version": 2, "kind": "derivation"}
+    text = text_of({**whole, "payload": {**payload, "answer": step["after"]}})
+    verdict = "accepted" if listed == ["x"] else "rejected"
+    assert (said(text), said_plainly(text)) == (verdict, verdict)
+
+
 @pytest.mark.parametrize(
     ("matrix", "verdict"),
     [
