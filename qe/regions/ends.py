@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Mapping
 
 import numpy
 
 from qe.cells.pieces import Piece, RootFunction
+from qe.exact.ring import Poly
 
 Span = tuple[float, float]
 
@@ -24,8 +26,7 @@ def _at(root: RootFunction | None, values: Mapping[int, float], fallback: float,
         return fallback
     if root.value is not None:
         return float(root.value)
-    level = root.poly.level
-    coefficients = [_value(c.terms(), values) for c in root.poly.coefficients(level)]
+    coefficients = [_value(terms, values) for terms in _coefficients(root.poly)]
     if len(coefficients) == 2:
         return -coefficients[0] / coefficients[1] if coefficients[1] else fallback
     if len(coefficients) == 3:
@@ -40,6 +41,12 @@ def _at(root: RootFunction | None, values: Mapping[int, float], fallback: float,
     if thin:
         real = [b for a, b in zip([-numpy.inf, *real], real, strict=False) if b - a > 1e-5 * max(1.0, abs(b))]
     return real[min(root.k, len(real)) - 1] if real else fallback
+
+
+@functools.lru_cache(maxsize=64)
+def _coefficients(poly: Poly) -> list[list[tuple[tuple[int, ...], int]]]:
+    """The terms of the coefficients by powers of the main variable: the same for all points of a line."""
+    return [c.terms() for c in poly.coefficients(poly.level)]
 
 
 def _value(terms: list[tuple[tuple[int, ...], int]], values: Mapping[int, float]) -> float:
