@@ -183,6 +183,20 @@ class Plan:
         return accepted and clear and follows and (self.path is None or self.path.is_inside)
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Begun:
+    """A plan as far as its path is known and proved to stay inside; what is left shows more about it.
+
+    ``found``: what the method goes on from. ``seconds``: the time of each step so far.
+    """
+
+    problem: Problem
+    outcome: Outcome
+    path: Path | None
+    found: Any
+    seconds: Mapping[str, float]
+
+
 @dataclass(slots=True)
 class Clock:
     """The steps of a plan: their times, the time left, and who is told."""
@@ -267,16 +281,18 @@ class Restored(Generic[P]):
 class Method(Generic[P]):
     """A planning method.
 
-    ``make``: the plan. ``reason``: why there is no path, in one sentence. ``summary_lines``: its lines in the summary
-    for people. ``json_entries``: its further entries in the summary as JSON. ``files``: its further data files, by
-    name. ``draw``: writes the pictures into a folder. ``hatted_names``: whether the paper writes its points with hats.
+    ``begin``: the path; ``finish``: the plan, from there on. ``reason``: why there is no path, in one sentence.
+    ``summary_lines``: its lines in the summary for people. ``json_entries``: its further entries in the summary as
+    JSON. ``files``: its further data files, by name. ``draw``: writes the pictures into a folder. ``hatted_names``:
+    whether the paper writes its points with hats.
     ``story``: what its page says beyond what every page says, with the drawing if there is one.
     ``restore``: the plan that the certificates in a folder prove, without any search; ``CertificateRejected`` where
     they are not about the problem. ``questions``: what it may ask the engine about a problem, by the names that its
     plan has for the answers in ``eliminations``.
     """
 
-    make: Callable[[Problem, Clock], P]
+    begin: Callable[[Problem, Clock], Begun]
+    finish: Callable[[Begun, Clock], P]
     reason: Callable[[P], str]
     summary_lines: Callable[[P], list[str]]
     json_entries: Callable[[P], dict[str, Any]]
@@ -286,3 +302,7 @@ class Method(Generic[P]):
     story: Callable[[P, Drawing | None], Story]
     restore: Callable[[Problem, Certificate, Stated], Restored[P]]
     questions: Callable[[Problem], Mapping[str, Formula]]
+
+    def make(self, problem: Problem, clock: Clock) -> P:
+        """The plan."""
+        return self.finish(self.begin(problem, clock), clock)

@@ -1,4 +1,4 @@
-"""How far a session is: a bar on a terminal, plain lines otherwise."""
+"""How far a session is: a bar on a terminal that draws one, plain lines otherwise."""
 
 from __future__ import annotations
 
@@ -16,8 +16,10 @@ def progress(what: str, total: int) -> Iterator[tuple[Note, Advance]]:
     from rich.console import Console
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
+    from qe.cli.shell import is_live
+
     console = Console(file=sys.stdout, soft_wrap=True, highlight=False, markup=False)
     columns = TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn()
-    with Progress(*columns, console=console, disable=not console.is_terminal, transient=True) as display:
+    with Progress(*columns, console=console, disable=not is_live(sys.stdout), transient=True) as display:
         task = display.add_task(what, total=total)
         yield console.print, lambda count: display.advance(task, count)

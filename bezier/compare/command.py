@@ -57,10 +57,13 @@ def _write(found: Comparison, folder: FilePath, target: FilePath, *, plots: bool
         names += plot_compare.save(found, folder, regions)
         drawings, first = plot_compare.charts(found, regions), plot_compare.first(found)
         found = replace(found, seconds={**found.seconds, DRAWING[0]: perf_counter() - start})
-    from bezier.compare.page import render
+    from bezier.compare.page import derivation_title, render
 
     files_of = found.derivation_pages
-    pages = {files_of[name]: derivations.page(name, item, COMPARED) for name, item in found.derivations.items()}
+    pages = {
+        files_of[name]: derivations.page(name, item, COMPARED, derivation_title(name))
+        for name, item in found.derivations.items()
+    }
     texts = {COMPARED: found.certificate.to_json(), **pages}
     for name, text in texts.items():
         (folder / name).write_text(text, encoding="utf-8")

@@ -99,14 +99,16 @@ def _derivations(found: Comparison) -> list[Section]:
     """The eliminations whose every step was checked, with links to their pages."""
     if not found.derivations:
         return []
-    rows: list[tuple[Text, Text]] = [
-        (f"The elimination of {name}" if "formula" in name else f"{name[0].upper()}{name[1:]}", _link(found, name))
-        for name in found.derivations
-    ]
+    rows: list[tuple[Text, Text]] = [(derivation_title(name), _link(found, name)) for name in found.derivations]
     rows += [(f"{name[0].upper()}{name[1:]}", f"not every step checked: {why}") for name, why in found.unproved.items()]
     said = "The certificates of both plans and of these derivations are in compare_certificate.json."
     content = html.table(("decided by the engine", "how"), rows) + html.note(said)
     return [Section("certified", "What was certified", content, short="certificates")]
+
+
+def derivation_title(name: str) -> str:
+    """What a derivation is about, in the table and on its page."""
+    return f"The elimination of {name}" if "formula" in name else f"{name[0].upper()}{name[1:]}"
 
 
 def _link(found: Comparison, name: str) -> Markup:

@@ -4,21 +4,18 @@ from __future__ import annotations
 
 import functools
 import inspect
-import time
 from collections.abc import Callable, Mapping, Sequence
-from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar
+from typing import TYPE_CHECKING, ParamSpec, TypeVar
 
 from bezier.input.toml_table import Table, meant
 from bezier.input.values import table_value
 from bezier.interface.planned import NoPath, Planned
-from bezier.planner.planning import make_plan
+from bezier.interface.work import Work
 from bezier.planner.words import why_not
-from bezier.plans import Clock, Plan
 from bezier.problem import Problem, problem_of
 from qe import arguments
 from qe.errors import InputError
-from qe.options import Budget
-from qe.processes.execution import Limits, perform
+from qe.processes.execution import Limits
 from qe.progress import Listener, silent
 
 if TYPE_CHECKING:
@@ -94,7 +91,6 @@ def plan(
     motion does not keep its limits or the arm cannot follow it; ``qe.Unable`` where no answer was reached,
     ``qe.BudgetExceeded`` at a limit.
     """
-    begin = time.perf_counter()
     given = {
         "method": method,
         "workspace": workspace,
@@ -111,9 +107,9 @@ def plan(
         "arm": arm,
     }
     bounds = Limits(arguments.seconds(timeout), arguments.mebibytes(memory), arguments.listener(progress))
-    made = _made(problem_from(given), bounds, proofs=arguments.flag(proofs, "proofs"))
-    planned = Planned(made, time.perf_counter() - begin)
-    reason = why_not(made)
+    work = Work(problem_from(given), bounds, proofs=arguments.flag(proofs, "proofs"))
+    planned = Planned(work)
+    reason = None if work.shows_path() else why_not(work.plan)
     if reason is not None:
         raise NoPath(reason, planned)
     return planned
@@ -125,17 +121,3 @@ def problem_from(given: Mapping[str, object]) -> Problem:
         key: table_value(value, f"{SOURCE}: {NAMES.get(key, key)}") for key, value in given.items() if value is not None
     }
     return problem_of(Table(values, SOURCE, names=NAMES))
-
-
-def _made(problem: Problem, limits: Limits, *, proofs: bool = False) -> Plan:
-    """The plan under the limits; where there are any, in a process that can be killed."""
-
-    def work(budgets: Callable[[], Budget]) -> Plan:
-        budget = budgets()
-        return make_plan(problem, Clock(limit=budget.remaining(), listener=budget.listener), proofs=proofs)
-
-    if limits.timeout is None and limits.memory is None:
-        return make_plan(problem, Clock(listener=limits.progress), proofs=proofs)
-    found: Any = perform(work, limits, at_once=True)
-    assert isinstance(found, Plan)
-    return found

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from dataclasses import replace as changed
@@ -14,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from bezier.curves.curve import Bezier
 from bezier.curves.enclosure import Enclosure
+from bezier.interface.work import Work
 from bezier.motion.motion import Motion, Quality, motion_csv
 from bezier.motion.pieces import pieces
 from bezier.obstacles.survey import Finding
@@ -57,12 +57,13 @@ class NoPath(Unable):
 class Planned:
     """A plan. Lengths in mm; times in seconds where limits were given, else in units of the middle curve's duration.
 
-    ``found``: all that planning found out. ``seconds``: how long that took. Two plans of one problem are compared
-    by their problems, outcomes and paths, which are exact.
+    Without obstacles, limits of the motion and arm only what decides about the path is worked out at once: the
+    elimination, the optimum, and the proofs that the path stays in the workspace. The rest (regions, certificates and
+    their verification, lengths) follows, once, when it is asked for, under the same limits. Two plans of one problem
+    are compared by their problems, outcomes and paths, which are exact.
     """
 
-    found: Plan
-    seconds: float = 0.0
+    work: Work
 
     def __eq__(self, other: object) -> bool:
         return self._known == other._known if isinstance(other, Planned) else NotImplemented
@@ -72,25 +73,36 @@ class Planned:
 
     @property
     def _known(self) -> tuple[object, ...]:
-        return changed(self.problem, source=""), self.outcome, self.found.path
+        return changed(self.problem, source=""), self.outcome, self.work.path
+
+    @property
+    def found(self) -> Plan:
+        """All that planning finds out. Raises ``Unable`` where it does not, ``qe.BudgetExceeded`` at a limit."""
+        return self.work.plan
+
+    @property
+    def seconds(self) -> float:
+        """How long all that was worked out so far took."""
+        return self.work.seconds
 
     # --- exact ------------------------------------------------------------------------------------------
     @property
     def problem(self) -> Problem:
         """The problem in exact numbers."""
-        return self.found.problem
+        return self.work.known.problem
 
     @property
     def outcome(self) -> Outcome:
         """``SOLVED``; another one only in the plan of a ``NoPath``."""
-        return self.found.outcome
+        return self.work.known.outcome
 
     @property
     def path(self) -> Path:
         """The curves, control points and joins, exactly, with what is proved. Raises ``Unable`` where none exists."""
-        if self.found.path is None:
+        path = self.work.path
+        if path is None:
             raise Unable(words.why_not(self.found) or "no path")
-        return self.found.path
+        return path
 
     @property
     def curves(self) -> Mapping[str, Bezier]:
@@ -114,7 +126,10 @@ class Planned:
 
     @property
     def certified(self) -> bool:
-        """Whether the checker accepted every certificate, and the whole path is proved inside and clear."""
+        """Whether the checker accepted every certificate, and the whole path is proved inside and clear.
+
+        The certificates are made and checked when this is first asked for, if not before.
+        """
         return self.found.certified
 
     @property
@@ -150,7 +165,7 @@ class Planned:
     @property
     def motion(self) -> Motion | None:
         """The motion in time with its largest speed and acceleration; None without limits."""
-        return None if self.quality is None else self.quality.motion
+        return None if self.problem.timing is None or self.quality is None else self.quality.motion
 
     @property
     def joints(self) -> JointPlan | None:
@@ -287,7 +302,8 @@ class Planned:
         return npz(self._track)
 
     def _save_folder(self, target: FilePath, pictures: bool) -> list[FilePath]:
-        clock = Clock(seconds=dict(self.found.seconds), start=time.perf_counter() - self.seconds)
+        clock = Clock(seconds=dict(self.found.seconds))
+        clock.start -= self.seconds
         with wanted(), outputs.all_or_none(target) as folder:
             made = changed(self.found, seconds=clock.seconds)
             files, _ = write_folder(made, folder, target, clock, plots=pictures)
@@ -300,7 +316,7 @@ class Planned:
     def _repr_html_(self) -> str:
         """The summary, with a picture of the path from above where there is one, for notebooks."""
         picture = ""
-        if self.found.path is not None:
+        if self.work.path is not None:
             try:
                 picture = self.to_svg()
             except Unable:  # a library that draws is not installed
@@ -308,10 +324,13 @@ class Planned:
         return f"<div><pre>{escape(str(self))}</pre>{picture}</div>"
 
     def __repr__(self) -> str:
-        if self.found.path is None:
+        if self.work.path is None:
             return f"Planned({self.problem.method.value}, {self.outcome.value})"
         curves = ", ".join(f"{name} of degree {curve.degree}" for name, curve in self.curves.items())
-        proved = "certified" if self.certified else "not certified"
+        try:
+            proved = "certified" if self.certified else "not certified"
+        except Unable:  # at a limit
+            proved = "not known to be certified"
         return f"Planned({self.problem.method.value}, {self.outcome.value}, {proved}: {curves})"
 
 

@@ -34,8 +34,8 @@ def place(axis: Any, labels: Sequence[tuple[str, Sequence[float]]], drawn: Array
         note.set(ha="center", va="center")
         box = note.get_window_extent(renderer)
         half = np.array([box.width, box.height]) / 2
-        centres = [at + _step(k, reach, half) for reach, k in product(REACHES, range(PLACES))]
-        best = min(centres, key=lambda c: _cost(np.concatenate([c - half, c + half]), frame, taken, busy, at))
+        centres = np.array([at + _step(k, reach, half) for reach, k in product(REACHES, range(PLACES))])
+        best = centres[np.argmin(_costs(centres, half, frame, np.array(taken), busy, at))]
         taken.append(np.concatenate([best - half, best + half]))
         note.set_position(tuple((best - at) * 72 / axis.figure.dpi))
         if np.linalg.norm(np.maximum(np.abs(best - at) - half, 0)) > 2 * REACHES[0]:
@@ -50,15 +50,18 @@ def _step(k: int, reach: float, half: Array) -> Array:
     return np.asarray(way * (reach + np.abs(way) * half))
 
 
-def _cost(box: Array, frame: Array, taken: Sequence[Array], busy: Array, at: Array) -> float:
-    size = float((box[2] - box[0]) * (box[3] - box[1]))
-    over = sum(_shared(box, other) for other in taken)
-    inside = ((busy >= box[:2]) & (busy <= box[2:])).all(axis=1).sum() if len(busy) else 0
-    away = float(np.linalg.norm((box[:2] + box[2:]) / 2 - at))
-    return COVERING * over + OUTSIDE * (size - _shared(box, frame)) + CROSSING * float(inside) + FAR * away
+def _costs(centres: Array, half: Array, frame: Array, taken: Array, busy: Array, at: Array) -> Array:
+    """What each of the places costs."""
+    low, high = centres - half, centres + half
+    over = sum(_shared(low, high, other) for other in taken)
+    covered = (busy >= low[:, None]) & (busy <= high[:, None])
+    outside = np.prod(2 * half) - _shared(low, high, frame)
+    away = np.linalg.norm(centres - at, axis=1)
+    crossed = covered.all(axis=2).sum(axis=1)
+    return np.asarray(COVERING * over + OUTSIDE * outside + CROSSING * crossed + FAR * away)
 
 
-def _shared(a: Array, b: Array) -> float:
-    """The area that two rectangles (low, high) have in common."""
-    sides = np.minimum(a[2:], b[2:]) - np.maximum(a[:2], b[:2])
-    return float(max(sides[0], 0.0) * max(sides[1], 0.0))
+def _shared(low: Array, high: Array, other: Array) -> Array:
+    """The areas that rectangles have in common with one (low, high)."""
+    sides = np.minimum(high, other[2:]) - np.maximum(low, other[:2])
+    return np.asarray(np.maximum(sides, 0.0).prod(axis=1))

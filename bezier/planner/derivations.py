@@ -55,9 +55,11 @@ def pages(plan: Plan) -> dict[str, str]:
     return {files[name]: page(name, item) for name, item in plan.derivations.items() if item.answer is not None}
 
 
-def page(name: str, item: Derived, file: str = CERTIFICATE) -> str:
-    """A derivation as a page; ``file``: where its evidence is."""
-    found: str = item.answer.derivation.to_html(title=f"The elimination of {name}", note=CHECKED.format(file))
+def page(name: str, item: Derived, file: str = CERTIFICATE, title: str = "") -> str:
+    """A derivation as a page; ``file``: where its evidence is; ``title``: of the elimination of what the name says,
+    where it has none."""
+    heading = title or f"The elimination of {name}"
+    found: str = item.answer.derivation.to_html(title=heading, note=CHECKED.format(file))
     return found
 
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import replace
 
 from bezier.motion.motion import quality_of
@@ -12,7 +13,7 @@ from bezier.planner.arm import check_arm, with_joints
 from bezier.planner.avoid import avoiding
 from bezier.planner.derivations import with_derivations
 from bezier.planner.table import method_of
-from bezier.plans import Clock, Outcome, Plan, RadiusRule
+from bezier.plans import Begun, Clock, Outcome, Plan, RadiusRule
 from bezier.problem import Problem
 from qe.errors import BudgetExceeded, Unable
 
@@ -24,19 +25,48 @@ def make_plan(problem: Problem, clock: Clock | None = None, *, proofs: bool = Fa
     """
     problem = check_arm(problem)
     watch = clock or Clock()
-    try:
+    with _telling(watch):
         plan: Plan = avoiding(problem, watch) if problem.obstacles else method_of(problem.method).make(problem, watch)
-        with watch.step("radius and heights"):
-            plan = _with_findings(plan, watch)
-        with watch.step("quality"):
-            plan = with_quality(plan)
-        if problem.arm is not None:
-            with watch.step("joints"):
-                plan = with_joints(plan)
-        if proofs:
-            with watch.step("derivations"):
-                plan = with_derivations(plan, watch)
-        return plan
+        return _completed(plan, watch, proofs)
+
+
+def begin_plan(problem: Problem, clock: Clock) -> Begun | None:
+    """The path alone, of a problem in which nothing but the workspace decides about it; None for any other one.
+
+    Raises as ``make_plan``.
+    """
+    if problem.obstacles or problem.arm is not None or problem.timing is not None:
+        return None
+    with _telling(clock):
+        return method_of(problem.method).begin(problem, clock)
+
+
+def finish_plan(begun: Begun, clock: Clock, *, proofs: bool = False) -> Plan:
+    """The plan that was begun. Raises as ``make_plan``."""
+    with _telling(clock):
+        return _completed(method_of(begun.problem.method).finish(begun, clock), clock, proofs)
+
+
+def _completed(plan: Plan, watch: Clock, proofs: bool) -> Plan:
+    """The plan with what is decided about every path."""
+    with watch.step("radius and heights"):
+        plan = _with_findings(plan, watch)
+    with watch.step("quality"):
+        plan = with_quality(plan)
+    if plan.problem.arm is not None:
+        with watch.step("joints"):
+            plan = with_joints(plan)
+    if proofs:
+        with watch.step("derivations"):
+            plan = with_derivations(plan, watch)
+    return plan
+
+
+@contextmanager
+def _telling(watch: Clock) -> Iterator[None]:
+    """An error at a limit says what is known by then."""
+    try:
+        yield
     except Unable as error:
         limit = error.limit if isinstance(error, BudgetExceeded) else "time" if watch.is_over else None
         if limit is None:

@@ -265,7 +265,8 @@ def derived(plan: Plan, name: str) -> Markup | None:
 def derivation_link(found: Derived, file: str) -> Markup:
     """A link to the page with the derivation of an answer."""
     count = len(found.rules)
-    words = f"{count} step{'s' * (count != 1)}, each with its theorem, all checked"
+    few = ("no step was needed, checked", "1 step, with its theorem, checked")
+    words = few[count] if count < len(few) else f"{count} steps, each with its theorem, all checked"
     return Markup('<a href="{}">{}</a>').format(file, words)
 
 

@@ -9,3 +9,6 @@ import qe
 answer = qe.eliminate("ex c. all a, b. (a = d and b = c or a = c and b = 1) -> a^2 = b", check=True)
 print(answer.formula)
 print(qe.verify(answer.certificate))
+
+# %%
+answer.plot("reached.png")

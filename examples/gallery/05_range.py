@@ -9,3 +9,6 @@ import qe
 answer = qe.eliminate("ex x. y*(x^2 + 1) = x", check=True)
 print(answer.formula)
 print(qe.verify(answer.certificate))
+
+# %%
+answer.plot("range.png")

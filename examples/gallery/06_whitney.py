@@ -10,3 +10,6 @@ import qe
 answer = qe.eliminate("ex s, t. x = s*t and y = s and z = t^2", check=True)
 print(answer.formula)
 print(qe.verify(answer.certificate))
+
+# %%
+qe.region(f"({answer.formula}) and y >= -1 and y <= 1 and z <= 1", order="y, z, x").plot("umbrella.png")

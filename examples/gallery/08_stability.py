@@ -15,3 +15,7 @@ print(answer.formula)
 # %%
 # The textbook's form is equivalent:
 print(qe.equivalent(answer.formula, "a > 0 and c > 0 and a*b > c"))
+
+# %%
+# The slice a = 1 of the answer:
+qe.region(answer.formula.substitute({"a": 1}), order="b, c").plot("stable.png")

@@ -15,3 +15,8 @@ print(qe.verify(answer.certificate))
 # %%
 everywhere = qe.eliminate(f"all x, y, z. {schur}")
 print(everywhere.truth, {name: str(value) for name, value in everywhere.witness.items()})
+
+# %%
+# Where it is false, for z = 1:
+negative = "x*(x - y)*(x - 1) + y*(y - x)*(y - 1) + (1 - x)*(1 - y) < 0"
+qe.region(f"{negative} and x >= -3 and x <= 3 and y >= -3 and y <= 3").plot("schur.png")

@@ -14,3 +14,6 @@ answer = qe.eliminate(
 print(answer.formula)
 print(qe.verify(answer.certificate))
 print(qe.find_instance(f"({answer.formula}) and c > 3/2")["c"])
+
+# %%
+answer.plot("free.png")

@@ -8,13 +8,19 @@ PROOF. By continuity the ends may be added to D_j. T is an intersection of close
 a boundary point p there are points p' outside T, with g_j(p', y') > 0; as the intervals are compact, such y' for one j
 have a limit y with g_j(p, y) >= 0, and p is in T: the greatest value of g_j(p, .) on [l_j, h_j] is 0, at y.
 
-So T is the closed convex set of the first theorem of ``critical_values``, with these critical points, and what follows
-there from its boundary holds here: with one open cell in T, and the same truth as a set S that is the closure of its
-interior at the samples of all open cells, T = S. A matrix is positive semidefinite iff no principal minor is negative
-(Horn, Johnson: Matrix Analysis, 7.2). A sample is in T if the g_j are seen to be nowhere positive (Sturm), and not in T
-by a number y in D_j where g_j is positive.
+LEMMA. If g_j = c * g, with c(y) >= 0 on [l_j, h_j] and not zero, then g may take the place of g_j: T stays what it is.
+PROOF. Without the finitely many zeros of c, D_j is dense in [l_j, h_j], and there g_j is nowhere positive iff g is. A
+continuous function is nowhere positive on a set iff it is so on a dense subset.
 
-Evidence: ``order`` (the parameters), ``chains`` (three for each j: at l_j, at h_j, and for the double zeros),
+So the factors of g_j in y alone are left out where their product has one sign. (A curve through a given point on the
+sphere has a g_j that is zero at an end of the interval for all p: every point would be critical.) T is the closed
+convex set of the first theorem of ``critical_values``, with these critical points, and what follows there from its
+boundary holds here: with one open cell in T, and the same truth as a set S that is the closure of its interior at the
+samples of all open cells, T = S. A matrix is positive semidefinite iff no principal minor is negative (Horn, Johnson:
+Matrix Analysis, 7.2). A sample is in T if the g_j are seen to be nowhere positive (Sturm), and not in T by a number y
+in D_j where g_j is positive.
+
+Evidence: ``order`` (the parameters), ``chains`` (for each j: at l_j, at h_j, and for the double zeros if y occurs),
 ``factors``, ``stacks`` (of a cell: -1 where the sample is in T, else the number of an exception), ``exceptions`` ([j,
 y]), ``regular``, as for "critical values".
 """
@@ -53,10 +59,13 @@ class Exceeding:
     high: Fraction
 
     def critical(self) -> list[list[Poly]]:
-        """Polynomials that vanish together over critical points: at both ends, and at a double zero."""
+        """Polynomials that vanish together over critical points: at both ends, and at a double zero.
+
+        Without y in the polynomial, an end says all.
+        """
         y = self.poly.ring.size - 1
         ends = [[self.poly.at_rational(y, end)] for end in (self.low, self.high)]
-        return [*ends, [self.poly, self.poly.derivative(y)]]
+        return [*ends, [self.poly, self.poly.derivative(y)]] if self.poly.degree(y) else ends
 
     def is_excluded(self, values: Sequence[Fraction]) -> bool:
         """Whether g <= 0 on the interval, over a point."""
@@ -167,10 +176,23 @@ def _part(case: Sequence[Atom], claim: Claim) -> Exceeding:
             raise claim.fail("expected bounds of the block's variable, and weak inequalities for it")
     if len(others) != 1 or not lower or not upper or max(lower) >= min(upper):
         raise claim.fail("expected one inequality on an interval in each case")
-    part = Exceeding(others[0], max(lower), min(upper))
+    low, high = max(lower), min(upper)
+    part = Exceeding(_without_content(others[0], low, high), low, high)
     if not part.is_convex():
         raise claim.fail("an inequality is not seen to be convex in the parameters")
     return part
+
+
+def _without_content(poly: Poly, low: Fraction, high: Fraction) -> Poly:
+    """The polynomial without its factors in the last variable alone, where their product has one sign (the lemma)."""
+    y = poly.ring.size - 1
+    content = poly.ring.constant(1)
+    for factor, multiplicity in poly.factors()[1]:
+        if factor.variables == (y,):
+            content *= factor**multiplicity
+    if is_nonnegative(content, low, high):
+        return poly.exact_divide(content)
+    return poly.exact_divide(-content) if is_nonnegative(-content, low, high) else poly
 
 
 def is_nonnegative(poly: Poly, low: Fraction, high: Fraction) -> bool:

@@ -177,11 +177,19 @@ def _one_line_hook(name: str) -> Callable[[type[BaseException], BaseException, T
     return hook
 
 
+def is_live(stream: TextIO) -> bool:
+    """Whether a line may be drawn over and over: on a terminal that knows how, unless colours are not wanted.
+
+    ``NO_COLOR`` (no-color.org) is taken as a wish for plain text, without codes of any kind.
+    """
+    return stream.isatty() and not os.environ.get("NO_COLOR") and os.environ.get("TERM") not in ("dumb", "unknown")
+
+
 class Display:
-    """A progress line on stderr; where that is no terminal, with ``lines`` a line now and then, else nothing."""
+    """A progress line on stderr; where none can be drawn, with ``lines`` a line now and then, else nothing."""
 
     def __init__(self, *, wanted: bool = True, lines: bool = False) -> None:
-        self._wanted = wanted and sys.stderr.isatty()
+        self._wanted = wanted and is_live(sys.stderr)
         self._lines = wanted and lines and not self._wanted
         self._said = -LINES_APART
         self._start = time.monotonic()

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 from html import escape
+from itertools import pairwise
 
 from qe.formula.notation import Monomial, digits, oriented, positive
 from qe.formula.syntax import And, Atom, Constant, Exists, ForAll, Formula, Not, Or, Relation, RootAtom
@@ -12,7 +13,9 @@ from qe.io.latex import GREEK
 from qe.spelling import visible
 
 WIDTH = 12
-"""Leaves (monomials) after which the outermost operator is written in lines."""
+"""Leaves (monomials) after which an operator is written in lines."""
+LINE = 72
+"""Letters in a line of a longer polynomial; browsers break no formula themselves, and paper does not scroll."""
 
 _LETTERS = dict(zip(sorted(GREEK), "αβχδεηγικλμνωφπψρστθυξζ"))
 _NAME = re.compile(r"([^\W\d_]+)_?(\d*)('*)")
@@ -50,19 +53,20 @@ def write(formula: Formula) -> str:
 
 
 def _lines(formula: Formula) -> str:
-    """The quantifiers, and the operands of the outermost operator in rows of a table when there is much of it."""
+    """The quantifiers, and what they are about; operands stand in rows of a table where there is much of them."""
     prefix = ""
     while isinstance(formula, Exists | ForAll):
         prefix += _quantifier(formula)
         formula = formula.body
-    if not isinstance(formula, And | Or) or _size(formula) <= WIDTH:
-        return f"<mrow>{prefix}{expression(formula)}</mrow>"
+    return f"<mrow>{prefix}{expression(formula, broken=True)}</mrow>"
+
+
+def _rows(formula: And | Or, draw: Draw) -> str:
+    """The operands of an operator, each in a row."""
     operator = _operator(_AND if isinstance(formula, And) else _OR)
-    rows = [
-        f"<mtr><mtd>{operator if i else ''}</mtd><mtd{LEFT}>{expression(arg, bracket=True)}</mtd></mtr>"
-        for i, arg in enumerate(formula.args)
-    ]
-    return f"<mrow>{prefix}<mtable columnalign='right left'>{''.join(rows)}</mtable></mrow>"
+    drawn = (expression(arg, bracket=True, draw=draw, broken=True) for arg in formula.args)
+    rows = (f"<mtr><mtd>{operator if i else ''}</mtd><mtd{LEFT}>{arg}</mtd></mtr>" for i, arg in enumerate(drawn))
+    return f"<mtable columnalign='right left'>{''.join(rows)}</mtable>"
 
 
 def _size(formula: Formula) -> int:
@@ -78,24 +82,30 @@ def _size(formula: Formula) -> int:
     return 1
 
 
-def expression(formula: Formula, *, bracket: bool = False, draw: Draw = name) -> str:
-    """A formula on one line; ``bracket``: compound ones need brackets here."""
+def expression(formula: Formula, *, bracket: bool = False, draw: Draw = name, broken: bool = False) -> str:
+    """A formula; ``bracket``: compound ones need brackets here; ``broken``: long polynomials take several lines."""
     match formula:
         case Constant(value):
             return f"<mi>{'true' if value else 'false'}</mi>"
         case Atom():
             parts, relation = oriented(formula.poly, formula.relation)
-            return f"<mrow>{polynomial(parts, draw)}{_relation(relation)}<mn>0</mn></mrow>"
+            end = f"{_relation(relation)}<mn>0</mn>"
+            lines = _line_starts(parts) if broken else [0]
+            if len(lines) > 1:
+                return _in_lines(parts, lines, draw, end)
+            return f"<mrow>{polynomial(parts, draw)}{end}</mrow>"
         case RootAtom(variable, relation, poly, k):
             root = f"<msub><mi>root</mi><mn>{k}</mn></msub>{bracketed(polynomial(positive(poly), draw))}"
             return f"<mrow>{draw(variable)}{_relation(relation)}{root}</mrow>"
         case Not(arg):
-            return f"<mrow>{_operator('¬')}{expression(arg, bracket=True, draw=draw)}</mrow>"
+            return f"<mrow>{_operator('¬')}{expression(arg, bracket=True, draw=draw, broken=broken)}</mrow>"
         case Exists(_, body) | ForAll(_, body):
-            inner = f"{_quantifier(formula, draw)}{expression(body, draw=draw)}"
+            inner = f"{_quantifier(formula, draw)}{expression(body, draw=draw, broken=broken)}"
+        case And() | Or() if broken and _size(formula) > WIDTH:
+            inner = _rows(formula, draw)
         case And(args) | Or(args):
             operator = _operator(_AND if isinstance(formula, And) else _OR)
-            inner = operator.join(expression(arg, bracket=True, draw=draw) for arg in args)
+            inner = operator.join(expression(arg, bracket=True, draw=draw, broken=broken) for arg in args)
         case _:
             raise TypeError(f"not a formula: {formula!r}")
     return bracketed(inner) if bracket else f"<mrow>{inner}</mrow>"
@@ -120,11 +130,30 @@ def _relation(relation: Relation) -> str:
     return f"<mo>{_RELATIONS[relation]}</mo>"
 
 
-def polynomial(parts: list[Monomial], draw: Draw = name) -> str:
-    """A sum of monomials (``qe.formula.notation.monomials``)."""
+def _line_starts(parts: list[Monomial]) -> list[int]:
+    """The numbers of the monomials with which the lines of a sum begin."""
+    starts, used = [0], 0
+    for k, (coefficient, powers) in enumerate(parts):
+        letters = 3 + len(str(coefficient)) + sum(len(variable) + (power > 1) for variable, power in powers)
+        if k and used + letters > LINE:
+            starts, used = [*starts, k], 0
+        used += letters
+    return starts
+
+
+def _in_lines(parts: list[Monomial], starts: list[int], draw: Draw, end: str) -> str:
+    """A long sum in lines, with what follows it at the end of the last one."""
+    lines = [polynomial(parts[a:b], draw, follows=a > 0) for a, b in pairwise([*starts, len(parts)])]
+    lines[-1] = f"<mrow>{lines[-1]}{end}</mrow>"
+    rows = "".join(f"<mtr><mtd{LEFT}>{line}</mtd></mtr>" for line in lines)
+    return f"<mtable columnalign='left'>{rows}</mtable>"
+
+
+def polynomial(parts: list[Monomial], draw: Draw = name, *, follows: bool = False) -> str:
+    """A sum of monomials (``qe.formula.notation.monomials``); ``follows``: it goes on with one that stands before."""
     pieces: list[str] = []
     for coefficient, powers in parts:
-        if coefficient < 0 or pieces:
+        if coefficient < 0 or pieces or follows:
             pieces.append(f"<mo>{'−' if coefficient < 0 else '+'}</mo>")
         factors = [_power(draw(variable), k) for variable, k in powers]
         if abs(coefficient) != 1 or not factors:

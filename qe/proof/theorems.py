@@ -5,8 +5,9 @@ The checkers stand above this row and are read as text here, so that a page is w
 
 from __future__ import annotations
 
-import ast
 import functools
+import inspect
+import re
 from importlib.resources import files
 
 THEOREM = "THEOREM"
@@ -27,9 +28,15 @@ def _checkers() -> tuple[tuple[str, tuple[str, ...]], ...]:
     found = []
     for file in sorted(files("qe").joinpath("certify").iterdir(), key=lambda f: f.name):
         if file.name.endswith(".py"):
-            head, *more = (ast.get_docstring(ast.parse(file.read_text("utf-8"))) or "").split("\n\n")
+            head, *more = _docstring(file.read_text("utf-8")).split("\n\n")
             found.append((" ".join(head.split()), tuple(part for text in more for part in _theorems(text))))
     return tuple(found)
+
+
+def _docstring(text: str) -> str:
+    """What stands at the head of a file; reading all of it as Python would take longer than writing most pages."""
+    found = re.match(r'"""(.*?)"""', text, re.DOTALL)
+    return inspect.cleandoc(found[1]) if found else ""
 
 
 def _theorems(paragraph: str) -> list[str]:

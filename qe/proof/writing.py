@@ -108,6 +108,7 @@ STYLE = (
     "body{font:16px/1.5 system-ui,sans-serif;max-width:60rem;margin:2rem auto;padding:0 1rem;color-scheme:light dark}"
     "li{margin:1.2rem 0}.rule{font-weight:600}.says{opacity:.75}p{overflow-x:auto}"
     "math{width:fit-content;margin-left:0}mtd{text-align:left}"
+    "@media print{p{overflow:visible}}"
     "details{margin:.4rem 0}details li{margin:.3rem 0;overflow-wrap:anywhere}summary{cursor:pointer}"
 )
 

@@ -2,13 +2,21 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Mapping
+from fractions import Fraction
+from typing import Any
 
 import numpy
 
 from qe.cells.pieces import Piece, RootFunction
+from qe.exact.algebraic import RealAlgebraic, real_roots
+from qe.exact.ring import Poly
 
 Span = tuple[float, float]
+
+CLOSE = 1e-3
+"""Roots nearer to each other than this, as a share of their size, are counted exactly."""
 
 
 def ends(piece: Piece, i: int, values: Mapping[int, float], span: Span) -> Span:
@@ -24,8 +32,7 @@ def _at(root: RootFunction | None, values: Mapping[int, float], fallback: float,
         return fallback
     if root.value is not None:
         return float(root.value)
-    level = root.poly.level
-    coefficients = [_value(c.terms(), values) for c in root.poly.coefficients(level)]
+    coefficients = [_value(terms, values) for terms in _coefficients(root.poly)]
     if len(coefficients) == 2:
         return -coefficients[0] / coefficients[1] if coefficients[1] else fallback
     if len(coefficients) == 3:
@@ -36,10 +43,31 @@ def _at(root: RootFunction | None, values: Mapping[int, float], fallback: float,
         pair = sorted(((-b - wide) / (2 * a), (-b + wide) / (2 * a)))
         return float(pair[root.k - 1])
     found = numpy.roots(coefficients[::-1])
+    if not thin and _are_close(found):
+        exact = [float(r) for r in _exact_roots(root.poly, values)]
+        return exact[min(root.k, len(exact)) - 1] if exact else fallback
     real: list[float] = sorted(float(z.real) for z in found if abs(z.imag) < 1e-6 * max(1.0, abs(z)))
     if thin:
         real = [b for a, b in zip([-numpy.inf, *real], real, strict=False) if b - a > 1e-5 * max(1.0, abs(b))]
     return real[min(root.k, len(real)) - 1] if real else fallback
+
+
+def _are_close(found: numpy.ndarray[Any, Any]) -> bool:
+    """Whether two roots are so near to each other that floating point may not tell whether they are real."""
+    apart = numpy.abs(found[:, None] - found) + 9 * numpy.eye(len(found)) * (1 + abs(found))
+    return bool((apart < CLOSE * (1 + numpy.abs(found))).any())
+
+
+def _exact_roots(poly: Poly, values: Mapping[int, float]) -> list[RealAlgebraic]:
+    for i in poly.variables[:-1]:
+        poly = poly.at_rational(i, Fraction(values[i]))
+    return [] if poly.is_constant else real_roots(poly.to_univariate(poly.level))
+
+
+@functools.lru_cache(maxsize=64)
+def _coefficients(poly: Poly) -> list[list[tuple[tuple[int, ...], int]]]:
+    """The terms of the coefficients by powers of the main variable: the same for all points of a line."""
+    return [c.terms() for c in poly.coefficients(poly.level)]
 
 
 def _value(terms: list[tuple[tuple[int, ...], int]], values: Mapping[int, float]) -> float:

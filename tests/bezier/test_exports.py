@@ -17,6 +17,7 @@ import pytest
 import bezier
 import qe
 from bezier.exports.plane import polyline
+from bezier.interface.work import Work
 from bezier.motion.motion import state
 from bezier.motion.pieces import pieces
 
@@ -216,7 +217,7 @@ def test_misuse(plain: bezier.Planned, ask, told: str) -> None:
 
 def test_a_distance_that_is_not_known_is_not_left_out(timed: bezier.Planned) -> None:
     first, *rest = timed.findings
-    unknown = replace(timed, found=replace(timed.found, findings=(replace(first, distance=None), *rest)))
+    unknown = bezier.Planned(Work.done(replace(timed.found, findings=(replace(first, distance=None), *rest))))
     assert unknown.clearance is None and len(unknown.findings) == 3
 
 

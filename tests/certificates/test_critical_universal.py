@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 import json
+from dataclasses import replace
 from fractions import Fraction
 
 import pytest
@@ -12,9 +13,19 @@ from hypothesis import strategies as st
 
 import qe
 import qe.certify.critical_universal as checker
-from qe.certify.verify import verify_json
+from qe.certify.derivation import limits_of
+from qe.certify.registry import RULES
+from qe.certify.step import Claim
+from qe.certify.verify import check_certificate, verify_json
 from qe.exact.ring import Ring
+from qe.formula.build import convert
+from qe.formula.syntax import TRUE
+from qe.io.text import read
+from qe.options import Budget, Options
 from qe.proof.certificate import Certificate
+from qe.proof.derivation import moved
+from qe.proof.entry import Entry, formula_to_json
+from qe.proving.critical import universal_evidence
 from tests.certificates.mutation import leaves, lists, replaced, without
 
 RULE = "critical values of a universal block"
@@ -22,6 +33,8 @@ PARABOLA = "all t. 0 <= t and t <= 1 -> (a - t)^2 + (b - t^2)^2 <= 4"
 BERNSTEIN = "all t. 0 < t and t < 1 -> (1 - t)^2*a + 2*t*(1 - t)*b + t^2 >= 0"
 TWO = "all t. 0 <= t and t <= 1 -> a*t - b <= 1 and b*t - a <= t^2"
 LINE = "all t. -1 <= t and t <= 2 -> a*t^2 - t <= 1"
+AT_END = "all t. 0 <= t and t <= 1 -> t*(1 - t)^2*(a^2 + t*b - 1) <= 0"
+WITHOUT = "all t. 0 <= t and t <= 1 -> a*t - b <= 1 and (1 - t)*(a - 2) <= 0"
 
 
 @functools.cache
@@ -37,9 +50,26 @@ def refused(text: str) -> bool:
     return not verdict.accepted and verdict.step != "digest"
 
 
-@pytest.mark.parametrize("text", [PARABOLA, BERNSTEIN, TWO, LINE])
+@pytest.mark.parametrize("text", [PARABOLA, BERNSTEIN, TWO, LINE, AT_END])
 def test_it_is_accepted(text):
     assert qe.verify(Certificate.from_json(example(text)), formula=text).accepted
+
+
+@pytest.mark.parametrize(("answer", "accepted"), [("a*1 - b <= 1 and b >= -1 and a <= 2", True), ("a <= 2", False)])
+def test_an_inequality_without_the_quantified_variable_is_proved(answer, accepted):
+    """The derivative by y is 0 then, from which no chain can begin: the ends of the interval say all."""
+    before = read(WITHOUT)
+    claim = Claim(RULE, before, convert(read(answer), before.ring), before.ring, Entry({}, "evidence"), "step")
+    budget = Budget(20)
+    try:
+        evidence = universal_evidence(claim, ("a", "b"), Options(), budget)
+        checker.check_critical_universal(
+            replace(claim, evidence=Entry(evidence, "evidence")), (), limits_of(budget, RULES, check_certificate, set())
+        )
+    except qe.CertificateRejected:
+        assert not accepted
+    else:
+        assert accepted
 
 
 @settings(max_examples=12, deadline=None)
@@ -51,7 +81,7 @@ def test_whatever_is_found_is_accepted(p, q, size, shift):
         assert RULE not in answer.unchecked_steps
 
 
-@pytest.mark.parametrize("text", [LINE, BERNSTEIN])
+@pytest.mark.parametrize("text", [LINE, BERNSTEIN, AT_END])
 def test_altered_evidence_is_refused(text):
     whole = json.loads(example(text))
     step = ("payload", "steps", 0)
@@ -82,15 +112,13 @@ def test_what_is_said_of_a_cell_is_looked_at():
         (LINE, "a < 1/4"),
         (BERNSTEIN, "a >= 0 and b >= 0"),
         (BERNSTEIN, "b^2 - a <= 0"),
+        (AT_END, "a^2 <= 1"),
+        (AT_END, "a^2 + b <= 1"),
         (PARABOLA, "a^2 + b^2 <= 4"),
     ],
 )
 def test_other_answers_are_refused(text, other):
     whole = json.loads(example(text))
-    from qe.io.text import read
-    from qe.proof.derivation import moved
-    from qe.proof.entry import formula_to_json
-
     answer = moved(read(other), Ring.of(whole["payload"]["order"]))
     said = formula_to_json(answer)
     if said == whole["payload"]["answer"]:
@@ -114,11 +142,6 @@ BEYOND = [
 
 @pytest.mark.parametrize("text", BEYOND)
 def test_what_the_theorem_does_not_cover_is_refused(text):
-    from qe.certify.step import Claim
-    from qe.formula.syntax import TRUE
-    from qe.io.text import read
-    from qe.proof.entry import Entry
-
     before = read(text)
     assert before.ring is not None
     claim = Claim(RULE, before, TRUE, before.ring, Entry({}, "evidence"), "step")
@@ -139,6 +162,27 @@ def test_nowhere_negative_means_so_at_all_points(coefficients, low, width):
         assert not found
     square = poly * poly
     assert checker.is_nonnegative(square, Fraction(low), Fraction(low + width))
+
+
+@given(st.lists(st.integers(-2, 2), max_size=3), st.integers(-3, 3), st.integers(-3, 3), st.sampled_from([1, -1]))
+def test_leaving_out_factors_of_one_variable_changes_no_truth(zeros, slope, constant, sign):
+    """Where a curve begins at a given point of the sphere, everything was critical there, and no chain was found."""
+    ring, (low, high) = Ring.of(("a", "t")), (Fraction(-1), Fraction(2))
+    a, t = ring.var("a"), ring.var("t")
+    content = ring.constant(sign)
+    for zero in zeros:
+        content *= t - zero
+    whole = content * (a + t * slope + constant)
+    kept = checker._without_content(whole, low, high)
+    assert kept.degree(0) == 1 and (kept == whole or kept.degree(1) <= 1)
+    places = [low + Fraction(3 * k, 24) for k in range(25)]
+    for p in (Fraction(k, 2) for k in range(-12, 13)):
+        signs = [(whole.evaluate((p, y)), kept.evaluate((p, y))) for y in places]
+        assert all(before * after > 0 or not before for before, after in signs)
+        assert all(
+            before or content.evaluate((0, y)) == 0 or not after
+            for (before, after), y in zip(signs, places, strict=True)
+        )
 
 
 def no_shape(m: pytest.MonkeyPatch) -> None:

@@ -63,3 +63,64 @@ def test_letters_that_the_terminal_lacks() -> None:
 def test_an_order_with_names_in_backquotes() -> None:
     line = f"{FOLDER / 'qe'} eliminate 'ex `a b`. `a b`*y + z > 0' --order '`a b`, y' --plain"
     assert shell(line) == (0, "")
+
+
+DRAWING = """
+import time
+from qe.cli import shell
+from qe.progress import Event
+shell.DISPLAY_AFTER = 0.0
+with shell.Display(lines=True) as display:
+    for _ in range(3):
+        display(Event("at work", 1, 2))
+        time.sleep(0.2)
+"""
+
+
+def on_a_terminal(command: list[str], **environment: str) -> bytes:
+    """What a command writes to a terminal."""
+    pty = pytest.importorskip("pty")
+    ours, theirs = pty.openpty()
+    known = {name: value for name, value in os.environ.items() if name not in ("NO_COLOR", "FORCE_COLOR")}
+    started = subprocess.Popen(
+        command, stdin=theirs, stdout=theirs, stderr=theirs, env={**known, "TERM": "xterm", **environment}
+    )
+    os.close(theirs)
+    written = b""
+    try:
+        while piece := os.read(ours, 65536):
+            written += piece
+    except OSError:  # the other end is closed
+        pass
+    finally:
+        os.close(ours)
+    assert started.wait(120) in (0, 2)
+    return written
+
+
+NO_COLOR, DUMB = {"NO_COLOR": "1"}, {"TERM": "dumb"}
+
+
+@pytest.mark.parametrize(
+    ("command", "environment"),
+    [
+        ([sys.executable, "-c", DRAWING], NO_COLOR),
+        ([sys.executable, "-c", DRAWING], DUMB),
+        ([str(FOLDER / "qe"), "--help"], NO_COLOR),
+        ([str(FOLDER / "bezier"), "plan", "missing.toml"], NO_COLOR),
+    ],
+)
+def test_plain_text_where_no_codes_are_wanted(command: list[str], environment: dict[str, str]) -> None:
+    """NO_COLOR left dim figures, a spinner and codes that moved the cursor."""
+    written = on_a_terminal(command, **environment)
+    assert b"\x1b" not in written and b"\r" not in written.replace(b"\r\n", b"")
+    assert DRAWING not in command or b"at work" in written
+
+
+def test_a_terminal_has_a_line_that_is_drawn_over() -> None:
+    assert b"\x1b" in on_a_terminal([sys.executable, "-c", DRAWING])
+
+
+def test_a_pipe_gets_no_codes() -> None:
+    done = subprocess.run([sys.executable, "-c", DRAWING], capture_output=True, check=True, timeout=120)
+    assert done.stderr.startswith(b"at work") and b"\x1b" not in done.stdout + done.stderr

@@ -15,7 +15,7 @@ from bezier.methods.control.claims import check_optimum_of, member, optimal_poin
 from bezier.methods.control.statements import Statement
 from bezier.methods.control.system import System
 from bezier.paths.path import Path, Proof, assemble, path_certificates, prove
-from bezier.plans import Clock, Outcome, Plan
+from bezier.plans import Begun, Clock, Outcome, Plan
 from bezier.problem import Problem
 from qe.errors import CertificateRejected, InternalError, Unable
 from qe.exact.ring import Ring
@@ -109,6 +109,28 @@ def drawn(problem: Problem, system: System, found: Certified) -> dict[str, Any]:
         "active": () if points is None else system.active(points),
         "objective": None if points is None else system.objective_at(points),
     }
+
+
+@dataclass(frozen=True, slots=True)
+class Drawn:
+    """What the plan of a system begins with: the engine's answer and its optimum, and what follows from that."""
+
+    system: System
+    answer: Any
+    optimum: Any
+    fields: Mapping[str, Any]
+
+
+def begun(problem: Problem, system: System, clock: Clock) -> Begun:
+    """The elimination, the optimum under its answer, and the path through it with what is proved about that."""
+    answer = quantifier_free(system.statement(), clock)
+    with clock.step("optimum"):
+        optimum = least(system, answer, clock)
+    clock.learn("optimum", optimum.status.value)
+    with clock.step("curves and proofs"):
+        fields = drawn(problem, system, found_optimum(system, optimum.certificate))
+    found = Drawn(system, answer, optimum, fields)
+    return Begun(problem=problem, outcome=fields["outcome"], path=fields["path"], found=found, seconds=clock.seconds)
 
 
 def restored(fields: Mapping[str, Any], found: Certified, members: Members) -> dict[str, Any]:

@@ -77,7 +77,8 @@ def restore(problem: Problem, certificate: Certificate, stated: Stated) -> Resto
 
 
 CUBIC: Method[CubicPlan] = Method(
-    make=cubic_plan.make,
+    begin=cubic_plan.begin,
+    finish=cubic_plan.finish,
     reason=cubic_report.reason,
     summary_lines=summary_lines,
     json_entries=json_entries,

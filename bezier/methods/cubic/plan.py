@@ -8,13 +8,12 @@ from typing import Any
 
 from bezier.methods.control.optimal_path import (
     OPTIMUM,
+    Drawn,
     SystemPlan,
+    begun,
     drawn,
     elimination,
-    found_optimum,
-    least,
     path_through,
-    quantifier_free,
     restored,
     restored_optimum,
     verified,
@@ -23,7 +22,7 @@ from bezier.methods.control.system import System
 from bezier.methods.cubic import formula as cubic
 from bezier.paths.path import Path
 from bezier.paths.speed import Slowest, slowest_of
-from bezier.plans import Clock
+from bezier.plans import Begun, Clock
 from bezier.problem import Problem
 from qe.formula.syntax import Formula
 from qe.proof.certificate import Certificate
@@ -53,27 +52,26 @@ class CubicPlan(SystemPlan):
     trivial: Trivial
 
 
-def make(problem: Problem, clock: Clock) -> CubicPlan:
-    """Plan with formula (7)."""
-    system = cubic.system(problem)
-    answer = quantifier_free(system.statement(), clock)
-    with clock.step("optimum"):
-        optimum = least(system, answer, clock)
-    clock.learn("optimum", optimum.status.value)
-    with clock.step("curves and proofs"):
-        fields = drawn(problem, system, found_optimum(system, optimum.certificate))
+def begin(problem: Problem, clock: Clock) -> Begun:
+    """The path of formula (7)."""
+    return begun(problem, cubic.system(problem), clock)
+
+
+def finish(given: Begun, clock: Clock) -> CubicPlan:
+    """The plan with formula (7)."""
+    found: Drawn = given.found
     with clock.step("speed"):
-        fields |= _speeds(problem, system, fields["path"])
+        fields = {**found.fields, **_speeds(given.problem, found.system, given.path)}
     with clock.step("verification"):
-        certificate, checks = verified([elimination(system), (OPTIMUM, optimum.certificate)], fields["path"])
+        certificate, checks = verified([elimination(found.system), (OPTIMUM, found.optimum.certificate)], given.path)
     return CubicPlan(
         **fields,
-        answer=answer,
-        optimum=optimum,
+        answer=found.answer,
+        optimum=found.optimum,
         certificate=certificate,
         checks=checks,
         seconds=clock.seconds,
-        eliminations={FORMULA: answer},
+        eliminations={FORMULA: found.answer},
     )
 
 

@@ -80,7 +80,8 @@ def restore(problem: Problem, certificate: Certificate, stated: Stated) -> Resto
 
 
 QUADRATIC: Method[QuadraticPlan] = Method(
-    make=quadratic_plan.make,
+    begin=quadratic_plan.begin,
+    finish=quadratic_plan.finish,
     reason=quadratic_report.reason,
     summary_lines=summary_lines,
     json_entries=json_entries,

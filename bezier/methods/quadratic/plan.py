@@ -12,21 +12,19 @@ from bezier.curves.scalar import Vector, rational, sign
 from bezier.curves.workspace import Workspace, WorkspaceKind
 from bezier.methods.control.optimal_path import (
     OPTIMUM,
+    Drawn,
     Members,
     SystemPlan,
     answered,
+    begun,
     body_of,
-    drawn,
     elimination,
-    found_optimum,
-    least,
-    quantifier_free,
     verified,
 )
 from bezier.methods.control.system import System
 from bezier.methods.quadratic import formula as quadratic
 from bezier.paths.path import Path, Proof, prove
-from bezier.plans import Clock
+from bezier.plans import Begun, Clock
 from bezier.problem import Problem
 from qe.errors import InternalError
 from qe.formula.syntax import Formula
@@ -75,27 +73,30 @@ class QuadraticPlan(SystemPlan):
     gap: Gap
 
 
-def make(problem: Problem, clock: Clock) -> QuadraticPlan:
-    """Plan with formula (8)."""
-    system = quadratic.system(problem)
-    answer = quantifier_free(system.statement(), clock)
+def begin(problem: Problem, clock: Clock) -> Begun:
+    """The path of formula (8)."""
+    return begun(problem, quadratic.system(problem), clock)
+
+
+def finish(given: Begun, clock: Clock) -> QuadraticPlan:
+    """The plan with formula (8)."""
+    found: Drawn = given.found
+    problem, system, answer, optimum = given.problem, found.system, found.answer, found.optimum
     with clock.step("region"):
         region = qe.region(answer.formula, order=quadratic.FREE, timeout=clock.remaining())
     clock.learn("region", "empty" if region.is_empty else "not empty")
-    with clock.step("optimum"):
-        optimum = least(system, answer, clock)
     if region.is_empty == optimum.is_optimal:
         raise InternalError("the region and the optimum disagree about the existence of a control point")
-    with clock.step("curves and proofs"):
-        fields = drawn(problem, system, found_optimum(system, optimum.certificate))
     with clock.step("hemisphere question"):
-        gap = _gap(problem, region, fields["path"], clock)
-    fields |= {"region": region, "gap": gap, "balls": quadratic.three_balls(problem)}
+        gap = _gap(problem, region, given.path, clock)
     with clock.step("verification"):
         members = certificates(system, region, optimum, gap)
-        certificate, checks = verified(members, fields["path"])
+        certificate, checks = verified(members, given.path)
     return QuadraticPlan(
-        **fields,
+        **found.fields,
+        region=region,
+        gap=gap,
+        balls=quadratic.three_balls(problem),
         answer=answer,
         optimum=optimum,
         certificate=certificate,

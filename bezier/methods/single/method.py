@@ -107,7 +107,8 @@ def restore(problem: Problem, certificate: Certificate, stated: Stated) -> Resto
 
 
 SINGLE: Method[SinglePlan] = Method(
-    make=single_plan.make,
+    begin=single_plan.begin,
+    finish=single_plan.finish,
     reason=single_report.reason,
     summary_lines=summary_lines,
     json_entries=json_entries,

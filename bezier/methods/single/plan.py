@@ -22,7 +22,7 @@ from bezier.methods.single.formula import Piecewise, Symbol
 from bezier.methods.single.program import Chosen, Dip, choose, curve, dips, lowest
 from bezier.methods.single.simplex import Contradiction, LinearOptimum, certificate
 from bezier.paths.path import Path, Proof, assemble, prove
-from bezier.plans import Clock, Outcome, Plan
+from bezier.plans import Begun, Clock, Outcome, Plan
 from bezier.problem import Problem
 from qe.errors import InternalError
 from qe.formula.syntax import Formula
@@ -98,7 +98,19 @@ class SinglePlan(Plan):
         return (*found, "closed.rounds", "closed.attainable") if isinstance(self.closed, ProvedCurve) else found
 
 
-def make(problem: Problem, clock: Clock) -> SinglePlan:
+def begin(problem: Problem, clock: Clock) -> Begun:
+    """The whole plan: each of its parts decides which path it has."""
+    plan = _made(problem, clock)
+    return Begun(problem=problem, outcome=plan.outcome, path=plan.path, found=plan, seconds=clock.seconds)
+
+
+def finish(given: Begun, clock: Clock) -> SinglePlan:
+    """The plan with Method 1."""
+    plan: SinglePlan = given.found
+    return plan
+
+
+def _made(problem: Problem, clock: Clock) -> SinglePlan:
     """Plan with Method 1, and with Method 1* where the curve of (4) dips or leaves."""
     given = task_of(problem)
     question = single_formula.attainable(given, given.raised[0])

@@ -68,3 +68,23 @@ def test_every_formula_is_well_formed(formula: Formula) -> None:
 def test_other_objects_are_refused() -> None:
     with pytest.raises(TypeError, match="not a formula"):
         mathml.expression("x > 0")  # type: ignore[arg-type]
+
+
+@given(formulas())
+def test_lines_change_nothing_that_is_said(formula: Formula) -> None:
+    lines = ElementTree.fromstring(f"<m>{mathml.expression(formula, broken=True)}</m>")
+    assert "".join(lines.itertext()) == "".join(
+        ElementTree.fromstring(f"<m>{mathml.expression(formula)}</m>").itertext()
+    )
+
+
+def test_long_polynomials_stand_in_lines() -> None:
+    """On paper the page of a derivation cut them off."""
+    sums = " + ".join(f"{k}*a^{k}*b^{40 - k}" for k in range(1, 40))
+    element = ElementTree.fromstring(mathml.write(read(f"x > 0 and (y > 0 or {sums} <= 0)")))
+    lines = [
+        "".join(row.itertext())
+        for row in element.iter()
+        if row.tag.endswith("mtr") and "mtable" not in {part.tag.rpartition("}")[2] for part in row.iter()}
+    ]
+    assert len(lines) > 5 and max(map(len, lines)) < 2 * mathml.LINE

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import subprocess
 import sys
 from pathlib import Path
@@ -11,6 +12,7 @@ import pytest
 from matplotlib.figure import Figure
 
 import qe
+from qe.regions.sketch import sketch
 
 BALL = "x^2 + y^2 + z^2 <= 4 and x >= 0"
 
@@ -100,3 +102,11 @@ def test_the_backend_stays(tmp_path: Path):
     done = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, timeout=60)
     assert done.stdout.split() == ["0", "svg", "1"], done.stderr
     assert matplotlib.get_backend()
+
+
+def test_borders_follow_no_root_that_is_almost_real():
+    """Beside q = -8*sqrt(3)/9 two complex roots nearly meet; taken for real, they gave the border a spike downwards."""
+    region = qe.region("27*q^4 + 288*q^2*r - 256*r^3 - 32*q^2 + 512*r^2 - 256*r <= 0 and 3*r > 2", order="q, r")
+    for band in sketch(region).bands:
+        assert min(band.low) > 0.66
+        assert all(abs(a - b) < 0.2 for a, b in itertools.pairwise(band.low))
