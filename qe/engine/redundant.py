@@ -19,21 +19,27 @@ from qe.exact.number import Values
 from qe.formula.build import conj, disj, exists
 from qe.formula.features import length
 from qe.formula.normal import nnf
-from qe.formula.syntax import FALSE, And, Atom, Formula, Or
+from qe.formula.syntax import FALSE, And, Atom, Exists, Formula, Or, Relation
 from qe.formula.traverse import atoms
 from qe.proof.step import Nested, Place
 from qe.simplify.simplify import simplify
 
-WORK, QUESTION_WORK, QUESTIONS = 6000, 1000, 40
-"""Units of work for all sentences, and for one of them; how many are decided."""
+WORK, QUESTION_WORK, PATIENCE = 4000, 800, 4
+"""Units of work for all sentences, and for one of them; how many parts in a row may make a difference after all, and
+twice as many once one did not."""
+
+DEGREES = {1: 40, 2: 12, 3: 6}
+"""The total degree of a sentence with so many variables that is decided; with more, it is ``MANY_DEGREE``."""
+
+MANY_DEGREE = 6
 
 MOST_ATOMS, MOST_VARIABLES, MOST_TERMS = 60, 8, 400
 """A larger answer is left as it is."""
 
 COARSE, FINE = 40, 120
-"""How many points are looked at first, and how many more for the parts that these leave."""
+"""How many points are looked at first, beside those on the axes, and how many more for the parts that these leave."""
 
-SMALL = (0, 1, -1, 2, -2, 3, -3, 5)
+SMALL = (0, 0, 0, 1, 1, -1, -1, 2, -2, 3, -3, 5)
 CLOSE = tuple(map(Fraction, ("0", "1/2", "-1/2", "1/3", "-2/3", "1", "-1", "5/4", "-7/2", "9")))
 """The coordinates of these points."""
 
@@ -44,6 +50,7 @@ class Part:
 
     place: Place
     formula: Formula
+    of_conjunction: bool
     conditions: tuple[Formula, ...]
 
     @property
@@ -58,10 +65,8 @@ def without_redundant_parts(formula: Formula, context: Context) -> Formula:
     if not _is_suited(formula):
         return formula
     points = _Points(formula.free)
-    budget, asked, kept = context.budget.part(WORK), 0, set[Formula]()
-    part = next(_unsettled(formula, points, kept), None)
-    while part is not None and asked < QUESTIONS:
-        asked += 1
+    budget, kept, patience = context.budget.part(WORK), set[Formula](), PATIENCE
+    while patience and budget.used <= WORK and (part := next(_unsettled(formula, points, kept), None)) is not None:
         sentence = part.sentence
         try:
             found = context.decide(sentence, budget.part(QUESTION_WORK))
@@ -74,10 +79,11 @@ def without_redundant_parts(formula: Formula, context: Context) -> Formula:
             proof = {"at": list(part.place), "steps": nested}
             formula = context.log.step("redundant part", formula, shorter, evidence={"proof": proof})
             formula = context.log.step("simplification", formula, simplify(formula))
+            patience = 2 * PATIENCE
         else:
             kept.add(sentence)
             points.take(found.witness if found is not None else None)
-        part = next(_unsettled(formula, points, kept), None) if budget.used <= WORK else None
+            patience -= 1
     return formula
 
 
@@ -103,7 +109,17 @@ def _unsettled(formula: Formula, points: _Points, kept: set[Formula]) -> Iterato
         found = list(_silent(formula, points, (), (), points.everywhere))
         if not found:
             return
-    yield from (p for p in sorted(found, key=lambda p: length(p.formula), reverse=True) if p.sentence not in kept)
+    found.sort(key=lambda p: length(p.formula), reverse=True)
+    yield from (p for p in found if _is_cheap(p) and p.sentence not in kept)
+
+
+def _is_cheap(part: Part) -> bool:
+    """Whether a part may well be redundant, and the sentence be decided with little work."""
+    if isinstance(part.formula, Atom) and part.formula.relation is Relation.EQ and part.of_conjunction:
+        return False
+    sentence = part.sentence
+    size = len(sentence.variables) if isinstance(sentence, Exists) else 0
+    return max((a.poly.total_degree for a in atoms(sentence)), default=0) <= DEGREES.get(size, MANY_DEGREE)
 
 
 def _silent(formula: Formula, points: _Points, place: Place, above: tuple[Formula, ...], there: int) -> Iterator[Part]:
@@ -119,7 +135,7 @@ def _silent(formula: Formula, points: _Points, place: Place, above: tuple[Formul
             here = here if j == k else here & other if both else here & ~other
         beside = (*above, *(rest if both else (nnf(r, negate=True) for r in rest)))
         if not here & (~mask if both else mask):
-            yield Part((*place, k), arg, (*beside, nnf(arg, negate=True) if both else arg))
+            yield Part((*place, k), arg, both, (*beside, nnf(arg, negate=True) if both else arg))
         yield from _silent(arg, points, (*place, k), beside, here)
 
 
@@ -137,10 +153,15 @@ class _Points:
         return (1 << len(self.listed)) - 1
 
     def fill(self, count: int) -> None:
-        """So many points at least."""
-        while len(self.listed) < count:
-            coordinates: Sequence[Fraction | int] = SMALL if len(self.listed) < COARSE else CLOSE
-            self.listed.append({name: self.chosen.choice(coordinates) for name in self.names})
+        """So many points at least, beside those on the axes."""
+        axes = 2 * len(self.names)
+        while len(self.listed) < count + axes:
+            k = len(self.listed)
+            if k < axes:
+                self.listed.append({name: (-1) ** k * (i == k // 2) for i, name in enumerate(self.names)})
+                continue
+            values: Sequence[Fraction | int] = SMALL if k < COARSE + axes else CLOSE
+            self.listed.append({name: self.chosen.choice(values) for name in self.names})
 
     def take(self, witness: Values | None) -> None:
         """One more point, if its coordinates are rational."""
