@@ -25,8 +25,7 @@ from qe.proof.step import Nested, Place
 from qe.simplify.simplify import simplify
 
 WORK, QUESTION_WORK, PATIENCE = 4000, 800, 4
-"""Units of work for all sentences, and for one of them; how many parts in a row may make a difference after all, and
-twice as many once one did not."""
+"""Units of work for all sentences, and for one of them; how many parts in a row may make a difference after all."""
 
 DEGREES = {1: 40, 2: 12, 3: 6}
 """The total degree of a sentence with so many variables that is decided; with more, it is ``MANY_DEGREE``."""
@@ -79,7 +78,7 @@ def without_redundant_parts(formula: Formula, context: Context) -> Formula:
             proof = {"at": list(part.place), "steps": nested}
             formula = context.log.step("redundant part", formula, shorter, evidence={"proof": proof})
             formula = context.log.step("simplification", formula, simplify(formula))
-            patience = 2 * PATIENCE
+            patience = PATIENCE
         else:
             kept.add(sentence)
             points.take(found.witness if found is not None else None)
