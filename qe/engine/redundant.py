@@ -61,7 +61,7 @@ class Part:
 
 def without_redundant_parts(formula: Formula, context: Context) -> Formula:
     """The formula without parts that make no difference, as far as little work shows them."""
-    if not _is_suited(formula):
+    if context.decide is None or not _is_suited(formula):
         return formula
     points = _Points(formula.free)
     budget, kept, patience = context.budget.part(WORK), set[Formula](), PATIENCE
