@@ -62,7 +62,8 @@ class Stage(Enum):
     stands beside them. ``NONZERO``, ``INFINITY``, ``CRITICAL``, ``CONVEX``, ``CGS``, ``WITNESS``: variables that are
     only asked to be no root; truth at infinity first; critical values; convex optimisation; comprehensive Gröbner
     systems; polynomial witnesses. ``NAMING``: a linear form that curved conditions look at gets a
-    name. ``SHORTENING``: a last look for a shorter or constant answer.
+    name. ``REDUNDANT``: parts of an answer that make no difference are dropped. ``SHORTENING``: a last look for a
+    shorter or constant answer, these parts included.
     """
 
     EQUATIONS = "equations"
@@ -97,6 +98,7 @@ class Stage(Enum):
     CONVEX = "convex"
     CGS = "cgs"
     WITNESS = "witness"
+    REDUNDANT = "redundant"
     SHORTENING = "shortening"
 
 

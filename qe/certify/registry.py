@@ -32,6 +32,7 @@ from qe.certify.named_form import check_named_form
 from qe.certify.negation import check_negation
 from qe.certify.open_block import check_open_block
 from qe.certify.ranges import check_ranges
+from qe.certify.redundant import check_redundant
 from qe.certify.renaming import check_renaming
 from qe.certify.replayed_block import check_replayed_block
 from qe.certify.roots_counted import check_roots_counted
@@ -96,6 +97,7 @@ RULES: Mapping[str, Check] = {
     "witness in the parameters": check_witness_in_parameters,
     "shorter": check_table,
     "covering": check_covering,
+    "redundant part": check_redundant,
     "constant": check_constant,
     "Boolean search": check_boolean_search,
     "convex": check_sentence,

@@ -16,6 +16,7 @@ from qe.elimination.protocol import Context, Outcome, Problem
 from qe.engine.early import early_parts, equations
 from qe.engine.finish import settled, shortened
 from qe.engine.local import WORK, without_locals
+from qe.engine.redundant import without_redundant_parts
 from qe.engine.strategy import SHORTCUT, SPARE, Attempt, Scope, alone, attempts, complete
 from qe.errors import Unable
 from qe.exact.number import Values
@@ -188,7 +189,10 @@ class _Run:
 
     def finished(self, formula: Formula, question: Formula, mark: int) -> Formula:
         """A last look: shorter, and TRUE or FALSE where it is that. ``mark``: where the question's own steps begin."""
-        return settled(shortened(formula, self.context(), last=True), self.context(), self.decision, question, mark)
+        shorter = shortened(formula, self.context(), last=True)
+        if Stage.REDUNDANT not in self.options.without:
+            shorter = without_redundant_parts(shorter, self.context())
+        return settled(shorter, self.context(), self.decision, question, mark)
 
     def decision(self, sentence: Formula, context: Context) -> Nested:
         """How a sentence is decided, in a run of its own within the limits of the context."""

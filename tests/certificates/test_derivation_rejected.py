@@ -31,6 +31,7 @@ QUICK = {
     "terms",
     "distributed",
     "taken far out",
+    "redundant",
 }
 """Cases for every day; the others are altered in the deep tests."""
 

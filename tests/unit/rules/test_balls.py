@@ -1,4 +1,5 @@
-"""Two balls that meet: the closed form against other methods, its side conditions, its checker against forgeries."""
+"""Two balls, spheres or outsides of balls that meet: the closed form against other methods, its side conditions, its
+checker against forgeries."""
 
 from __future__ import annotations
 
@@ -18,13 +19,16 @@ from qe.formula.build import atom, conj, disj
 from qe.formula.evaluate import holds_at, substituted
 from qe.formula.syntax import Exists, Relation
 from qe.io.text import read
+from qe.proof.derivation import moved
 from qe.proof.entry import Entry
+from qe.proof.run_log import RunLog
 from qe.rules.balls import square_root
 from qe.rules.preparation import prepare
 from qe.rules.step import StepKind
 
 ALONE = frozenset({StepKind.BALLS, StepKind.MINISCOPE})
 DISCS = "ex x, y. x^2 + y^2 <= r^2 and (x - a)^2 + (y - b)^2 <= s^2"
+NEAR, FAR = "r^2 + 2*r*s + s^2 - a^2 - b^2", "r^2 - 2*r*s + s^2 - a^2 - b^2"
 
 
 @pytest.mark.parametrize(
@@ -36,6 +40,15 @@ DISCS = "ex x, y. x^2 + y^2 <= r^2 and (x - a)^2 + (y - b)^2 <= s^2"
         ("ex x, y. x^2 + y^2 <= 0 and x^2 + y^2 < a", "a > 0"),
         ("ex x, y, z. x^2 + y^2 + z^2 < 1 and (x-a)^2 + y^2 + z^2 <= 1", "a - 2 < 0 and a + 2 > 0"),
         ("all x, y. x^2 + y^2 > 1 or (x-a)^2 + y^2 >= 4", "a^2 - 9 >= 0"),
+        ("all x, y. (x-a)^2 + (y-b)^2 <= 4 -> x^2 + y^2 <= 9", "a^2 + b^2 - 1 <= 0"),
+        (f"r > 0 and s > 0 and ({DISCS.replace('<', '')})", f"r > 0 and s > 0 and {NEAR} >= 0 and {FAR} <= 0"),
+        (f"r > 0 and s > 0 and not ({DISCS.replace('<=', '>', 1)})", f"s > 0 and {FAR} >= 0 and r - s >= 0"),
+        (
+            f"r > 0 and s > 0 and ({DISCS.replace('<=', '=', 1)})",
+            f"r > 0 and s > 0 and {NEAR} >= 0 and ({FAR} <= 0 or r - s <= 0)",
+        ),
+        ("ex x, y. x^2 + y^2 = a and x^2 + y^2 <= b", "a - b <= 0 and a >= 0"),
+        ("ex x, y. x^2 + y^2 > a and x^2 + y^2 <= b", "b >= 0 and a - b < 0"),
     ],
 )
 def test_the_condition_is_short(text: str, answer: str) -> None:
@@ -47,8 +60,9 @@ def test_the_condition_is_short(text: str, answer: str) -> None:
     [
         "ex x, y. x^2 + 2*y^2 <= a and x^2 + y^2 <= b",
         "ex x, y. x^2 + y^2 + x*y <= a and x^2 + y^2 <= b",
-        "ex x, y. x^2 + y^2 >= a and x^2 + y^2 <= b",
-        "ex x, y. x^2 + y^2 = a and x^2 + y^2 <= b",
+        "ex x, y. x^2 + y^2 >= a and x^2 + (y - c)^2 >= b",
+        "ex x, y. x^2 + y^2 /= a and x^2 + y^2 <= b",
+        "ex x. x^2 = a and (x - c)^2 <= b",
         "ex x, y. a*x^2 + a*y^2 <= 1 and x^2 + y^2 <= b",
         "ex x, y. x^2 + y^2 <= a and x^2 + y^2 <= b and x > c",
         "ex x. x^2 <= a and (x - b)^2 <= 1",
@@ -59,13 +73,14 @@ def test_others_are_left_alone(text: str) -> None:
 
 
 SMALL = st.integers(-3, 3)
+RELATIONS = ("<", "<=", "=", ">=", ">")
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=60, deadline=None)
 @given(
     st.lists(SMALL, min_size=5, max_size=5),
     st.tuples(st.integers(1, 2), st.integers(1, 3)),
-    st.tuples(st.sampled_from(["<", "<="]), st.sampled_from(["<", "<="])),
+    st.sampled_from([(p, q) for p in RELATIONS for q in RELATIONS if not (">" in p and ">" in q)]),
     st.booleans(),
 )
 def test_numbers_put_in_before_or_after(
@@ -122,3 +137,34 @@ def test_forged_steps_are_refused(right: Claim) -> None:
     ):
         with pytest.raises(CertificateRejected):
             balls_goals(dataclasses.replace(right, after=after), known)
+
+
+@pytest.mark.parametrize("pair", [("=", "<="), ("=", "="), ("<=", ">="), ("<=", "<=")])
+def test_each_kind_of_pair_has_its_own_condition(pair: tuple[str, str]) -> None:
+    """It is refused for the others, but that the outside of a ball meets a sphere as it meets the ball inside."""
+    log = RunLog()
+    text = "ex u, v. u^2 + v^2 {} 1 and (u - x)^2 + (v - y)^2 {} a"
+    prepare(read(text.format(*pair)), enabled=ALONE, log=log)
+    (step,) = [step for step in log.steps() if step.rule == "two balls"]
+    ring = step.before.ring
+    assert ring is not None
+    for first in RELATIONS:
+        for second in RELATIONS:
+            before = moved(read(text.format(first, second)), ring)
+            claim = Claim("two balls", before, step.after, ring, Entry({"root": None, "theory": None}, "step"), "step")
+            if (first, second) == pair or (pair == ("<=", ">=") and (first, second) == ("=", ">=")):
+                assert balls_goals(claim, ()) == []
+                continue
+            with pytest.raises(CertificateRejected):
+                balls_goals(claim, ())
+
+
+def test_spheres_in_one_variable_are_refused() -> None:
+    """On a line a sphere is two points: no closed form of this kind."""
+    before = read("ex u. u^2 = 1 and (u - x)^2 = a")
+    ring = before.ring
+    assert ring is not None
+    x, a = ring.var("x"), ring.var("a")
+    after = conj((atom(a, Relation.GE), atom((x * x - 1 - a) ** 2 - 4 * a, Relation.LE)))
+    with pytest.raises(CertificateRejected):
+        balls_goals(Claim("two balls", before, after, ring, Entry({"root": None, "theory": None}, "step"), "step"), ())

@@ -1,0 +1,191 @@
+"""Parts of an answer that make no difference, dropped: what elimination tells apart often needs no telling apart.
+
+``c = 0 and P or c /= 0 and Q`` is Q where Q says at c = 0 what P says. A part of a disjunction matters at the points
+where it holds, the other parts do not, and every conjunct beside the way down to it does (every disjunct does not);
+in a conjunction, where it fails and the others hold. Whether there is such a point is a sentence. A few points answer
+most of these sentences at once; the others are decided, with little work, largest parts first.
+"""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
+
+from qe.elimination.protocol import Context
+from qe.errors import Unable
+from qe.exact.number import Values
+from qe.formula.build import conj, disj, exists
+from qe.formula.features import length
+from qe.formula.normal import nnf
+from qe.formula.syntax import FALSE, And, Atom, Exists, Formula, Or, Relation
+from qe.formula.traverse import atoms
+from qe.proof.step import Nested, Place
+from qe.simplify.simplify import simplify
+
+WORK, QUESTION_WORK, PATIENCE = 4000, 800, 4
+"""Units of work for all sentences, and for one of them; how many parts in a row may make a difference after all."""
+
+DEGREES = {1: 40, 2: 12, 3: 6}
+"""The total degree of a sentence with so many variables that is decided; with more, it is ``MANY_DEGREE``."""
+
+MANY_DEGREE = 6
+
+MOST_ATOMS, MOST_VARIABLES, MOST_TERMS = 60, 8, 400
+"""A larger answer is left as it is."""
+
+COARSE, FINE = 40, 120
+"""How many points are looked at first, beside those on the axes, and how many more for the parts that these leave."""
+
+SMALL = (0, 0, 0, 1, 1, -1, -1, 2, -2, 3, -3, 5)
+CLOSE = tuple(map(Fraction, ("0", "1/2", "-1/2", "1/3", "-2/3", "1", "-1", "5/4", "-7/2", "9")))
+"""The coordinates of these points."""
+
+
+@dataclass(frozen=True, slots=True)
+class Part:
+    """An argument of a conjunction or disjunction, its ``place``, and the ``conditions`` under which it matters."""
+
+    place: Place
+    formula: Formula
+    of_conjunction: bool
+    conditions: tuple[Formula, ...]
+
+    @property
+    def sentence(self) -> Formula:
+        """Whether there is a point where it matters."""
+        body = conj(self.conditions)
+        return exists(body.free, body)
+
+
+def without_redundant_parts(formula: Formula, context: Context) -> Formula:
+    """The formula without parts that make no difference, as far as little work shows them."""
+    if context.decide is None or not _is_suited(formula):
+        return formula
+    points = _Points(formula.free)
+    budget, kept, patience = context.budget.part(WORK), set[Formula](), PATIENCE
+    while patience and budget.used <= WORK and (part := next(_unsettled(formula, points, kept), None)) is not None:
+        sentence = part.sentence
+        try:
+            found = context.decide(sentence, budget.part(QUESTION_WORK))
+        except Unable:
+            context.budget.check("shorten")
+            found = None
+        if found is not None and found.formula == FALSE:
+            nested = Nested(sentence, tuple(found.log.steps()), FALSE)
+            shorter = without_part(formula, part.place)
+            proof = {"at": list(part.place), "steps": nested}
+            formula = context.log.step("redundant part", formula, shorter, evidence={"proof": proof})
+            formula = context.log.step("simplification", formula, simplify(formula))
+            patience = PATIENCE
+        else:
+            kept.add(sentence)
+            points.take(found.witness if found is not None else None)
+            patience -= 1
+    return formula
+
+
+def _is_suited(formula: Formula) -> bool:
+    size, terms = length(formula)
+    if not 2 <= size <= MOST_ATOMS or terms > MOST_TERMS or len(formula.free) > MOST_VARIABLES:
+        return False
+    return all(isinstance(a, Atom) for a in atoms(formula)) and formula == nnf(formula)
+
+
+def without_part(formula: Formula, place: Sequence[int]) -> Formula:
+    """The formula without the argument at a place."""
+    assert isinstance(formula, And | Or)
+    join, k = conj if isinstance(formula, And) else disj, place[0]
+    inner = [] if len(place) == 1 else [without_part(formula.args[k], place[1:])]
+    return join((*formula.args[:k], *inner, *formula.args[k + 1 :]))
+
+
+def _unsettled(formula: Formula, points: _Points, kept: set[Formula]) -> Iterator[Part]:
+    """The parts of which no known point says that they matter, largest first."""
+    for count in (COARSE, COARSE + FINE):
+        points.fill(count)
+        found = list(_silent(formula, points, (), (), points.everywhere))
+        if not found:
+            return
+    found.sort(key=lambda p: length(p.formula), reverse=True)
+    yield from (p for p in found if _is_cheap(p) and p.sentence not in kept)
+
+
+def _is_cheap(part: Part) -> bool:
+    """Whether a part may well be redundant, and the sentence be decided with little work."""
+    if isinstance(part.formula, Atom) and part.formula.relation is Relation.EQ and part.of_conjunction:
+        return False
+    sentence = part.sentence
+    size = len(sentence.variables) if isinstance(sentence, Exists) else 0
+    return max((a.poly.total_degree for a in atoms(sentence)), default=0) <= DEGREES.get(size, MANY_DEGREE)
+
+
+def _silent(formula: Formula, points: _Points, place: Place, above: tuple[Formula, ...], there: int) -> Iterator[Part]:
+    """The parts below a place that matters under conditions, at the points ``there``, and that no point tells."""
+    if not isinstance(formula, And | Or):
+        return
+    both = isinstance(formula, And)
+    masks = [points.holding(a) for a in formula.args]
+    for k, (arg, mask) in enumerate(zip(formula.args, masks, strict=True)):
+        rest = formula.args[:k] + formula.args[k + 1 :]
+        here = there
+        for j, other in enumerate(masks):
+            here = here if j == k else here & other if both else here & ~other
+        beside = (*above, *(rest if both else (nnf(r, negate=True) for r in rest)))
+        if not here & (~mask if both else mask):
+            yield Part((*place, k), arg, both, (*beside, nnf(arg, negate=True) if both else arg))
+        yield from _silent(arg, points, (*place, k), beside, here)
+
+
+@dataclass(slots=True)
+class _Points:
+    """Points, and for formulas the sets of those where they hold, as bits."""
+
+    names: tuple[str, ...]
+    listed: list[Mapping[str, Fraction | int]] = field(default_factory=list)
+    known: dict[Formula, tuple[int, int]] = field(default_factory=dict)
+    chosen: random.Random = field(default_factory=lambda: random.Random(1))
+
+    @property
+    def everywhere(self) -> int:
+        return (1 << len(self.listed)) - 1
+
+    def fill(self, count: int) -> None:
+        """So many points at least, beside those on the axes."""
+        axes = 2 * len(self.names)
+        while len(self.listed) < count + axes:
+            k = len(self.listed)
+            if k < axes:
+                self.listed.append({name: (-1) ** k * (i == k // 2) for i, name in enumerate(self.names)})
+                continue
+            values: Sequence[Fraction | int] = SMALL if k < COARSE + axes else CLOSE
+            self.listed.append({name: self.chosen.choice(values) for name in self.names})
+
+    def take(self, witness: Values | None) -> None:
+        """One more point, if its coordinates are rational."""
+        values = [(name, (witness or {}).get(name, Fraction(0))) for name in self.names]
+        point = {name: value for name, value in values if isinstance(value, Fraction)}
+        if witness is not None and len(point) == len(self.names):
+            self.listed.append(point)
+
+    def holding(self, formula: Formula) -> int:
+        """Where the formula holds."""
+        seen, mask = self.known.get(formula, (0, 0))
+        if seen == len(self.listed):
+            return mask
+        match formula:
+            case And(args):
+                mask = self.everywhere
+                for arg in args:
+                    mask &= self.holding(arg)
+            case Or(args):
+                mask = 0
+                for arg in args:
+                    mask |= self.holding(arg)
+            case Atom(poly, relation):
+                for k in range(seen, len(self.listed)):
+                    value = poly.evaluate([self.listed[k].get(name, 0) for name in poly.ring.names])
+                    mask |= relation.holds((value > 0) - (value < 0)) << k
+        self.known[formula] = len(self.listed), mask
+        return mask

@@ -1,0 +1,111 @@
+"""Parts of answers that make no difference: which are dropped, that nothing changes, and that each step is proved."""
+
+from __future__ import annotations
+
+import random
+from dataclasses import replace
+from fractions import Fraction
+
+import pytest
+
+import qe
+import qe.engine.redundant as redundant
+from qe.api.input import read_formula
+from qe.elimination.protocol import Context, Outcome
+from qe.engine.redundant import without_part, without_redundant_parts
+from qe.formula.evaluate import holds_at
+from qe.formula.syntax import FALSE, Formula
+from qe.options import Budget, Options
+from qe.proof.run_log import RunLog
+from tests.certificates.test_broken_producers import accepted
+
+LYAPUNOV = (
+    "ex p, q, r. p > 0 and p*r - q^2 > 0 and a*p + c*q < 0 and 4*(a*p + c*q)*(b*q + d*r) > (b*p + (a + d)*q + c*r)^2"
+)
+
+SHORT = {
+    "c = 0 and a + b < 0 or c /= 0 and (a + b + c^2 < 0 or a + b < 0)": "a + b < 0",
+    "a = 0 and b*c < 0 or b*c < a^2": "b*c < a^2",
+    "a < 1 and b < 1 and a + b < 2": "a < 1 and b < 1",
+    "p*q < 0 and q /= 0 or p = 0 and q = 0": "p*q < 0 or p = 0 and q = 0",
+    LYAPUNOV: "a + d < 0 and a*d - b*c > 0",
+}
+
+
+def shorter(formula: Formula, log: RunLog | None = None) -> Formula:
+    """By this rule alone; sentences are decided by the engine."""
+
+    def decide(sentence: Formula, budget: Budget) -> Outcome:
+        answer = qe.eliminate(sentence, process=False)
+        assert answer.formula is not None
+        return Outcome(answer.formula, answer.witness, log=answer.log or RunLog())
+
+    return without_redundant_parts(formula, Context(Options(), Budget(), log or RunLog(), decide))
+
+
+@pytest.mark.parametrize("text", SHORT)
+def test_parts_without_effect_are_dropped(text: str) -> None:
+    found = qe.eliminate(text).formula
+    assert found is not None
+    expected = read_formula(SHORT[text])
+    assert len(str(found)) <= len(str(expected))
+    assert qe.decide(f"all a, b, c, d, p, q. ({found}) <-> ({expected})")
+
+
+def test_an_answer_of_virtual_substitution_is_as_short_as_the_theorem() -> None:
+    """Lyapunov's condition for a matrix of two rows had 388 characters: cases that need no telling apart."""
+    assert len(str(qe.eliminate(LYAPUNOV).formula)) < 30
+    assert len(str(qe.eliminate(LYAPUNOV, without="redundant").formula)) > 100
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_nothing_changes_at_any_point(seed: int) -> None:
+    chosen = random.Random(seed)
+
+    def text(depth: int) -> str:
+        if not depth:
+            sides = chosen.choice(("x", "y", "x + y", "x - 1", "x^2 - y", "x*y")), chosen.choice(("<", ">=", "=", "/="))
+            return f"{sides[0]} {sides[1]} {chosen.randint(-1, 1)}"
+        return "(" + chosen.choice((" and ", " or ")).join(text(depth - 1) for _ in range(2 + depth % 2)) + ")"
+
+    formula = read_formula(text(3))
+    found = shorter(formula)
+    for i in range(-6, 7):
+        for j in range(-6, 7):
+            point = {"x": Fraction(i, 2), "y": Fraction(j, 2)}
+            assert holds_at(formula, point) is holds_at(found, point), point
+
+
+def test_what_is_beside_the_way_is_looked_at(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A step whose sentence leaves out a condition of the place is not accepted; as it is, it is."""
+    question = read_formula("a < 1 and (b < 1 or a < 2)")
+    log = RunLog()
+    shorter(question, log)
+    steps = [step for step in log.steps() if step.rule == "redundant part"]
+    assert steps and all(map(accepted, steps))
+    proof = steps[0].evidence["proof"]
+    assert isinstance(proof, dict)
+    for at in ([], [0], [1], [1, 1], [1, 0, 0], [7]):
+        if at != proof["at"]:
+            assert not accepted(replace(steps[0], evidence={"proof": {**proof, "at": at}}))
+    assert not accepted(replace(steps[0], after=FALSE))
+
+    def careless(sentence: Formula, budget: Budget) -> Outcome:
+        return Outcome(FALSE)
+
+    log = RunLog()
+    without_redundant_parts(read_formula("a^2 + b^2 < 1 and a + b < 100"), Context(Options(), Budget(), log, careless))
+    (broken,) = [step for step in log.steps() if step.rule == "redundant part"]
+    assert not accepted(broken)
+
+
+def test_the_part_at_a_place() -> None:
+    formula = read_formula("a < 1 and (b < 1 or c < 2)")
+    assert str(without_part(formula, (1, 0))) == "a - 1 < 0 and c - 2 < 0"
+    assert str(without_part(formula, (0,))) == "b - 1 < 0 or c - 2 < 0"
+
+
+def test_large_answers_are_left_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+    formula = read_formula("a < 1 and a < b and b < 1")
+    monkeypatch.setattr(redundant, "MOST_ATOMS", 2)
+    assert shorter(formula) == formula
