@@ -139,7 +139,17 @@ def test_four_discs_that_grow_with_time() -> None:
 
 def test_many_balls_in_space() -> None:
     """Nine balls through the origin: decomposition took 15 s, and convex optimisation is asked first from four on."""
-    centres = [(1, 2, 0), (-1, 1, 2), (0, -2, 1), (2, 0, -1), (-2, -1, 0), (1, -1, 2), (0, 1, -2), (2, 1, 1), (-1, 0, 2)]
+    centres = [
+        (1, 2, 0),
+        (-1, 1, 2),
+        (0, -2, 1),
+        (2, 0, -1),
+        (-2, -1, 0),
+        (1, -1, 2),
+        (0, 1, -2),
+        (2, 1, 1),
+        (-1, 0, 2),
+    ]
     parts = [f"(x - ({a}))^2 + (y - ({b}))^2 + (z - ({c}))^2 <= {a * a + b * b + c * c}" for a, b, c in centres]
     three, all_of_them = (problem(f"ex x, y, z. {' and '.join(some)}") for some in (parts[:3], parts))
     assert [a.method for a, _, _ in attempts(Scope.ASKED, all_of_them, Options())] == ["convex"]
