@@ -1,11 +1,12 @@
 """Rule "quadric in a quadric": conditions f < 0 and h <= 0 (or h = 0) on two variables, by one multiplier (S-lemma).
 
-THEOREM. Let F and H be twice the symmetric matrices of f and h, of degree 2 at most in (x, y). Where F_ii < 0 < H_ii for
-the place i of x or y, and det H < 0, the conditions have no common solution (x, y) iff r*F + H is positive semidefinite
-for some r > 0. For: h is negative somewhere (H has a negative eigenvalue). If f >= 0 where h = 0, so it is where
-h <= 0: there a line in the i-th direction, on which f is concave and h a convex parabola, passes between two points with
-h = 0. Then f + m*h >= 0 everywhere for some m >= 0 (Yakubovich 1971; Pólik, Terlaky, SIAM Review 49, 2007, theorem
-2.2); m /= 0 by F_ii < 0, and r = 1/m. The other way round f >= -h/r where r*F + H is positive semidefinite.
+THEOREM. Let F and H be twice the symmetric matrices of f and h, of degree 2 at most in (x, y). Where F_ii < 0 < H_ii
+for the place i of x or y, and det H < 0, the conditions have no common solution (x, y) iff r*F + H is positive
+semidefinite for some r > 0. For: h is negative somewhere (H has a negative eigenvalue). If f >= 0 where h = 0, so it
+is where h <= 0: there a line in the i-th direction, on which f is concave and h a convex parabola, passes between two
+points with h = 0. Then f + m*h >= 0 everywhere for some m >= 0 (Yakubovich 1971; Pólik, Terlaky, SIAM Review 49,
+2007, theorem 2.2); m /= 0 by F_ii < 0, and r = 1/m. The other way round f >= -h/r where r*F + H is positive
+semidefinite.
 
 That a symmetric matrix is positive semidefinite means that no principal minor is negative (Horn, Johnson, Matrix
 Analysis, theorem 7.2.5). With b = 0 in ((a, b), (b, c)) the minor a*c follows from the others; so does the large one

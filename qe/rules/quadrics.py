@@ -64,7 +64,7 @@ _AT_MOST = {Relation.LE: (1,), Relation.GE: (-1,), Relation.EQ: (1, -1)}
 
 
 def _theorem(f: Poly, h: Poly, variables: tuple[str, ...], context: BlockContext) -> tuple[str, Formula] | None:
-    """The variable along which f is concave and h convex, and that there is a multiplier; None if not known to apply."""
+    """The variable along which f is concave and h convex, and that there is a multiplier; None if that is not known."""
     places = [f.ring.index[v] for v in variables]
     if any(_degree(p, places) > 2 for p in (f, h)):
         return None

@@ -29,10 +29,10 @@ def independent_parts(variables: tuple[str, ...], body: Formula, context: BlockC
         return None
     block = frozenset(variables)
     if isinstance(body, Or):
-        outside = [part for part in body.args if block.isdisjoint(part.free)]
-        fails = tuple(nnf(part, negate=True) for part in outside)
-        inside = (Pending(variables, part, fails) for part in body.args if part not in outside)
-        return Found(StepKind.MINISCOPE, "disjunction", Any((*(Leaf((), part) for part in outside), *inside)))
+        plain = tuple(part for part in body.args if block.isdisjoint(part.free))
+        fail = tuple(nnf(part, negate=True) for part in plain)
+        others = (Pending(variables, part, fail) for part in body.args if part not in plain)
+        return Found(StepKind.MINISCOPE, "disjunction", Any((*(Leaf((), part) for part in plain), *others)))
     outside, groups = connected(conjuncts(body), lambda part: block.intersection(part.free))
     if len(groups) + bool(outside) < 2:
         return None

@@ -64,7 +64,7 @@ def test_the_multiplier_tells_what_the_block_does(text: str) -> None:
         IN_DISC.replace("x^2 + y^2", "x^3 + y^2"),
         f"r >= 0 and (ex x, y. {DISC} <= 0 and a*x^2 + y^2 > 1)",  # r = 0 is one point
         f"r > 0 and (ex x, y. {DISC} <= 0 and a*x + b*y > 1)",  # f is not concave
-        f"a > 0 and b > 0 and r > 0 and (ex x, y. a*x^2 - b*y^2 + c*x <= r and x*y + x^2 + d*y > 1)",
+        "a > 0 and b > 0 and r > 0 and (ex x, y. a*x^2 - b*y^2 + c*x <= r and x*y + x^2 + d*y > 1)",
     ],
 )
 def test_others_are_left_alone(text: str) -> None:
