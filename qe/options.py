@@ -52,7 +52,8 @@ class Stage(Enum):
     atoms that some value of a variable meets, whatever the rest is, are dropped. ``ZEROS``: conditions on which
     variables vanish are dropped where they follow from the others. ``BALLS``: whether two balls meet is a closed form,
     and a sphere seen along one direction a segment. ``STABILITY``: whether a polynomial given by its real and imaginary
-    part has roots in a half-plane is another. ``RANGES``: conditions that ranges of variables exclude are refuted.
+    part has roots in a half-plane is another. ``QUADRICS``: whether one quadric lies in another is a question about one
+    multiplier. ``RANGES``: conditions that ranges of variables exclude are refuted.
     ``SEARCH``: sentences with many cases are
     searched by a SAT solver. ``SQUARES``: signs that sums of squares prove. ``MINISCOPING``: quantifiers are moved
     inwards, independent parts apart. ``EXCHANGE``: the sum and product of two variables that can be exchanged stand for
@@ -81,6 +82,7 @@ class Stage(Enum):
     ZEROS = "zeros"
     BALLS = "balls"
     STABILITY = "stability"
+    QUADRICS = "quadrics"
     RANGES = "ranges"
     SEARCH = "search"
     SQUARES = "squares"

@@ -31,6 +31,7 @@ from qe.certify.mirror import check_mirror
 from qe.certify.named_form import check_named_form
 from qe.certify.negation import check_negation
 from qe.certify.open_block import check_open_block
+from qe.certify.quadrics import check_quadrics
 from qe.certify.ranges import check_ranges
 from qe.certify.redundant import check_redundant
 from qe.certify.renaming import check_renaming
@@ -63,6 +64,7 @@ RULES: Mapping[str, Check] = {
     "two balls": check_balls,
     "sphere seen along a form": check_sphere,
     "roots in a half-plane": check_half_plane,
+    "quadric in a quadric": check_quadrics,
     "ranges that exclude each other": check_ranges,
     "conditions on zeros that follow": check_zeros,
     "independent parts and miniscoping": check_miniscoping,

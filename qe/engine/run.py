@@ -46,6 +46,7 @@ SWITCHED = {
     Stage.RANGES: {StepKind.RANGES},
     Stage.BALLS: {StepKind.BALLS, StepKind.SPHERE},
     Stage.STABILITY: {StepKind.HALF_PLANE},
+    Stage.QUADRICS: {StepKind.QUADRICS},
     Stage.SQUARES: {StepKind.SQUARES},
     Stage.EXCHANGE: {StepKind.EXCHANGE},
     Stage.MINISCOPING: {StepKind.MINISCOPE},

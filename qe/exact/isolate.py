@@ -6,9 +6,10 @@ a point (lo = hi: the root itself) or an open interval whose ends are not roots.
 
 from __future__ import annotations
 
-from flint import fmpq, fmpz, fmpz_poly
+from flint import arb, fmpq, fmpz, fmpz_poly
 
 from qe.errors import InternalError
+from qe.exact.balls import ball_sign, precision
 
 Interval = tuple[fmpq, fmpq]
 
@@ -16,8 +17,18 @@ _SHIFT = fmpz_poly([1, 1])
 _HALF = fmpq(1, 2)
 
 
+LONG_DEGREE = 16
+"""From this degree on, balls are tried before exact values, whose numerators have the degree times as many digits."""
+
+
 def sign_at(p: fmpz_poly, value: fmpq) -> int:
-    """The sign of p at a rational number."""
+    """The sign of p at a rational number: by balls where they exclude zero, exactly otherwise."""
+    if p.degree() >= LONG_DEGREE:
+        for bits in (128, 512):
+            with precision(bits):
+                sign = ball_sign(p(arb(value)))
+            if sign:
+                return sign
     result = p(value)
     return int(result > 0) - int(result < 0)
 

@@ -14,6 +14,7 @@ from qe.rules.degree_shift import shift_degree
 from qe.rules.exchange import exchange_variables
 from qe.rules.generic import drop_inequations
 from qe.rules.half_plane import root_in_half_plane
+from qe.rules.quadrics import quadric_in_quadric
 from qe.rules.ranges import excluded_by_ranges
 from qe.rules.scaling import fix_scale
 from qe.rules.shear import linear_form
@@ -32,6 +33,7 @@ RULES: tuple[Rule, ...] = (
     two_balls,
     sphere_along_form,
     root_in_half_plane,
+    quadric_in_quadric,
     linear_equation,
     known_signs,
     drop_what_can_be_met,

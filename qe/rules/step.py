@@ -17,6 +17,7 @@ class StepKind(Enum):
     BALLS = "two balls"
     SPHERE = "sphere seen along a form"
     HALF_PLANE = "roots in a half-plane"
+    QUADRICS = "quadric in a quadric"
     ZEROS = "conditions on zeros that follow"
     TAKES_VALUE = "value that is taken"
     RANGES = "ranges that exclude each other"

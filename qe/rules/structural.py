@@ -7,6 +7,7 @@ from fractions import Fraction
 
 from qe.exact.ring import Poly, format_poly
 from qe.formula.build import atom, conj, disj
+from qe.formula.normal import nnf
 from qe.formula.syntax import Atom, Constant, Formula, Or, Relation
 from qe.formula.traverse import conjuncts, connected
 from qe.rules.block_context import BlockContext, Found
@@ -18,17 +19,20 @@ from qe.simplify.facts import Facts
 
 
 def independent_parts(variables: tuple[str, ...], body: Formula, context: BlockContext) -> Found | None:
-    """ex over or: ex x (f or g) iff (ex x f) or (ex x g). ex over and: conjuncts that share no variable of the
-    block are quantified separately, and those without one leave the scope.
+    """ex over or: ex x (f or g) iff (ex x f) or (ex x g), where a disjunct without x stays, and fails where the others
+    matter. ex over and: conjuncts that share no variable of the block are quantified separately, and those without one
+    leave the scope.
 
     Lift: the values of the parts together, or those of a branch that is satisfied.
     """
     if StepKind.MINISCOPE not in context.enabled:
         return None
-    if isinstance(body, Or):
-        node = Any(tuple(Pending(variables, part) for part in body.args))
-        return Found(StepKind.MINISCOPE, "disjunction", node)
     block = frozenset(variables)
+    if isinstance(body, Or):
+        plain = tuple(part for part in body.args if block.isdisjoint(part.free))
+        fail = tuple(nnf(part, negate=True) for part in plain)
+        others = (Pending(variables, part, fail) for part in body.args if part not in plain)
+        return Found(StepKind.MINISCOPE, "disjunction", Any((*(Leaf((), part) for part in plain), *others)))
     outside, groups = connected(conjuncts(body), lambda part: block.intersection(part.free))
     if len(groups) + bool(outside) < 2:
         return None

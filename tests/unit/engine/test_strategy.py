@@ -12,7 +12,7 @@ from qe.certify.registry import RULES
 from qe.elimination.protocol import Problem
 from qe.engine.run import SWITCHED, solve
 from qe.engine.strategy import LEFT_OUT_BY, METHODS, STRATEGY, Attempt, Scope, attempts
-from qe.formula.syntax import Formula
+from qe.formula.syntax import TRUE, Formula
 from qe.io import formats
 from qe.options import Budget, Method, Options, Stage
 from qe.rules.step import StepKind
@@ -143,3 +143,23 @@ def test_four_discs_that_grow_with_time() -> None:
     )
     found = solve(formats.read(text, "text"), Options(), Budget(work=5000))
     assert str(found.formula) == "v^2 - 2 >= 0"
+
+
+def test_many_balls_in_space() -> None:
+    """Nine balls through the origin: decomposition took 15 s, and convex optimisation is asked first from four on."""
+    centres = [
+        (1, 2, 0),
+        (-1, 1, 2),
+        (0, -2, 1),
+        (2, 0, -1),
+        (-2, -1, 0),
+        (1, -1, 2),
+        (0, 1, -2),
+        (2, 1, 1),
+        (-1, 0, 2),
+    ]
+    parts = [f"(x - ({a}))^2 + (y - ({b}))^2 + (z - ({c}))^2 <= {a * a + b * b + c * c}" for a, b, c in centres]
+    three, all_of_them = (problem(f"ex x, y, z. {' and '.join(some)}") for some in (parts[:3], parts))
+    assert [a.method for a, _, _ in attempts(Scope.ASKED, all_of_them, Options())] == ["convex"]
+    assert not list(attempts(Scope.ASKED, three, Options()))
+    assert solve(all_of_them.formula, Options(), Budget(work=5000)).formula == TRUE

@@ -62,3 +62,16 @@ far_or_close = st.builds(lambda near, by: near + by, dyadic, st.sampled_from([Fr
 @given(st.sets(dyadic, max_size=4), st.sets(other | far_or_close, max_size=4))
 def test_every_root_has_its_interval(dyadic_roots: set[Fraction], others: set[Fraction]) -> None:
     check(sorted(dyadic_roots | others))
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.lists(st.integers(-9, 9), min_size=17, max_size=24), other | far_or_close)
+def test_the_sign_of_a_long_polynomial_is_the_exact_one(coefficients: list[int], value: Fraction) -> None:
+    """Long polynomials are tried by balls first; at a root, and just beside it, no ball decides."""
+    at = fmpq(value.numerator, value.denominator)
+    beside = at + fmpq(1, 2**2000)
+    long = fmpz_poly([*coefficients, 1])
+    with_root = long * (value.denominator * X - value.numerator)
+    for p, point in ((long, at), (with_root, at), (with_root, beside)):
+        exact = p(point)
+        assert sign_at(p, point) == (exact > 0) - (exact < 0)
