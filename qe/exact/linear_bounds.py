@@ -121,7 +121,8 @@ class LinearBounds:
             if not open_ones:
                 self.stuck = x, up
                 return {(self.upper if above else self.lower)[y][1] for y, above, _ in self._contradiction(x, up)}
-            self._pivot(x, min(open_ones), wanted)
+            shortest = min(open_ones, key=lambda y: (len(self.using[y]), y))
+            self._pivot(x, shortest if pivots < _GREEDY else min(open_ones), wanted)
             pivots += 1
 
     def weakened(self, offered: Callable[[int, bool], Iterable[tuple[Fraction, bool, Hashable]]]) -> set[Hashable]:
@@ -224,11 +225,13 @@ class LinearBounds:
             other = self.rows[r]
             factor = other.pop(y)
             for z, c in new.items():
-                total = other.get(z, _ZERO) + factor * c
-                if total:
-                    other[z] = total
+                before = other.get(z)
+                if before is None:
+                    other[z] = factor * c
                     self.using[z].add(r)
-                elif z in other:
+                elif total := before + factor * c:
+                    other[z] = total
+                else:
                     del other[z]
                     self.using[z].discard(r)
         self.using[y] = set()
