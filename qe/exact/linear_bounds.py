@@ -30,6 +30,7 @@ class LinearBounds:
         self.lower: dict[int, Bound] = {}
         self.upper: dict[int, Bound] = {}
         self.stuck: tuple[int, bool] | None = None
+        self._changed: list[tuple[dict[int, Bound], int, Bound | None]] = []
 
     def variable(self) -> int:
         """A new variable."""
@@ -57,6 +58,25 @@ class LinearBounds:
         """No bounds; rows and values stay as they are."""
         self.lower.clear()
         self.upper.clear()
+        self._changed.clear()
+
+    def start(self, x: int, value: Fraction) -> None:
+        """Give a variable a value to start from, where it is free to have one; without bounds only."""
+        if x not in self.rows:
+            self._move(x, (fmpq(value.numerator, value.denominator), _ZERO))
+
+    def mark(self) -> int:
+        """The bounds as they are now, for ``back``."""
+        return len(self._changed)
+
+    def back(self, mark: int) -> None:
+        """Take back the bounds set since; rows and values stay."""
+        for bounds, x, before in reversed(self._changed[mark:]):
+            if before is None:
+                del bounds[x]
+            else:
+                bounds[x] = before
+        del self._changed[mark:]
 
     def at_least(self, x: int, bound: Fraction, *, strict: bool, reason: Hashable) -> set[Hashable] | None:
         """x >= bound (>); the reasons of a contradiction with an upper bound, or None."""
@@ -65,6 +85,7 @@ class LinearBounds:
             return None
         if x in self.upper and self.upper[x][0] < value:
             return {reason, self.upper[x][1]}
+        self._changed.append((self.lower, x, self.lower.get(x)))
         self.lower[x] = value, reason
         if x not in self.rows and self.values[x] < value:
             self._move(x, value)
@@ -77,6 +98,7 @@ class LinearBounds:
             return None
         if x in self.lower and self.lower[x][0] > value:
             return {reason, self.lower[x][1]}
+        self._changed.append((self.upper, x, self.upper.get(x)))
         self.upper[x] = value, reason
         if x not in self.rows and self.values[x] > value:
             self._move(x, value)
@@ -99,7 +121,8 @@ class LinearBounds:
             if not open_ones:
                 self.stuck = x, up
                 return {(self.upper if above else self.lower)[y][1] for y, above, _ in self._contradiction(x, up)}
-            self._pivot(x, min(open_ones), wanted)
+            shortest = min(open_ones, key=lambda y: (len(self.using[y]), y))
+            self._pivot(x, shortest if pivots < _GREEDY else min(open_ones), wanted)
             pivots += 1
 
     def weakened(self, offered: Callable[[int, bool], Iterable[tuple[Fraction, bool, Hashable]]]) -> set[Hashable]:
@@ -202,11 +225,13 @@ class LinearBounds:
             other = self.rows[r]
             factor = other.pop(y)
             for z, c in new.items():
-                total = other.get(z, _ZERO) + factor * c
-                if total:
-                    other[z] = total
+                before = other.get(z)
+                if before is None:
+                    other[z] = factor * c
                     self.using[z].add(r)
-                elif z in other:
+                elif total := before + factor * c:
+                    other[z] = total
+                else:
                     del other[z]
                     self.using[z].discard(r)
         self.using[y] = set()

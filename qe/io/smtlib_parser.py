@@ -11,10 +11,11 @@ from qe.io.grammar import parser
 from qe.io.lalr import END, Parser, Token, UnexpectedToken
 from qe.io.surface import Fail
 
+# the scripts of MetiTarski write 1. for 1.0, and other solvers read it
 _TOKEN = re.compile(
     r"(?P<SPACE>\s+|;[^\n]*)"
     r"|(?P<OPEN>\()|(?P<CLOSE>\))"
-    r"|(?P<NUMBER>[0-9]+(?:\.[0-9]+)?(?![A-Za-z0-9~!@$%^&*_+=<>.?/-]))"
+    r"|(?P<NUMBER>[0-9]+(?:\.[0-9]*)?(?![A-Za-z0-9~!@$%^&*_+=<>.?/-]))"
     r"|(?P<SYMBOL>[A-Za-z~!@$%^&*_+=<>.?/-][A-Za-z0-9~!@$%^&*_+=<>.?/-]*)"
     r"|(?P<QUOTED>\|[^|\\]*\|)"
     r"|(?P<KEYWORD>:[A-Za-z0-9~!@$%^&*_+=<>.?/-]+)"
@@ -119,7 +120,7 @@ def _tokens(text: str, token: Callable[..., Token]) -> Iterator[Token]:
             if text[at] in '|"':
                 raise _Bad(f"this {text[at]} is never closed", at)
             if text[at].isdigit():
-                raise _Bad("malformed number; write 1.0 for 1., (/ 1 2) for 1/2", at)
+                raise _Bad("malformed number; write (/ 1 2) for 1/2", at)
             raise _Bad(f"unknown character {text[at]!r}", at)
         if found.lastgroup != "SPACE":
             yield token(found.lastgroup, found.group(), at)

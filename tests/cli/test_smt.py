@@ -122,7 +122,8 @@ def test_values_that_are_not_read_may_be_any(script: str, expected: list[str]) -
 @pytest.mark.parametrize(
     ("lines", "expected"),
     [
-        (["(declare-const x Real)(assert (= x 1.))(check-sat)"], ["column 36: malformed", "unknown"]),
+        (["(declare-const x Real)(assert (< 1. x (/ 3. 2.)))(check-sat)"], ["sat"]),
+        (["(declare-const x Real)(assert (= x 1.x))(check-sat)"], ["column 36: malformed", "unknown"]),
         (["(assert (> 1/2 0))\n", "(check-sat)\n", "(exit)\n"], ["column 12: malformed", "unknown"]),
         (["(push)\n (check-sat) # (echo a)(check-sat)"], ["sat", "line 2 column 14: unknown character", "a", "sat"]),
         (["(check-sat))\n", "(echo b)\n"], ["sat", "column 12: unbalanced", "b"]),

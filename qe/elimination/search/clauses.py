@@ -54,6 +54,25 @@ class Clauses:
                 return zero
         return -zero
 
+    def inequalities(self) -> Iterator[tuple[int, Poly, Relation]]:
+        """The literals that say p > 0, p <= 0, p < 0, p >= 0 of the polynomials."""
+        for poly, (positive, negative, _) in self._signs.items():
+            yield positive, poly, Relation.GT
+            yield -positive, poly, Relation.LE
+            yield negative, poly, Relation.LT
+            yield -negative, poly, Relation.GE
+
+    def signs(self) -> Iterator[int]:
+        """The literals for > 0, < 0 and = 0."""
+        return chain.from_iterable(self._signs.values())
+
+    def atoms(self) -> dict[int, Atom]:
+        """What the literals of signs say."""
+        found = {literal: Atom(poly, relation) for literal, poly, relation in self.inequalities()}
+        for poly, (_, _, zero) in self._signs.items():
+            found[zero], found[-zero] = Atom(poly, Relation.EQ), Atom(poly, Relation.NE)
+        return found
+
     def phases(self, sign: Callable[[Poly], int]) -> Clause:
         """The literals of the signs that the polynomials have somewhere."""
         found = []

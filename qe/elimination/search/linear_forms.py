@@ -8,13 +8,14 @@ from fractions import Fraction
 from qe.exact.ring import Poly
 
 Monomial = tuple[int, ...]
+Direction = tuple[tuple[Monomial, Fraction], ...]
 
 
 @dataclass(frozen=True, slots=True)
 class LinearForm:
     """The polynomial is scale * (direction - bound), ``direction`` a sum of coefficients times monomials."""
 
-    direction: tuple[tuple[Monomial, Fraction], ...]
+    direction: Direction
     bound: Fraction
     scale: int
 
@@ -26,3 +27,8 @@ def over_monomials(poly: Poly) -> LinearForm:
     direction = tuple((m, Fraction(c, scale)) for m, c in terms if any(m))
     constant = next((c for m, c in terms if not any(m)), 0)
     return LinearForm(direction, Fraction(-constant, scale), scale)
+
+
+def is_square(monomial: Monomial) -> bool:
+    """Whether all exponents are even."""
+    return not any(power % 2 for power in monomial)

@@ -15,6 +15,7 @@ from fractions import Fraction
 
 from qe.elimination.protocol import Context, Outcome, Problem
 from qe.elimination.search.clauses import Clauses
+from qe.elimination.search.guided import guided
 from qe.elimination.search.theory import Theory
 from qe.errors import Unable
 from qe.exact.number import Values
@@ -99,7 +100,13 @@ def found_point(body: Formula, context: Context) -> Values | Refuted:
     clauses, theory = Clauses(body), Theory(ring, decided, context.budget)
     theory.bounds.offer(clauses.polys)
     conflicts: list[tuple[Atom, ...]] = []
-    with Solver(name="cadical153", bootstrap_with=clauses.clauses) as solver:
+    found = guided(body, clauses, theory)
+    if isinstance(found, dict):
+        context.log.work("search", {"clauses": len(clauses.clauses), "refuted": len(theory.known)})
+        return found
+    atom_of = clauses.atoms()
+    with Solver(name="cadical153", bootstrap_with=[*clauses.clauses, *found]) as solver:
+        conflicts += [tuple(atom_of[-literal] for literal in lemma) for lemma in found]
         while solver.solve():
             context.budget.spend(_UNITS)
             context.budget.check("search", len(conflicts) + 1)

@@ -7,21 +7,16 @@ cannot hold together at any point.
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Callable, Hashable, Iterable, Iterator
+from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping
 from fractions import Fraction
 
-from qe.elimination.search.linear_forms import LinearForm, Monomial, over_monomials
+from qe.elimination.search.linear_forms import LinearForm, Monomial, is_square, over_monomials
 from qe.exact.linear_bounds import LinearBounds
 from qe.exact.ring import Poly, Ring
 from qe.formula.syntax import Atom, Relation
 
 _UP = (Relation.GT, Relation.GE, Relation.EQ)
 _DOWN = (Relation.LT, Relation.LE, Relation.EQ)
-
-
-def is_square(monomial: Monomial) -> bool:
-    """Whether all exponents are even."""
-    return not any(power % 2 for power in monomial)
 
 
 class MonomialBounds:
@@ -79,6 +74,12 @@ class MonomialBounds:
             if conflict is not None:
                 return conflict
         return self.bounds.conflict(check)
+
+    def start(self, values: Mapping[Monomial, Fraction]) -> None:
+        """Look for the next point from here."""
+        self.bounds.clear()
+        for monomial, value in values.items():
+            self.bounds.start(self._monomial(monomial), value)
 
     def point(self) -> dict[str, Fraction]:
         """Values of the variables, after ``conflict`` found none: those that they have as monomials."""

@@ -55,8 +55,8 @@ def test_offsets() -> None:
         ("(a)) b", "3: unbalanced brackets: this ')' has no partner"),
         ("(a |b)", "3: this | is never closed"),
         ('(a "b)', '3: this " is never closed'),
-        ("(a 1x)", "3: malformed number; write 1.0 for 1., (/ 1 2) for 1/2"),
-        ("(a 1.)", "3: malformed number; write 1.0 for 1., (/ 1 2) for 1/2"),
+        ("(a 1x)", "3: malformed number; write (/ 1 2) for 1/2"),
+        ("(a 1.x)", "3: malformed number; write (/ 1 2) for 1/2"),
         ("(a ä)", "3: unknown character 'ä'"),
     ],
 )

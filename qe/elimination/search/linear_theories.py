@@ -1,0 +1,191 @@
+"""Bounds of linear forms as theories for the SAT solver: differences of two variables by shortest paths, others by the
+simplex method. A monomial counts as a variable of its own, as in ``monomial_bounds``.
+"""
+
+from __future__ import annotations
+
+from bisect import bisect_left
+from collections import defaultdict
+from collections.abc import Callable, Hashable, Iterable, Iterator
+from fractions import Fraction
+from functools import partial
+from math import lcm
+from typing import NamedTuple
+
+from qe.elimination.search.linear_forms import Direction, Monomial, is_square, over_monomials
+from qe.exact.difference_graph import DifferenceGraph
+from qe.exact.linear_bounds import LinearBounds
+from qe.exact.ring import Poly
+from qe.formula.syntax import Relation
+
+MOST_VERTICES = 300
+"""More variables are left to the simplex method: all paths between them are too many."""
+
+
+class Said(NamedTuple):
+    """What a literal says: the form ``direction`` is at most (``upper``) or at least ``bound``, or beyond it."""
+
+    literal: int
+    direction: Direction
+    bound: Fraction
+    upper: bool
+    strict: bool
+
+
+def said(bounds: Iterable[tuple[int, Poly, Relation]]) -> Iterator[Said]:
+    """What the literals of inequalities say."""
+    for literal, poly, relation in bounds:
+        form = over_monomials(poly)
+        upper = (relation in (Relation.LE, Relation.LT)) == (form.scale > 0)
+        yield Said(literal, form.direction, form.bound, upper, relation.is_strict)
+
+
+def difference(direction: Direction) -> tuple[Monomial, Monomial | None] | None:
+    """(x, y) of a form x - y, (x, None) of x; None for any other."""
+    match direction:
+        case ((x, _),):
+            return x, None
+        case ((x, _), (y, c)) if c == -1:
+            return x, y
+    return None
+
+
+class Differences:
+    """Bounds of variables and of differences of two."""
+
+    @staticmethod
+    def suit(bounds: Iterable[Said]) -> bool:
+        """Whether there are differences, and not too many variables in them."""
+        pairs = [pair for one in bounds if (pair := difference(one.direction)) is not None]
+        return 0 < len({m for pair in pairs for m in pair}) <= MOST_VERTICES
+
+    def __init__(self, bounds: Iterable[Said]) -> None:
+        vertices: dict[Monomial | None, int] = {None: 0}
+        ends: list[tuple[Said, int, int]] = []
+        for one in bounds:
+            pair = difference(one.direction)
+            if pair is not None:
+                x, y = (vertices.setdefault(m, len(vertices)) for m in pair)
+                ends.append((one, *((y, x) if one.upper else (x, y))))
+        # a cycle has fewer edges than that: strict bounds are weak ones moved by one part of it
+        size = len(vertices) + 1
+        scale = size * lcm(*(one.bound.denominator for one, _, _ in ends))
+        self.vertices, self.scale = vertices, scale
+        self.edges: dict[int, tuple[int, int, int]] = {}
+        self.watched: defaultdict[tuple[int, int], list[tuple[int, int]]] = defaultdict(list)
+        for one, u, v in ends:
+            length = int((one.bound if one.upper else -one.bound) * scale) - one.strict
+            self.edges[one.literal] = u, v, length
+            self.watched[u, v].append((length, one.literal))
+        for listed in self.watched.values():
+            listed.sort()
+        self.graph = DifferenceGraph(len(vertices), 1 + sum(abs(w) for _, _, w in self.edges.values()))
+        self.nearer: list[tuple[int, int, int]] = []
+
+    def tell(self, literal: int) -> list[int] | None:
+        edge = self.edges.get(literal)
+        if edge is None:
+            return None
+        found = self.graph.add(*edge, literal)
+        if isinstance(found, list):
+            return found
+        self.nearer += found
+        return None
+
+    def settle(self) -> list[int] | None:
+        return None
+
+    def implied(self) -> Iterator[tuple[int, Callable[[], list[int]]]]:
+        edges = len(self.graph.edges)
+        for u, v, before in self.nearer:
+            listed = self.watched.get((u, v))
+            if listed:
+                now = self.graph.length[u][v]
+                for length, literal in listed[bisect_left(listed, (now, 0)) :]:
+                    if length >= before:
+                        break
+                    yield literal, partial(self.graph.reasons, u, v, edges)
+        self.nearer.clear()
+
+    def mark(self) -> int:
+        return len(self.graph.edges)
+
+    def back(self, mark: int) -> None:
+        self.nearer.clear()
+        self.graph.keep(mark)
+
+    def point(self) -> dict[Monomial, Fraction]:
+        """Values that keep all bounds."""
+        values = self.graph.potentials()
+        return {m: Fraction(values[x] - values[0], self.scale) for m, x in self.vertices.items() if m is not None}
+
+
+class Forms:
+    """Bounds of all linear forms, by the simplex method; squares are at least 0."""
+
+    def __init__(self, bounds: Iterable[Said]) -> None:
+        self.bounds = LinearBounds()
+        self.monomials: dict[Monomial, int] = {}
+        self.said: dict[int, tuple[int, Said]] = {}
+        self.offered: defaultdict[int, list[Said]] = defaultdict(list)
+        forms: dict[Direction, int] = {}
+        for one in bounds:
+            x = forms.get(one.direction)
+            if x is None:
+                x = forms[one.direction] = self._form(one.direction)
+            self.said[one.literal] = x, one
+            self.offered[x].append(one)
+        for listed in self.offered.values():
+            listed.sort(key=lambda one: (one.bound, one.strict))
+        self.changed = False
+
+    def tell(self, literal: int) -> list[int] | None:
+        if literal not in self.said:
+            return None
+        x, one = self.said[literal]
+        set_bound = self.bounds.at_most if one.upper else self.bounds.at_least
+        self.changed = True
+        return _literals(set_bound(x, one.bound, strict=one.strict, reason=literal))
+
+    def settle(self) -> list[int] | None:
+        if not self.changed:
+            return None
+        self.changed = False
+        conflict = self.bounds.conflict(lambda: None)
+        return None if conflict is None else _literals(self.bounds.weakened(self._offered))
+
+    def implied(self) -> Iterator[tuple[int, Callable[[], list[int]]]]:
+        return iter(())
+
+    def mark(self) -> int:
+        return self.bounds.mark()
+
+    def back(self, mark: int) -> None:
+        self.bounds.back(mark)
+
+    def point(self) -> dict[Monomial, Fraction]:
+        """Values that keep all bounds."""
+        values = self.bounds.point()
+        return {m: values[x] for m, x in self.monomials.items()}
+
+    def _offered(self, x: int, above: bool) -> Iterator[tuple[Fraction, bool, Hashable]]:
+        """The bounds of a variable, the weakest first."""
+        for one in reversed(self.offered[x]) if above else self.offered[x]:
+            if one.upper == above:
+                yield one.bound, one.strict, one.literal
+
+    def _form(self, direction: Direction) -> int:
+        columns = {self._monomial(m): c for m, c in direction}
+        return next(iter(columns)) if len(columns) == 1 else self.bounds.form(columns)
+
+    def _monomial(self, monomial: Monomial) -> int:
+        found = self.monomials.get(monomial)
+        if found is None:
+            found = self.monomials[monomial] = self.bounds.variable()
+            if is_square(monomial):
+                self.bounds.at_least(found, Fraction(0), strict=False, reason=None)
+        return found
+
+
+def _literals(reasons: Iterable[Hashable] | None) -> list[int] | None:
+    return None if reasons is None else [r for r in reasons if isinstance(r, int)]
