@@ -1,4 +1,4 @@
-"""Every argument of what ``bezier`` offers, with values of every wrong kind: taken where it has a meaning, else one line."""
+"""Every argument of what ``bezier`` offers, with values of every kind: taken where that means something, else one line."""
 
 from __future__ import annotations
 
@@ -24,7 +24,8 @@ WRONG: dict[str, object] = {
     "int": 5, "huge": 10**400, "negative": -1, "zero": 0, "float": 0.5, "nan": math.nan, "inf": -math.inf,
     "large float": 1e308, "tiny float": 5e-324, "bool": True, "none": None, "complex": 1j, "fraction": Fraction(1, 3),
     "decimal": Decimal("0.1"), "no decimal": Decimal("nan"), "symbol": sympy.Symbol("x"), "pi": sympy.pi,
-    "text": "no such thing", "digits": "10", "empty": "", "zero byte": "a\0b", "lines": "a\nb", "half a character": "\ud800",
+    "text": "no such thing", "digits": "10", "empty": "", "zero byte": "a\0b", "lines": "a\nb",
+    "half a character": "\ud800",
     "long": "9" * 5000, "exponent": "1e999999999", "bytes": b"xyz", "view": memoryview(b"xyz"), "list": [],
     "nested": [[1]], "tuple": (1, 2), "dict": {}, "mapping": {"a": 1}, "numbers for names": {1: 2}, "set": {1},
     "range": range(3), "generator": (k for k in range(3)), "object": object(), "function": len, "class": int,

@@ -259,5 +259,5 @@ def test_a_root_of_a_polynomial_is_not_taken_for_a_radical(given: str) -> None:
 def test_letters_side_by_side_are_told_to_be_one_name() -> None:
     with pytest.raises(qe.InputError, match=r"abc is one name; a product is written a\*b\*c"):
         qe.decide("all a, b, c > 0. abc = 1 -> a + b + c >= 3")
-    with pytest.raises(qe.InputError, match="free: area$"):
+    with pytest.raises(qe.InputError, match=r"free: area$"):
         qe.decide("all a, r. area = a*r")
