@@ -1,4 +1,4 @@
-"""Every argument of what ``bezier`` offers, with values of every kind: taken where that means something, else one line."""
+"""Every argument of what ``bezier`` offers, with values of every kind: each is taken, or refused in one line."""
 
 from __future__ import annotations
 
