@@ -15,16 +15,13 @@ from bezier.curves.workspace import HalfSpace, Workspace, WorkspaceKind, root_te
 from bezier.input.files import read_text
 from bezier.input.numbers import NotANumber, describe, read_squared, shorten
 from bezier.input.single_table import SingleCurve, Via, read_single, stated_via
-from bezier.input.toml_table import POINT, Table
+from bezier.input.toml_table import LARGEST, POINT, Table
 from bezier.motion.motion import Timing, read_timing
 from bezier.obstacles.obstacle import Obstacle
 from bezier.obstacles.reader import read_obstacles
 from bezier.obstacles.via import via_over
 from bezier.paths.heights import AXES, Strip
 from qe.errors import InputError
-
-LARGEST = Fraction(10) ** 50
-"""Of coordinates and the radius, so that decimals of lengths, their squares and cubes fit into floating point."""
 
 
 class PlanMethod(Enum):
@@ -126,7 +123,7 @@ def problem_of(table: Table) -> Problem:
     points = {"start": start, "via[0]": via[0], "via[1]": via[1], "goal": goal}
     _check_distinct(table, points)
     for name, point in points.items():
-        if any(abs(exactly(c)) > LARGEST for c in point):
+        if any(abs(exactly(c)) > LARGEST for c in point):  # of via points that were computed
             raise table.error(name, "coordinates of at most 10^50", "a larger one")
     squared = max(dot(p, p) for p in points.values()) if auto else _radius(table, raw_radius)
     workspace = Workspace(kind, squared)

@@ -7,6 +7,7 @@ SymPy symbols; a float, where a number is asked for, is the decimal number that 
 from __future__ import annotations
 
 import math
+import os
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from decimal import Decimal
@@ -137,9 +138,18 @@ def path(value: object, what: str = "path") -> Path:
     from pathlib import Path
 
     found = Path(instance(value, str | Path, what, "the name of a file"))  # type: ignore[arg-type]
-    if "\0" in str(found) or any(len(part.encode(errors="replace")) > LONGEST_PART for part in found.parts):
+    parts = [part.encode(errors="surrogatepass") for part in found.parts]
+    if value == "" or "\0" in str(found) or any(len(part) > LONGEST_PART for part in parts) or not _is_name(found):
         raise wrong(what, "the name of a file", value)
     return found
+
+
+def _is_name(path: Path) -> bool:
+    """Whether the system can write the name: a lone surrogate is no character of its encoding."""
+    try:
+        return bool(os.fsencode(path))
+    except UnicodeEncodeError:
+        return False
 
 
 # --- choices and names --------------------------------------------------------------------------------------

@@ -8,6 +8,7 @@ a backquote is written ``\\```, and a character that cannot be seen (a line brea
 from __future__ import annotations
 
 import re
+from collections.abc import Collection, Iterable
 
 NUMERALS = "⁰¹²³⁴-⁹ⁱⁿ¼-¾⅐-⅟↉"
 """Raised digits and letters and fractions of one character, which are no part of a plain word."""
@@ -54,6 +55,12 @@ def visible(name: str) -> str:
     if name.isprintable():
         return name
     return "".join(c if c.isprintable() else f"\\u{{{ord(c):x}}}" for c in name)
+
+
+def glued(names: Iterable[str], letters: Collection[str]) -> str:
+    """A hint where a name is made of others, as ``abc`` of the letters a, b and c: a product was meant."""
+    made = next((name for name in names if len(name) > 1 and all(letter in letters for letter in name)), None)
+    return "" if made is None else f" ({made} is one name; a product is written {'*'.join(made)})"
 
 
 def on_one_line(message: str) -> str:

@@ -62,7 +62,8 @@ def solve_region(condition: Condition, symbol: Any = None, *, timeout: float | N
     names = _names(() if symbol is None else symbol)
     others = [name for name in free if name not in names]
     if (names and others) or len({*free, *names}) > 1:
-        raise InputError(f"one free symbol expected, {', '.join(dict.fromkeys((*free, *names)))} found")
+        found = ", ".join(dict.fromkeys((*free, *names)))
+        raise InputError(f"one free symbol expected, {found} found; reduce_inequalities takes several")
     return _set_of(question, next(iter((*names, *free)), "x"), timeout)
 
 

@@ -20,7 +20,7 @@ from bezier.arm.angles import EXPECTED, Angle, read_angle
 from bezier.arm.limits import MOST_RADIANS
 from bezier.arm.model import Arm, Convention, Joint, Motion, Row
 from bezier.input.files import read_text
-from bezier.input.numbers import NotANumber, describe
+from bezier.input.numbers import NotANumber, describe, shorten
 from bezier.input.toml_table import Table
 from qe.errors import InputError
 
@@ -47,7 +47,8 @@ def load_arm(name: str) -> Arm:
         from bezier.arm.urdf import load_urdf
 
         return load_urdf(name)
-    raise InputError(f"arm: expected a file {SUFFIX} or .urdf, or one of {', '.join(shipped())}, found {name!r}")
+    known = ", ".join(shipped())
+    raise InputError(f"arm: expected a file {SUFFIX} or .urdf, or one of {known}, found {shorten(repr(name), 80)}")
 
 
 @cache

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from bezier.motion.track import Array, Track
+from qe.errors import Unable
 from qe.extras import lacking
 
 if TYPE_CHECKING:
@@ -30,12 +31,17 @@ def bspline(track: Track) -> BSpline:
 
 
 def ppoly(track: Track) -> PPoly:
-    """The same by powers of the time since the last break."""
+    """The same by powers of the time since the last break. Raises ``Unable`` where floating point has none of them."""
     try:
         from scipy.interpolate import PPoly
     except ImportError as error:
         raise lacking(error) or error from None
-    return PPoly(_powers(track), track.breaks, extrapolate=False)
+    try:
+        with np.errstate(over="raise", divide="raise", invalid="raise"):
+            powers = _powers(track)
+    except FloatingPointError:
+        raise Unable("powers of times so long or short are outside floating point; to_bspline has none") from None
+    return PPoly(powers, track.breaks, extrapolate=False)
 
 
 def _powers(track: Track) -> Array:

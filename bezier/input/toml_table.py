@@ -15,10 +15,13 @@ from enum import Enum
 from fractions import Fraction
 from typing import Any, TypeVar
 
-from bezier.input.numbers import NUMBER, Literal, NotANumber, describe, read
+from bezier.input.numbers import NUMBER, Literal, NotANumber, describe, read, shorten
 from qe.errors import InputError
 
 DIMENSION = 3
+LARGEST = Fraction(10**50)
+SIZES = "a number of at most 10^50, and at least 10^-50 unless it is 0"
+"""Every file and picture that is written has such numbers, and their third powers, as floats."""
 POINT = f"a point of {DIMENSION} numbers"
 Choice = TypeVar("Choice", bound=Enum)
 
@@ -51,7 +54,9 @@ class Table:
         """The one line about a key of this table."""
         place = self.prefix + key
         line = _line_of(place, self.lines)
-        return InputError(f"{self.source}{line}: {self._named(place)}: expected {expected}, found {found}")
+        return InputError(
+            f"{self.source}{line}: {self._named(place)}: expected {expected}, found {shorten(found, 160)}"
+        )
 
     def _named(self, place: str) -> str:
         head = re.match(r"\w*", place)
@@ -137,9 +142,12 @@ class Table:
 
     def _exact(self, key: str, raw: object) -> Fraction:
         try:
-            return read(raw)
+            value = read(raw)
         except NotANumber as error:
             raise self.error(key, NUMBER, str(error)) from None
+        if value and not 1 / LARGEST <= abs(value) <= LARGEST:
+            raise self.error(key, SIZES, "a larger one" if abs(value) > 1 else "a smaller one")
+        return value
 
 
 def meant(word: str, known: Iterable[str]) -> str:

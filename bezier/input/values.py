@@ -46,7 +46,8 @@ def table_value(value: Any, place: str, depth: int = 0) -> Any:
         scalar = value[()]  # of an array without dimensions; of a scalar, which no case above knows, itself
         again = type(scalar) is not type(value)
         return bool(value) if kind == "b" else table_value(scalar, place, depth) if again else value
-    if isinstance(value, Collection) and hasattr(value, "__getitem__") and not isinstance(value, bytes | bytearray):
+    is_bytes = isinstance(value, bytes | bytearray | memoryview)
+    if isinstance(value, Collection) and hasattr(value, "__getitem__") and not is_bytes:
         _check_size(value, place, depth)
         return [table_value(entry, f"{place}[{i}]", depth + 1) for i, entry in enumerate(value)]
     return value

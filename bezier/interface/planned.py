@@ -271,9 +271,9 @@ class Planned:
         ``.csv``, ``.json`` (exact control points), ``.npz``, ``.yaml`` (ROS 2), ``.gcode``, ``.svg``. ``pictures``: of
         the folder. Raises ``InputError`` for other endings and where it cannot be written.
         """
-        file = arguments.path(target, "target")
+        file, drawn = arguments.path(target, "target"), arguments.flag(pictures, "pictures")
         if not file.suffix:
-            return self._save_folder(file, arguments.flag(pictures, "pictures"))
+            return self._save_folder(file, drawn)
         make = self._writers().get(file.suffix.lower())
         if make is None:
             endings = ", ".join(self._writers())

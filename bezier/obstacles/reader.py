@@ -38,6 +38,7 @@ from qe.errors import InputError
 
 COMMON = ("kind", "name", "margin", "above")
 MAX_OBSTACLES = 200
+LONGEST_NAME = 100
 
 
 def read_obstacles(table: Table) -> tuple[Obstacle, ...]:
@@ -58,8 +59,8 @@ def _obstacle(table: Table, index: int) -> Obstacle:
     keys, build = _KINDS[kind]
     table.only((*COMMON, *keys))
     name = table.values.get("name", f"{kind.value} {index + 1}")
-    if not isinstance(name, str) or not name.strip():
-        raise table.error("name", "a name", describe(name))
+    if not isinstance(name, str) or not name.strip() or not name.isprintable() or len(name) > LONGEST_NAME:
+        raise table.error("name", f"a name on one line, of at most {LONGEST_NAME} characters", describe(name))
     margin = table.number("margin", Fraction(0))
     if margin < 0:
         raise table.error("margin", "a number that is not negative", str(margin))

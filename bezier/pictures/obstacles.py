@@ -43,8 +43,18 @@ def obstacle_pictures(obstacles: Sequence[Obstacle], reach: float) -> tuple[Obst
             continue
         points = _surface(obstacle.body, reach)
         if len(points):
-            found.append(ObstaclePicture(obstacle.name, colour, points, hull_faces(points, points.mean(axis=0))))
+            found.append(ObstaclePicture(obstacle.name, colour, points, _faces(points)))
     return tuple(found)
+
+
+def _faces(points: Array) -> Indices | None:
+    """The triangles of the hull; None for a body so small or so far away that floating point sees no inside."""
+    from scipy.spatial import QhullError
+
+    try:
+        return hull_faces(points, points.mean(axis=0))
+    except QhullError:
+        return None
 
 
 def _surface(body: Body, reach: float) -> Array:

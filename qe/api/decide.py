@@ -17,9 +17,10 @@ from qe.exact.ring import Poly, Ring
 from qe.formula.build import convert, exists, forall, iff
 from qe.formula.counting import without_root_atoms
 from qe.formula.features import features
-from qe.formula.traverse import free_variables, ring_of
+from qe.formula.traverse import bound_variables, free_variables, ring_of
 from qe.options import Method, Stage
 from qe.progress import silent
+from qe.spelling import glued
 
 
 def decide(
@@ -49,7 +50,7 @@ def decide(
     given = reading(formula, format, limits, total_division)
     free = free_variables(given)
     if free:
-        raise InputError(f"a sentence expected; free: {', '.join(free)}")
+        raise InputError(f"a sentence expected; free: {', '.join(free)}{glued(free, bound_variables(given))}")
     answer = eliminate(
         given,
         timeout=left_of(limits),

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+from decimal import Decimal
 from fractions import Fraction
 from typing import Any
 
@@ -22,8 +24,15 @@ def shown(value: object, unbounded: str = "") -> str:
 
 
 def decimal(value: Any) -> str:
-    """The first digits of a number."""
-    return f"{float(value):.{DIGITS}g}"
+    """The first digits of a number, also of one that is too large or too small for a float."""
+    try:
+        near = float(value)
+    except OverflowError:
+        near = math.inf
+    if math.isfinite(near) and (near or not value):
+        return f"{near:.{DIGITS}g}"
+    exact = value if isinstance(value, Fraction | int) else value.interval(256)[0]
+    return f"{Decimal(exact.numerator) / Decimal(exact.denominator):.{DIGITS}g}"
 
 
 def exact_and_decimal(value: object) -> dict[str, str]:

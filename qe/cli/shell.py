@@ -48,6 +48,7 @@ def enter(app: typer.Typer, argv: Sequence[str] | None, *, name: str) -> int:
     With ``--json`` what went wrong stands on stdout, too, as one object.
     """
     sys.excepthook = _one_line_hook(name)
+    sys.set_int_max_str_digits(0)  # the limits on input hold long numbers off, and answers may have them
     _open_streams()
     command: Any = get_command(app)
     take_plain_values(command)
@@ -259,16 +260,28 @@ def check_writable(path: Path | None) -> None:
     folder = path.parent
     if path.is_dir():
         raise InputError(f"{path}: a file name expected, a folder found")
+    if _is_no_plain_file(path):
+        return
     if not folder.is_dir():
         raise InputError(f"{path}: the folder {folder} does not exist")
     if not os.access(folder, os.W_OK):
         raise InputError(f"{path}: the folder {folder} is not writable")
 
 
+def _is_no_plain_file(path: Path) -> bool:
+    """Whether something stands there that is neither a file nor a folder, or is the system's own name of one."""
+    return path.exists() and (not path.is_file() or path.absolute().parts[1:2] in (("dev",), ("proc",)))
+
+
 def write_file(path: Path, content: str | bytes) -> None:
-    """Write a whole file or nothing: into a temporary file next to it, then renamed."""
+    """Write a whole file or nothing: into a temporary file next to it, then renamed. What is no plain file (a device,
+    a pipe, standard output) is written to; renaming would put a file in its place."""
     data = content.encode() if isinstance(content, str) else content
     try:
+        if _is_no_plain_file(path):
+            path.write_bytes(data)
+            return
+        path = Path(os.path.realpath(path))  # of a link, the file that it leads to
         descriptor, temporary = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
         with os.fdopen(descriptor, "wb") as handle:
             handle.write(data)

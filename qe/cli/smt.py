@@ -186,6 +186,9 @@ class Solver(Checks):
                 return self.model()
             case "get-value":
                 return self.values(command)
+            case "eval":
+                self.script.arity(command, 1)
+                return self.value(command.items[1], self.evaluation())
             case "get-assertions":
                 return f"({' '.join(show(a.written) for a in self.script.assertions)})"
             case "get-unsat-core":
@@ -199,7 +202,8 @@ class Solver(Checks):
         if self.script.change(command):
             self.result = None
             return None
-        return self.script.error(f"the command {head} is not supported", command.at)
+        hint = {"minimize": "; qe minimize does this", "maximize": "; qe minimize --maximize does this"}.get(head, "")
+        return self.script.error(f"the command {head} is not supported{hint}", command.at)
 
     def move(self, head: str, command: Listing) -> None:
         """``push`` and ``pop``."""
@@ -315,15 +319,14 @@ class Solver(Checks):
         terms, values = command.items[1], self.evaluation()
         if not isinstance(terms, Listing) or not terms.items:
             self.script.error("a list of terms expected", terms.at)
-        pairs = []
-        for item in terms.items:
-            meaning = self.script.meaning(item, self.script.globals)
-            if is_real(meaning):
-                shown = written(values.term(cast(s.Term, meaning)))
-            else:
-                shown = "true" if values.truth(cast(s.Node, meaning)) else "false"
-            pairs.append(f"({show(item)} {shown})")
-        return f"({' '.join(pairs)})"
+        return f"({' '.join(f'({show(item)} {self.value(item, values)})' for item in terms.items)})"
+
+    def value(self, item: Expression, values: Evaluation) -> str:
+        """What a term, or a formula, is worth."""
+        meaning = self.script.meaning(item, self.script.globals)
+        if is_real(meaning):
+            return written(values.term(cast(s.Term, meaning)))
+        return "true" if values.truth(cast(s.Node, meaning)) else "false"
 
     def eliminated(self, command: Listing) -> str:
         """``get-qe``: an equivalent formula without quantifiers."""

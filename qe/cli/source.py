@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import re
 import sys
 from dataclasses import dataclass
@@ -11,6 +12,7 @@ from pathlib import Path
 from qe.errors import InputError
 from qe.io.formats import BY_ENDING, Format
 
+MOST_BYTES = 64 << 20
 _FILE_LIKE = re.compile(rf"[^\s<>=]+({'|'.join(map(re.escape, BY_ENDING))})")
 
 
@@ -38,9 +40,12 @@ def read_source(argument: str, wanted: Format | None) -> Source:
     """
     if argument == "-":
         try:
-            return Source(sys.stdin.read().removeprefix("\ufeff"), wanted or Format.TEXT, "<stdin>")
+            given = sys.stdin.read(MOST_BYTES + 1)
         except UnicodeDecodeError:
             raise InputError("<stdin>: UTF-8 text expected, other bytes found") from None
+        if len(given) > MOST_BYTES:
+            raise InputError(f"<stdin>: at most {MOST_BYTES:,} characters expected, more found")
+        return Source(given.removeprefix("\ufeff"), wanted or Format.TEXT, "<stdin>")
     if argument.startswith("--"):
         raise InputError(f"no such option: {argument.split('=')[0]}")
     path = Path(argument)
@@ -73,9 +78,14 @@ def is_file(path: Path) -> bool:
 
 
 def read_text(path: Path) -> str:
-    """The content of a UTF-8 file, or ``InputError``."""
+    """The content of a UTF-8 file, or ``InputError``; some files of devices never end."""
     try:
-        return path.read_text(encoding="utf-8-sig")  # editors may put a mark in front of the text
+        with path.open("rb") as file:
+            data = file.read(MOST_BYTES + 1)
+        if len(data) > MOST_BYTES:
+            raise InputError(f"{path}: at most {MOST_BYTES:,} bytes expected, more found")
+        # editors may put a mark in front of the text
+        return io.TextIOWrapper(io.BytesIO(data), encoding="utf-8-sig").read()
     except OSError as error:
         raise InputError(f"{path}: cannot be read: {error.strerror}") from None
     except UnicodeDecodeError:

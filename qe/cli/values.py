@@ -10,6 +10,8 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
+from qe import arguments
+
 _NATURAL = re.compile(r"0|[1-9][0-9]{0,14}")
 _DECIMAL = re.compile(r"[0-9]{1,9}(\.[0-9]{1,9})?")
 
@@ -44,6 +46,8 @@ class _Plain:
     def coerce(self, value: Any, **context: Any) -> Any:
         """The value for the command. Raises what typer raises."""
         described = self._parameter.type_descriptor
+        if described.annotation is Path and isinstance(value, str):
+            arguments.path(value, self._parameter.opts[0])  # no name at all, and names that no system takes
         several = self._parameter.multiple or self._parameter.nargs != 1
         if several or not _is_plain(value, described.annotation, described.parameter_info):
             return self._converter().coerce(value, **context)

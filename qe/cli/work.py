@@ -16,7 +16,7 @@ from qe.cli.source import Source
 from qe.errors import InputError, Unable
 from qe.io.formats import Format
 from qe.processes.worker import Channel
-from qe.spelling import quoted
+from qe.spelling import glued, quoted
 
 if TYPE_CHECKING:
     from qe.formula.syntax import Formula
@@ -125,7 +125,7 @@ def decide(channel: Channel, request: Request) -> Reply:
     free = traverse.free_variables(formula)
     script = request.source.format is Format.SMTLIB
     if free and not script:
-        names = ", ".join(free)
+        names = ", ".join(free) + glued(free, traverse.bound_variables(formula))
         raise InputError(f"{request.source.name}: a sentence expected, but free here: {names} (use qe eliminate)")
     start = time.perf_counter()
     answer = api.eliminate(build.exists(free, formula), **request.keywords(channel))

@@ -292,7 +292,7 @@ class _Run:
         try:
             known = inner.question(early).formula
         except Unable as error:
-            self.budget.check("switch")
+            self.budget.check("trying one method after the other")
             self.log.switch("parts first", error)
             return None
         if not isinstance(known, Constant) and not any(equations(known, dual.variables)):
@@ -337,7 +337,7 @@ class _Run:
                 if found is not None:
                     self.log.switch(method.name, "its answer is long, or leaves something to others")
             except Unable as error:
-                self.budget.check("switch")
+                self.budget.check("trying one method after the other")
                 self.log.switch(method.name, error)
                 last = error
             steps = self.log.forget_steps(mark)

@@ -166,4 +166,11 @@ class Builder:
         if len(arguments) not in (2, 3) or not (variable is None or isinstance(variable, s.Name)):
             usage = "root takes a number, a polynomial and perhaps a variable: root(2, x^2 - y, x)"
             raise SyntaxFailure(usage, name.start_pos)
-        return s.Root(arguments[0], arguments[1], variable.name if variable else None, name.start_pos)
+        number, poly = arguments[:2]
+        if isinstance(poly, s.Name) and isinstance(number, s.Number) and number.value > 1:
+            radical = f"{poly.name}^(1/{number.value})"
+            raise SyntaxFailure(f"root(k, p) is the k-th root of a polynomial; a radical is {radical}", name.start_pos)
+        if isinstance(poly, s.Number):
+            usage = f"root takes a number, then a polynomial; a radical is t^(1/{poly.value})"
+            raise SyntaxFailure(usage, name.start_pos)
+        return s.Root(number, poly, variable.name if variable else None, name.start_pos)

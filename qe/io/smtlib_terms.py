@@ -24,6 +24,8 @@ _RELATIONS = {"<": Relation.LT, "<=": Relation.LE, ">": Relation.GT, ">=": Relat
 _CONNECTIVES = frozenset(("not", "and", "or", "xor", "=>", "implies"))
 _ARITHMETIC = frozenset(("+", "-", "*", "/", "^"))
 _INFIX = frozenset((*_RELATIONS, *_CONNECTIVES, *_ARITHMETIC))
+_SIGNED = re.compile(r"(-?)([0-9]+\.?[0-9]*|\.[0-9]+)")
+"""What most solvers take for a number: a symbol for the standard, which may be declared."""
 _INTEGERS = frozenset(("div", "mod", "rem", "to_int", "is_int", "divisible"))
 
 
@@ -173,9 +175,10 @@ class Terms:
             return s.Truth(word.text == "true")
         found = scope.get(word.text)
         if found is None:
-            number = re.fullmatch(r"-([0-9.]+)|\.[0-9]+", word.text)
-            hint = "" if number is None else f"; write (- {number[1]})" if number[1] else f"; write 0{word.text}"
-            self.error(f"the symbol {word.text} is not declared{hint}", word.at)
+            if (number := _SIGNED.fullmatch(word.text)) is None:
+                self.error(f"the symbol {word.text} is not declared", word.at)
+            value = s.Number(decimal(number[2]))
+            return s.Minus(value) if number[1] else value
         if isinstance(found, Macro):
             self.error(f"{word.text} needs {len(found.parameters)} arguments", word.at)
         if isinstance(found, Foreign):

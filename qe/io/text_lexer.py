@@ -212,8 +212,8 @@ class State:
 
     ``header``: inside a ``quantifier``, before its body, which may follow a comma where ``spoken``; ``bounded``: a
     condition stands behind the last of its variables; ``within``: the level of brackets at which the set ends that its
-    variables lie in. For every level of brackets: the bars that are open, and whether there was a comparison since the
-    last connective.
+    variables lie in. ``members``: the level inside ``Element[`` before its comma. For every level of brackets: the bars
+    that are open, and whether there was a comparison since the last connective.
     """
 
     def __init__(self, text: str, token: Make) -> None:
@@ -222,7 +222,7 @@ class State:
         self.header, self.spoken, self.bounded, self.quantifier = False, False, False, ""
         self.divided = False
         self.bars, self.compared = [0], [False]
-        self.within = 0
+        self.within, self.members = 0, 0
 
     def put(self, kind: str, value: str, at: int) -> Iterator[Token]:
         """The token, with the sign of a product in front of it where that is left out."""
@@ -301,6 +301,10 @@ class State:
             self.header = True
         elif kind in ("DOT", "OPEN", "LEFT"):
             self.header, self.within = False, len(self.bars) if self.header and last in ("IN", "UNION") else self.within
+        if kind == "ELEMENT":
+            self.members = len(self.bars) + 1
+        elif kind == "COMMA" and self.members == len(self.bars):
+            self.members = 0
         if kind == "OVER":
             self.divided = True
         elif kind not in ("NAME", "NUMBER", "POWER", "CLOSE", "RIGHT"):
@@ -315,19 +319,21 @@ class State:
                 self.compared[-1] = self.compared[-1] or inner
                 if self.within == len(self.bars):  # the set that a quantifier ranges over is complete
                     self.header, self.within = True, 0
-        elif kind in ("RELATION", "IN", "TRUE", "FALSE"):
+        elif kind in ("RELATION", "IN", "TRUE", "FALSE", "ELEMENT", "COMPARE"):
             self.compared[-1] = True
         elif kind in ("AND", "OR", "IMPLIES", "IFF", "DOT", "COMMA", "THEN", "ELSE"):
             self.compared[-1] = False
 
     def bar(self, at: int) -> Iterator[Token]:
-        """A bar opens or closes an absolute value, or means "or"."""
+        """A bar opens or closes an absolute value, or means "or"; in ``Element[x | y, Reals]`` both are meant."""
         if self.last not in OPERAND_ENDS:
             kind = "OPENBAR"
         elif self.bars[-1]:
             kind = "CLOSEBAR"
         elif self.compared[-1]:
             kind = "OR"
+        elif self.members == len(self.bars):
+            kind = "ALSO"
         else:
             message = "this | can be neither 'or' nor the end of an absolute value; write a product as 2*|x|"
             raise SyntaxFailure(message, at)

@@ -20,7 +20,7 @@ _UNIVERSAL = frozenset(("all", "forall", "All", "A", "∀", "ForAll", "Forall", 
 _FORMULAS = """
 %declare QUANTIFIER NAME NUMBER RELATION PLUS MINUS TIMES OVER POWER OPEN CLOSE COMMA DOT
 %declare AND OR NOT IMPLIES IFF TRUE FALSE LEFT RIGHT BEGIN END OPENBAR CLOSEBAR IN REALS INFINITY RADICAL
-%declare IF THEN ELSE CONNECTIVE COMPARE CHOICE ELEMENT NOTIN UNION COMMON WITHOUT
+%declare IF THEN ELSE CONNECTIVE COMPARE CHOICE ELEMENT NOTIN UNION COMMON WITHOUT ALSO
 ?start: c4 | o4
 ?c4: c3 | c4 IFF c3             -> iff
 ?o4: o3 | c4 IFF o3             -> iff
@@ -47,8 +47,8 @@ names: NAME | names COMMA NAME | names NAME -> names_side_by_side
      | BEGIN formulas END       -> listed
      | sum IN set               -> member
      | sum NOTIN set            -> outside
-     | ELEMENT OPEN term COMMA set CLOSE -> element
-     | ELEMENT LEFT term COMMA set RIGHT -> element
+     | ELEMENT OPEN members COMMA set CLOSE -> element
+     | ELEMENT LEFT members COMMA set RIGHT -> element
      | CONNECTIVE OPEN formulas CLOSE -> connective
      | CONNECTIVE LEFT formulas RIGHT -> connective
      | COMPARE OPEN arguments CLOSE -> compared
@@ -60,6 +60,7 @@ names: NAME | names COMMA NAME | names NAME -> names_side_by_side
      | OPEN names CLOSE         -> brackets
      | LEFT names RIGHT         -> brackets
      | BEGIN names END          -> brackets
+members: term | members ALSO term | BEGIN arguments END -> members_listed
 formulas: start | formulas COMMA start -> more
 ?set: meet | set UNION meet     -> union
      | set WITHOUT meet         -> difference
@@ -227,8 +228,15 @@ class TextBuilder(Builder):
     def member(self, c: list[Any]) -> s.Node:
         return c[2](c[0], c[1].start_pos)  # type: ignore[no-any-return]
 
+    def members(self, c: list[Any]) -> list[s.Term]:
+        return [c[0]] if len(c) == 1 else [*c[0], c[2]]
+
+    def members_listed(self, c: list[Any]) -> list[s.Term]:
+        return c[1]  # type: ignore[no-any-return]
+
     def element(self, c: list[Any]) -> s.Node:
-        return c[4](c[2], c[0].start_pos)  # type: ignore[no-any-return]
+        inside = [c[4](term, c[0].start_pos) for term in c[2]]
+        return inside[0] if len(inside) == 1 else s.Every(inside)
 
     # --- terms -----------------------------------------------------------------------------------------------
     def infinity(self, c: list[Any]) -> s.Term:

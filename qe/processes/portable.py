@@ -23,6 +23,8 @@ def portable(error: BaseException) -> Parts:
         return BudgetExceeded, ("memory limit reached",), {"limit": "memory"}
     if isinstance(error, RecursionError):
         return Unable, ("the formula is nested too deeply",), {}
+    if isinstance(error, ValueError) and "integer string conversion" in str(error):
+        return Unable, ("a number has more digits than Python writes; sys.set_int_max_str_digits(0) lets it",), {}
     if isinstance(error, ImportError):
         error = lacking(error) or error
     if not isinstance(error, QEError):

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from qe.cells.pieces import Piece, Range
-from qe.errors import InputError
+from qe.errors import InputError, Unable
 from qe.regions.described import Described as Region
 from qe.regions.ends import Span, ends
 from qe.regions.solid import Solid
@@ -80,10 +80,17 @@ class Sketch:
 
 
 def sketch(region: Region) -> Sketch:
-    """The sketch of a region; ``InputError`` above three variables."""
+    """The sketch of a region; ``InputError`` above three variables, ``Unable`` where its numbers are no floats."""
     order = tuple(region.order)
     if len(order) > 3:
         raise InputError(f"a picture needs 1 to 3 variables, the region has {len(order)}")
+    try:
+        return _sketched(region, order)
+    except OverflowError:
+        raise Unable("no picture: it would have numbers beyond floating point (about 10^308)") from None
+
+
+def _sketched(region: Region, order: tuple[str, ...]) -> Sketch:
     if len(order) == 3:
         shape, frame = shape_of(region)
         return Sketch(order, region.is_empty, solid=shape, frame=frame)

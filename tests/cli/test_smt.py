@@ -11,6 +11,7 @@ from typing import cast
 
 import pytest
 
+import qe
 from qe.cli.smt import Solver
 from qe.io.grammar import Failing
 from qe.io.smtlib_parser import Listing, parse
@@ -129,7 +130,8 @@ def test_values_that_are_not_read_may_be_any(script: str, expected: list[str]) -
         (["(check-sat))\n", "(echo b)\n"], ["sat", "column 12: unbalanced", "b"]),
         (["\ufeff(check-sat)\n", "(foo)"], ["sat", "line 2 column 1"]),
         (["(echo |a\n", "b|)(check-sat)\n"], ["|a b|", "sat"]),
-        (["(assert (> .5 0))(assert (< -2 0))(assert (x > 1))"], ["write 0.5", "write (- 2)", "is not supported"]),
+        (["(assert (< -x 0))(assert (x > 1))"], ["the symbol -x is not declared", "is not supported"]),
+        (["(maximize (* x x))"], ["qe minimize --maximize does this"]),
         (["(declare-const x Real)(assert (x > 1))"], ["stands first: (> x …)"]),
         (["(declare-const x (_ BitVec 8))"], ["(_ BitVec 8) found"]),
     ],
@@ -140,6 +142,15 @@ def test_after_text_that_cannot_be_read_the_next_command_is_answered(lines: list
     found = [line.replace("\n", " ") for line in found]
     assert len(found) == len(expected), found
     assert all(part in line for part, line in zip(expected, found, strict=True)), found
+
+
+def test_a_sign_or_a_point_may_begin_a_number() -> None:
+    """``-2`` and ``.5`` are symbols for the standard and numbers for most who type them; declared ones stay symbols."""
+    ask = "(assert (= x (+ -2 (* -1.5 .5))))(check-sat)(eval (- x))(eval (< x -2))(get-value (x))"
+    assert answers("(declare-const x Real)" + ask) == ["sat", "(/ 11.0 4.0)", "true", "((x (- (/ 11.0 4.0))))"]
+    declared = "(declare-const -2 Real)(assert (> -2 0))(check-sat)"
+    assert answers(declared) == ["sat"]
+    assert qe.decide("(assert (< -2 .5))", format="smtlib")
 
 
 def test_places_are_counted_through_all_lines() -> None:

@@ -9,6 +9,13 @@ from pathlib import Path
 
 import pytest
 
+from bezier.cli import main as bezier_main
+from bezier.input import files, stored
+from qe.cli.app import main as qe_main
+from qe.cli.shell import check_writable, write_file
+from qe.cli.source import read_text
+from qe.errors import InputError
+
 FOLDER = Path(sys.executable).parent
 needs_full = pytest.mark.skipif(not Path("/dev/full").exists(), reason="no /dev/full here")
 ELIMINATE = f"{FOLDER / 'qe'} eliminate 'ex x. x^2 = b'"
@@ -124,3 +131,40 @@ def test_a_terminal_has_a_line_that_is_drawn_over() -> None:
 def test_a_pipe_gets_no_codes() -> None:
     done = subprocess.run([sys.executable, "-c", DRAWING], capture_output=True, check=True, timeout=120)
     assert done.stderr.startswith(b"at work") and b"\x1b" not in done.stdout + done.stderr
+@pytest.mark.skipif(not Path("/dev/zero").exists(), reason="a file without an end is needed")
+def test_a_file_without_an_end_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Such a file filled the memory until the system killed the process."""
+    monkeypatch.setattr("qe.cli.source.MOST_BYTES", 1000)
+    with pytest.raises(InputError, match="/dev/zero: at most 1,000 bytes expected, more found"):
+        read_text(Path("/dev/zero"))
+    for read in (files.read_text, stored.text):
+        monkeypatch.setattr(f"{read.__module__}.MAX_BYTES", 1000)
+        with pytest.raises(InputError, match=r"/dev/zero: expected .*at most 1000 bytes"):
+            read(Path("/dev/zero"))
+
+
+@pytest.mark.parametrize("name", ["", "x" * 300, "a\0b"])
+def test_the_name_of_a_file_that_cannot_be(name: str, capsys: pytest.CaptureFixture[str]) -> None:
+    """A long name ended in a traceback, and no name at all wrote a plan into the folder one stood in."""
+    for words in (["plan", "p.toml", "--out", name], ["check", name], ["clearance", name], ["joints", "a", name]):
+        assert bezier_main(words) == 2
+        said = capsys.readouterr().err
+        assert said.count("\n") == 1 and "the name of a file expected" in said
+    assert qe_main(["region", "x > 0", "--plot", name]) == 2
+    assert "--plot: the name of a file expected" in capsys.readouterr().err
+
+
+def test_what_is_no_plain_file_is_written_to_and_never_replaced(tmp_path: Path) -> None:
+    """``--certificate /dev/null`` put a file in the place of the device, for whom the system lets do that."""
+    pipe, link, real = tmp_path / "pipe", tmp_path / "link", tmp_path / "real"
+    os.mkfifo(pipe)
+    with subprocess.Popen(["cat", str(pipe)], stdout=subprocess.PIPE, text=True) as reader:
+        write_file(pipe, "certificate")
+        assert reader.communicate(timeout=60)[0] == "certificate" and pipe.is_fifo()
+    real.write_text("old")
+    link.symlink_to(real)
+    write_file(link, "new")
+    assert link.is_symlink() and real.read_text() == "new"
+    check_writable(Path(os.devnull))
+    write_file(Path(os.devnull), "nothing")
+    assert Path(os.devnull).is_char_device() and sorted(tmp_path.iterdir()) == [link, pipe, real]

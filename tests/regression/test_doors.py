@@ -234,3 +234,30 @@ def test_a_certificate_made_by_hand_is_rejected_not_a_crash() -> None:
         assert not qe.verify(wrong).accepted
     with pytest.raises(qe.CertificateRejected):
         qe.Certificate.from_json(json.dumps({"format": "bezier-qe certificate", "version": 1}))
+
+
+@pytest.mark.parametrize(
+    ("given", "meant"),
+    [
+        ("Element[a | b, Reals] && a > 0", "a > 0"),
+        ("Element[{x, y}, {1, 2}]", "(x = 1 or x = 2) and (y = 1 or y = 2)"),
+        ("Element[|x| | y, [0, 1]]", "|x| <= 1 and 0 <= y <= 1"),
+        ("Element[x, Reals] | y > 0 && x/x = 1", "true"),
+    ],
+)
+def test_several_may_be_in_one_set(given: str, meant: str) -> None:
+    assert qe.equivalent(given, meant)
+
+
+@pytest.mark.parametrize("given", ["root(3, x) > 2", "Root[2, x] < y", "root(x, 3) > 2", "root(x - 1, 3) > 2"])
+def test_a_root_of_a_polynomial_is_not_taken_for_a_radical(given: str) -> None:
+    """``root(3, x) > 2`` was false: the polynomial x has no third root."""
+    with pytest.raises(qe.ParseError, match=r"a radical is \S+\^\(1/[23]\)"):
+        qe.eliminate(given)
+
+
+def test_letters_side_by_side_are_told_to_be_one_name() -> None:
+    with pytest.raises(qe.InputError, match=r"abc is one name; a product is written a\*b\*c"):
+        qe.decide("all a, b, c > 0. abc = 1 -> a + b + c >= 3")
+    with pytest.raises(qe.InputError, match=r"free: area$"):
+        qe.decide("all a, r. area = a*r")

@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 import qe
 from qe.api.input import read_formula
 from qe.certify.arithmetic.sturm import count_roots_between
+from qe.cli.app import main
 from qe.errors import InternalError
 from qe.exact.algebraic import RealAlgebraic
 from qe.exact.balls import precision
@@ -190,3 +191,25 @@ def test_numbers_are_compared_with_rationals_exactly_at_every_working_precision(
     with precision(20):
         order = root.compare_rational(fmpq(big + offset))
     assert order == (1 if offset < 0 else (square > offset**2) - (square < offset**2))
+
+
+@pytest.mark.parametrize("size", ["1e400", "9" * 5000, "1e-400"])
+def test_numbers_that_no_float_holds_are_printed(size: str, capsys: pytest.CaptureFixture[str]) -> None:
+    """Decimals for people overflowed, and Python writes no integer of more than 4300 digits unless it is asked to."""
+    for command in (["minimize", "x", f"x >= {size}"], ["region", f"x = {size}"], ["solve", f"x > {size}"]):
+        assert main(command) == 0
+        told = capsys.readouterr()
+        assert told.err == "" and "about 0 " not in told.out
+
+
+def test_a_picture_beyond_floating_point_is_refused() -> None:
+    far = qe.region("x^2 + y^2 <= 1e800")
+    with pytest.raises(qe.Unable, match="beyond floating point"):
+        far.plot()
+    assert far._repr_html_().startswith("<div><code>Region")
+
+
+def test_the_name_of_a_file_that_cannot_be(capsys: pytest.CaptureFixture[str]) -> None:
+    for option in ("--certificate", "--plot"):
+        assert main(["region", "x > 0", option, "9" * 300]) == 2
+        assert capsys.readouterr().err.count("\n") == 1

@@ -68,7 +68,7 @@ BALL = 'kind="ball"\ncentre=[0,0,0]\n'
         (BALL + "radius=1\nmargin=-0.5", "margin: expected a number that is not negative, found -1/2"),
         (BALL + "radius=1\nheight=2", "expected one of the keys kind, name, margin, above, centre, radius"),
         (BALL + "radius=nan", 'radius: expected an integer, a decimal or a fraction such as "3/4", found nan'),
-        (BALL + 'radius=1\nname=""', 'name: expected a name, found ""'),
+        (BALL + 'radius=1\nname=""', 'name: expected a name on one line, of at most 100 characters, found ""'),
         ('kind="ball"\ncentre=[0,0]\nradius=1', "centre: expected a point of 3 numbers, found an array of 2 values"),
         ('kind="box"\nlow=[0,0,0]\nhigh=[1,0,1]', "high: expected every coordinate above that of low, found (1, 0, 1)"),
         ('kind="box"\ncorner=[0,0,0]\nedges=[[1,0,0],[1,1,0],[0,0,1]]', "edges: expected three orthogonal vectors"),
