@@ -135,9 +135,11 @@ class Call(Protocol[Result]):
 
 
 class Helpers(Protocol):
-    """Processes, here or on other machines, that do parts of the work. ``width``: how many."""
+    """Processes, here or on other machines, that do parts of the work. ``width``: how many; ``started``: whether they
+    run already."""
 
     width: int
+    started: bool
 
     def results(self, calls: Iterable[Call[Result]], check: Callable[[], None]) -> Iterator[Result]:
         """The results in the order of the calls, which are taken a few ahead; ``check`` is called while waiting.
