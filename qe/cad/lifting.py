@@ -220,7 +220,8 @@ class Lifter:
     # --- side by side ------------------------------------------------------------------------------
     def _spreads(self, level: int, count: int, helpers: Helpers) -> bool:
         """Whether helpers lift the ``count`` cells left in a stack of this level."""
-        if self.cells < (SPREAD_AGAIN if helpers.started else SPREAD_FROM) or level >= min(SPREAD_LEVELS, len(self.plan.levels) - 1):
+        first = SPREAD_AGAIN if helpers.started else SPREAD_FROM
+        if self.cells < first or level >= min(SPREAD_LEVELS, len(self.plan.levels) - 1):
             return False
         return count >= SPREAD_WIDTH * helpers.width or level == SPREAD_LEVELS - 1
 
