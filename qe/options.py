@@ -54,7 +54,7 @@ class Stage(Enum):
     and a sphere seen along one direction a segment. ``STABILITY``: whether a polynomial given by its real and imaginary
     part has roots in a half-plane is another. ``QUADRICS``: whether one quadric lies in another is a question about one
     multiplier. ``RANGES``: conditions that ranges of variables exclude are refuted.
-    ``SEARCH``: sentences with many cases are
+    ``SAMPLES``: sentences of inequalities are tried at points. ``SEARCH``: sentences with many cases are
     searched by a SAT solver. ``SQUARES``: signs that sums of squares prove. ``MINISCOPING``: quantifiers are moved
     inwards, independent parts apart. ``EXCHANGE``: the sum and product of two variables that can be exchanged stand for
     them. ``SHIFT``: x^k is named x. ``GENERIC``: inequations that remove no interior are
@@ -84,6 +84,7 @@ class Stage(Enum):
     STABILITY = "stability"
     QUADRICS = "quadrics"
     RANGES = "ranges"
+    SAMPLES = "samples"
     SEARCH = "search"
     SQUARES = "squares"
     MINISCOPING = "miniscoping"
@@ -137,9 +138,11 @@ class Call(Protocol[Result]):
 
 
 class Helpers(Protocol):
-    """Processes, here or on other machines, that do parts of the work. ``width``: how many."""
+    """Processes, here or on other machines, that do parts of the work. ``width``: how many; ``started``: whether they
+    run already."""
 
     width: int
+    started: bool
 
     def results(self, calls: Iterable[Call[Result]], check: Callable[[], None]) -> Iterator[Result]:
         """The results in the order of the calls, which are taken a few ahead; ``check`` is called while waiting.

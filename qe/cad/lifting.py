@@ -23,7 +23,7 @@ from qe.exact.ring import Poly
 from qe.exact.sample import Fibre, FibreRoot, Point
 from qe.formula.openness import is_closed, is_open
 from qe.formula.syntax import Formula
-from qe.options import Budget, Call, Projection
+from qe.options import Budget, Call, Helpers, Projection
 from qe.proof.cells import Cell, Stack
 
 _VALUE = {"+": 1, "-": -1, "0": 0}
@@ -31,6 +31,9 @@ _VALUE = {"+": 1, "-": -1, "0": 0}
 
 SPREAD_FROM = 2000
 """Cells after which helpers take part: before that, starting them would take longer than the work."""
+
+SPREAD_AGAIN = 200
+"""The same for helpers that have started (for the first of several decompositions)."""
 
 SPREAD_LEVELS = 3
 """Cells of the first so many levels are handed to helpers; there are enough of them, and each is a piece of work."""
@@ -178,7 +181,7 @@ class Lifter:
         """The cells at these positions of a stack, one after the other."""
         helpers = self.budget.helpers
         for place, position in enumerate(positions):
-            if helpers is not None and self._spreads(point.depth, len(positions) - place, helpers.width):
+            if helpers is not None and self._spreads(point.depth, len(positions) - place, helpers):
                 yield from self._spread(point, node, used, stack, positions[place:], dimension)
                 return
             child = self._specialised(node, point.depth, used, stack.texts[position])
@@ -215,11 +218,12 @@ class Lifter:
         return None
 
     # --- side by side ------------------------------------------------------------------------------
-    def _spreads(self, level: int, count: int, width: int) -> bool:
+    def _spreads(self, level: int, count: int, helpers: Helpers) -> bool:
         """Whether helpers lift the ``count`` cells left in a stack of this level."""
-        if self.cells < SPREAD_FROM or level >= min(SPREAD_LEVELS, len(self.plan.levels) - 1):
+        first = SPREAD_AGAIN if helpers.started else SPREAD_FROM
+        if self.cells < first or level >= min(SPREAD_LEVELS, len(self.plan.levels) - 1):
             return False
-        return count >= SPREAD_WIDTH * width or level == SPREAD_LEVELS - 1
+        return count >= SPREAD_WIDTH * helpers.width or level == SPREAD_LEVELS - 1
 
     def _spread(
         self, point: Point, node: Node, used: tuple[int, ...], stack: SampledStack, positions: list[int], dimension: int

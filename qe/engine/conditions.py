@@ -114,6 +114,15 @@ def closed_in_many_variables(problem: Problem, options: Options) -> str | None:
     return f"a sentence in {count} variables"
 
 
+def curved_inequalities(problem: Problem, options: Options) -> str | None:
+    """A sentence in at least ``CONVEX_FROM`` variables, not linear, in which no conjunct is an equation."""
+    if len(problem.variables) < CONVEX_FROM or not problem.is_flat or problem.free or not _curved(problem):
+        return None
+    if any(isinstance(part, Atom) and part.relation is Relation.EQ for part in conjuncts(problem.positive)):
+        return None
+    return f"inequalities in {len(problem.variables)} variables"
+
+
 def _falls_apart(problem: Problem) -> bool:
     """Whether some conjuncts share no variable with the others."""
     block = frozenset(problem.variables)

@@ -40,7 +40,7 @@ class _Helpers:
         self.cluster, self.stack = cluster, stack
         self._client: Any = None
         self._gone = False
-        self.width = max(cluster.workers, 1)
+        self.width, self.started = max(cluster.workers, 1), False
 
     def results(self, calls: Iterable[Call[Result]], check: Callable[[], None]) -> Iterator[Result]:
         """See ``qe.options.Helpers``. Raises ``InputError`` where no scheduler answers, ``Unable`` without Dask."""
@@ -77,7 +77,7 @@ class _Helpers:
     def _connected(self) -> Any:
         if self._client is None:
             self._client = self.stack.enter_context(connection(self.cluster))
-            self.width = max(self.width, len(self._client.nthreads()))
+            self.width, self.started = max(self.width, len(self._client.nthreads())), True
         return self._client
 
 

@@ -60,7 +60,7 @@ RULES: Mapping[str, str] = {
     "Boolean search": "Every choice of cases contains comparisons that no point satisfies together "
     "(Nieuwenhuis, Oliveras, Tinelli 2006).",
     "convex": "A convex set has a point, or multipliers combine its conditions to a contradiction.",
-    "point or multipliers": "A universal sentence is false if it fails at a point, and true if its negation has none.",
+    "point or multipliers": "A point decides a sentence, or multipliers of its conditions show that there is none.",
     "witness in the parameters": "Polynomials in the universal variables satisfy the inner blocks.",
     "equations taken apart": "The equations have the same common zeros as others (Buchberger 1965), factor by factor.",
     "shorter": "A decomposition of the space of the free variables shows that the shorter formula is equivalent.",

@@ -39,7 +39,7 @@ class Eager:
     """Helpers in this process that are always ahead, and know only what can be sent to them."""
 
     def __init__(self, width: int = 1, ahead: int = 3) -> None:
-        self.width, self.ahead, self.called = width, ahead, 0
+        self.width, self.ahead, self.called, self.started = width, ahead, 0, False
 
     def results(self, calls: Iterable[Call[Result]], check: Callable[[], None]) -> Iterator[Result]:
         done: deque[tuple[bool, object]] = deque()
@@ -77,6 +77,7 @@ def table(text: str, helpers: Helpers | None, work: int | None = None) -> Decomp
 def at_once(monkeypatch: pytest.MonkeyPatch) -> None:
     """Helpers take part from the first cell on."""
     monkeypatch.setattr(lifting, "SPREAD_FROM", 0)
+    monkeypatch.setattr(lifting, "SPREAD_AGAIN", 0)
     monkeypatch.setattr(lifting, "SPREAD_WIDTH", 1)
 
 
@@ -111,6 +112,14 @@ def test_small_work_needs_no_helpers() -> None:
     helpers = Eager()
     table(PROBLEMS["existential"], helpers)
     assert not helpers.called
+
+
+def test_helpers_that_have_started_take_part_sooner(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(lifting, "SPREAD_AGAIN", 1)
+    helpers = Eager()
+    helpers.started = True
+    table(PROBLEMS["existential"], helpers)
+    assert helpers.called
 
 
 def test_a_killed_worker_costs_its_own_work_only(at_once: None) -> None:

@@ -1,0 +1,183 @@
+"""Points tried in floating point: existential sentences of inequalities that hold in some open set are often true at a
+point that a few hundred trials find. A point counts only where exact arithmetic confirms it; none found says nothing.
+
+Trials go down the total violation, the sum over conjuncts and the least over disjuncts of how far an atom is from
+holding, one variable at a time (coordinate search: Hooke, Jeeves 1961), from points drawn between the bounds.
+"""
+
+from __future__ import annotations
+
+import math
+import random
+from collections.abc import Callable, Iterator, Sequence
+from fractions import Fraction
+
+from qe.elimination.protocol import Context, Outcome, Problem
+from qe.exact.ring import Poly
+from qe.formula.evaluate import holds_at
+from qe.formula.syntax import TRUE, And, Atom, Formula, Or, Relation
+from qe.formula.traverse import conjuncts
+from qe.options import Budget, Options
+
+STARTS, ROUNDS = 24, 12
+"""Points to start from, and sweeps over the variables from each."""
+
+EVALUATIONS_OF_A_CELL = 4
+"""Evaluations of a formula in floating point that take about the time of a cell."""
+
+SWEEPS = 3
+"""Times that the bounds of variables are put into each other."""
+
+FAR = 1e3
+"""Where a variable has no bound, points are drawn up to here, mostly close to zero."""
+
+Violation = Callable[[Sequence[float]], float]
+Box = Sequence[tuple[float, float]]
+
+
+class SampledPoints:
+    """Sentences of inequalities in several variables that are true at a point which trials find."""
+
+    name = "samples"
+
+    def suits(self, problem: Problem, options: Options) -> str | None:
+        """Sentences of one block without equations."""
+        if not problem.is_flat or problem.free or violation(problem.positive) is None:
+            return None
+        return "inequalities alone"
+
+    def run(self, problem: Problem, context: Context) -> Outcome | None:
+        """A point that was verified; None says nothing."""
+        dual = problem.dual
+        known = find(dual.body, context.budget)
+        if known is None:
+            return None
+        values = {name: known.get(name, Fraction(0)) for name in dual.variables}
+        evidence = {"proof": {"certificate": dual.witnessed(values)}}
+        answer = context.log.step("point or multipliers", problem.formula, problem.asked(TRUE), evidence=evidence)
+        return Outcome(answer, values)
+
+
+def find(body: Formula, budget: Budget) -> dict[str, Fraction] | None:
+    """A rational point at which the quantifier-free body holds, or None. Raises ``BudgetExceeded``."""
+    measure, ring = violation(body), body.ring
+    if measure is None or ring is None:
+        return None
+    rng, places = random.Random(0), [ring.index[name] for name in body.free]
+    box = bounds(body, len(ring.names))
+    for _ in range(STARTS):
+        point = [_drawn(rng, *limits) for limits in box]
+        budget.check("samples")
+        if _descended(measure, point, places, box, budget) > 0:
+            continue
+        for found in _rounded(point):
+            named = dict(zip(ring.names, found, strict=True))
+            if holds_at(body, named):
+                return {name: named[name] for name in body.free}
+    return None
+
+
+def violation(body: Formula) -> Violation | None:
+    """How far a formula of inequalities is from holding at a point, 0 where it does; None for other formulas."""
+    match body:
+        case Atom(poly, relation) if relation is not Relation.EQ:
+            return _of_atom(poly, relation)
+        case And(args) | Or(args):
+            parts = [violation(arg) for arg in args]
+            known = [part for part in parts if part is not None]
+            if isinstance(body, And) and len(known) == len(parts):
+                return lambda at: sum([part(at) for part in known])
+            if isinstance(body, Or) and known:
+                return lambda at: min([part(at) for part in known])
+    return None
+
+
+def _of_atom(poly: Poly, relation: Relation) -> Violation:
+    """Relative to the sum of the absolute values of its terms; a little beyond the border is asked for."""
+    sign = 1.0 if relation in (Relation.GT, Relation.GE) else -1.0
+    try:
+        terms = [(sign * float(c), powers) for powers, c in poly.sparse_terms()]
+    except OverflowError:
+        return lambda at: math.inf
+
+    def measured(at: Sequence[float]) -> float:
+        total = size = 0.0
+        for c, powers in terms:
+            for i, k in powers:
+                c *= at[i] ** k
+            total += c
+            size += abs(c)
+        if relation is Relation.NE:
+            total = abs(total)
+        return max(0.0, 1e-9 - total / size) if 0.0 < size < math.inf else 1.0
+
+    return measured
+
+
+def bounds(body: Formula, count: int) -> Box:
+    """For each variable of the ring an interval that the linear conjuncts allow, each seen alone, a few times."""
+    box = [(-math.inf, math.inf)] * count
+    linear: list[tuple[dict[int, float], float]] = []
+    for part in conjuncts(body):
+        if isinstance(part, Atom) and part.relation not in (Relation.EQ, Relation.NE) and part.poly.total_degree == 1:
+            sign = 1 if part.relation in (Relation.GT, Relation.GE) else -1
+            terms = [(powers, sign * float(c)) for powers, c in part.poly.sparse_terms()]
+            rest = sum(c for powers, c in terms if not powers)
+            linear.append(({powers[0][0]: c for powers, c in terms if powers}, rest))
+    for _ in range(SWEEPS):
+        for leads, rest in linear:
+            highest = {i: max(c * box[i][0], c * box[i][1]) for i, c in leads.items()}
+            for i, c in leads.items():
+                end = -(rest + sum(most for k, most in highest.items() if k != i)) / c  # c*x >= c*end
+                low, high = box[i]
+                box[i] = (max(low, end), high) if c > 0 else (low, min(high, end))
+    return box
+
+
+def _drawn(rng: random.Random, low: float, high: float) -> float:
+    """A point of an interval, where it is long or has no end mostly close to its other end, or to zero."""
+    if math.isinf(low) and math.isinf(high):
+        return rng.choice((-1, 1)) * FAR ** rng.random() * rng.random()
+    if math.isinf(high):
+        return low + FAR ** rng.random() * rng.random()
+    if math.isinf(low):
+        return high - FAR ** rng.random() * rng.random()
+    return low + (high - low) * rng.random() ** rng.choice((1, 1, 3))
+
+
+def _descended(measure: Violation, point: list[float], places: Sequence[int], box: Box, budget: Budget) -> float:
+    """The violation at a point that is moved along one variable after the other as long as it falls."""
+    best = measure(point)
+    for k in range(ROUNDS):
+        before = best
+        for place in places:
+            budget.spend(1 + 8 // EVALUATIONS_OF_A_CELL)
+            kept = point[place]
+            for value in _moves(kept, 0.5 / 2**k, *box[place]):
+                if best <= 0:
+                    return best
+                point[place] = value
+                found = measure(point)
+                if found < best:
+                    best, kept = found, value
+            point[place] = kept
+        if best <= 0 or (best == before and k > ROUNDS // 2):
+            return best
+    return best
+
+
+def _moves(value: float, step: float, low: float, high: float) -> Iterator[float]:
+    """Other values of a variable: doubled, halved, turned, a step up and down, and into the interval from its ends."""
+    if low < high < math.inf and low > -math.inf:
+        width = (high - low) * step
+        yield from (x for x in (value - width, value + width, high - width / 2, low + width / 2) if low <= x <= high)
+    reach = max(abs(value), 1.0) * 2 * step
+    yield from (x for x in (2 * value, value / 2, -value, value - reach, value + reach) if low <= x <= high)
+
+
+def _rounded(point: Sequence[float]) -> Iterator[list[Fraction]]:
+    """Rational points close by, simple ones first."""
+    if all(map(math.isfinite, point)):
+        for digits in (1, 2, 3, 6, 12):
+            yield [Fraction(f"{x:.{digits}g}") for x in point]
+        yield [Fraction(x) for x in point]

@@ -1,0 +1,77 @@
+"""Points found by trials: they hold exactly, nothing is said where there is none, and bounds are implied ones."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from math import inf
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import qe
+import qe.elimination.samples as samples
+from qe.api.input import read_formula
+from qe.elimination.protocol import Context, Problem
+from qe.formula.evaluate import holds_at
+from qe.options import Budget, Options
+from qe.proof.run_log import RunLog
+from tests.certificates.test_broken_producers import accepted
+
+THREAD = (
+    "ex p, P, q, Q, r, R, s, S. R*S - p*(1 - Q) <= -95000 and 0 < p and p < P and P < 1000000 and 0 < q and q < Q and Q < 1"
+    " and 1 < r and r < R and R < 1000 and 1 < s and s < S and S < 50 and (P-p)*(Q-q)*(R-r)*(S-s) > 50000"
+)
+"""After https://stackoverflow.com/questions/16487538."""
+OPEN = "ex a, b, c, d. a*b > c^2 + 1 and c*d > 3 and a + b < 5 and (d^2 < a*b or a > 100)"
+NONE = "ex a, b, c, d. a*b > 1 and a > 0 and b < 0 and c*d > a"
+
+
+@pytest.mark.parametrize("text", [THREAD, OPEN])
+def test_a_point_of_an_open_set_is_found(text: str) -> None:
+    answer = qe.eliminate(text, check=True, process=False)
+    assert answer.truth and answer.witness is not None and not answer.unchecked_steps
+    body = Problem.of(read_formula(text)).positive  # type: ignore[union-attr]
+    assert holds_at(body, {name: Fraction(str(value)) for name, value in answer.witness.items()})
+    assert samples.find(body, Budget(work=2_000)) is not None
+
+
+def test_where_there_is_none_nothing_is_said() -> None:
+    assert samples.find(Problem.of(read_formula(NONE)).positive, Budget()) is None  # type: ignore[union-attr]
+    assert qe.decide(NONE, process=False) is False
+
+
+@pytest.mark.parametrize("text", ["ex x. x^2 = 2", "ex x, y. x > 0 and y = x^2", "ex x. x > a"])
+def test_other_problems_do_not_suit(text: str) -> None:
+    problem = Problem.of(read_formula(text))
+    assert problem is not None and samples.SampledPoints().suits(problem, Options()) is None
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.lists(st.integers(-6, 6), min_size=4, max_size=4))
+def test_nothing_is_amiss_where_all_holds_by_far(values: list[int]) -> None:
+    """Zero says that the formula holds; more than a little beyond the border, that it does not."""
+    body = Problem.of(read_formula(OPEN)).positive  # type: ignore[union-attr]
+    measure, ring = samples.violation(body), body.ring
+    assert measure is not None and ring is not None
+    point = dict(zip("abcd", values, strict=True))
+    amiss = measure([float(point.get(name, 0)) for name in ring.names])
+    assert (amiss == 0) is holds_at(body, point)
+
+
+def test_bounds_follow_from_linear_conditions() -> None:
+    body = read_formula("x > 0 and y > x and 2*y < 8 and z > 1 - y and x*z > 3 and (z < 0 or z > 5)")
+    ring = body.ring
+    assert ring is not None
+    box = samples.bounds(body, len(ring.names))
+    assert [box[ring.index[name]] for name in "xyz"] == [(0, 4), (0, 4), (-3, inf)]
+
+
+def test_a_point_that_does_not_hold_is_not_believed(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(samples, "holds_at", lambda body, point: True)
+    monkeypatch.setattr(samples, "_descended", lambda *args: 0.0)
+    log, problem = RunLog(), Problem.of(read_formula(NONE))
+    assert problem is not None
+    samples.SampledPoints().run(problem, Context(Options(), Budget(), log))
+    (step,) = log.steps()
+    assert not accepted(step)
