@@ -14,7 +14,8 @@ from math import lcm, prod
 from qe.certify.boolean import Theory
 from qe.certify.negation import normal
 from qe.certify.step import Limits
-from qe.elimination.search.monomial_bounds import MonomialBounds, is_square
+from qe.elimination.search.linear_forms import is_square
+from qe.elimination.search.monomial_bounds import MonomialBounds
 from qe.errors import BudgetExceeded, Unable
 from qe.exact.groebner import groebner_basis
 from qe.exact.quadratic_form import solve_linear

@@ -17,6 +17,7 @@ from qe.elimination.search.method import RULE, BooleanSearch
 from qe.elimination.search.theory import Theory
 from qe.engine.run import _Run
 from qe.errors import InternalError
+from qe.exact.difference_graph import DifferenceGraph
 from qe.formula.build import conj, exists, forall
 from qe.formula.normal import nnf
 from qe.formula.syntax import FALSE, TRUE, Constant, Formula
@@ -142,19 +143,29 @@ def wrong_order(m: pytest.MonkeyPatch) -> None:
     m.setattr(clauses, "_excluded", lambda lower, higher: excluded(higher, lower))
 
 
+def half_a_path(m: pytest.MonkeyPatch) -> None:
+    """Of the differences on a path one is forgotten."""
+    reasons = DifferenceGraph.reasons
+    m.setattr(DifferenceGraph, "reasons", lambda self, *path: reasons(self, *path)[1:])
+
+
 def nothing_asserted(m: pytest.MonkeyPatch) -> None:
     """A contradiction among the clauses that does not come from the formula."""
     order = Clauses._order
     m.setattr(Clauses, "_order", lambda self: (order(self), self.clauses.append([])))
 
 
-@pytest.mark.parametrize("broken", [everything_conflicts, curves_never_meet, wrong_order, nothing_asserted])
+@pytest.mark.parametrize(
+    "broken", [everything_conflicts, curves_never_meet, wrong_order, half_a_path, nothing_asserted]
+)
 def test_a_broken_search_is_found_out(broken: Callable[[pytest.MonkeyPatch], None]) -> None:
     """Sentences that have solutions, which the broken search calls false."""
     true = [
         "ex x, y. (x > 1 or y > 1) and (x > 2 or y > 2) and (x < 1 or y < 3) and x + y < 4",
         "ex x, y. (x > 1 or x > 2 or x > 3) and (y > 1 or x > 4)",
         "ex x, y. (x < 1 or x < 2) and (x > 0 or x > 1) and (x*y > 1 or x*y > 2)",
+        "ex x, y, z. (x < y or y < z + 3) and z < x and (x < z + 1 or z < x - 1) and (y < z - 1 or y < z) and "
+        "(y < x + 3 or x < z - 1) and (x < y or y < x + 1) and (y < x + 3 or x < z)",
     ]
     with pytest.MonkeyPatch.context() as m:
         broken(m)

@@ -66,7 +66,7 @@ class Clauses:
         """The literals for > 0, < 0 and = 0."""
         return chain.from_iterable(self._signs.values())
 
-    def atoms(self) -> dict[int, Atom]:
+    def says(self) -> dict[int, Atom]:
         """What the literals of signs say."""
         found = {literal: Atom(poly, relation) for literal, poly, relation in self.inequalities()}
         for poly, (_, _, zero) in self._signs.items():

@@ -9,13 +9,12 @@ from qe.elimination.search.linear_theories import Differences, Forms, difference
 from qe.elimination.search.online import LinearTheory, Propagator
 from qe.elimination.search.theory import Theory
 from qe.exact.number import Values
-from qe.formula.syntax import Formula
 
-_UNITS = 60
+UNITS = 60
 """Units of work of one look at a whole assignment; one is that of one look at a part."""
 
 
-def guided(body: Formula, clauses: Clauses, theory: Theory) -> Values | list[Clause]:
+def guided(clauses: Clauses, theory: Theory) -> Values | list[Clause]:
     """Values that make the formula true, or clauses each of which holds at all real points.
 
     They leave no case, if the solver did what it should; this is for the caller to see. Raises what ``theory`` does.
@@ -37,7 +36,7 @@ def guided(body: Formula, clauses: Clauses, theory: Theory) -> Values | list[Cla
         budget.check("search", len(propagator.lemmas))
 
     def last(model: Sequence[int]) -> list[Clause]:
-        budget.spend(_UNITS)
+        budget.spend(UNITS)
         budget.check("search", len(propagator.lemmas))
         theory.bounds.start(theories[-1].point())
         looked = theory.look(clauses.chosen(model, theory.bounds.sign))

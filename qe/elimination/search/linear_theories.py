@@ -88,7 +88,7 @@ class Differences:
             return None
         found = self.graph.add(*edge, literal)
         if isinstance(found, list):
-            return found
+            return _literals(found)
         self.nearer += found
         return None
 
@@ -104,8 +104,11 @@ class Differences:
                 for length, literal in listed[bisect_left(listed, (now, 0)) :]:
                     if length >= before:
                         break
-                    yield literal, partial(self.graph.reasons, u, v, edges)
+                    yield literal, partial(self._reasons, u, v, edges)
         self.nearer.clear()
+
+    def _reasons(self, u: int, v: int, edges: int) -> list[int]:
+        return _literals(self.graph.reasons(u, v, edges))
 
     def mark(self) -> int:
         return len(self.graph.edges)
@@ -145,7 +148,8 @@ class Forms:
         x, one = self.said[literal]
         set_bound = self.bounds.at_most if one.upper else self.bounds.at_least
         self.changed = True
-        return _literals(set_bound(x, one.bound, strict=one.strict, reason=literal))
+        conflict = set_bound(x, one.bound, strict=one.strict, reason=literal)
+        return None if conflict is None else _literals(conflict)
 
     def settle(self) -> list[int] | None:
         if not self.changed:
@@ -187,5 +191,6 @@ class Forms:
         return found
 
 
-def _literals(reasons: Iterable[Hashable] | None) -> list[int] | None:
-    return None if reasons is None else [r for r in reasons if isinstance(r, int)]
+def _literals(reasons: Iterable[Hashable]) -> list[int]:
+    """Those of the reasons that are literals: what holds of squares in any case is none."""
+    return [r for r in reasons if isinstance(r, int)]

@@ -2,7 +2,11 @@
 
 The clauses are those of ``qe.elimination.search.clauses``. Each model of theirs chooses atoms that make the formula
 true; if these hold at a point, so does the formula; if not, some of them cannot hold together, which is a further
-clause. THEOREM. If the clauses have no model, the sentence is false: every clause added is true at all real points, and
+clause. First
+``qe.elimination.search.guided`` looks for such clauses while the solver decides; whether they leave no model is seen by
+a solver that has nothing but clauses, and goes on where they do.
+
+THEOREM. If the clauses have no model, the sentence is false: every clause added is true at all real points, and
 a real point that makes the formula true gives a model of all of them. There are finitely many choices, each of which is
 made at most once (Nieuwenhuis, Oliveras, Tinelli 2006: DPLL(T)).
 """
@@ -15,7 +19,7 @@ from fractions import Fraction
 
 from qe.elimination.protocol import Context, Outcome, Problem
 from qe.elimination.search.clauses import Clauses
-from qe.elimination.search.guided import guided
+from qe.elimination.search.guided import UNITS, guided
 from qe.elimination.search.theory import Theory
 from qe.errors import Unable
 from qe.exact.number import Values
@@ -27,9 +31,6 @@ from qe.options import Budget, Options
 from qe.proof.step import Nested, Step
 
 RULE = "Boolean search"
-
-_UNITS = 60
-"""Units of work of one round of the search."""
 
 
 class BooleanSearch:
@@ -99,16 +100,15 @@ def found_point(body: Formula, context: Context) -> Values | Refuted:
 
     clauses, theory = Clauses(body), Theory(ring, decided, context.budget)
     theory.bounds.offer(clauses.polys)
-    conflicts: list[tuple[Atom, ...]] = []
-    found = guided(body, clauses, theory)
-    if isinstance(found, dict):
-        context.log.work("search", {"clauses": len(clauses.clauses), "refuted": len(theory.known)})
-        return found
-    atom_of = clauses.atoms()
-    with Solver(name="cadical153", bootstrap_with=[*clauses.clauses, *found]) as solver:
-        conflicts += [tuple(atom_of[-literal] for literal in lemma) for lemma in found]
+    lemmas = guided(clauses, theory)
+    if isinstance(lemmas, dict):
+        context.log.work("search", {"clauses": len(clauses.clauses), "refuted": len(refutations)})
+        return lemmas
+    says = clauses.says()
+    conflicts = [tuple(says[-literal] for literal in lemma) for lemma in lemmas]
+    with Solver(name="cadical153", bootstrap_with=[*clauses.clauses, *lemmas]) as solver:
         while solver.solve():
-            context.budget.spend(_UNITS)
+            context.budget.spend(UNITS)
             context.budget.check("search", len(conflicts) + 1)
             found = theory.look(clauses.chosen(solver.get_model(), theory.bounds.sign))
             if isinstance(found, dict):

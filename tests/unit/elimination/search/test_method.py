@@ -12,7 +12,9 @@ from hypothesis import strategies as st
 
 import qe
 from qe.elimination.protocol import Context, Outcome, Problem
+from qe.elimination.search import method
 from qe.elimination.search.clauses import Clauses
+from qe.elimination.search.guided import guided
 from qe.elimination.search.linear_forms import over_monomials
 from qe.elimination.search.method import BooleanSearch, Refuted, found_point
 from qe.elimination.search.monomial_bounds import MonomialBounds
@@ -20,7 +22,7 @@ from qe.elimination.search.theory import Theory
 from qe.engine.conditions import CASES_FROM, hopeless_cases, many_cases
 from qe.engine.run import solve
 from qe.engine.strategy import Scope, attempts
-from qe.errors import Unable
+from qe.errors import BudgetExceeded, Unable
 from qe.exact.number import Values
 from qe.exact.ring import Ring
 from qe.formula.build import atom, conj, disj, exists
@@ -118,6 +120,54 @@ def test_phases_are_literals_of_signs() -> None:
     true = set(clauses.phases(lambda poly: 1 if poly == X else -1))
     for a in (Atom(X, Relation.GT), Atom(X, Relation.NE), Atom(Y, Relation.LT), Atom(Y, Relation.LE)):
         assert clauses.literal(a) in true
+
+
+DIFFERENCES = [X - Y, X - Y - 1, Y - Z + 2, 2 * Z - 2 * X - 1, X - 3, Y, Z - X + 1]
+LINEAR_ATOMS = st.builds(atom, st.sampled_from(LINEAR + DIFFERENCES), st.sampled_from(list(Relation)))
+LINEAR_FORMULAS = st.recursive(
+    LINEAR_ATOMS, lambda f: st.lists(f, min_size=2, max_size=3).flatmap(lambda g: st.sampled_from((conj(g), disj(g))))
+)
+
+
+@settings(max_examples=15, deadline=None)
+@given(st.lists(LINEAR_FORMULAS, min_size=3, max_size=8).map(conj).filter(lambda f: f.ring is not None))
+def test_what_the_guided_solver_learns_holds_at_all_points(body: Formula) -> None:
+    clauses = Clauses(nnf(body))
+    found = guided(clauses, Theory(RING, values, Budget(60)))
+    if isinstance(found, dict):
+        assert holds_at(body, found)
+        return
+    says = clauses.says()
+    for lemma in found:
+        refuted = conj(says[-literal] for literal in lemma)
+        assert decide(exists(RING.names, refuted), Budget(60)).formula == FALSE
+    assert decide(exists(RING.names, body), Budget(60)).formula == FALSE
+
+
+def test_a_solver_that_was_told_of_nothing_does_not_decide() -> None:
+    """Where the guided solver finds no lemma, the clauses are searched all the same."""
+    with pytest.MonkeyPatch.context() as m:
+        m.setattr(method, "guided", lambda clauses, theory: [])
+        for text, truth in (("x < y and (y < z or y < z - 1) and (z < x or x > 9)", True), ("x < y and y < x", False)):
+            assert isinstance(found_point(nnf(read(text)), context()), Refuted) is not truth
+
+
+def test_an_error_while_the_solver_calls_ends_the_search() -> None:
+    """No exception can go through the solver's code; it is kept until the solver has ended."""
+
+    class Stop(BaseException):
+        pass
+
+    def stop(self: Theory, atoms: Sequence[Atom]) -> Values:
+        raise Stop
+
+    body = nnf(read("(x < y or y < z) and (z < x or x*y > 1)"))
+    with pytest.MonkeyPatch.context() as m:
+        m.setattr(Theory, "look", stop)
+        with pytest.raises(Stop):
+            found_point(body, context())
+    with pytest.raises(BudgetExceeded):
+        found_point(body, Context(Options(), Budget(60, work=0), RunLog(), decide))
 
 
 def test_sentences_of_very_many_cases_are_for_the_search_alone() -> None:
