@@ -75,3 +75,16 @@ def test_a_point_that_does_not_hold_is_not_believed(monkeypatch: pytest.MonkeyPa
     samples.SampledPoints().run(problem, Context(Options(), Budget(), log))
     (step,) = log.steps()
     assert not accepted(step)
+
+
+BEYOND = (
+    ("ex a, b, c, d. a > 10^200 and b > 10^200 and a^2*b*c*d > 1 and a*b + c*d < 3", False),
+    ("ex a, b, c, d. 10^400*a > b and a^2*b*c*d > 1 and a*b + c*d < 3", True),
+    ("ex a, b, c, d. a > 1 and a^600*b^500*c*d > 1 and a*b + c*d < -3 and c^300 > 5", True),
+)
+
+
+@pytest.mark.parametrize(("text", "truth"), BEYOND)
+def test_numbers_beyond_floating_point_are_no_error(text: str, truth: bool) -> None:
+    """They ended in an ``OverflowError``."""
+    assert qe.decide(text, process=False) is truth
