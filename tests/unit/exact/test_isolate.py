@@ -10,7 +10,7 @@ from flint import fmpq, fmpz_poly
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from qe.exact.isolate import isolate, sign_at
+from qe.exact.isolate import isolate, sign_at, simplest_between
 from tests.strategies import HUGE
 
 X = fmpz_poly([0, 1])
@@ -62,3 +62,19 @@ far_or_close = st.builds(lambda near, by: near + by, dyadic, st.sampled_from([Fr
 @given(st.sets(dyadic, max_size=4), st.sets(other | far_or_close, max_size=4))
 def test_every_root_has_its_interval(dyadic_roots: set[Fraction], others: set[Fraction]) -> None:
     check(sorted(dyadic_roots | others))
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "between"),
+    [
+        ("0", "1", "1/2"),
+        ("1/2", "1", "2/3"),
+        ("0", "1/3", "1/4"),
+        ("-1", "1", "0"),
+        ("-1", "0", "-1/2"),
+        ("2", "4", "3"),
+    ],
+)
+def test_the_simplest_number_is_neither_end(low: str, high: str, between: str) -> None:
+    found = simplest_between(*(fmpq(f.numerator, f.denominator) for f in map(Fraction, (low, high))))
+    assert str(found) == between
