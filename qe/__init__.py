@@ -93,7 +93,7 @@ def __getattr__(name: str) -> Any:
 
 
 written_by(lambda value: import_module("qe.io.sympy").sympy_form(value))
-provide("regions", lambda: import_module("qe.api.region"))
+provide("regions", lambda: import_module("qe.api.region_operators"))
 provide("connected", lambda: import_module("qe.io.expressions").connected)
 provide("substituted", lambda: import_module("qe.io.expressions").substituted)
 provide("formats", lambda: import_module("qe.io.formats"))

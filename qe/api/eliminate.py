@@ -1,4 +1,4 @@
-"""The public functions. Formulas may be given as text, as ``Formula``, or as SymPy (``qe.Exists``/``qe.ForAll``)."""
+"""``eliminate``, ``region`` and ``verify``, which all other public functions go through. ``qe.api`` is this module."""
 
 from __future__ import annotations
 

@@ -106,7 +106,7 @@ CASES: dict[str, tuple[str, Callable[[], Call]]] = {
         lambda: lambda found=qe.region(DISC): found.complement(timeout=LIMIT),
     ),
     "Region.is_subset": (
-        "qe.api.region.eliminated",
+        "qe.api.region_operators.eliminated",
         lambda: lambda found=qe.region(DISC): found.is_subset("x < 2", timeout=LIMIT),
     ),
     "Region.project": (
@@ -173,10 +173,9 @@ def test_a_hard_region_ends_soon_after_its_limit():
 
 
 def test_what_a_volume_is_known_to_be_is_told_at_the_limit():
-    region = qe.region("x^2 + y^2 + z^2 <= 1 and x*y*z >= 1/50")
-    assert not region.is_empty  # decomposed, so that the limit is met in the measure on a slow machine, too
+    region = qe.region("x^2 + y^2 <= 1 and x*y^3 >= 1/50")  # decomposed in no time, also on a slow machine
     with pytest.raises(BudgetExceeded, match=r"volume known only between [\d.]+ and \d"):
-        region.volume(1e-9, timeout=1)
+        region.volume(1e-40, timeout=1)
 
 
 def test_memory_limits_hold_for_regions_and_their_questions(monkeypatch):

@@ -10,7 +10,7 @@ from flint import fmpq, fmpz_poly
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from qe.exact.isolate import isolate, sign_at
+from qe.exact.isolate import isolate, sign_at, simplest_between
 from tests.strategies import HUGE
 
 X = fmpz_poly([0, 1])
@@ -75,3 +75,19 @@ def test_the_sign_of_a_long_polynomial_is_the_exact_one(coefficients: list[int],
     for p, point in ((long, at), (with_root, at), (with_root, beside)):
         exact = p(point)
         assert sign_at(p, point) == (exact > 0) - (exact < 0)
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "between"),
+    [
+        ("0", "1", "1/2"),
+        ("1/2", "1", "2/3"),
+        ("0", "1/3", "1/4"),
+        ("-1", "1", "0"),
+        ("-1", "0", "-1/2"),
+        ("2", "4", "3"),
+    ],
+)
+def test_the_simplest_number_is_neither_end(low: str, high: str, between: str) -> None:
+    found = simplest_between(*(fmpq(f.numerator, f.denominator) for f in map(Fraction, (low, high))))
+    assert str(found) == between

@@ -107,3 +107,9 @@ def test_a_value_in_a_field_of_large_degree_is_refused() -> None:
     b = RealAlgebraic.from_root((-3, *[0] * 18, 1), 1, 2)
     with pytest.raises(Unable):
         value_at(ring.var("x") + ring.var("y"), {"x": a, "y": b})
+
+
+def test_variables_without_a_value_are_zero() -> None:
+    ring = Ring.of(("x", "y"))
+    x, y = ring.var("x"), ring.var("y")
+    assert [sign_at(poly, {"x": Fraction(1)}) for poly in (x + y, y, x * y - 1, y**2 - x)] == [1, 0, -1, -1]

@@ -104,3 +104,9 @@ def test_where_nothing_can_be_put_in() -> None:
     assert str(put("ex y. y > x")) == "ex y. a^2*y + a*b > 0" and str(put("all y. y > x")) == "all y. a^2*y + a*b > 0"
     assert str(put("true")) == "true" and put("a < root(1, a^3 - x)") is None
     assert put("x < root(1, x^3 - 2)") is None and put("a < root(1, a^3 - b)") is not None
+
+
+@pytest.mark.parametrize("text", ["x^2 > b and x < root(1, x^2 - a)", "b > 0 or x < root(1, x^2 - a)"])
+def test_one_part_in_which_nothing_can_be_put_is_enough_to_leave_all(text: str) -> None:
+    found = pivot_of("2*x = b and x > a")
+    assert found is not None and substitute(convert(read(text), WIDER), found) is None

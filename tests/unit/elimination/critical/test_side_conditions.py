@@ -57,6 +57,8 @@ def test_bounded(text: str) -> None:
         "y^3 <= p and z^2 <= 1",
         "y^2 + z <= p and z <= p",
         "y^2 + p*z <= 1 and z >= p",
+        "y >= 0 and z >= 0 and z <= y^2 and y <= z + 1",  # z = y^2: a lower bound of y is none of -y^2
+        "y >= 0 and z >= 0 and z + p*y <= 0 and y <= z + 1",  # p may be negative
     ],
 )
 def test_not_seen_to_be_bounded(text: str) -> None:
