@@ -32,7 +32,7 @@ from qe.certify.arithmetic.triangular import Coordinate, Point
 from qe.certify.block import existential
 from qe.certify.closure import checked_discriminant, checked_resultant
 from qe.certify.limits import check_value
-from qe.certify.stacks import check_roots, have_common_root
+from qe.certify.stacks import Fail, have_common_root, roots_and_signs
 from qe.certify.step import Claim, Context, Limits, only
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import convert
@@ -182,12 +182,9 @@ class _Walk:
             f = fibre(sample.point, sample.reduced(self.lists.lists[level][i]), level)
             if f.degree < 0:
                 raise used.fail(f"factor {i} is zero on the whole line")
-            signs = f.signs(at)
-            if 0 in signs:
-                raise sectors.fail(f"factor {i} is zero at a sample")
             places = [j for j, section in enumerate(listed) if i in section]
-            simple = check_roots(f, signs, at, places, None, lambda _, why, i=i: sections.fail(f"factor {i}: {why}"))  # type: ignore[misc]
-            rows[i] = _Row(f, signs, simple)
+            wrong: Fail = lambda _, why, i=i: sections.fail(f"factor {i}: {why}")  # type: ignore[misc]  # noqa: E731
+            rows[i] = _Row(f, *roots_and_signs(f, at, places, None, wrong))
         for j, section in enumerate(listed):
             for other in section[1:]:
                 f, g = rows[section[0]].fibre, rows[other].fibre

@@ -34,16 +34,13 @@ from itertools import combinations, product
 
 from qe.certify.arithmetic.sturm import count_roots_between, exact, sign_of
 from qe.certify.critical_points import determinant, vanishing
-from qe.certify.critical_values import check_shape, common, padded, read_conditions, read_lists
+from qe.certify.critical_values import check_open_cells, check_shape, read_conditions
 from qe.certify.negation import negation, normal
-from qe.certify.open_cells import open_cells
 from qe.certify.step import Claim, Context, Limits, only
-from qe.errors import CertificateRejected
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import convert
-from qe.formula.evaluate import holds_at
 from qe.formula.syntax import And, Atom, ForAll, Formula, Or, Relation
-from qe.formula.traverse import has_root_atoms, polynomials
+from qe.formula.traverse import has_root_atoms
 from qe.proof.entry import Entry
 
 MOST_CASES = 64
@@ -101,20 +98,20 @@ def check_critical_universal(claim: Claim, context: Context, limits: Limits) -> 
     if len(rows) != len(starts):
         raise chains.fail(f"expected {len(starts)} chains")
     surfaces = [vanishing(start, row, free, ring) for start, row in zip(starts, rows, strict=True)]
-    lists = read_lists(factors, outer, limits)
-    for found in (*([p] for p in polynomials(holds)), *surfaces):
-        if lists.decompose(common(found).convert(outer)) is None:
-            raise factors.fail("a polynomial of the answer, or of the critical points, is not a product of factors")
     exceptions = [_exception(e, parts) for e in listed.items()]
-    inside = False
-    for values, said in open_cells(lists.lists, stacks, limits):
-        if holds_at(holds, dict(zip(names, values, strict=True))):
-            inside = True
-            _check_inside(parts, surfaces, values, said)
-        else:
-            _check_outside(parts, exceptions, values, said)
-    if not inside:
-        raise claim.fail("no open cell on which it holds")
+
+    def check_inside(values: tuple[Fraction, ...], said: Entry) -> None:
+        if said.integer(-1) != -1 or not all(part.is_excluded(values) for part in parts):
+            raise said.fail("an inequality is not seen to hold on its interval")
+
+    def check_outside(values: tuple[Fraction, ...], said: Entry) -> None:
+        if said.integer() >= len(exceptions):
+            raise said.fail("not the number of an exception")
+        part, y = exceptions[said.integer()]
+        if part.poly.evaluate((*values, y)) <= 0:
+            raise said.fail("the inequality holds at the exception")
+
+    check_open_cells(holds, outer, surfaces, (factors, stacks), (check_inside, check_outside), claim, limits)
     if regular.value is None:
         read_conditions(after, outer, claim, strict=False)
     else:
@@ -228,27 +225,3 @@ def _exception(entry: Entry, parts: Sequence[Exceeding]) -> tuple[Exceeding, Fra
     if not part.low <= y <= part.high:
         raise entry.fail("not in the interval of its case")
     return part, y
-
-
-def _check_inside(
-    parts: Sequence[Exceeding], surfaces: Sequence[Sequence[Poly]], values: tuple[Fraction, ...], said: Entry
-) -> None:
-    if said.integer(-1) != -1 or not all(part.is_excluded(values) for part in parts):
-        raise said.fail("an inequality is not seen to hold on its interval")
-    place = padded(values, parts[0].poly.ring)
-    if any(not any(q.evaluate(place) for q in found) for found in surfaces):
-        raise said.fail("the sample lies over critical points")
-
-
-def _check_outside(
-    parts: Sequence[Exceeding],
-    exceptions: Sequence[tuple[Exceeding, Fraction]],
-    values: tuple[Fraction, ...],
-    said: Entry,
-) -> None:
-    k = said.integer()
-    if k >= len(exceptions):
-        raise CertificateRejected(said.path, "not the number of an exception")
-    part, y = exceptions[k]
-    if part.poly.evaluate((*values, y)) <= 0:
-        raise said.fail("the inequality holds at the exception")

@@ -10,11 +10,14 @@ compares the result with the answer as a set of conjuncts.
 
 from __future__ import annotations
 
-from qe.certify.substitution import quotient
-from qe.exact.ring import Poly, Ring
-from qe.formula.build import atom, conj
-from qe.formula.syntax import Atom, Formula, Relation, RootAtom
-from qe.formula.traverse import conjuncts, free_variables, map_atoms
+from dataclasses import replace
+
+from qe.certify.linear_equation import substituted, term
+from qe.certify.step import Claim
+from qe.exact.ring import Ring
+from qe.formula.build import conj
+from qe.formula.syntax import Atom, Formula, Relation
+from qe.formula.traverse import conjuncts, free_variables
 from qe.options import Budget
 from qe.proof.entry import Entry, Json, formula_from_json
 
@@ -29,13 +32,13 @@ def check_substitution(payload: dict[str, Json], budget: Budget | None = None) -
     body = formula_from_json(matrix, ring)
     if set(free_variables(body)) | set(variables) != set(ring.names):
         raise names.fail("expected the variables of the formula and of the block")
-    steps = [tuple(step.items()) for step in solved.items()]
-    if [step[0].text() for step in steps if len(step) == 2] != list(variables) or len(steps) != len(variables):
+    steps = [step.row("variable", "equation") for step in solved.items()]
+    if [variable.text() for variable, _ in steps] != list(variables):
         raise solved.fail("expected one [variable, equation] for each variable of the block, in its order")
-    for variable, equation in steps:
+    for entry in solved.items():
         if budget is not None:
             budget.check("verify")
-        body = _without(body, ring.index[variable.text()], equation.polynomial(ring), equation)
+        body = _without(body, variables, Claim("substitution", body, body, ring, entry, entry.path))
     claimed = formula_from_json(answer, ring)
     if set(variables) & set(free_variables(claimed)):
         raise answer.fail("a quantified variable is left")
@@ -43,30 +46,13 @@ def check_substitution(payload: dict[str, Json], budget: Budget | None = None) -
         raise answer.fail("not what the substitutions give")
 
 
-def _without(body: Formula, i: int, equation: Poly, entry: Entry) -> Formula:
-    """The rest of the body with variable ``i`` replaced by its value from the equation."""
-    if equation.degree(i) != 1 or not equation.leading(i).is_constant:
-        raise entry.fail("expected an equation of degree 1 with a constant coefficient")
-    parts = conjuncts(body)
-    needed = Atom(equation, Relation.EQ)
-    if needed not in parts:
-        raise entry.fail("not a conjunct here")
-
-    def replaced(found: Atom | RootAtom) -> Formula:
-        if isinstance(found, RootAtom):
-            raise entry.fail("no substitution into root atoms")
-        if not found.poly.degree(i):
-            return found
-        return atom(_replaced(found.poly, i, equation), found.relation)
-
-    return conj(map_atoms(c, replaced) for c in parts if c != needed)
-
-
-def _replaced(poly: Poly, i: int, equation: Poly) -> Poly:
-    """A positive multiple of ``poly`` at x_i = -p/c, for the equation c*x_i + p = 0."""
-    p, lead = equation.coefficients(i)
-    top, bottom = (-p, lead) if lead.constant_value() > 0 else (p, -lead)
-    return quotient(poly, i, top, bottom)
+def _without(body: Formula, variables: tuple[str, ...], claim: Claim) -> Formula:
+    """The rest of the body with a variable replaced by its value from the equation."""
+    pivot = term(claim.evidence, variables, body, claim)
+    needed = Atom(pivot.equation, Relation.EQ)
+    if needed not in conjuncts(body):
+        raise claim.evidence.fail("not a conjunct here")
+    return substituted(replace(pivot, others=conj(c for c in conjuncts(body) if c != needed)), claim)
 
 
 def _conjuncts(formula: Formula) -> frozenset[Formula]:

@@ -24,7 +24,6 @@ from qe.certify.half_plane import check_half_plane
 from qe.certify.independent_parts import check_independent_parts
 from qe.certify.inequations import check_inequations, check_only_nonzero
 from qe.certify.infinity_first import check_infinity_first
-from qe.certify.instance import check_instance
 from qe.certify.linear_equation import check_guarded_linear, check_linear
 from qe.certify.miniscoping import check_miniscoping
 from qe.certify.mirror import check_mirror
@@ -94,7 +93,7 @@ RULES: Mapping[str, Check] = {
     "independent parts": check_independent_parts,
     "infinity first": check_infinity_first,
     "open block": check_open_block,
-    "instance": check_instance,
+    "instance": check_sentence,
     "cells": check_table,
     "witness in the parameters": check_witness_in_parameters,
     "shorter": check_table,

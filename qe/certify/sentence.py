@@ -1,4 +1,4 @@
-"""Rules "convex" and "point or multipliers": a sentence decided by a point, or by multipliers.
+"""Rules "convex", "point or multipliers" and "instance": a sentence decided by a point, or by multipliers.
 
 THEOREM. ex v. f is true if f holds at one point, and false if conjuncts of f have no common solution. all v. f is the
 negation of ex v. not f.

@@ -52,7 +52,8 @@ def _is_easy(body: Formula, i: int, j: int) -> bool:
     degree, other = (max(a.poly.degree(k) for a in atoms(body)) for k in (i, j))
     if degree != other or not 2 <= degree <= _DEGREE:
         return True
-    return _degrees(body, i, j)[2] <= 2 and not any(isinstance(a, Atom) and a.relation is Relation.EQ for a in atoms(body))
+    has_equations = any(isinstance(a, Atom) and a.relation is Relation.EQ for a in atoms(body))
+    return not has_equations and _degrees(body, i, j)[2] <= 2
 
 
 def _is_simpler(new: Formula, body: Formula, i: int, j: int) -> bool:

@@ -24,7 +24,8 @@ def agree(text: str) -> bool:
     """Whether neither accepts what the other rejects, but for what only the first asks for."""
     first, second = said(text), said_plainly(text)
     if (first, second) == ("rejected", "accepted"):
-        return bool(STRICTER.match(verify_json(text).step))
+        verdict = verify_json(text)
+        return bool(STRICTER.match(verdict.step)) or verdict.reason.endswith("is not a product of listed factors")
     return (first, second) != ("accepted", "rejected")
 
 

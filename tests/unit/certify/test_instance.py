@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from qe.certify.instance import check_instance
+from qe.certify.sentence import check_sentence
 from qe.exact.ring import Ring
 from qe.formula.build import convert
 from qe.io.text import read
@@ -40,11 +40,11 @@ ROOT = {"polynomial": "x^2 - 2", "interval": ["1", "2"]}
     ],
 )
 def test_numbers_for_the_block(before: str, after: str, evidence: Any, accepted: bool) -> None:
-    assert (objection(check_instance, before, after, evidence) == "") is accepted
+    assert (objection(check_sentence, before, after, evidence) == "") is accepted
 
 
 def test_only_a_witness_counts() -> None:
     body = {"order": ["x"], "variables": ["x"], "matrix": formula_to_json(read("x = 0"))}
     other = Certificate(Kind.SUBSTITUTION, {**body, "solved": [["x", "x"]], "answer": formula_to_json(read("true"))})
     evidence = {"certificate": other.to_data()}
-    assert "of kind witness expected" in objection(check_instance, "ex x. x = 0", "true", evidence)
+    assert "expected a point" in objection(check_sentence, "ex x. x = 0", "true", evidence)

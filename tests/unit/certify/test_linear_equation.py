@@ -83,4 +83,5 @@ def test_two_cases_of_a_coefficient() -> None:
     assert "two cases" in objection(GUARDED, before, "(a /= 0 and a*b > a^2*c) or (ex x. a = 0 and x > c)", solved)
     assert "two cases" in objection(GUARDED, before, "a /= 0 and a*b > a^2*c", solved)
     assert "unknown sign" in objection(GUARDED, before, after, {"solved": [["x", "a*x - b", 0]]})
-    assert "unknown sign" in objection(GUARDED, before, after, {"solved": [["x", "a*x - b", None]] * 2})
+    assert "expected [equation]" in objection(GUARDED, before, after, {"solved": [["x", "a*x - b", None]] * 2})
+    assert "expected [equation]" in objection(GUARDED, before, after, {"solved": []})

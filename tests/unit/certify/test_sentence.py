@@ -82,9 +82,9 @@ def test_an_instance_is_a_point_for_a_true_sentence() -> None:
 
     good = point("x*y = 6 and x < y", "x y", 2, 3)
     assert found("ex x, y. x*y = 6 and x < y", "true", good) == ""
-    assert "true existential sentence" in found("ex x, y. x*y = 6 and x < y", "false", good)
-    assert "true existential sentence" in found("all x, y. x*y = 6 and x < y", "true", good)
-    assert "true existential sentence" in found("ex x. x*y = 6 and x < y", "true", good)
-    assert "not the body" in found("ex x, y. x*y = 6 and x > y", "true", good)
+    assert "expected a point" in found("ex x, y. x*y = 6 and x < y", "false", good)
+    assert "expected a point" in found("all x, y. x*y = 6 and x < y", "true", good)
+    assert "expected a sentence" in found("ex x. x*y = 6 and x < y", "true", good)
+    assert "not the formula" in found("ex x, y. x*y = 6 and x > y", "true", good)
     assert "do not satisfy" in found("ex x, y. x*y = 6 and x < y", "true", point("x*y = 6 and x < y", "x y", 1, 3))
-    assert "kind witness" in found("ex x, y. x*y = 6", "true", multipliers(EMPTY))
+    assert "expected a point" in found("ex x, y. x*y = 6", "true", multipliers(EMPTY))

@@ -93,7 +93,7 @@ def test_a_parabola() -> None:
     assert "missing" in PARABOLA.objection((1,), (5,))
     assert "no root here" in PARABOLA.objection((-1,), (0, 1), (0,))
     assert "missing" in PARABOLA.objection((ZERO,), (3,))
-    assert PARABOLA.objection((1,), (-2, 1, 2), (0,), (0,)) == "sectors[1]: factor 0 is zero at this sector sample"
+    assert PARABOLA.objection((1,), (-2, 1, 2), (0,), (0,)) == "sectors[1]: factor 0: it is zero at this sector sample"
 
 
 def test_the_first_level_needs_no_projection() -> None:
