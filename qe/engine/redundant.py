@@ -24,7 +24,7 @@ from qe.formula.traverse import atoms
 from qe.proof.step import Nested, Place
 from qe.simplify.simplify import simplify
 
-WORK, QUESTION_WORK, PATIENCE = 4000, 800, 4
+WORK, QUESTION_WORK, PATIENCE = 500, 100, 4
 """Units of work for all sentences, and for one of them; how many parts in a row may make a difference after all."""
 
 DEGREES = {1: 40, 2: 12, 3: 6}
@@ -34,6 +34,10 @@ MANY_DEGREE = 6
 
 MOST_ATOMS, MOST_VARIABLES, MOST_TERMS = 60, 8, 400
 """A larger answer is left as it is."""
+
+FEW_VARIABLES, FEW_TERMS = 4, 6
+"""With more variables all polynomials that are not linear have so few terms: a single substitution of a root into
+longer ones takes a tenth of a second (regions of balls in space, with six parameters)."""
 
 COARSE, FINE = 40, 120
 """How many points are looked at first, beside those on the axes, and how many more for the parts that these leave."""
@@ -89,6 +93,10 @@ def without_redundant_parts(formula: Formula, context: Context) -> Formula:
 def _is_suited(formula: Formula) -> bool:
     size, terms = length(formula)
     if not 2 <= size <= MOST_ATOMS or terms > MOST_TERMS or len(formula.free) > MOST_VARIABLES:
+        return False
+    if len(formula.free) > FEW_VARIABLES and any(
+        a.poly.total_degree > 1 and a.poly.term_count() > FEW_TERMS for a in atoms(formula)
+    ):
         return False
     return all(isinstance(a, Atom) for a in atoms(formula)) and formula == nnf(formula)
 

@@ -99,6 +99,18 @@ def test_what_is_beside_the_way_is_looked_at(monkeypatch: pytest.MonkeyPatch) ->
     assert not accepted(broken)
 
 
+def test_a_region_of_balls_in_space_is_not_looked_at_for_minutes() -> None:
+    """The region of a plan, six parameters and conditions of nine terms, took minutes: no unit of work is that long."""
+
+    def decide(sentence: Formula, budget: Budget) -> Outcome:
+        raise AssertionError("asked about a long sentence in six variables")
+
+    distance = "(x - u)^2 + (y - v)^2 + (z - w)^2"
+    region = f"x^2 + y^2 + z^2 <= 9 and u^2 + v^2 + w^2 <= 9 and {distance} <= 9 and 4*({distance}) <= 37"
+    formula = read_formula(region)
+    assert without_redundant_parts(formula, Context(Options(), Budget(), RunLog(), decide)) == formula
+
+
 def test_the_part_at_a_place() -> None:
     formula = read_formula("a < 1 and (b < 1 or c < 2)")
     assert str(without_part(formula, (1, 0))) == "a - 1 < 0 and c - 2 < 0"
