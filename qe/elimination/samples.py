@@ -13,6 +13,7 @@ from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
 
 from qe.elimination.protocol import Context, Outcome, Problem
+from qe.exact.number import Values
 from qe.exact.ring import Poly
 from qe.formula.evaluate import holds_at
 from qe.formula.syntax import TRUE, And, Atom, Formula, Or, Relation
@@ -52,7 +53,7 @@ class SampledPoints:
         known = find(dual.body, context.budget)
         if known is None:
             return None
-        values = {name: known.get(name, Fraction(0)) for name in dual.variables}
+        values: Values = {name: known.get(name, Fraction(0)) for name in dual.variables}
         evidence = {"proof": {"certificate": dual.witnessed(values)}}
         answer = context.log.step("point or multipliers", problem.formula, problem.asked(TRUE), evidence=evidence)
         return Outcome(answer, values)
@@ -136,13 +137,14 @@ def bounds(body: Formula, count: int) -> Box:
 
 def _drawn(rng: random.Random, low: float, high: float) -> float:
     """A point of an interval, where it is long or has no end mostly close to its other end, or to zero."""
+    far = math.pow(FAR, rng.random()) * rng.random()
     if math.isinf(low) and math.isinf(high):
-        return rng.choice((-1, 1)) * FAR ** rng.random() * rng.random()
+        return rng.choice((-far, far))
     if math.isinf(high):
-        return low + FAR ** rng.random() * rng.random()
+        return low + far
     if math.isinf(low):
-        return high - FAR ** rng.random() * rng.random()
-    return low + (high - low) * rng.random() ** rng.choice((1, 1, 3))
+        return high - far
+    return low + (high - low) * math.pow(rng.random(), rng.choice((1, 1, 3)))
 
 
 def _descended(measure: Violation, point: list[float], places: Sequence[int], box: Box, budget: Budget) -> float:

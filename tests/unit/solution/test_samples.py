@@ -19,8 +19,8 @@ from qe.proof.run_log import RunLog
 from tests.certificates.test_broken_producers import accepted
 
 THREAD = (
-    "ex p, P, q, Q, r, R, s, S. R*S - p*(1 - Q) <= -95000 and 0 < p and p < P and P < 1000000 and 0 < q and q < Q and Q < 1"
-    " and 1 < r and r < R and R < 1000 and 1 < s and s < S and S < 50 and (P-p)*(Q-q)*(R-r)*(S-s) > 50000"
+    "ex p, P, q, Q, r, R, s, S. R*S - p*(1 - Q) <= -95000 and 0 < p and p < P and P < 1000000 and 0 < q and q < Q"
+    " and Q < 1 and 1 < r and r < R and R < 1000 and 1 < s and s < S and S < 50 and (P-p)*(Q-q)*(R-r)*(S-s) > 50000"
 )
 """After https://stackoverflow.com/questions/16487538."""
 OPEN = "ex a, b, c, d. a*b > c^2 + 1 and c*d > 3 and a + b < 5 and (d^2 < a*b or a > 100)"
