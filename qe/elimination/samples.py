@@ -17,14 +17,14 @@ from qe.exact.number import Values
 from qe.exact.ring import Poly
 from qe.formula.evaluate import holds_at
 from qe.formula.syntax import TRUE, And, Atom, Formula, Or, Relation
-from qe.formula.traverse import conjuncts
+from qe.formula.traverse import conjuncts, polynomials
 from qe.options import Budget, Options
 
 STARTS, ROUNDS = 24, 12
 """Points to start from, and sweeps over the variables from each."""
 
-EVALUATIONS_OF_A_CELL = 4
-"""Evaluations of a formula in floating point that take about the time of a cell."""
+TERMS_OF_A_CELL = 20
+"""Terms of a formula that are tried at all values of one variable in about the time of a cell."""
 
 SWEEPS = 3
 """Times that the bounds of variables are put into each other."""
@@ -66,10 +66,10 @@ def find(body: Formula, budget: Budget) -> dict[str, Fraction] | None:
         return None
     rng, places = random.Random(0), [ring.index[name] for name in body.free]
     box = bounds(body, len(ring.names))
+    units = 1 + sum(poly.term_count() for poly in polynomials(body)) // TERMS_OF_A_CELL
     for _ in range(STARTS):
         point = [_drawn(rng, *limits) for limits in box]
-        budget.check("samples")
-        if _descended(measure, point, places, box, budget) > 0:
+        if _descended(measure, point, places, box, budget, units) > 0:
             continue
         for found in _rounded(point):
             named = dict(zip(ring.names, found, strict=True))
@@ -147,13 +147,17 @@ def _drawn(rng: random.Random, low: float, high: float) -> float:
     return low + (high - low) * math.pow(rng.random(), rng.choice((1, 1, 3)))
 
 
-def _descended(measure: Violation, point: list[float], places: Sequence[int], box: Box, budget: Budget) -> float:
-    """The violation at a point that is moved along one variable after the other as long as it falls."""
+def _descended(
+    measure: Violation, point: list[float], places: Sequence[int], box: Box, budget: Budget, units: int
+) -> float:
+    """The violation at a point that is moved along one variable after the other as long as it falls; ``units`` of work
+    for each."""
     best = measure(point)
     for k in range(ROUNDS):
         before = best
         for place in places:
-            budget.spend(1 + 8 // EVALUATIONS_OF_A_CELL)
+            budget.spend(units)
+            budget.check("samples")
             kept = point[place]
             for value in _moves(kept, 0.5 / 2**k, *box[place]):
                 if best <= 0:
