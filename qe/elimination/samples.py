@@ -103,11 +103,14 @@ def _of_atom(poly: Poly, relation: Relation) -> Violation:
 
     def measured(at: Sequence[float]) -> float:
         total = size = 0.0
-        for c, powers in terms:
-            for i, k in powers:
-                c *= at[i] ** k
-            total += c
-            size += abs(c)
+        try:
+            for c, powers in terms:
+                for i, k in powers:
+                    c *= at[i] ** k
+                total += c
+                size += abs(c)
+        except OverflowError:
+            return 1.0
         if relation is Relation.NE:
             total = abs(total)
         return max(0.0, 1e-9 - total / size) if 0.0 < size < math.inf else 1.0
@@ -122,7 +125,10 @@ def bounds(body: Formula, count: int) -> Box:
     for part in conjuncts(body):
         if isinstance(part, Atom) and part.relation not in (Relation.EQ, Relation.NE) and part.poly.total_degree == 1:
             sign = 1 if part.relation in (Relation.GT, Relation.GE) else -1
-            terms = [(powers, sign * float(c)) for powers, c in part.poly.sparse_terms()]
+            try:
+                terms = [(powers, sign * float(c)) for powers, c in part.poly.sparse_terms()]
+            except OverflowError:  # longer than a float
+                continue
             rest = sum(c for powers, c in terms if not powers)
             linear.append(({powers[0][0]: c for powers, c in terms if powers}, rest))
     for _ in range(SWEEPS):

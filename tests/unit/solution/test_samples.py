@@ -59,6 +59,12 @@ def test_nothing_is_amiss_where_all_holds_by_far(values: list[int]) -> None:
     assert (amiss == 0) is holds_at(body, point)
 
 
+@pytest.mark.parametrize("last", ["x^2 < {huge}", "{huge}*x + y > 1", "x^4000*y > 2"])
+def test_numbers_that_no_float_holds_were_a_crash(last: str) -> None:
+    body = read_formula(f"x > 3 and y > x and x*y > {{huge}} and {last}".format(huge=10**400))
+    assert samples.find(body, Budget()) is None
+
+
 def test_bounds_follow_from_linear_conditions() -> None:
     body = read_formula("x > 0 and y > x and 2*y < 8 and z > 1 - y and x*z > 3 and (z < 0 or z > 5)")
     ring = body.ring
