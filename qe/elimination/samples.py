@@ -13,17 +13,18 @@ from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
 
 from qe.elimination.protocol import Context, Outcome, Problem
+from qe.exact.number import Values
 from qe.exact.ring import Poly
 from qe.formula.evaluate import holds_at
 from qe.formula.syntax import TRUE, And, Atom, Formula, Or, Relation
-from qe.formula.traverse import conjuncts
+from qe.formula.traverse import conjuncts, polynomials
 from qe.options import Budget, Options
 
 STARTS, ROUNDS = 24, 12
 """Points to start from, and sweeps over the variables from each."""
 
-EVALUATIONS_OF_A_CELL = 4
-"""Evaluations of a formula in floating point that take about the time of a cell."""
+TERMS_OF_A_CELL = 20
+"""Terms of a formula that are tried at all values of one variable in about the time of a cell."""
 
 SWEEPS = 3
 """Times that the bounds of variables are put into each other."""
@@ -52,7 +53,7 @@ class SampledPoints:
         known = find(dual.body, context.budget)
         if known is None:
             return None
-        values = {name: known.get(name, Fraction(0)) for name in dual.variables}
+        values: Values = {name: known.get(name, Fraction(0)) for name in dual.variables}
         evidence = {"proof": {"certificate": dual.witnessed(values)}}
         answer = context.log.step("point or multipliers", problem.formula, problem.asked(TRUE), evidence=evidence)
         return Outcome(answer, values)
@@ -65,10 +66,10 @@ def find(body: Formula, budget: Budget) -> dict[str, Fraction] | None:
         return None
     rng, places = random.Random(0), [ring.index[name] for name in body.free]
     box = bounds(body, len(ring.names))
+    units = 1 + sum(poly.term_count() for poly in polynomials(body)) // TERMS_OF_A_CELL
     for _ in range(STARTS):
         point = [_drawn(rng, *limits) for limits in box]
-        budget.check("samples")
-        if _descended(measure, point, places, box, budget) > 0:
+        if _descended(measure, point, places, box, budget, units) > 0:
             continue
         for found in _rounded(point):
             named = dict(zip(ring.names, found, strict=True))
@@ -109,7 +110,7 @@ def _of_atom(poly: Poly, relation: Relation) -> Violation:
                 total += c
                 size += abs(c)
         except OverflowError:
-            return math.inf
+            return 1.0
         if relation is Relation.NE:
             total = abs(total)
         return max(0.0, 1e-9 - total / size) if 0.0 < size < math.inf else 1.0
@@ -129,7 +130,7 @@ def bounds(body: Formula, count: int) -> Box:
             sign = 1 if part.relation in (Relation.GT, Relation.GE) else -1
             try:
                 terms = [(powers, sign * float(c)) for powers, c in part.poly.sparse_terms()]
-            except OverflowError:
+            except OverflowError:  # longer than a float
                 continue
             rest = sum(c for powers, c in terms if not powers)
             linear.append(({powers[0][0]: c for powers, c in terms if powers}, rest))
@@ -145,22 +146,27 @@ def bounds(body: Formula, count: int) -> Box:
 
 def _drawn(rng: random.Random, low: float, high: float) -> float:
     """A point of an interval, where it is long or has no end mostly close to its other end, or to zero."""
+    far = math.pow(FAR, rng.random()) * rng.random()
     if math.isinf(low) and math.isinf(high):
-        return rng.choice((-1, 1)) * FAR ** rng.random() * rng.random()
+        return rng.choice((-far, far))
     if math.isinf(high):
-        return low + FAR ** rng.random() * rng.random()
+        return low + far
     if math.isinf(low):
-        return high - FAR ** rng.random() * rng.random()
-    return low + (high - low) * rng.random() ** rng.choice((1, 1, 3))
+        return high - far
+    return low + (high - low) * math.pow(rng.random(), rng.choice((1, 1, 3)))
 
 
-def _descended(measure: Violation, point: list[float], places: Sequence[int], box: Box, budget: Budget) -> float:
-    """The violation at a point that is moved along one variable after the other as long as it falls."""
+def _descended(
+    measure: Violation, point: list[float], places: Sequence[int], box: Box, budget: Budget, units: int
+) -> float:
+    """The violation at a point that is moved along one variable after the other as long as it falls; ``units`` of work
+    for each."""
     best = measure(point)
     for k in range(ROUNDS):
         before = best
         for place in places:
-            budget.spend(1 + 8 // EVALUATIONS_OF_A_CELL)
+            budget.spend(units)
+            budget.check("samples")
             kept = point[place]
             for value in _moves(kept, 0.5 / 2**k, *box[place]):
                 if best <= 0:

@@ -19,8 +19,8 @@ from qe.proof.run_log import RunLog
 from tests.certificates.test_broken_producers import accepted
 
 THREAD = (
-    "ex p, P, q, Q, r, R, s, S. R*S - p*(1 - Q) <= -95000 and 0 < p and p < P and P < 1000000 and 0 < q and q < Q and Q < 1"
-    " and 1 < r and r < R and R < 1000 and 1 < s and s < S and S < 50 and (P-p)*(Q-q)*(R-r)*(S-s) > 50000"
+    "ex p, P, q, Q, r, R, s, S. R*S - p*(1 - Q) <= -95000 and 0 < p and p < P and P < 1000000 and 0 < q and q < Q"
+    " and Q < 1 and 1 < r and r < R and R < 1000 and 1 < s and s < S and S < 50 and (P-p)*(Q-q)*(R-r)*(S-s) > 50000"
 )
 """After https://stackoverflow.com/questions/16487538."""
 OPEN = "ex a, b, c, d. a*b > c^2 + 1 and c*d > 3 and a + b < 5 and (d^2 < a*b or a > 100)"
@@ -57,6 +57,12 @@ def test_nothing_is_amiss_where_all_holds_by_far(values: list[int]) -> None:
     point = dict(zip("abcd", values, strict=True))
     amiss = measure([float(point.get(name, 0)) for name in ring.names])
     assert (amiss == 0) is holds_at(body, point)
+
+
+@pytest.mark.parametrize("last", ["x^2 < {huge}", "{huge}*x + y > 1", "x^4000*y > 2"])
+def test_numbers_that_no_float_holds_were_a_crash(last: str) -> None:
+    body = read_formula(f"x > 3 and y > x and x*y > {{huge}} and {last}".format(huge=10**400))
+    assert samples.find(body, Budget()) is None
 
 
 def test_bounds_follow_from_linear_conditions() -> None:
