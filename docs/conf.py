@@ -34,6 +34,8 @@ nb_execution_timeout = 120
 nb_execution_in_temp = True
 autodoc_member_order = "bysource"
 autodoc_typehints = "signature"
+autodoc_preserve_defaults = True  # as they are written: a value such as <function silent> is no Python
+python_use_unqualified_type_names = True
 copybutton_prompt_text = r">>> |\.\.\. |\$ "
 copybutton_prompt_is_regexp = True
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import qe.api.decide as api_decide
 import qe.api.eliminate as api
@@ -27,6 +27,10 @@ from qe.io.sympy import Exists, ForAll, expression_from, from_sympy, polynomial_
 from qe.io.sympy_numbers import number_to_sympy
 from qe.processes.execution import Limits
 
+if TYPE_CHECKING:
+    import sympy
+    from sympy.logic.boolalg import Boolean
+
 __all__ = ["function_range", "is_true_for_all", "maximum", "minimum", "reduce_inequalities", "solve_region"]
 
 Condition = Any
@@ -35,7 +39,7 @@ Condition = Any
 
 def reduce_inequalities(
     inequalities: Condition, symbols: Iterable[Any] | Any = (), *, timeout: float | None = None
-) -> Any:
+) -> Boolean:
     """The same condition, solved for ``symbols`` (without them: for all): what SymPy's function of this name does.
 
     An ``Or`` of cases, each an ``And`` of relations that put a symbol between ends in terms of the other symbols and of
@@ -52,7 +56,7 @@ def reduce_inequalities(
     return _quantifier_free(question, timeout) if found is None else found
 
 
-def solve_region(condition: Condition, symbol: Any = None, *, timeout: float | None = None) -> Any:
+def solve_region(condition: Condition, symbol: Any = None, *, timeout: float | None = None) -> sympy.Set:
     """The set of all real values of the only free symbol that satisfy the condition, as a SymPy set.
 
     Intervals and points with exact ends. Raises ``InputError`` where there are several free symbols.
@@ -69,7 +73,7 @@ def solve_region(condition: Condition, symbol: Any = None, *, timeout: float | N
 
 def function_range(
     function: Any, symbols: Iterable[Any] | Any = None, condition: Condition = True, *, timeout: float | None = None
-) -> Any:
+) -> sympy.Set:
     """The set of all values of an expression in real ``symbols`` (all it has) under a condition, as a SymPy set.
 
     For one symbol the condition may be its domain, a SymPy set.
@@ -95,7 +99,7 @@ def function_range(
 
 def minimum(
     function: Any, symbols: Iterable[Any] | Any = None, condition: Condition = True, *, timeout: float | None = None
-) -> Any:
+) -> sympy.Expr:
     """The greatest lower bound of an expression under a condition; oo where nothing satisfies it."""
     import sympy
 
@@ -105,7 +109,7 @@ def minimum(
 
 def maximum(
     function: Any, symbols: Iterable[Any] | Any = None, condition: Condition = True, *, timeout: float | None = None
-) -> Any:
+) -> sympy.Expr:
     """The least upper bound of an expression under a condition; -oo where nothing satisfies it."""
     import sympy
 

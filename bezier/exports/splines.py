@@ -14,6 +14,9 @@ from qe.extras import lacking
 if TYPE_CHECKING:
     from scipy.interpolate import BSpline, PPoly
 
+HIGH = 8
+"""The degree that powers over a whole piece keep to about 14 digits; twice of it over each half."""
+
 
 def bspline(track: Track) -> BSpline:
     """Degree d with d-fold inner knots: its coefficients are the control points, those at the joins once.
@@ -31,11 +34,15 @@ def bspline(track: Track) -> BSpline:
 
 
 def ppoly(track: Track) -> PPoly:
-    """The same by powers of the time since the last break. Raises ``Unable`` where floating point has none of them."""
+    """The same by powers of the time since the last break; long polynomials get breaks between, as high powers over
+    a long time cancel each other in floating point. Raises ``Unable`` where floating point has none of them."""
     try:
         from scipy.interpolate import PPoly
     except ImportError as error:
         raise lacking(error) or error from None
+    parts = 1
+    while track.control.shape[1] - 1 > HIGH * parts:
+        track, parts = track.halved(), 2 * parts
     try:
         with np.errstate(over="raise", divide="raise", invalid="raise"):
             powers = _powers(track)

@@ -50,6 +50,18 @@ class Track:
         length = np.diff(self.breaks)[:, None, None]
         return Track(self.breaks, degree * np.diff(self.control, axis=1) / length)
 
+    def halved(self) -> Track:
+        """The same with a break in the middle of each piece (de Casteljau)."""
+        left, right, rows = [self.control[:, :1]], [self.control[:, -1:]], self.control
+        while rows.shape[1] > 1:
+            rows = (rows[:, :-1] + rows[:, 1:]) / 2
+            left.append(rows[:, :1])
+            right.append(rows[:, -1:])
+        halves = np.stack([np.concatenate(left, axis=1), np.concatenate(right[::-1], axis=1)], axis=1)
+        middle = (self.breaks[:-1] + self.breaks[1:]) / 2
+        breaks = np.append(np.stack([self.breaks[:-1], middle], axis=1).ravel(), self.breaks[-1])
+        return Track(breaks, halves.reshape(-1, *self.control.shape[1:]))
+
     def at(self, times: ArrayLike) -> Array:
         """The points at these times, of shape (*times.shape, 3). Raises ``InputError`` for times outside."""
         given = _times(times)

@@ -164,7 +164,8 @@ def scene_box(
         '<canvas role="img" tabindex="0" aria-label="{words}">{words}</canvas>'
         "{fallback}{play}"
         '<ul class="legend" aria-label="legend">{items}</ul>'
-        "<figcaption>{said}Turn it by dragging or with the arrow keys; + and − zoom.</figcaption>"
+        "<figcaption>{said}"
+        "<span class='hint'>Turn it by dragging or with the arrow keys; + and − zoom.</span></figcaption>"
         '<script type="application/json">{data}</script></figure>'
     ).format(
         words=words,

@@ -8,7 +8,7 @@ the invariants stated on each class; these constructors do not simplify.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import ClassVar, TypeVar, dataclass_transform
 
 from qe.errors import InternalError
 from qe.exact.ring import Poly, Ring
@@ -112,13 +112,22 @@ class Formula(Connected, SymPyForm):
         raise TypeError(f"not a formula: {self!r}")
 
 
-@dataclass(frozen=True, slots=True, repr=False)
+Node = TypeVar("Node", bound=Formula)
+
+
+@dataclass_transform(frozen_default=True)
+def _node(kind: type[Node]) -> type[Node]:
+    """A frozen dataclass whose hash is the one that a formula keeps."""
+    made = dataclass(frozen=True, slots=True, repr=False)(kind)
+    made.__hash__ = Formula.__hash__  # type: ignore[method-assign]
+    return made
+
+
+@_node
 class Constant(Formula):
     """TRUE or FALSE."""
 
     value: bool
-
-    __hash__ = Formula.__hash__
 
     def __repr__(self) -> str:
         return "TRUE" if self.value else "FALSE"
@@ -130,14 +139,12 @@ class Constant(Formula):
 TRUE, FALSE = Constant(True), Constant(False)
 
 
-@dataclass(frozen=True, slots=True, repr=False)
+@_node
 class Atom(Formula):
     """``poly relation 0``. Invariant: poly is non-constant, primitive, with positive leading coefficient."""
 
     poly: Poly
     relation: Relation
-
-    __hash__ = Formula.__hash__
 
     @property
     def ring(self) -> Ring | None:
@@ -152,7 +159,7 @@ class Atom(Formula):
         return f"{polynomial(parts, notation)} {notation.relation(relation)} 0"
 
 
-@dataclass(frozen=True, slots=True, repr=False)
+@_node
 class RootAtom(Formula):
     """``variable relation root_k(poly)``: the k-th smallest distinct real root of ``poly`` in ``variable``.
 
@@ -166,8 +173,6 @@ class RootAtom(Formula):
     poly: Poly
     k: int
 
-    __hash__ = Formula.__hash__
-
     @property
     def ring(self) -> Ring | None:
         return self.poly.ring
@@ -180,13 +185,11 @@ class RootAtom(Formula):
         return notation.root(self.variable, self.relation, self.poly, self.k)
 
 
-@dataclass(frozen=True, slots=True, repr=False)
+@_node
 class Connective(Formula):
     """Two or more formulas joined by one connective. Raises ``InternalError`` for parts over different rings."""
 
     args: tuple[Formula, ...]
-
-    __hash__ = Formula.__hash__
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "_ring", self._find_ring())
@@ -207,33 +210,27 @@ class Connective(Formula):
         return all(arg.is_quantifier_free for arg in self.args)
 
 
-@dataclass(frozen=True, slots=True, repr=False)
+@_node
 class And(Connective):
     """Conjunction. Invariant (builders): at least two arguments, none an And or a Constant."""
-
-    __hash__ = Formula.__hash__
 
     def written(self, notation: Notation, level: Level = Level.OPEN, last: bool = True) -> str:
         return chain(self.args, Level.AND, level, last, notation)
 
 
-@dataclass(frozen=True, slots=True, repr=False)
+@_node
 class Or(Connective):
     """Disjunction. Invariant (builders): at least two arguments, none an Or or a Constant."""
-
-    __hash__ = Formula.__hash__
 
     def written(self, notation: Notation, level: Level = Level.OPEN, last: bool = True) -> str:
         return chain(self.args, Level.OR, level, last, notation)
 
 
-@dataclass(frozen=True, slots=True, repr=False)
+@_node
 class Not(Formula):
     """Negation."""
 
     arg: Formula
-
-    __hash__ = Formula.__hash__
 
     def _find_ring(self) -> Ring | None:
         return self.arg.ring
@@ -250,14 +247,12 @@ class Not(Formula):
         return notation.negation + self.arg.written(notation, Level.NOT, last)
 
 
-@dataclass(frozen=True, slots=True, repr=False)
+@_node
 class Quantified(Formula):
     """A block of one kind of quantifier over a body."""
 
     variables: tuple[str, ...]
     body: Formula
-
-    __hash__ = Formula.__hash__
 
     def _find_ring(self) -> Ring | None:
         return self.body.ring
@@ -277,18 +272,14 @@ class Quantified(Formula):
         return prefix + self.body.written(notation)
 
 
-@dataclass(frozen=True, slots=True, repr=False)
+@_node
 class Exists(Quantified):
     """There are real values of ``variables`` such that ``body``."""
 
-    __hash__ = Formula.__hash__
 
-
-@dataclass(frozen=True, slots=True, repr=False)
+@_node
 class ForAll(Quantified):
     """For all real values of ``variables``, ``body``."""
-
-    __hash__ = Formula.__hash__
 
 
 def _together(ring: Ring | None, parts: tuple[Formula, ...]) -> tuple[str, ...]:

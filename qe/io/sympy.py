@@ -98,6 +98,8 @@ class _Quantified(_Operators):
     __slots__ = ("assumed", "body", "names", "raw")
     names: tuple[str, ...]
     body: Formula
+    assumed: Mapping[str, Formula]
+    raw: Formula
 
     def __init__(self, variables: object, body: object) -> None:
         self.names, given = _variables(variables)
