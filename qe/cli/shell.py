@@ -64,6 +64,8 @@ def enter(app: typer.Typer, argv: Sequence[str] | None, *, name: str) -> int:
     try:
         code = command.main(args=None if argv is None else list(argv), prog_name=name, standalone_mode=False)
         sys.stdout.flush()
+        if code == INTERRUPTED:  # typer has taken the interrupt for itself
+            raise KeyboardInterrupt
         return int(code or OK)
     except typer.TyperException as error:
         message = error.format_message().replace("Value error, ", "").rstrip(".")

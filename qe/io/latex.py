@@ -18,7 +18,11 @@ GREEK = frozenset(
         *("nu", "xi", "pi", "rho", "sigma", "tau", "upsilon", "phi", "chi", "psi", "omega"),
     )
 )
-_NAME = re.compile(r"([^\W\d_]+)_?(\d*)('*)")
+_NAME = re.compile(r"([^\W\d_]+)(?:(\d+)|_([A-Za-z0-9]+))?('*)")
+_CAPITALS = frozenset(["Gamma", "Delta", "Theta", "Lambda", "Xi", "Pi", "Sigma", "Upsilon", "Phi", "Psi", "Omega"])
+"""The capitals that LaTeX has commands for; the others look like Latin ones."""
+_SAID = frozenset(("and", "or", "not", "implies", "iff", "if"))
+"""Words that most write upright for a connective."""
 _MORE = {"^": r"\char94 ", "\\": r"\backslash ", "|": r"\vert ", " ": r"\ "}
 _ESCAPES = {"_": r"\_", "#": r"\#", "$": r"\$", "%": r"\%", "&": r"\&", "{": r"\{", "}": r"\}", "~": r"\sim ", **_MORE}
 _RELATIONS = {Relation.NE: r"\neq", Relation.LE: r"\leq", Relation.GE: r"\geq"}
@@ -59,15 +63,23 @@ def _prefix(formula: Formula) -> tuple[str, Formula]:
 
 
 def name(variable: str) -> str:
-    """A variable: ``x1`` as x with an index, Greek letters by name, long words upright."""
+    """A variable: ``x1`` and ``x_ij`` as x with an index, Greek letters by name, long words upright.
+
+    The index of ``x_1`` looks like that of ``x1``, but is another text.
+    """
     found = _NAME.fullmatch(variable)
     if found is None:
-        return r"\mathrm{" + "".join(_ESCAPES.get(c, c) for c in visible(variable)) + "}"
-    letters, number, primes = found.groups()
-    if letters.lower() in GREEK and letters[1:].islower():
+        plain = variable.rstrip("'") or variable
+        upright = "".join(_ESCAPES.get(c, c) for c in visible(plain))
+        return rf"\mathrm{{{upright}}}{variable[len(plain) :]}"
+    letters, number, below, primes = found.groups()
+    if letters in _CAPITALS or (letters in GREEK and letters.islower()):
         base = "\\" + letters
     else:
-        base = letters if len(letters) == 1 else rf"\mathrm{{{letters}}}"
+        font = "mathit" if letters in _SAID else "mathrm"
+        base = letters if len(letters) == 1 else rf"\{font}{{{letters}}}"
+    if below is not None:
+        number = rf"\mathrm{{{below}}}" if below.isdigit() else below
     return base + (f"_{{{number}}}" if number else "") + primes
 
 

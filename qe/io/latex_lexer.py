@@ -80,13 +80,16 @@ _TOKEN = re.compile(
     r"|(?P<GROUP>\{)"
     r"|(?P<SIGN>[-+*/^()\[\],.:|=<>])"
 )
-_INDEX = re.compile(r"_(?:\{([A-Za-z0-9]+)\}|([A-Za-z0-9]))")
+_INDEX = re.compile(r"_(?:\{([A-Za-z0-9]+)\}|([A-Za-z0-9])|\{\\mathrm\{([0-9]+)\}\})")
+_ESCAPED = re.compile(r"\\(?:([_#$%&{}])|(sim|char94|vert|backslash)\b ?)")
+_MEANT = {"sim": "~", "char94": "^", "vert": "|", "backslash": "\\"}
+_NUMBERED = re.compile(r"\\u\{([0-9a-f]{1,6})\}")
 _NOT = re.compile(r"\s*(=|<|>|\\[A-Za-z]+)")
 _MARK = re.compile(r"(?<!/)\\(?:[A-Za-z]|[{,;!|])|\$|[_^]\{")
 _BACKQUOTED = re.compile(QUOTED)
 _GAP = r"(?:\s|\\[,;:! ]|\\q?quad\b)*"
 _NEXT = re.compile(
-    rf"{_GAP}(?:[A-Za-z]|\\(?:{_LETTERS.pattern})\b)(?:_(?:\{{\w+\}}|\w))?'*{_GAP}"
+    rf"{_GAP}(?:[A-Za-z]|\\(?:{_LETTERS.pattern})\b)(?:_(?:\{{(?:\w+|\\mathrm\{{\d+\}})\}}|\w))?'*{_GAP}"
     r"(?:[,.:(\[]|\\(?:in|colon|exists|forall|mid)\b|(?:[<>]|\\(?:le|ge)\w*)[^:\\]*(?::|\\colon))"
 )
 """Another variable of a quantifier behind a comma, not the body."""
@@ -269,8 +272,10 @@ class _Source:
             yield from self.plain(self.state.set_named(word, at), word, at)
         elif font == "text" and word in _WORDS:
             yield from self.plain(_WORDS[word], word, at)
+        elif font != "mathit" and word in _WORDS:
+            raise SyntaxFailure(f"\\{font}{{{word}}} is a variable in LaTeX; the connective is \\text{{{word}}}", at)
         elif not re.fullmatch(r"[^\W\d_]\w*", word):
-            raise SyntaxFailure(f"'{visible(word)}' cannot be read in LaTeX", at)
+            behind = yield from self.name(_unescaped(word, at), at, behind)
         elif len(word) > 1 and re.match(r"\s*(\\left|\\bigl?)?\s*\(", self.text[behind:]):
             yield from self.function(word, at)
         else:
@@ -281,10 +286,20 @@ class _Source:
         """A variable with its index and primes; returns the offset behind it."""
         index = _INDEX.match(self.text, after)
         if index is not None:
-            digits = index[1] or index[2]
-            name += digits if digits.isdigit() else f"_{digits}"
+            digits = index[1] or index[2] or f"_{index[3]}"
+            name += digits if digits.isdigit() or index[3] else f"_{digits}"
             after = index.end()
         while self.text.startswith("'", after):
             name, after = name + "'", after + 1
         yield from self.put("NAME", name, at)
         return after
+
+
+def _unescaped(word: str, at: int) -> str:
+    """The name that is written with escapes, as ``x\\_1``: nothing else in it but letters, digits and ``_``."""
+    plain = _ESCAPED.sub("", word)
+    name = _ESCAPED.sub(lambda found: found[1] or _MEANT[found[2]], word)
+    name = _NUMBERED.sub(lambda found: chr(int(found[1], 16)), name)
+    if plain == word or not re.fullmatch(r"\w*", plain) or name.isdigit() or "\\" in name or "|" in name:
+        raise SyntaxFailure(f"'{visible(word)}' cannot be read in LaTeX", at)
+    return name

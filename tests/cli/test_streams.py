@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import subprocess
 import sys
@@ -168,3 +169,19 @@ def test_what_is_no_plain_file_is_written_to_and_never_replaced(tmp_path: Path) 
     check_writable(Path(os.devnull))
     write_file(Path(os.devnull), "nothing")
     assert Path(os.devnull).is_char_device() and sorted(tmp_path.iterdir()) == [link, pipe, real]
+
+
+@pytest.mark.parametrize("more", [[], ["--json"]])
+def test_an_interrupt_is_told(
+    more: list[str], capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The command line library keeps the interrupt to itself and makes it a status, so nothing was said."""
+
+    def interrupted(*given: object, **named: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("qe.cli.app.limited", interrupted)
+    assert qe_main(["eliminate", "ex x. x^2 = a", *more]) == 130
+    told = capsys.readouterr()
+    assert told.err == "qe: interrupted\n"
+    assert not more or json.loads(told.out) == {"status": "interrupted", "message": "interrupted", "exit": 130}
