@@ -14,12 +14,12 @@ Since = tuple[int, "Since | None"]
 
 
 class DifferenceGraph:
-    """``size`` vertices; all sums of lengths of edges, each taken once, must be below ``far``."""
+    """``size`` vertices. ``far``, longer than all edges together, is the length where there is no path."""
 
     def __init__(self, size: int, far: int) -> None:
         self.far = far
         self.edges: list[tuple[int, int, int, Hashable]] = []
-        self.length = [[0 if u == v else 4 * far for v in range(size)] for u in range(size)]
+        self.length = [[0 if u == v else far for v in range(size)] for u in range(size)]
         self._since: list[list[Since | None]] = [[None] * size for _ in range(size)]
         self._changed: list[tuple[int, int, int, Since | None]] = []
         self._marks: list[int] = []
@@ -35,10 +35,13 @@ class DifferenceGraph:
         number, first = len(self.edges), len(self._changed)
         self.edges.append((u, v, length, reason))
         self._marks.append(first)
-        targets = [(y, more) for y, (more, now) in enumerate(zip(at_v, lengths[u])) if length + more < now]
+        far = self.far
+        targets = [
+            (y, more) for y, (more, now) in enumerate(zip(at_v, lengths[u])) if more < far and length + more < now
+        ]
         for x, row in enumerate(lengths):
             start = row[u] + length
-            if start >= row[v]:
+            if row[u] >= far or start >= row[v]:
                 continue
             since = self._since[x]
             for y, more in targets:
