@@ -132,6 +132,8 @@ def test_a_terminal_has_a_line_that_is_drawn_over() -> None:
 def test_a_pipe_gets_no_codes() -> None:
     done = subprocess.run([sys.executable, "-c", DRAWING], capture_output=True, check=True, timeout=120)
     assert done.stderr.startswith(b"at work") and b"\x1b" not in done.stdout + done.stderr
+
+
 @pytest.mark.skipif(not Path("/dev/zero").exists(), reason="a file without an end is needed")
 def test_a_file_without_an_end_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     """Such a file filled the memory until the system killed the process."""
