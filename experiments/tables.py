@@ -11,7 +11,7 @@ from experiments.suites.corpus import timing_ids
 
 HEADER = """# Benchmarks
 
-Made by `experiments report` from the results of the runs ([experiments.md](experiments.md)): another run renews it.
+Made by `experiments report` from the results of runs, which renews the page.
 
 Every solver runs in a process group of its own under the same limits on time and memory, in random order. `seconds` is
 solving time in the process after import and a trivial warm-up problem (QEPCAD and Yices: their whole process).
