@@ -39,8 +39,9 @@ FEW_VARIABLES, FEW_TERMS = 4, 6
 """With more variables all polynomials that are not linear have so few terms: a single substitution of a root into
 longer ones takes a tenth of a second (regions of balls in space, with six parameters)."""
 
-COARSE, FINE = 40, 120
-"""How many points are looked at first, beside those on the axes, and how many more for the parts that these leave."""
+FIRST, COARSE, FINE = 10, 40, 120
+"""How many points are looked at first, beside those on the axes; how many for the parts that these leave, and then how
+many more."""
 
 SMALL = (0, 0, 0, 1, 1, -1, -1, 2, -2, 3, -3, 5)
 CLOSE = tuple(map(Fraction, ("0", "1/2", "-1/2", "1/3", "-2/3", "1", "-1", "5/4", "-7/2", "9")))
@@ -111,7 +112,7 @@ def without_part(formula: Formula, place: Sequence[int]) -> Formula:
 
 def _unsettled(formula: Formula, points: _Points, kept: set[Formula]) -> Iterator[Part]:
     """The parts of which no known point says that they matter, largest first."""
-    for count in (COARSE, COARSE + FINE):
+    for count in (FIRST, COARSE, COARSE + FINE):
         points.fill(count)
         found = list(_silent(formula, points, (), (), points.everywhere))
         if not found:
