@@ -192,7 +192,7 @@ class _Run:
         """A last look: shorter, and TRUE or FALSE where it is that. ``mark``: where the question's own steps begin."""
         shorter = shortened(formula, self.context(), last=True)
         if Stage.REDUNDANT not in self.options.without:
-            shorter = without_redundant_parts(shorter, self.context())
+            shorter = without_redundant_parts(shorter, replace(self.context(), decide=self.apart_without_points))
         return settled(shorter, self.context(), self.decision, question, mark)
 
     def decision(self, sentence: Formula, context: Context) -> Nested:
@@ -208,6 +208,11 @@ class _Run:
         """The outcome for a sentence, found in a run of its own, with its log."""
         run = _Run(self.options.with_(root_atoms=False), budget)
         return replace(run.question(sentence), log=run.log)
+
+    def apart_without_points(self, sentence: Formula, budget: Budget) -> Outcome:
+        """The same for a sentence that is likely to be false, so that trials at points would be in vain."""
+        options = self.options.with_(without=self.options.without | {Stage.SAMPLES})
+        return _Run(options, self.budget).apart(sentence, budget)
 
     # --- preparation ---------------------------------------------------------------------------
     def prepared(self, formula: Formula) -> Prepared:

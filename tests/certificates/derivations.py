@@ -64,6 +64,7 @@ CASES = {
     "zeros": "ex x, y, z. (x /= 0 or y /= 0) and x*z + y*a + 2 < 0 and x^3 > y^2 + z",
     "balls": "s > 0 and ex x, y. (x - a)^2 + y^2 <= 4 and x^2 + y^2 < s^2",
     "sphere": "ex x, y. x^2 + y^2 = a and b*x + y > c",
+    "quadric": "a > 0 and ex x, y. x^2 + y^2 = 1 and a*x^2 + b*y > c",
     "named": "ex x, y. (a + b)*x + (a - b)*y = s and (a^2 - b^2)*x*y >= p and x > a",
     "half-plane": "ex x, y. x^2 - y^2 + a*x + b = 0 and 2*x*y + a*y = 0 and x >= c",
     "exchanged": "ex x, y. x^3 + y^3 = a and x > b and y > b",

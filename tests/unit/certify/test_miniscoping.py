@@ -14,6 +14,8 @@ RULE = check_miniscoping
     ("before", "after"),
     [
         ("ex x. x > a or x^2 < b", "(ex x. x > a) or (ex x. x^2 < b)"),
+        ("ex x. x > a or b > 0", "b > 0 or (ex x. x > a)"),
+        ("ex x. x > a or b > 0", "(ex x. x > a) or (ex x. b > 0)"),
         ("ex x, y. x > a and y^2 < b", "(ex x. x > a) and (ex y. y^2 < b)"),
         ("ex x, y. x > a and y^2 < b and c > 0", "c > 0 and (ex y. y^2 < b) and (ex x. x > a)"),
         ("ex x, y, z. x > a and y > z", "(ex x. x > a) and (ex y, z. y > z)"),
@@ -34,6 +36,9 @@ def test_parts_without_a_common_variable(before: str, after: str) -> None:
         ("ex x, y. x > a and y^2 < b", "(ex x. x > a) and (all y. y^2 < b)", "share a variable"),
         ("ex x, y. x > a and y^2 < b", "(ex x. x > a) and (ex y. y^2 <= b)", "not the conjuncts"),
         ("ex x. x > a or x^2 < b", "(ex x. x > a) and (ex x. x^2 < b)", "each part of the disjunction"),
+        ("ex x. x > a or b > 0", "b > 0", "each part of the disjunction"),
+        ("ex x. x > a or b > 0", "x > a or b > 0", "each part of the disjunction"),
+        ("ex x. x > a or b > 0", "b >= 0 or (ex x. x > a)", "each part of the disjunction"),
         ("ex x. x > a or x^2 < b", "ex x. x > a", "each part of the disjunction"),
         ("all x. x > a and x^2 < b", "(all x. x > a) and (all x. x^2 < b)", "existential block"),
     ],
