@@ -92,6 +92,9 @@ def without_redundant_parts(formula: Formula, context: Context) -> Formula:
 
 
 def _is_suited(formula: Formula) -> bool:
+    """Whether cases are told apart in it, and it is small enough; atoms side by side are seldom worth a question."""
+    if not isinstance(formula, And | Or) or not any(isinstance(arg, And | Or) for arg in formula.args):
+        return False
     size, terms = length(formula)
     if not 2 <= size <= MOST_ATOMS or terms > MOST_TERMS or len(formula.free) > MOST_VARIABLES:
         return False
