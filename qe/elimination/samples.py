@@ -20,7 +20,7 @@ from qe.formula.syntax import TRUE, And, Atom, Formula, Or, Relation
 from qe.formula.traverse import conjuncts, polynomials
 from qe.options import Budget, Options
 
-STARTS, ROUNDS = 24, 12
+STARTS, ROUNDS = 8, 12
 """Points to start from, and sweeps over the variables from each."""
 
 TERMS_OF_A_CELL = 20
