@@ -30,7 +30,7 @@ WORK, QUESTION_WORK, PATIENCE = 500, 100, 4
 DEGREES = {1: 40, 2: 12, 3: 6}
 """The total degree of a sentence with so many variables that is decided; with more, it is ``MANY_DEGREE``."""
 
-MANY_DEGREE = 6
+MANY_DEGREE = 3
 
 MOST_ATOMS, MOST_VARIABLES, MOST_TERMS = 60, 8, 400
 """A larger answer is left as it is."""
