@@ -14,8 +14,6 @@ from fractions import Fraction
 from itertools import pairwise
 from typing import Any
 
-import networkx as nx
-
 from bezier.arm.choices import spans
 from bezier.arm.follow import Branch
 from bezier.arm.inverse import Solution, solve
@@ -98,6 +96,8 @@ def joint_sequence(found: JointPath, samples: Sequence[Sample], note: Note = lam
     """The sequence of least total change. Raises ``Unable`` where a sample has no joint position within the limits."""
     arm = found.arm
     layers = list(_layers(found, samples, note))
+    import networkx as nx  # loading it takes longer than planning a path without an arm
+
     graph: nx.DiGraph[Any] = nx.DiGraph()
     graph.add_edges_from((("start", (0, i)) for i in range(len(layers[0]))), weight=0.0)
     for k, (near, far) in enumerate(pairwise(layers)):
