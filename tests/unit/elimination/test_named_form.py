@@ -133,6 +133,9 @@ NAMED = "ex z. a*z - b >= 0 and (ex x, y. x + y = a and z = x)"
         (PRODUCT, NAMED.replace("z = x", "(z = x or z > 5)"), "1", "an equation that is linear"),
         (PRODUCT, NAMED.replace("ex z", "all z"), "1", "a block of one variable"),
         (PRODUCT, "ex z. a*z - b >= 0 and z > x", "1", "one block"),
+        (PRODUCT, NAMED.replace("z = x", "z = x and y > 5"), "1", "not those of the block"),
+        (PRODUCT, NAMED.replace("ex x, y", "ex x"), "1", "the same block"),
+        (PRODUCT + " and z > 0", NAMED.replace("= x", "= x and z > 0"), "1", "new variable"),
     ],
 )
 def test_what_the_checker_says(before: str, after: str, scale: str, reason: str) -> None:

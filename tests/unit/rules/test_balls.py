@@ -173,6 +173,7 @@ TWO_BALLS = "4*a >= 0 and (4*b^2 - 4*a - 4 <= 0 or (4*b^2 - 4*a - 4)^2 - 64*a <=
         ("ex x, y. x^2 + y^2 <= a and (x - b)^2 + 2*y^2 <= 1", False),
         ("ex x, y. x^2 + y^2 <= a and ((x - b)^2 + y^2 <= 1 or x > 5)", False),
         ("ex x, y. x^2 + y^2 < a and (x - b)^2 + y^2 <= 1", False),
+        ("ex x, y. c*x^2 + c*y^2 <= a and (x - b)^2 + y^2 <= 1", False),
     ],
 )
 def test_the_condition_for_two_balls_is_that_of_nothing_else(before: str, is_right: bool) -> None:
