@@ -175,7 +175,6 @@ class MotionChain:
             tuple(map(_range, acceleration)),
         )
 
-
     def _rates(
         self,
         first: Sequence[Sequence[Fraction]],
