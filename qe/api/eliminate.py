@@ -1,4 +1,4 @@
-"""``eliminate``, ``region`` and ``verify``, which all other public functions go through. ``qe.api`` is this module."""
+"""``eliminate``, ``region`` and ``verify``, which all other public functions go through."""
 
 from __future__ import annotations
 

@@ -152,7 +152,7 @@ def _best(
     check: bool,
 ) -> Optimum | GlobalOptimum | ParametricOptimum:
     """The optimum of a convex problem by its method, of any other by elimination."""
-    from qe.convex.optimum import NotConvex, Optimum, maximize, minimize
+    from qe.convex.optimum import NotConvex, maximize, minimize
     from qe.formula.traverse import ring_of
     from qe.optimization.values import Goal
 
@@ -170,20 +170,7 @@ def _best(
     def work(budgets: Budgets) -> Optimum | GlobalOptimum | ParametricOptimum:
         budget = budgets()
         found = search(budget)
-        if not check:
-            return found
-        from qe.api.verify import judged
-        from qe.optimization.global_optimum import POINT, GlobalOptimum
-        from qe.proof.answer import Guarantee
-
-        guarantee, reason = judged(found.certificate, budget)
-        if isinstance(found, Optimum):
-            return replace(found, guarantee=guarantee, reason=reason)
-        if found.certificate is None:
-            reason = found.answer.why_unchecked
-        elif isinstance(found, GlobalOptimum) and POINT in found.unchecked_steps:
-            guarantee, reason = Guarantee.DERIVED, reason or "the point under the quantifiers is not proved"
-        return replace(found, guarantee=guarantee, reason=reason)
+        return _with_guarantee(found, budget) if check else found
 
     def search(budget: Budget) -> Optimum | GlobalOptimum | ParametricOptimum:
         if given is not None:
@@ -204,3 +191,22 @@ def _best(
         return best(sign, Goal.of(term, conditions), budget=budget, check=check)
 
     return performed(work, conditions, limits)
+
+
+def _with_guarantee(
+    found: Optimum | GlobalOptimum | ParametricOptimum, budget: Budget
+) -> Optimum | GlobalOptimum | ParametricOptimum:
+    """The optimum with what the checker says of its certificate."""
+    from qe.api.verify import judged
+    from qe.convex.optimum import Optimum
+    from qe.optimization.global_optimum import POINT, GlobalOptimum
+    from qe.proof.answer import Guarantee
+
+    guarantee, reason = judged(found.certificate, budget)
+    if isinstance(found, Optimum):
+        return replace(found, guarantee=guarantee, reason=reason)
+    if found.certificate is None:
+        reason = found.answer.why_unchecked
+    elif isinstance(found, GlobalOptimum) and POINT in found.unchecked_steps:
+        guarantee, reason = Guarantee.DERIVED, reason or "the point under the quantifiers is not proved"
+    return replace(found, guarantee=guarantee, reason=reason)

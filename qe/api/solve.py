@@ -13,9 +13,9 @@ from qe.api.limits import Progress, limits_of, performed, reading
 from qe.engine.run import solve as eliminated
 from qe.exact.number import Values
 from qe.formula.counting import without_root_atoms
-from qe.formula.syntax import Exists, ForAll
+from qe.formula.syntax import Exists, ForAll, Formula
 from qe.formula.traverse import free_variables, is_quantifier_free
-from qe.options import Options
+from qe.options import Budget, Options
 from qe.processes.execution import Budgets
 from qe.progress import silent
 from qe.proof.answer import UNPROVED, Answer, Status
@@ -123,13 +123,7 @@ def parametric_witnesses(
         from qe.proving.certificates import derived
 
         log, options, budget = RunLog(), Options(certify=check), budgets()
-        block = log.step("roots counted", given, without_root_atoms(given))
-        if isinstance(block, Exists | ForAll) and not is_quantifier_free(block.body):
-            # what is left may well be a constant
-            inner = eliminated(block.body, options.with_(certify=False), budget)
-            log.entries += inner.log.entries
-            block = replace(block, body=inner.formula)
-        found = find(block, budget=budget, log=log)
+        found = find(_outermost_block(given, log, options, budget), budget=budget, log=log)
         formula = found.equivalent_to(given)
         answer = Answer(Status.SOLVED, formula, question=given, log=log)
         if check:
@@ -141,3 +135,14 @@ def parametric_witnesses(
         return found.with_(answer)
 
     return performed(work, given, limits)
+
+
+def _outermost_block(given: Formula, log: RunLog, options: Options, budget: Budget) -> Formula:
+    """The formula with nothing quantified inside its outermost block; the steps go to the log."""
+    block = log.step("roots counted", given, without_root_atoms(given))
+    if isinstance(block, Exists | ForAll) and not is_quantifier_free(block.body):
+        # what is left may well be a constant
+        inner = eliminated(block.body, options.with_(certify=False), budget)
+        log.entries += inner.log.entries
+        block = replace(block, body=inner.formula)
+    return block

@@ -52,42 +52,48 @@ def balls_goals(claim: Claim, context: Context) -> list[Goal]:
         raise claim.fail("two variables or more expected")
     distance = _squares(k * p - c * q for p, q in zip(b, l, strict=True))
     first, second = k * k * (_squares(b) - 4 * c * e), c * c * (_squares(l) - 4 * k * m)
-    gap, relation = distance - first - second, Relation.LT if open_b or open_l else Relation.LE
+    relation = Relation.LT if open_b or open_l else Relation.LE
     radii = [atom(first, Relation.GT if open_b else Relation.GE)]
     if where == _ON or (where == _IN and (on == _IN or root.value is not None)):
         radii.append(atom(second, Relation.GT if open_l else Relation.GE))
     goals: list[Goal] = []
     t, used = None, 0
     if root.value is not None:
-        letter, product, sign = root.row("T", "polynomial", "sign")
-        if letter.text() != "T" or (used := sign.integer(-1)) > 1:
-            raise root.fail("expected T, a polynomial and a sign")
-        t = _root(product.polynomial(claim.ring), 4 * first * second, root)
+        t, used = _read_root(root, 4 * first * second, claim)
         goals = [(*outside(context, before.variables), atom(t, _FALSE_SIGN[used]))] if used else []
-
-    def at_most(p: Poly) -> Formula:
-        if t is None:
-            return disj((atom(p, relation), atom(p * p - 4 * first * second, relation)))
-        return disj(atom(p - s * t, relation) for s in (1, -1) if s * used >= 0)
-
-    both = atom(gap * gap - 4 * first * second, relation)
-    if on == where == _IN:
-        meet = at_most(gap)
-    elif on == where == _ON:
-        meet = conj((at_most(gap), at_most(-gap))) if used else both
-    elif t is None:
-        side = second - distance - first
-        meet = disj((atom(side if where == _OUT else -side, relation), both))
-    elif where == _OUT:
-        meet = disj((atom(second - first, relation), at_most(-gap)))
-    else:
-        meet = conj((at_most(gap), disj((atom(first - second, relation), at_most(-gap)))))
+    meet = _meeting(on, where, (distance, first, second), relation, t, used)
     if on == _OUT or claim.after != conj((*radii, meet)):
         raise claim.fail("not the condition that there is a common point")
     return goals
 
 
 check_balls = ByLemmas(balls_goals)
+
+
+def _meeting(
+    on: str, where: str, squares: tuple[Poly, Poly, Poly], relation: Relation, t: Poly | None, used: int
+) -> Formula:
+    """The theorem's condition on the squares D, R, S; ``t`` is +-sqrt(4*R*S), its sign ``used`` if that is known."""
+    distance, first, second = squares
+    gap, product = distance - first - second, 4 * first * second
+
+    def at_most(p: Poly) -> Formula:
+        """p <= 2*sqrt(R*S)."""
+        if t is None:
+            return disj((atom(p, relation), atom(p * p - product, relation)))
+        return disj(atom(p - s * t, relation) for s in (1, -1) if s * used >= 0)
+
+    both = atom(gap * gap - product, relation)
+    if on == where == _IN:
+        return at_most(gap)
+    if on == where == _ON:
+        return conj((at_most(gap), at_most(-gap))) if used else both
+    if t is None:
+        side = second - distance - first
+        return disj((atom(side if where == _OUT else -side, relation), both))
+    if where == _OUT:
+        return disj((atom(second - first, relation), at_most(-gap)))
+    return conj((at_most(gap), disj((atom(first - second, relation), at_most(-gap)))))
 
 
 def _shape(part: Formula, indices: list[int], claim: Claim) -> tuple[str, int, list[Poly], Poly, bool]:
@@ -118,6 +124,14 @@ def _shape(part: Formula, indices: list[int], claim: Claim) -> tuple[str, int, l
 def _squares(polys: Iterable[Poly]) -> Poly:
     parts = [p * p for p in polys]
     return sum(parts[1:], parts[0])
+
+
+def _read_root(root: Entry, square: Poly, claim: Claim) -> tuple[Poly, int]:
+    """T and the sign of t that is said to be known, 0 where none is."""
+    letter, t, sign = root.row("T", "polynomial", "sign")
+    if letter.text() != "T" or (used := sign.integer(-1)) > 1:
+        raise root.fail("expected T, a polynomial and a sign")
+    return _root(t.polynomial(claim.ring), square, root), used
 
 
 def _root(t: Poly, square: Poly, entry: Entry) -> Poly:

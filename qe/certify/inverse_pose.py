@@ -205,46 +205,60 @@ def centre(chain: Chain) -> tuple[Surd, Surd] | None:
 
 def wrist(chain: Chain, pose: Motion, arm: Position, entry: Entry) -> Iterator[Position]:
     """The last three joints, over a position of the first three, or over a family of them."""
-    constants, joints = chain.constants, arm.joints
-    r, n = constants[4][0][2], [line[2] for line in constants[5][0]]
+    joints = arm.joints
+    r, n = _wrist_axes(chain)
     if arm.chosen and not (r[2] or n[2]):  # neighbouring axes of the wrist are orthogonal: it reaches every rotation
         yield Position([*joints, None, None, None], arm.chosen)
         return
     if (open_ones := [k for k in range(3) if joints[k] is None])[1:]:
         raise entry.fail(FREE)
     unit = next(joint.w.unit for joint in joints if joint is not None)
-    end = together(pose, back(constants[6]))
-
-    def direction(values: Sequence[Surd]) -> Vector:
-        x, y, z = (unit.by(v) for v in values)
-        return Vector((x, y, z), unit, False)
-
-    def column_of(first: Sequence[Joint]) -> Vector:  # W e_z
-        column = direction([row[2] for row in end[0]])
-        for joint, constant in zip(first, constants, strict=False):
-            column = column.moved(back(constant)).turned(joint, -1)
-        return column.moved(back(constants[3]))
-
-    def wanted(column: Vector) -> Nested:
-        return column.parts[2] - column.scale.by(r[2] * n[2])
-
-    a, b = unit.by(r[0] * n[0] + r[1] * n[1]), unit.by(r[1] * n[0] - r[0] * n[1])
-    if open_ones:
-        columns = [column_of([joint or other for joint in joints]) for other in basis(unit)]
-        reach = (a * a + b * b) * columns[2].scale * columns[2].scale
-        cosine, sine, rest = map(wanted, columns)
-        arcs = bounded(cosine, sine, rest, reach)
-        if arcs != ():
-            yield Position([*joints, None, None, None], {open_ones[0]: arcs})
+    end = together(pose, back(chain.constants[6]))
+    if not open_ones:
+        yield from _three_of_wrist(chain, end, [joint for joint in joints if joint is not None], entry)
         return
-    known = [joint for joint in joints if joint is not None]
-    column, row = column_of(known), direction([line[2] for line in constants[3][0]])  # W^T e_z
+    columns = [_sixth_axis(chain, end, [joint or other for joint in joints], unit) for other in basis(unit)]
+    a, b = unit.by(r[0] * n[0] + r[1] * n[1]), unit.by(r[1] * n[0] - r[0] * n[1])
+    reach = (a * a + b * b) * columns[2].scale * columns[2].scale
+    cosine, sine, rest = (column.parts[2] - column.scale.by(r[2] * n[2]) for column in columns)
+    arcs = bounded(cosine, sine, rest, reach)
+    if arcs != ():
+        yield Position([*joints, None, None, None], {open_ones[0]: arcs})
+
+
+def _wrist_axes(chain: Chain) -> tuple[Sequence[Surd], Sequence[Surd]]:
+    """Axis 4 seen after the constant motion behind it, and axis 6 seen before the one in front of it."""
+    return chain.constants[4][0][2], [line[2] for line in chain.constants[5][0]]
+
+
+def _direction(values: Sequence[Surd], unit: Nested) -> Vector:
+    x, y, z = (unit.by(v) for v in values)
+    return Vector((x, y, z), unit, False)
+
+
+def _sixth_axis(chain: Chain, end: Motion, first: Sequence[Joint], unit: Nested) -> Vector:
+    """W e_z: axis 6 seen from the third link, where W is what the wrist has to do after the first three joints."""
+    column = _direction([row[2] for row in end[0]], unit)
+    for joint, constant in zip(first, chain.constants, strict=False):
+        column = column.moved(back(constant)).turned(joint, -1)
+    return column.moved(back(chain.constants[3]))
+
+
+def _three_of_wrist(chain: Chain, end: Motion, known: Sequence[Joint], entry: Entry) -> Iterator[Position]:
+    """The joints of the wrist over a position of the first three: θ5 by the angle of axes 4 and 6, then the others."""
+    constants, unit = chain.constants, known[0].w.unit
+    r, n = _wrist_axes(chain)
+    a, b = unit.by(r[0] * n[0] + r[1] * n[1]), unit.by(r[1] * n[0] - r[0] * n[1])
+    column, row = (
+        _sixth_axis(chain, end, known, unit),
+        _direction([line[2] for line in constants[3][0]], unit),
+    )  # W^T e_z
     for joint, constant in zip(known[::-1], constants[2::-1], strict=True):
         row = row.turned(joint).moved(constant)
     row = row.moved(back(end))
-    for fifth in turns(a, b, wanted(column), column.scale):
-        bent = direction(n).turned(fifth).moved(constants[4])
-        line = direction(r).turned(fifth, -1).moved(back(constants[5]))
+    for fifth in turns(a, b, column.parts[2] - column.scale.by(r[2] * n[2]), column.scale):
+        bent = _direction(n, unit).turned(fifth).moved(constants[4])
+        line = _direction(r, unit).turned(fifth, -1).moved(back(constants[5]))
         fourth = angle(bent.parts, column.parts, (bent.scale, column.scale))
         sixth = angle(row.parts, line.parts, (row.scale, line.scale))
         if (fourth is None) != (sixth is None):

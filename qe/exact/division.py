@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from math import gcd
 
 from qe.errors import InternalError
 from qe.exact.groebner import Basis
-from qe.exact.ring import Poly
+from qe.exact.ring import Poly, Ring
+
+Terms = dict[tuple[int, ...], int]
 
 
 @dataclass(frozen=True)
@@ -24,24 +27,10 @@ def divided(poly: Poly, basis: Basis) -> Division:
     places = basis.variables
     if not set(poly.variables) <= set(places):
         raise InternalError("a polynomial to be divided has a variable that the basis does not know")
-    ring = poly.ring
-
-    def terms(p: Poly) -> dict[tuple[int, ...], int]:
-        return {tuple(e[i] for i in places): c for e, c in p.terms()}
-
-    def joined(found: dict[tuple[int, ...], int]) -> Poly:
-        moved = {}
-        for exponents, c in found.items():
-            place = [0] * ring.size
-            for i, k in zip(places, exponents, strict=True):
-                place[i] = k
-            moved[tuple(place)] = c
-        return ring.from_terms(moved)
-
-    divisors = list(zip(basis.leads, map(terms, basis.polys), strict=True))
-    scale, rest = 1, terms(poly)
-    done: dict[tuple[int, ...], int] = {}
-    quotients: list[dict[tuple[int, ...], int]] = [{} for _ in divisors]
+    divisors = [(lead, _terms(p, places)) for lead, p in zip(basis.leads, basis.polys, strict=True)]
+    scale, rest = 1, _terms(poly, places)
+    done: Terms = {}
+    quotients: list[Terms] = [{} for _ in divisors]
     while rest:
         top = max(rest, key=basis.rank)
         fitting = (k for k, (lead, _) in enumerate(divisors) if all(a <= b for a, b in zip(lead, top, strict=True)))
@@ -59,11 +48,32 @@ def divided(poly: Poly, basis: Basis) -> Division:
                     part[e] *= own
         shift = tuple(a - b for a, b in zip(top, lead, strict=True))
         quotient[shift] = quotient.get(shift, 0) + factor
-        for e, c in divisor.items():
-            place = tuple(a + b for a, b in zip(e, shift, strict=True))
-            value = rest.get(place, 0) - factor * c
-            if value:
-                rest[place] = value
-            else:
-                rest.pop(place, None)
-    return Division(scale, tuple(map(joined, quotients)), joined(done))
+        _subtract(rest, divisor, factor, shift)
+    return Division(scale, tuple(_joined(q, places, poly.ring) for q in quotients), _joined(done, places, poly.ring))
+
+
+def _subtract(rest: Terms, divisor: Terms, factor: int, shift: tuple[int, ...]) -> None:
+    """``rest`` less ``factor`` times the monomial of exponents ``shift`` times the divisor, in place."""
+    for e, c in divisor.items():
+        place = tuple(a + b for a, b in zip(e, shift, strict=True))
+        value = rest.get(place, 0) - factor * c
+        if value:
+            rest[place] = value
+        else:
+            rest.pop(place, None)
+
+
+def _terms(poly: Poly, places: Sequence[int]) -> Terms:
+    """Coefficients by the exponents of the basis' variables alone."""
+    return {tuple(e[i] for i in places): c for e, c in poly.terms()}
+
+
+def _joined(found: Terms, places: Sequence[int], ring: Ring) -> Poly:
+    """The polynomial of such coefficients."""
+    moved = {}
+    for exponents, c in found.items():
+        place = [0] * ring.size
+        for i, k in zip(places, exponents, strict=True):
+            place[i] = k
+        moved[tuple(place)] = c
+    return ring.from_terms(moved)

@@ -160,14 +160,10 @@ class MotionChain:
         image = [b - a for a, b in zip(newton, rest, strict=True)]
         if not all(SPARE * x.abs_upper() < r for x, r in zip(image, size, strict=True)):
             return None
-        velocity = _solved(near, _times(inverse, _values(first, middle + sigma)))
-        if velocity is None:
+        rates = self._rates(first, middle + sigma, (inverse, near), axes, columns)
+        if rates is None:
             return None
-        second = _values([_derived(c) for c in first], middle + sigma)
-        push = [a - b for a, b in zip(second, self._bend(axes, columns, velocity), strict=True)]
-        acceleration = _solved(near, _times(inverse, push))
-        if acceleration is None:
-            return None
+        velocity, acceleration = rates
         return Piece(
             low,
             high,
@@ -178,6 +174,25 @@ class MotionChain:
             tuple(map(_range, velocity)),
             tuple(map(_range, acceleration)),
         )
+
+    def _rates(
+        self,
+        first: Sequence[Sequence[Fraction]],
+        at: arb,
+        matrices: tuple[arb_mat, arb_mat],
+        axes: list[list[arb]],
+        columns: list[list[arb]],
+    ) -> tuple[list[arb], list[arb]] | None:
+        """First and second derivatives of the joints over a piece, from p' (``first``), an approximate inverse of the
+        Jacobian matrix, and its product with that matrix over the piece."""
+        inverse, near = matrices
+        velocity = _solved(near, _times(inverse, _values(first, at)))
+        if velocity is None:
+            return None
+        second = _values([_derived(c) for c in first], at)
+        push = [a - b for a, b in zip(second, self._bend(axes, columns, velocity), strict=True)]
+        acceleration = _solved(near, _times(inverse, push))
+        return None if acceleration is None else (velocity, acceleration)
 
 
 def _motion(value: arb, turns: bool) -> arb_mat:

@@ -223,6 +223,10 @@ class Terms:
             operator = arguments[0].text if arguments and isinstance(arguments[0], Word) else ""
             hint = f"; an operator stands first: ({operator} {head.text} …)" if operator in _INFIX else ""
             self.error(f"{head.text} takes no arguments{hint}", head.at)
+        return self.known(listing, head, arguments, scope)
+
+    def known(self, listing: Listing, head: Word, arguments: list[Expression], scope: Scope) -> Meaning:
+        """The meaning of an application of an operator or function of the language itself."""
         if head.text in ("exists", "forall"):
             self.arity(listing, 2)
             return self.quantified(head.text == "forall", arguments[0], arguments[1], scope)

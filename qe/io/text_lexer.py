@@ -151,14 +151,7 @@ def tokens(text: str, token: Make) -> Iterator[Token]:
                 yield from state.put("DOT", ".", at)
                 at += 1
                 continue
-            if value[-1] == "." and (state.header or text.startswith(".", at + len(value))):
-                value = value[:-1]
-            if value == "0" and _HEXADECIMAL.match(text, at):
-                raise SyntaxFailure("numbers are decimal; a product with zero is written 0*x", at)
-            if text.startswith("_", at + len(value)):
-                raise SyntaxFailure("a number is written without _ between its digits", at)
-            if not value.isascii() and state.last == "NUMBER":
-                raise SyntaxFailure("a mixed number is written as one fraction: 5/2", at)
+            value = _number(value, state, text, at)
             yield from state.put("NUMBER", value, at)
         elif kind == "QUOTED":
             yield from state.put("NAME", quoted_name(value, at), at)
@@ -186,6 +179,19 @@ def tokens(text: str, token: Make) -> Iterator[Token]:
         at += len(value) if kind == "NUMBER" else len(found.group())
         if kind != "SPACE":
             state.end = at
+
+
+def _number(value: str, state: State, text: str, at: int) -> str:
+    """The number alone, without a dot that ends a quantifier or begins a range."""
+    if value[-1] == "." and (state.header or text.startswith(".", at + len(value))):
+        value = value[:-1]
+    if value == "0" and _HEXADECIMAL.match(text, at):
+        raise SyntaxFailure("numbers are decimal; a product with zero is written 0*x", at)
+    if text.startswith("_", at + len(value)):
+        raise SyntaxFailure("a number is written without _ between its digits", at)
+    if not value.isascii() and state.last == "NUMBER":
+        raise SyntaxFailure("a mixed number is written as one fraction: 5/2", at)
+    return value
 
 
 def _operator(value: str, at: int) -> str:

@@ -51,11 +51,7 @@ def first(
         while running:
             for descriptor, _ in poll.poll():
                 name, side, inbox = running[descriptor]
-                inbox.wait(0)
-                known = Known()
-                outcome = next((m for m in inbox.messages() if not known.take(*m, progress)), None)
-                for value in known.kept():
-                    kept(value)
+                outcome = _heard(inbox, progress, kept)
                 if outcome is None and not inbox.closed:
                     continue
                 poll.unregister(descriptor)
@@ -71,6 +67,16 @@ def first(
         for _, side, _ in running.values():
             _end(side)
         signal.pthread_sigmask(signal.SIG_SETMASK, mask)  # forking had made it deaf to Ctrl-C
+
+
+def _heard(inbox: Inbox, progress: Listener, kept: Callable[[T], None]) -> tuple[str, object] | None:
+    """What has come from a process, passed on; its outcome, if that is there."""
+    inbox.wait(0)
+    known = Known()
+    outcome = next((m for m in inbox.messages() if not known.take(*m, progress)), None)
+    for value in known.kept():
+        kept(value)
+    return outcome
 
 
 def _end(side: Worker) -> None:

@@ -178,7 +178,28 @@ def _field(field: NumberField) -> dict[str, object]:
 
 def to_payload(evidence: OptimumEvidence) -> dict[str, object]:
     """Plain JSON data: strings for numbers, lists and dictionaries with string keys."""
-    point, value = evidence.point, evidence.objective.value
+    payload = _setting(evidence)
+    if evidence.status is OptimumStatus.UNBOUNDED:
+        payload["direction"] = [str(d) for d in evidence.direction]
+        return payload
+    point = evidence.point
+    payload["multipliers"] = [_number(m) for m in evidence.multipliers]
+    payload["derived"] = [_number(m) for m in evidence.derived]
+    payload["values"] = [_number(form.value(point)) for form in evidence.forms]
+    if evidence.status is OptimumStatus.OPTIMAL:
+        payload["value"] = _number(evidence.objective.value(point))
+        payload["attained"] = bool(evidence.attained)
+        payload["unique"] = bool(evidence.unique)
+        if evidence.inner_field is not None:
+            payload["inner"] = {
+                "field": _field(evidence.inner_field),
+                "point": [_number(c) for c in evidence.inner_point],
+            }
+    return payload
+
+
+def _setting(evidence: OptimumEvidence) -> dict[str, object]:
+    """What every kind of evidence has: the problem, the faces that hold its solutions, and a point."""
     payload: dict[str, object] = {
         "problem": {
             "variables": list(evidence.names),
@@ -198,26 +219,11 @@ def to_payload(evidence: OptimumEvidence) -> dict[str, object]:
             }
             for face in evidence.faces
         ],
-        "point": [_number(c) for c in point],
+        "point": [_number(c) for c in evidence.point],
     }
     if evidence.links:
         payload["links"] = [
             {"weights": [_number(w) for w in link.weights], "derived": [_number(w) for w in link.derived]}
             for link in evidence.links
         ]
-    if evidence.status is OptimumStatus.UNBOUNDED:
-        payload["direction"] = [str(d) for d in evidence.direction]
-        return payload
-    payload["multipliers"] = [_number(m) for m in evidence.multipliers]
-    payload["derived"] = [_number(m) for m in evidence.derived]
-    payload["values"] = [_number(form.value(point)) for form in evidence.forms]
-    if evidence.status is OptimumStatus.OPTIMAL:
-        payload["value"] = _number(value(point))
-        payload["attained"] = bool(evidence.attained)
-        payload["unique"] = bool(evidence.unique)
-        if evidence.inner_field is not None:
-            payload["inner"] = {
-                "field": _field(evidence.inner_field),
-                "point": [_number(c) for c in evidence.inner_point],
-            }
     return payload

@@ -80,7 +80,7 @@ class Refuted:
 def found_point(body: Formula, context: Context) -> Values | Refuted:
     """Values that make a formula in negation normal form true, or that there are none."""
     try:
-        from pysat.solvers import Solver
+        import pysat.solvers  # noqa: F401
     except ImportError as error:
         raise lacking(error) or error from None
     ring, decide = body.ring, context.decide
@@ -104,6 +104,20 @@ def found_point(body: Formula, context: Context) -> Values | Refuted:
     if isinstance(lemmas, dict):
         context.log.work("search", {"clauses": len(clauses.clauses), "refuted": len(refutations)})
         return lemmas
+    return _completed(clauses, theory, lemmas, refutations, context)
+
+
+def _completed(
+    clauses: Clauses,
+    theory: Theory,
+    lemmas: Sequence[Sequence[int]],
+    refutations: dict[frozenset[Formula], Nested],
+    context: Context,
+) -> Values | Refuted:
+    """What is left after the guided search: whole assignments one after the other, until one has a point or none is
+    left."""
+    from pysat.solvers import Solver
+
     says = clauses.says()
     conflicts = [tuple(says[-literal] for literal in lemma) for lemma in lemmas]
     with Solver(name="cadical153", bootstrap_with=[*clauses.clauses, *lemmas]) as solver:

@@ -17,6 +17,7 @@ RULE = check_miniscoping
         ("ex x. x > a or b > 0", "b > 0 or (ex x. x > a)"),
         ("ex x. x > a or b > 0", "(ex x. x > a) or (ex x. b > 0)"),
         ("ex x, y. x > a and y^2 < b", "(ex x. x > a) and (ex y. y^2 < b)"),
+        ("(ex x. x > a) and (ex y. y^2 < b)", "ex x, y. x > a and y^2 < b"),
         ("ex x, y. x > a and y^2 < b and c > 0", "c > 0 and (ex y. y^2 < b) and (ex x. x > a)"),
         ("ex x, y, z. x > a and y > z", "(ex x. x > a) and (ex y, z. y > z)"),
         ("ex x. x > a and (ex y. y > b)", "(ex x. x > a) and (ex y. y > b)"),

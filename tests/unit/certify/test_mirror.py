@@ -40,6 +40,7 @@ def test_convex_bodies(before: str, after: str) -> None:
         ("ex x. (ex y. x*y > 1 and x + y > 1) or (ex z. -x*z > 1 and -x + z > 1)", "false"),
         ("ex x. not (x < 1 and -x < 1)", "not (0 < 1 and 0 < 1)"),
         ("ex x. a > 1 or not (x < 1 and -x < 1)", "a > 1 or not (0 < 1 and 0 < 1)"),
+        ("ex x. a > 1 or x > root(1, x^3 - b) or x < root(1, x^3 + b)", "a > 1"),  # its variables are not looked for
     ],
 )
 def test_bodies_that_are_not_seen_to_be_convex(before: str, after: str) -> None:

@@ -10,6 +10,7 @@ import pytest
 
 import qe
 import qe.elimination.named_form as named_form
+from qe.certify.named_form import check_named_form
 from qe.elimination.protocol import Context, Problem
 from qe.exact.ring import Ring
 from qe.formula.build import atom, conj, exists
@@ -21,6 +22,7 @@ from qe.proof.derivation import moved
 from qe.proof.run_log import RunLog
 from qe.proof.step import Step
 from tests.certificates.test_broken_producers import accepted as accepted_in_its_ring
+from tests.unit.certify.claims import objection
 
 SIMPLEX = "x >= 0 and y >= 0 and x + y <= 1"
 FIRST, SECOND = "a + x*(b - a) + y*(c - a)", "d + x*(f - d) + y*(g - d)"
@@ -115,6 +117,31 @@ def test_forged_steps_are_refused() -> None:
         assert not accepted(Step(rule, before, read(text), evidence=evidence)), text
     for scales in ([Fraction(-1)], [Fraction(2)], [], [Fraction(1), Fraction(1)], [Fraction(0)]):
         assert not accepted(Step(rule, before, after, evidence={"proof": {"scales": scales}}))
+
+
+PRODUCT = "ex x, y. x + y = a and x^2 + x*y >= b"
+NAMED = "ex z. a*z - b >= 0 and (ex x, y. x + y = a and z = x)"
+
+
+@pytest.mark.parametrize(
+    ("before", "after", "scale", "reason"),
+    [
+        (PRODUCT, NAMED, "1", ""),
+        (PRODUCT, NAMED, "2", "not the one of the block"),
+        (PRODUCT.replace("= a", ">= a"), NAMED.replace("= a", ">= a"), "1", "not the one of the block"),
+        (PRODUCT, NAMED.replace("z = x", "2*z = x").replace("a*z - b", "a*z - 2*b"), "2", "coefficient"),
+        (PRODUCT, NAMED.replace("z = x", "(z = x or z > 5)"), "1", "an equation that is linear"),
+        (PRODUCT, NAMED.replace("ex z", "all z"), "1", "a block of one variable"),
+        (PRODUCT, "ex z. a*z - b >= 0 and z > x", "1", "one block"),
+        (PRODUCT, NAMED.replace("z = x", "z = x and y > 5"), "1", "not those of the block"),
+        (PRODUCT, NAMED.replace("ex x, y", "ex x"), "1", "the same block"),
+        (PRODUCT + " and z > 0", NAMED.replace("= x", "= x and z > 0"), "1", "new variable"),
+    ],
+)
+def test_what_the_checker_says(before: str, after: str, scale: str, reason: str) -> None:
+    """x^2 + x*y is a*x where x + y = a, but not where x + y >= a; an equation for 2*z gives no z."""
+    found = objection(check_named_form, before, after, {"scales": [scale]})
+    assert reason in found and bool(found) is bool(reason)
 
 
 def test_a_producer_that_names_another_form(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -16,6 +16,7 @@ from qe.engine.redundant import without_part, without_redundant_parts
 from qe.formula.evaluate import holds_at
 from qe.formula.syntax import FALSE, Formula
 from qe.options import Budget, Options
+from qe.proof.derivation import moved
 from qe.proof.run_log import RunLog
 from tests.certificates.test_broken_producers import accepted
 
@@ -33,14 +34,19 @@ SHORT = {
 
 
 def shorter(formula: Formula, log: RunLog | None = None) -> Formula:
-    """By this rule alone; sentences are decided by the engine."""
+    """By this rule alone."""
+    return without_redundant_parts(formula, asked(log or RunLog()))
+
+
+def asked(log: RunLog) -> Context:
+    """Sentences are decided by the engine."""
 
     def decide(sentence: Formula, budget: Budget) -> Outcome:
         answer = qe.eliminate(sentence, process=False)
         assert answer.formula is not None
         return Outcome(answer.formula, answer.witness, log=answer.log or RunLog())
 
-    return without_redundant_parts(formula, Context(Options(), Budget(), log or RunLog(), decide))
+    return Context(Options(), Budget(), log, decide)
 
 
 @pytest.mark.parametrize("text", SHORT)
@@ -85,7 +91,7 @@ def test_what_is_beside_the_way_is_looked_at(monkeypatch: pytest.MonkeyPatch) ->
     assert steps and all(map(accepted, steps))
     proof = steps[0].evidence["proof"]
     assert isinstance(proof, dict)
-    for at in ([], [0], [1], [1, 1], [1, 0, 0], [7]):
+    for at in ([], [0], [1], [1, 1], [1, 0, 0], [2], [1, 2], [7]):
         if at != proof["at"]:
             assert not accepted(replace(steps[0], evidence={"proof": {**proof, "at": at}}))
     assert not accepted(replace(steps[0], after=FALSE))
@@ -99,6 +105,20 @@ def test_what_is_beside_the_way_is_looked_at(monkeypatch: pytest.MonkeyPatch) ->
     )
     (broken,) = [step for step in log.steps() if step.rule == "redundant part"]
     assert not accepted(broken)
+
+
+def test_what_is_left_keeps_its_connective() -> None:
+    """Of three conditions two are left together, not one or the other."""
+    for text, wrong in (
+        ("a < 1 and b < 1 and a + b < 2 or c > 0", "(a < 1 or b < 1) and c > 0"),
+        ("(a < 1 or b < 1 or a + b < 2) and c > 0", "a < 1 and b < 1 or c > 0"),
+    ):
+        log = RunLog()
+        without_redundant_parts(read_formula(text), asked(log))
+        (step,) = [step for step in log.steps() if step.rule == "redundant part"]
+        ring = step.before.ring
+        assert ring is not None and accepted(step)
+        assert not accepted(replace(step, after=moved(read_formula(wrong), ring)))
 
 
 def test_a_region_of_balls_in_space_is_not_looked_at_for_minutes() -> None:

@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import qe
-from qe.certify.balls import balls_goals
+from qe.certify.balls import balls_goals, check_balls
 from qe.certify.step import Claim
 from qe.errors import CertificateRejected
 from qe.exact.ring import Ring
@@ -25,6 +25,7 @@ from qe.proof.run_log import RunLog
 from qe.rules.balls import square_root
 from qe.rules.preparation import prepare
 from qe.rules.step import StepKind
+from tests.unit.certify.claims import NO_LEMMAS, line, objection
 
 ALONE = frozenset({StepKind.BALLS, StepKind.MINISCOPE})
 DISCS = "ex x, y. x^2 + y^2 <= r^2 and (x - a)^2 + (y - b)^2 <= s^2"
@@ -157,6 +158,40 @@ def test_each_kind_of_pair_has_its_own_condition(pair: tuple[str, str]) -> None:
                 continue
             with pytest.raises(CertificateRejected):
                 balls_goals(claim, ())
+
+
+TWO_BALLS = "4*a >= 0 and (4*b^2 - 4*a - 4 <= 0 or (4*b^2 - 4*a - 4)^2 - 64*a <= 0)"
+
+
+@pytest.mark.parametrize(
+    ("before", "is_right"),
+    [
+        ("ex x, y. x^2 + y^2 <= a and (x - b)^2 + y^2 <= 1", True),
+        ("ex x. x^2 <= a and (x - b)^2 <= 1", True),
+        ("ex x, y. x^2 + y^2 <= a or (x - b)^2 + y^2 <= 1", False),
+        ("ex x, y. x^2 + 2*y^2 <= a and (x - b)^2 + y^2 <= 1", False),  # ellipses
+        ("ex x, y. x^2 + y^2 <= a and (x - b)^2 + 2*y^2 <= 1", False),
+        ("ex x, y. x^2 + y^2 <= a and ((x - b)^2 + y^2 <= 1 or x > 5)", False),
+        ("ex x, y. x^2 + y^2 < a and (x - b)^2 + y^2 <= 1", False),
+        ("ex x, y. c*x^2 + c*y^2 <= a and (x - b)^2 + y^2 <= 1", False),
+    ],
+)
+def test_the_condition_for_two_balls_is_that_of_nothing_else(before: str, is_right: bool) -> None:
+    """D = 4*b^2, R = 4*a and S = 4 where both are balls."""
+    found = objection(check_balls, before, TWO_BALLS, {"root": None, "theory": NO_LEMMAS})
+    assert bool(found) is not is_right
+
+
+def test_of_a_root_without_a_sign_both_are_meant() -> None:
+    """4*R*S = (8*b*c)^2, and 2*sqrt(R*S) is 8*b*c or -8*b*c: one of them alone is not the condition."""
+    before = "ex x, y. x^2 + y^2 <= b^2 and (x - a)^2 + y^2 <= c^2"
+    gap = "4*a^2 - 4*b^2 - 4*c^2"
+    either = (f"{gap} - 8*b*c <= 0", f"{gap} + 8*b*c <= 0")
+    evidence = {"root": ["T", line("b*c"), 0], "theory": NO_LEMMAS}
+    radii = "4*b^2 >= 0 and 4*c^2 >= 0"
+    assert not objection(check_balls, before, f"{radii} and ({either[0]} or {either[1]})", evidence)
+    for wrong in (either[0], either[1], "1 < 0"):
+        assert objection(check_balls, before, f"{radii} and {wrong}", evidence)
 
 
 def test_spheres_in_one_variable_are_refused() -> None:

@@ -103,6 +103,8 @@ BY = {"along": "x", "turned": 0, "theory": NO_LEMMAS}
         (BALL, NONE, {}, ""),
         (BALL, NONE, {"along": "y"}, ""),
         (BALL.replace("<=", "="), NONE, {}, ""),
+        (BALL.replace("x^2 + y^2 - 1 <= 0", "1 - x^2 - y^2 >= 0"), NONE, {}, ""),
+        (BALL.replace("<=", ">="), NONE, {}, "do not exclude"),  # all points but those of a disc
         (BALL.replace("<=", "="), NONE, {"turned": 1}, "do not exclude"),
         (BALL, NONE, {"turned": 1}, "for an equation"),
         (BALL, NONE, {"turned": 2}, "for an equation"),
@@ -113,6 +115,9 @@ BY = {"along": "x", "turned": 0, "theory": NO_LEMMAS}
         (BALL.replace("> 3", ">= 3"), NONE, {}, "a strict inequality and a weak one"),
         (BALL.replace("<= 0", "< 0"), NONE, {}, "a strict inequality and a weak one"),
         (BALL.replace("2*y^2", "2*y^3"), NONE, {}, "degree 2"),
+        (BALL.replace("<=", "/="), NONE, {}, "a strict inequality and a weak one"),
+        (BALL.replace("x^2 + 2*y^2 > 3", "(x^2 + 2*y^2 > 3 or x > 1)"), NONE, {}, "a strict inequality and a weak one"),
+        (BALL.replace("and", "or"), NONE, {}, "two conditions"),
         (BALL + " and x > 0", NONE, {}, "two conditions"),
         (BALL.replace("ex x, y", "ex x, y, z"), NONE, {}, "two variables"),
     ],

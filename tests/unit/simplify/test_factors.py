@@ -6,10 +6,10 @@ import pytest
 
 from qe.exact.ring import Ring
 from qe.formula.build import atom, convert
-from qe.formula.syntax import FALSE, TRUE, Relation
+from qe.formula.syntax import FALSE, TRUE, And, Formula, Or, Relation
 from qe.formula.traverse import conjuncts
 from qe.io.text import read
-from qe.simplify.factors import atom_under
+from qe.simplify.factors import atom_under, reduce_atom
 from qe.simplify.facts import NOTHING, factor_list
 
 RING = Ring.of(("x", "y"))
@@ -64,3 +64,31 @@ def test_factors_of_any_associate() -> None:
     assert factor_list(-6 * X**2 * Y) == factor_list(X**2 * Y)
     assert dict(factor_list(X**2 * Y)) == {X: 2, Y: 1}
     assert factor_list(3 - 3 * X) == ((X - 1, 1),)
+
+
+@pytest.mark.parametrize(
+    ("text", "conjunctive", "expected"),
+    [
+        ("x*y /= 0", True, "x /= 0 and y /= 0"),
+        ("x*y /= 0", False, "x*y /= 0"),
+        ("x*y = 0", False, "x = 0 or y = 0"),
+        ("x*y = 0", True, "x*y = 0"),
+        ("x^3*y = 0", True, "x*y = 0"),
+        ("x^2 + y^2 = 0", True, "x = 0 and y = 0"),
+        ("x^2 + y^2 = 0", False, "x^2 + y^2 = 0"),
+        ("x^2 + y^2 /= 0", False, "x /= 0 or y /= 0"),
+        ("x^2 + y^2 /= 0", True, "x^2 + y^2 /= 0"),
+        ("(y^2 + 1)*(x^2 + y^2) = 0", True, "x^2 + y^2 = 0"),  # the factor that is left is looked at another time
+        ("x^2 - 2*x*y + y^2 = 0", True, "x - y = 0"),
+    ],
+)
+def test_equations_are_split_where_that_keeps_their_meaning(text: str, conjunctive: bool, expected: str) -> None:
+    """Products in /= are split in a conjunction, those in = in a disjunction, and nowhere else."""
+    given = convert(read(text), RING)
+    found = reduce_atom(given, NOTHING, conjunctive)  # type: ignore[arg-type]
+    assert members(found) == members(convert(read(expected), RING))
+
+
+def members(formula: Formula) -> tuple[type, frozenset[Formula]]:
+    """The kind of a formula with its members in any order."""
+    return type(formula), frozenset(formula.args if isinstance(formula, And | Or) else [formula])

@@ -90,6 +90,18 @@ def surfaces(text: str, free: tuple[str, ...], bound: tuple[str, ...]) -> set[st
     return {str(f)[5:-1] for f in found}
 
 
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("y^2 + p*y + q <= 0", {"-p^2 + 4*q"}),  # one condition: its discriminant
+        ("y^2 <= p and y >= q", {"p", "q^2 - p"}),  # and where both are equations: their resultant
+        ("p*y + q <= 0 and y^2 <= 1", {"p", "p + q", "-p + q"}),  # a slope that vanishes
+    ],
+)
+def test_one_variable(text: str, expected: set[str]) -> None:
+    assert surfaces(text, ("p", "q"), ("y",)) == expected
+
+
 def test_two_circles_touch_at_sum_and_difference_of_radii() -> None:
     found = surfaces("y^2 + z^2 <= 1 and (y - p)^2 + (z - q)^2 <= 4", ("p", "q"), ("y", "z"))
     assert found == {"p^2 + q^2 - 9", "p^2 + q^2 - 1"}
