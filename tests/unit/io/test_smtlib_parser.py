@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -93,5 +95,5 @@ def test_a_text_with_an_end_is_read_the_same_piece_by_piece(text: str) -> None:
         whole = parse(text, fail)
     except InputError:
         return
-    parts = [e for start, stop in zip(stops, stops[1:], strict=False) for e in parse(text[start:stop], fail)]
+    parts = [e for start, stop in pairwise(stops) for e in parse(text[start:stop], fail)]
     assert len(parts) == len(whole) and all(map(same, parts, whole))
