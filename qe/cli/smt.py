@@ -264,10 +264,10 @@ class Solver(Checks):
         return self.result
 
     def core(self) -> str:
-        """Named assertions that cannot hold together with the others; none of them can be left out."""
-        self.last("unsat")
+        """Named assertions that cannot hold together with the others and what was assumed; none can be left out."""
+        assumed = [self.script.formula(item, self.script.globals) for item in self.last("unsat").asked]
         named = [a for a in self.script.assertions if a.name is not None]
-        others = [a.node for a in self.script.assertions if a.name is None]
+        others = [*assumed, *(a.node for a in self.script.assertions if a.name is None)]
         kept = list(named)
         for assertion in named:
             rest = [a for a in kept if a is not assertion]

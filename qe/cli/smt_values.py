@@ -45,13 +45,14 @@ class Evaluation:
 
     def __init__(self, point: Mapping[str, Number], outside: Outside) -> None:
         self.point, self.outside = point, outside
-        self.known: dict[int, Number] = {}
+        # what an identity is of is kept with it: that of a term that is gone may be given to another
+        self.known: dict[int, tuple[object, Number]] = {}
 
     def term(self, term: s.Term) -> Number:
         """The value of a term."""
         if (known := self.known.get(id(term))) is None:
-            known = self.known[id(term)] = self._term(term)
-        return known
+            known = self.known[id(term)] = term, self._term(term)
+        return known[1]
 
     def _term(self, term: s.Term) -> Number:
         match term:
@@ -97,8 +98,8 @@ class Evaluation:
     def truth(self, node: s.Node) -> bool:
         """Whether a formula holds."""
         if (known := self.known.get(id(node))) is None:
-            known = self.known[id(node)] = self._truth(node)
-        return bool(known)
+            known = self.known[id(node)] = node, self._truth(node)
+        return bool(known[1])
 
     def _truth(self, node: s.Node) -> bool:
         match node:

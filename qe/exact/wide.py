@@ -113,6 +113,8 @@ class WidePoly(Poly):
 
     @cached_property
     def _own_degrees(self) -> dict[int, int]:
+        if self.p.total_degree() == 1:
+            return dict.fromkeys(self.variables, 1)
         return {i: len(self.coefficients(i)) - 1 for i in self.variables}
 
     def degree(self, i: int) -> int:

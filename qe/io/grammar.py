@@ -1,4 +1,4 @@
-"""What all readers share: an LALR parser over tokens that one function yields, and failures with their place."""
+"""What readers share: an LALR parser over tokens that one function yields, and failures with their place."""
 
 from __future__ import annotations
 

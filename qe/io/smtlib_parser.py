@@ -3,12 +3,9 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator
-from functools import cache
-from typing import Any, NamedTuple, TypeAlias
+from collections.abc import Iterator
+from typing import NamedTuple, TypeAlias
 
-from qe.io.grammar import parser
-from qe.io.lalr import END, Parser, Token, UnexpectedToken
 from qe.io.surface import Fail
 
 # the scripts of MetiTarski write 1. for 1.0, and other solvers read it
@@ -23,15 +20,7 @@ _TOKEN = re.compile(
     r"|(?P<BITS>\#x[0-9a-fA-F]+|\#b[01]+)"
 )
 _SYMBOL = re.compile(r"[A-Za-z~!@$%^&*_+=<>.?/-][A-Za-z0-9~!@$%^&*_+=<>.?/-]*")
-GRAMMAR = """
-%declare OPEN CLOSE NUMBER SYMBOL QUOTED KEYWORD STRING BITS
-start: expression*
-?expression: SYMBOL             -> symbol
-     | QUOTED                   -> quoted
-     | NUMBER                   -> number
-     | (KEYWORD | STRING | BITS) -> other
-     | OPEN expression* CLOSE   -> listing
-"""
+_INSIDE = re.compile(r'[^()|";]+')  # what opens and closes nothing
 
 
 class Word(NamedTuple):
@@ -52,21 +41,43 @@ class Listing(NamedTuple):
 Expression: TypeAlias = Word | Listing
 
 
-class _Bad(Exception):
-    def __init__(self, message: str, at: int) -> None:
-        self.message, self.at = message, at
-
-
 def parse(text: str, fail: Fail) -> list[Expression]:
     """The expressions of a script; raises what ``fail`` makes."""
-    try:
-        return _parser().parse(text)  # type: ignore[no-any-return]
-    except UnexpectedToken as error:
-        if error.token.type == END:
-            raise fail("unbalanced brackets: this '(' is never closed", _last_open(text)) from None
-        raise fail("unbalanced brackets: this ')' has no partner", error.token.start_pos) from None
-    except _Bad as error:
-        raise fail(error.message, error.at) from None
+    items: list[Expression] = []
+    outside: list[tuple[list[Expression], int]] = []
+    at = 0
+    for found in _TOKEN.finditer(text):
+        start, kind = at, found.lastgroup
+        if found.start() != start:
+            break
+        at = found.end()
+        if kind == "OPEN":
+            outside.append((items, start))
+            items = []
+        elif kind == "CLOSE":
+            if not outside:
+                raise fail("unbalanced brackets: this ')' has no partner", start)
+            listing = Listing(items, outside[-1][1])
+            items = outside.pop()[0]
+            items.append(listing)
+        elif kind == "QUOTED":
+            items.append(Word("SYMBOL", found.group()[1:-1], start))
+        elif kind != "SPACE":
+            items.append(Word(str(kind), found.group(), start))
+    if at < len(text):
+        raise fail(_no_token(text[at]), at)
+    if outside:
+        raise fail("unbalanced brackets: this '(' is never closed", outside[-1][1])
+    return items
+
+
+def _no_token(character: str) -> str:
+    """Why no token begins with a character."""
+    if character in '|"':
+        return f"this {character} is never closed"
+    if character.isdigit():
+        return "malformed number; write (/ 1 2) for 1/2"
+    return f"unknown character {character!r}"
 
 
 def ends(text: str) -> Iterator[int]:
@@ -76,6 +87,9 @@ def ends(text: str) -> Iterator[int]:
     """
     at, depth = 0, 0
     while at < len(text):
+        if depth and (passed := _INSIDE.match(text, at)) is not None:
+            at = passed.end()
+            continue
         found = _TOKEN.match(text, at)
         if found is None and text[at] in '|"':  # it may be closed by what follows
             return
@@ -105,56 +119,3 @@ def symbols(expression: Expression) -> Iterator[str]:
             stack += part.items
         elif part.kind == "SYMBOL":
             yield part.text
-
-
-@cache
-def _parser() -> Parser:
-    return parser("smtlib", GRAMMAR, _tokens, _Builder())
-
-
-def _tokens(text: str, token: Callable[..., Token]) -> Iterator[Token]:
-    at, end, match = 0, len(text), _TOKEN.match
-    while at < end:
-        found = match(text, at)
-        if found is None:
-            if text[at] in '|"':
-                raise _Bad(f"this {text[at]} is never closed", at)
-            if text[at].isdigit():
-                raise _Bad("malformed number; write (/ 1 2) for 1/2", at)
-            raise _Bad(f"unknown character {text[at]!r}", at)
-        if found.lastgroup != "SPACE":
-            yield token(found.lastgroup, found.group(), at)
-        at = found.end()
-
-
-def _last_open(text: str) -> int:
-    """The innermost bracket still open at the end of the text."""
-    open_at: list[int] = []
-    for found in _TOKEN.finditer(text):
-        if found.lastgroup == "OPEN":
-            open_at.append(found.start())
-        elif found.lastgroup == "CLOSE" and open_at:
-            open_at.pop()
-    return open_at[-1] if open_at else 0
-
-
-class _Builder:
-    """The actions of the grammar."""
-
-    def start(self, c: list[Any]) -> list[Expression]:
-        return c
-
-    def symbol(self, c: list[Any]) -> Word:
-        return Word("SYMBOL", str(c[0]), c[0].start_pos)
-
-    def quoted(self, c: list[Any]) -> Word:
-        return Word("SYMBOL", str(c[0])[1:-1], c[0].start_pos)
-
-    def number(self, c: list[Any]) -> Word:
-        return Word("NUMBER", str(c[0]), c[0].start_pos)
-
-    def other(self, c: list[Any]) -> Word:
-        return Word(c[0].type, str(c[0]), c[0].start_pos)
-
-    def listing(self, c: list[Any]) -> Listing:
-        return Listing(c[1:-1], c[0].start_pos)

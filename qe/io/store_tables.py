@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from qe.io import lalr, qepcad, redlog, smtlib_parser, text_parser
+from qe.io import lalr, qepcad, redlog, text_parser
 
 GRAMMARS = {
     "text": (text_parser.GRAMMAR, "start"),
     "text_term": (text_parser.GRAMMAR, "term"),
     "qepcad": (qepcad.GRAMMAR, "start"),
     "redlog": (redlog.GRAMMAR, "start"),
-    "smtlib": (smtlib_parser.GRAMMAR, "start"),
 }
 """By the name of its tables: the grammar, and where it starts."""
 

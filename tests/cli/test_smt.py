@@ -224,3 +224,18 @@ def test_what_is_said_twice_is_read_once_also_after_pop() -> None:
     assert sizes[1] > 2
     assert [size - sizes[1] for size in sizes[1:]] == [0, 0, 1, 0, 1]
     assert answers(text + "(check-sat)") == ["sat"]
+
+
+def test_values_of_one_command_were_mixed_up_when_terms_had_the_place_of_others_that_were_gone() -> None:
+    """Terms are known by their identities while they are evaluated, and Python gives these to others later."""
+    truth = [k >= 20 and k % 2 == 0 for k in range(60)]
+    asked = [f"(ite (< {k} x) false {'true' if k % 2 == 0 else 'p'})" for k in range(60)]
+    script = f"{XY}(assert (= x 20))(assert (not p))(check-sat)(get-value ({' '.join(asked)}))"
+    shown = " ".join(f"({term} {'true' if value else 'false'})" for term, value in zip(asked, truth, strict=True))
+    assert answers(script) == ["sat", f"({shown})"]
+
+
+def test_the_core_of_a_check_with_assumptions_named_what_could_be_left_out() -> None:
+    """The assumptions of the check hold for its core."""
+    script = f"{XY}(assert (! (> x 0) :named a))(assert (! (> y 0) :named b))"
+    assert answers(f"{script}(check-sat-assuming ((< x 0)))(get-unsat-core)") == ["unsat", "(a)"]

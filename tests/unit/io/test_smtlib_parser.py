@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -83,3 +85,15 @@ def test_what_cannot_be_read(text: str, said: str) -> None:
 )
 def test_the_end_of_the_last_whole_expression(text: str, end: int) -> None:
     assert max(ends(text), default=0) == end
+
+
+@given(st.text(alphabet='(a|") ;\n:1\u00e4#', max_size=12))
+def test_a_text_with_an_end_is_read_the_same_piece_by_piece(text: str) -> None:
+    """What is between the ends is read on its own, or the whole cannot be read either."""
+    stops = [0, *ends(text), len(text)]
+    try:
+        whole = parse(text, fail)
+    except InputError:
+        return
+    parts = [e for start, stop in pairwise(stops) for e in parse(text[start:stop], fail)]
+    assert len(parts) == len(whole) and all(map(same, parts, whole))
