@@ -19,7 +19,7 @@ from qe.exact.number import Values
 from qe.formula.build import conj, disj, exists
 from qe.formula.features import length
 from qe.formula.normal import nnf
-from qe.formula.syntax import FALSE, And, Atom, Exists, Formula, Or, Relation
+from qe.formula.syntax import FALSE, And, Atom, Formula, Or, Relation
 from qe.formula.traverse import atoms
 from qe.proof.step import Nested, Place
 from qe.simplify.simplify import simplify
