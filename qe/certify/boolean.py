@@ -24,7 +24,7 @@ from qe.formula.syntax import And, Atom, Constant, Exists, ForAll, Formula, Not,
 from qe.proof.entry import Entry
 
 NODES = 2_000
-"""Case distinctions of one proof, at most."""
+"""Case distinctions for one alternative of what may be wrong, at most."""
 
 _SIGNS: Mapping[Relation, int] = {
     relation: sum({-1: NEGATIVE, 0: ZERO, 1: POSITIVE}[s] for s in relation.signs) for relation in Relation
@@ -102,7 +102,7 @@ class Theory:
         """The lemmas that took part in refuting the formulas; None where they are not refuted."""
         search = _Search(self)
         nodes = [search.compiled(normal(f)) for f in formulas]
-        return frozenset(search.used) if search.refuted(search.start, nodes) else None
+        return frozenset(search.used) if search.refuted_one_by_one(nodes) else None
 
 
 @dataclass(frozen=True, slots=True)
@@ -141,6 +141,8 @@ class _Search:
         for k, polys in enumerate(self.about):
             for i in polys:
                 self.touching.setdefault(i, {})[k] = None
+        sizes = [poly.term_count() for poly in self.theory.polynomials]  # variables first: they settle monomials
+        self.touching = dict(sorted(self.touching.items(), key=lambda entry: sizes[entry[0]]))
 
     def _number(self, key: object, signs: int) -> int:
         """The variable of a polynomial, or of a condition that is no comparison: positive where it holds."""
@@ -165,6 +167,18 @@ class _Search:
             case Exists():
                 return _Literal(self._number(shape(formula), NEGATIVE | POSITIVE), POSITIVE)
         return _Literal(self._number(formula, NEGATIVE | POSITIVE), POSITIVE)
+
+    def refuted_one_by_one(self, nodes: Sequence[_Node]) -> bool:
+        """Whether the conditions are refuted, the last of them (what may be wrong) one alternative at a time.
+
+        An alternative settles much of what stands beside it, which has many cases without it.
+        """
+        *known, last = nodes or [True]
+        for case in last.parts if isinstance(last, _Join) and not last.conjunctive else (last,):
+            self.nodes = 0
+            if not self.refuted(list(self.start), [*known, case]):
+                return False
+        return True
 
     def refuted(self, domains: Domains, pending: Sequence[_Node], fixed: Sequence[int] = ()) -> bool:
         """Whether no signs in the domains make all pending conditions true.

@@ -19,7 +19,7 @@ from qe.exact.number import Values
 from qe.formula.build import conj, disj, exists
 from qe.formula.features import length
 from qe.formula.normal import nnf
-from qe.formula.syntax import FALSE, And, Atom, Exists, Formula, Or, Relation
+from qe.formula.syntax import FALSE, And, Atom, Formula, Or, Relation
 from qe.formula.traverse import atoms
 from qe.proof.step import Nested, Place
 from qe.simplify.simplify import simplify
@@ -114,23 +114,24 @@ def without_part(formula: Formula, place: Sequence[int]) -> Formula:
 
 
 def _unsettled(formula: Formula, points: _Points, kept: set[Formula]) -> Iterator[Part]:
-    """The parts of which no known point says that they matter, largest first."""
+    """The parts worth a question of which no known point says that they matter, largest first."""
+    found: list[Part] = []
     for count in (FIRST, COARSE, COARSE + FINE):
         points.fill(count)
-        found = list(_silent(formula, points, (), (), points.everywhere))
+        found = [p for p in _silent(formula, points, (), (), points.everywhere) if _is_cheap(p)]
         if not found:
             return
     found.sort(key=lambda p: length(p.formula), reverse=True)
-    yield from (p for p in found if _is_cheap(p) and p.sentence not in kept)
+    yield from (p for p in found if p.sentence not in kept)
 
 
 def _is_cheap(part: Part) -> bool:
     """Whether a part may well be redundant, and the sentence be decided with little work."""
     if isinstance(part.formula, Atom) and part.formula.relation is Relation.EQ and part.of_conjunction:
         return False
-    sentence = part.sentence
-    size = len(sentence.variables) if isinstance(sentence, Exists) else 0
-    return max((a.poly.total_degree for a in atoms(sentence)), default=0) <= DEGREES.get(size, MANY_DEGREE)
+    size = len({name for f in part.conditions for name in f.free})
+    degrees = (a.poly.total_degree for f in part.conditions for a in atoms(f))
+    return max(degrees, default=0) <= DEGREES.get(size, MANY_DEGREE)
 
 
 def _silent(formula: Formula, points: _Points, place: Place, above: tuple[Formula, ...], there: int) -> Iterator[Part]:

@@ -79,6 +79,16 @@ def test_the_search_is_limited() -> None:
         replace(theory(), cases=3).refutes(hard)
 
 
+def test_one_of_many_claims_is_refuted_without_cases_of_what_stands_beside_it() -> None:
+    """Twelve disjunctions on either side: 2^12 cases, if those on the left are told apart first (long answers)."""
+    pairs = [(f"{x} > {k}", f"{y} > {k}") for x, y in ("ab", "bc", "ac") for k in range(4)]
+    left = conj(formula(f"{p} or {q}") for p, q in pairs)
+    right = conj(formula(f"{p} or {q}".replace(">", ">=")) for p, q in pairs)
+    ahead, back = equivalence(left, right, ())
+    assert replace(theory(), cases=2).refutes(ahead)
+    assert not replace(theory(), cases=20).refutes(back)
+
+
 @st.composite
 def conditions(draw: st.DrawFn, depth: int = 2) -> Formula:
     if not depth or draw(st.booleans()):

@@ -71,6 +71,32 @@ def test_others_are_left_alone(text: str) -> None:
     assert not steps_of(text)
 
 
+SHAPES = [
+    "(x - {a})^2 + (y - {b})^2 - {c}",
+    "{a}*x^2 + {b}*x*y + 2*y^2 - {c}",
+    "(x + y)^2 + {b}*x - {c}",
+    "x^2 - {c}*y^2 + {a}*x*y + {b}",
+    "(x - y)*(x + {c}*y + {b})",
+    "(x - {c}*y - {a})^2",
+    "{b}*x^2 + {a}*y^2 + {c}*x + y",
+]
+
+
+def test_without_parameters_the_multiplier_tells_it_too(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Circles (points among them), ellipses, parabolas, hyperbolas, lines, double lines; often the same one twice."""
+    monkeypatch.setattr(quadrics, "PARAMETERS_FROM", 0)
+    rng, found = random.Random(2), []
+    while len(found) < 12:
+        shapes = [rng.choice(SHAPES).format(**{k: rng.choice((0, 0, 1, -1, 2)) for k in "abc"}) for _ in range(2)]
+        inner, outer = shapes[0], shapes[rng.randrange(4) > 0]
+        weak, shift = rng.choice(("<=", "=")), rng.choice((0, 0, 1, -1))
+        found += steps_of(f"ex x, y. {inner} {weak} 0 and {outer} > {shift}")
+    monkeypatch.undo()
+    truths = [[qe.decide(side, process=False) for side in (step.before, step.after)] for step in found]
+    assert all(before is after for before, after in truths)
+    assert len({before for before, _ in truths}) == 2
+
+
 def test_the_ellipse_of_kahan() -> None:
     """Anywhere in the plane: no answer was known, and decomposition does not end."""
     answer = qe.eliminate(f"all x, y. (a*b /= 0 and ({ELLIPSE} = 0 -> x^2 + y^2 <= 1))").formula
