@@ -141,8 +141,6 @@ class _Search:
         for k, polys in enumerate(self.about):
             for i in polys:
                 self.touching.setdefault(i, {})[k] = None
-        sizes = [poly.term_count() for poly in self.theory.polynomials]  # variables first: they settle monomials
-        self.touching = dict(sorted(self.touching.items(), key=lambda entry: sizes[entry[0]]))
 
     def _number(self, key: object, signs: int) -> int:
         """The variable of a polynomial, or of a condition that is no comparison: positive where it holds."""
