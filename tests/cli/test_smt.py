@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import itertools
 import subprocess
 import sys
 from fractions import Fraction
@@ -224,3 +225,13 @@ def test_what_is_said_twice_is_read_once_also_after_pop() -> None:
     assert sizes[1] > 2
     assert [size - sizes[1] for size in sizes[1:]] == [0, 0, 1, 0, 1]
     assert answers(text + "(check-sat)") == ["sat"]
+
+
+@pytest.mark.parametrize("first, rest", [("(", "("), ("(", "(\n"), ('("', "a\n"), ("(|", "a\n"), ("(", " ")])
+def test_a_command_without_an_end_is_not_read_for_ever(first: str, rest: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Each line was looked through with all lines before it, and no limit held for what never ends."""
+    monkeypatch.setattr("qe.cli.smt.MOST_BYTES", 5_000)
+    lines: list[str] = []
+    solver = Solver(lines.append, lines.append)
+    solver.run(itertools.chain([first], itertools.repeat(rest)), "<test>")
+    assert solver.failed and len(lines) == 1 and "has no end within the limits" in lines[0]
