@@ -1,6 +1,7 @@
 """The border between commands and the shell: exit status, one-line errors, progress, files.
 
-Exit status: 0 answered, 2 bad input, 3 unable within the limits, 4 certificate rejected, 1 a bug.
+Exit status: 0 answered, 2 bad input, 3 unable within the limits, 4 certificate rejected, 1 a bug; 130 interrupted by
+Ctrl-C, 143 by SIGTERM, both after what was half written has been taken away.
 """
 
 from __future__ import annotations
@@ -8,12 +9,14 @@ from __future__ import annotations
 import io
 import json
 import os
+import signal
 import sys
 import tempfile
+import threading
 import time
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from types import TracebackType
+from types import FrameType, TracebackType
 from typing import Any, TextIO, TypeVar
 
 import typer
@@ -27,7 +30,7 @@ from qe.progress import Event
 
 T = TypeVar("T")
 
-OK, BUG, BAD_INPUT, UNABLE, REJECTED, INTERRUPTED = 0, 1, 2, 3, 4, 130
+OK, BUG, BAD_INPUT, UNABLE, REJECTED, INTERRUPTED, TERMINATED = 0, 1, 2, 3, 4, 130, 143
 
 _PREFIX = {
     "unable": "unable: ",
@@ -61,6 +64,7 @@ def enter(app: typer.Typer, argv: Sequence[str] | None, *, name: str) -> int:
             return _unheard(name, lost)
         return fail(name, _PREFIX.get(status, "") + message, code)
 
+    before = _raising_at_termination()
     try:
         code = command.main(args=None if argv is None else list(argv), prog_name=name, standalone_mode=False)
         sys.stdout.flush()
@@ -85,6 +89,8 @@ def enter(app: typer.Typer, argv: Sequence[str] | None, *, name: str) -> int:
         return told("internal_error", str(error), BUG)
     except (KeyboardInterrupt, typer.Abort):
         return told("interrupted", "interrupted", INTERRUPTED)
+    except _Terminated:
+        return told("interrupted", "ended by a signal", TERMINATED)
     except ImportError as error:
         absent = lacking(error)
         if absent is None:
@@ -98,6 +104,26 @@ def enter(app: typer.Typer, argv: Sequence[str] | None, *, name: str) -> int:
         if not isinstance(stop.__context__, OSError):
             raise
         return _unheard(name, stop.__context__)
+    finally:
+        if before is not None:
+            signal.signal(signal.SIGTERM, before)
+
+
+class _Terminated(BaseException):
+    """SIGTERM has come: as at Ctrl-C, what is half done is undone on the way out."""
+
+
+def _raising_at_termination() -> signal.Handlers | None:
+    """Have SIGTERM raise ``_Terminated``, where it would end the process; what it did before, None where that stays."""
+    if threading.current_thread() is not threading.main_thread() or signal.getsignal(signal.SIGTERM) != signal.SIG_DFL:
+        return None
+
+    def end(number: int, frame: FrameType | None) -> None:
+        signal.signal(signal.SIGTERM, signal.SIG_IGN)  # once is enough
+        raise _Terminated
+
+    signal.signal(signal.SIGTERM, end)
+    return signal.SIG_DFL
 
 
 def examples(*lines: str) -> str:

@@ -6,26 +6,31 @@ Every command is answered before the next one is read, so that programs can driv
 
 from __future__ import annotations
 
+import io
 import re
 import sys
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from fractions import Fraction
-from typing import cast
+from functools import partial
+from typing import TextIO, cast
 
 import qe
 import qe.api.eliminate as api
 from qe.cli.smt_check import Checks, Result
 from qe.cli.smt_values import Evaluation, Number, written
+from qe.cli.source import MOST_BYTES
 from qe.errors import InputError, ParseError, Unable
 from qe.io import smtlib
 from qe.io import surface as s
 from qe.io.grammar import Failing
-from qe.io.smtlib_parser import Expression, Listing, Word, ends, parse, show
+from qe.io.smtlib_parser import Ends, Expression, Listing, Word, parse, show
 from qe.io.smtlib_script import Script
 from qe.io.smtlib_terms import is_real
 from qe.io.total import Fill, Total
 
 MOST_LEVELS = 10_000
+PIECE = 1 << 20
+"""Characters that are read at once."""
 _READ = re.compile(r"(?:\s+|;[^\n]*)*\(\s*(assert|declare-[a-z]+|define-[a-z-]+)\b")
 _INFO = {
     ":name": '"bezier-qe"',
@@ -64,20 +69,28 @@ class Solver(Checks):
         self.status = ""  # what the script says that the next check will answer
 
     # --- input -----------------------------------------------------------------------------------------------
-    def run(self, lines: Iterable[str], source: str) -> None:
-        """Answer the commands as they come in."""
-        text, line, column = "", 0, 0
-        for piece in lines:
+    def run(self, pieces: Iterable[str], source: str) -> None:
+        """Answer the commands of a text as it comes in."""
+        text, line, column, ends = "", 0, 0, Ends()
+        for piece in pieces:
             text += piece if text or line or column else piece.removeprefix("\ufeff")
             start = 0
-            for end in ends(text):
+            for end in ends.found(text):
                 self.execute(text[start:end], source, line, column)
                 line, column = _behind(text[start:end], line, column)
                 start = end
                 if self.done:
                     return
-            text = text[start:]
-        if text.strip():
+            if start:
+                text = text[start:]
+                ends.cut(start)
+            if len(text) > (PIECE if self.late else MOST_BYTES):
+                self.lost[-1] = self.failed = self.done = True
+                self.put('(error "unable: a command has no end within the limits, nothing behind it is read")')
+                return
+        if len(text) > PIECE and ends.depth:
+            self.error(Failing(text, source)("unbalanced brackets: a '(' is never closed", 0))
+        elif text.strip():
             self.execute(text, source, line, column)
 
     def execute(self, text: str, source: str, line: int = 0, column: int = 0) -> None:
@@ -369,7 +382,12 @@ def run(text: str | None, source: str, *, timeout: float | None, memory: int | N
         each=interactive,
     )
     if text is not None:
-        solver.run([text], source)
+        solver.run(_pieces(io.StringIO(text)), source)
     if (text is None or interactive) and not solver.done:
-        solver.run(sys.stdin, "<stdin>")
+        solver.run(_pieces(sys.stdin), "<stdin>")
     return 2 if solver.failed else 0
+
+
+def _pieces(stream: TextIO) -> Iterator[str]:
+    """The lines, longer ones in pieces."""
+    return iter(partial(stream.readline, PIECE), "")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from dataclasses import dataclass
 from typing import NamedTuple, TypeAlias
 
 from qe.io.surface import Fail
@@ -80,25 +81,43 @@ def _no_token(character: str) -> str:
     return f"unknown character {character!r}"
 
 
-def ends(text: str) -> Iterator[int]:
-    """The offsets behind the whole expressions of a text that may go on; what is no token counts as one character.
+@dataclass(slots=True)
+class Ends:
+    """Where the whole expressions of a text that goes on end; nothing is looked through again when it has.
 
-    A bracket that closes nothing ends an expression.
+    What is no token counts as one character; a bracket that closes nothing ends an expression. ``at``: how far the text
+    was looked through, ``depth``: how many brackets are open there, ``quoted``: how far for the end of a quotation.
     """
-    at, depth = 0, 0
-    while at < len(text):
-        if depth and (passed := _INSIDE.match(text, at)) is not None:
-            at = passed.end()
-            continue
-        found = _TOKEN.match(text, at)
-        if found is None and text[at] in '|"':  # it may be closed by what follows
-            return
-        kind, at = (None, at + 1) if found is None else (found.lastgroup, found.end())
-        if kind == "SPACE" or (at == len(text) and kind not in ("CLOSE", "OPEN")):
-            continue
-        depth = max(depth + {"OPEN": 1, "CLOSE": -1}.get(str(kind), 0), 0)
-        if depth == 0:
-            yield at
+
+    at: int = 0
+    depth: int = 0
+    quoted: int = 0
+
+    def found(self, text: str) -> Iterator[int]:
+        """The offsets behind them."""
+        while self.at < len(text):
+            if self.depth and (passed := _INSIDE.match(text, self.at)) is not None:
+                self.at = passed.end()
+                continue
+            if text[self.at] in '|"' and text.find(text[self.at], max(self.at + 1, self.quoted)) < 0:
+                self.quoted = len(text)
+                return
+            found = _TOKEN.match(text, self.at)
+            if found is None and text[self.at] in '|"':  # it may be closed by what follows
+                return
+            kind, end = (None, self.at + 1) if found is None else (found.lastgroup, found.end())
+            if end == len(text) and kind not in ("CLOSE", "OPEN") and text[-1] != "\n":  # it may go on
+                return
+            self.at, self.quoted = end, 0
+            if kind == "SPACE":
+                continue
+            self.depth = max(self.depth + {"OPEN": 1, "CLOSE": -1}.get(str(kind), 0), 0)
+            if self.depth == 0:
+                yield end
+
+    def cut(self, count: int) -> None:
+        """So many characters were taken away before the text."""
+        self.at, self.quoted = self.at - count, max(self.quoted - count, 0)
 
 
 def show(expression: Expression) -> str:

@@ -318,7 +318,8 @@ def _confine(start: float, timeout: float | None, memory: int | None, grace: flo
     os.dup2(quiet, 2)
     os.close(quiet)
     faulthandler.disable()
-    signal.signal(signal.SIGINT, signal.SIG_DFL)
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, signal.SIG_DFL)
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
     if memory is not None:
         _lower(resource.RLIMIT_AS, memory << 20)

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import itertools
 import subprocess
 import sys
 from fractions import Fraction
@@ -239,3 +240,13 @@ def test_the_core_of_a_check_with_assumptions_named_what_could_be_left_out() -> 
     """The assumptions of the check hold for its core."""
     script = f"{XY}(assert (! (> x 0) :named a))(assert (! (> y 0) :named b))"
     assert answers(f"{script}(check-sat-assuming ((< x 0)))(get-unsat-core)") == ["unsat", "(a)"]
+
+
+@pytest.mark.parametrize("first, rest", [("(", "("), ("(", "(\n"), ('("', "a\n"), ("(|", "a\n"), ("(", " ")])
+def test_a_command_without_an_end_is_not_read_for_ever(first: str, rest: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Each line was looked through with all lines before it, and no limit held for what never ends."""
+    monkeypatch.setattr("qe.cli.smt.MOST_BYTES", 5_000)
+    lines: list[str] = []
+    solver = Solver(lines.append, lines.append)
+    solver.run(itertools.chain([first], itertools.repeat(rest)), "<test>")
+    assert solver.failed and len(lines) == 1 and "has no end within the limits" in lines[0]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -18,6 +19,7 @@ from qe.cli.source import read_text
 from qe.errors import InputError
 
 FOLDER = Path(sys.executable).parent
+EXAMPLES = Path(__file__).parents[2] / "examples"
 needs_full = pytest.mark.skipif(not Path("/dev/full").exists(), reason="no /dev/full here")
 ELIMINATE = f"{FOLDER / 'qe'} eliminate 'ex x. x^2 = b'"
 
@@ -187,3 +189,18 @@ def test_an_interrupt_is_told(
     told = capsys.readouterr()
     assert told.err == "qe: interrupted\n"
     assert not more or json.loads(told.out) == {"status": "interrupted", "message": "interrupted", "exit": 130}
+
+
+def test_a_command_that_is_terminated_leaves_nothing_half_written(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """SIGTERM left a hidden folder beside the output."""
+    before = signal.getsignal(signal.SIGTERM)
+
+    def terminated(*given: object, **named: object) -> None:
+        signal.raise_signal(signal.SIGTERM)
+
+    monkeypatch.setattr("bezier.planner.outputs._move", terminated)
+    assert bezier_main(["plan", str(EXAMPLES / "no_control_point.toml"), "--out", str(tmp_path / "out")]) == 143
+    assert not list(tmp_path.iterdir()) and capsys.readouterr().err == "bezier: ended by a signal\n"
+    assert signal.getsignal(signal.SIGTERM) is before

@@ -2,7 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import signal
+import threading
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from types import FrameType
+from typing import Any
 
 from qe.elimination.search.clauses import Clause, Clauses
 from qe.elimination.search.linear_theories import Differences, Forms, difference, said
@@ -50,9 +55,39 @@ def guided(clauses: Clauses, theory: Theory) -> Values | list[Clause]:
         solver.connect_propagator(propagator)
         for literal in clauses.signs():
             solver.observe(literal)
-        # as ``solver.solve()``, but Ctrl-C stays what it is in Python: a jump out of calls from C would break it
-        true = pysolvers.cadical195_solve(solver.cadical, [], 0)
+        with _signals_kept(propagator):
+            # as ``solver.solve()``, which would have Ctrl-C jump out of the calls from C
+            true = pysolvers.cadical195_solve(solver.cadical, [], 0)
         solver.disconnect_propagator()
     if propagator.failure is not None:
         raise propagator.failure
     return found if true else propagator.lemmas
+
+
+@contextmanager
+def _signals_kept(propagator: Propagator) -> Iterator[None]:
+    """What handlers of signals raise meanwhile (Ctrl-C, alarms) ends the search and is the propagator's failure.
+
+    The solver would lose an error that one of its calls raises, and a signal may come at the first step of any of them.
+    """
+    before: dict[int, Callable[[int, FrameType | None], Any]] = {}
+    if threading.current_thread() is threading.main_thread():  # the one that runs handlers, and may set them
+        before = {number: handler for number in signal.valid_signals() if callable(handler := signal.getsignal(number))}
+
+    def kept(number: int, frame: FrameType | None) -> None:
+        if propagator.keeps_errors:  # it may wait for another process, which ends by the error alone
+            propagator.keeps_errors = False
+            before[number](number, frame)
+            propagator.keeps_errors = True
+        else:
+            with propagator:
+                before[number](number, frame)
+
+    try:
+        for number in before:
+            signal.signal(number, kept)
+        yield
+    finally:
+        for number, handler in before.items():
+            if signal.getsignal(number) is kept:  # a process that was forked meanwhile has handlers of its own
+                signal.signal(number, handler)

@@ -49,6 +49,7 @@ class Propagator:
     """What the SAT solver calls. ``last``: gives clauses against a whole assignment, none where it is a solution.
 
     ``lemmas``: the clauses that the solver was told. ``failure``: an error while it called, which ends its work.
+    ``keeps_errors``: whether this is inside such a call, where errors become the failure.
     """
 
     is_lazy = False
@@ -62,6 +63,7 @@ class Propagator:
         self.theories, self.check, self.last = theories, check, last
         self.lemmas: list[Literals] = []
         self.failure: BaseException | None = None
+        self.keeps_errors = False
         self._told: list[int] = []
         self._true: set[int] = set()
         self._fixed: list[int] = []
@@ -74,12 +76,13 @@ class Propagator:
         self._refuted = False
 
     def __enter__(self) -> None:
-        return None
+        self.keeps_errors = True
 
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> bool:
         """Keep an error: it must not go through the code of the solver."""
+        self.keeps_errors = False
         self.failure = error or self.failure
         return True
 

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from qe.errors import InputError
-from qe.io.smtlib_parser import Expression, Listing, Word, ends, parse, show
+from qe.io.smtlib_parser import Ends, Expression, Listing, Word, parse, show
 
 
 def fail(message: str, at: int) -> InputError:
@@ -40,7 +40,20 @@ def test_what_is_shown_is_read_back(expressions: list[Expression], between: str)
     text = between.join(map(show, expressions))
     found = parse(text, fail)
     assert len(found) == len(expressions) and all(map(same, found, expressions))
-    assert max(ends(text + " "), default=0) == len(text.rstrip("\n ")) or ";" in text or not expressions
+    assert max(Ends().found(text + " "), default=0) == len(text.rstrip("\n ")) or ";" in text or not expressions
+
+
+@given(st.lists(EXPRESSIONS, max_size=4), st.sampled_from((" ", "\n", " ; a comment (\n", "|)")), st.integers(1, 9))
+def test_a_text_in_pieces_ends_where_the_whole_does(expressions: list[Expression], between: str, size: int) -> None:
+    text = between.join(show(Listing([e], 0)) for e in expressions) + "\n"
+    ends, found, held, gone = Ends(), [], "", 0
+    for k in range(0, len(text), size):
+        held, start = held + text[k : k + size], 0
+        for start in ends.found(held):
+            found.append(gone + start)
+        held, gone = held[start:], gone + start
+        ends.cut(start)
+    assert found == list(Ends().found(text))
 
 
 def test_offsets() -> None:
@@ -84,13 +97,13 @@ def test_what_cannot_be_read(text: str, said: str) -> None:
     ],
 )
 def test_the_end_of_the_last_whole_expression(text: str, end: int) -> None:
-    assert max(ends(text), default=0) == end
+    assert max(Ends().found(text), default=0) == end
 
 
 @given(st.text(alphabet='(a|") ;\n:1\u00e4#', max_size=12))
 def test_a_text_with_an_end_is_read_the_same_piece_by_piece(text: str) -> None:
     """What is between the ends is read on its own, or the whole cannot be read either."""
-    stops = [0, *ends(text), len(text)]
+    stops = [0, *Ends().found(text), len(text)]
     try:
         whole = parse(text, fail)
     except InputError:

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import signal
 import sys
 from collections.abc import Sequence
 from itertools import product
+from typing import Any
 
 import pytest
 from hypothesis import given, settings
@@ -18,6 +20,7 @@ from qe.elimination.search.guided import guided
 from qe.elimination.search.linear_forms import over_monomials
 from qe.elimination.search.method import BooleanSearch, Refuted, found_point
 from qe.elimination.search.monomial_bounds import MonomialBounds
+from qe.elimination.search.online import Propagator
 from qe.elimination.search.theory import Theory
 from qe.engine.conditions import CASES_FROM, hopeless_cases, many_cases
 from qe.engine.run import solve
@@ -168,6 +171,36 @@ def test_an_error_while_the_solver_calls_ends_the_search() -> None:
             found_point(body, context())
     with pytest.raises(BudgetExceeded):
         found_point(body, Context(Options(), Budget(60, work=0), RunLog(), decide))
+
+
+@pytest.mark.parametrize("call", ["on_assignment", "on_new_level", "propagate", "check_model", "has_clause"])
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGALRM])
+def test_a_signal_in_any_call_of_the_solver_ends_the_search(call: str, number: signal.Signals) -> None:
+    """Ctrl-C was lost where it came in a call that only takes note of something: the search went on to its end."""
+
+    class Rung(Exception):
+        pass
+
+    def ring(number: int, frame: object) -> None:
+        raise Rung
+
+    own, rung = getattr(Propagator, call), []
+
+    def interrupted(self: Propagator, *given: Any) -> Any:
+        if not rung:
+            rung.append(number)
+            signal.raise_signal(number)
+        return own(self, *given)
+
+    before = signal.signal(number, ring)
+    try:
+        with pytest.MonkeyPatch.context() as m:
+            m.setattr(Propagator, call, interrupted)
+            with pytest.raises(Rung):
+                found_point(nnf(read("(x < y or y < z) and (z < x or x > 9) and (y > 1 or z > 2)")), context())
+        assert rung and signal.getsignal(number) is ring
+    finally:
+        signal.signal(number, before)
 
 
 def test_sentences_of_very_many_cases_are_for_the_search_alone() -> None:
