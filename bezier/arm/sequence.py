@@ -22,6 +22,7 @@ from bezier.arm.kinematics import wrapped
 from bezier.arm.model import Arm, Motion
 from bezier.motion.timelaw import TimeLaw
 from qe.errors import InputError, Unable
+from qe.extras import wanted
 
 Note = Callable[[], None]
 MOST_SAMPLES = 5_000
@@ -96,7 +97,8 @@ def joint_sequence(found: JointPath, samples: Sequence[Sample], note: Note = lam
     """The sequence of least total change. Raises ``Unable`` where a sample has no joint position within the limits."""
     arm = found.arm
     layers = list(_layers(found, samples, note))
-    import networkx as nx  # loading it takes longer than planning a path without an arm
+    with wanted():  # loading it takes longer than planning a path without an arm
+        import networkx as nx
 
     graph: nx.DiGraph[Any] = nx.DiGraph()
     graph.add_edges_from((("start", (0, i)) for i in range(len(layers[0]))), weight=0.0)

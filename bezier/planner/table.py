@@ -6,20 +6,22 @@ from typing import Any
 
 from bezier.plans import Method
 from bezier.problem import PlanMethod
+from qe.extras import wanted
 
 
 def method_of(choice: PlanMethod) -> Method[Any]:
-    """The method of this name, loaded when it is needed."""
-    match choice:
-        case PlanMethod.QUADRATIC:
-            from bezier.methods.quadratic.method import QUADRATIC
+    """The method of this name, loaded when it is needed. Raises ``Unable`` where a library it needs is absent."""
+    with wanted():
+        match choice:
+            case PlanMethod.QUADRATIC:
+                from bezier.methods.quadratic.method import QUADRATIC
 
-            return QUADRATIC
-        case PlanMethod.CUBIC:
-            from bezier.methods.cubic.method import CUBIC
+                return QUADRATIC
+            case PlanMethod.CUBIC:
+                from bezier.methods.cubic.method import CUBIC
 
-            return CUBIC
-        case PlanMethod.SINGLE:
-            from bezier.methods.single.method import SINGLE
+                return CUBIC
+            case PlanMethod.SINGLE:
+                from bezier.methods.single.method import SINGLE
 
-            return SINGLE
+                return SINGLE

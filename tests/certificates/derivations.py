@@ -44,7 +44,7 @@ CASES = {
     "boundary": "ex x. x^2 >= a and b*x /= 1",
     "shorter": "ex x. a*x^2 + b*x + c = 0",
     "constant": "x^2 + y^2 < 1 and x*y > 1",
-    "redundant": "a*d^3 - c*b > 0 and c /= 0 or c = 0 and a*d > 0",
+    "redundant": "p*q < 0 and q /= 0 or p = 0 and q = 0",
     "point": "all x, y, z, u. x^2 + y^2 + z^2 + u^2 > 1",
     "multipliers": "ex x, y, z, u. x^2 + y^2 + z^2 + u^2 + x < -1",
     "basis": "ex x, y. x*y = 1 and x^2 + y^2 = a and x > 0 and y > x",
