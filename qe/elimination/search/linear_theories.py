@@ -12,9 +12,8 @@ from functools import partial
 from math import lcm
 from typing import NamedTuple
 
-from qe.elimination.search.linear_forms import Direction, Monomial, is_square, over_monomials
+from qe.elimination.search.linear_forms import Direction, FormBounds, Monomial, over_monomials
 from qe.exact.difference_graph import DifferenceGraph
-from qe.exact.linear_bounds import LinearBounds
 from qe.exact.ring import Poly
 from qe.formula.syntax import Relation
 
@@ -127,15 +126,11 @@ class Forms:
     """Bounds of all linear forms, by the simplex method; squares are at least 0."""
 
     def __init__(self, bounds: Iterable[Said]) -> None:
-        self.bounds = LinearBounds()
-        self.monomials: dict[Monomial, int] = {}
+        self.bounds = FormBounds()
         self.said: dict[int, tuple[int, Said]] = {}
         self.offered: defaultdict[int, list[Said]] = defaultdict(list)
-        forms: dict[Direction, int] = {}
         for one in bounds:
-            x = forms.get(one.direction)
-            if x is None:
-                x = forms[one.direction] = self._form(one.direction)
+            x = self.bounds.of(one.direction)
             self.said[one.literal] = x, one
             self.offered[x].append(one)
         for listed in self.offered.values():
@@ -169,26 +164,13 @@ class Forms:
 
     def point(self) -> dict[Monomial, Fraction]:
         """Values that keep all bounds."""
-        values = self.bounds.point()
-        return {m: values[x] for m, x in self.monomials.items()}
+        return self.bounds.values_of_monomials()
 
     def _offered(self, x: int, above: bool) -> Iterator[tuple[Fraction, bool, Hashable]]:
         """The bounds of a variable, the weakest first."""
         for one in reversed(self.offered[x]) if above else self.offered[x]:
             if one.upper == above:
                 yield one.bound, one.strict, one.literal
-
-    def _form(self, direction: Direction) -> int:
-        columns = {self._monomial(m): c for m, c in direction}
-        return next(iter(columns)) if len(columns) == 1 else self.bounds.form(columns)
-
-    def _monomial(self, monomial: Monomial) -> int:
-        found = self.monomials.get(monomial)
-        if found is None:
-            found = self.monomials[monomial] = self.bounds.variable()
-            if is_square(monomial):
-                self.bounds.at_least(found, Fraction(0), strict=False, reason=None)
-        return found
 
 
 def _literals(reasons: Iterable[Hashable]) -> list[int]:

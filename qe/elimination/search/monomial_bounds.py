@@ -10,8 +10,7 @@ from collections import defaultdict
 from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping
 from fractions import Fraction
 
-from qe.elimination.search.linear_forms import LinearForm, Monomial, is_square, over_monomials
-from qe.exact.linear_bounds import LinearBounds
+from qe.elimination.search.linear_forms import FormBounds, LinearForm, Monomial, over_monomials
 from qe.exact.ring import Poly, Ring
 from qe.formula.syntax import Atom, Relation
 
@@ -24,9 +23,7 @@ class MonomialBounds:
 
     def __init__(self, ring: Ring) -> None:
         self.ring = ring
-        self.bounds = LinearBounds()
-        self.monomials: dict[Monomial, int] = {}
-        self.forms: dict[object, int] = {}
+        self.bounds = FormBounds()
         self.forms_of: dict[Poly, LinearForm] = {}
         self.known: dict[Atom, tuple[int, Fraction, Relation] | None] = {}
         self.offered: defaultdict[int, list[tuple[Fraction, Poly, bool]]] = defaultdict(list)
@@ -35,7 +32,7 @@ class MonomialBounds:
         """Bounds by these polynomials may stand in reasons (``weakened``)."""
         for poly in polys:
             form = self.forms_of[poly] = over_monomials(poly)
-            self.offered[self._form(form.direction)].append((form.bound, poly, form.scale > 0))
+            self.offered[self.bounds.of(form.direction)].append((form.bound, poly, form.scale > 0))
         for bounds in self.offered.values():
             bounds.sort(key=lambda bound: bound[0])
 
@@ -56,9 +53,7 @@ class MonomialBounds:
         """Atoms whose linear bounds contradict each other, with None where squares take part; or None."""
         self.bounds.clear()
         self.bounds.stuck = None
-        for monomial, x in self.monomials.items():
-            if is_square(monomial):
-                self.bounds.at_least(x, Fraction(0), strict=False, reason=None)
+        self.bounds.bound_squares()
         for given in atoms:
             check()
             found = self._bound(given)
@@ -79,14 +74,14 @@ class MonomialBounds:
         """Look for the next point from here."""
         self.bounds.clear()
         for monomial, value in values.items():
-            self.bounds.start(self._monomial(monomial), value)
+            self.bounds.start(self.bounds.monomial(monomial), value)
 
     def point(self) -> dict[str, Fraction]:
         """Values of the variables, after ``conflict`` found none: those that they have as monomials."""
-        values, point = self.bounds.point(), dict.fromkeys(self.ring.names, Fraction(0))
-        for monomial, x in self.monomials.items():
+        point = dict.fromkeys(self.ring.names, Fraction(0))
+        for monomial, value in self.bounds.values_of_monomials().items():
             if sum(monomial) == 1:
-                point[self.ring.names[monomial.index(1)]] = values[x]
+                point[self.ring.names[monomial.index(1)]] = value
         return point
 
     def sign(self, poly: Poly) -> int:
@@ -94,7 +89,7 @@ class MonomialBounds:
         form = self.forms_of.get(poly)
         if form is None:
             form = self.forms_of[poly] = over_monomials(poly)
-        side = self.bounds.side(self._form(form.direction), form.bound)
+        side = self.bounds.side(self.bounds.of(form.direction), form.bound)
         return side if form.scale > 0 else -side
 
     def _bound(self, given: Atom) -> tuple[int, Fraction, Relation] | None:
@@ -104,22 +99,6 @@ class MonomialBounds:
             if given.relation is not Relation.NE:
                 form = over_monomials(given.poly)
                 relation = given.relation if form.scale > 0 else given.relation.flipped
-                found = self._form(form.direction), form.bound, relation
+                found = self.bounds.of(form.direction), form.bound, relation
             self.known[given] = found
         return self.known[given]
-
-    def _form(self, direction: tuple[tuple[Monomial, Fraction], ...]) -> int:
-        found = self.forms.get(direction)
-        if found is None:
-            columns = {self._monomial(m): c for m, c in direction}
-            found = next(iter(columns)) if len(columns) == 1 else self.bounds.form(columns)
-            self.forms[direction] = found
-        return found
-
-    def _monomial(self, monomial: Monomial) -> int:
-        found = self.monomials.get(monomial)
-        if found is None:
-            found = self.monomials[monomial] = self.bounds.variable()
-            if is_square(monomial):
-                self.bounds.at_least(found, Fraction(0), strict=False, reason=None)
-        return found
