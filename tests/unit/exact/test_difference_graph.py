@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from random import Random
 
 from hypothesis import given
 from hypothesis import strategies as st
@@ -60,6 +61,16 @@ def test_lengths_are_those_of_shortest_paths(edges: list[Edge]) -> None:
     assert same(graph, taken)
     values = graph.potentials()
     assert all(values[v] - values[u] <= w for u, v, w in taken)
+
+
+def test_lengths_in_dense_graphs_are_those_of_shortest_paths() -> None:
+    """Where nearly all pairs have an edge, paths differ by little: a comparison that is off by one shows."""
+    for seed in range(100):
+        random = Random(seed)
+        graph = DifferenceGraph(SIZE, 1000)
+        ends = [random.sample(range(SIZE), 2) for _ in range(25)]
+        edges = [(u, v, random.randint(-2, 9)) for u, v in ends]
+        assert same(graph, added(graph, edges)), seed
 
 
 @given(EDGES)
