@@ -15,6 +15,9 @@ from qe.progress import Event, Listener, silent
 VERIFY_SECONDS = 60.0
 """The limit of a verification for which the caller gives none."""
 
+NOTE_SECONDS = 0.1
+"""Progress is told at most once in so many seconds."""
+
 
 class Method(Enum):
     """Elimination methods that a caller can ask for; ``AUTO`` lets the planner choose."""
@@ -255,7 +258,7 @@ class Budget:
             if budget.work is not None and budget.used > budget.work:
                 raise BudgetExceeded(f"limit of {budget.work} units of work reached", limit="work")
             budget = budget.parent
-        if now - self._last_note > 0.1:
+        if now - self._last_note > NOTE_SECONDS:
             self._last_note = now
             self.listener(Event(phase, done, total))
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 _TOLERANCE = 1e-6
+_ZERO, _NOISE = 1e-12, 1e-9  # what counts as zero: a row or weight; an entry of a vector of length about one
 
 
 def _eliminate(rows: Sequence[Sequence[float]], width: int) -> tuple[list[list[float]], list[int]]:
@@ -12,7 +13,7 @@ def _eliminate(rows: Sequence[Sequence[float]], width: int) -> tuple[list[list[f
     work = []
     for row in rows:
         size = max((abs(v) for v in row), default=0.0)
-        if size > 1e-12:
+        if size > _ZERO:
             work.append([v / size for v in row])
     done: list[list[float]] = []
     columns: list[int] = []
@@ -56,7 +57,7 @@ def caratheodory(chosen: Sequence[int], weights: Sequence[float], slopes: Sequen
 
     While the slopes are dependent, the weights move along the dependency until one becomes zero (Carathéodory).
     """
-    kept = {i: max(weights[i], 1e-12) for i in chosen}
+    kept = {i: max(weights[i], _ZERO) for i in chosen}
     while kept:
         names = list(kept)
         rows = [[slopes[i][j] for i in names] for j in range(len(slopes[names[0]]))]
@@ -65,7 +66,7 @@ def caratheodory(chosen: Sequence[int], weights: Sequence[float], slopes: Sequen
             break
         if max(vector) <= 0:
             vector = [-v for v in vector]
-        step, leaving = min((kept[i] / v, i) for i, v in zip(names, vector, strict=True) if v > 1e-9)
+        step, leaving = min((kept[i] / v, i) for i, v in zip(names, vector, strict=True) if v > _NOISE)
         for i, v in zip(names, vector, strict=True):
             kept[i] = max(kept[i] - step * v, 0.0)
         del kept[leaving]

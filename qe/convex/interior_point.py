@@ -14,6 +14,20 @@ from dataclasses import dataclass
 from qe.errors import Unable
 from qe.exact.quadratic_form import Quadratic
 
+STEPS, DAMPED_STEPS, PATIENCE, PROGRESS = 60, 90, 14, 0.9
+"""Most steps of the fast and of the robust way; how many in a row may leave the residual above so much of the best."""
+
+CONVERGED, AS_FAR_AS_FLOATS_GO = 1e-8, 1e-14
+"""The residual from which the robust way is not tried, and that at which nothing is left to gain."""
+
+DAMPED_CENTRING, DECREASE, SHORTER, SHORTEST = 0.2, 0.01, 0.6, 1e-6
+"""The robust way: its centring, the share of the decrease that a step promises and has to give (Armijo), the factor by
+which it is shortened until it does, and where that ends."""
+
+SMALLEST_PIVOT, LARGEST_STEP, POSITIVE = 1e-300, 1e300, 1e-40
+"""What floats can divide by and move by; the least slack or multiplier. No number of this file decides an answer: a
+proposal that is bad costs the exact methods that come after it."""
+
 Row = list[float]
 
 
@@ -75,7 +89,7 @@ def solve_floats(rows: Sequence[Row], rhs: Sequence[float]) -> Row | None:
     n = len(work)
     for k in range(n):
         best = max(range(k, n), key=lambda r: abs(work[r][k]))
-        if abs(work[best][k]) < 1e-300:
+        if abs(work[best][k]) < SMALLEST_PIVOT:
             return None
         work[k], work[best] = work[best], work[k]
         lead = work[k]
@@ -109,7 +123,7 @@ def interior_point(objective: Quadratic, constraints: Sequence[Quadratic], start
         nothing = (0.0,) * len(constraints)
         return Proposal(tuple(start), nothing, nothing, math.inf)
     x, dual, slack, residual = _iterate(f, g, start, False)
-    if residual > 1e-8:
+    if residual > CONVERGED:
         again = _iterate(f, g, start, True)
         if again[-1] < residual:
             x, dual, slack, residual = again
@@ -127,17 +141,17 @@ def _iterate(
     dual = [1.0] * len(g)
     best, stalled = _state(f, g, x, slack, dual)[-1], 0
     kept = (x, dual, slack, best)
-    for _ in range(90 if damped else 60):
+    for _ in range(DAMPED_STEPS if damped else STEPS):
         step = _newton_step(f, g, x, slack, dual, damped)
         if step is None:
             break
         x, slack, dual = step
         residual = _state(f, g, x, slack, dual)[-1]
-        if residual < 0.9 * best:
+        if residual < PROGRESS * best:
             best, stalled, kept = residual, 0, (x, dual, slack, residual)
         else:
             stalled += 1
-        if best < 1e-14 or stalled > 14:
+        if best < AS_FAR_AS_FLOATS_GO or stalled > PATIENCE:
             break
     return kept
 
@@ -203,7 +217,7 @@ class _Linearised:
             for i, a in enumerate(slope):
                 rhs[i] -= a * e
         dx = solve_floats(self.matrix, rhs)
-        if dx is None or not all(abs(d) < 1e300 for d in dx):
+        if dx is None or not all(abs(d) < LARGEST_STEP for d in dx):
             return None
         moved = [sum(a * d for a, d in zip(slope, dx, strict=True)) for slope in self.jacobian]
         ds = [-p - t for p, t in zip(self.primal, moved, strict=True)]
@@ -222,7 +236,7 @@ def _newton_step(
         return None if straight is None else ([v + d for v, d in zip(x, straight[0], strict=True)], [], [])
     products = [u * s for u, s in zip(dual, slack, strict=True)]
     if damped:
-        sigma = 0.2
+        sigma = DAMPED_CENTRING
         chosen = equations.direction([p - sigma * mean for p in products])
     else:
         plain = equations.direction(products)
@@ -243,9 +257,9 @@ def _newton_step(
     here = _merit(f, g, (x, slack, dual), sigma * mean)
     while True:
         moved_to = (_moved(x, dx, t), _positive(_moved(slack, ds, t)), _positive(_moved(dual, du, t)))
-        if not damped or t < 1e-6 or _merit(f, g, moved_to, sigma * mean) <= (1 - 0.01 * t) * here:
+        if not damped or t < SHORTEST or _merit(f, g, moved_to, sigma * mean) <= (1 - DECREASE * t) * here:
             return moved_to
-        t *= 0.6
+        t *= SHORTER
 
 
 def _moved(values: Row, steps: Row, t: float) -> Row:
@@ -253,7 +267,7 @@ def _moved(values: Row, steps: Row, t: float) -> Row:
 
 
 def _positive(values: Row) -> Row:
-    return [max(v, 1e-40) for v in values]
+    return [max(v, POSITIVE) for v in values]
 
 
 def _merit(f: FloatQuadratic, g: Sequence[FloatQuadratic], at: tuple[Row, Row, Row], centre: float) -> float:

@@ -20,6 +20,7 @@ from qe.exact.quadratic_form import Number, Quadratic, independent_rows, solve_l
 from qe.options import Budget
 
 _CONVERGED = 1e-5
+_CLEAR = 1e-5  # a multiplier that is surely not zero; less clear sets of constraints are tried after it
 _NEAR = 1e-4
 _ALMOST = 1e-9
 _PIN_DENOMINATORS = (1, 16, 10**3, 10**6, 10**9)
@@ -79,7 +80,7 @@ def _supports(objective: Quadratic, forms: Sequence[Quadratic], proposal: Propos
     slopes = [to_float(g, s).value_and_slope(proposal.point)[1] for g, s in zip(forms, scales, strict=True)]
     everywhere = range(len(forms))
     near = [i for i in everywhere if slack[i] < _NEAR or weight[i] > slack[i]]
-    clear = [i for i in near if weight[i] > 1e-5 and slack[i] < _NEAR]
+    clear = [i for i in near if weight[i] > _CLEAR and slack[i] < _NEAR]
     likely = [i for i in near if weight[i] > slack[i]]
     seen: set[tuple[int, ...]] = set()
     for chosen in (clear, likely, near):

@@ -17,7 +17,7 @@ from qe.convex.interior_point import interior_point
 from qe.convex.kkt import Kkt, kkt_point, sign
 from qe.convex.linear import LinearConflict, LinearFall, is_linear_problem, linear_optimum
 from qe.convex.system import ConvexSystem
-from qe.convex.violation import height, rounded_contradiction, violation_forms
+from qe.convex.violation import TRUSTED, height, rounded_contradiction, violation_forms
 from qe.errors import BudgetExceeded, InternalError, Unable
 from qe.exact.field import NumberField
 from qe.exact.kkt_system import MAX_DEGREE, Flat, HighDegree, Point
@@ -169,7 +169,7 @@ def _contradiction(
         proposal = interior_point(height(size), extended, [0.0] * (size + 1))
     except OverflowError:  # numbers beyond the range of floats
         return None
-    clear = proposal.residual < 1e-3 and proposal.point[-1] > 0
+    clear = proposal.residual < TRUSTED and proposal.point[-1] > 0
     return rounded_contradiction(proposal, forms, scales) if clear else None
 
 

@@ -10,6 +10,8 @@ from qe.convex.interior_point import Proposal, interior_point
 from qe.exact.quadratic_form import Quadratic, combine, solve_linear
 
 _ZERO, _ONE = Fraction(0), Fraction(1)
+TRUSTED = 1e-3
+"""A proposal of a larger residual is not rounded: that would only fail, exactly."""
 _DENOMINATORS = (10, 10**3, 10**6)
 _WITNESS_DENOMINATORS = (1, 4, 16, 10**2, 10**4, 10**7)
 
@@ -68,7 +70,7 @@ def proposed(forms: Sequence[Quadratic]) -> tuple[tuple[Fraction, ...] | None, t
     size = forms[0].size
     extended, scales = violation_forms(forms, size)
     proposal = interior_point(height(size), extended, [0.0] * (size + 1))
-    if not proposal.residual < 1e-3:
+    if not proposal.residual < TRUSTED:
         return None, None
     if proposal.point[-1] > 0:
         found = rounded_contradiction(proposal, forms, scales)

@@ -23,6 +23,9 @@ from qe.exact.combined_roots import combined_polynomial, power_polynomial
 from qe.exact.isolate import Interval, isolate, sign_at
 from qe.sympy_form import SymPyForm
 
+STALLED_BITS = 8
+"""An enclosure that is right to so many bits and gets no better is held up by rounding, not by the polynomial."""
+
 Rational = int | Fraction
 
 
@@ -141,7 +144,7 @@ class RealAlgebraic(SymPyForm):
                 if narrowed.rel_accuracy_bits() >= x.rel_accuracy_bits() + 4:
                     x = narrowed
                     continue
-                if x.rel_accuracy_bits() > 8:  # stalled by rounding: more working precision
+                if x.rel_accuracy_bits() > STALLED_BITS:  # by rounding: more working precision
                     with precision(4 * bits + int(self.poly.height_bits()) + 64):
                         middle = x.mid()
                         narrowed = x.intersection(middle - self.poly(middle) / derivative(x))

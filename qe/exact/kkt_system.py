@@ -25,6 +25,7 @@ from qe.exact.quadratic_form import Number, Quadratic, combine, independent_rows
 Point = tuple[Number, ...]
 
 MAX_DEGREE = 40  # of the number field: beyond, lattice reduction takes seconds
+_PATIENCE = 6  # Newton steps without a gain, although each should double the digits
 _MANY_TRIALS = 12  # degree up to which several generators are tried
 
 
@@ -160,7 +161,7 @@ class _Newton:
             # quadratic convergence: a step of size 2^-e leaves an error of about 2^-2e
             reached = min(2 * min(_exponent(d, working) for d in moves) - 4, working - 32)
             stalled = stalled + 1 if reached <= self.bits else 0
-            if stalled > 6:
+            if stalled > _PATIENCE:
                 return None
             self.bits = max(self.bits, reached)
         return self.u

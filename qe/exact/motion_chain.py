@@ -25,6 +25,7 @@ from qe.exact.balls import precision
 from qe.exact.field import FieldElement
 
 BITS = 80
+NEWTON_STEPS, CLOSE = 30, 1e-13  # at most, and the last one that floats can tell from none
 SPARE = 1.25
 """How much smaller than the box its image has to be: more than the rounding of ``radius`` and ``inner`` to floats."""
 
@@ -108,13 +109,13 @@ class MotionChain:
         with precision(BITS):
             target = _values(curve, _ball(s))
             q = [arb(v) for v in start]
-            for _ in range(30):
+            for _ in range(NEWTON_STEPS):
                 matrix, tip, _, _ = self._jacobian([v.mid() for v in q])
                 step = _solved(matrix, [a - b for a, b in zip(tip, target, strict=True)])
                 if step is None:
                     return None
                 q = [(a.mid() - b.mid()) for a, b in zip(q, step, strict=True)]
-                if all(abs(b.mid()) < 1e-13 for b in step):
+                if all(abs(b.mid()) < CLOSE for b in step):
                     return [float(v.mid()) for v in q]
             return None
 

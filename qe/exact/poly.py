@@ -23,7 +23,7 @@ from qe.exact.sparse_text import sparse_text
 from qe.spelling import quoted
 
 _PRIMES = (3, -7, 11, -13, 17, -19, 23, -29, 31, -37, 41, -43, 47, -53, 59, -61)
-_ZERO = fmpz(0)
+MOST_CACHED = 50_000  # values of a ring
 
 
 class Ring:
@@ -95,7 +95,7 @@ class Ring:
 
     def remember(self, key: object, value: object) -> None:
         """Store in the ring's cache, which is emptied when it has grown past a bound."""
-        if len(self.cache) > 50_000:
+        if len(self.cache) > MOST_CACHED:
             self.cache.clear()
         self.cache[key] = value
 
@@ -238,7 +238,7 @@ class Poly:
         if stored is None:
             slot, gen, rest, out = self.ring.slot(i), self.ring._gens[self.ring.slot(i)], self.p, []
             while rest:
-                lowest = rest.subs({slot: _ZERO})
+                lowest = rest.subs({slot: fmpz(0)})
                 out.append(self._like(lowest))
                 rest = (rest - lowest) / gen
             stored = memory[key] = tuple(out)

@@ -23,6 +23,8 @@ MAX_TERMS = 1_000_000
 MAX_BITS = 200_000_000
 MAX_DIGITS = 1_000_000
 _CHUNK = 4_000
+SURELY_FEW, SURELY_SHORT = 64, 4096
+"""A product of at most so many terms, with coefficients of so many bits, is within all limits: nothing is counted."""
 
 
 class TermError(InputError):
@@ -103,7 +105,7 @@ def product(left: Value, right: Value) -> Value:
     a, b = left.poly, right.poly
     count = a.term_count() * b.term_count()
     bits = left.bits + right.bits + min(a.term_count(), b.term_count()).bit_length()
-    if count > 64 or bits > 4096:
+    if count > SURELY_FEW or bits > SURELY_SHORT:
         degrees = [m + n for m, n in zip(a.degrees, b.degrees, strict=True)]
         if count > 100 * MAX_TERMS:
             raise TermError("the expanded product would have too many terms")

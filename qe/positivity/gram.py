@@ -19,7 +19,8 @@ from qe.exact.ring import Poly
 from qe.positivity.identity import Positive, sum_of
 from qe.positivity.samples import grid
 
-MOST_MONOMIALS, MOST_EQUATIONS, MOST_TERMS = 24, 160, 80
+MOST_MONOMIALS, MOST_EQUATIONS, MOST_TERMS, MOST_VARIABLES = 24, 160, 80, 6
+STEPS, LARGEST, NOISE = 60, 1e12, 1e-6  # of the solver; beyond these its point is not worth rounding
 _DENOMINATORS = (1, 2, 12, 60, 2**10, 2**20, 2**32)
 
 Matrix = list[list[Fraction]]
@@ -60,7 +61,7 @@ def _monomials(poly: Poly) -> list[tuple[int, ...]] | None:
     exponents = [e for e, _ in poly.terms()]
     used = poly.variables
     tops = [max(e[i] for e in exponents) // 2 if i in used else 0 for i in range(poly.ring.size)]
-    if any(max(e[i] for e in exponents) % 2 for i in used) or len(used) > 6:
+    if any(max(e[i] for e in exponents) % 2 for i in used) or len(used) > MOST_VARIABLES:
         return None
     low, high = (f(sum(e) for e in exponents) for f in (min, max))
     found = [m for m in product(*(range(t + 1) for t in tops)) if low <= 2 * sum(m) <= high]
@@ -159,9 +160,9 @@ def _inside(space: Solution, size: int) -> list[float] | None:
     cost = np.array([0.0] * count + [-1.0])
     settings = clarabel.DefaultSettings()
     settings.verbose = False
-    settings.max_iter = 60
+    settings.max_iter = STEPS
     cones = [clarabel.PSDTriangleConeT(size), clarabel.NonnegativeConeT(1)]
     nothing = sparse.csc_matrix((count + 1, count + 1))
     solution = clarabel.DefaultSolver(nothing, cost, sparse.csc_matrix(rows), right, cones, settings).solve()
     point = [float(z) for z in solution.x]
-    return point[:count] if all(abs(z) < 1e12 for z in point) and point[count] > -1e-6 else None
+    return point[:count] if all(abs(z) < LARGEST for z in point) and point[count] > -NOISE else None

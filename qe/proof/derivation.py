@@ -17,6 +17,9 @@ from qe.formula.traverse import children
 from qe.io.names import names_in
 from qe.proof.step import Place, Step
 
+SHOWN = 8
+"""So many steps are named in the short form."""
+
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Derivation:
@@ -32,8 +35,8 @@ class Derivation:
     is_complete: bool = False
 
     def __repr__(self) -> str:
-        rules = ", ".join(step.rule for step in self.steps[:8])
-        return f"Derivation({len(self.steps)} steps: {rules}{', …' if len(self.steps) > 8 else ''})"
+        rules = ", ".join(step.rule for step in self.steps[:SHOWN])
+        return f"Derivation({len(self.steps)} steps: {rules}{', …' if len(self.steps) > SHOWN else ''})"
 
     def to_latex(self) -> str:
         """The derivation as numbered LaTeX lines, each with the name of its rule."""

@@ -61,6 +61,12 @@ def test_notes():
     assert len(notes) == 2 and "differ in y" in notes[0] and "origin" in notes[1]
 
 
+@pytest.mark.parametrize("via", ["[[-1, 2, 3], [4, 1, 0]]", "[[4, 1, 0], [-1, 2, 3]]"])
+def test_the_strip_of_heights_lies_between_the_points_on_the_way(via):
+    strip = read_problem(text(via=via)).strip
+    assert (strip.low, strip.high, strip.heights) == (-1, 4, {"y": 1})
+
+
 BAD = {
     "start = [1,2]": ("start", "3 numbers", "2 values"),
     'start = [1,2,"x"]': ("start[2]", "fraction", '"x"'),

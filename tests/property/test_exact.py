@@ -5,6 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 from itertools import pairwise
 
+import pytest
 from flint import fmpq, fmpz_poly
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
@@ -51,6 +52,15 @@ def test_order(a: RealAlgebraic, b: RealAlgebraic, q: Fraction) -> None:
     assert low <= a <= high
     if a == b:
         assert hash(a) == hash(b)
+
+
+@pytest.mark.parametrize("side", [-1, 1])
+def test_order_beside_rational_numbers_closer_than_any_ball(side: int) -> None:
+    """Convergents p/q of the square root of 2, p^2 - 2 q^2 = -side, within 2^-3000 of it."""
+    root, p, q = max(real_roots(fmpz_poly([-2, 0, 1]))), 1, 1
+    while q.bit_length() < 1500 or p * p - 2 * q * q != -side:
+        p, q = p + 2 * q, p + q
+    assert root.compare_rational(fmpq(p, q)) == side
 
 
 @settings(max_examples=60)

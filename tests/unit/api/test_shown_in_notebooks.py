@@ -9,7 +9,7 @@ import pytest
 
 import bezier
 import qe
-from qe.exact.algebraic_text import in_latex
+from qe.exact.algebraic_text import format_root, in_latex
 
 SQRT2 = qe.RealAlgebraic.from_root([-2, 0, 1], 1, 2)
 
@@ -27,6 +27,11 @@ SQRT2 = qe.RealAlgebraic.from_root([-2, 0, 1], 1, 2)
 )
 def test_numbers(text: str, source: str) -> None:
     assert in_latex(text) == source
+
+
+def test_roots_as_text() -> None:
+    assert format_root((1, -3, 0, 1), 0) == "root(1, x^3 - 3*x + 1)"
+    assert format_root((-1, 1, 0, 0, 0, -2), 2) == "root(3, -2*x^5 + x - 1)"
 
 
 @pytest.mark.parametrize(

@@ -62,6 +62,12 @@ def test_tables() -> None:
     assert is_about(closed, read("ex x, y. x^2 + y^2 < 2")) is None
 
 
+def test_a_region_claims_no_equivalence() -> None:
+    described = cell_table("x^2 + y^2 < 1", "x y")
+    assert claim_of(described).answer is None
+    assert is_about(described, read("x^2 + y^2 < 1")) is None
+
+
 def test_bundles() -> None:
     one, other = witness("x > 0 and y = x", "1", "1"), substitution()
     bundle = Certificate.bundle([("first", one), ("second", other)])

@@ -27,6 +27,8 @@ WRONG: dict[str, tuple[Callable[[dict[str, Any]], object], str, str]] = {
         "not all roots with a solution are listed",
     ),
     "another order": (lambda p: p["roots"].reverse(), "payload.roots[1]", "in ascending order"),
+    "an overlap": (lambda p: p["roots"][1].update(low=p["roots"][0]["low"]), "payload.roots[1]", "in ascending order"),
+    "a common end": (lambda p: p["roots"][1].update(low=p["roots"][0]["high"]), "payload.roots[1]", "ascending"),
     "an empty interval": (lambda p: p["roots"][0].update(low=p["roots"][0]["high"]), "payload.roots[0]", "ascending"),
     "a solution less": (lambda p: p["roots"][0]["solutions"].pop(), "payload.roots[0].solutions", "not the number"),
     "the boxes of another root": (

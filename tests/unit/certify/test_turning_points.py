@@ -106,6 +106,7 @@ def test_places_of_linear_factors(text: str, side: int, points: list[tuple[str, 
     assert isinstance(given_, Atom)
     found = turns(given_, X, side)
     assert found is not None
+    assert all(t.point.branch == 0 for t in found)
     told = [(t.point.coefficients[0], t.point.shift, *t.conditions) for t in found]
     signs = {True: 1, False: -1}
     wanted = []

@@ -10,6 +10,7 @@ import pytest
 import qe
 from qe.certify.registry import RULES
 from qe.elimination.protocol import Problem
+from qe.engine.conditions import convex_conditions
 from qe.engine.run import SWITCHED, solve
 from qe.engine.strategy import LEFT_OUT_BY, METHODS, STRATEGY, Attempt, Scope, attempts
 from qe.formula.syntax import TRUE, Formula
@@ -41,6 +42,17 @@ def test_every_attempt_loads_and_every_method_has_one() -> None:
         method = attempt.load()
         assert attempt.method.startswith(method.name), attempt
     assert {attempt.method for attempt in STRATEGY} == set(METHODS)
+
+
+def test_every_method_that_can_be_asked_for_has_a_question() -> None:
+    assert set(QUESTIONS) == {method.value for method in Method} - {"auto"}
+
+
+@pytest.mark.parametrize("second", ["y^2 + z^2 < 4", "x + y + z >= 1", "y^2 - z^2 <= 4"])
+def test_critical_values_go_first_for_weak_convex_conditions_only(second: str) -> None:
+    assert convex_conditions(problem(QUESTIONS["critical"]), Options()) is not None
+    first = "y + z <= a + b" if ">=" in second else "(y - a)^2 + (z - b)^2 <= 1"
+    assert convex_conditions(problem(f"ex y, z. {first} and {second}"), Options()) is None
 
 
 def test_everything_but_simplification_and_decomposition_can_be_left_out() -> None:

@@ -111,6 +111,14 @@ def test_a_third_leading_monomial_alone_spares_no_pair() -> None:
     assert found.is_finite and len(found.monomials) == 2  # x^2 = a b, y = a/x, z = b/x
 
 
+@pytest.mark.parametrize("whole", [True, False])
+def test_a_remainder_is_whole_or_has_an_irreducible_first_monomial(whole: bool) -> None:
+    one = RING.constant(1)
+    (found,) = cases([{(2, 0): one, (0, 0): -A}], 2, Conditions.of(RING, (), (), tick))
+    scale, rest = found.remainder({(1, 3): one, (2, 1): B}, whole=whole)
+    assert scale.is_constant and rest == {(1, 3): scale, **({(0, 1): scale * A * B} if whole else {(2, 1): scale * B})}
+
+
 def test_empty_cases_are_left_out() -> None:
     assert Conditions.of(RING, (A * B - 1, B), (), tick).is_empty
     assert Conditions.of(RING, (A * B,), (A, B), tick).is_empty
