@@ -61,11 +61,10 @@ class Stage(Enum):
     searched by a SAT solver. ``SQUARES``: signs that sums of squares prove. ``MINISCOPING``: quantifiers are moved
     inwards, independent parts apart. ``EXCHANGE``: the sum and product of two variables that can be exchanged stand for
     them. ``SHIFT``: x^k is named x. ``GENERIC``: inequations that remove no interior are
-    dropped. ``CANCELLING``: multiples of equations are subtracted. ``SPLITTING``: an equation that factors, or whose
-    polynomial is a sum of squares, gives cases. ``EARLY``: small blocks that say equations are eliminated before what
-    stands beside them. ``NONZERO``, ``INFINITY``, ``CRITICAL``, ``CONVEX``, ``CGS``, ``WITNESS``: variables that are
-    only asked to be no root; truth at infinity first; critical values; convex optimisation; comprehensive Gröbner
-    systems; polynomial witnesses. ``NAMING``: a linear form that curved conditions look at gets a
+    dropped. ``CANCELLING``: multiples of equations are subtracted. ``SPLITTING``: an equation that factors gives
+    cases. ``EARLY``: small blocks that say equations are eliminated before what stands beside them. ``INFINITY``,
+    ``CRITICAL``, ``CONVEX``, ``CGS``, ``WITNESS``: truth at infinity first; critical values; convex optimisation;
+    comprehensive Gröbner systems; polynomial witnesses. ``NAMING``: a linear form that curved conditions look at gets a
     name. ``REDUNDANT``: parts of an answer that make no difference are dropped. ``SHORTENING``: a last look for a
     shorter or constant answer, these parts included.
     """
@@ -97,7 +96,6 @@ class Stage(Enum):
     CANCELLING = "cancelling"
     SPLITTING = "splitting"
     EARLY = "early"
-    NONZERO = "nonzero"
     INFINITY = "infinity"
     NAMING = "naming"
     CRITICAL = "critical"

@@ -163,11 +163,6 @@ def curved_with_parameters(problem: Problem, options: Options) -> str | None:
     return curved_in_the_block(problem, options) if len(problem.variables) == 1 and problem.free else None
 
 
-def parameters(problem: Problem, options: Options) -> str | None:
-    """There are free variables."""
-    return "a block with parameters" if problem.free else None
-
-
 def several_parameters(problem: Problem, options: Options) -> str | None:
     """More variables in all than decomposition takes."""
     total = len(problem.body.free)

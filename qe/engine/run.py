@@ -53,7 +53,7 @@ SWITCHED = {
     Stage.SHIFT: {StepKind.DEGREE_SHIFT},
     Stage.GENERIC: {StepKind.GENERIC, StepKind.BOUNDARY},
     Stage.CANCELLING: {StepKind.CANCELLING},
-    Stage.SPLITTING: {StepKind.FACTOR_SPLIT, StepKind.SUM_OF_SQUARES},
+    Stage.SPLITTING: {StepKind.FACTOR_SPLIT},
 }
 """The steps of preparation that a stage left out switches off."""
 

@@ -30,7 +30,6 @@ METHODS = {
     "search": ("qe.elimination.search.method", "BooleanSearch"),
     "cgs": ("qe.elimination.cgs", "ComprehensiveGroebner"),
     "coverings": ("qe.elimination.coverings", "Coverings"),
-    "only asked to be no root": ("qe.elimination.nonzero", "OnlyNonzero"),
     "infinity first": ("qe.elimination.vs.infinity_first", "InfinityFirst"),
     "linear form named": ("qe.elimination.named_form", "NamedForm"),
 }
@@ -46,7 +45,6 @@ LEFT_OUT_BY = {
     "samples": Stage.SAMPLES,
     "search": Stage.SEARCH,
     "cgs": Stage.CGS,
-    "only asked to be no root": Stage.NONZERO,
     "infinity first": Stage.INFINITY,
     "linear form named": Stage.NAMING,
 }
@@ -152,7 +150,6 @@ STRATEGY: tuple[Attempt, ...] = (
     Attempt(Scope.ASKED, "critical, convex universal", on.curved_in_the_block, SHORTCUT),
     Attempt(Scope.ASKED, "linear form named", on.several_parameters),
     Attempt(Scope.PREPARED, "critical", on.convex_conditions, SHORTCUT),
-    Attempt(Scope.BLOCK, "only asked to be no root", on.parameters),
     Attempt(Scope.BLOCK, "infinity first", on.one_variable_and_parameters),
     Attempt(Scope.BLOCK, "critical", on.convex_conditions, FIRST),
     Attempt(Scope.BLOCK, "vs", on.low_degrees, FIRST, complete_if_closed, shorten=True),

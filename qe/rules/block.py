@@ -9,7 +9,7 @@ from qe.formula.syntax import FALSE, Formula
 from qe.rules.balls import two_balls
 from qe.rules.block_context import BlockContext, Rule
 from qe.rules.cancelling import cancel_equations
-from qe.rules.cases import groebner_equations, split_factors, split_squares
+from qe.rules.cases import groebner_equations, split_factors
 from qe.rules.degree_shift import shift_degree
 from qe.rules.exchange import exchange_variables
 from qe.rules.generic import drop_inequations
@@ -39,7 +39,6 @@ RULES: tuple[Rule, ...] = (
     drop_what_can_be_met,
     fix_origin,
     drop_inequations,
-    split_squares,
     cancel_equations,
     groebner_equations,
     shift_degree,

@@ -10,7 +10,6 @@ from qe.rules import equations as eq
 from qe.rules.block_context import BlockContext, Found
 from qe.rules.step import StepKind
 from qe.rules.tree import NEVER, Any, Node, Pending
-from qe.simplify.minima import vanishing
 
 _FACTORS = 6  # a product of more factors than this is not split
 
@@ -57,17 +56,3 @@ def split_factors(variables: tuple[str, ...], body: Formula, context: BlockConte
         if factor.total_degree == 1 and len(factor.variables) == 1:
             earlier.append(factor)
     return Found(StepKind.FACTOR_SPLIT, eq.describe(factors), Any(tuple(nodes)))
-
-
-def split_squares(variables: tuple[str, ...], body: Formula, context: BlockContext) -> Found | None:
-    """An equation p = 0 where p >= 0 everywhere becomes the equations of the set where p is least."""
-    if StepKind.SUM_OF_SQUARES not in context.enabled:
-        return None
-    found, others = eq.split_equations(conjuncts(body))
-    for position, poly in enumerate(found):
-        squares = vanishing(poly)
-        if len(squares) > 1:
-            rest = [p for k, p in enumerate(found) if k != position]
-            least = conj((eq.equal_to_zero(rest), eq.equal_to_zero(squares), *others))
-            return Found(StepKind.SUM_OF_SQUARES, eq.describe((poly,)), Pending(variables, least))
-    return None

@@ -34,13 +34,12 @@ class StepKind(Enum):
     FACTOR_SPLIT = "case split on factors"
     DISTRIBUTION = "disjuncts with equations apart"
     SQUARES = "signs by sums of squares"
-    SUM_OF_SQUARES = "vanishing sum of squares split"
 
 
 ALL_STEPS = frozenset(StepKind)
 EQUATION_STEPS = frozenset({StepKind.LINEAR, StepKind.GUARDED_LINEAR, StepKind.GROEBNER, StepKind.CANCELLING})
 SYMMETRY_STEPS = frozenset({StepKind.TRANSLATION, StepKind.ROTATION, StepKind.SCALING, StepKind.MIRROR, StepKind.SHEAR})
 POINTWISE_STEPS = frozenset(
-    {StepKind.SIMPLIFY, StepKind.MINISCOPE, StepKind.GROEBNER, StepKind.FACTOR_SPLIT, StepKind.SUM_OF_SQUARES}
+    {StepKind.SIMPLIFY, StepKind.MINISCOPE, StepKind.GROEBNER, StepKind.FACTOR_SPLIT}
 )
 """The steps that change no variable: equivalences of the matrix at every point."""

@@ -8,17 +8,12 @@ from collections.abc import Iterator
 from typing import Any
 
 from qe.api.input import read_formula
-from qe.elimination.nonzero import OnlyNonzero
-from qe.elimination.protocol import Context, Problem
 from qe.engine.run import solve
 from qe.formula.syntax import Formula
 from qe.options import Budget, Options
 from qe.proof.certificate import Certificate
 from qe.proof.derivation import Derivation, put_together
-from qe.proof.run_log import RunLog
 from qe.proving.prover import proved
-from qe.rules.preparation import prepare
-from qe.rules.step import StepKind
 
 CASES = {
     "names": "(ex x. x = a) and (ex x. x = b)",
@@ -77,36 +72,16 @@ CASES = {
     "alternatives": "ex x, y. (x^2 < a or x^3*y > b) and (y < c or x > y)",
     "parts": "ex x, y, z. x^2 = a and x*y^2 + c <= 0 and x*z^2 > b",
     "chords": "ex x, y, z. y /= z and (x*(y - z) + y)^4 + a*(x*(y - z) + y)^2 + (x*(y - z) + y) + b = 0",
-    "sums of squares": "ex x, y. x^2 + (x - y)^2 = 0 and x + y > a",
-    "no roots": "ex x. a*x + b /= 0 and x /= c",
 }
-
-ALONE = {CASES["sums of squares"]: StepKind.SUM_OF_SQUARES, CASES["no roots"]: None}
-"""Steps of one rule alone, which others go before in the whole engine; None: of the method "nonzero"."""
 
 PROVED = Options(certify=True)
 
 
 def derived(text: str) -> tuple[Derivation, Formula]:
-    """The derivation of the engine's answer, and the answer; by one rule alone what that makes of the formula."""
+    """The derivation of the engine's answer, and the answer."""
     question = read_formula(text)
-    if text in ALONE:
-        return _by_one_rule(question, ALONE[text])
     found = solve(question, PROVED, Budget(20))
     return put_together(question, found.log.steps(), found.formula), found.formula
-
-
-def _by_one_rule(question: Formula, kind: StepKind | None) -> tuple[Derivation, Formula]:
-    log = RunLog()
-    if kind is None:
-        problem = Problem.of(question)
-        assert problem is not None
-        found = OnlyNonzero().run(problem, Context(Options(), Budget(), log))
-        assert found is not None
-        answer = found.formula
-    else:
-        answer = prepare(question, enabled={kind}, log=log).formula
-    return put_together(question, log.steps(), answer), answer
 
 
 @functools.cache

@@ -34,7 +34,6 @@ ALWAYS = {
     "case split on factors",
     "boundary apart",
     "signs by sums of squares",
-    "vanishing sum of squares split",
     "nested blocks of one kind gathered",
     "rotation of the axes",
     "mirror images of a convex set",

@@ -90,9 +90,12 @@ ELSEWHERE = {
 }
 """Rules whose evidence is altered in a file of its own."""
 
+FORMER = {"only asked to be no root", "vanishing sum of squares split"}
+"""Rules of older certificates, which nothing makes any more: see ``test_broken_producers``."""
+
 
 def test_every_rule_is_in_a_case_that_is_altered() -> None:
-    assert {rule for text in CASES.values() for rule in rules(text)} | set(ELSEWHERE) == set(RULES)
+    assert {rule for text in CASES.values() for rule in rules(text)} | set(ELSEWHERE) | FORMER == set(RULES)
     for name in ELSEWHERE.values():
         assert (Path(__file__).parent / f"{name}.py").exists()
 

@@ -33,7 +33,7 @@ STEP_SETS = [
     frozenset({StepKind.LINEAR}),
     frozenset({StepKind.LINEAR, StepKind.GUARDED_LINEAR}),
     frozenset({StepKind.LINEAR, StepKind.GUARDED_LINEAR, StepKind.SIMPLIFY, StepKind.MINISCOPE}),
-    frozenset({StepKind.GROEBNER, StepKind.FACTOR_SPLIT, StepKind.SUM_OF_SQUARES}),
+    frozenset({StepKind.GROEBNER, StepKind.FACTOR_SPLIT}),
     # these change values: their own tests are below
     ALL_STEPS - {StepKind.DEGREE_SHIFT, StepKind.SCALING, StepKind.TRANSLATION, StepKind.ROTATION},
 ]
