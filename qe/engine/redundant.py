@@ -21,7 +21,7 @@ from qe.formula.features import length
 from qe.formula.normal import nnf
 from qe.formula.syntax import FALSE, And, Atom, Formula, Or, Relation
 from qe.formula.traverse import atoms
-from qe.proof.step import Nested, Place
+from qe.proof.step import Nested, Place, Step
 from qe.simplify.simplify import simplify
 
 WORK, QUESTION_WORK, PATIENCE = 500, 100, 4
@@ -34,6 +34,9 @@ MANY_DEGREE = 3
 
 MOST_ATOMS, MOST_VARIABLES, MOST_TERMS = 60, 8, 400
 """A larger answer is left as it is."""
+
+MOST_ATOMS_ALONE = 40
+"""So many atoms of a larger answer are looked at as conditions on signs alone."""
 
 FEW_VARIABLES, FEW_TERMS = 4, 6
 """With more variables all polynomials that are not linear have so few terms: a single substitution of a root into
@@ -66,8 +69,10 @@ class Part:
 
 def without_redundant_parts(formula: Formula, context: Context) -> Formula:
     """The formula without parts that make no difference, as far as little work shows them."""
-    if context.decide is None or not _is_suited(formula):
+    if context.decide is None or not _tells_cases_apart(formula):
         return formula
+    if not _is_suited(formula):
+        return _without_excluded_parts(formula, context)
     points = _Points(formula.free)
     budget, kept, patience = context.budget.part(WORK), set[Formula](), PATIENCE
     while patience and budget.used <= WORK and (part := next(_unsettled(formula, points, kept), None)) is not None:
@@ -78,11 +83,7 @@ def without_redundant_parts(formula: Formula, context: Context) -> Formula:
             context.budget.check("shorten")
             found = None
         if found is not None and found.formula == FALSE:
-            nested = Nested(sentence, tuple(found.log.steps()), FALSE)
-            shorter = without_part(formula, part.place)
-            proof = {"at": list(part.place), "steps": nested}
-            formula = context.log.step("redundant part", formula, shorter, evidence={"proof": proof})
-            formula = context.log.step("simplification", formula, simplify(formula))
+            formula = _dropped(formula, part, Nested(sentence, tuple(found.log.steps()), FALSE), context)
             patience = PATIENCE
         else:
             kept.add(sentence)
@@ -91,10 +92,39 @@ def without_redundant_parts(formula: Formula, context: Context) -> Formula:
     return formula
 
 
-def _is_suited(formula: Formula) -> bool:
-    """Whether cases are told apart in it, and it is small enough; atoms side by side are seldom worth a question."""
+def _without_excluded_parts(formula: Formula, context: Context) -> Formula:
+    """The formula without parts that the signs of its own polynomials exclude: these need not be small for that."""
+    if sum(1 for _ in atoms(formula)) > MOST_ATOMS_ALONE:
+        return formula
+    points = _Points(formula.free)
+    points.fill(FIRST)
+    while (part := next(filter(_is_excluded, _by_size(formula, points)), None)) is not None:
+        nested = Nested(part.sentence, (Step("simplification", part.sentence, FALSE),), FALSE)
+        formula = _dropped(formula, part, nested, context)
+    return formula
+
+
+def _is_excluded(part: Part) -> bool:
+    """Whether simplification sees that the part never matters."""
+    return simplify(conj(part.conditions)) == FALSE
+
+
+def _dropped(formula: Formula, part: Part, nested: Nested, context: Context) -> Formula:
+    """The formula without a part, simplified; ``nested`` says why."""
+    proof = {"at": list(part.place), "steps": nested}
+    shorter = context.log.step("redundant part", formula, without_part(formula, part.place), evidence={"proof": proof})
+    return context.log.step("simplification", shorter, simplify(shorter))
+
+
+def _tells_cases_apart(formula: Formula) -> bool:
+    """Atoms side by side are seldom worth a question."""
     if not isinstance(formula, And | Or) or not any(isinstance(arg, And | Or) for arg in formula.args):
         return False
+    return all(isinstance(a, Atom) for a in atoms(formula)) and formula == nnf(formula)
+
+
+def _is_suited(formula: Formula) -> bool:
+    """Whether the formula is small enough for sentences about it to be decided."""
     size, terms = length(formula)
     if not 2 <= size <= MOST_ATOMS or terms > MOST_TERMS or len(formula.free) > MOST_VARIABLES:
         return False
@@ -102,7 +132,7 @@ def _is_suited(formula: Formula) -> bool:
         a.poly.total_degree > 1 and a.poly.term_count() > FEW_TERMS for a in atoms(formula)
     ):
         return False
-    return all(isinstance(a, Atom) for a in atoms(formula)) and formula == nnf(formula)
+    return True
 
 
 def without_part(formula: Formula, place: Sequence[int]) -> Formula:
@@ -118,11 +148,16 @@ def _unsettled(formula: Formula, points: _Points, kept: set[Formula]) -> Iterato
     found: list[Part] = []
     for count in (FIRST, COARSE, COARSE + FINE):
         points.fill(count)
-        found = [p for p in _silent(formula, points, (), (), points.everywhere) if _is_cheap(p)]
+        found = [p for p in _by_size(formula, points) if _is_cheap(p)]
         if not found:
             return
-    found.sort(key=lambda p: length(p.formula), reverse=True)
     yield from (p for p in found if p.sentence not in kept)
+
+
+def _by_size(formula: Formula, points: _Points) -> list[Part]:
+    """The parts of which no point tells that they matter, largest first."""
+    found = _silent(formula, points, (), (), points.everywhere)
+    return sorted(found, key=lambda part: length(part.formula), reverse=True)
 
 
 def _is_cheap(part: Part) -> bool:
