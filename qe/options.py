@@ -27,6 +27,7 @@ class Method(Enum):
     WITNESS = "witness"
     CGS = "cgs"
     COVERINGS = "coverings"
+    ROOTS = "roots"
 
 
 class Projection(Enum):
@@ -62,7 +63,8 @@ class Stage(Enum):
     polynomial is a sum of squares, gives cases. ``EARLY``: small blocks that say equations are eliminated before what
     stands beside them. ``NONZERO``, ``INFINITY``, ``CRITICAL``, ``CONVEX``, ``CGS``, ``WITNESS``: variables that are
     only asked to be no root; truth at infinity first; critical values; convex optimisation; comprehensive Gröbner
-    systems; polynomial witnesses. ``NAMING``: a linear form that curved conditions look at gets a
+    systems; polynomial witnesses. ``ROOTS``: one polynomial of degree 3 or more by signs of Hermite's
+    forms. ``NAMING``: a linear form that curved conditions look at gets a
     name. ``REDUNDANT``: parts of an answer that make no difference are dropped. ``SHORTENING``: a last look for a
     shorter or constant answer, these parts included.
     """
@@ -96,6 +98,7 @@ class Stage(Enum):
     EARLY = "early"
     NONZERO = "nonzero"
     INFINITY = "infinity"
+    ROOTS = "roots"
     NAMING = "naming"
     CRITICAL = "critical"
     CONVEX = "convex"

@@ -32,6 +32,7 @@ METHODS = {
     "coverings": ("qe.elimination.coverings", "Coverings"),
     "only asked to be no root": ("qe.elimination.nonzero", "OnlyNonzero"),
     "infinity first": ("qe.elimination.vs.infinity_first", "InfinityFirst"),
+    "roots by signs": ("qe.elimination.rootsigns.method", "RootsBySigns"),
     "linear form named": ("qe.elimination.named_form", "NamedForm"),
 }
 """Where each method stands; it is loaded when it is first tried."""
@@ -48,6 +49,7 @@ LEFT_OUT_BY = {
     "cgs": Stage.CGS,
     "only asked to be no root": Stage.NONZERO,
     "infinity first": Stage.INFINITY,
+    "roots by signs": Stage.ROOTS,
     "linear form named": Stage.NAMING,
 }
 """The stage without which a method is not tried. Decomposition takes what all others leave, and nobody but the caller
@@ -62,6 +64,7 @@ SPOKEN = {
     "witness": "the search for witnesses alone",
     "cgs": "elimination by comprehensive Gröbner systems alone",
     "coverings": "coverings alone",
+    "roots": "the signs of Hermite's forms alone",
     "infinity first": "looking at infinity alone",
 }
 """What a method is called where it does not suffice, if not by its name."""
@@ -156,6 +159,7 @@ STRATEGY: tuple[Attempt, ...] = (
     Attempt(Scope.BLOCK, "infinity first", on.one_variable_and_parameters),
     Attempt(Scope.BLOCK, "critical", on.convex_conditions, FIRST),
     Attempt(Scope.BLOCK, "vs", on.low_degrees, FIRST, complete_if_closed, shorten=True),
+    Attempt(Scope.BLOCK, "roots by signs", on.curved_and_many_parameters, SHORTCUT, shorten=True),
     Attempt(
         Scope.BLOCK,
         "vs, cubic",
