@@ -30,6 +30,7 @@ class Method(Enum):
     WITNESS = "witness"
     CGS = "cgs"
     COVERINGS = "coverings"
+    ROOTS = "roots"
 
 
 class Projection(Enum):
@@ -64,7 +65,8 @@ class Stage(Enum):
     dropped. ``CANCELLING``: multiples of equations are subtracted. ``SPLITTING``: an equation that factors gives
     cases. ``EARLY``: small blocks that say equations are eliminated before what stands beside them. ``INFINITY``,
     ``CRITICAL``, ``CONVEX``, ``CGS``, ``WITNESS``: truth at infinity first; critical values; convex optimisation;
-    comprehensive Gröbner systems; polynomial witnesses. ``NAMING``: a linear form that curved conditions look at gets a
+    comprehensive Gröbner systems; polynomial witnesses. ``ROOTS``: one polynomial of degree 3 or more by signs of
+    Hermite's forms. ``NAMING``: a linear form that curved conditions look at gets a
     name. ``REDUNDANT``: parts of an answer that make no difference are dropped. ``SHORTENING``: a last look for a
     shorter or constant answer, these parts included.
     """
@@ -97,6 +99,7 @@ class Stage(Enum):
     SPLITTING = "splitting"
     EARLY = "early"
     INFINITY = "infinity"
+    ROOTS = "roots"
     NAMING = "naming"
     CRITICAL = "critical"
     CONVEX = "convex"

@@ -33,7 +33,7 @@ def construct(table: CellTable, refine: Refine) -> tuple[Formula, CellTable]:
         cells = list(free_cells(table))
         clash = _clash(cells)
         if clash is None:
-            return _shortest(table.factors[: _free(table)], cells), table
+            return shortest(table.factors[: _free(table)], cells), table
         if clash in levels:
             raise InternalError("derivatives do not separate the cells, against Thom's lemma")
         levels |= {clash}
@@ -54,7 +54,7 @@ def formula_of_open_cells(factors: Factors, cells: list[FreeCell], owners: Mappi
         relation = (Relation.LT if strict else Relation.LE) if below else (Relation.GT if strict else Relation.GE)
         return atom(found.poly, relation)
 
-    return map_atoms(_shortest(factors, cells), closed)
+    return map_atoms(shortest(factors, cells), closed)
 
 
 def _free(table: CellTable) -> int:
@@ -84,7 +84,7 @@ def _clash(cells: list[FreeCell]) -> int | None:
     return None
 
 
-def _shortest(factors: Factors, cells: list[FreeCell]) -> Formula:
+def shortest(factors: Factors, cells: list[FreeCell]) -> Formula:
     """The shorter of a disjunction for the true cells and the negation of one for the false cells."""
     if all(c.truth for c in cells):
         return TRUE

@@ -36,6 +36,7 @@ from qe.certify.redundant import check_redundant
 from qe.certify.renaming import check_renaming
 from qe.certify.replayed_block import check_replayed_block
 from qe.certify.roots_counted import check_roots_counted
+from qe.certify.roots_by_signs import check_roots_by_signs
 from qe.certify.rotation import check_rotation
 from qe.certify.sentence import check_sentence
 from qe.certify.shear import check_shear
@@ -92,6 +93,7 @@ RULES: Mapping[str, Check] = {
     "alternatives": check_alternatives,
     "independent parts": check_independent_parts,
     "infinity first": check_infinity_first,
+    "roots by signs": check_roots_by_signs,
     "open block": check_open_block,
     "instance": check_sentence,
     "cells": check_table,

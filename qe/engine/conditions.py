@@ -206,6 +206,14 @@ def cubic_and_many_parameters(problem: Problem, options: Options) -> str | None:
     return f"a short try of roots of cubics before decomposing {total} variables"
 
 
+def curved_and_many_parameters(problem: Problem, options: Options) -> str | None:
+    """One variable, of degree 3 or more, and as many parameters."""
+    total = _sizes(problem)[1]
+    if len(problem.variables) > 1 or total <= CAD_VARIABLES or _degree(problem) < 3:
+        return None
+    return f"one variable of degree {_degree(problem)} and {total - 1} parameters"
+
+
 def _has_cubic(problem: Problem) -> bool:
     """Whether some polynomial has degree 3 in a quantified variable."""
     bound = frozenset(problem.variables)

@@ -31,6 +31,7 @@ METHODS = {
     "cgs": ("qe.elimination.cgs", "ComprehensiveGroebner"),
     "coverings": ("qe.elimination.coverings", "Coverings"),
     "infinity first": ("qe.elimination.vs.infinity_first", "InfinityFirst"),
+    "roots by signs": ("qe.elimination.rootsigns.method", "RootsBySigns"),
     "linear form named": ("qe.elimination.named_form", "NamedForm"),
 }
 """Where each method stands; it is loaded when it is first tried."""
@@ -46,6 +47,7 @@ LEFT_OUT_BY = {
     "search": Stage.SEARCH,
     "cgs": Stage.CGS,
     "infinity first": Stage.INFINITY,
+    "roots by signs": Stage.ROOTS,
     "linear form named": Stage.NAMING,
 }
 """The stage without which a method is not tried. Decomposition takes what all others leave, and nobody but the caller
@@ -60,6 +62,7 @@ SPOKEN = {
     "witness": "the search for witnesses alone",
     "cgs": "elimination by comprehensive Gröbner systems alone",
     "coverings": "coverings alone",
+    "roots": "the signs of Hermite's forms alone",
     "infinity first": "looking at infinity alone",
 }
 """What a method is called where it does not suffice, if not by its name."""
@@ -153,6 +156,7 @@ STRATEGY: tuple[Attempt, ...] = (
     Attempt(Scope.BLOCK, "infinity first", on.one_variable_and_parameters),
     Attempt(Scope.BLOCK, "critical", on.convex_conditions, FIRST),
     Attempt(Scope.BLOCK, "vs", on.low_degrees, FIRST, complete_if_closed, shorten=True),
+    Attempt(Scope.BLOCK, "roots by signs", on.curved_and_many_parameters, SHORTCUT, shorten=True),
     Attempt(
         Scope.BLOCK,
         "vs, cubic",

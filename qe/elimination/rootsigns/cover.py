@@ -1,0 +1,89 @@
+"""A short formula in the signs of given polynomials that tells true rows of signs from false ones."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+from qe.cells.formulas import shortest
+from qe.exact.ring import Poly
+from qe.formula.build import atom, conj, disj
+from qe.formula.syntax import FALSE, TRUE, And, Atom, Constant, Formula, Or, Relation
+from qe.formula.traverse import atoms
+from qe.proof.cells import FreeCell
+
+Signs = tuple[int, ...]
+
+LE, GE = Relation.LE, Relation.GE
+_CHARACTER = {1: "+", 0: "0", -1: "-"}
+
+
+@dataclass(frozen=True)
+class Rows:
+    """Rows of signs of polynomials that are not constant, no two of them multiples of each other by a number."""
+
+    polys: tuple[Poly, ...]
+    signs: tuple[Signs, ...]
+
+    @cached_property
+    def _columns(self) -> dict[Poly, tuple[int, dict[int, int]]]:
+        """By the polynomial of an atom: the sign of its factor, and where the column has which sign, as bits."""
+        found = {}
+        for k, p in enumerate(self.polys):
+            unit, normal = p.normal()
+            text = [row[k] for row in reversed(self.signs)]
+            masks = {s: int("0" + "".join("01"[t == s] for t in text), 2) for s in (1, 0, -1)}
+            found[normal] = (1 if unit > 0 else -1), masks
+        return found
+
+    def where(self, formula: Formula) -> int:
+        """The rows on which a formula holds, as bits."""
+        match formula:
+            case Atom(poly, relation):
+                turn, masks = self._columns[poly]
+                return sum(masks[turn * s] for s in relation.signs)
+            case And(args):
+                found = (1 << len(self.signs)) - 1
+                for arg in args:
+                    found &= self.where(arg)
+                return found
+            case Or(args):
+                found = 0
+                for arg in args:
+                    found |= self.where(arg)
+                return found
+            case Constant(value):
+                return (1 << len(self.signs)) - 1 if value else 0
+        raise TypeError(formula)
+
+    def formula(self, true: int, false: int, splitting: Sequence[Poly]) -> Formula:
+        """Holds on the true rows and not on the false ones; cases by the sign of a polynomial where that is shorter."""
+        if not true or not false:
+            return FALSE if not true else TRUE
+        best = shortest([self.polys], self._cells(true, True) + self._cells(false, False))
+        for k, p in enumerate(splitting):
+            for first, second in ((LE, GE), (GE, LE)):
+                found = self._divided(true, false, atom(p, first), atom(p, second), splitting[k + 1 :], length(best))
+                if length(found) < length(best):
+                    best = found
+        return best
+
+    def _divided(
+        self, true: int, false: int, first: Formula, second: Formula, splitting: Sequence[Poly], most: int
+    ) -> Formula:
+        """Two weak cases; where the polynomial is 0 one of them has to be met."""
+        here, there = self.where(first), self.where(second)
+        one = conj((first, self.formula(true & here & ~there, false & here, splitting)))
+        if length(one) >= most:
+            return one
+        return disj((one, conj((second, self.formula(true & there & ~self.where(one), false & there, splitting)))))
+
+    def _cells(self, bits: int, truth: bool) -> list[FreeCell]:
+        chosen = [k for k in range(len(self.signs)) if bits >> k & 1]
+        return [FreeCell((k,), ("".join(_CHARACTER[s] for s in self.signs[k]),), truth) for k in chosen]
+
+
+def length(formula: Formula) -> int:
+    """What is to be small: the sizes of the polynomials."""
+    return sum(a.poly.total_degree + a.poly.term_count() + 2 for a in atoms(formula))

@@ -1,0 +1,67 @@
+"""The leading minors of Hermite's forms of a polynomial with parameters, as polynomials in its coefficients.
+
+Let f = c_0 + … + c_n*x^n with a = c_n, p_k the sum of the k-th powers of its roots, g of degree m. Newton's identities
+make a^k*p_k a polynomial in the c_i. The leading minor of size k of the matrix Tr(g*x^(i+j)) is a sum of products of
+g(x_i) and squares of differences over k roots x_i (Cauchy, Binet), in each root of degree 2*(k - 1) + m; so
+a^(2*(k-1) + m) times it is a polynomial in the coefficients, which is what is found here. Its sign is that of the minor
+for even m, and for odd m that times the sign of a.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import combinations
+
+from qe.errors import Unable
+from qe.exact.ring import Poly
+from qe.options import Budget
+
+MOST_TERMS = 4_000
+"""With more terms in a minor the answer is of no use."""
+
+
+def power_sums(c: Sequence[Poly], most: int) -> list[Poly]:
+    """a^k times the sums of the k-th powers of the roots, for k up to ``most``."""
+    n, a = len(c) - 1, c[-1]
+    found = [a.ring.constant(n)]
+    for k in range(1, most + 1):
+        total = a.ring.constant(0)
+        for i in range(1, min(k, n) + 1):
+            total = total - a ** (i - 1) * c[n - i] * (found[k - i] if i < k else k)
+        found.append(total)
+    return found
+
+
+def minors(c: Sequence[Poly], g: Sequence[Poly], budget: Budget) -> list[Poly]:
+    """Those of the form of g, of sizes 1 to n, as above. Raises ``Unable`` where they grow past their limit."""
+    n, m, a = len(c) - 1, len(g) - 1, c[-1]
+    sums = power_sums(c, 2 * n - 2 + m)
+    zero = a.ring.constant(0)
+    entries = [sum((p * a ** (m - j) * sums[k + j] for j, p in enumerate(g) if p), start=zero) for k in range(2 * n - 1)]
+    found, previous = list[Poly](), {(): a.ring.constant(1)}
+    for k in range(n):
+        previous = _wider(entries, previous, k, n, budget)
+        spare = k * (k - 1 + m)
+        minor = previous[tuple(range(k + 1))]
+        found.append(minor.exact_divide(a**spare) if spare and a != 1 else minor)
+    return found
+
+
+Minors = dict[tuple[int, ...], Poly]
+
+
+def _wider(entries: Sequence[Poly], previous: Minors, k: int, n: int, budget: Budget) -> Minors:
+    """The minors of the first k + 1 rows of the matrix with entries[i + j], expanded along the last of them."""
+    found: Minors = {}
+    for columns in combinations(range(n), k + 1):
+        budget.check("minors of Hermite's forms")
+        total = entries[0].ring.constant(0)
+        for position, column in enumerate(columns):
+            entry, rest = entries[k + column], previous[columns[:position] + columns[position + 1 :]]
+            if entry and rest:
+                budget.spend(1 + entry.term_count() * rest.term_count() // 1_000)
+                total = total + entry * rest * (-1) ** (k - position)
+        if total.term_count() > MOST_TERMS:
+            raise Unable("a minor of a form of Hermite grows past its limits")
+        found[columns] = total
+    return found

@@ -1,0 +1,189 @@
+"""Reading a block about the roots, or the sign, of one polynomial on the line, on an interval, or under a condition.
+
+On an interval with the ends l and u the variable is replaced by (l + u*y)/(1 + y), which maps y > 0 onto it if l < u;
+above l by l + y, below u by u - y. With the denominators multiplied out, which are positive, f becomes a polynomial in
+y of the same degree at most, whose constant coefficient is a positive multiple of the value at l, or at u where there
+is no l, and whose coefficient of degree n that at u where there are both.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from math import lcm
+
+from qe.elimination.rootsigns.theory import REAL, Place, Root, RootType, Shape, count
+from qe.errors import Unable
+from qe.exact.ring import Poly
+from qe.formula.build import atom, conj, exists
+from qe.formula.syntax import TRUE, Atom, Formula, Relation
+from qe.formula.traverse import conjuncts
+
+EQ, LT, LE, GT, GE = Relation.EQ, Relation.LT, Relation.LE, Relation.GT, Relation.GE
+HIGHEST = {Place.LINE: 6, Place.RAY: 4, Place.CONDITION: 4}
+"""Degrees up to which rows of signs are listed."""
+MOST_TERMS = 2_000
+
+
+@dataclass(frozen=True, slots=True)
+class Question:
+    """Whether some y, in the place, has f(y) relation 0. ``f``: coefficients, the constant one first, the last not 0.
+
+    ``relation`` is one of =, <, <=. ``g``, ``sign``: what else is asked, in the place CONDITION. ``closed``: whether y =
+    0, and whether y = oo, takes part, in the place RAY. ``side``: a condition on the parameters besides.
+    """
+
+    f: tuple[Poly, ...]
+    relation: Relation
+    place: Place
+    g: tuple[Poly, ...] = ()
+    sign: Relation = GT
+    closed: tuple[bool, bool] = (False, False)
+    side: Formula = TRUE
+
+    @property
+    def degree(self) -> int:
+        return len(self.f) - 1
+
+    @property
+    def shape(self) -> Shape:
+        """Squares are needed only where rows of signs without them decide nothing."""
+        invariant = self.degree == 4 and self.relation is LT
+        return Shape(self.degree, self.place, len(self.g) % 2 == 0, False, invariant)
+
+    def holds(self, lead: int, kind: RootType) -> bool:
+        """The answer where the leading coefficient has the sign ``lead``, not 0, and the roots are such.
+
+        Where f > 0 far out it is < 0 somewhere iff it changes its sign, at a root of odd multiplicity.
+        """
+        if self.place is Place.CONDITION:
+            return count(kind, *(Root(s) for s in self.sign.signs)) > 0
+        inside = REAL if self.place is Place.LINE else (Root.POSITIVE,)
+        if self.relation is LT:
+            odd = any(r in inside and m % 2 for r, m in kind)
+            return lead < 0 or odd or (self.place is Place.LINE and self.degree % 2 == 1)
+        if self.closed[0]:
+            inside = (Root.ZERO, Root.POSITIVE)
+        return count(kind, *inside) > 0 or (self.relation is LE and lead < 0)
+
+    def degenerate(self, x: int) -> Formula:
+        """The question where the leading coefficient is 0."""
+        if self.closed[1] and self.relation is not LT:
+            return TRUE
+        y, ring = self.f[0].ring.gen(x), self.f[0].ring
+        body: list[Formula] = [atom(_value(self.f[:-1], y), self.relation)]
+        if self.place is Place.RAY:
+            body.append(atom(y, GE if self.closed[0] else GT))
+        if self.place is Place.CONDITION:
+            body.append(atom(_value(self.g, y), self.sign))
+        return exists([ring.names[x]], conj(body))
+
+
+def read(body: Formula, x: int) -> Question | None:
+    """The question that ``ex x. body`` asks, with the variable y named x; None for one of another kind."""
+    parts = conjuncts(body)
+    found = [a for a in parts if isinstance(a, Atom) and a.poly.degree(x) > 0]
+    if len(found) < len(parts):
+        return None
+    bounds = [a for a in found if a.poly.degree(x) == 1 and a.poly.leading(x).is_constant and a.relation in _ENDS]
+    others = [a for a in found if a not in bounds]
+    equations = [a for a in others if a.relation is EQ]
+    if len(others) == 2 and len(equations) == 1 and not bounds:
+        return _under_condition(equations[0], next(a for a in others if a not in equations), x)
+    if len(others) != 1 or others[0].relation is Relation.NE:
+        return None
+    if not 2 <= others[0].poly.degree(x) <= HIGHEST[Place.RAY if bounds else Place.LINE]:
+        return None
+    relation, poly = others[0].relation, others[0].poly
+    if relation in (GT, GE):
+        relation, poly = relation.flipped, -poly
+    if not bounds:
+        return Question(poly.coefficients(x), relation, Place.LINE)
+    return _on_interval(poly, relation, bounds, x)
+
+
+_ENDS = (LT, LE, GT, GE)
+
+
+def _under_condition(equation: Atom, condition: Atom, x: int) -> Question | None:
+    f, g = equation.poly.coefficients(x), condition.poly.coefficients(x)
+    if not 2 < len(f) <= HIGHEST[Place.CONDITION] + 1 or not 1 < len(g) <= len(f):
+        return None
+    return Question(f, EQ, Place.CONDITION, g, condition.relation)
+
+
+@dataclass(frozen=True, slots=True)
+class _End:
+    """The end top/bottom, bottom > 0, of an interval to the right (``lower``) or left of it."""
+
+    top: Poly
+    bottom: int
+    lower: bool
+    closed: bool
+
+
+def _end(bound: Atom, x: int) -> _End:
+    rest, slope = bound.poly.coefficients(x)
+    k = slope.constant_value()
+    lower = (bound.relation in (GT, GE)) == (k > 0)
+    return _End(-rest if k > 0 else rest, abs(k), lower, bound.relation in (LE, GE))
+
+
+def _on_interval(poly: Poly, relation: Relation, bounds: Sequence[Atom], x: int) -> Question | None:
+    ends = [_end(b, x) for b in bounds]
+    lower, upper = [e for e in ends if e.lower], [e for e in ends if not e.lower]
+    if len(lower) > 1 or len(upper) > 1:
+        return None
+    f, one, zero = poly.coefficients(x), poly.ring.constant(1), poly.ring.constant(0)
+    if not upper or not lower:
+        (end,) = ends
+        turn = end.bottom if end.lower else -end.bottom
+        moved = _composed(f, (end.top, one * turn), (one * end.bottom,))
+        return Question(moved, relation, Place.RAY, closed=(end.closed, False))
+    (low,), (high,) = lower, upper
+    common = lcm(low.bottom, high.bottom)
+    l, u = low.top * (common // low.bottom), high.top * (common // high.bottom)
+    moved = _composed(f, (l, u), (one * common, one * common))
+    while not moved[-1] and len(moved) > 1:
+        moved = moved[:-1]
+    found = Question(moved, relation, Place.RAY, closed=(low.closed, high.closed))
+    side = atom(u - l, GE if low.closed and high.closed else GT) if u - l != zero else None
+    if side is None:
+        return None
+    return replace(found, side=side) if len(moved) == len(f) else None
+
+
+def _composed(f: Sequence[Poly], top: Sequence[Poly], bottom: Sequence[Poly]) -> tuple[Poly, ...]:
+    """The coefficients of the sum of f_i * top^i * bottom^(n-i), for linear ``top`` and ``bottom``."""
+    found, power = (f[-1],), (f[-1].ring.constant(1),)
+    for c in reversed(f[:-1]):
+        power = _product(power, bottom)
+        found = _product(found, top)
+        found = tuple(p + c * q if k < len(power) else p for k, (p, q) in enumerate(_both(found, power)))
+        if sum(p.term_count() for p in found) > MOST_TERMS:
+            raise Unable("a polynomial grows past its limits on an interval")
+    return found
+
+
+def _both(left: tuple[Poly, ...], right: tuple[Poly, ...]) -> list[tuple[Poly, Poly]]:
+    zero = left[0].ring.constant(0)
+    size = max(len(left), len(right))
+    wide = [(*row, *(zero,) * (size - len(row))) for row in (left, right)]
+    return list(zip(*wide, strict=True))
+
+
+def _product(left: Sequence[Poly], right: Sequence[Poly]) -> tuple[Poly, ...]:
+    zero = left[0].ring.constant(0)
+    found = [zero] * (len(left) + len(right) - 1)
+    for i, p in enumerate(left):
+        for j, q in enumerate(right):
+            found[i + j] = found[i + j] + p * q
+    return tuple(found)
+
+
+def _value(f: Sequence[Poly], y: Poly) -> Poly:
+    """The polynomial with these coefficients."""
+    found = y.ring.constant(0)
+    for c in reversed(f):
+        found = found * y + c
+    return found
