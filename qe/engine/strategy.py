@@ -174,6 +174,7 @@ STRATEGY: tuple[Attempt, ...] = (
     Attempt(Scope.BLOCK, "cgs", on.never),
     Attempt(Scope.INNER, "cgs", on.never),
     Attempt(Scope.BLOCK, "coverings", on.never),
+    Attempt(Scope.NESTED, "coverings", on.never),
     Attempt(Scope.NESTED, "cad", on.complete),
 )
 
