@@ -6,7 +6,8 @@ level; ``line``, what is known of the first axis. A line has ``used`` (indices o
 and ``intervals``: ``first`` and ``last`` position covered (sector k is 2*k, what lies between it and the next is
 2*k + 1), ``at`` (the position of the sample), ``own`` (the factors of the level on which it depends, or more),
 ``lower`` and ``upper`` (one of these with a root at the end, null where there is none), and either ``atoms`` (whose
-truth at the sample decides the matrix) or the ``line`` over the sample.
+truth at the sample decides the matrix) or the ``line`` over the sample. ``own`` is null where nobody asks what holds
+beside the sample.
 
 THEOREM. Let an interval depend on the factors of its atoms, or on those on which the line over its sample does; let the
 factors of its own level (squarefree and coprime, as their discriminants and resultants are not zero) vanish nowhere on
@@ -134,8 +135,9 @@ class _Walk:
     limits: Limits
     projected: dict[tuple[int, int, int], Poly] = field(default_factory=dict)
 
-    def line(self, entry: Entry, sample: Sample, signs: Signs) -> _Known:
-        """What is known of a line, found correct, or ``CertificateRejected``. ``signs``: in the free variables."""
+    def line(self, entry: Entry, sample: Sample, signs: Signs, *, beside: bool = True) -> _Known:
+        """What is known of a line, found correct, or ``CertificateRejected``. ``signs``: in the free variables;
+        ``beside``: whether it is asked on what it depends."""
         self.limits.tick()
         level = sample.depth
         if level >= len(self.lists.lists):
@@ -151,7 +153,7 @@ class _Walk:
         else:
             _covers(parts, 2 * len(line.sectors) - 2, intervals)
         truth = truths.pop() if len(truths) == 1 else None
-        if level == 0 or (kind and truth is decides and self.question.is_leading(level)):
+        if level == 0 or not beside:
             return _Known(frozenset(), truth)
         if any(part.pinned for part in parts):
             return _Known(frozenset(), truth, pinned=True)
@@ -172,20 +174,24 @@ class _Walk:
             raise entry.fail("one reason expected")
         if not low <= place <= high <= 2 * len(line.sectors) - 2:
             raise entry.fail("its places do not ascend within the line")
-        own = frozenset(i.integer() for i in listed.items())
+        beside = listed.value is not None
+        own = frozenset(i.integer() for i in listed.items()) if beside else frozenset[int]()
         if not own <= line.rows.keys():
             raise listed.fail("factors expected that the line uses and that are not zero on it")
         if not self.question.kinds[level]:
             signs = {**signs, **{(level, i): line.sign(i, place) for i in own}}
         by_line = reasons[0].path.endswith(".line")
         if by_line:
-            found = self.line(reasons[0], line.sample.extended(level, line.number(place, at)), signs)
+            extended = line.sample.extended(level, line.number(place, at))
+            found = self.line(reasons[0], extended, signs, beside=beside)
         else:
             found = self._decided(reasons[0], line, level, place)
         if level == self.question.free - 1 or (level < self.question.free and not by_line):
             self._answered(found.truth, signs, entry)
-        if self.question.is_leading(level) and found.truth is (self.question.kinds[level] == "E"):
-            return _Part(low, high, found.truth, frozenset(), frozenset(), None, None, pinned=False)
+        if not beside:
+            if not self.question.is_leading(level) or found.truth is not (self.question.kinds[level] == "E"):
+                raise listed.fail("it is asked what holds beside the sample")
+            return _Part(low, high, found.truth, own, frozenset(), None, None, pinned=False)
         zero = [i for at_level, i in found.depends if at_level == level and i in line.zero]
         needed = {i for at_level, i in found.depends if at_level == level and i not in line.zero}
         if not needed <= own:

@@ -17,7 +17,7 @@ which cover the line where the I_j do. (P_j is delineable there: McCallum 1998, 
 order, and so do neighbouring bounds.)
 
 A polynomial that is zero on the whole line is so wherever its coefficients are zero. That is all that atoms need of it.
-For a line above its order is needed, which is constant on {s} x I where a partial derivative of least order has no zero;
+A line above needs its order, which is constant on {s} x I where a partial derivative of least order has no zero;
 so what follows holds over the point s only, and the intervals below have to be points.
 """
 
@@ -76,7 +76,7 @@ class Search:
             found = self._at(line, position, decided)
             ends = bool(kind) and found.truth is (kind == "E")
             if ends and self.is_leading(level):
-                return Cover(point, found.truth, (Interval(None, None, False, (), (), found),))
+                return Cover(point, found.truth, (Interval(None, None, False, (), (), found, is_bare=True),))
             interval = line.add(found, self._used(found))
             if ends:
                 return Cover(point, found.truth, (interval,))

@@ -58,7 +58,7 @@ class _Writer:
     def _interval(self, interval: Interval, cuts: _Cuts) -> dict[str, object]:
         first, last = (cuts.moved(p) for p in interval.reach(cuts.stack))
         places = self.levels[cuts.stack.point.depth]
-        own = sorted(places[f] for f in interval.own)
+        own = None if interval.is_bare else sorted(places[f] for f in interval.own)
         found: dict[str, object] = {"first": first[0], "last": last[1], "at": cuts.sample(interval), "own": own}
         found["lower"] = None if interval.lower is None else places[interval.lower.poly]
         found["upper"] = None if interval.upper is None else places[interval.upper.poly]

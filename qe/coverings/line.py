@@ -57,6 +57,7 @@ class Interval:
 
     ``own``: the polynomials in the variable of the line that were used, ``below``: those of lower level. ``zero``:
     polynomials used that are zero on the whole line. ``pinned``: this holds over the sample of the line only.
+    ``is_bare``: the sample decides, and nobody asks what holds beside it.
     """
 
     lower: Bound | None
@@ -67,6 +68,7 @@ class Interval:
     found: Found
     zero: tuple[Poly, ...] = ()
     pinned: bool = False
+    is_bare: bool = False
 
     def reach(self, stack: Isolation) -> tuple[int, int]:
         """The first and last position of a stack that it covers: sector k is 2*k, section k is 2*k + 1."""
@@ -104,9 +106,7 @@ class Line:
         level = point.depth
         self.point, self.whole, self.thom = point, whole, thom
         self.intervals: list[Interval] = []
-        self._open = [
-            a for a in atoms(formula) if isinstance(a, Atom) and a not in decided and a.poly.level == level
-        ]
+        self._open = [a for a in atoms(formula) if isinstance(a, Atom) and a not in decided and a.poly.level == level]
         self.isolation = isolate_over(point, tuple(FactorSet(a.poly for a in self._open).at(level)))
 
     def uncovered(self) -> int | None:
