@@ -81,6 +81,8 @@ class Search:
             if ends:
                 return Cover(point, found.truth, (interval,))
         intervals = line.chosen()
+        if level == 0 and not kind:
+            intervals = line.with_all_signs(intervals)
         truths = {interval.found.truth for interval in intervals}
         return Cover(point, truths.pop() if len(truths) == 1 else None, intervals)
 

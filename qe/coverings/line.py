@@ -236,6 +236,19 @@ class Line:
             reached = last + 1
         return tuple(kept)
 
+    def with_all_signs(self, intervals: tuple[Interval, ...]) -> tuple[Interval, ...]:
+        """The intervals with all polynomials that keep their sign there: on the first line nothing is projected, and
+        the more signs are known, the shorter is an answer."""
+        sections = [{self.isolation.polys[j] for j in s.members} for s in self.isolation.sections]
+        polys = dict.fromkeys(f for interval in intervals for f in interval.own)
+        found = []
+        for interval in intervals:
+            first, last = interval.reach(self.isolation)
+            inside = set() if interval.is_point else set[Poly]().union(*sections[first // 2 : (last + 1) // 2])
+            own = (*interval.own, *(f for f in polys if f not in interval.own and f not in inside))
+            found.append(replace(interval, own=own))
+        return tuple(found)
+
 
 def _delineating(point: Point, poly: Poly) -> Poly:
     """A partial derivative of least order that is not zero on the whole line over the point.
