@@ -12,9 +12,10 @@ from qe.errors import BudgetExceeded
 from qe.exact.algebraic import real_roots
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import convert
+from qe.formula.normal import Quantifier
 from qe.formula.syntax import Formula
 from qe.formula.traverse import polynomials
-from qe.options import Budget, Projection
+from qe.options import Budget, Options, Projection, Stage
 
 Found = TypeVar("Found")
 
@@ -56,6 +57,28 @@ def choose_order(
     best = preferred(usual, other)
     figures = ", ".join(f"{c.rule.value} {c.sotd} with {c.roots} roots" for c in (usual, other))
     return best.order, f"{best.rule.value} (size of projection: {figures})"
+
+
+def variable_order(
+    prefix: Sequence[tuple[Quantifier, tuple[str, ...]]],
+    free: Sequence[str],
+    matrix: Formula,
+    options: Options,
+    budget: Budget,
+) -> tuple[tuple[str, ...], tuple[str, ...], str]:
+    """The variables, free ones first, blocks never mixed; the quantifier of each; and why this order.
+
+    Within a block the variables that the caller named come first, in the caller's order.
+    """
+    parts = [("", tuple(free)), *((kind.value, names) for kind, names in prefix)]
+    blocks: list[tuple[str, ...]] = []
+    for _, names in parts:
+        named = [v for v in options.order or () if v in names]
+        rest = tuple(v for v in names if v not in named)
+        blocks += [*((v,) for v in named), *([rest] if rest else [])]
+    rule = OrderRule.WRITTEN if Stage.ORDER in options.without else OrderRule.BY_PROJECTION
+    order, reason = choose_order(matrix, blocks, rule=rule, budget=budget)
+    return order, tuple(kind for kind, names in parts for _ in names), reason
 
 
 def _unless_heavy(trial: Callable[[], Found], budget: Budget) -> Found | None:

@@ -33,11 +33,25 @@ def construct(table: CellTable, refine: Refine) -> tuple[Formula, CellTable]:
         cells = list(free_cells(table))
         clash = _clash(cells)
         if clash is None:
-            return shortest(table.factors[: _free(table)], cells), table
+            return formula_of_cells(table.factors[: _free(table)], cells), table
         if clash in levels:
             raise InternalError("derivatives do not separate the cells, against Thom's lemma")
         levels |= {clash}
         table = refine(levels)
+
+
+def undistinguished(factors: Factors, cells: list[FreeCell]) -> tuple[FreeCell, FreeCell] | None:
+    """A true and a false cell that differ in no sign that is known on both, or None."""
+    signs = SignTable(factors, cells)
+    everything = (1 << len(signs.false)) - 1
+    for k, cell in enumerate(signs.true):
+        left = everything
+        for x in signs.literals:
+            if x.holds >> k & 1:
+                left &= x.keeps
+        if left:
+            return cell, signs.false[(left & -left).bit_length() - 1]
+    return None
 
 
 def formula_of_open_cells(factors: Factors, cells: list[FreeCell], owners: Mapping[Poly, int]) -> Formula:
@@ -54,7 +68,7 @@ def formula_of_open_cells(factors: Factors, cells: list[FreeCell], owners: Mappi
         relation = (Relation.LT if strict else Relation.LE) if below else (Relation.GT if strict else Relation.GE)
         return atom(found.poly, relation)
 
-    return map_atoms(shortest(factors, cells), closed)
+    return map_atoms(formula_of_cells(factors, cells), closed)
 
 
 def _free(table: CellTable) -> int:
@@ -84,8 +98,9 @@ def _clash(cells: list[FreeCell]) -> int | None:
     return None
 
 
-def shortest(factors: Factors, cells: list[FreeCell]) -> Formula:
-    """The shorter of a disjunction for the true cells and the negation of one for the false cells."""
+def formula_of_cells(factors: Factors, cells: list[FreeCell]) -> Formula:
+    """The shorter of a disjunction for the true cells and the negation of one for the false cells, which together are
+    everything and differ in signs. On every cell its truth follows from the signs that are known there."""
     if all(c.truth for c in cells):
         return TRUE
     if not any(c.truth for c in cells):

@@ -25,20 +25,22 @@ def value(formula: Formula, decided: Decided) -> Truth:
     raise InternalError(f"not in negation normal form: {type(formula).__name__}")
 
 
-def false_by(formula: Formula, decided: Decided) -> frozenset[Atom]:
-    """Few atoms, all of them false, that make a false formula false: an implicant of its negation.
+def decided_by(formula: Formula, decided: Decided, truth: bool) -> frozenset[Atom]:
+    """Few atoms, all of this truth value, that give it to a formula that has it: an implicant of it or its negation.
 
-    Of a conjunction one false member is enough, and that of lowest level and degree is taken.
+    Of a conjunction that is false one false member is enough, and that of lowest level and degree is taken; dually of a
+    disjunction that is true.
     """
     match formula:
         case Constant():
             return frozenset()
         case Atom():
             return frozenset((formula,))
-        case Or(args):
-            return frozenset[Atom]().union(*(false_by(a, decided) for a in args))
-        case And(args):
-            return min((false_by(a, decided) for a in args if value(a, decided) is False), key=_weight)
+        case And(args) | Or(args) if isinstance(formula, And) is truth:
+            return frozenset[Atom]().union(*(decided_by(a, decided, truth) for a in args))
+        case And(args) | Or(args):
+            enough = (decided_by(a, decided, truth) for a in args if value(a, decided) is truth)
+            return min(enough, key=_weight)
     raise InternalError(f"not in negation normal form: {type(formula).__name__}")
 
 

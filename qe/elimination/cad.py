@@ -8,8 +8,7 @@ from dataclasses import dataclass
 
 from qe.cad.decompose import Decomposition as Table
 from qe.cad.decompose import Tactics, decompose
-from qe.cad.order import OrderRule
-from qe.cad.order_by_projection import choose_order
+from qe.cad.order_by_projection import variable_order
 from qe.cells.follows import follows
 from qe.cells.formulas import construct
 from qe.cells.sampled_cells import deciding_point
@@ -19,7 +18,7 @@ from qe.exact.number import Values
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import convert
 from qe.formula.features import is_small, length
-from qe.formula.normal import Quantifier, nnf, prenex
+from qe.formula.normal import nnf, prenex
 from qe.formula.syntax import FALSE, TRUE, Constant, Formula
 from qe.formula.traverse import polynomials
 from qe.options import Budget, Options, Projection, Stage
@@ -200,25 +199,3 @@ def _figures(order: Sequence[str], reason: str, found: Table, seconds: float) ->
         "equational constraints": list(found.restricted),
         "seconds": round(seconds, 6),
     }
-
-
-def variable_order(
-    prefix: Sequence[tuple[Quantifier, tuple[str, ...]]],
-    free: Sequence[str],
-    matrix: Formula,
-    options: Options,
-    budget: Budget,
-) -> tuple[tuple[str, ...], tuple[str, ...], str]:
-    """The variables, free ones first, blocks never mixed; the quantifier of each; and why this order.
-
-    Within a block the variables that the caller named come first, in the caller's order.
-    """
-    parts = [("", tuple(free)), *((kind.value, names) for kind, names in prefix)]
-    blocks: list[tuple[str, ...]] = []
-    for _, names in parts:
-        named = [v for v in options.order or () if v in names]
-        rest = tuple(v for v in names if v not in named)
-        blocks += [*((v,) for v in named), *([rest] if rest else [])]
-    rule = OrderRule.WRITTEN if Stage.ORDER in options.without else OrderRule.BY_PROJECTION
-    order, reason = choose_order(matrix, blocks, rule=rule, budget=budget)
-    return order, tuple(kind for kind, names in parts for _ in names), reason

@@ -1,49 +1,108 @@
-"""Cylindrical algebraic coverings as a method: sentences of one block."""
+"""Cylindrical algebraic coverings as a method: any prefix, with and without parameters."""
 
 from __future__ import annotations
 
-from qe.cad.order import OrderRule
-from qe.cad.order_by_projection import choose_order
-from qe.coverings.cover import Cover, Search
+from dataclasses import dataclass, replace
+from itertools import count
+
+from qe.cad.order_by_projection import variable_order
+from qe.cells.formulas import formula_of_cells, undistinguished
+from qe.coverings.cover import Search
 from qe.coverings.evidence import evidence
+from qe.coverings.line import Cover
+from qe.coverings.parameters import parameter_cells
 from qe.elimination.protocol import Context, Outcome, Problem
+from qe.errors import InternalError
+from qe.exact.number import Values
 from qe.exact.ring import Ring
-from qe.exact.sample import Point
 from qe.formula.build import convert
-from qe.formula.syntax import FALSE, TRUE, Constant
-from qe.options import Options, Stage
+from qe.formula.normal import nnf, prenex
+from qe.formula.syntax import FALSE, TRUE, Constant, Formula
+from qe.options import Options
+from qe.proof.cells import FreeCell
+from qe.simplify.simplify import simplify
 
 
 class Coverings:
-    """Sentences of one block, decided by coverings of lines (see ``qe.coverings.cover``)."""
+    """Any block, with what is quantified inside it, by coverings of lines (see ``qe.coverings.cover``)."""
 
     name = "coverings"
 
     def suits(self, problem: Problem, options: Options) -> str | None:
-        """Blocks without parameters over quantifier-free bodies."""
-        return "a sentence of one block" if problem.is_flat and not problem.free else None
+        """Every problem."""
+        return "for any prefix and parameters"
 
     def run(self, problem: Problem, context: Context) -> Outcome:
-        """The truth, with values where there are some. Raises ``NotWellOriented`` where a polynomial is zero on a whole
-        line, ``BudgetExceeded``.
+        """The answer by the signs of the polynomials of parameter space, or a truth value, with values where there are
+        some. Raises ``NotWellOriented`` where a polynomial is zero on a whole line and its order is needed beside it,
+        ``BudgetExceeded``.
         """
-        body = problem.positive
-        if isinstance(body, Constant):
-            return Outcome(problem.asked(body), {} if body.value else None)
-        named = tuple(v for v in context.options.order or () if v in body.free)
-        rest = tuple(v for v in body.free if v not in named)
-        rule = OrderRule.WRITTEN if Stage.ORDER in context.options.without else OrderRule.BY_PROJECTION
-        blocks = [*((v,) for v in named), *([rest] if rest else [])]
-        order, reason = choose_order(body, blocks, rule=rule, budget=context.budget)
+        prefix, matrix = prenex(problem.formula)
+        matrix = nnf(matrix)
+        if isinstance(matrix, Constant):
+            return Outcome(matrix, {} if matrix.value is not problem.universal else None)
+        free = len(problem.free)
+        order, quantifiers, reason = variable_order(prefix, problem.free, matrix, context.options, context.budget)
         ring = Ring.of(order)
-        search = Search(convert(body, ring), ring, context.budget)
-        found = search.run()
-        context.log.work("coverings", {"order": list(order), "order by": reason, "samples": search.samples})
-        proof: dict[str, object] = {}
-        if isinstance(found, Cover) and context.options.certify:
-            proof = {"proof": evidence(found)}
-        truth = FALSE if isinstance(found, Cover) else TRUE
-        answer = context.log.step("covering", problem.formula, problem.asked(truth), evidence=proof)
-        if isinstance(found, Point):
-            return Outcome(answer, {v: found.number(i) for i, v in enumerate(order[: found.depth])})
-        return Outcome(answer)
+        search = Search(convert(matrix, ring), ring, quantifiers, context.budget)
+        found = _answered(search, free)
+        figures = {"order": list(order), "order by": reason, "samples": found.samples, "cells": found.cells}
+        context.log.work("coverings", figures)
+        values = None
+        if not free and found.cover.truth is (quantifiers[0] == "E"):
+            values = _values(found.cover, search)
+        is_proved_by_values = values is not None and problem.is_flat
+        wanted = context.options.certify and not is_proved_by_values
+        proof: dict[str, object] = {"proof": evidence(found.cover, quantifiers, search.formula)} if wanted else {}
+        given = problem.formula.ring
+        answer = found.formula if given is None else convert(found.formula, given)
+        context.log.step("covering", problem.formula, answer, evidence=proof)
+        return Outcome(context.log.step("simplification", answer, simplify(answer)), values)
+
+
+@dataclass(frozen=True, slots=True)
+class _Answered:
+    """A covering, with the answer whose truth follows from the signs on each of its cells."""
+
+    cover: Cover
+    formula: Formula
+    samples: int
+    cells: int = 0
+
+
+def _answered(search: Search, free: int) -> _Answered:
+    """The covering, finer where the signs of its polynomials do not tell true cells from false ones."""
+    samples = 0
+    for _ in count():
+        cover = search.run()
+        samples += search.samples
+        if not free:
+            return _Answered(cover, TRUE if cover.truth else FALSE, samples)
+        factors, cells = parameter_cells(cover, free)
+        pair = undistinguished(factors, cells)
+        if pair is None:
+            return _Answered(cover, formula_of_cells(factors, cells), samples, len(cells))
+        search = _finer(search, *pair)
+    raise InternalError("no answer and no end")
+
+
+def _finer(search: Search, one: FreeCell, other: FreeCell) -> Search:
+    """The search with more signs on the level at which two cells part.
+
+    First every interval of a line there keeps the signs of all polynomials of the line, so that intervals are disjoint
+    and have these in common; then also of their derivatives: by Thom's lemma these signs tell the intervals apart.
+    """
+    level = next(k for k, (a, b) in enumerate(zip(one.path, other.path, strict=False)) if a != b)
+    if level not in search.whole:
+        return replace(search, whole=search.whole | {level}, samples=0)
+    if level in search.thom:
+        raise InternalError("derivatives do not tell the cells apart, against Thom's lemma")
+    return replace(search, thom=search.thom | {level}, samples=0)
+
+
+def _values(cover: Cover, search: Search) -> Values:
+    """The values of the first block that decide a sentence."""
+    while isinstance(above := cover.intervals[0].found.reason, Cover) and search.is_leading(above.point.depth):
+        cover = above
+    sample = cover.intervals[0].found.sample
+    return {name: sample.number(i) for i, name in enumerate(search.ring.names[: sample.depth])}

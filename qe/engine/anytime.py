@@ -15,9 +15,9 @@ from dataclasses import dataclass, replace
 from typing import TypeVar
 
 from qe.cad.decompose import Tactics, decompose
+from qe.cad.order_by_projection import variable_order
 from qe.cells.extended_tarski import extended_formula
 from qe.cells.sampled_cells import free_part
-from qe.elimination.cad import variable_order
 from qe.engine.run import solve
 from qe.errors import Unable
 from qe.exact.ring import Ring

@@ -174,7 +174,8 @@ STRATEGY: tuple[Attempt, ...] = (
     Attempt(Scope.INNER, "critical", on.never),
     Attempt(Scope.BLOCK, "cgs", on.never),
     Attempt(Scope.INNER, "cgs", on.never),
-    Attempt(Scope.BLOCK, "coverings", on.never),
+    Attempt(Scope.BLOCK, "coverings", on.never, shorten=True),
+    Attempt(Scope.NESTED, "coverings", on.never, shorten=True),
     Attempt(Scope.NESTED, "cad", on.complete),
 )
 

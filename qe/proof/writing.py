@@ -56,7 +56,8 @@ RULES: Mapping[str, str] = {
     "critical values of a universal block": "The parameters form a convex set whose boundary is at critical values.",
     "constant along directions": "Both sides are constant along a direction of the parameters: one may be zero.",
     "degenerate truth set": "A convex truth set without interior points lies on a hyperplane.",
-    "covering": "Intervals on each of which the formula is false cover the line, over a sample and near it.",
+    "covering": "Intervals on each of which the formula has one truth value cover the line, or one is enough, "
+    "over a sample and near it (Ábrahám, Davenport, England, Kremer 2021).",
     "Boolean search": "Every choice of cases contains comparisons that no point satisfies together "
     "(Nieuwenhuis, Oliveras, Tinelli 2006).",
     "convex": "A convex set has a point, or multipliers combine its conditions to a contradiction.",

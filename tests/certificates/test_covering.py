@@ -2,67 +2,35 @@
 
 from __future__ import annotations
 
-import copy
 import random
 from collections.abc import Iterable, Iterator
-from typing import Any
 
 import pytest
 
 import qe
-from qe.certify.covering import check_covering
-from qe.certify.derivation import limits_of
-from qe.certify.registry import RULES
-from qe.certify.step import Claim
-from qe.certify.verify import check_certificate
 from qe.coverings import cover
-from qe.coverings.cover import Cover, Search
-from qe.coverings.evidence import evidence
-from qe.errors import CertificateRejected, InternalError, NotWellOriented, Unable
-from qe.exact.ring import Poly, Ring
-from qe.formula.build import convert, exists, forall
+from qe.coverings.line import Cover
+from qe.errors import InternalError, NotWellOriented, Unable
+from qe.exact.ring import Poly
+from qe.formula.build import exists, forall
 from qe.formula.normal import nnf
 from qe.formula.syntax import FALSE, TRUE, And, Atom, Constant, Formula, Or
 from qe.io import formats
-from qe.options import Budget, Options
-from qe.proof.entry import Entry, formula_to_json
-from qe.proving.prover import Prover
+from tests.certificates.coverings import (
+    BODIES,
+    altered,
+    forged,
+    interval,
+    judged,
+    line,
+    one,
+    places,
+    projected,
+    proof,
+    read,
+    verdict,
+)
 from tests.unit.coverings.test_cover import random_body
-
-BODIES = [
-    "x^2 + y^2 < 1 and x*y > 1",
-    "x^2 + y^2 + z^2 < 1 and x + y + z > 2",
-    "(x^2 - 2)*(y^2 - x) = 0 and x^2 + y^2 < 1 and y^3 > 1/2 and x > 1",
-    "x^2 = 2 and y^2 = x and x*y > 3",
-    "x^3 + y^3 + z^3 = x*y*z + 1 and x^2 + y^2 + z^2 < 1/4",
-    "x*y > 1 and (x + y < 0 or x*y < 1/2) and (x > 0 or y > 0)",
-]
-
-
-def proof(body: Formula, order: tuple[str, ...]) -> dict[str, Any]:
-    """The evidence as it stands in a certificate."""
-    assert body.ring is not None
-    ring = Ring.of(order)
-    found = Search(convert(body, ring), ring, Budget(None, 20_000)).run()
-    assert isinstance(found, Cover)
-    return Prover(body.ring, Options(), Budget())._plain(evidence(found))
-
-
-def verdict(body: Formula, given: object, after: Formula = FALSE) -> str:
-    """Empty where the checker accepts that the body has no solution."""
-    ring = body.ring
-    assert ring is not None
-    entry = Entry(given, "evidence")  # type: ignore[arg-type]
-    claim = Claim("covering", exists(ring.names, body), after, ring, entry, "step")
-    try:
-        check_covering(claim, (), limits_of(Budget(60), RULES, check_certificate))
-    except CertificateRejected as error:
-        return str(error)
-    return ""
-
-
-def read(text: str) -> Formula:
-    return nnf(formats.read(text, "text"))
 
 
 @pytest.mark.parametrize("text", BODIES)
@@ -97,38 +65,6 @@ def test_an_answer_by_coverings_is_checked() -> None:
 
 
 # --- the evidence altered -----------------------------------------------------------------------------
-def places(value: object, path: tuple[object, ...] = ()) -> Iterator[tuple[object, ...]]:
-    if isinstance(value, dict | list):
-        for key, part in value.items() if isinstance(value, dict) else enumerate(value):
-            yield (*path, key)
-            yield from places(part, (*path, key))
-
-
-def altered(given: Any, path: tuple[Any, ...], rng: random.Random) -> Any:
-    found = copy.deepcopy(given)
-    part = found
-    for key in path[:-1]:
-        part = part[key]
-    old, key = part[path[-1]], path[-1]
-    if isinstance(old, bool) or old is None:
-        part[key] = rng.choice([0, 1])
-    elif isinstance(old, int):
-        part[key] = old + rng.choice([-1, 1, 2])
-    elif isinstance(old, str):
-        part[key] = rng.choice(["0", "-1/2", "x", "x - y", "17", ""])
-    elif isinstance(old, list) and old:
-        change = rng.choice(["pop", "reverse", "repeat"])
-        if change == "repeat":
-            old.append(old[0])
-        else:
-            getattr(old, change)()
-    elif isinstance(old, dict):
-        old.pop(rng.choice(sorted(old)))
-    else:
-        part[key] = [0]
-    return found
-
-
 @pytest.mark.parametrize("text", BODIES[:4])
 def test_altered_evidence_never_proves_more(text: str) -> None:
     """Rejected, or still a proof of this claim: the same evidence never serves for a body with solutions."""
@@ -171,15 +107,6 @@ def test_evidence_for_one_body_proves_no_satisfiable_other(seed: int) -> None:
 
 
 # --- producers that forget a side condition ----------------------------------------------------------
-def projected(polys: Iterable[Poly], level: int) -> Iterator[tuple[str, Poly]]:
-    listed = list(polys)
-    for i, f in enumerate(listed):
-        yield "leading coefficient", f.leading(level)
-        if f.degree(level) > 1:
-            yield "discriminant", f.discriminant(level)
-        yield from (("resultant", f.resultant(g, level)) for g in listed[:i])
-
-
 @pytest.mark.parametrize("left_out", ["leading coefficient", "discriminant", "resultant"])
 def test_a_projection_without_a_part_is_rejected(left_out: str, monkeypatch: pytest.MonkeyPatch) -> None:
     def project(polys: Iterable[Poly], level: int, operator: object) -> Iterator[Poly]:
@@ -198,8 +125,8 @@ def test_factors_of_lower_level_that_are_forgotten_are_rejected(monkeypatch: pyt
     whole = cover.characterization
 
     def without(found: Cover) -> object:
-        for interval in found.intervals:
-            object.__setattr__(interval, "below", ())  # what the atoms say about the lines below
+        for known in found.intervals:
+            object.__setattr__(known, "below", ())  # what the atoms say about the lines below
         return whole(found)
 
     monkeypatch.setattr(cover, "characterization", without)
@@ -222,47 +149,29 @@ def any_rejected() -> bool:
 @pytest.mark.parametrize(
     ("before", "after", "message"),
     [
-        ("ex x, y. x^2 + y^2 < 1 and x*y > 1", TRUE, "without solutions"),
-        ("ex x. x^2 + y^2 < 1 and x*y > 1", FALSE, "each once"),
-        ("x^2 + y^2 < 1 and x*y > 1", FALSE, "without solutions"),
+        ("ex x, y. x^2 + y^2 < 1 and x*y > 1", TRUE, "says False"),
+        ("ex x. x^2 + y^2 < 1 and x*y > 1", FALSE, "other variables"),
+        ("x^2 + y^2 < 1 and x*y > 1", FALSE, "other variables"),
+        ("all x, y. x^2 + y^2 < 1 and x*y > 1", FALSE, "no prenex form"),
+        ("ex x. all y. x^2 + y^2 < 1 and x*y > 1", FALSE, "no prenex form"),
+        ("ex x, y. x^2 + y^2 <= 1 and x*y > 1", FALSE, "no prenex form"),
     ],
 )
-def test_only_closed_blocks_without_solutions_are_proved(before: str, after: Formula, message: str) -> None:
-    body, formula = read(BODIES[0]), formats.read(before, "text")
-    given = proof(body, body.free)
-    assert formula.ring is not None
-    claim = Claim("covering", formula, after, formula.ring, Entry(given, "evidence"), "step")
-    with pytest.raises(CertificateRejected, match=message):
-        check_covering(claim, (), limits_of(Budget(60), RULES, check_certificate))
+def test_evidence_is_about_one_formula(before: str, after: Formula, message: str) -> None:
+    body = read(BODIES[0])
+    assert message in judged(formats.read(before, "text"), after, proof(body, body.free))
 
 
 # --- evidence forged by hand for sentences that are true ----------------------------------------------
-def interval(first: int, last: int, at: int, own: list[int], ends: tuple[int | None, int | None], **reason: Any) -> Any:
-    return {"first": first, "last": last, "at": at, "own": own, "lower": ends[0], "upper": ends[1], **reason}
-
-
-def line(used: list[int], sectors: list[str], sections: list[list[int]], *intervals: Any) -> Any:
-    return {"used": used, "sectors": sectors, "sections": sections, "intervals": list(intervals)}
-
-
-def forged(body: Formula, factors: list[list[str]], first: Any) -> str:
-    return verdict(body, {"order": list(body.free), "factors": factors, "line": first})
-
-
-def one(text: str, body: Formula) -> list[Any]:
-    assert body.ring is not None
-    return [formula_to_json(convert(read(text), body.ring))]
-
-
 def test_an_interval_over_a_root_of_its_factor_is_rejected() -> None:
     body = read("x^2 < 1")
-    whole = interval(0, 4, 4, [0, 1], (None, None), false=one("x^2 < 1", body))
+    whole = interval(0, 4, 4, [0, 1], (None, None), atoms=one("x^2 < 1", body))
     assert "contains a root" in forged(body, [["x - 1", "x + 1"]], line([0, 1], ["-2", "0", "2"], [[1], [0]], whole))
 
 
 def test_a_factor_of_lower_level_that_is_left_out_is_missed() -> None:
     body = read("x > 0 and y > x")
-    above = line([], ["0"], [], interval(0, 0, 0, [], (None, None), false=one("x > 0", body)))
+    above = line([], ["0"], [], interval(0, 0, 0, [], (None, None), atoms=one("x > 0", body)))
     first = line([], ["-1"], [], interval(0, 0, 0, [], (None, None), line=above))
     assert "own" in forged(body, [["x"], []], first)
 
@@ -270,17 +179,12 @@ def test_a_factor_of_lower_level_that_is_left_out_is_missed() -> None:
 def test_a_factor_that_is_zero_on_a_line_beside_the_sample_is_rejected() -> None:
     """x*z + y has no root over (0, 1), and is zero on the whole line over (0, 0)."""
     body = read("x = 0 and x*z + y = 0")
-    top = line([0], ["0"], [], interval(0, 0, 0, [0], (None, None), false=one("x*z + y = 0", body)))
+    top = line([0], ["0"], [], interval(0, 0, 0, [0], (None, None), atoms=one("x*z + y = 0", body)))
     middle = line([], ["1"], [], interval(0, 0, 0, [], (None, None), line=top))
     outside = one("x = 0", body)
     parts = (
-        interval(0, 0, 0, [0], (None, 0), false=outside),
+        interval(0, 0, 0, [0], (None, 0), atoms=outside),
         interval(1, 1, 1, [0], (0, 0), line=middle),
-        interval(2, 2, 2, [0], (0, None), false=outside),
+        interval(2, 2, 2, [0], (0, None), atoms=outside),
     )
-    order = {
-        "order": ["x", "y", "z"],
-        "factors": [["x"], [], ["x*z + y"]],
-        "line": line([0], ["-1", "1"], [[0]], *parts),
-    }
-    assert "whole line" in verdict(body, order)
+    assert "whole line" in forged(body, [["x"], [], ["x*z + y"]], line([0], ["-1", "1"], [[0]], *parts))

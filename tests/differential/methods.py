@@ -6,12 +6,16 @@ from collections.abc import Callable
 
 from qe.cad.decompose import decompose
 from qe.cells.formulas import construct
+from qe.elimination.coverings import Coverings
+from qe.elimination.protocol import Context, Problem
 from qe.elimination.vs.block import eliminate_block
+from qe.errors import BudgetExceeded, NotWellOriented
 from qe.formula.build import disj, exists, neg
 from qe.formula.normal import Quantifier, prenex
 from qe.formula.syntax import Constant, Formula
 from qe.formula.traverse import free_variables
-from qe.options import Budget, Projection
+from qe.options import Budget, Options, Projection
+from qe.proof.run_log import RunLog
 from qe.rules.preparation import prepare
 from qe.simplify.simplify import simplify
 
@@ -36,6 +40,14 @@ def by_cad(projection: Projection) -> Part:
         return construct(table, refine)[0]  # type: ignore[arg-type]
 
     return run
+
+
+def by_coverings(formula: Formula, budget: Budget) -> Formula:
+    """Coverings of the lines of all variables; what they do not take for a side condition is as good as no time."""
+    try:
+        return Coverings().run(Problem((), formula), Context(Options(), budget.part(1500), RunLog())).formula
+    except NotWellOriented as error:
+        raise BudgetExceeded(str(error)) from None
 
 
 def by_substitution(formula: Formula, budget: Budget) -> Formula:
@@ -64,4 +76,5 @@ PARTS: dict[str, Part] = {
     "vs": by_substitution,
     "cad-brown-mccallum": by_cad(Projection.BROWN_MCCALLUM),
     "cad-lazard": by_cad(Projection.LAZARD),
+    "coverings": by_coverings,
 }

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-from qe.cells.formulas import shortest
+from qe.cells.formulas import formula_of_cells
 from qe.exact.ring import Poly
 from qe.formula.build import atom, conj, disj
 from qe.formula.syntax import FALSE, TRUE, And, Atom, Constant, Formula, Or, Relation
@@ -61,7 +61,7 @@ class Rows:
         """Holds on the true rows and not on the false ones; cases by the sign of a polynomial where that is shorter."""
         if not true or not false:
             return FALSE if not true else TRUE
-        best = shortest([self.polys], self._cells(true, True) + self._cells(false, False))
+        best = formula_of_cells([self.polys], self._cells(true, True) + self._cells(false, False))
         for k, p in enumerate(splitting):
             for first, second in ((LE, GE), (GE, LE)):
                 found = self._divided(true, false, atom(p, first), atom(p, second), splitting[k + 1 :], length(best))

@@ -88,7 +88,7 @@ def test_a_method_asked_for_is_alone(name: str, monkeypatch: pytest.MonkeyPatch)
 @pytest.mark.parametrize("name", QUESTIONS)
 def test_a_method_that_does_not_suffice_says_so(name: str) -> None:
     hard = "ex x, y. x^3 + y^5 + a*x*y = b and x*y^3 + x > 2"
-    if name != "cad":
+    if name not in ("cad", "coverings"):
         answer = qe.eliminate(hard, method=name)
         own = any(word in answer.reason for word in ("bounded", "trace forms"))  # the reason of a method itself
         assert answer.formula is None and ("does not eliminate" in answer.reason or own)

@@ -1,0 +1,174 @@
+"""Evidence of coverings as it stands in certificates, what the checker says of it, and ways to alter it."""
+
+from __future__ import annotations
+
+import copy
+import random
+from collections.abc import Iterable, Iterator
+from typing import Any
+
+from qe.certify.covering import check_covering
+from qe.certify.derivation import limits_of
+from qe.certify.registry import RULES
+from qe.certify.step import Claim
+from qe.certify.verify import check_certificate
+from qe.coverings.cover import Search
+from qe.coverings.evidence import evidence
+from qe.elimination.coverings import Coverings
+from qe.elimination.protocol import Context, Problem
+from qe.errors import CertificateRejected
+from qe.exact.ring import Poly, Ring
+from qe.formula.build import atom, conj, convert, disj, exists, forall
+from qe.formula.normal import nnf
+from qe.formula.syntax import FALSE, Formula, Relation
+from qe.io import formats
+from qe.options import Budget, Options
+from qe.proof.entry import Entry, formula_to_json
+from qe.proof.run_log import RunLog
+from qe.proving.prover import Prover
+from tests.differential.generate import random_poly
+
+BODIES = [
+    "x^2 + y^2 < 1 and x*y > 1",
+    "x^2 + y^2 + z^2 < 1 and x + y + z > 2",
+    "(x^2 - 2)*(y^2 - x) = 0 and x^2 + y^2 < 1 and y^3 > 1/2 and x > 1",
+    "x^2 = 2 and y^2 = x and x*y > 3",
+    "x^3 + y^3 + z^3 = x*y*z + 1 and x^2 + y^2 + z^2 < 1/4",
+    "x*y > 1 and (x + y < 0 or x*y < 1/2) and (x > 0 or y > 0)",
+]
+
+
+def proof(body: Formula, order: tuple[str, ...]) -> dict[str, Any]:
+    """The evidence that a body has no solution, as it stands in a certificate."""
+    assert body.ring is not None
+    ring, kinds = Ring.of(order), "E" * len(order)
+    moved = convert(body, ring)
+    found = Search(moved, ring, kinds, Budget(None, 20_000)).run()
+    assert found.truth is False
+    return Prover(body.ring, Options(), Budget())._plain(evidence(found, kinds, moved))
+
+
+def verdict(body: Formula, given: dict[str, Any], after: Formula = FALSE) -> str:
+    """Empty where the checker accepts that the body has no solution; the evidence is said to be about this body."""
+    assert body.ring is not None
+    about = {**given, "matrix": formula_to_json(body)} if isinstance(given, dict) and "matrix" in given else given
+    return judged(exists(body.ring.names, body), after, about)
+
+
+def judged(before: Formula, after: Formula, given: object) -> str:
+    """Empty where the checker accepts the step."""
+    ring = before.ring
+    assert ring is not None
+    claim = Claim("covering", before, after, ring, Entry(given, "evidence"), "step")  # type: ignore[arg-type]
+    try:
+        check_covering(claim, (), limits_of(Budget(60), RULES, check_certificate))
+    except CertificateRejected as error:
+        return str(error)
+    return ""
+
+
+QUESTIONS = [
+    "ex x. x^2 + b*x + c = 0",
+    "ex x. a*x^2 + b*x + c = 0",
+    "all x. ex y. x^2 + y^2 = a*x*y + b",
+    "ex x. all y. y^2 > x and x > a or y < a",
+    "all x. ex y. y^4 = x^2 + x*y + 1 and y > 0",
+    "ex x. all y. x < y^2 and x^2 > 2",
+    "(ex x. x^2 = a) and not (all y. y^2 > b)",
+    "ex y. y^3 - 3*y = a and y >= b",
+]
+
+
+def answered(formula: Formula, budget: Budget) -> tuple[Formula, dict[str, Any]]:
+    """What the method answers, and its evidence."""
+    problem, log = Problem.of(formula), RunLog()
+    if problem is None:
+        problem = Problem((), formula)
+    Coverings().run(problem, Context(Options(certify=True), budget, log))
+    step = next(s for s in log.steps() if s.rule == "covering")
+    assert formula.ring is not None and "proof" in step.evidence
+    return step.after, Prover(formula.ring, Options(), Budget())._plain(step.evidence["proof"])  # type: ignore[arg-type]
+
+
+def random_question(rng: random.Random) -> Formula:
+    """A formula with up to two parameters and up to two quantifiers of any kinds."""
+    free = rng.choice([(), ("a",), ("a",), ("a", "b")])
+    ring = Ring.of((*free, "x", "y"))
+
+    def part(depth: int) -> Formula:
+        if depth == 0 or rng.random() < 0.15:
+            return atom(random_poly(rng, ring, ring.names, rng.choice([1, 2, 2, 3])), rng.choice(list(Relation)))
+        return (conj if rng.random() < 0.6 else disj)([part(depth - 1) for _ in range(2)])
+
+    found = nnf(part(rng.choice([1, 2, 2])))
+    for name in ("y", "x"):
+        found = rng.choice([exists, forall])((name,), found)
+    return found
+
+
+def read(text: str) -> Formula:
+    return nnf(formats.read(text, "text"))
+
+
+def places(value: object, path: tuple[object, ...] = ()) -> Iterator[tuple[object, ...]]:
+    if isinstance(value, dict | list):
+        for key, part in value.items() if isinstance(value, dict) else enumerate(value):
+            yield (*path, key)
+            yield from places(part, (*path, key))
+
+
+def altered(given: Any, path: tuple[Any, ...], rng: random.Random) -> Any:
+    found = copy.deepcopy(given)
+    part = found
+    for key in path[:-1]:
+        part = part[key]
+    old, key = part[path[-1]], path[-1]
+    if isinstance(old, bool) or old is None:
+        part[key] = rng.choice([0, 1])
+    elif isinstance(old, int):
+        part[key] = old + rng.choice([-1, 1, 2])
+    elif isinstance(old, str):
+        part[key] = rng.choice(["0", "-1/2", "x", "x - y", "17", "", "E", "A"])
+    elif isinstance(old, list) and old:
+        change = rng.choice(["pop", "reverse", "repeat"])
+        if change == "repeat":
+            old.append(old[0])
+        else:
+            getattr(old, change)()
+    elif isinstance(old, dict):
+        old.pop(rng.choice(sorted(old)))
+    else:
+        part[key] = [0]
+    return found
+
+
+def projected(polys: Iterable[Poly], level: int) -> Iterator[tuple[str, Poly]]:
+    listed = list(polys)
+    for i, f in enumerate(listed):
+        yield "leading coefficient", f.leading(level)
+        if f.degree(level) > 1:
+            yield "discriminant", f.discriminant(level)
+        yield from (("resultant", f.resultant(g, level)) for g in listed[:i])
+
+
+def interval(first: int, last: int, at: int, own: list[int], ends: tuple[int | None, int | None], **reason: Any) -> Any:
+    return {"first": first, "last": last, "at": at, "own": own, "lower": ends[0], "upper": ends[1], **reason}
+
+
+def line(used: list[int], sectors: list[str], sections: list[list[int]], *intervals: Any) -> Any:
+    return {"used": used, "sectors": sectors, "sections": sections, "intervals": list(intervals)}
+
+
+def forged(body: Formula, factors: list[list[str]], first: Any) -> str:
+    return verdict(body, about(body, factors, first))
+
+
+def about(body: Formula, factors: list[list[str]], first: Any, kinds: str = "") -> dict[str, Any]:
+    names = sorted(body.free)
+    asked = {"order": names, "quantifiers": list(kinds or "E" * len(names)), "matrix": formula_to_json(body)}
+    return {**asked, "factors": factors, "line": first}
+
+
+def one(text: str, body: Formula) -> list[Any]:
+    assert body.ring is not None
+    return [formula_to_json(convert(read(text), body.ring))]
