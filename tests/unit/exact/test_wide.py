@@ -106,4 +106,4 @@ def test_a_polynomial_with_more_variables_than_are_few(coefficients, constant):
         point = [Fraction(i % 5, 1 + i % 3) for i in range(BIG.size)]
         assert f.evaluate(point) == plain.evaluate(point)
         assert f.at_rational(1, Fraction(2, 3)) == plain.at_rational(1, Fraction(2, 3))
-        assert f.factors() == plain.factors() and f.gcd(f * f) == f.normal()[1] * plain.content()
+        assert f.gcd(f * 2) == plain.gcd(plain * 2)
