@@ -2,35 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from qe.arguments import shown
-from qe.certify.branch import check_branch
-from qe.certify.cells import check_cells
-from qe.certify.classification import check_classification
-from qe.certify.clearance import check_clearance
-from qe.certify.containment import check_containment
-from qe.certify.derivation import check_derivation
-from qe.certify.gauss import check_substitution
-from qe.certify.inverse_position import check_inverse
-from qe.certify.optimum import check_optimum
-from qe.certify.registry import RULES
-from qe.certify.solutions import check_solutions
 from qe.certify.verdict import Verdict
-from qe.certify.witness import check_witness
 from qe.errors import CertificateRejected, InputError, Unable
 from qe.options import Budget
 from qe.proof.cells_json import CellEvidence
 from qe.proof.certificate import Certificate, Kind, Labelled
+from qe.proof.entry import Json
 
-_CHECKERS = {
-    Kind.OPTIMUM: check_optimum,
-    Kind.WITNESS: check_witness,
-    Kind.SUBSTITUTION: check_substitution,
-    Kind.CONTAINMENT: check_containment,
-    Kind.CLEARANCE: check_clearance,
-    Kind.BRANCH: check_branch,
-    Kind.SOLUTIONS: check_solutions,
-    Kind.INVERSE: check_inverse,
-}
+Checker = Callable[[dict[str, Json], Budget], None]
 
 
 def verify(certificate: Certificate, budget: Budget | None = None) -> Verdict:
@@ -75,13 +57,11 @@ def check_certificate(certificate: Certificate, budget: Budget) -> None:
     if not isinstance(certificate.kind, Kind):
         raise CertificateRejected("kind", "unknown kind of certificate")
     if isinstance(payload, CellEvidence) and certificate.kind is Kind.CELLS:
+        from qe.certify.cells import check_cells
+
         check_cells(payload, budget)
-    elif isinstance(payload, dict) and certificate.kind is Kind.DERIVATION:
-        check_derivation(payload, budget, RULES, check_certificate)
-    elif isinstance(payload, dict) and certificate.kind is Kind.CLASSIFICATION:
-        check_classification(payload, budget, check_certificate)
-    elif isinstance(payload, dict) and certificate.kind in _CHECKERS:
-        _CHECKERS[certificate.kind](payload, budget)
+    elif isinstance(payload, dict) and (checker := _checker(certificate.kind)) is not None:
+        checker(payload, budget)
     elif isinstance(payload, tuple) and certificate.kind is Kind.BUNDLE:
         if not payload:
             raise CertificateRejected("certificates", "an empty bundle proves nothing")
@@ -95,3 +75,50 @@ def check_certificate(certificate: Certificate, budget: Budget) -> None:
                 raise CertificateRejected(step, f"{member.label}: {error.reason}") from None
     else:
         raise CertificateRejected("kind", f"no checker for {certificate.kind.value} with this payload")
+
+
+def _checker(kind: Kind) -> Checker | None:
+    """The checker of a kind of objects; each is loaded where it is needed, as most questions need one."""
+    match kind:
+        case Kind.DERIVATION:
+            from qe.certify.derivation import check_derivation
+            from qe.certify.registry import RULES
+
+            return lambda payload, budget: check_derivation(payload, budget, RULES, check_certificate)
+        case Kind.CLASSIFICATION:
+            from qe.certify.classification import check_classification
+
+            return lambda payload, budget: check_classification(payload, budget, check_certificate)
+        case Kind.WITNESS:
+            from qe.certify.witness import check_witness
+
+            return check_witness
+        case Kind.OPTIMUM:
+            from qe.certify.optimum import check_optimum
+
+            return check_optimum
+        case Kind.SUBSTITUTION:
+            from qe.certify.gauss import check_substitution
+
+            return check_substitution
+        case Kind.CONTAINMENT:
+            from qe.certify.containment import check_containment
+
+            return check_containment
+        case Kind.CLEARANCE:
+            from qe.certify.clearance import check_clearance
+
+            return check_clearance
+        case Kind.BRANCH:
+            from qe.certify.branch import check_branch
+
+            return check_branch
+        case Kind.SOLUTIONS:
+            from qe.certify.solutions import check_solutions
+
+            return check_solutions
+        case Kind.INVERSE:
+            from qe.certify.inverse_position import check_inverse
+
+            return check_inverse
+    return None

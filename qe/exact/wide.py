@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from fractions import Fraction
-from functools import cached_property, reduce
+from functools import cache, cached_property, reduce
 from math import prod
 
 from flint import fmpz_mpoly, fmpz_poly
@@ -129,12 +129,22 @@ class WidePoly(Poly):
     def _terms(self) -> tuple[SparseTerm, ...]:
         if self.is_constant:
             return (((), self.constant_value()),) if self.p else ()
+        if self.total_degree == 1:
+            return self._linear_terms()
         i = self.variables[-1]
         found: list[SparseTerm] = []
         for k, c in enumerate(self.coefficients(i)):
             below = c._terms if isinstance(c, WidePoly) else c.sparse_terms()
             found += [((*powers, (i, k)) if k else powers, a) for powers, a in below]
         return tuple(found)
+
+    def _linear_terms(self) -> tuple[SparseTerm, ...]:
+        rest, found = self.p, list[SparseTerm]()
+        for i in self.variables:
+            slope = self.p.derivative(self.ring.slot(i))
+            rest -= slope * self.ring._gens[self.ring.slot(i)]
+            found.append((((i, 1),), int(slope.leading_coefficient())))
+        return (*found, ((), int(rest.leading_coefficient()))) if rest else tuple(found)
 
     def terms(self) -> list[tuple[tuple[int, ...], int]]:
         """(exponent vector in ring order, coefficient), highest first in the lexicographic order."""
@@ -152,7 +162,7 @@ class WidePoly(Poly):
         polys = (self, *others)
         own = tuple(sorted({i for f in polys for i in f.variables}))
         place = {i: j for j, i in enumerate(own)}
-        ring = Ring.of(f"x{j}" for j in range(len(own)))
+        ring = _plain(len(own))
         return own, [
             ring.from_sparse([(tuple((place[i], k) for i, k in powers), c) for powers, c in f.sparse_terms()])
             for f in polys
@@ -217,6 +227,12 @@ class WidePoly(Poly):
         if self.variables not in ((i,), ()):
             raise InternalError("a polynomial in one variable expected")
         return fmpz_poly([c.constant_value() for c in self.coefficients(i)])
+
+
+@cache
+def _plain(count: int) -> Ring:
+    """The ring of so many variables that keeps track of none, however many they are: a polynomial may contain all."""
+    return Ring(tuple(f"x{j}" for j in range(count)))
 
 
 def _rebuild(ring: Ring, terms: tuple[SparseTerm, ...]) -> Poly:

@@ -73,11 +73,16 @@ def _in_field(poly: Poly, name: str, values: Assignment) -> Value:
     return simplest(NumberField(theta).element(coefficients).to_algebraic())
 
 
+_ZERO = Fraction(0)
+
+
 def sign_at(poly: Poly, assignment: Assignment) -> int:
     """The exact sign of a polynomial; variables without a value count as 0."""
     ring = poly.ring
-    values = [assignment.get(name, Fraction(0)) if poly.degree(i) else Fraction(0) for i, name in enumerate(ring.names)]
-    if all(isinstance(v, Fraction) for v in values):
+    values: list[Value] = [_ZERO] * ring.size
+    for i in poly.variables:
+        values[i] = assignment.get(ring.names[i], _ZERO)
+    if all(isinstance(values[i], Fraction) for i in poly.variables):
         result = poly.evaluate(values)  # type: ignore[arg-type]
         return (result > 0) - (result < 0)
     return Point.of(ring, values).sign(poly)

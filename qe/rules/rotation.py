@@ -14,7 +14,7 @@ their plane, some t makes v = 0 and u >= 0, and:  ex u, v, y f  iff  ex u, y (u 
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import combinations
@@ -28,6 +28,9 @@ Key = TypeVar("Key")
 Pair = tuple[int, int]
 Skew = dict[Pair, Fraction]
 """A skew-symmetric matrix by its entries above the diagonal."""
+Powers = tuple[Pair, ...]
+Image = dict[Powers, Fraction]
+"""The terms of a polynomial: pairs of a variable and its exponent, with the coefficient."""
 
 _TERMS = 1200  # terms in all polynomials together up to which rotations are looked for
 _PAIRS = 400  # pairs of variables up to which they are looked for
@@ -128,17 +131,17 @@ def _movable(polys: Sequence[Poly], candidates: set[int]) -> set[int]:
     part of p with the same other variables and the same degree; where such a part has one variable x_i of the
     candidates, X p = 0 says S_ij = 0 for all j: x_i stays where it is.
     """
-    exponents = [[e for e, _ in p.terms()] for p in polys]
+    exponents = [[powers for powers, _ in p.sparse_terms()] for p in polys]
     movable = candidates & {i for p in polys for i in p.variables}
     while movable:
         lonely: set[int] = set()
         for listed in exponents:
             parts: dict[object, set[int]] = {}
-            for e in listed:
-                inside = [i for i in movable if e[i]]
+            for powers in listed:
+                inside = {i: k for i, k in powers if i in movable}
                 if inside:
-                    other = tuple(0 if i in movable else k for i, k in enumerate(e))
-                    parts.setdefault((other, sum(e[i] for i in inside)), set()).update(inside)
+                    other = tuple(power for power in powers if power[0] not in inside)
+                    parts.setdefault((other, sum(inside.values())), set()).update(inside)
             lonely.update(*(part for part in parts.values() if len(part) == 1))
         if not lonely:
             break
@@ -150,28 +153,41 @@ def rotations(polys: Sequence[Poly], pairs: Sequence[Pair]) -> list[Skew]:
     """A basis of the matrices on these pairs whose X annihilates all polynomials, in reduced echelon form."""
     found: list[Skew] = [{pair: Fraction(1)} for pair in pairs]
     for p in sorted(dict.fromkeys(polys), key=Poly.term_count):
-        slopes = {i: p.derivative(i) for pair in pairs for i in pair}
-        images = [_image(p, slopes, skew) for skew in found]
-        found = [_combined(found, relation) for relation in _relations(images)]
+        own = set(p.variables)
+        moving = [skew for skew in found if any(i in own or j in own for i, j in skew)]
+        if moving:
+            turned = {pair: _turned(p, pair) for skew in moving for pair in skew}
+            relations = _relations([_image(skew, turned) for skew in moving])
+            found = [skew for skew in found if skew not in moving] + [_combined(moving, r) for r in relations]
         if not found:
             break
     return _echelon(found)
 
 
-def _image(p: Poly, slopes: dict[int, Poly], skew: Skew) -> dict[tuple[int, ...], Fraction]:
-    """The terms of X p."""
-    ring = p.ring
-    total: dict[tuple[int, ...], Fraction] = {}
-    for (i, j), factor in skew.items():
-        turned = ring.gen(i) * slopes[j] - ring.gen(j) * slopes[i]
-        for exponents, c in turned.terms():
-            total[exponents] = total.get(exponents, Fraction(0)) + factor * c
-    return {e: c for e, c in total.items() if c}
+def _turned(p: Poly, pair: Pair) -> Image:
+    """The terms of (x_i * d/dx_j - x_j * d/dx_i) p."""
+    total: Image = {}
+    for powers, c in p.sparse_terms():
+        inside = dict(powers)
+        for (i, j), sign in ((pair, 1), (pair[::-1], -1)):
+            if j in inside:
+                moved = inside | {j: inside[j] - 1, i: inside.get(i, 0) + 1}
+                key = tuple(sorted((k, power) for k, power in moved.items() if power))
+                total[key] = total.get(key, Fraction(0)) + sign * inside[j] * c
+    return total
 
 
-def _relations(rows: Sequence[dict[tuple[int, ...], Fraction]]) -> list[dict[int, Fraction]]:
+def _image(skew: Skew, turned: Mapping[Pair, Image]) -> Image:
+    """The terms of X p from those for single pairs."""
+    total: Image = {}
+    for pair, factor in skew.items():
+        _add(total, turned[pair], factor)
+    return total
+
+
+def _relations(rows: Sequence[Image]) -> list[dict[int, Fraction]]:
     """A basis of the vectors r with sum of r_k * rows_k = 0."""
-    pivots: list[tuple[tuple[int, ...], dict[tuple[int, ...], Fraction], dict[int, Fraction]]] = []
+    pivots: list[tuple[Powers, Image, dict[int, Fraction]]] = []
     relations: list[dict[int, Fraction]] = []
     for k, row in enumerate(rows):
         rest, made = dict(row), {k: Fraction(1)}

@@ -177,3 +177,23 @@ def test_a_broken_search_is_found_out(broken: Callable[[pytest.MonkeyPatch], Non
             assert evidence(step) is None
         except InternalError as error:  # a decomposition that was to help saw it
             assert "a decomposition says True" in str(error)
+
+
+def test_a_conjunction_of_few_variables_of_many_is_refuted_in_their_own_ring() -> None:
+    """Of thirty variables three are in a curved contradiction; the whole stays one derivation."""
+    cases = " and ".join(f"(a{k} > {k} or a{k} < -x - {k} or a{k}*x > y)" for k in range(1, 28))
+    names = ", ".join(f"a{k}" for k in range(1, 28))
+    sentence = read(f"ex {names}, x, y, z. {cases} and x > 1 and y > 1 + z^2 and x*y < 1")
+    problem = Problem.of(sentence)
+    assert problem is not None and sentence.ring is not None and sentence.ring.is_wide
+    asked: list[Formula] = []
+
+    def noted(part: Formula, budget: Budget) -> Outcome:
+        asked.append(part)
+        return decide(part, budget)
+
+    log = RunLog()
+    found = BooleanSearch().run(problem, Context(Options(certify=True), Budget(120), log, noted))
+    assert found is not None and found.formula == FALSE
+    assert asked and not any(part.ring is not None and part.ring.is_wide for part in asked)
+    assert evidence(next(step for step in log.steps() if step.rule == RULE)) is not None

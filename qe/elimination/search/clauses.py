@@ -62,8 +62,12 @@ class Clauses:
             yield negative, poly, Relation.LT
             yield -negative, poly, Relation.GE
 
+    def triples(self) -> Iterable[tuple[int, int, int]]:
+        """The literals for > 0, < 0 and = 0 of each polynomial."""
+        return self._signs.values()
+
     def signs(self) -> Iterator[int]:
-        """The literals for > 0, < 0 and = 0."""
+        """All of them."""
         return chain.from_iterable(self._signs.values())
 
     def says(self) -> dict[int, Atom]:

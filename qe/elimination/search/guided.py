@@ -1,4 +1,9 @@
-"""A SAT solver guided by linear bounds while it decides: a point, or the clauses that have refuted all cases."""
+"""A SAT solver guided by linear bounds while it decides: a point, or the clauses that have refuted all cases.
+
+What is decided next is what holds at the point at which all bounds so far hold, where the simplex method has one: then
+nothing has to be moved for it (the choice of phases by the theory, as in Yices; only how long the search is rests on
+it).
+"""
 
 from __future__ import annotations
 
@@ -31,8 +36,9 @@ def guided(clauses: Clauses, theory: Theory) -> Values | list[Clause]:
     bounds = list(said(clauses.inequalities()))
     theories: list[LinearTheory] = []
     differences = Differences(bounds) if Differences.suit(bounds) else None
+    forms = None
     if differences is None or any(difference(one.direction) is None for one in bounds):
-        theories.append(Forms(bounds))
+        theories.append(forms := Forms(bounds))
     if differences is not None:
         theories.insert(0, differences)
 
@@ -50,8 +56,15 @@ def guided(clauses: Clauses, theory: Theory) -> Values | list[Clause]:
             return []
         return [[-clauses.literal(a) for a in reason] for reason in looked]
 
-    propagator = Propagator(theories, check, last)
+    def prefer() -> None:
+        changed = forms.changes() if forms is not None else []
+        if changed:
+            pysolvers.cadical195_setphases(solver.cadical, changed)
+
+    propagator = Propagator(theories, check, last, prefer)
     with Cadical195(bootstrap_with=clauses.clauses) as solver:
+        if forms is not None:
+            solver.set_phases([-zero for _, _, zero in clauses.triples()])
         solver.connect_propagator(propagator)
         for literal in clauses.signs():
             solver.observe(literal)

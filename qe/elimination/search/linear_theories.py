@@ -14,6 +14,7 @@ from typing import NamedTuple
 
 from qe.elimination.search.linear_forms import Direction, FormBounds, Monomial, over_monomials
 from qe.exact.difference_graph import DifferenceGraph
+from qe.exact.linear_bounds import Value
 from qe.exact.ring import Poly
 from qe.formula.syntax import Relation
 
@@ -29,6 +30,10 @@ class Said(NamedTuple):
     bound: Fraction
     upper: bool
     strict: bool
+
+    def holds(self, side: int) -> bool:
+        """Whether it holds where the form lies on this side of the bound (its sign)."""
+        return (side == 0 and not self.strict) or (side != 0 and (side < 0) == self.upper)
 
 
 def said(bounds: Iterable[tuple[int, Poly, Relation]]) -> Iterator[Said]:
@@ -136,6 +141,7 @@ class Forms:
         for listed in self.offered.values():
             listed.sort(key=lambda one: (one.bound, one.strict))
         self.changed = False
+        self._seen: dict[int, Value] = {}
 
     def tell(self, literal: int) -> list[int] | None:
         if literal not in self.said:
@@ -165,6 +171,16 @@ class Forms:
     def point(self) -> dict[Monomial, Fraction]:
         """Values that keep all bounds."""
         return self.bounds.values_of_monomials()
+
+    def changes(self) -> list[int]:
+        """The literals that hold at the present point, of those forms that have moved since the last call."""
+        found: list[int] = []
+        for x, listed in self.offered.items():
+            value = self.bounds.values[x]
+            if self._seen.get(x) != value:
+                self._seen[x] = value
+                found += [one.literal for one in listed if one.holds(self.bounds.side(x, one.bound))]
+        return found
 
     def _offered(self, x: int, above: bool) -> Iterator[tuple[Fraction, bool, Hashable]]:
         """The bounds of a variable, the weakest first."""

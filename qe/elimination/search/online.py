@@ -46,7 +46,8 @@ class LinearTheory(Protocol):
 
 
 class Propagator:
-    """What the SAT solver calls. ``last``: gives clauses against a whole assignment, none where it is a solution.
+    """What the SAT solver calls. ``last``: gives clauses against a whole assignment, none where it is a solution;
+    ``prefer`` is called before decisions.
 
     ``lemmas``: the clauses that the solver was told. ``failure``: an error while it called, which ends its work.
     ``keeps_errors``: whether this is inside such a call, where errors become the failure.
@@ -59,8 +60,9 @@ class Propagator:
         theories: Sequence[LinearTheory],
         check: Callable[[], None],
         last: Callable[[Sequence[int]], list[Literals]],
+        prefer: Callable[[], None] = lambda: None,
     ) -> None:
-        self.theories, self.check, self.last = theories, check, last
+        self.theories, self.check, self.last, self.prefer = theories, check, last, prefer
         self.lemmas: list[Literals] = []
         self.failure: BaseException | None = None
         self.keeps_errors = False
@@ -119,7 +121,10 @@ class Propagator:
 
     # --- what the solver asks ---------------------------------------------------------------------------
     def decide(self) -> int:
-        """No wish."""
+        """No wish which literal is next; ``prefer`` may say which way."""
+        if self.failure is None:
+            with self:
+                self.prefer()
         return 0
 
     def propagate(self) -> Literals:

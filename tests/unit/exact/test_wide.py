@@ -92,3 +92,18 @@ def test_substitution(f, g, values):
         if f.variables == (i,):
             assert f.to_univariate(i) == large.to_univariate(place)
     assert large.at_rational(0, 3) == large
+
+
+@settings(max_examples=10)
+@given(st.lists(COEFFICIENTS.filter(bool), min_size=WIDE + 2, max_size=2 * WIDE), st.integers(-9, 9))
+def test_a_polynomial_with_more_variables_than_are_few(coefficients, constant):
+    """It called itself without an end where a point was put in."""
+    linear = sum((BIG.gen(i) * c for i, c in enumerate(coefficients)), start=BIG.constant(constant))
+    for f, degree in ((linear, 1), (linear * BIG.gen(0), 2)):
+        plain = Poly(BIG, f.p)
+        assert isinstance(f, WidePoly) and len(f.variables) == len(coefficients)
+        assert f.terms() == plain.terms() and f.total_degree == degree
+        point = [Fraction(i % 5, 1 + i % 3) for i in range(BIG.size)]
+        assert f.evaluate(point) == plain.evaluate(point)
+        assert f.at_rational(1, Fraction(2, 3)) == plain.at_rational(1, Fraction(2, 3))
+        assert f.gcd(f * 2) == plain.gcd(plain * 2)

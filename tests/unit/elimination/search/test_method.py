@@ -18,6 +18,7 @@ from qe.elimination.search import method
 from qe.elimination.search.clauses import Clauses
 from qe.elimination.search.guided import guided
 from qe.elimination.search.linear_forms import over_monomials
+from qe.elimination.search.linear_theories import Forms, said
 from qe.elimination.search.method import BooleanSearch, Refuted, found_point
 from qe.elimination.search.monomial_bounds import MonomialBounds
 from qe.elimination.search.online import Propagator
@@ -296,3 +297,22 @@ def test_without_the_solver_it_says_so_and_others_go_on(monkeypatch: pytest.Monk
     answer = qe.eliminate(exists(("x", "y"), conj((body, atom(Y - X, Relation.GT)))), timeout=120, process=False)
     assert answer.truth is False
     assert any("python-sat" in line or "pysat" in line for line in map(str, answer.stats["switches"]))
+
+
+@settings(max_examples=20, deadline=None)
+@given(st.lists(FORMULAS, min_size=2, max_size=5).map(conj))
+def test_preferred_literals_move_nothing(body: Formula) -> None:
+    """All of them hold together with what was told, at the point as it is."""
+    clauses = Clauses(body)
+    forms = Forms(said(clauses.inequalities()))
+    preferred: dict[int, int] = {}
+    for literal in clauses.signs():
+        if forms.tell(literal) is not None or forms.settle() is not None:
+            break
+        before, mark = list(forms.bounds.values), forms.mark()
+        preferred |= {abs(changed): changed for changed in forms.changes()}
+        assert {abs(one) for one in forms.said} == preferred.keys()
+        assert all(forms.tell(one) is None for one in preferred.values())
+        assert forms.settle() is None and forms.bounds.values == before
+        forms.back(mark)
+        assert forms.changes() == []
