@@ -38,7 +38,7 @@ def power_sums(c: Sequence[Poly], most: int) -> list[Poly]:
 
 @lru_cache(maxsize=16)
 def general(degree: int, g: tuple[int, ...]) -> tuple[dict[tuple[int, ...], int], ...]:
-    """``minors`` for coefficients that are variables and a g with integer ones: powers of the variables, and factors."""
+    """``minors`` for coefficients that are variables and a g with integer ones: exponents and factors."""
     ring = Ring.of(tuple(f"c{k}" for k in range(degree + 1)))
     found = minors([ring.gen(k) for k in range(degree + 1)], [ring.constant(v) for v in g], Budget())
     return tuple(dict(p.terms()) for p in found)
