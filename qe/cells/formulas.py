@@ -9,6 +9,7 @@ polynomial and its derivatives separate its roots, so this ends.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from math import inf
 
 from qe.cells.sign_table import Literal, SignTable, free_cells
 from qe.errors import InternalError
@@ -163,7 +164,7 @@ def _gain(x: Literal, remaining: int, covered: int) -> tuple[float, int]:
     total = remaining.bit_count()
     excluded = total - (x.keeps & remaining).bit_count()
     if not excluded:
-        return -1.0, 0
+        return -inf, 0  # polynomials may cost thousands: what excludes something is still better
     kept = (x.holds & covered).bit_count() / max(1, covered.bit_count())
     return excluded / total + 1.5 * kept - 0.004 * x.cost, -x.cost
 

@@ -35,8 +35,8 @@ from qe.certify.ranges import check_ranges
 from qe.certify.redundant import check_redundant
 from qe.certify.renaming import check_renaming
 from qe.certify.replayed_block import check_replayed_block
-from qe.certify.roots_counted import check_roots_counted
 from qe.certify.roots_by_signs import check_roots_by_signs
+from qe.certify.roots_counted import check_roots_counted
 from qe.certify.rotation import check_rotation
 from qe.certify.sentence import check_sentence
 from qe.certify.shear import check_shear

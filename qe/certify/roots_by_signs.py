@@ -62,7 +62,8 @@ class _Asked:
             return TRUE
         ring = self.f[0].ring
         y = ring.gen(x)
-        body: list[Formula] = [atom(sum((c * y**k for k, c in enumerate(self.f[:-1])), ring.constant(0)), self.relation)]
+        rest = sum((c * y**k for k, c in enumerate(self.f[:-1])), start=ring.constant(0))
+        body: list[Formula] = [atom(rest, self.relation)]
         if self.ends is not None:
             body.append(atom(y, GE if self.ends[0] else GT))
         if self.condition is not None:

@@ -45,6 +45,7 @@ RULES: Mapping[str, str] = {
     "simplification": "Both sides have the same truth for all signs of the polynomials that are possible.",
     "elimination set": "A block holds somewhere if and only if it holds at one of finitely many test points "
     "(Loos, Weispfenning 1993; Weispfenning 1997).",
+    "roots by signs": "The signs of Hermite's forms, and Descartes' rule, say how the roots of a polynomial lie.",
     "infinity first": "Solutions near infinity follow from leading terms; elsewhere a leading coefficient is zero.",
     "comprehensive Gröbner system": "Signatures of trace forms count the real solutions of equations.",
     "only asked to be no root": "Polynomials that are not identically zero have a common point where none vanishes.",

@@ -43,6 +43,7 @@ CASES = {
     "point": "all x, y, z, u. x^2 + y^2 + z^2 + u^2 > 1",
     "multipliers": "ex x, y, z, u. x^2 + y^2 + z^2 + u^2 + x < -1",
     "basis": "ex x, y. x*y = 1 and x^2 + y^2 = a and x > 0 and y > x",
+    "signs of forms": "ex x. x^4 + a*x^2 + b*x + c = 0",
     "infinity": "all x. a*x^3 + b*x + c >= 0 or x = d",
     "terms": "all a, b. ex x. 4*(x - a)^2 <= (a - b)^2 and 4*(x - b)^2 <= (a - b)^2",
     "roots": "x < root(2, x^2 - y)",

@@ -1,13 +1,14 @@
 """How the roots of one polynomial can lie, and which signs of Hermite's forms and of coefficients go with it.
 
-THEOREM (Hermite 1853; Basu, Pollack, Roy 2006, section 4.3). Let B be the matrix of multiplication by a*x modulo f = c_0
-+ … + c_n*x^n, a = c_n /= 0, so that its trace of the k-th power is a^k times the sum of the k-th powers of the roots.
+THEOREM (Hermite 1853; Basu, Pollack, Roy 2006, section 4.3). Let B be the matrix of multiplication by a*x modulo f =
+c_0 + … + c_n*x^n, a = c_n /= 0, so that the trace of its k-th power is a^k times the sum of the k-th powers of the
+roots.
 The Hankel matrix of the traces of g*x^(i+j) has as its rank the number of distinct roots at which g /= 0, and as its
 signature the number of the real ones of these with g > 0 minus that of those with g < 0.
 THEOREM (Frobenius 1894). Where a Hankel matrix of rank r has a leading minor of size r that is not 0 (here it has, by
-the formula of Cauchy and Binet: r distinct roots with g /= 0), the signature is found by reading the leading minors that
-are not 0, one after the other: from D_i to D_j with j - i odd it changes by (-1)^((j-i-1)/2)*sign(D_i*D_j), and with
-j - i even D_i*D_j has the sign (-1)^((j-i)/2). Before the first one stands 1.
+the formula of Cauchy and Binet: r distinct roots with g /= 0), the signature is found by reading the leading minors
+that are not 0, one after the other: from D_i to D_j with j - i odd it changes by (-1)^((j-i-1)/2)*sign(D_i*D_j), and
+with j - i even D_i*D_j has the sign (-1)^((j-i)/2). Before the first one stands 1.
 THEOREM (Descartes). Positive roots, with multiplicities, are as many as the changes of sign in the coefficients, or an
 even number less; negative roots as in f(-x).
 THEOREM. For a quartic with coefficients c_0, …, c_4 let I = 12*c_4*c_0 - 3*c_3*c_1 + c_2^2, and J the other invariant:
@@ -20,7 +21,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
-from itertools import product
+from itertools import pairwise, product
 
 from qe.errors import Unable
 from qe.exact.ring import Poly
@@ -95,7 +96,7 @@ def forms(size: int) -> dict[tuple[int, int], list[Signs]]:
 def _signature(signs: Signs) -> int | None:
     places = [(0, 1), *((k, s) for k, s in enumerate(signs, 1) if s)]
     total = 0
-    for (i, before), (j, after) in zip(places, places[1:], strict=False):
+    for (i, before), (j, after) in pairwise(places):
         half, odd = divmod(j - i, 2)
         turn = 1 if half % 2 == 0 else -1
         if odd:
@@ -112,7 +113,7 @@ def descartes(signs: Signs, pattern: Pattern) -> bool:
         return False
     for roots, mirrored in ((pattern.above, 1), (pattern.below, -1)):
         row = [s * mirrored**k for k, s in enumerate(signs) if s]
-        spare = sum(a != b for a, b in zip(row, row[1:], strict=False)) - sum(roots)
+        spare = sum(a != b for a, b in pairwise(row)) - sum(roots)
         if spare < 0 or spare % 2:
             return False
     return True

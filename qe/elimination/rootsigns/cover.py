@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -61,7 +62,7 @@ class Rows:
         """Holds on the true rows and not on the false ones; cases by the sign of a polynomial where that is shorter."""
         if not true or not false:
             return FALSE if not true else TRUE
-        best = formula_of_cells([self.polys], self._cells(true, True) + self._cells(false, False))
+        best = gathered(formula_of_cells([self.polys], self._cells(true, True) + self._cells(false, False)))
         for k, p in enumerate(splitting):
             for first, second in ((LE, GE), (GE, LE)):
                 found = self._divided(true, false, atom(p, first), atom(p, second), splitting[k + 1 :], length(best))
@@ -82,6 +83,21 @@ class Rows:
     def _cells(self, bits: int, truth: bool) -> list[FreeCell]:
         chosen = [k for k in range(len(self.signs)) if bits >> k & 1]
         return [FreeCell((k,), ("".join(_CHARACTER[s] for s in self.signs[k]),), truth) for k in chosen]
+
+
+def gathered(formula: Formula) -> Formula:
+    """(A or B) and (A or C) as A or (B and C), and dually: the dearest common part first."""
+    if not isinstance(formula, And | Or):
+        return formula
+    inner, join, across = (Or, conj, disj) if isinstance(formula, And) else (And, disj, conj)
+    parts = [arg.args if isinstance(arg, inner) else (arg,) for arg in formula.args]
+    shared = Counter(f for part in parts for f in part)
+    common = max(shared, key=lambda f: (shared[f] - 1) * length(f))
+    if shared[common] == 1:
+        return formula
+    rest = [across(f for f in part if f != common) for part in parts if common in part]
+    others = [across(part) for part in parts if common not in part]
+    return gathered(join((*others, across((common, gathered(join(rest)))))))
 
 
 def length(formula: Formula) -> int:

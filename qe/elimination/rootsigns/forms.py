@@ -10,11 +10,15 @@ for even m, and for odd m that times the sign of a.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import lru_cache
 from itertools import combinations
 
 from qe.errors import Unable
-from qe.exact.ring import Poly
+from qe.exact.ring import Poly, Ring
 from qe.options import Budget
+
+Minors = dict[tuple[int, ...], Poly]
+"""By columns."""
 
 MOST_TERMS = 4_000
 """With more terms in a minor the answer is of no use."""
@@ -32,22 +36,58 @@ def power_sums(c: Sequence[Poly], most: int) -> list[Poly]:
     return found
 
 
+@lru_cache(maxsize=16)
+def general(degree: int, g: tuple[int, ...]) -> tuple[dict[tuple[int, ...], int], ...]:
+    """``minors`` for coefficients that are variables and a g with integer ones: exponents and factors."""
+    ring = Ring.of(tuple(f"c{k}" for k in range(degree + 1)))
+    found = minors([ring.gen(k) for k in range(degree + 1)], [ring.constant(v) for v in g], Budget())
+    return tuple(dict(p.terms()) for p in found)
+
+
+def special(c: Sequence[Poly], g: tuple[int, ...], budget: Budget) -> list[Poly]:
+    """``minors`` from the general ones: nothing has to be divided. Raises ``Unable`` past the limit."""
+    found = []
+    for terms in general(len(c) - 1, g):
+        total = c[0].ring.constant(0)
+        for exponents, factor in terms.items():
+            budget.check("minors of Hermite's forms")
+            total = total + _monomial(c, exponents, budget) * factor
+        found.append(total)
+    return found
+
+
+def _monomial(c: Sequence[Poly], exponents: tuple[int, ...], budget: Budget) -> Poly:
+    found = c[0].ring.constant(1)
+    for p, power in zip(c, exponents, strict=True):
+        for _ in range(power):
+            found = _product(found, p, budget)
+    return found
+
+
+def _product(left: Poly, right: Poly, budget: Budget) -> Poly:
+    """Raises ``Unable`` where it has too many terms."""
+    budget.spend(1 + left.term_count() * right.term_count() // 1_000)
+    found = left * right
+    if found.term_count() > MOST_TERMS:
+        raise Unable("a minor of a form of Hermite grows past its limits")
+    return found
+
+
 def minors(c: Sequence[Poly], g: Sequence[Poly], budget: Budget) -> list[Poly]:
     """Those of the form of g, of sizes 1 to n, as above. Raises ``Unable`` where they grow past their limit."""
     n, m, a = len(c) - 1, len(g) - 1, c[-1]
     sums = power_sums(c, 2 * n - 2 + m)
     zero = a.ring.constant(0)
-    entries = [sum((p * a ** (m - j) * sums[k + j] for j, p in enumerate(g) if p), start=zero) for k in range(2 * n - 1)]
-    found, previous = list[Poly](), {(): a.ring.constant(1)}
+    weights = [p * a ** (m - j) for j, p in enumerate(g)]
+    entries = [sum((w * sums[k + j] for j, w in enumerate(weights) if w), start=zero) for k in range(2 * n - 1)]
+    found: list[Poly] = []
+    previous: Minors = {(): a.ring.constant(1)}
     for k in range(n):
         previous = _wider(entries, previous, k, n, budget)
         spare = k * (k - 1 + m)
         minor = previous[tuple(range(k + 1))]
         found.append(minor.exact_divide(a**spare) if spare and a != 1 else minor)
     return found
-
-
-Minors = dict[tuple[int, ...], Poly]
 
 
 def _wider(entries: Sequence[Poly], previous: Minors, k: int, n: int, budget: Budget) -> Minors:
@@ -59,9 +99,6 @@ def _wider(entries: Sequence[Poly], previous: Minors, k: int, n: int, budget: Bu
         for position, column in enumerate(columns):
             entry, rest = entries[k + column], previous[columns[:position] + columns[position + 1 :]]
             if entry and rest:
-                budget.spend(1 + entry.term_count() * rest.term_count() // 1_000)
-                total = total + entry * rest * (-1) ** (k - position)
-        if total.term_count() > MOST_TERMS:
-            raise Unable("a minor of a form of Hermite grows past its limits")
+                total = total + _product(entry, rest, budget) * (-1) ** (k - position)
         found[columns] = total
     return found

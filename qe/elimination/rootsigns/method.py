@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 
 from qe.elimination.protocol import Context, Outcome, Problem
 from qe.elimination.rootsigns.cover import Rows
-from qe.elimination.rootsigns.forms import minors
+from qe.elimination.rootsigns.forms import minors, special
 from qe.elimination.rootsigns.question import Question, read
 from qe.elimination.rootsigns.theory import Name, Place, RootType, Shape, Signs, rows
 from qe.errors import Unable
@@ -111,15 +111,15 @@ def _table(question: Question, shape: Shape, budget: Budget) -> _Table:
 
 def _polynomials(question: Question, shape: Shape, budget: Budget) -> dict[Name, Poly]:
     """The literals."""
-    f, one = question.f, question.f[0].ring.constant(1)
+    f = question.f
     found: dict[Name, Poly] = {("c", k): p for k, p in enumerate(f)}
-    forms = {"P": (one,)}
+    forms = {"P": special(f, (1,), budget)}
     if shape.place is not Place.LINE:
-        forms["A"] = (one - one, one) if shape.place is Place.RAY else question.g
+        forms["A"] = special(f, (0, 1), budget) if shape.place is Place.RAY else minors(f, question.g, budget)
     if shape.squares:
-        forms["Q"] = _square(question.g)
-    for name, g in forms.items():
-        found |= {(name, k): p for k, p in enumerate(minors(f, g, budget), 1)}
+        forms["Q"] = minors(f, _square(question.g), budget)
+    for name, listed in forms.items():
+        found |= {(name, k): p for k, p in enumerate(listed, 1)}
     if shape.invariant:
         e, d, c, b, a = f
         found["I", 0] = 12 * (a * e) - 3 * (b * d) + c * c

@@ -29,8 +29,8 @@ MOST_TERMS = 2_000
 class Question:
     """Whether some y, in the place, has f(y) relation 0. ``f``: coefficients, the constant one first, the last not 0.
 
-    ``relation`` is one of =, <, <=. ``g``, ``sign``: what else is asked, in the place CONDITION. ``closed``: whether y =
-    0, and whether y = oo, takes part, in the place RAY. ``side``: a condition on the parameters besides.
+    ``relation`` is one of =, <, <=. ``g``, ``sign``: what else is asked, in the place CONDITION. ``closed``: whether
+    y = 0, and whether y = oo, takes part, in the place RAY. ``side``: a condition on the parameters besides.
     """
 
     f: tuple[Poly, ...]
@@ -58,7 +58,7 @@ class Question:
         """
         if self.place is Place.CONDITION:
             return count(kind, *(Root(s) for s in self.sign.signs)) > 0
-        inside = REAL if self.place is Place.LINE else (Root.POSITIVE,)
+        inside: tuple[Root, ...] = REAL if self.place is Place.LINE else (Root.POSITIVE,)
         if self.relation is LT:
             odd = any(r in inside and m % 2 for r, m in kind)
             return lead < 0 or odd or (self.place is Place.LINE and self.degree % 2 == 1)
@@ -94,9 +94,10 @@ def read(body: Formula, x: int) -> Question | None:
         return None
     if not 2 <= others[0].poly.degree(x) <= HIGHEST[Place.RAY if bounds else Place.LINE]:
         return None
-    relation, poly = others[0].relation, others[0].poly
-    if relation in (GT, GE):
-        relation, poly = relation.flipped, -poly
+    poly = others[0].poly
+    relation: Relation = others[0].relation
+    if others[0].relation in (GT, GE):
+        relation, poly = others[0].relation.flipped, -poly
     if not bounds:
         return Question(poly.coefficients(x), relation, Place.LINE)
     return _on_interval(poly, relation, bounds, x)
@@ -155,7 +156,8 @@ def _on_interval(poly: Poly, relation: Relation, bounds: Sequence[Atom], x: int)
 
 def _composed(f: Sequence[Poly], top: Sequence[Poly], bottom: Sequence[Poly]) -> tuple[Poly, ...]:
     """The coefficients of the sum of f_i * top^i * bottom^(n-i), for linear ``top`` and ``bottom``."""
-    found, power = (f[-1],), (f[-1].ring.constant(1),)
+    found: tuple[Poly, ...] = (f[-1],)
+    power: tuple[Poly, ...] = (f[-1].ring.constant(1),)
     for c in reversed(f[:-1]):
         power = _product(power, bottom)
         found = _product(found, top)

@@ -6,10 +6,13 @@ import pytest
 
 from qe.cad.decompose import decompose
 from qe.cells.follows import follows, is_listed
+from qe.cells.formulas import shortest
 from qe.cells.sign_table import SignTable, free_cells
 from qe.exact.ring import Ring
 from qe.formula.build import convert
+from qe.formula.evaluate import holds_at
 from qe.formula.syntax import FALSE, TRUE, Relation
+from qe.formula.traverse import conjuncts
 from qe.io.text import read
 from qe.options import Budget
 from qe.proof.cells import CellTable, FreeCell
@@ -98,3 +101,12 @@ def test_two_free_variables() -> None:
 def test_of_root_atoms_only_the_polynomials_are_looked_at() -> None:
     whole = table("x^2 < 2", "x", ("",))
     assert follows(read("x > root(1, x^2 - 2)"), whole) and not follows(read("x > root(1, x^2 - 3)"), whole)
+
+
+def test_polynomials_of_huge_degree_are_told_apart() -> None:
+    """The cost of x^1000 outweighed that it excludes a cell, and a literal that excludes nothing was chosen."""
+    listed = [("++", True), ("-+", False), ("+-", False)]
+    cells = [FreeCell((k,), (signs,), truth) for k, (signs, truth) in enumerate(listed)]
+    found = shortest([[X**1000 - Y, X**2000 - Y]], cells)
+    assert len(conjuncts(found)) == 2
+    assert holds_at(found, {"x": 2, "y": 0}) and not holds_at(found, {"x": 2, "y": 2**1500})

@@ -1,0 +1,210 @@
+"""The rule "roots by signs": accepted as it is produced; altered claims and those of broken producers are not."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from itertools import pairwise
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import qe
+from qe.certify.arithmetic import root_patterns
+from qe.certify.derivation import limits_of
+from qe.certify.registry import RULES
+from qe.certify.step import Claim
+from qe.certify.verify import check_certificate
+from qe.elimination.protocol import Problem
+from qe.elimination.rootsigns import forms, method, question, theory
+from qe.errors import CertificateRejected
+from qe.exact.ring import Ring
+from qe.formula.build import atom, conj, convert, disj
+from qe.formula.evaluate import substituted
+from qe.formula.syntax import FALSE, TRUE, And, Atom, Exists, Formula, Or, Relation
+from qe.io.text import read
+from qe.options import Budget
+from qe.proof.entry import Entry
+
+EXAMPLES = [
+    "ex x. x > 0 and x^4 + a*x^2 + b*x + c = 0",
+    "all x. x^4 + a*x^2 + b*x + c >= 0",
+    "ex x. a*x^3 + b*x^2 + c*x + d <= 0 and x >= 0 and x <= 1",
+    "ex x. x^3 + a*x + b > 0 and x > c and x < d",
+    "all x. a*x^4 + b*x + c /= 0 or x >= 2",
+    "ex x. x^3 + a*x + b = 0 and c*x + d > 0",
+]
+
+
+def claimed(before: Formula, after: Formula) -> bool:
+    """Whether the checker accepts this step."""
+    names = dict.fromkeys((*before.ring.names, *(after.ring.names if after.ring else ())))
+    ring = Ring.of(names)
+    claim = Claim("roots by signs", convert(before, ring), convert(after, ring), ring, Entry({}, "step"), "step")
+    try:
+        RULES["roots by signs"](claim, (), limits_of(Budget(20), RULES, check_certificate))
+    except CertificateRejected:
+        return False
+    return True
+
+
+def produced(before: Formula) -> Formula:
+    problem = Problem.of(before)
+    assert problem is not None
+    x = problem.body.ring.index[problem.variables[0]]
+    asked = question.read(problem.dual.body, x)
+    assert asked is not None
+    return problem.asked(method.answer(asked, x, Budget()))
+
+
+@pytest.mark.parametrize("text", EXAMPLES)
+def test_every_step_is_checked(text: str) -> None:
+    answer = qe.eliminate(text, check=True, process=False, without="cubic", method="auto")
+    assert answer.unchecked_steps == () and answer.certificate is not None
+    assert "roots by signs" in {step.rule for step in answer.derivation.steps}
+
+
+def altered(formula: Formula) -> Iterator[Formula]:
+    """One comparison with another relation or other side, or one part left out."""
+    match formula:
+        case Atom(poly, relation):
+            yield from (Atom(poly, r) for r in Relation if r is not relation)
+            yield from (atom(poly + k, relation) for k in (1, -1))
+        case And(args) | Or(args):
+            join = conj if isinstance(formula, And) else disj
+            for k, arg in enumerate(args):
+                yield join((*args[:k], *args[k + 1 :]))
+                yield from (join((*args[:k], other, *args[k + 1 :])) for other in altered(arg))
+        case Exists(variables, body):
+            yield from (Exists(variables, other) for other in altered(body) if other not in (TRUE, FALSE))
+
+
+@pytest.mark.parametrize("text", EXAMPLES)
+def test_an_altered_claim_is_accepted_only_where_it_is_the_same_on_all_rows(text: str) -> None:
+    """Some alterations change nothing (p <= 0 for p < 0 where 0 is met elsewhere): those are checked at numbers."""
+    before = read(text)
+    after = produced(before)
+    assert claimed(before, after)
+    rng, right, wrong = random.Random(text), [], 0
+    for other in list(altered(after))[rng.randrange(8) :: 8]:
+        if claimed(before, other):
+            right.append(other)
+        else:
+            wrong += 1
+    assert wrong > 2 * len(right)
+    for other in right:
+        for _ in range(3):
+            values = {name: rng.randint(-3, 3) for name in before.free}
+            here, there = (qe.decide(substituted(f, values), without="roots", process=False) for f in (before, other))
+            assert here is there, (other, values)
+
+
+def polynomial(rng: random.Random, degree: int) -> str:
+    terms = [f"{rng.choice(('a', 'b', '(a + b)', '(a*b)', 1, 2, -1, 0))}*x^{k}" for k in range(degree)]
+    return " + ".join([*terms, f"{rng.choice((1, -1, 'a', '(b + 1)'))}*x^{degree}"])
+
+
+@settings(max_examples=8, deadline=None)
+@given(st.integers(0, 10**6))
+def test_what_is_produced_is_accepted(seed: int) -> None:
+    rng = random.Random(seed)
+    relation = rng.choice(("=", "<", "<=", ">", ">="))
+    beside = rng.choice(("", "and x > a", "and x <= 2", "and x > a and x <= b", "and x >= 0 and x <= 1", "g"))
+    if beside == "g":
+        relation, beside = "=", f"and {polynomial(rng, 2)} {rng.choice(('>', '>=', '/=', '<'))} 0"
+    before = read(f"ex x. {polynomial(rng, rng.choice((3, 3, 4)))} {relation} 0 {beside}")
+    if not isinstance(before, Exists) or question.read(before.body, before.ring.index["x"]) is None:
+        return
+    assert claimed(before, produced(before))
+
+
+Break = Callable[[pytest.MonkeyPatch], None]
+
+
+def open_ends(patch: pytest.MonkeyPatch) -> None:
+    whole = question._on_interval
+    patch.setattr(question, "_on_interval", lambda *a: replace(whole(*a), closed=(False, False)))
+
+
+def nonempty(patch: pytest.MonkeyPatch) -> None:
+    whole = question._on_interval
+    patch.setattr(question, "_on_interval", lambda *a: replace(whole(*a), side=TRUE))
+
+
+def unsigned(patch: pytest.MonkeyPatch) -> None:
+    """The signs of minors as for a positive leading coefficient."""
+    whole = theory._parts
+    patch.setattr(theory, "_parts", lambda shape, kind, lead: whole(replace(shape, odd=False), kind, lead))
+
+
+def without_lower_degree(patch: pytest.MonkeyPatch) -> None:
+    patch.setattr(question.Question, "degenerate", lambda self, x: FALSE)
+
+
+def any_multiplicity(patch: pytest.MonkeyPatch) -> None:
+    """A double root taken for a change of sign."""
+    patch.setattr(question.Question, "holds", lambda self, lead, kind: lead < 0 or theory.count(kind, *theory.REAL) > 0)
+
+
+def turned(patch: pytest.MonkeyPatch) -> None:
+    """Minors of the form of -g."""
+    whole = forms.minors
+    patch.setattr(method, "minors", lambda c, g, budget: whole(c, [-p for p in g], budget))
+
+
+def no_gaps(patch: pytest.MonkeyPatch) -> None:
+    """Zeros among the minors passed over."""
+
+    def plain(signs: tuple[int, ...]) -> int:
+        known = [1, *filter(None, signs)]
+        return sum(a * b for a, b in pairwise(known))
+
+    patch.setattr(theory, "_signature", plain)
+
+
+BROKEN: list[tuple[Break, str]] = [
+    (open_ends, "ex x. x^3 + a*x + b = 0 and x >= c"),
+    (nonempty, "ex x. x^3 + a*x + b <= 0 and x > c and x < d"),
+    (unsigned, "ex x. a*x^3 + b*x + c = 0 and x > d and x < 1"),
+    (without_lower_degree, "ex x. a*x^3 + b*x + c = 0 and x > 0"),
+    (any_multiplicity, "ex x. x^4 + a*x^2 + b*x + c < 0"),
+    (turned, "ex x. x^3 + a*x + b = 0 and c*x + d > 0"),
+    (no_gaps, "ex x. x^4 + a*x^2 + b*x + c = 0"),
+]
+
+
+@pytest.mark.parametrize(("broken", "text"), BROKEN, ids=[b.__name__ for b, _ in BROKEN])
+def test_steps_of_a_broken_producer_are_refused(broken: Break, text: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    before = read(text)
+    assert claimed(before, produced(before))
+    caches = (theory.rows, theory.minors, theory.coefficients)
+    for cache in caches:
+        cache.cache_clear()
+    broken(monkeypatch)
+    try:
+        after = produced(before)
+    except qe.Unable:
+        return  # the rows of signs contradict each other
+    finally:
+        for cache in caches:
+            cache.cache_clear()
+    assert not claimed(before, after)
+
+
+def test_the_two_lists_of_types_agree() -> None:
+    """The checker has its own; both know 5 multisets of roots of a quadratic at x > 0, and so on."""
+    for degree in (2, 3, 4):
+        mine = {
+            (len(p.above), len(p.on), len(p.below), len(p.pairs), tuple(sorted(p.real + p.pairs + p.pairs)))
+            for p in root_patterns.patterns(degree)
+            if not p.zero_pairs and len(p.on) < 2
+        }
+        theirs = set()
+        for kind in theory.types(theory.Shape(degree, theory.Place.RAY)):
+            counts = [theory.count(kind, r) for r in (theory.Root.POSITIVE, theory.Root.ZERO, theory.Root.NEGATIVE)]
+            pairs = [m for r, m in kind if r is theory.Root.PAIR]
+            real = [m for r, m in kind if r is not theory.Root.PAIR]
+            theirs.add((*counts, len(pairs), tuple(sorted(real + pairs + pairs))))
+        assert mine == theirs
