@@ -53,7 +53,8 @@ class Stage(Enum):
     atom alone looks at. ``ZEROS``: conditions on which variables vanish are dropped where they follow from the others.
     ``BALLS``: whether two balls meet is a closed form, and a sphere seen along one direction a segment.
     ``STABILITY``: whether a polynomial given by its real and imaginary part has roots in a half-plane is another.
-    ``QUADRICS``: whether one quadric lies in another is a question about one multiplier. ``RANGES``: conditions that ranges of variables exclude are refuted.
+    ``QUADRICS``: whether one quadric lies in another is a question about one multiplier.
+    ``RANGES``: conditions that ranges of variables exclude are refuted.
     ``SAMPLES``: sentences of inequalities are tried at points. ``SEARCH``: sentences with many cases are
     searched by a SAT solver. ``SQUARES``: signs that sums of squares prove. ``MINISCOPING``: quantifiers are moved
     inwards, independent parts apart. ``EXCHANGE``: the sum and product of two variables that can be exchanged stand for
