@@ -47,17 +47,18 @@ class Stage(Enum):
     leave, belongs to one.
 
     ``EQUATIONS``: linear equations and Gröbner bases before anything else. ``SUBSTITUTION``: virtual substitution.
-    ``CUBIC``: the same with roots of cubics.
+    ``CUBIC``: the same with roots of cubics, and the signs of cubics on intervals.
     ``CONSTRAINTS``: projection and lifting restricted by equational constraints. ``PARTIAL``: stacks are left as
     soon as their truth is known. ``OPEN``: sectors only where all atoms are strict. ``MCCALLUM``: Brown–McCallum
     projection before Lazard's. ``ORDER``: the variable order is chosen, not taken as written. ``SYMMETRY``: variables
     are taken from a block by translations, rotations and scalings that leave its truth alone. ``GATHERING``: nested
     blocks of one kind are prepared as one. ``DISTRIBUTION``: disjuncts with equations are solved apart. ``VALUES``:
-    atoms that some value of a variable meets, whatever the rest is, are dropped. ``ZEROS``: conditions on which
-    variables vanish are dropped where they follow from the others. ``BALLS``: whether two balls meet is a closed form,
-    and a sphere seen along one direction a segment. ``STABILITY``: whether a polynomial given by its real and imaginary
-    part has roots in a half-plane is another. ``QUADRICS``: whether one quadric lies in another is a question about one
-    multiplier. ``RANGES``: conditions that ranges of variables exclude are refuted.
+    atoms that some value of a variable meets, whatever the rest is, are dropped, and squares of variables that one
+    atom alone looks at. ``ZEROS``: conditions on which variables vanish are dropped where they follow from the others.
+    ``BALLS``: whether two balls meet is a closed form, and a sphere seen along one direction a segment.
+    ``STABILITY``: whether a polynomial given by its real and imaginary part has roots in a half-plane is another.
+    ``QUADRICS``: whether one quadric lies in another is a question about one multiplier.
+    ``RANGES``: conditions that ranges of variables exclude are refuted.
     ``SAMPLES``: sentences of inequalities are tried at points. ``SEARCH``: sentences with many cases are
     searched by a SAT solver. ``SQUARES``: signs that sums of squares prove. ``MINISCOPING``: quantifiers are moved
     inwards, independent parts apart. ``EXCHANGE``: the sum and product of two variables that can be exchanged stand for

@@ -8,12 +8,16 @@ points with h = 0. Then f + m*h >= 0 everywhere for some m >= 0 (Yakubovich 1971
 2007, theorem 2.2); m /= 0 by F_ii < 0, and r = 1/m. The other way round f >= -h/r where r*F + H is positive
 semidefinite.
 
+Where H_11*H_22 - H_12^2 = m > 0 instead of det H < 0, h has its least value det H/m (up to a positive factor) at one
+point only, which solves the linear equations grad h = 0. So h <= 0 (h = 0) and f < 0 have a common solution iff
+det H < 0 and there is no such r, or det H = 0 and f < 0 at that point.
+
 That a symmetric matrix is positive semidefinite means that no principal minor is negative (Horn, Johnson, Matrix
 Analysis, theorem 7.2.5). With b = 0 in ((a, b), (b, c)) the minor a*c follows from the others; so does the large one
 where a row has two zeros beside the diagonal.
 
 Evidence: ``along``, the variable at the place i; ``turned``, 1 where h is minus the polynomial of an equation, 0 else;
-``theory``, by which the three signs are known.
+``below``, 1 where det H < 0 is known, 0 where m > 0 is; ``theory``, by which the three signs are known.
 """
 
 from __future__ import annotations
@@ -23,7 +27,7 @@ from qe.certify.boolean import ByLemmas, Goal, equivalence
 from qe.certify.negation import negation
 from qe.certify.step import Claim, Context, only, outside
 from qe.exact.ring import Poly
-from qe.formula.build import atom, conj, exists
+from qe.formula.build import atom, conj, disj, exists
 from qe.formula.syntax import And, Atom, Exists, Formula, Relation
 
 Rows = tuple[tuple[Poly, Poly, Poly], ...]
@@ -31,7 +35,7 @@ Rows = tuple[tuple[Poly, Poly, Poly], ...]
 
 def quadrics_goals(claim: Claim, context: Context) -> list[Goal]:
     """The signs are known, and what stands after denies that there is a multiplier."""
-    along, turned, _ = only(claim, "along", "turned", "theory")
+    along, turned, below, _ = only(claim, "along", "turned", "below", "theory")
     before, after = existential(claim)
     if not isinstance(before, Exists) or not isinstance(before.body, And) or len(before.body.args) != 2:
         raise claim.fail("a block over two conditions expected")
@@ -44,6 +48,8 @@ def quadrics_goals(claim: Claim, context: Context) -> list[Goal]:
     sign = _WEAK[weak[0].relation]
     if (turning := turned.integer(0)) > 1 or (turning and sign):
         raise turned.fail("0, or 1 for an equation, expected")
+    if (known := below.integer(0)) > 1:
+        raise below.fail("0 or 1 expected")
     outer = _rows(strict[0].poly * _STRICT[strict[0].relation], before.variables, claim)
     inner = _rows(weak[0].poly * (sign or (-1 if turning else 1)), before.variables, claim)
     place = before.variables.index(along.text())
@@ -51,10 +57,12 @@ def quadrics_goals(claim: Claim, context: Context) -> list[Goal]:
     signs = (
         atom(outer[place][place], Relation.GE),
         atom(inner[place][place], Relation.LE),
-        atom(_determinant(inner), Relation.GE),
+        atom(_determinant(inner), Relation.GE) if known else atom(_upper_left(inner), Relation.LE),
     )
-    none = negation(_multiplier(outer, inner, before.variables[0], claim))
-    return [*((*inside, wrong) for wrong in signs), *equivalence(none, after, inside)]
+    meet = negation(_multiplier(outer, inner, before.variables[0], claim))
+    if not known:
+        meet = _either_sign(outer, inner, meet)
+    return [*((*inside, wrong) for wrong in signs), *equivalence(meet, after, inside)]
 
 
 check_quadrics = ByLemmas(quadrics_goals)
@@ -93,6 +101,21 @@ def _multiplier(outer: Rows, inner: Rows, name: str, claim: Claim) -> Formula:
     if sum(bool(s) for s in (b, c, e)) > 1:
         minors.append(_determinant((first, second, third)))  # type: ignore[arg-type]
     return exists((name,), conj((atom(r, Relation.GT), *(atom(minor, Relation.GE) for minor in minors))))
+
+
+def _upper_left(rows: Rows) -> Poly:
+    (a, b, _), (_, d, _), _ = rows
+    return a * d - b * b
+
+
+def _either_sign(outer: Rows, inner: Rows, meet: Formula) -> Formula:
+    """A common solution whatever the sign of det H; ``meet``: where it is negative."""
+    (a, b, c), (_, d, e), _ = inner
+    whole, lowest = _determinant(inner), (b * e - c * d, b * c - a * e, _upper_left(inner))  # by Cramer's rule
+    at_lowest = [sum((p * q for p, q in zip(row[1:], lowest[1:], strict=True)), row[0] * lowest[0]) for row in outer]
+    value = sum((p * q for p, q in zip(at_lowest[1:], lowest[1:], strict=True)), at_lowest[0] * lowest[0])
+    point = conj((atom(whole, Relation.EQ), atom(value, Relation.LT)))
+    return disj((conj((atom(whole, Relation.LT), meet)), point))
 
 
 def _determinant(rows: Rows) -> Poly:

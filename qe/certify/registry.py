@@ -14,6 +14,7 @@ from qe.certify.counted_solutions import check_counted_solutions
 from qe.certify.covering import check_covering
 from qe.certify.critical_universal import check_critical_universal
 from qe.certify.critical_values import check_critical_values
+from qe.certify.cubic_interval import check_cubic_interval
 from qe.certify.degenerate_truth_set import check_degenerate_truth_set
 from qe.certify.degree_shift import check_degree_shift
 from qe.certify.distribution import check_distribution
@@ -41,6 +42,7 @@ from qe.certify.rotation import check_rotation
 from qe.certify.sentence import check_sentence
 from qe.certify.shear import check_shear
 from qe.certify.sphere import check_sphere
+from qe.certify.square_alone import check_square_alone
 from qe.certify.step import Check
 from qe.certify.symmetry import check_scaling, check_translation
 from qe.certify.table import check_table
@@ -65,6 +67,8 @@ RULES: Mapping[str, Check] = {
     "sphere seen along a form": check_sphere,
     "roots in a half-plane": check_half_plane,
     "quadric in a quadric": check_quadrics,
+    "cubic on an interval": check_cubic_interval,
+    "square of a variable alone": check_square_alone,
     "ranges that exclude each other": check_ranges,
     "conditions on zeros that follow": check_zeros,
     "independent parts and miniscoping": check_miniscoping,

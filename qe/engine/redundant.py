@@ -128,11 +128,9 @@ def _is_suited(formula: Formula) -> bool:
     size, terms = length(formula)
     if not 2 <= size <= MOST_ATOMS or terms > MOST_TERMS or len(formula.free) > MOST_VARIABLES:
         return False
-    if len(formula.free) > FEW_VARIABLES and any(
-        a.poly.total_degree > 1 and a.poly.term_count() > FEW_TERMS for a in atoms(formula)
-    ):
-        return False
-    return True
+    return len(formula.free) <= FEW_VARIABLES or all(
+        a.poly.total_degree <= 1 or a.poly.term_count() <= FEW_TERMS for a in atoms(formula)
+    )
 
 
 def without_part(formula: Formula, place: Sequence[int]) -> Formula:

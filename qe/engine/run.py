@@ -41,12 +41,13 @@ SWITCHED = {
     Stage.SYMMETRY: SYMMETRY_STEPS,
     Stage.GATHERING: {StepKind.GATHERING},
     Stage.DISTRIBUTION: {StepKind.DISTRIBUTION},
-    Stage.VALUES: {StepKind.TAKES_VALUE},
+    Stage.VALUES: {StepKind.TAKES_VALUE, StepKind.SQUARE_ALONE},
     Stage.ZEROS: {StepKind.ZEROS},
     Stage.RANGES: {StepKind.RANGES},
     Stage.BALLS: {StepKind.BALLS, StepKind.SPHERE},
     Stage.STABILITY: {StepKind.HALF_PLANE},
     Stage.QUADRICS: {StepKind.QUADRICS},
+    Stage.CUBIC: {StepKind.CUBIC_INTERVAL},
     Stage.SQUARES: {StepKind.SQUARES},
     Stage.EXCHANGE: {StepKind.EXCHANGE},
     Stage.MINISCOPING: {StepKind.MINISCOPE},
@@ -265,8 +266,7 @@ class _Run:
         return formula
 
     def reduced(self, problem: Problem) -> Problem | Formula:
-        """The problem with its body as far as inner blocks can be eliminated, simplified; a formula where no block is
-        left."""
+        """The problem, simplified, without the inner blocks that can be eliminated; a formula if none is left."""
         body = self.without_quantifiers(problem.body, inner=True)
         if not body.is_quantifier_free:
             return replace(problem, body=body)

@@ -10,6 +10,7 @@ from qe.rules.balls import two_balls
 from qe.rules.block_context import BlockContext, Rule
 from qe.rules.cancelling import cancel_equations
 from qe.rules.cases import groebner_equations, split_factors
+from qe.rules.cubic_interval import cubic_on_interval
 from qe.rules.degree_shift import shift_degree
 from qe.rules.exchange import exchange_variables
 from qe.rules.generic import drop_inequations
@@ -19,6 +20,7 @@ from qe.rules.ranges import excluded_by_ranges
 from qe.rules.scaling import fix_scale
 from qe.rules.shear import linear_form
 from qe.rules.sphere import sphere_along_form
+from qe.rules.square_alone import square_alone
 from qe.rules.squares import known_signs
 from qe.rules.step import StepKind
 from qe.rules.structural import guarded_linear_equation, independent_parts, linear_equation, solvable_disjuncts
@@ -34,9 +36,11 @@ RULES: tuple[Rule, ...] = (
     sphere_along_form,
     root_in_half_plane,
     quadric_in_quadric,
+    cubic_on_interval,
     linear_equation,
     known_signs,
     drop_what_can_be_met,
+    square_alone,
     fix_origin,
     drop_inequations,
     cancel_equations,

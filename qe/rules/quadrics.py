@@ -9,6 +9,10 @@ point (or at it), and f is concave: f >= 0 there. So f >= 0 where h <= 0, and by
 Terlaky, A survey of the S-lemma, SIAM Review 49, 2007, theorem 2.2), whose condition is that h < 0 somewhere, there is
 m >= 0 with f + m*h >= 0 for all v, that is, with F + m*H positive semidefinite; m > 0 by F_ii < 0, and r = 1/m. If
 there is such an r, f >= -h/r >= 0 where h <= 0.
+COROLLARY. Let moreover m = H_11*H_22 - H_12^2 > 0, and let det H have any sign. Then
+    ex v (h <= 0 and f < 0)  iff  det H < 0 and not ex r > 0 (…), or det H = 0 and (w, m)F(w, m) < 0,
+with m and the entries of w the cofactors of the last row of H; the same with h = 0.
+PROOF. h is strictly convex, and its least value is det H/m, taken at w/m alone.
 
 A symmetric matrix is positive semidefinite iff its principal minors are not negative (Horn, Johnson, Matrix Analysis,
 theorem 7.2.5); those of rows that fall into two parts without common entries are products of others.
@@ -20,7 +24,7 @@ from collections.abc import Iterator, Mapping
 from itertools import combinations
 
 from qe.exact.ring import Poly
-from qe.formula.build import atom, conj, exists
+from qe.formula.build import atom, conj, disj, exists
 from qe.formula.normal import nnf
 from qe.formula.syntax import Atom, Formula, Relation
 from qe.formula.traverse import conjuncts
@@ -50,9 +54,10 @@ def quadric_in_quadric(variables: tuple[str, ...], body: Formula, context: Block
         for sign in _AT_MOST.get(inside.relation, ()):
             found = _theorem(f, inside.poly * sign, variables, context)
             if found is not None:
-                along, condition = found
-                proof = {"along": along, "turned": int(inside.relation is Relation.EQ and sign < 0)}
-                return Found(StepKind.QUADRICS, "", Leaf((), nnf(condition, negate=True)), proof)
+                along, known, condition = found
+                turned = int(inside.relation is Relation.EQ and sign < 0)
+                proof = {"along": along, "turned": turned, "below": int(known)}
+                return Found(StepKind.QUADRICS, "", Leaf((), condition), proof)
     return None
 
 
@@ -63,17 +68,30 @@ _AT_MOST = {Relation.LE: (1,), Relation.GE: (-1,), Relation.EQ: (1, -1)}
 """Those of h where it is h <= 0 or h = 0."""
 
 
-def _theorem(f: Poly, h: Poly, variables: tuple[str, ...], context: BlockContext) -> tuple[str, Formula] | None:
-    """The variable along which f is concave and h convex, and that there is a multiplier; None if that is not known."""
+def _theorem(f: Poly, h: Poly, variables: tuple[str, ...], context: BlockContext) -> tuple[str, bool, Formula] | None:
+    """The variable along which f is concave and h convex, whether h is known to be negative somewhere, and the
+    condition for a common point; None if the signs are not known."""
     places = [f.ring.index[v] for v in variables]
     if any(_degree(p, places) > 2 or not all(p.degree(i) for i in places) for p in (f, h)):
         return None  # with one variable in one of them, substitution is quicker, and its answer shorter
     outer, inner = matrix_of(f, places), matrix_of(h, places)
     for i, along in enumerate(variables):
         if _is_positive(inner[i, i], context) and _is_positive(-outer[i, i], context):
-            below = _is_positive(-determinant(inner, (0, 1, 2)), context)
-            return (along, with_multiplier(outer, inner, variables[0])) if below else None
+            apart = nnf(with_multiplier(outer, inner, variables[0]), negate=True)
+            if _is_positive(-determinant(inner, (0, 1, 2)), context):
+                return along, True, apart
+            if _is_positive(determinant(inner, (0, 1)), context):
+                return along, False, either_sign(outer, inner, apart)
     return None
+
+
+def either_sign(outer: Matrix, inner: Matrix, apart: Formula) -> Formula:
+    """The condition of the corollary; ``apart``: that there is no multiplier."""
+    whole, rows = determinant(inner, (0, 1, 2)), ((1, 2), (0, 2), (0, 1))
+    lowest = [_minor(inner, (0, 1), columns) * (-1) ** k for k, columns in enumerate(rows)]
+    value = sum((outer[i, j] * lowest[i] * lowest[j] for i in range(3) for j in range(3)), whole * 0)
+    point = conj((atom(whole, Relation.EQ), atom(value, Relation.LT)))
+    return disj((conj((atom(whole, Relation.LT), apart)), point))
 
 
 def with_multiplier(outer: Matrix, inner: Matrix, name: str) -> Formula:

@@ -49,6 +49,24 @@ def asked(log: RunLog) -> Context:
     return Context(Options(), Budget(), log, decide)
 
 
+LONG = "x*y - u*v + w*p - q*r + s*t - a^2*b^2*c^2*d^2 - a*x - b*y + u"
+LARGE = f"{LONG} <= 0 and (g >= 0 and h <= 0 or a = 0) or {LONG} <= 0 and (g <= 0 or h <= 0)"
+
+
+def test_signs_alone_leave_parts_out_of_large_answers() -> None:
+    """A distance from a ray, whose nine parameters and long polynomials are too many for sentences about them."""
+    log = RunLog()
+    question = read_formula(LARGE)
+    found = shorter(question, log)
+    assert str(found).count(" and ") == 1 + str(found).count("a = 0") and len(str(found)) < len(str(question))
+    steps = [step for step in log.steps() if step.rule == "redundant part"]
+    assert steps and all(map(accepted, steps))
+    rng = random.Random(4)
+    for _ in range(200):
+        point = {name: Fraction(rng.choice((0, 0, 1, -1, 2))) for name in question.free}
+        assert holds_at(found, point) is holds_at(question, point)
+
+
 @pytest.mark.parametrize("text", SHORT)
 def test_parts_without_effect_are_dropped(text: str) -> None:
     found = qe.eliminate(text).formula

@@ -27,7 +27,9 @@ IN_DISC = f"a /= 0 and b /= 0 and (ex x, y. {ELLIPSE} = 0 and x^2 + y^2 > 1)"
 SOLID = f"a > 0 and b > 0 and (ex x, y. 0 >= {ELLIPSE} and 1 - x^2 - y^2 < 0)"
 TURNED = f"a > 0 and b > 0 and (ex x, y. {ELLIPSE.replace('y - d', 'y - d + x')} = 0 and x^2 + y^2 > 1)"
 IN_PARABOLA = f"r /= 0 and (ex y, x. {DISC} = 0 and y - a*y^2 + 2 < x^2)"
-TAKEN = [IN_DISC, SOLID, TURNED, IN_PARABOLA]
+PERHAPS_A_POINT = f"(ex x, y. {DISC.replace('r^2', 'r')} <= 0 and a*x^2 + y^2 > 1)"
+PERHAPS_EMPTY = "ex x, y. x^2 + x*y + y^2 - a*x - r = 0 and x^2 + c*x + d*y > 1"
+TAKEN = [IN_DISC, SOLID, TURNED, IN_PARABOLA, PERHAPS_A_POINT, PERHAPS_EMPTY]
 
 
 def steps_of(text: str | Formula) -> list[Step]:
@@ -62,7 +64,7 @@ def test_the_multiplier_tells_what_the_block_does(text: str) -> None:
         IN_DISC.replace("(x - c)", "(x - 1)").replace("(y - d)", "y"),  # two parameters
         IN_DISC.replace("> 1", "< 1"),  # meets the open disc: f is convex
         IN_DISC.replace("x^2 + y^2", "x^3 + y^2"),
-        f"r >= 0 and (ex x, y. {DISC} <= 0 and a*x^2 + y^2 > 1)",  # r = 0 is one point
+        "ex x, y. (x - c)^2 + a*y^2 <= r and x^2 + (y - d)^2 > 1",  # a line, a parabola or a hyperbola
         f"r > 0 and (ex x, y. {DISC} <= 0 and a*x + b*y > 1)",  # f is not concave
         "a > 0 and b > 0 and r > 0 and (ex x, y. a*x^2 - b*y^2 + c*x <= r and x*y + x^2 + d*y > 1)",
     ],
@@ -117,10 +119,25 @@ def test_the_ellipse_of_kahan() -> None:
             assert qe.decide(answer.substitute(values), process=False) is expected
 
 
+@pytest.mark.parametrize("radius", [-1, 0, Fraction(1, 9), 1, 4])
+@pytest.mark.parametrize("weak", ["<=", "="])
+def test_discs_that_are_a_point_or_empty(radius: int | Fraction, weak: str) -> None:
+    """A disc may be empty or a point: the case that the multiplier says nothing about."""
+    (step,) = steps_of(f"ex x, y. (x - c)^2 + (y - d)^2 - r {weak} 0 and x^2 + a*y^2 > 1")
+    truths = set()
+    for c, d, a in ((0, 0, 1), (1, 0, 1), (Fraction(3, 2), 0, 4), (0, 1, 4), (Fraction(2, 3), 0, 3)):
+        values = dict(zip("cdar", map(Fraction, (c, d, a, radius)), strict=True))
+        before, after = (qe.decide(side.substitute(values), process=False) for side in (step.before, step.after))
+        assert before is after
+        truths.add(before)
+    assert truths == ({False} if radius < 0 else {True} if radius > 1 else {False, True})
+
+
 # --- the checker -----------------------------------------------------------------------------------------------------
 BALL = "ex x, y. x^2 + y^2 - 1 <= 0 and x^2 + 2*y^2 > 3"
 NONE = "all x. not (x > 0 and 2 - 2*x >= 0 and 2 - 4*x >= 0 and 6*x - 2 >= 0)"
-BY = {"along": "x", "turned": 0, "theory": NO_LEMMAS}
+POINT = "ex x, y. x^2 + y^2 <= 0 and x^2 + 2*y^2 > 3"
+BY = {"along": "x", "turned": 0, "below": 1, "theory": NO_LEMMAS}
 
 
 @pytest.mark.parametrize(
@@ -137,6 +154,13 @@ BY = {"along": "x", "turned": 0, "theory": NO_LEMMAS}
         (BALL, NONE, {"along": "z"}, "one of them named"),
         (BALL, NONE.replace("6*x - 2", "6*x - 1"), {}, "do not exclude"),
         (BALL, NONE.replace(" and 2 - 4*x >= 0", ""), {}, "do not exclude"),
+        (BALL, f"{NONE} or 1 = 0", {"below": 0}, ""),
+        (BALL, NONE, {"below": 2}, "0 or 1"),
+        (POINT, "-1 > 0", {"below": 0}, ""),
+        (POINT.replace("> 3", "> -3"), "0 = 0", {"below": 0}, ""),
+        (POINT.replace("> 3", "> -3"), "-1 > 0", {"below": 0}, "do not exclude"),
+        (POINT, NONE, {"below": 1}, "do not exclude"),
+        (POINT.replace("y^2 <", "2*x*y + y^2 <"), "-1 > 0", {"below": 0}, "do not exclude"),
         (BALL.replace("x^2 + y^2 - 1", "x^2 + y^2"), NONE.replace("6*x - 2", "6*x"), {}, "do not exclude"),
         (BALL.replace("> 3", ">= 3"), NONE, {}, "a strict inequality and a weak one"),
         (BALL.replace("<= 0", "< 0"), NONE, {}, "a strict inequality and a weak one"),
@@ -163,6 +187,11 @@ def rows_alone(m: pytest.MonkeyPatch) -> None:
     m.setattr(quadrics, "_connected", lambda matrix: [(0,), (1,), (2,)])
 
 
+def no_point(m: pytest.MonkeyPatch) -> None:
+    """What is one point counts as empty."""
+    m.setattr(quadrics, "either_sign", lambda outer, inner, apart: apart)
+
+
 def no_sign(m: pytest.MonkeyPatch) -> None:
     """Determinants without the signs of their terms."""
 
@@ -182,6 +211,7 @@ def no_sign(m: pytest.MonkeyPatch) -> None:
         (every_sign, IN_DISC.replace("a /= 0 and ", "")),
         (every_sign, IN_DISC.replace("> 1", "< 1")),
         (rows_alone, IN_DISC),
+        (no_point, PERHAPS_A_POINT),
         (no_sign, "r > 0 and (ex x, y. x^2 + y^2 <= r^2 and 2*(x - c)^2 + a*(y - d)^2 > b)"),
     ],
 )

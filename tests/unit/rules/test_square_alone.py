@@ -1,0 +1,104 @@
+"""Variables that one comparison of degree 2 looks at: what stands in their place, their values, the checker."""
+
+from __future__ import annotations
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import qe
+import qe.rules.square_alone as square_alone
+from qe.api.input import read_formula
+from qe.certify.square_alone import check_square_alone
+from qe.formula.syntax import Relation
+from qe.io.text import read
+from qe.proof.run_log import RunLog
+from qe.proof.step import Step
+from qe.rules.lift import holds_at
+from qe.rules.preparation import prepare
+from qe.rules.step import StepKind
+from tests.certificates.test_broken_producers import accepted
+from tests.unit.certify.claims import objection
+
+CYLINDER = "ex x, y, z. x^2 + y^2 <= 1 and (x - a)^2 + (y - b)^2 + (z - c)^2 {} r^2"
+
+
+def steps_of(text: str) -> list[Step]:
+    """The steps of this rule alone."""
+    log = RunLog()
+    prepare(read_formula(text), enabled={StepKind.SQUARE_ALONE}, log=log)
+    return [step for step in log.steps() if step.rule == StepKind.SQUARE_ALONE.value]
+
+
+@pytest.mark.parametrize(
+    ("text", "count"),
+    [
+        *((CYLINDER.format(relation), 1) for relation in ("<=", "<", "=")),
+        *((CYLINDER.format(relation), 0) for relation in (">=", ">", "/=")),  # values that are taken
+        (CYLINDER.format(">").replace("+ (z - c)^2", "- (z - c)^2"), 1),
+        (CYLINDER.format("<") + " and z > a", 0),
+        (CYLINDER.format("<").replace("(z - c)", "(z - x)"), 0),  # the degree would grow
+        (CYLINDER.format("<").replace("(z - c)^2", "a*z^2"), 0),
+        (CYLINDER.format("<").replace("(z - c)^2", "z^4"), 0),
+        ("ex x, y. x^2 + a*x < b and y^3 > x", 0),
+        ("ex x, y, u, v. x^2 + u^2 = a and y^2 + v^2 = b and x*y > 1", 2),
+    ],
+)
+def test_where_it_applies(text: str, count: int) -> None:
+    steps = steps_of(text)
+    assert len(steps) == count and all(map(accepted, steps))
+
+
+def test_a_ball_meets_a_cylinder() -> None:
+    """It was 317 characters without the rule."""
+    found = qe.eliminate(CYLINDER.format("<=") + " and r > 0").formula
+    assert qe.decide(f"all a, b, r. ({found}) <-> r > 0 and a^2 + b^2 <= (1 + r)^2") and len(str(found)) < 80
+
+
+@settings(max_examples=30, deadline=None)
+@given(st.lists(st.integers(-3, 3), min_size=5, max_size=5), st.sampled_from(("=", "<", "<=")))
+def test_values_come_back(k: list[int], relation: str) -> None:
+    """A variable that is gone gets a value, in sentences with and without solutions."""
+    body = f"{abs(k[0]) + 1}*z^2 + {k[1]}*z + x*y + {k[2]}*x {relation} {k[3]} and x^2 + y^2 <= 2 and y >= {k[4]}"
+    (step,) = steps_of(f"ex x, y, z. {body}")
+    assert accepted(step)
+    answer = qe.eliminate(f"ex x, y, z. {body}", process=False)
+    other = qe.eliminate(f"ex x, y, z. {body}", process=False, without="values")
+    assert answer.truth is other.truth
+    assert not answer.truth or (answer.witness is not None and holds_at(read(body), answer.witness))  # type: ignore[arg-type]
+
+
+BLOCK = "ex x, y. x^2 + a*x + y <= 0 and y > b"
+
+
+@pytest.mark.parametrize(
+    ("before", "after", "variable", "reason"),
+    [
+        (BLOCK, "ex y. 4*y - a^2 <= 0 and y > b", "x", ""),
+        (BLOCK.replace("<=", "="), "ex y. 4*y - a^2 <= 0 and y > b", "x", ""),
+        (BLOCK.replace("<=", "<"), "ex y. 4*y - a^2 < 0 and y > b", "x", ""),
+        (BLOCK.replace("x^2 + a*x + y <=", "-3*x^2 - 3*a*x - 3*y >="), "ex y. 4*y - a^2 <= 0 and y > b", "x", ""),
+        (BLOCK.replace("a*x", "y*x"), "ex y. 4*y - y^2 <= 0 and y > b", "x", ""),
+        (BLOCK.replace("<=", "<"), "ex y. 4*y - a^2 <= 0 and y > b", "x", "not the block"),
+        (BLOCK, "ex y. 4*y - a^2 < 0 and y > b", "x", "not the block"),
+        (BLOCK, "ex y. 4*y + a^2 <= 0 and y > b", "x", "not the block"),
+        (BLOCK, "ex y. 4*y - a^2 <= 0", "x", "not the block"),
+        (BLOCK, "ex x, y. 4*y - a^2 <= 0 and y > b", "x", "not the block"),
+        (BLOCK.replace("<=", ">="), "ex y. 4*y - a^2 <= 0 and y > b", "x", "upper bound"),
+        (BLOCK.replace("<=", "/="), "ex y. 4*y - a^2 <= 0 and y > b", "x", "upper bound"),
+        (BLOCK.replace("x^2", "c*x^2"), "ex y. 4*c*y - a^2 <= 0 and y > b", "x", "a number"),
+        (BLOCK.replace("> b", "> x"), "ex y. 4*y - a^2 <= 0 and y > b", "x", "one comparison"),
+        (BLOCK, "ex x. x^2 + a*x + b < 0", "y", "degree 2"),
+        (BLOCK, "ex y. 4*y - a^2 <= 0 and y > b", "z", "a variable of the existential block"),
+    ],
+)
+def test_what_the_checker_says(before: str, after: str, variable: str, reason: str) -> None:
+    found = objection(check_square_alone, before, after, {"variable": variable})
+    assert reason in found and bool(found) is bool(reason)
+
+
+@pytest.mark.parametrize("wrong", [Relation.LT, Relation.GE, Relation.EQ])
+def test_a_broken_producer_is_not_believed(wrong: Relation, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(square_alone, "_AT_LEAST_VALUE", {(Relation.LE, 1): wrong})
+    (step,) = steps_of(CYLINDER.format("<="))
+    assert not accepted(step)
