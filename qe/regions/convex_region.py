@@ -102,6 +102,7 @@ class ConvexRegion(Region):
 
     @property
     def is_empty(self) -> bool:
+        """Whether the region has no point."""
         return self._asked(self._nowhere)
 
     def _nowhere(self) -> bool:

@@ -157,6 +157,7 @@ class Region(SetOperations):
 
     @property
     def is_empty(self) -> bool:
+        """Whether the region has no point."""
         return not any_true(self.table.root)
 
     @property
