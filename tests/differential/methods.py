@@ -10,7 +10,6 @@ from qe.elimination.vs.block import eliminate_block
 from qe.formula.build import disj, exists, neg
 from qe.formula.normal import Quantifier, prenex
 from qe.formula.syntax import Constant, Formula
-from qe.formula.traverse import free_variables
 from qe.options import Budget, Projection
 from qe.rules.preparation import prepare
 from qe.simplify.simplify import simplify
@@ -25,7 +24,7 @@ def by_cad(projection: Projection) -> Part:
         prefix, matrix = prenex(formula)
         if isinstance(matrix, Constant):
             return matrix
-        free = free_variables(formula)
+        free = formula.free
         order = (*free, *(name for _, names in prefix for name in names))
         kinds = (*("" for _ in free), *(kind.value for kind, names in prefix for _ in names))
 
