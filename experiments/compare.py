@@ -17,7 +17,7 @@ from experiments.z3_oracle import to_z3
 from qe.formula.build import conj, implies, neg
 from qe.formula.evaluate import holds_at
 from qe.formula.syntax import Constant, Formula
-from qe.formula.traverse import free_variables, is_quantifier_free
+from qe.formula.traverse import is_quantifier_free
 from qe.io.text import CONSTANTS, read
 
 POINTS = 400
@@ -49,7 +49,7 @@ def _in_one_ring(left: Formula, right: Formula, given: Formula) -> tuple[Formula
     from qe.exact.ring import Ring
     from qe.formula.build import convert
 
-    names = tuple(dict.fromkeys(name for f in (left, right, given) for name in free_variables(f)))
+    names = tuple(dict.fromkeys(name for f in (left, right, given) for name in f.free))
     ring = Ring.of(names)
     left, right, given = (convert(f, ring) for f in (left, right, given))
     return implies(given, left), implies(given, right)
@@ -77,7 +77,7 @@ def differing_point(
     """
     if not (is_quantifier_free(left) and is_quantifier_free(right)):
         return None
-    names = tuple(dict.fromkeys((*free_variables(left), *free_variables(right))))
+    names = tuple(dict.fromkeys((*left.free, *right.free)))
     rng = random.Random(seed)
     candidates = [point for f, g in ((left, right), (right, left)) for point in _models(f, g, names, seconds)]
     scales = (1, 3, 10, 40)

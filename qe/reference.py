@@ -30,7 +30,7 @@ from typing import Any
 from qe.errors import InputError
 from qe.formula import syntax
 from qe.formula.build import atom, conj, disj
-from qe.formula.traverse import free_variables, ring_of
+from qe.formula.traverse import ring_of
 from qe.options import Budget
 
 Toy = Any  # a nested tuple as described above; recursive types buy nothing here
@@ -41,14 +41,14 @@ Rows = list[dict[Toy, int]]
 
 def decide(formula: syntax.Formula, *, budget: Budget | None = None) -> bool:
     """Whether a sentence is true over R. ``InputError`` when variables are free or root atoms occur."""
-    if names := free_variables(formula):
+    if names := formula.free:
         raise InputError(f"not a sentence: {', '.join(names)} free")
     return eliminate(formula, budget=budget) == syntax.TRUE
 
 
 def eliminate(formula: syntax.Formula, *, budget: Budget | None = None) -> syntax.Formula:
     """An equivalent quantifier-free formula in the free variables (long; meant for small input)."""
-    names, ring = free_variables(formula), ring_of(formula)
+    names, ring = formula.free, ring_of(formula)
 
     def poly(p: Toy) -> Any:
         assert ring is not None

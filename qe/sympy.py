@@ -21,7 +21,6 @@ from qe.cells.pieces import Range, RootFunction
 from qe.errors import InputError, Unable
 from qe.formula.build import conj, forall
 from qe.formula.syntax import Formula
-from qe.formula.traverse import free_variables
 from qe.io.substitution import over_one_ring
 from qe.io.sympy import Exists, ForAll, expression_from, from_sympy, polynomial_to_sympy, to_sympy
 from qe.io.sympy_numbers import number_to_sympy
@@ -48,7 +47,7 @@ def reduce_inequalities(
     parameters are taken, too; constants such as ``pi`` may occur wherever symbols may.
     """
     question = _Question.of(inequalities, timeout)
-    free = free_variables(question.formula)
+    free = question.formula.free
     wanted = [name for name in _names(symbols) if name in free] or [
         name for name in free if name not in question.constants
     ]
@@ -62,7 +61,7 @@ def solve_region(condition: Condition, symbol: Any = None, *, timeout: float | N
     Intervals and points with exact ends. Raises ``InputError`` where there are several free symbols.
     """
     question = _Question.of(condition, timeout)
-    free = [name for name in free_variables(question.formula) if name not in question.constants]
+    free = [name for name in question.formula.free if name not in question.constants]
     names = _names(() if symbol is None else symbol)
     others = [name for name in free if name not in names]
     if (names and others) or len({*free, *names}) > 1:
@@ -125,7 +124,7 @@ def is_true_for_all(condition: Condition, *, timeout: float | None = None) -> bo
     parts = question.parts
     whole = parts[0] if len(parts) == 1 else sympy.And(*parts, evaluate=False)
     formula = ForAll(list(symbols.values()), whole).formula() if symbols else question.formula
-    inner = [name for name in free_variables(formula) if name not in question.constants]
+    inner = [name for name in formula.free if name not in question.constants]
     if not question.constants:
         return api_decide.decide(forall(inner, formula), timeout=timeout)
     found = replace(question, formula=forall(inner, formula)).solved([], timeout)
@@ -209,7 +208,7 @@ class _Question:
         """The cases, solved for these variables; None where SymPy has no term for an end."""
         import sympy
 
-        free = free_variables(self.formula)
+        free = self.formula.free
         terms = {**{name: sympy.Symbol(name) for name in free}, **self.symbols, **self.constants}
         constants = [name for name in free if name in self.constants]
         order = [*constants, *(v for v in free if v not in {*constants, *wanted}), *wanted]
@@ -278,7 +277,7 @@ def _set_of(question: _Question, name: str, timeout: float | None) -> Any:
 
     terms = {name: sympy.Symbol(name, real=True), **question.constants}
     parts = []
-    order = [*(v for v in free_variables(question.formula) if v in question.constants), name]
+    order = [*(v for v in question.formula.free if v in question.constants), name]
     for case in api.region(question.formula, order=order, timeout=timeout).cells:
         *before, within = case.ranges
         low, high = _term(within.lower, terms), _term(within.upper, terms)

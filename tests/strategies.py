@@ -13,7 +13,6 @@ from hypothesis import strategies as st
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj, disj, exists, forall, neg, root_atom
 from qe.formula.syntax import FALSE, TRUE, Formula, Relation
-from qe.formula.traverse import free_variables
 
 NAMES = ("x", "y", "z", "w")
 RELATIONS = st.sampled_from(tuple(Relation))
@@ -123,7 +122,7 @@ def sentences(draw: st.DrawFn, *, names: Sequence[str] = NAMES[:2], max_degree: 
     for name in draw(st.permutations(list(names))):
         quantify = draw(st.sampled_from((exists, forall)))
         formula = quantify([name], formula)
-    assert not free_variables(formula)
+    assert not formula.free
     return formula
 
 

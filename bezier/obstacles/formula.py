@@ -13,7 +13,7 @@ from bezier.obstacles.obstacle import Constraint, Exponents, Piece
 from qe.errors import InputError, Unable
 from qe.formula.normal import nnf
 from qe.formula.syntax import And, Atom, Constant, Formula, Or, Relation
-from qe.formula.traverse import free_variables, is_quantifier_free
+from qe.formula.traverse import is_quantifier_free
 from qe.io.text import read
 
 NAMES = ("x", "y", "z")
@@ -35,7 +35,7 @@ def formula_pieces(table: Table) -> tuple[tuple[Piece, ...], Any]:
         formula = read(raw, source="formula")
     except InputError as error:
         raise table.error("formula", "a formula in x, y, z", str(error)) from None
-    others = [name for name in free_variables(formula) if name not in NAMES]
+    others = [name for name in formula.free if name not in NAMES]
     if others:
         raise table.error("formula", "no free variables but x, y, z", shorten(", ".join(others)))
     try:

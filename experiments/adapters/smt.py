@@ -14,7 +14,7 @@ from qe.errors import Unable
 from qe.formula.build import neg
 from qe.formula.normal import Quantifier, prenex
 from qe.formula.syntax import Formula
-from qe.formula.traverse import free_variables, is_quantifier_free
+from qe.formula.traverse import is_quantifier_free
 from qe.io.smtlib import write
 
 
@@ -39,7 +39,7 @@ def yices(formula: Formula, limits: Limits) -> Answer:
 
 
 def _only_sentences(formula: Formula) -> None:
-    if free_variables(formula):
+    if formula.free:
         raise NotSupported("sentences only")
 
 

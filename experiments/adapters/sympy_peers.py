@@ -10,7 +10,6 @@ from qe.errors import InputError
 from qe.formula.build import exists, forall
 from qe.formula.normal import Quantifier, prenex, rename, rename_apart
 from qe.formula.syntax import And, Exists, ForAll, Formula, Not, Or
-from qe.formula.traverse import free_variables
 from qe.io.names import names_in
 from qe.io.sympy import from_sympy, to_sympy
 from qe.io.text import write
@@ -45,7 +44,7 @@ def semialg(formula: Formula, limits: Limits) -> Answer:
     for kind, names in reversed(prefix):
         whole = (exists if kind is Quantifier.EXISTS else forall)(names, whole)
     expression = symbols.quantified(whole)
-    free = [symbols.table[name] for name in free_variables(apart)]
+    free = [symbols.table[name] for name in apart.free]
     start = time.perf_counter()
     result = reduce_complete_expr(expression, free_variables=free) if free else reduce_complete_expr(expression)
     seconds = time.perf_counter() - start

@@ -70,7 +70,6 @@ def _of_thread(record: dict[str, Any]) -> str | None:
     """The question as text; None where reading refuses it."""
     from qe.api.input import read_formula
     from qe.formula.build import exists
-    from qe.formula.traverse import free_variables
 
     script, given = record["kind"] == "smt2", record["text"]
     try:
@@ -81,7 +80,7 @@ def _of_thread(record: dict[str, Any]) -> str | None:
         found = read_formula(given, "smtlib" if script else record.get("format", "text"))
     except QEError:
         return None
-    return str(exists(free_variables(found), found) if script else found)
+    return str(exists(found.free, found) if script else found)
 
 
 def _present(folder: Path) -> Path:

@@ -17,7 +17,7 @@ from qe.exact.ring import Poly, Ring
 from qe.formula.build import convert, exists, forall, iff
 from qe.formula.counting import without_root_atoms
 from qe.formula.features import features
-from qe.formula.traverse import bound_variables, free_variables, ring_of
+from qe.formula.traverse import bound_variables, ring_of
 from qe.options import Method, Stage
 from qe.progress import silent
 from qe.spelling import glued
@@ -48,7 +48,7 @@ def decide(
     """
     limits = limits_of(timeout, memory, progress, process).begun(time.monotonic())
     given = reading(formula, format, limits, total_division)
-    free = free_variables(given)
+    free = given.free
     if free:
         raise InputError(f"a sentence expected; free: {', '.join(free)}{glued(free, bound_variables(given))}")
     answer = eliminate(
@@ -97,7 +97,7 @@ def find_instance(
     """
     limits = limits_of(timeout, memory, progress, process).begun(time.monotonic())
     given = reading(formula, format, limits, total_division)
-    free = free_variables(given)
+    free = given.free
     answer = eliminate(
         exists(free, given),
         timeout=left_of(limits),
@@ -204,7 +204,7 @@ def equivalent(
     """
     limits = limits_of(timeout, memory, progress, process).begun(time.monotonic())
     f, g = together(reading(left, format, limits), reading(right, format, limits))
-    free = dict.fromkeys((*free_variables(f), *free_variables(g)))
+    free = dict.fromkeys((*f.free, *g.free))
     return decide(
         forall(free, iff(f, g)),
         timeout=left_of(limits),

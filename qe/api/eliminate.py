@@ -14,7 +14,6 @@ from qe.api.limits import cluster_of, limits_of, performed, reading
 from qe.errors import InputError, Unable
 from qe.formula.features import features
 from qe.formula.syntax import Formula
-from qe.formula.traverse import free_variables
 from qe.options import VERIFY_SECONDS, Budget, Cluster, Method, Options, Stage
 from qe.processes.execution import Budgets, Limits
 from qe.progress import Event, silent
@@ -128,7 +127,7 @@ def eliminate(
 
 def _check_order(order: tuple[str, ...] | None, formula: Formula) -> None:
     """Raise ``InputError`` for names in an order that are no variables of the formula, or stand twice."""
-    known = {*free_variables(formula), *features(formula).bound}
+    known = {*formula.free, *features(formula).bound}
     names = order or ()
     if not known.issuperset(names) or len(set(names)) < len(names):
         raise InputError(f"order: variables of the formula expected, each once, {', '.join(names)} found")

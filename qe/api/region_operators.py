@@ -22,7 +22,6 @@ from qe.formula.build import conj, convert, disj, exists, forall, iff, implies, 
 from qe.formula.evaluate import substituted
 from qe.formula.normal import nnf
 from qe.formula.syntax import Constant, Formula, Relation
-from qe.formula.traverse import free_variables
 from qe.io import surface as s
 from qe.io.lowering import lower
 from qe.options import Options
@@ -235,7 +234,7 @@ def _operands(left: Region, right: object, limits: Limits) -> tuple[Formula, For
         given = right.condition
     else:
         given = reading(right, "text", limits)
-        if strange := [v for v in free_variables(given) if v not in left.order]:
+        if strange := [v for v in given.free if v not in left.order]:
             raise InputError(f"a condition on {', '.join(left.order)} expected, {strange[0]} found")
     f, g = together(left.condition, given)
     return f, g

@@ -14,7 +14,7 @@ from qe.engine.run import solve as eliminated
 from qe.exact.number import Values
 from qe.formula.counting import without_root_atoms
 from qe.formula.syntax import Exists, ForAll, Formula
-from qe.formula.traverse import free_variables, is_quantifier_free
+from qe.formula.traverse import is_quantifier_free
 from qe.options import Budget, Options
 from qe.processes.execution import Budgets
 from qe.progress import silent
@@ -50,7 +50,7 @@ def solve(
     whole = limits_of(timeout, memory, progress, process)
     limits = whole.begun(start)
     given, wanted = reading(formula, format, limits, total_division), arguments.names(variables, "variables")
-    order = None if wanted is None else (*(v for v in free_variables(given) if v not in wanted), *wanted)
+    order = None if wanted is None else (*(v for v in given.free if v not in wanted), *wanted)
 
     def work(budgets: Budgets) -> Solutions:
         budget = budgets()

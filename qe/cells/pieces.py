@@ -105,6 +105,7 @@ class Range:
 
     @property
     def is_point(self) -> bool:
+        """Whether the range is a single value."""
         return self.lower is not None and self.lower == self.upper
 
     def end(self, *, lower: bool) -> tuple[RootFunction | None, bool]:

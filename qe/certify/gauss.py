@@ -17,7 +17,7 @@ from qe.certify.step import Claim
 from qe.exact.ring import Ring
 from qe.formula.build import conj
 from qe.formula.syntax import Atom, Formula, Relation
-from qe.formula.traverse import conjuncts, free_variables
+from qe.formula.traverse import conjuncts
 from qe.options import Budget
 from qe.proof.entry import Entry, Json, formula_from_json
 
@@ -30,7 +30,7 @@ def check_substitution(payload: dict[str, Json], budget: Budget | None = None) -
     ring = Ring.of(names.names())
     variables = block.names()
     body = formula_from_json(matrix, ring)
-    if set(free_variables(body)) | set(variables) != set(ring.names):
+    if set(body.free) | set(variables) != set(ring.names):
         raise names.fail("expected the variables of the formula and of the block")
     steps = [step.row("variable", "equation") for step in solved.items()]
     if [variable.text() for variable, _ in steps] != list(variables):
@@ -40,7 +40,7 @@ def check_substitution(payload: dict[str, Json], budget: Budget | None = None) -
             budget.check("verify")
         body = _without(body, variables, Claim("substitution", body, body, ring, entry, entry.path))
     claimed = formula_from_json(answer, ring)
-    if set(variables) & set(free_variables(claimed)):
+    if set(variables) & set(claimed.free):
         raise answer.fail("a quantified variable is left")
     if _conjuncts(claimed) != _conjuncts(body):
         raise answer.fail("not what the substitutions give")

@@ -23,7 +23,7 @@ import typer
 from typer.main import get_command
 
 from qe.cli.values import take_plain_values
-from qe.errors import CertificateRejected, InputError, InternalError, Unable
+from qe.errors import CertificateRejected, InputError, QEError, Unable
 from qe.extras import lacking
 from qe.processes.worker import GRACE, Channel, WorkerDied, WorkerStopped, run
 from qe.progress import Event
@@ -75,18 +75,10 @@ def enter(app: typer.Typer, argv: Sequence[str] | None, *, name: str) -> int:
         message = error.format_message().replace("Value error, ", "").rstrip(".")
         message = _misspelt(command, words) or message
         return told("input_error", f"{message} (see {name} --help)", BAD_INPUT)
-    except InputError as error:
+    except QEError as error:
         unknown = str(error).startswith("no such option")
-        message = _misspelt(command, words) if unknown else ""
-        return told("input_error", message or str(error), BAD_INPUT)
-    except (WorkerStopped, WorkerDied) as error:
-        return told("unable", f"{error}; known {error.known}", UNABLE)
-    except Unable as error:
-        return told("unable", str(error), UNABLE)
-    except CertificateRejected as error:
-        return told("rejected", str(error), REJECTED)
-    except InternalError as error:
-        return told("internal_error", str(error), BUG)
+        misspelt = _misspelt(command, words) if unknown else ""
+        return told(*(("input_error", misspelt, BAD_INPUT) if misspelt else _failure(error)))
     except (KeyboardInterrupt, typer.Abort):
         return told("interrupted", "interrupted", INTERRUPTED)
     except _Terminated:
@@ -107,6 +99,20 @@ def enter(app: typer.Typer, argv: Sequence[str] | None, *, name: str) -> int:
     finally:
         if before is not None:
             signal.signal(signal.SIGTERM, before)
+
+
+def _failure(error: QEError) -> tuple[str, str, int]:
+    """What is said of an error: its status, the message and the exit status."""
+    match error:
+        case InputError():
+            return "input_error", str(error), BAD_INPUT
+        case WorkerStopped(known=known) | WorkerDied(known=known):
+            return "unable", f"{error}; known {known}", UNABLE
+        case Unable():
+            return "unable", str(error), UNABLE
+        case CertificateRejected():
+            return "rejected", str(error), REJECTED
+    return "internal_error", str(error), BUG
 
 
 class _Terminated(BaseException):

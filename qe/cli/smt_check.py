@@ -11,7 +11,6 @@ from qe.cli.smt_values import Number
 from qe.errors import BudgetExceeded, Unable
 from qe.formula.build import exists, forall
 from qe.formula.syntax import Formula
-from qe.formula.traverse import free_variables
 from qe.io import surface as s
 from qe.io.smtlib_parser import Expression
 from qe.io.smtlib_script import Script
@@ -104,14 +103,14 @@ class Checks:
             formula, total = self.formula(nodes, total, left)
         except Unable as error:
             return Result("unknown", _reason(str(error)))
-        closed = close(free_variables(formula), formula)
+        closed = close(formula.free, formula)
         rest = None if left is None else max(left - (time.monotonic() - start), 0.01)
         answer = api.eliminate(closed, timeout=rest, memory=self.memory)
         if answer.truth is None:
             return Result("unknown", _reason(answer.reason))
         if not answer.truth:
             return Result("unsat", total=total)
-        point = dict(answer.witness) if answer.witness is not None else ({} if not free_variables(formula) else None)
+        point = dict(answer.witness) if answer.witness is not None else ({} if not formula.free else None)
         return Result("sat", point=point, total=total)
 
     def formula(self, nodes: Sequence[s.Node], total: Total, seconds: float | None) -> tuple[Formula, Total]:

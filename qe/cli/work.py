@@ -122,7 +122,7 @@ def decide(channel: Channel, request: Request) -> Reply:
     from qe.formula import build, traverse
 
     formula = read_formula(channel, request.source)
-    free = traverse.free_variables(formula)
+    free = formula.free
     script = request.source.format is Format.SMTLIB
     if free and not script:
         names = ", ".join(free) + glued(free, traverse.bound_variables(formula))

@@ -84,6 +84,7 @@ class Optimum:
 
     @property
     def is_optimal(self) -> bool:
+        """Whether the optimum is attained, and known exactly."""
         return self.status is OptimumStatus.OPTIMAL
 
 

@@ -29,7 +29,7 @@ from qe.exact.ring import Poly, Ring
 from qe.exact.zeros import Zero
 from qe.formula.build import atom, conj, convert, disj, exists
 from qe.formula.syntax import FALSE, TRUE, And, Atom, Constant, Formula, Or, Relation
-from qe.formula.traverse import atoms, free_variables, ring_of
+from qe.formula.traverse import atoms, ring_of
 from qe.groebner.counting import SolutionCount
 from qe.groebner.evidence import Condition, solutions_certificate
 from qe.groebner.kapur_sun_wang import segments
@@ -59,7 +59,7 @@ class ComprehensiveGroebner:
         Raises ``Unable`` where bases or trace forms grow past their limits, ``BudgetExceeded``.
         """
         dual = problem.dual
-        free = free_variables(dual.formula)
+        free = dual.formula.free
         ring = Ring.of((*free, *dual.variables))
         if _length(dual.body) > MOST_CONJUNCTIONS or not all(isinstance(a, Atom) for a in atoms(dual.body)):
             return None

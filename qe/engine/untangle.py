@@ -7,7 +7,7 @@ from qe.errors import InternalError, Unable
 from qe.formula.build import conj, convert, disj
 from qe.formula.features import length
 from qe.formula.syntax import And, Exists, Formula, Or
-from qe.formula.traverse import atoms, free_variables, ring_of
+from qe.formula.traverse import atoms, ring_of
 from qe.options import Stage
 from qe.proof.run_log import RunLog
 from qe.rules.block import reduce_block
@@ -39,7 +39,7 @@ def _attempt(formula: Formula, context: Context, enabled: frozenset[StepKind]) -
     """As ``untangled``, by these rules."""
     rules, steps = BlockContext(context.budget.part(UNTANGLE_WORK), enabled), RunLog()
     try:
-        apart = _matrix(reduce_block(free_variables(formula), formula, rules))
+        apart = _matrix(reduce_block(formula.free, formula, rules))
         shorter = simplify(apart)
     except Unable:
         context.budget.check("shorten")

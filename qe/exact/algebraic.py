@@ -81,10 +81,12 @@ class RealAlgebraic(SymPyForm):
 
     @property
     def degree(self) -> int:
+        """The degree of the minimal polynomial over Q."""
         return int(self.poly.degree())
 
     @property
     def is_rational(self) -> bool:
+        """Whether the minimal polynomial is linear."""
         return bool(self.poly.degree() == 1)
 
     def as_fmpq(self) -> fmpq:

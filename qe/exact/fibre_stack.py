@@ -37,6 +37,7 @@ class Section:
     bits: int = FIRST_PRECISION
 
     def ball(self, bits: int | None = None) -> arb:
+        """An enclosure of the value, to ``bits`` or to as many as it was isolated with."""
         value = self.value
         return arb(value) if isinstance(value, fmpq) else value.ball(bits or self.bits)
 

@@ -126,6 +126,7 @@ class FieldElement(SymPyForm):
 
     @property
     def is_rational(self) -> bool:
+        """Whether the element lies in Q."""
         return bool(self.value.degree() <= 0)
 
     def as_fraction(self) -> Fraction:

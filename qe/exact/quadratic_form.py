@@ -39,10 +39,12 @@ class Quadratic:
 
     @property
     def size(self) -> int:
+        """The number of variables."""
         return len(self.gradient)
 
     @property
     def is_linear(self) -> bool:
+        """Whether nothing is quadratic."""
         return not any(any(row) for row in self.hessian)
 
     def value(self, x: Vector) -> Number:

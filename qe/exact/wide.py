@@ -68,6 +68,7 @@ class WidePoly(Poly):
 
     @cached_property
     def support(self) -> frozenset[int]:
+        """The variables that it may contain."""
         return frozenset(i for i, d in enumerate(reversed(self.p.degrees())) if d)
 
     def _like(self, p: fmpz_mpoly) -> WidePoly:

@@ -10,7 +10,7 @@ from qe.exact.algebraic import RealAlgebraic, real_roots
 from qe.exact.ring import Poly
 from qe.formula.build import atom
 from qe.formula.syntax import And, Atom, Constant, Formula, Not, Or, RootAtom
-from qe.formula.traverse import free_variables, map_atoms, ring_of
+from qe.formula.traverse import map_atoms, ring_of
 from qe.truth import Truth, conjunction, disjunction, negation
 
 SignOracle = Callable[[Poly], int | None]
@@ -24,7 +24,7 @@ def holds_at(formula: Formula, point: Mapping[str, Fraction | int]) -> bool:
     missing variable and for a quantified formula.
     """
     ring = ring_of(formula)
-    missing = [name for name in free_variables(formula) if name not in point]
+    missing = [name for name in formula.free if name not in point]
     if missing:
         raise InputError(f"no value for {', '.join(missing)}")
     values = [Fraction(point.get(name, 0)) for name in ring.names] if ring is not None else []

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from qe.formula.syntax import Formula, Or
-from qe.formula.traverse import atoms, bound_variables, free_variables, subformulas
+from qe.formula.traverse import atoms, bound_variables, subformulas
 
 SMALL_DEGREE = {1: 40, 2: 12, 3: 4, 4: 2}
 """An answer in so many variables is small up to this total degree: its whole space is decomposed in no time."""
@@ -27,7 +27,7 @@ def features(formula: Formula) -> Features:
     """The features of a formula."""
     found = list(atoms(formula))
     return Features(
-        free=free_variables(formula),
+        free=formula.free,
         bound=bound_variables(formula),
         atoms=len(found),
         total_degree=max((a.poly.total_degree for a in found), default=0),

@@ -8,7 +8,7 @@ from enum import StrEnum
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj, disj, exists, forall, neg, root_atom
 from qe.formula.syntax import And, Atom, Constant, Exists, ForAll, Formula, Not, Or, RootAtom
-from qe.formula.traverse import children, free_variables, map_atoms, ring_of
+from qe.formula.traverse import children, map_atoms, ring_of
 
 
 class Quantifier(StrEnum):
@@ -56,7 +56,7 @@ def rename_apart(formula: Formula, avoid: Iterable[str] = ()) -> Formula:
     ring = ring_of(formula)
     if ring is None:
         return _strip(formula)
-    renaming = _Renaming(ring, (*free_variables(formula), *avoid))
+    renaming = _Renaming(ring, (*formula.free, *avoid))
     names = renaming.plan(formula)
     return renaming.apply(formula, names, {})
 
@@ -159,7 +159,7 @@ def _renamed(poly: Poly, target: Ring, names: Mapping[int, str]) -> Poly:
 
 def _occurring(formula: Exists | ForAll) -> set[str]:
     """The variables of a quantifier that are free in its body."""
-    return set(free_variables(formula.body)) & set(formula.variables)
+    return set(formula.body.free) & set(formula.variables)
 
 
 def rename(formula: Formula, names: Mapping[str, str]) -> Formula:

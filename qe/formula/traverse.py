@@ -93,11 +93,6 @@ def ring_of(formula: Formula) -> Ring | None:
     return formula.ring
 
 
-def free_variables(formula: Formula) -> tuple[str, ...]:
-    """The names that occur free, in ring order."""
-    return formula.free
-
-
 def connected(
     parts: Iterable[Formula], names: Callable[[Formula], frozenset[Name]]
 ) -> tuple[tuple[Formula, ...], list[tuple[frozenset[Name], tuple[Formula, ...]]]]:

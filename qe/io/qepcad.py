@@ -17,7 +17,6 @@ from qe.exact.ring import Poly
 from qe.formula.normal import Quantifier, prenex
 from qe.formula.notation import Notation, polynomial, positive
 from qe.formula.syntax import Formula, Relation
-from qe.formula.traverse import free_variables
 from qe.io import surface as s
 from qe.io.building import TERMS, Builder
 from qe.io.grammar import Failing, parse, parser
@@ -159,7 +158,7 @@ class _Builder(Builder):
 def write(formula: Formula) -> str:
     """A whole session, ended by ``finish``, for the prenex form of ``formula``."""
     prefix, matrix = prenex(formula)
-    free = free_variables(matrix if not prefix else formula)
+    free = (matrix if not prefix else formula).free
     order = [*free, *(name for _, block in prefix for name in block)]
     names = Renaming(matrix, keeps=_allowed, spell=lambda name: re.sub(r"[^A-Za-z0-9]", "", f"v{name}"), filler="v")
     quantifiers = "".join(

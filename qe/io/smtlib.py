@@ -19,7 +19,7 @@ from typing import TypeAlias, cast
 from qe.errors import InputError
 from qe.formula.notation import Monomial, digits, oriented
 from qe.formula.syntax import And, Atom, Constant, Exists, ForAll, Formula, Not, Or, Relation
-from qe.formula.traverse import children, free_variables, is_quantifier_free
+from qe.formula.traverse import children, is_quantifier_free
 from qe.io.grammar import Failing
 from qe.io.names import Renaming, names_in
 from qe.io.smtlib_parser import Expression, Listing, parse
@@ -96,7 +96,7 @@ def write(formula: Formula) -> str:
     """
     names = Renaming(formula, keeps=_allowed, spell=lambda name: f"v_{_UNWRITABLE.sub('_', name)}")
     lines = [f"(set-logic {'QF_NRA' if is_quantifier_free(formula) else 'NRA'})"]
-    lines += [f"(declare-const {symbol(names[name])} Real)" for name in free_variables(formula)]
+    lines += [f"(declare-const {symbol(names[name])} Real)" for name in formula.free]
     lines.append(f"(assert {_term(formula, names)})")
     return "\n".join(lines) + "\n"
 

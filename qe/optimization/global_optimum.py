@@ -76,6 +76,7 @@ class GlobalOptimum:
 
     @property
     def is_optimal(self) -> bool:
+        """Whether the optimum is attained, and known exactly."""
         return self.status is OptimumStatus.OPTIMAL
 
 

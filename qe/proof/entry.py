@@ -97,11 +97,13 @@ class Entry:
         return found
 
     def text(self) -> str:
+        """The value, which has to be a string."""
         if not isinstance(self.value, str):
             raise self.fail("expected a string")
         return self.value
 
     def integer(self, least: int = 0) -> int:
+        """The value, which has to be an integer of at least ``least``."""
         if not isinstance(self.value, int) or isinstance(self.value, bool) or self.value < least:
             raise self.fail(f"expected an integer of at least {least}")
         return self.value
@@ -120,6 +122,7 @@ class Entry:
         return number
 
     def truth(self) -> bool | None:
+        """The value, which has to be true or false."""
         if self.value is not None and not isinstance(self.value, bool):
             raise self.fail("expected true, false or null")
         return self.value

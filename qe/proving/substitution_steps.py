@@ -31,7 +31,7 @@ from qe.formula.traverse import conjuncts
 from qe.proof.certificate import Certificate, Root
 from qe.proof.derivation import moved
 from qe.proof.entry import Json, formula_to_json
-from qe.proving.test_points import Point, Points
+from qe.proving.elimination_points import Point, Points
 
 Simplified = Callable[[Formula, Formula], Json]
 """A step of the rule "simplification" with its evidence; raises ``CertificateRejected`` where none is found."""

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from qe.engine.run import answer_to, answered, proved, solve
 from qe.formula.counting import without_root_atoms
 from qe.formula.syntax import Formula
-from qe.formula.traverse import free_variables, is_quantifier_free
+from qe.formula.traverse import is_quantifier_free
 from qe.options import Budget, Options
 from qe.processes.execution import Limits
 from qe.proof.answer import UNPROVED, Answer, Status
@@ -29,7 +29,7 @@ def described(
     """
     given = without_root_atoms(formula)
     quantified = not is_quantifier_free(given)
-    many = len(free_variables(given)) > TABLE_VARIABLES
+    many = len(given.free) > TABLE_VARIABLES
     if many or (quantified and not check):
         shadow = shadow_of(given, Elimination(names))
         if shadow is not None:

@@ -19,7 +19,6 @@ from qe.formula.build import convert, exists
 from qe.formula.evaluate import substituted
 from qe.formula.normal import nnf
 from qe.formula.syntax import FALSE, TRUE, Exists, Formula
-from qe.formula.traverse import free_variables
 from qe.options import Budget
 from qe.processes.execution import Limits
 from qe.proof.cells import CellTable
@@ -68,7 +67,7 @@ class ConvexRegion(Region):
     is_optimised: bool = True
 
     def __init__(self, shadow: Shadow, order: tuple[str, ...] | None, *, limits: Limits = NONE) -> None:
-        free = free_variables(exists(shadow.hidden, shadow.conditions))
+        free = exists(shadow.hidden, shadow.conditions).free
         super().__init__(None, None, checked_order(free, order), limits)
         ring = Ring.of((*self.order, *shadow.hidden))
         self._shadow = replace(shadow, conditions=convert(shadow.conditions, ring))
@@ -102,6 +101,7 @@ class ConvexRegion(Region):
 
     @property
     def is_empty(self) -> bool:
+        """Whether the region has no point."""
         return self._asked(self._nowhere)
 
     def _nowhere(self) -> bool:

@@ -27,7 +27,6 @@ from qe.formula.build import conj, convert
 from qe.formula.evaluate import truth_under
 from qe.formula.normal import nnf
 from qe.formula.syntax import Formula
-from qe.formula.traverse import free_variables
 from qe.options import Budget
 from qe.processes.execution import Budgets, Limits, perform
 from qe.proof.answer import Answer, Guarantee
@@ -98,7 +97,7 @@ class Region(SetOperations):
         Raises ``InputError`` when ``order`` misses a free variable.
         """
         formula = instance(formula, Formula, "formula", "a formula")
-        chosen = checked_order(free_variables(formula), order)
+        chosen = checked_order(formula.free, order)
         matrix = nnf(convert(formula, Ring.of(chosen)))
         done = decompose(matrix, chosen, ("",) * len(chosen), budget=budget or Budget())
         return Region(matrix, done.table, chosen, limits)
@@ -157,6 +156,7 @@ class Region(SetOperations):
 
     @property
     def is_empty(self) -> bool:
+        """Whether the region has no point."""
         return not any_true(self.table.root)
 
     @property

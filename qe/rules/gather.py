@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from qe.formula.build import conj, disj, exists, forall
 from qe.formula.syntax import Atom, Exists, ForAll, Formula, Relation
-from qe.formula.traverse import conjuncts, disjuncts, free_variables
+from qe.formula.traverse import conjuncts, disjuncts
 from qe.rules.block_context import BlockContext
 from qe.rules.step import StepKind
 
@@ -21,12 +21,12 @@ def gathered(formula: Exists | ForAll, context: BlockContext) -> Exists | ForAll
     kind = type(formula)
     split, join = (conjuncts, conj) if kind is Exists else (disjuncts, disj)
     variables, pending, parts = list(formula.variables), list(split(formula.body)), list[Formula]()
-    mentioned = set(free_variables(formula.body))
+    mentioned = _names(formula.body)
     while pending:
         part = pending.pop(0)
         if isinstance(part, kind) and mentioned.isdisjoint(part.variables) and not set(variables) & set(part.variables):
             variables += part.variables
-            mentioned |= set(free_variables(part.body))
+            mentioned |= _names(part.body)
             pending[:0] = split(part.body)
         else:
             parts.append(part)
@@ -35,6 +35,10 @@ def gathered(formula: Exists | ForAll, context: BlockContext) -> Exists | ForAll
     after = (exists if kind is Exists else forall)(variables, join(parts))
     context.step(StepKind.GATHERING.value, formula, after)
     return after if isinstance(after, Exists | ForAll) else formula
+
+
+def _names(formula: Formula) -> set[str]:
+    return set(formula.free)
 
 
 def _gains(parts: list[Formula], variables: frozenset[str], kind: type[Exists | ForAll]) -> bool:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from qe.formula.build import atom, conj, disj, exists, forall
 from qe.formula.syntax import Atom, Exists, ForAll, Formula, Relation
-from qe.formula.traverse import free_variables, ring_of
+from qe.formula.traverse import ring_of
 from qe.rules.block_context import BlockContext
 from qe.rules.lift import Solve
 from qe.rules.rewrite import rewrite
@@ -42,7 +42,7 @@ def without_rotations(formula: Exists | ForAll, context: BlockContext) -> tuple[
     if not rules:
         return variables, body, rules
     ring = rules[0].numerator.ring
-    occurring = free_variables(body)
+    occurring = body.free
     halves = [ring.var(name) for name in sorted(signs) if name in occurring]
     if isinstance(formula, Exists):
         body = conj((*(atom(u, Relation.GE) for u in halves), body))

@@ -17,7 +17,7 @@ from qe.exact.ring import Poly, Ring, format_poly
 from qe.exact.sample import Point
 from qe.formula.build import conj
 from qe.formula.syntax import Atom, Formula, Relation
-from qe.formula.traverse import bound_variables, conjuncts, free_variables
+from qe.formula.traverse import bound_variables, conjuncts
 from qe.rules.block_context import BlockContext, Found
 from qe.rules.lift import Assignment, Value, sign_at
 from qe.rules.step import StepKind
@@ -53,13 +53,17 @@ class TakesValue:
         return point.extend(sections[0].value).number(len(others))
 
 
+def _mentions(part: Formula, name: str) -> bool:
+    return name in part.free
+
+
 def drop_what_can_be_met(variables: tuple[str, ...], body: Formula, context: BlockContext) -> Found | None:
     """The theorem on the first variable of the block that it applies to."""
     if StepKind.TAKES_VALUE not in context.enabled:
         return None
     parts, inner = conjuncts(body), set(bound_variables(body))
     for name in variables:
-        where = [k for k, part in enumerate(parts) if name in free_variables(part)]
+        where = [k for k, part in enumerate(parts) if _mentions(part, name)]
         if len(where) != 1 or name in inner:
             continue
         found = parts[where[0]]

@@ -29,6 +29,7 @@ class Range:
 
     @property
     def is_empty(self) -> bool:
+        """Whether no number lies in the range."""
         return self is EMPTY or self == EMPTY
 
     @property

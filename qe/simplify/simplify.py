@@ -15,7 +15,7 @@ from qe.exact.ring import Poly
 from qe.formula.build import atom, conj, disj, exists, forall
 from qe.formula.normal import nnf
 from qe.formula.syntax import FALSE, TRUE, And, Atom, Constant, Exists, ForAll, Formula, Not, Or, RootAtom
-from qe.formula.traverse import conjuncts, free_variables, ring_of
+from qe.formula.traverse import conjuncts, ring_of
 from qe.simplify.absorb import absorb
 from qe.simplify.factors import reduce_atom
 from qe.simplify.facts import NOTHING, Facts, atom_of, constraint, generator
@@ -78,7 +78,7 @@ def _node(formula: Formula, facts: Facts) -> Formula:
             return _level(args, facts, False)
         case Exists(variables, body) | ForAll(variables, body):
             inner = _node(body, facts.without(variables))
-            occurring = free_variables(inner)
+            occurring = inner.free
             kept = tuple(v for v in variables if v in occurring)
             return exists(kept, inner) if isinstance(formula, Exists) else forall(kept, inner)
     return _level((formula,), facts, True)

@@ -3,12 +3,17 @@
 from __future__ import annotations
 
 import ast
+import inspect
 import re
 import subprocess
 import sys
 from pathlib import Path
+from types import ModuleType
 
 import pytest
+
+import bezier
+import qe
 
 ROOT = Path(__file__).resolve().parents[2]
 FOLDERS = ("qe", "bezier", "experiments", "paper_repro", "tests", "examples")
@@ -50,6 +55,15 @@ def without_docstring(path: Path) -> list[str]:
     public = [n for n in tree.body if isinstance(n, ast.FunctionDef | ast.ClassDef) and not n.name.startswith("_")]
     bare = [f"{shown(path)}: {n.name}" for n in public if not ast.get_docstring(n) and not is_overload(n)]
     return bare if not tree.body or ast.get_docstring(tree) else [shown(path), *bare]
+
+
+@pytest.mark.parametrize("package", [qe, bezier])
+def test_methods_of_exported_classes_have_docstrings(package: ModuleType) -> None:
+    classes = [found for name in package.__all__ if inspect.isclass(found := getattr(package, name))]
+    members = [(c, name, member) for c in classes for name, member in vars(c).items() if not name.startswith("_")]
+    functions = [(c, n, m.fget if isinstance(m, property) else getattr(m, "__func__", m)) for c, n, m in members]
+    assert len(functions) > 20
+    assert not [f"{c.__name__}.{name}" for c, name, f in functions if inspect.isfunction(f) and not f.__doc__]
 
 
 def test_a_missing_docstring_is_seen(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -29,8 +29,8 @@ from qe.options import Budget, Options
 from qe.proof.derivation import put_together
 from qe.proof.entry import Entry, formula_to_json
 from qe.proof.step import Step
+from qe.proving.elimination_points import Points
 from qe.proving.prover import proved
-from qe.proving.test_points import Points
 from qe.simplify.simplify import simplify
 from tests.unit.elimination.vs.line import holds, samples, specialise
 

@@ -49,7 +49,7 @@ def steps_of(text: str, kind: StepKind) -> list[Step]:
 
 def captured(m: pytest.MonkeyPatch) -> None:
     """Nobody looks whether a name is free beside the block that is opened."""
-    m.setattr(gather, "free_variables", lambda formula: ())
+    m.setattr(gather, "_names", lambda formula: set())
 
 
 def under_or(m: pytest.MonkeyPatch) -> None:
@@ -107,7 +107,7 @@ def any_sign(m: pytest.MonkeyPatch) -> None:
 
 def only_equations(m: pytest.MonkeyPatch) -> None:
     """Only equations count as conditions on the variable."""
-    m.setattr(takes_value, "free_variables", lambda part: part.free if part.relation is Relation.EQ else ())
+    m.setattr(takes_value, "_mentions", lambda part, name: part.relation is Relation.EQ and name in part.free)
 
 
 def wrong_side(m: pytest.MonkeyPatch) -> None:

@@ -27,7 +27,6 @@ from qe.errors import CertificateRejected, Unable
 from qe.exact.ring import Ring
 from qe.formula.build import conj, convert, disj
 from qe.formula.syntax import Exists, Formula
-from qe.formula.traverse import free_variables
 from qe.io.names import names_in
 from qe.options import Budget, Options
 from qe.proof.cells_json import CellEvidence
@@ -309,7 +308,7 @@ def any_points(m: pytest.MonkeyPatch) -> None:
 def test_side_conditions_switched_off(patch: Callable[[pytest.MonkeyPatch], None], monkeypatch: Any) -> None:
     before, after, evidence = example(LENS)
     order = tuple(str(name) for name in evidence["order"])
-    assert set(order) == set(free_variables(after))
+    assert set(order) == set(after.free)
     patch(monkeypatch)
     with pytest.raises(CertificateRejected):
         check(before, after, made(before, after, order))

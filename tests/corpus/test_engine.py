@@ -8,7 +8,7 @@ import qe
 from experiments.compare import Verdict, compare
 from qe.formula.evaluate import holds_at
 from qe.formula.syntax import TRUE
-from qe.formula.traverse import free_variables, is_quantifier_free
+from qe.formula.traverse import is_quantifier_free
 from qe.io.text import read, write
 from tests.corpus.catalogue import Problem, problems
 from tests.corpus.test_expected_answers import points
@@ -23,8 +23,8 @@ def check(problem: Problem, *, timeout: float) -> None:
     assert answer.status is qe.Status.SOLVED, answer.reason
     found = answer.formula
     assert found is not None and is_quantifier_free(found)
-    assert set(free_variables(found)) <= set(free_variables(formula))
-    if not free_variables(formula):
+    assert set(found.free) <= set(formula.free)
+    if not formula.free:
         assert answer.truth is (expected == TRUE)
         return
     for point in points(problem, 60):

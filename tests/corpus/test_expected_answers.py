@@ -10,7 +10,7 @@ import pytest
 from qe import reference
 from qe.formula.evaluate import holds_at
 from qe.formula.syntax import FALSE, TRUE
-from qe.formula.traverse import free_variables, is_quantifier_free
+from qe.formula.traverse import is_quantifier_free
 from qe.io.text import read
 from qe.options import Budget
 from tests.corpus.catalogue import KEYS, Problem, problems, records
@@ -52,15 +52,15 @@ def test_records_are_well_formed() -> None:
 def test_texts_are_readable(problem: Problem) -> None:
     formula, expected = read(problem.formula), read(problem.expected)
     assert is_quantifier_free(expected)
-    assert set(free_variables(expected)) <= set(free_variables(formula))
-    if not free_variables(formula):
+    assert set(expected.free) <= set(formula.free)
+    if not formula.free:
         assert expected in (TRUE, FALSE)
 
 
 def points(problem: Problem, count: int) -> list[dict[str, Fraction]]:
     """Rational points for the free variables: the origin, small integers, fractions."""
     rng = random.Random(problem.id)
-    names = free_variables(read(problem.formula))
+    names = read(problem.formula).free
     values = [
         *map(Fraction, (0, 0, 1, 1, -1, 2, -2, 3, 5)),
         Fraction(1, 2),
@@ -75,8 +75,8 @@ def points(problem: Problem, count: int) -> list[dict[str, Fraction]]:
 def test_expected_answer_holds_at_points_by_the_reference(problem: Problem) -> None:
     formula, expected = read(problem.formula), read(problem.expected)
     budget = Budget(60.0)  # a bound on blunders, not a measurement: the machine may be busy
-    for point in points(problem, 12 if free_variables(formula) else 1):
-        claimed = holds_at(expected, point) if free_variables(expected) else expected == TRUE
+    for point in points(problem, 12 if formula.free else 1):
+        claimed = holds_at(expected, point) if expected.free else expected == TRUE
         assert reference.decide(at_point(formula, point), budget=budget) is claimed, point
 
 
@@ -93,6 +93,6 @@ def test_expected_answer_holds_at_points_by_z3(problem: Problem) -> None:
     from experiments.z3_oracle import decide
 
     formula, expected = read(problem.formula), read(problem.expected)
-    for point in points(problem, 5 if free_variables(formula) else 1):
-        claimed = holds_at(expected, point) if free_variables(expected) else expected == TRUE
+    for point in points(problem, 5 if formula.free else 1):
+        claimed = holds_at(expected, point) if expected.free else expected == TRUE
         assert decide(at_point(formula, point), seconds=30) is claimed, point

@@ -12,7 +12,7 @@ from typing import Any
 from qe.formula.evaluate import holds_at
 from qe.formula.features import features
 from qe.formula.syntax import Exists, ForAll
-from qe.formula.traverse import free_variables, is_quantifier_free
+from qe.formula.traverse import is_quantifier_free
 from qe.io.text import read, write
 from tests.universe import same
 
@@ -48,7 +48,7 @@ def test_problems_are_read_with_their_variables(shared: Path) -> None:
         formula = read(record["formula"])
         assert same(read(write(formula)), formula), record
         if "free" in record:
-            assert set(free_variables(formula)) <= set(record["free"]), record["id"]
+            assert set(formula.free) <= set(record["free"]), record["id"]
         if record.get("prefix") and record["stats"]["prenex"]:
             prefix, body = [], formula
             while isinstance(body, Exists | ForAll):
@@ -68,7 +68,7 @@ def test_expected_answers_mean_what_they_say(shared: Path) -> None:
         formula = read(text)
         assert is_quantifier_free(formula)
         names = sorted(set(re.findall(r"[A-Za-z_]\w*'*", text)) - {"true", "false"})
-        assert set(free_variables(formula)) <= set(names)
+        assert set(formula.free) <= set(names)
         code = compile(python_source(text), "expected", "eval")
         for _ in range(4):
             point = {name: Fraction(generator.randint(-3, 3), generator.randint(1, 2)) for name in names}

@@ -15,7 +15,6 @@ import pytest
 import qe
 from qe.api.input import read_formula
 from qe.formula.build import exists
-from qe.formula.traverse import free_variables
 
 WILD = Path(__file__).resolve().parents[3] / "shared" / "corpora" / "wild.jsonl"
 SECONDS = 10.0
@@ -45,7 +44,7 @@ def verdict(record: dict[str, Any]) -> bool | None:
             if not isinstance(record["text"], str) or expected not in ("sat", "unsat"):
                 return None
             asserted = read_formula(record["text"], "smtlib")
-            closed = exists(free_variables(asserted), asserted)
+            closed = exists(asserted.free, asserted)
             return qe.decide(closed, timeout=SECONDS) is (expected == "sat")
         answer = qe.eliminate(question(record["text"]), format=record.get("format", "text"), timeout=SECONDS)
         if answer.formula is None:

@@ -12,7 +12,7 @@ from qe import reference
 from qe.errors import BudgetExceeded
 from qe.formula.build import conj, disj
 from qe.formula.syntax import And, Constant, Exists, ForAll, Formula, Not, Or
-from qe.formula.traverse import children, free_variables
+from qe.formula.traverse import children
 from qe.options import Budget
 from tests.differential.generate import at_point, random_point
 
@@ -43,9 +43,9 @@ def compare(
     before: Formula, after: Formula, rng: random.Random, *, points: int = 4, seconds: float = 1.0
 ) -> Comparison:
     """The two formulas at random points. New free names are refused."""
-    assert set(free_variables(after)) <= set(free_variables(before)), "the answer has new free variables"
+    assert set(after.free) <= set(before.free), "the answer has new free variables"
     decided = 0
-    for _ in range(points if free_variables(before) else 1):
+    for _ in range(points if before.free else 1):
         point = random_point(rng, before)
         left = oracle(at_point(before, point), seconds=seconds)
         right = oracle(at_point(after, point), seconds=seconds)

@@ -14,7 +14,7 @@ from fractions import Fraction
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj, disj, exists, forall, neg
 from qe.formula.syntax import Atom, Exists, ForAll, Formula, Relation
-from qe.formula.traverse import free_variables, map_atoms
+from qe.formula.traverse import map_atoms
 
 NAMES = ("a", "b", "x", "y", "z")
 HUGE = (10**20, -(10**30) - 1, 10**40 + 3)
@@ -124,7 +124,7 @@ def random_point(rng: random.Random, formula: Formula) -> dict[str, Fraction]:
         HUGE[0],
         1 + Fraction(1, HUGE[1]),
     )
-    return {name: Fraction(rng.choice(pick)) for name in free_variables(formula)}
+    return {name: Fraction(rng.choice(pick)) for name in formula.free}
 
 
 def at_point(formula: Formula, point: dict[str, Fraction]) -> Formula:

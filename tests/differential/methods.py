@@ -13,7 +13,6 @@ from qe.errors import BudgetExceeded, NotWellOriented
 from qe.formula.build import disj, exists, neg
 from qe.formula.normal import Quantifier, prenex
 from qe.formula.syntax import Constant, Formula
-from qe.formula.traverse import free_variables
 from qe.options import Budget, Options, Projection
 from qe.proof.run_log import RunLog
 from qe.rules.preparation import prepare
@@ -29,7 +28,7 @@ def by_cad(projection: Projection) -> Part:
         prefix, matrix = prenex(formula)
         if isinstance(matrix, Constant):
             return matrix
-        free = free_variables(formula)
+        free = formula.free
         order = (*free, *(name for _, names in prefix for name in names))
         kinds = (*("" for _ in free), *(kind.value for kind, names in prefix for _ in names))
 

@@ -7,7 +7,7 @@ from experiments import cli
 from experiments.compare import Verdict, compare
 from experiments.suites import SUITES, corpus, paper, scaling, suite
 from qe.errors import InputError
-from qe.formula.traverse import free_variables, is_quantifier_free
+from qe.formula.traverse import is_quantifier_free
 from qe.io.text import read, write
 
 
@@ -19,7 +19,7 @@ def test_every_problem_reads(name):
         formula = read(problem.formula)
         if problem.expected is not None:
             expected = read(problem.expected)
-            assert is_quantifier_free(expected) and set(free_variables(expected)) <= set(free_variables(formula))
+            assert is_quantifier_free(expected) and set(expected.free) <= set(formula.free)
 
 
 def test_literature_where_it_is_present(shared):
@@ -30,7 +30,7 @@ def test_literature_where_it_is_present(shared):
 def test_questions_of_threads_where_they_are_present(shared):
     found = corpus.wild(shared / "corpora")
     assert len({p.id for p in found}) == len(found) > 80
-    assert all(not free_variables(read(p.formula)) for p in found if p.id.startswith("A-z3"))
+    assert all(not read(p.formula).free for p in found if p.id.startswith("A-z3"))
 
 
 def test_literature_where_it_is_absent(tmp_path):
@@ -80,7 +80,7 @@ def test_the_ball_families_have_the_origin_in_common():
     for problem in scaling.problems():
         if "balls" in problem.set:
             body = problem.formula.partition(". ")[2]
-            origin = dict.fromkeys(free_variables(read(body)), 0)
+            origin = dict.fromkeys(read(body).free, 0)
             from qe.formula.evaluate import holds_at
 
             assert holds_at(read(body), origin)

@@ -16,7 +16,7 @@ from qe.formula.evaluate import holds_at
 from qe.formula.syntax import Exists as ExistsNode
 from qe.formula.syntax import ForAll as ForAllNode
 from qe.formula.syntax import Formula
-from qe.formula.traverse import free_variables, is_quantifier_free, ring_of
+from qe.formula.traverse import is_quantifier_free, ring_of
 from qe.io import formats, qepcad, redlog, smtlib, text
 from qe.io import json as json_format
 from qe.io.latex_lexer import is_latex
@@ -89,7 +89,7 @@ def test_latex(formula: Formula) -> None:
 def test_smtlib(formula: Formula, point: dict[str, Fraction]) -> None:
     """Bound variables may get new names, so the meaning is compared, with quantifiers over a finite universe."""
     again = smtlib.read(smtlib.write(formula))
-    assert set(free_variables(again)) == set(free_variables(formula))
+    assert set(again.free) == set(formula.free)
     assert holds(again, point) == holds(formula, point)
 
 
@@ -107,7 +107,7 @@ def test_qepcad(formula: Formula, point: dict[str, Fraction]) -> None:
     while isinstance(body, ExistsNode | ForAllNode):
         body = body.body
     assert is_quantifier_free(body)
-    assert set(free_variables(again)) <= set(free_variables(formula))
+    assert set(again.free) <= set(formula.free)
 
 
 @given(formulas(names=PLAIN), points(PLAIN))

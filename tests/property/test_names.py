@@ -16,7 +16,6 @@ from qe.exact.ring import Poly, Ring, format_poly
 from qe.formula.build import atom, conj, disj, exists, forall
 from qe.formula.evaluate import holds_at
 from qe.formula.syntax import Formula, Relation
-from qe.formula.traverse import free_variables
 from qe.io import formats, smtlib, text
 from qe.io import json as json_format
 from qe.io.sympy import from_sympy, to_sympy
@@ -78,7 +77,7 @@ def test_a_name_is_read_as_it_was_written(name: str) -> None:
     written = quoted(name)
     assert written.isprintable()
     assert (unquoted(written) if written.startswith("`") else written) == name
-    assert free_variables(text.read(f"{written} > 0")) == (name,)
+    assert text.read(f"{written} > 0").free == (name,)
 
 
 @given(named_formulas(quantifiers=3, root_atoms=True))
@@ -133,23 +132,23 @@ def test_smtlib(formula: Formula, data: st.DataObject) -> None:
     written = smtlib.write(formula)
     assert not re.search(r"[\x00-\x08\x0b\x0c\x0e-\x1f\x7f\\]", written), "section 3.1 allows none of these"
     again = smtlib.read(written)
-    assert len(free_variables(again)) == len(free_variables(formula))
-    point = data.draw(points(free_variables(formula)))
-    renamed = {new: point[old] for old, new in zip(free_variables(formula), free_variables(again), strict=True)}
+    assert len(again.free) == len(formula.free)
+    point = data.draw(points(formula.free))
+    renamed = {new: point[old] for old, new in zip(formula.free, again.free, strict=True)}
     assert holds_at(again, renamed) == holds_at(formula, point)
 
 
 @given(st.lists(names.filter(lambda name: name not in THEORY), min_size=1, max_size=3, unique=True))
 def test_quoted_symbols_of_smtlib_are_the_names(chosen: list[str]) -> None:
     lines = [f"(declare-const |{name}| Real)(assert (> |{name}| 0))" for name in chosen]
-    assert set(free_variables(smtlib.read("\n".join(lines)))) == set(chosen)
+    assert set(smtlib.read("\n".join(lines)).free) == set(chosen)
 
 
 @pytest.mark.parametrize("format_name", ["redlog", "qepcad"])
 @given(formula=named_formulas())
 def test_renaming_formats_keep_variables_apart(format_name: str, formula: Formula) -> None:
     again = formats.read(formats.write(formula, format_name), format_name)
-    assert len(free_variables(again)) == len(free_variables(formula))
+    assert len(again.free) == len(formula.free)
 
 
 @given(named_formulas(quantifiers=1))
@@ -162,8 +161,8 @@ def test_print_formats_are_well_formed(formula: Formula) -> None:
 @given(named_formulas(), st.data())
 def test_sympy_keeps_names(formula: Formula, data: st.DataObject) -> None:
     again = from_sympy(to_sympy(formula))
-    assert set(free_variables(again)) <= set(free_variables(formula))
-    point = data.draw(points(free_variables(formula)))
+    assert set(again.free) <= set(formula.free)
+    point = data.draw(points(formula.free))
     assert holds_at(again, point) == holds_at(formula, point)
 
 

@@ -14,7 +14,6 @@ from sympy.abc import b, x, y
 import qe
 from qe.exact.field import NumberField
 from qe.exact.ring import Ring
-from qe.formula.traverse import free_variables
 from qe.io import formats, text
 from qe.proof.certificate import Kind
 from qe.proof.entry import parse_poly, poly_to_text
@@ -44,11 +43,11 @@ def test_constants_of_mathematics_are_not_taken_for_variables(given: str) -> Non
 
 
 def test_constants_may_be_names_where_that_is_meant() -> None:
-    assert free_variables(formats.read("`pi` > `e` and `e` = i")) == ("pi", "e", "i")
+    assert formats.read("`pi` > `e` and `e` = i").free == ("pi", "e", "i")
     assert qe.decide("all e. e > 0 -> ex d. d > 0 and d < e")
     answer = qe.eliminate(formats.read("(declare-const e Real)(assert (> (* e e) 2))", "smtlib"))
     assert qe.equivalent(str(answer), answer.formula)
-    assert free_variables(text.read("x > pi", known=("pi",))) == ("x", "pi")
+    assert text.read("x > pi", known=("pi",)).free == ("x", "pi")
 
 
 def test_a_comma_in_an_order_is_no_variable() -> None:

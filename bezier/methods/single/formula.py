@@ -43,7 +43,6 @@ from qe.exact.ring import Ring
 from qe.formula.build import atom, conj, convert, forall, implies
 from qe.formula.normal import rename
 from qe.formula.syntax import Formula, Relation
-from qe.formula.traverse import free_variables
 
 VALUE = "v"
 """The variable that stands for the sum of (4)."""
@@ -165,7 +164,7 @@ def eliminate(given: Task, axis: Axis, symbols: Collection[Symbol] = (), *, time
     """
     values = answered(attainable(given, axis, symbols).formula, timeout).formula
     other = rename(values, {VALUE: OTHER})
-    ring = Ring.of(dict.fromkeys((VALUE, *free_variables(values), OTHER)))
+    ring = Ring.of(dict.fromkeys((VALUE, *values.free, OTHER)))
     no_less = atom(ring.var(OTHER) - ring.var(VALUE), Relation.GE)
     smallest = forall((OTHER,), implies(convert(other, ring), no_less))
     return Piecewise(values, answered(conj((convert(values, ring), smallest)), timeout).formula)

@@ -128,9 +128,7 @@ def _made(problem: Problem, clock: Clock) -> SinglePlan:
         needed = printed is not None and not printed.holds
         closed = close(given, problem.workspace, check=clock.remaining) if needed else None
         attainable = _attainable(problem, given, clock) if needed else None
-    found = closed.values if isinstance(closed, ProvedCurve) else None
-    if printed is not None and printed.holds:
-        found = dict(printed.values)
+    found = taken(printed, closed)
     with clock.step("curves and proofs"):
         path = None if found is None else path_of(problem, given, found)
         above = {} if path is None else heights_proved(given, path.curves[NAME])
@@ -161,6 +159,13 @@ def _made(problem: Problem, clock: Clock) -> SinglePlan:
             **({} if attainable is None else {CLOSED_SUMS: attainable}),
         },
     )
+
+
+def taken(printed: Printed | None, closed: ProvedCurve | NoCurve | None) -> Mapping[str, Values] | None:
+    """The curve that is taken: the printed one where it holds, or that of Method 1*; None if there is neither."""
+    if printed is not None and printed.holds:
+        return dict(printed.values)
+    return closed.values if isinstance(closed, ProvedCurve) else None
 
 
 def questions(problem: Problem) -> dict[str, Formula]:

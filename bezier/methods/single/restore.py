@@ -35,6 +35,7 @@ from bezier.methods.single.plan import (
     path_of,
     printed_of,
     sum_of,
+    taken,
     task_of,
 )
 from bezier.methods.single.program import Chosen, curve, dips, objective, program
@@ -59,9 +60,7 @@ def restore(problem: Problem, found: Certificate, stated: Stated) -> SinglePlan:
     chosen = tuple(_chosen(given, axis, of_axis(axis.name), found) for axis in given.raised)
     printed = _printed(problem, given, chosen, found)
     closed, attainable = _closed(problem, given, printed, found, stated)
-    values = closed.values if isinstance(closed, ProvedCurve) else None
-    if printed is not None and printed.holds:
-        values = dict(printed.values)
+    values = taken(printed, closed)
     path = None if values is None else path_of(problem, given, values)
     above = {} if path is None else heights_proved(given, path.curves[NAME])
     return SinglePlan(

@@ -73,9 +73,11 @@ class RationalFibre:
         return [sign_of(p(x)) for _, x, _ in at]
 
     def derivative(self) -> RationalFibre:
+        """The derivative in the variable."""
         return self._with(self.p.derivative())
 
     def gcd(self, other: Fibre) -> RationalFibre:
+        """The greatest common divisor."""
         assert isinstance(other, RationalFibre)
         return self._with(self.p.gcd(other.p))
 
@@ -129,9 +131,11 @@ class AlgebraicFibre:
             ctx.prec = saved
 
     def derivative(self) -> AlgebraicFibre:
+        """The derivative in the variable."""
         return AlgebraicFibre(self.point, self.index, self.poly.derivative(self.index))
 
     def gcd(self, other: Fibre) -> AlgebraicFibre:
+        """The greatest common divisor over the point."""
         assert isinstance(other, AlgebraicFibre)
         a, b = (self, other) if self.degree >= other.degree else (other, self)
         return AlgebraicFibre(self.point, self.index, gcd(self.point, a.poly, b.poly, self.index))

@@ -76,6 +76,22 @@ def choose(formula: Formula, block: frozenset[int], *, strict: bool, highest: in
     return best
 
 
+@dataclass(frozen=True, slots=True)
+class _Problem:
+    """Eliminate x from ``formula``, the conjunction of ``args``, in which x stands for its power of ``exponent``.
+
+    ``facts``: what the arguments say. ``size``: in how many atoms a point is put. ``highest``: see ``bounds``.
+    """
+
+    x: int
+    exponent: int
+    formula: Formula
+    args: tuple[Formula, ...]
+    facts: Facts
+    size: float
+    highest: int
+
+
 def _plan(formula: Formula, x: int, others: frozenset[int], facts: Facts, strict: bool, highest: int) -> Plan | None:
     if any(isinstance(a, RootAtom) and x in occurring(a) for a in atoms(formula)):
         return None
@@ -89,12 +105,10 @@ def _plan(formula: Formula, x: int, others: frozenset[int], facts: Facts, strict
         formula = conj(args)
         facts = NOTHING.extended(args)
     size = sum(1.0 + _spread(a, x, others) for a in atoms(formula) if a.poly.degree(x))
+    problem = _Problem(x, exponent, formula, args, facts, size, highest)
     gauss = best_gauss([gauss_constituent(a, x, 1, facts, highest) for a in args])
-    if gauss is not None:
-        found = _with_gauss(formula, args, originals, *gauss, x, exponent, size, facts, highest)
-        if found is not None:
-            return found
-    return _with_bounds(formula, x, exponent, size, facts, highest)
+    found = None if gauss is None else _with_gauss(problem, originals, *gauss)
+    return _with_bounds(problem) if found is None else found
 
 
 def _is_positive(formula: Formula, x: int) -> bool:
@@ -111,19 +125,10 @@ def _spread(found: Atom | RootAtom, x: int, others: frozenset[int]) -> float:
     return _QUADRATIC_SPREAD * sum(found.poly.degree(i) for i in others)
 
 
-def _with_gauss(
-    formula: Formula,
-    args: tuple[Formula, ...],
-    originals: tuple[Formula, ...],
-    gauss: Gauss,
-    k: int,
-    x: int,
-    exponent: int,
-    size: float,
-    facts: Facts,
-    highest: int,
-) -> Plan | None:
-    """Only the points of the Gauss constituent; where it vanishes identically, the problem without it."""
+def _with_gauss(problem: _Problem, originals: tuple[Formula, ...], gauss: Gauss, k: int) -> Plan | None:
+    """Only the points of the Gauss constituent, the k-th argument; where it vanishes identically, the problem without
+    it (``originals``: the arguments before the degree shift)."""
+    x, exponent, formula, args, size = problem.x, problem.exponent, problem.formula, problem.args, problem.size
     rest = (*args[:k], *args[k + 1 :])
     candidates = tuple(
         replace(c, formula=formula if c.formula is args[k] else conj((c.formula, *rest))) for c in gauss.candidates
@@ -134,26 +139,27 @@ def _with_gauss(
     if isinstance(args[k], Atom):
         without = conj((gauss.degenerate, *originals[:k], *originals[k + 1 :]))
         return Plan(x, exponent, formula, candidates, (), None, without, cost)
-    plain = _with_bounds(formula, x, exponent, size, facts, highest)
+    plain = _with_bounds(problem)
     if plain is None:
         return None
     others = tuple(replace(c, guard=conj((gauss.degenerate, c.guard))) for c in plain.candidates)
     return Plan(x, exponent, formula, candidates + others, plain.infinities, gauss.degenerate, FALSE, cost + plain.cost)
 
 
-def _with_bounds(formula: Formula, x: int, exponent: int, size: float, facts: Facts, highest: int) -> Plan | None:
+def _with_bounds(problem: _Problem) -> Plan | None:
     """Lower bounds with -infinity, upper bounds with +infinity, or a set without radicals: the cheapest."""
+    x, exponent, formula, facts = problem.x, problem.exponent, problem.formula, problem.facts
     best: Plan | None = None
     for side in (1, -1):
-        found = bounds(formula, x, side, facts, frozenset(), highest)
+        found = bounds(formula, x, side, facts, frozenset(), problem.highest)
         if found is None:
             return None
-        cost = (points_cost(found) + _INFINITY_COST) * size
+        cost = (points_cost(found) + _INFINITY_COST) * problem.size
         if best is None or cost < best.cost:
             best = Plan(x, exponent, formula, found, (Infinity(-side),), None, FALSE, cost)
-    plain = without_radicals(formula, x, facts, highest)
+    plain = without_radicals(formula, x, facts, problem.highest)
     if plain is not None and best is not None:
-        cost = (points_cost(plain) + 2 * _INFINITY_COST) * size
+        cost = (points_cost(plain) + 2 * _INFINITY_COST) * problem.size
         if cost < best.cost:
             best = Plan(x, exponent, formula, plain, (Infinity(-1), Infinity(1)), None, FALSE, cost)
     return best

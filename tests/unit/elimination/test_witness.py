@@ -14,7 +14,6 @@ from qe.elimination.witness import find, instantiate, substituted
 from qe.formula.build import forall, implies
 from qe.formula.evaluate import holds_at
 from qe.formula.syntax import Formula
-from qe.formula.traverse import free_variables
 from qe.options import Budget
 from qe.proof.run_log import RunLog
 
@@ -53,7 +52,7 @@ def witness_claim(witness: object) -> Formula:
 
 
 def free(witness: object) -> tuple[str, ...]:
-    return free_variables(witness_claim(witness))
+    return witness_claim(witness).free
 
 
 @pytest.mark.parametrize("text", FALSE)

@@ -18,7 +18,7 @@ from qe.exact.ring import Ring
 from qe.formula.build import atom, conj, convert, disj, exists, neg, root_atom
 from qe.formula.normal import nnf
 from qe.formula.syntax import FALSE, TRUE, And, Atom, Exists, ForAll, Formula, Or, Relation, RootAtom
-from qe.formula.traverse import atoms, children, free_variables, is_quantifier_free, map_atoms, ring_of
+from qe.formula.traverse import atoms, children, is_quantifier_free, map_atoms, ring_of
 from qe.io.text import read
 from qe.simplify.simplify import simplify
 from tests.strategies import formulas
@@ -48,7 +48,7 @@ def test_nodes_know_what_occurs_in_them(formula: Formula) -> None:
     names = () if formula.ring is None else formula.ring.names
     free = occurring_free(formula)
     for _ in range(2):  # found, and then remembered
-        assert free_variables(formula) == tuple(name for name in names if name in free)
+        assert formula.free == tuple(name for name in names if name in free)
         assert is_quantifier_free(formula) is not quantified(formula)
 
 
@@ -62,7 +62,7 @@ def test_nodes_know_what_occurs_in_them(formula: Formula) -> None:
 )
 def test_one_quantifier_among_other_parts(text: str, free: tuple[str, ...]) -> None:
     formula = read(text)
-    assert set(free_variables(formula)) == set(free)
+    assert set(formula.free) == set(free)
     assert is_quantifier_free(formula) is not quantified(formula)
 
 
@@ -71,7 +71,7 @@ def test_equality_and_hash_see_the_formula_only(one: Formula, other: Formula) ->
     stored = pickle.dumps(one)
     twin = pickle.loads(stored)
     assert not any(hasattr(twin, fact) for fact in FACTS)
-    for knows in (hash, free_variables, is_quantifier_free, ring_of, simplify):
+    for knows in (hash, lambda f: f.free, is_quantifier_free, ring_of, simplify):
         knows(one)
     assert one == twin == copy.deepcopy(one) == copy.copy(one)
     assert hash(one) == hash(twin)
@@ -131,7 +131,7 @@ def test_nothing_is_known_under_assumptions() -> None:
 
 def test_the_variable_of_a_root_atom_occurs_whatever_the_polynomial_is() -> None:
     ring = Ring.of(("x", "y"))
-    assert free_variables(root_atom("x", Relation.LT, ring.var("x") - ring.var("y"), 1)) == ("x", "y")
+    assert (root_atom("x", Relation.LT, ring.var("x") - ring.var("y"), 1)).free == ("x", "y")
 
 
 def test_constants_have_no_ring_and_no_variables() -> None:
@@ -146,7 +146,7 @@ def test_and_or_of_the_same_parts_differ() -> None:
     assert Exists(("x",), parts[0]) != ForAll(("x",), parts[0])
 
 
-@pytest.mark.parametrize("ask", [free_variables, is_quantifier_free, hash, ring_of, lambda f: convert(f, f.ring)])
+@pytest.mark.parametrize("ask", [lambda f: f.free, is_quantifier_free, hash, ring_of, lambda f: convert(f, f.ring)])
 def test_questions_to_large_formulas_are_answered_at_once(ask) -> None:
     ring = Ring.of(("x", "y", "z"))
     x, y, z = (ring.var(name) for name in ring.names)

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from qe.formula.normal import Quantifier, close, nnf, prenex, rename, rename_apart
 from qe.formula.syntax import Atom, Exists, ForAll, Formula, Not, Or, RootAtom
-from qe.formula.traverse import children, free_variables, is_quantifier_free, ring_of
+from qe.formula.traverse import children, is_quantifier_free, ring_of
 from qe.io.text import read
 from tests.strategies import formulas
 from tests.universe import UNIVERSE, holds
@@ -43,12 +43,12 @@ def test_rename_apart(formula: Formula, point: dict[str, Fraction]) -> None:
     result = rename_apart(formula)
     bound = binders(result)
     assert len(set(bound)) == len(bound)
-    assert not set(bound) & set(free_variables(formula))
-    assert set(free_variables(result)) <= set(free_variables(formula))
+    assert not set(bound) & set(formula.free)
+    assert set(result.free) <= set(formula.free)
     assert holds(result, point) == holds(formula, point)
     for part in walk(result):
         if isinstance(part, Exists | ForAll):
-            assert set(part.variables) <= set(free_variables(part.body)), "vacuous quantifiers are dropped"
+            assert set(part.variables) <= set(part.body.free), "vacuous quantifiers are dropped"
 
 
 @given(quantified, places)

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from qe.exact.ring import Ring
 from qe.formula.build import atom, conj, disj
 from qe.formula.syntax import Exists, Not, Relation
-from qe.formula.traverse import atoms, bound_variables, conjuncts, connected, disjuncts, free_variables, subformulas
+from qe.formula.traverse import atoms, bound_variables, conjuncts, connected, disjuncts, subformulas
 from qe.io.text import read
 
 RING = Ring.of(("a", "b", "c", "d", "e"))
@@ -43,16 +43,16 @@ def test_connected_parts(shares: list[frozenset[str]]) -> None:
         for k, names in enumerate(shares, start=1)
     ]
     block = frozenset("abcd")
-    outside, groups = connected(parts, lambda part: block.intersection(free_variables(part)))
+    outside, groups = connected(parts, lambda part: block.intersection(part.free))
     assert sorted(map(str, (*outside, *(p for _, members in groups for p in members)))) == sorted(map(str, parts))
-    assert all(not block & set(free_variables(p)) for p in outside)
+    assert all(not block & set(p.free) for p in outside)
     seen: set[str] = set()
     for names, members in groups:
-        assert names == frozenset().union(*(block & set(free_variables(p)) for p in members))
+        assert names == frozenset().union(*(block & set(p.free) for p in members))
         assert not names & seen
         seen |= names
         reached = {members[0]}
         for _ in members:
-            known = {n for p in reached for n in free_variables(p) if n in block}
-            reached |= {p for p in members if known & set(free_variables(p))}
+            known = {n for p in reached for n in p.free if n in block}
+            reached |= {p for p in members if known & set(p.free)}
         assert reached == set(members)

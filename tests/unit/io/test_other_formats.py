@@ -10,7 +10,7 @@ from qe.errors import InputError, ParseError
 from qe.exact.ring import Ring
 from qe.formula.build import atom
 from qe.formula.syntax import Relation
-from qe.formula.traverse import free_variables, ring_of
+from qe.formula.traverse import ring_of
 from qe.io import formats, qepcad, redlog
 from qe.io.json import decode, encode
 from qe.io.text import read as text
@@ -93,7 +93,7 @@ def test_reserved_names_are_renamed_injectively(format_name: str, name: str) -> 
     ring = Ring.of((name, "v", f"v{name}"))
     formula = atom(ring.gen(0) + 2 * ring.gen(1) + 3 * ring.gen(2), Relation.GT)
     again = formats.read(formats.write(formula, format_name), format_name)
-    assert len(free_variables(again)) == 3
+    assert len(again.free) == 3
 
 
 def test_json_is_readable_and_checked() -> None:

@@ -12,7 +12,6 @@ from qe.exact.ring import Ring
 from qe.formula.build import atom
 from qe.formula.evaluate import holds_at
 from qe.formula.syntax import Relation
-from qe.formula.traverse import free_variables
 from qe.io import smtlib
 from qe.io.text import read as text
 
@@ -158,8 +157,8 @@ def test_scripts_with_any_name_are_read_by_z3(name: str) -> None:
     (term,) = z3.parse_smt2_string(written)
     assert term.num_args() == 2
     again = smtlib.read(written)
-    assert len(free_variables(again)) == 2, "no two names become one"
-    first, second = (n for n in free_variables(again))
+    assert len(again.free) == 2, "no two names become one"
+    first, second = (n for n in again.free)
     assert holds_at(again, {first: 1, second: 0}) != holds_at(again, {first: 0, second: 1})
 
 

@@ -10,7 +10,7 @@ import pytest
 from qe.errors import BudgetExceeded, Unable
 from qe.exact.algebraic import RealAlgebraic
 from qe.formula.syntax import FALSE, TRUE, And, Atom, Exists, Formula, Relation
-from qe.formula.traverse import atoms, free_variables, is_quantifier_free
+from qe.formula.traverse import atoms, is_quantifier_free
 from qe.io.text import read
 from qe.options import Budget
 from qe.rules.lift import holds_at
@@ -62,7 +62,7 @@ def test_formula_7_keeps_six_balls_in_six_variables() -> None:
     balls = " and ".join(BALL.format(v).replace("r^2", "27") for v in "abcdxy")
     result = prepare(read(f"ex {block}. ({' and '.join(equations)} and {balls})")).formula
     assert is_quantifier_free(result)
-    assert len(free_variables(result)) == 6
+    assert len(result.free) == 6
     assert len(list(atoms(result))) == 6
 
 
@@ -86,7 +86,7 @@ def test_formula_7_keeps_six_balls_in_six_variables() -> None:
 def test_equations_disappear(text: str, expected: str) -> None:
     result = prepare(read(text)).formula
     assert is_quantifier_free(result)
-    if not free_variables(result):
+    if not result.free:
         assert str(result) == expected
         return
     ring = next(atoms(result)).poly.ring
@@ -116,7 +116,7 @@ def test_sign_atoms_survive_a_degree_shift() -> None:
 
 def test_scaling_uses_known_signs() -> None:
     prepared = prepare(read("ex x, y, z. (x > 0 and x^2 + y^2 < z^2 and x*y > z^2)"), enabled={StepKind.SCALING})
-    assert free_variables(prepared.formula) == ()
+    assert prepared.formula.free == ()
     assert str(prepared.formula).startswith("ex y, z.")
 
 

@@ -17,7 +17,7 @@ from qe.formula.build import conj, disj
 from qe.formula.evaluate import holds_at
 from qe.formula.openness import is_open, thinned
 from qe.formula.syntax import FALSE, TRUE, And, Atom, Exists, Formula
-from qe.formula.traverse import atoms, conjuncts, free_variables, polynomials
+from qe.formula.traverse import atoms, conjuncts, polynomials
 from qe.io.text import read
 from qe.options import Budget
 from qe.simplify.facts import NOTHING
@@ -39,7 +39,7 @@ GRID: tuple[Fraction | int, ...] = (-2, -1, 0, 1, Fraction(1, 2), 3)
 def agree(found: Formula, expected: str, values: tuple[Fraction | int, ...] = GRID) -> None:
     """Both formulas have the same truth value on a grid."""
     wanted = read(expected)
-    names = sorted({*free_variables(found), *free_variables(wanted)})
+    names = sorted({*found.free, *wanted.free})
     grid: list[dict[str, Fraction | int]] = [{}]
     for name in names:
         grid = [{**point, name: value} for point in grid for value in values]
@@ -95,7 +95,7 @@ def test_where_the_finitely_many_solutions_of_an_alternative_degenerate_its_othe
 def test_known_answers(problem: str, answer: str) -> None:
     result = run(problem)
     assert not result.remaining
-    assert not set(free_variables(result.formula)) & {"x", "u", "v"} - {"x" if problem.startswith("ex u") else ""}
+    assert not set(result.formula.free) & {"x", "u", "v"} - {"x" if problem.startswith("ex u") else ""}
     agree(result.formula, answer)
 
 
@@ -147,7 +147,7 @@ def test_too_high_a_degree_stays() -> None:
     result = run("ex x, y. x^5 - x - a = 0 and y > x and y < b")
     (left,) = result.remaining
     assert left.variables == ("x",)
-    assert "y" not in free_variables(left.body)
+    assert "y" not in left.body.free
 
 
 def test_an_equation_of_low_degree_saves_high_ones() -> None:
