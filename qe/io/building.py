@@ -39,6 +39,9 @@ OPERATIONS: dict[str, Callable[[s.Term, s.Term, int], s.Term]] = {
 }
 """Mathematica's names for the signs of operations."""
 
+SIGNS = {"+": "PLUS", "-": "MINUS", "*": "TIMES", "/": "OVER", "^": "POWER", "(": "OPEN", ")": "CLOSE"}
+"""The terminals of the signs that terms have in every format."""
+
 ARITHMETIC = """
 ?sum: product | sum PLUS product -> plus
      | sum MINUS product        -> minus
@@ -61,6 +64,16 @@ comparison: sum RELATION sum | comparison RELATION sum
 arguments: sum | arguments COMMA sum
 """
 
+CONNECTIVES = """
+?formula: c3 | formula IFF c3   -> iff
+?c3: c2 | c2 IMPLIES c3         -> implies
+     | c2 REPL c3               -> replied
+?c2: c1 | c2 OR c1              -> some
+?c1: c0 | c1 AND c0             -> every
+?c0: base | NOT c0              -> negation
+"""
+"""The rules of formulas by precedence, above ``base``, with the implication that is written backwards, too."""
+
 
 class Builder:
     """The actions of the grammar that other formats share."""
@@ -75,6 +88,9 @@ class Builder:
 
     def implies(self, c: list[Any]) -> s.Node:
         return s.Implication(c[0], c[2])
+
+    def replied(self, c: list[Any]) -> s.Node:
+        return s.Implication(c[2], c[0])
 
     def some(self, c: list[Any]) -> s.Node:
         if isinstance(c[0], s.Some):

@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Generator, Iterator
 
+from qe.io.building import SIGNS
 from qe.io.lalr import Token
 from qe.io.surface import FUNCTIONS
 from qe.io.text_errors import SyntaxFailure, way_out
@@ -47,13 +48,7 @@ _COMMANDS = {
 }
 _SIGNS = {
     **dict.fromkeys("=<>", "RELATION"),
-    "+": "PLUS",
-    "-": "MINUS",
-    "*": "TIMES",
-    "/": "OVER",
-    "^": "POWER",
-    "(": "OPEN",
-    ")": "CLOSE",
+    **SIGNS,
     "[": "LEFT",
     "]": "RIGHT",
     ",": "COMMA",

@@ -18,7 +18,7 @@ from qe.formula.normal import Quantifier, prenex
 from qe.formula.notation import Notation, polynomial, positive
 from qe.formula.syntax import Formula, Relation
 from qe.io import surface as s
-from qe.io.building import TERMS, Builder
+from qe.io.building import CONNECTIVES, SIGNS, TERMS, Builder
 from qe.io.grammar import Failing, parse, parser
 from qe.io.lalr import Parser, Token
 from qe.io.lowering import lower
@@ -38,13 +38,7 @@ _TOKEN = re.compile(
 _QUANTIFIER = re.compile(r"\s*\(\s*(?P<kind>[EAFGC]|X\s*[0-9]+)\s+(?P<name>[A-Za-z][A-Za-z0-9_]*'*)\s*\)")
 _OPERATORS = {
     **dict.fromkeys(("=", "/=", "<", "<=", ">", ">="), "RELATION"),
-    "+": "PLUS",
-    "-": "MINUS",
-    "*": "TIMES",
-    "/": "OVER",
-    "^": "POWER",
-    "(": "OPEN",
-    ")": "CLOSE",
+    **SIGNS,
     "[": "BEGIN",
     "]": "END",
     "/\\": "AND",
@@ -54,17 +48,11 @@ _OPERATORS = {
     "<==": "REPL",
     "<==>": "IFF",
 }
-_FORMULAS = """
+_FORMULAS = f"""
 %declare QUANTIFIER NAME NUMBER RELATION ROOT PLUS MINUS TIMES OVER POWER OPEN CLOSE COMMA BEGIN END
 %declare AND OR NOT IMPLIES REPL IFF TRUE FALSE
 ?start: formula | QUANTIFIER start -> prefixed
-?formula: c3 | formula IFF c3   -> iff
-?c3: c2 | c2 IMPLIES c3         -> implies
-     | c2 REPL c3               -> replied
-?c2: c1 | c2 OR c1              -> some
-?c1: c0 | c1 AND c0             -> every
-?c0: base | NOT c0              -> negation
-?base: comparison | NAME ROOT sum -> root_comparison
+{CONNECTIVES}?base: comparison | NAME ROOT sum -> root_comparison
      | TRUE                     -> true
      | FALSE                    -> false
      | BEGIN formula END        -> brackets
@@ -142,9 +130,6 @@ class _Builder(Builder):
     def prefixed(self, c: list[Any]) -> s.Node:
         kind, name = str(c[0]).split()
         return s.Quantification(kind == "A", [name], c[1])
-
-    def replied(self, c: list[Any]) -> s.Node:
-        return s.Implication(c[2], c[0])
 
     def juxtaposed(self, c: list[Any]) -> s.Term:
         return s.Product(c[0], c[1], -1)

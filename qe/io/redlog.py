@@ -17,7 +17,7 @@ from qe.exact.ring import Poly
 from qe.formula.notation import Notation
 from qe.formula.syntax import Formula, Relation
 from qe.io import surface as s
-from qe.io.building import TERMS, Builder
+from qe.io.building import CONNECTIVES, SIGNS, TERMS, Builder
 from qe.io.grammar import Failing, parse, parser
 from qe.io.lalr import Parser, Token
 from qe.io.lowering import lower
@@ -59,14 +59,8 @@ _RELATIONS = {
 }
 _OPERATORS = {
     **dict.fromkeys(("=", "<>", "<", "<=", ">", ">="), "RELATION"),
-    "+": "PLUS",
-    "-": "MINUS",
-    "*": "TIMES",
-    "/": "OVER",
-    "^": "POWER",
+    **SIGNS,
     "**": "POWER",
-    "(": "OPEN",
-    ")": "CLOSE",
     "{": "BEGIN",
     "}": "END",
     ",": "COMMA",
@@ -74,17 +68,11 @@ _OPERATORS = {
     ";": "STOP",
     "$": "STOP",
 }
-_FORMULAS = """
+_FORMULAS = f"""
 %declare QUANTIFIER NAME NUMBER RELATION PLUS MINUS TIMES OVER POWER OPEN CLOSE COMMA BEGIN END
 %declare AND OR NOT IMPLIES REPL IFF TRUE FALSE ASSIGN STOP
 ?start: formula | NAME ASSIGN formula -> third | formula STOP -> first | NAME ASSIGN formula STOP -> third
-?formula: c3 | formula IFF c3   -> iff
-?c3: c2 | c2 IMPLIES c3         -> implies
-     | c2 REPL c3               -> replied
-?c2: c1 | c2 OR c1              -> some
-?c1: c0 | c1 AND c0             -> every
-?c0: base | NOT c0              -> negation
-?base: comparison | TRUE        -> true
+{CONNECTIVES}?base: comparison | TRUE        -> true
      | FALSE                    -> false
      | OPEN formula CLOSE       -> brackets
      | QUANTIFIER OPEN variables COMMA formula CLOSE -> quantifier
@@ -154,9 +142,6 @@ class _Builder(Builder):
 
     def braced(self, c: list[Any]) -> Any:
         return c[1]
-
-    def replied(self, c: list[Any]) -> s.Node:
-        return s.Implication(c[2], c[0])
 
     def quantifier(self, c: list[Any]) -> s.Node:
         return s.Quantification(str(c[0]) == "all", c[2], c[4])

@@ -271,10 +271,6 @@ class Region(SetOperations):
         error = ratio(rel_error, "rel_error")
         return self._asked(lambda: enclose(self, error, budget=self._current()), timeout, at_once=True)
 
-    def to_formula(self) -> Formula:
-        """The defining quantifier-free formula."""
-        return self.formula
-
     # --- evidence and files ----------------------------------------------------------------------
     @property
     def certificate(self) -> Certificate:
