@@ -204,6 +204,9 @@ def _one_line_hook(name: str) -> Callable[[type[BaseException], BaseException, T
     """What the interpreter does with an exception nobody expected: one line with its place; exit status 1."""
 
     def hook(kind: type[BaseException], error: BaseException, trace: TracebackType | None) -> None:
+        if issubclass(kind, KeyboardInterrupt):  # while the command was being loaded; the signal ends the process
+            fail(name, "interrupted", BUG)
+            return
         while trace is not None and trace.tb_next is not None:
             trace = trace.tb_next
         place = "" if trace is None else f" at {Path(trace.tb_frame.f_code.co_filename).name}:{trace.tb_lineno}"

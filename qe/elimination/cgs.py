@@ -21,6 +21,7 @@ from itertools import product
 from math import prod
 
 from qe.elimination.protocol import Context, Outcome, Problem
+from qe.errors import InternalError
 from qe.exact.block_order import Block
 from qe.exact.number import Values, simplest
 from qe.exact.polynomial_system import solve_system
@@ -115,8 +116,10 @@ def _conjunctions(formula: Formula) -> Iterator[tuple[Formula, ...]]:
         case Constant(value):
             if value:
                 yield ()
-        case _:
+        case Atom():
             yield (formula,)
+        case _:
+            raise InternalError(f"not in negation normal form: {type(formula).__name__}")
 
 
 @dataclass(frozen=True)

@@ -57,8 +57,9 @@ class Problem:
 
     @property
     def dual(self) -> Problem:
-        """The existential problem that is this one, or its negation if ``universal``."""
-        return Problem(self.variables, self.positive) if self.universal else self
+        """The existential problem that is this one, or its negation if ``universal``, in negation normal form."""
+        positive = self.positive
+        return Problem(self.variables, positive) if self.universal or positive != self.body else self
 
     def witnessed(self, values: Values) -> Certificate:
         """That the body of the existential dual, quantifier-free, holds at these values of the variables."""

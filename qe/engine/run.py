@@ -26,6 +26,7 @@ from qe.formula.counting import without_root_atoms
 from qe.formula.features import features
 from qe.formula.normal import nnf, rename_apart
 from qe.formula.syntax import FALSE, TRUE, And, Constant, Exists, ForAll, Formula, Not, Or
+from qe.formula.traverse import subformulas
 from qe.options import Budget, Method, Options, Stage
 from qe.proof.answer import Answer, Status
 from qe.proof.derivation import negated
@@ -132,13 +133,18 @@ class _Run:
         """A sentence of one outermost block, by its existential dual, with values for the block's variables."""
         dual = problem.dual
         mark = self.log.mark()
-        if problem.universal:
-            self.log.step("duality", problem.formula, negated(dual.formula))
+        self.turned(problem)
         ready = self.prepared(dual.formula)
         if ready.formula == dual.formula and dual.is_flat:
             self.log.forget_steps(mark)
             return self.block(problem)
         return self.lifted(ready, self.decided(ready.formula), problem)
+
+    def turned(self, problem: Problem) -> None:
+        """The step from a problem to its existential dual."""
+        rule = "duality" if problem.universal else "negation normal form"
+        dual = problem.dual.formula
+        self.log.step(rule, problem.formula, negated(dual) if problem.universal else dual)
 
     def lifted(self, ready: Prepared, found: Outcome, problem: Problem) -> Outcome:
         """The answer to a problem from that to its prepared dual, with the values of its variables."""
@@ -158,8 +164,7 @@ class _Run:
         shorter = without_locals(problem, self.options, self.shortly)
         if shorter is None:
             return None
-        if problem.universal:
-            self.log.step("duality", problem.formula, negated(problem.dual.formula))
+        self.turned(problem)
         self.log.take_up(shorter.steps)
         found = self.question(shorter.formula)
         known = shorter.values(found, lambda sentence: self.apart(sentence, self.budget))
@@ -230,11 +235,7 @@ class _Run:
             case And(args):
                 return self.conjunction(args)
             case Or(args):
-                for arg in args:
-                    found = self.decided(arg)
-                    if found.formula == TRUE:
-                        return found
-                return Outcome(FALSE)
+                return next((found for found in map(self.decided, args) if found.formula == TRUE), Outcome(FALSE))
             case Exists(variables, body) | ForAll(variables, body):
                 return self.eliminated(Problem(variables, body, isinstance(formula, ForAll)))
         return Outcome(self.without_quantifiers(formula))
@@ -303,8 +304,7 @@ class _Run:
         if not isinstance(known, Constant) and not any(equations(known, dual.variables)):
             self.log.switch("parts first", "they give no equations")
             return None
-        if problem.universal:
-            self.log.step("duality", problem.formula, negated(dual.formula))
+        self.turned(problem)
         self.log.take_up(tuple(inner.log.steps()))
         ready = self.prepared(exists(dual.variables, conj((known, rest))))
         found = Outcome(self.without_quantifiers(ready.formula)) if dual.free else self.decided(ready.formula)
@@ -366,7 +366,7 @@ class _Run:
         """An outcome without what a method left quantified, and short where that is worth a look."""
         formula = found.formula
         if not formula.is_quantifier_free and attempt.scope is not Scope.INNER:
-            if formula == problem.formula:
+            if problem.formula in subformulas(formula):  # conditions beside it would not change what comes next
                 raise alone(name)
             self.log.switch(name, f"{', '.join(features(formula).bound)} left for another method")
             formula = self.without_quantifiers(formula)

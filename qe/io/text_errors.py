@@ -111,6 +111,8 @@ def _hint(text: str, before: str, kind: str, value: str, at: int, expected: Coll
         return "a name with a dot stands between backquotes, as in `a.b`"
     if value in ("/", "*") and previous == "/":
         return "a comment starts with # and goes to the end of the line"
+    if value == "," and previous.isdigit() and text[at + 1 : at + 2].isdigit():
+        return "a decimal number is written with a point, as in 0.5; several conditions are joined by and"
     if value == "," and not {"NUMBER", "NAME", "DOT", "PLUS", "CLOSE"} & {*expected}:
         return "several conditions are joined by and, or stand in braces {…, …}"
     if kind == "POWER" and "POWER" not in expected and "TIMES" in expected and previous not in "*^":

@@ -69,3 +69,19 @@ def test_open_sets_that_barely_exist_have_a_witness() -> None:
     text = "x^2 + y^2 + z^2 + u^2 + 2*x + 2*y - 2*z - 2*u < 0 and 12000000*x + 5000000*u + 32999987 < 0"
     answer = eliminate(f"ex x, y, z, u. {text}")
     assert answer.witness is not None and answer.guarantee is Guarantee.CHECKED
+
+
+@pytest.mark.parametrize(("first", "expected"), [("+ 1", False), ("- 9", True)])
+def test_a_negated_disjunction_of_inequations_was_true_whatever_they_say(first: str, expected: bool) -> None:
+    """Gröbner systems passed over what was no atom: "not (p /= 0 or q /= 0)" lost its equations, all of them."""
+    system = f"x^2 + y^2 + z^2 + w^2 {first} /= 0 or x*y - z /= 0 or x^2*w - 1 /= 0 or y*z*w /= 1"
+    assert eliminate(f"ex x, y, z, w. not ({system})").truth is expected
+    assert eliminate(f"all x, y, z, w. {system}").truth is not expected
+    parametric = eliminate("ex x. not (x /= 0 and x^2 + 2*a + 1 /= 0 or a^2*x + a*x^2 + 2 /= 0)", method="cgs")
+    assert equivalent(parametric.formula, "a + 1 = 0")
+
+
+def test_a_block_that_comes_back_beside_a_condition_ran_for_ever() -> None:
+    """Critical values left "p = 0 and the same block": the answer was that the formula is nested too deeply."""
+    answer = eliminate("all u. u < 0 or (2*a^2 + a*b - b + 1)^2 <= u", method="critical")
+    assert "critical values alone" in (answer.reason or "")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import sys
 from pathlib import Path
 
 import pytest
@@ -50,6 +51,26 @@ def test_errors(
     assert shell.enter(app, ["--json"], name="prog") == code
     data = json.loads(capsys.readouterr().out)
     assert (data["status"], data["exit"]) == (status, code) and "\n" not in data["message"]
+
+
+@pytest.mark.parametrize(("kind", "line"), [(KeyboardInterrupt, "prog: interrupted\n"), (ValueError, "prog: internal")])
+def test_what_nobody_expected_is_one_line(
+    kind: type[BaseException], line: str, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Ctrl-C while a command was being loaded was called an internal error, to be reported."""
+    monkeypatch.setattr("sys.excepthook", None)
+    app = typer.Typer()
+
+    @app.command()
+    def works() -> None:
+        """Nothing to do."""
+
+    assert shell.enter(app, [], name="prog") == 0
+    hook = sys.excepthook
+    assert hook is not None
+    hook(kind, kind("odd"), None)
+    shown = capsys.readouterr().err
+    assert shown.startswith(line) and shown.count("\n") == 1
 
 
 def test_a_misspelt_option(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:

@@ -45,6 +45,8 @@ def failure(text: str) -> SyntaxFailure:
         ("x y > 0", 2, "a product is written x*y", ""),
         ("x (y + 1) > 0", 2, "", ""),
         ("(x + 1) y > 0", 8, "a product is written (…)*y", ""),
+        ("0,5*x = a", 1, "a decimal number is written with a point", ""),
+        ("x = 1,000", 5, "a decimal number is written with a point", ""),
         ("x = 1_000", 4, "without _ between its digits", ""),
         ("exists unique x. x^2 = a", 7, "there is no ∃!", ""),
         ("exists positive x. x^2 = a", 7, "exists x > 0", ""),
