@@ -209,19 +209,20 @@ def connection(cluster: Cluster) -> Iterator[Any]:
         raise lacking(error) or error from None
     if cluster.address is None:
         parent = [str(os.getpid())]
-        local = SubprocessCluster(
-            n_workers=cluster.workers,
-            threads_per_worker=1,
-            dashboard_address=None,
-            scheduler_kwargs={"preload": LEASH, "preload_argv": parent},
-            worker_kwargs={
-                "memory_limit": 0,
-                "config": QUIET,
-                "preload_nanny": LEASH,
-                "preload_nanny_argv": parent,
-            },
-            silence_logs=logging.CRITICAL,
-        )
+        with _silent():
+            local = SubprocessCluster(
+                n_workers=cluster.workers,
+                threads_per_worker=1,
+                dashboard_address=None,
+                scheduler_kwargs={"preload": LEASH, "preload_argv": parent},
+                worker_kwargs={
+                    "memory_limit": 0,
+                    "config": QUIET,
+                    "preload_nanny": LEASH,
+                    "preload_nanny_argv": parent,
+                },
+                silence_logs=logging.CRITICAL,
+            )
         with local, Client(local) as client:
             yield client
         return
@@ -235,3 +236,18 @@ def connection(cluster: Cluster) -> Iterator[Any]:
         except TimeoutError:
             raise Unable(f"the scheduler at {cluster.address} has no worker") from None
         yield client
+
+
+@contextmanager
+def _silent() -> Iterator[None]:
+    """Processes that are started meanwhile do not tell that they load something; the environment is theirs too."""
+    name = "DASK_LOGGING__DISTRIBUTED"
+    before = os.environ.get(name)
+    os.environ[name] = "critical"
+    try:
+        yield
+    finally:
+        if before is None:
+            del os.environ[name]
+        else:
+            os.environ[name] = before
