@@ -155,6 +155,22 @@ def proofs(
         print(text)
 
 
+@app.command(short_help="What helpers gain in a long decomposition.")
+def speedup(
+    question: Annotated[
+        str, typer.Argument(help="A formula in the text syntax [default: some 20 s of one core].")
+    ] = "",
+    workers: Annotated[int, typer.Option(help="Worker processes here.", min=1)] = 2,
+) -> int:
+    """Decompose with helpers and alone, and print the processor time of every process and the clock. Status 1 when the
+    answers or the certificates differ."""
+    from experiments.speedup import QUESTION, measured
+
+    found = measured(question or QUESTION, workers)
+    print(found)
+    return OK if found.same else BUG
+
+
 @app.command(short_help="Run SMT-LIB scripts through qe smt.")
 def scripts(
     folder: Annotated[Path, typer.Argument(exists=True, file_okay=False, help="A folder of SMT-LIB scripts (*.smt2).")],

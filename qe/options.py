@@ -143,11 +143,13 @@ class Call(Protocol[Result]):
 
 
 class Helpers(Protocol):
-    """Processes, here or on other machines, that do parts of the work. ``width``: how many; ``started``: whether they
-    run already."""
+    """Processes, here or on other machines, that do parts of the work. ``width``: how many."""
 
     width: int
-    started: bool
+
+    def ready(self) -> bool:
+        """Whether they run. They are started beside the work when that has taken long; nothing waits for them."""
+        ...
 
     def results(self, calls: Iterable[Call[Result]], check: Callable[[], None]) -> Iterator[Result]:
         """The results in the order of the calls, which are taken a few ahead; ``check`` is called while waiting.

@@ -29,11 +29,8 @@ from qe.proof.cells import Cell, Stack
 _VALUE = {"+": 1, "-": -1, "0": 0}
 
 
-SPREAD_FROM = 2000
-"""Cells after which helpers take part: before that, starting them would take longer than the work."""
-
-SPREAD_AGAIN = 200
-"""The same for helpers that have started (for the first of several decompositions)."""
+SPREAD_FROM = 200
+"""Cells after which helpers take part: what is smaller is done before they have the first cell."""
 
 SPREAD_LEVELS = 3
 """Cells of the first so many levels are handed to helpers; there are enough of them, and each is a piece of work."""
@@ -220,8 +217,7 @@ class Lifter:
     # --- side by side ------------------------------------------------------------------------------
     def _spreads(self, level: int, count: int, helpers: Helpers) -> bool:
         """Whether helpers lift the ``count`` cells left in a stack of this level."""
-        first = SPREAD_AGAIN if helpers.started else SPREAD_FROM
-        if self.cells < first or level >= min(SPREAD_LEVELS, len(self.plan.levels) - 1):
+        if self.cells < SPREAD_FROM or level >= min(SPREAD_LEVELS, len(self.plan.levels) - 1) or not helpers.ready():
             return False
         return count >= SPREAD_WIDTH * helpers.width or level == SPREAD_LEVELS - 1
 

@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
-from qe.cad.matrix import Node, compile_matrix, mentioned, specialise
+from collections.abc import Collection, Mapping, Sequence
+from functools import reduce
+from operator import and_, or_
+
+from qe.cad.matrix import Node, Test, compile_matrix, mentioned, specialise
 from qe.exact.ring import Ring
 from qe.formula.build import convert
 from qe.formula.syntax import Formula
@@ -10,6 +14,8 @@ from qe.formula.traverse import has_root_atoms, polynomials
 from qe.proof.cells import Cell, CellTable, Stack
 
 _VALUE = {"+": 1, "-": -1, "0": 0}
+_ZERO = str.maketrans("+-0", "001")
+_NEGATIVE = str.maketrans("+-0", "010")
 
 
 def is_listed(answer: Formula, table: CellTable) -> bool:
@@ -45,12 +51,56 @@ def _agrees(cell: Cell, node: Node, level: int, free: int) -> bool:
         return node is cell.truth
     wanted = mentioned(node, level)
     places = [(p, j) for p, j in enumerate(cell.stack.used) if j in wanted]
-    known: dict[str, Node] = {}  # neighbours often have the same signs
-    for below in cell.stack.cells:
-        spoken = "".join([below.signs[p] for p, _ in places])
-        if spoken not in known:
-            signs = {j: _VALUE[c] for (_, j), c in zip(places, spoken, strict=True) if c != "?"}
-            known[spoken] = specialise(node, level, signs)
-        if not _agrees(below, known[spoken], level + 1, free):
+    spoken = ["".join([below.signs[p] for p, _ in places]) for below in cell.stack.cells]
+    if level == free - 1 and not isinstance(node, bool):
+        columns = _columns(spoken, [j for _, j in places])
+        if columns is not None and _is_only_of(node, level, columns.keys()):
+            true = int("".join(["01"[below.truth is True] for below in cell.stack.cells]), 2)
+            known = all(below.truth is not None for below in cell.stack.cells)
+            return known and _where_true(node, columns, (1 << len(spoken)) - 1) == true
+    known_nodes: dict[str, Node] = {}  # neighbours often have the same signs
+    for below, text in zip(cell.stack.cells, spoken, strict=True):
+        if text not in known_nodes:
+            signs = {j: _VALUE[c] for (_, j), c in zip(places, text, strict=True) if c != "?"}
+            known_nodes[text] = specialise(node, level, signs)
+        if not _agrees(below, known_nodes[text], level + 1, free):
             return False
     return True
+
+
+Columns = Mapping[int, tuple[int, int]]
+"""For every factor of a level the cells of a stack, as bits, on which it is zero, and those on which it is negative."""
+
+
+def _columns(rows: Sequence[str], indices: Sequence[int]) -> Columns | None:
+    """The columns of the signs of these factors; None where a sign is not known."""
+    text, width = "".join(rows), len(indices)
+    if "?" in text:
+        return None
+    return {
+        j: (int(text[p::width].translate(_ZERO), 2), int(text[p::width].translate(_NEGATIVE), 2))
+        for p, j in enumerate(indices)
+    }
+
+
+def _is_only_of(node: Node, level: int, known: Collection[int]) -> bool:
+    """Whether a node depends on these factors of the level only."""
+    if isinstance(node, Test):
+        return all(at == level and j in known for at, j, _ in node.parts)
+    return isinstance(node, bool) or all(_is_only_of(arg, level, known) for arg in node.args)
+
+
+def _where_true(node: Node, columns: Columns, everywhere: int) -> int:
+    """The cells, as bits, on which a node that depends on the columns only is true: all cells of a stack at once."""
+    if isinstance(node, bool):
+        return everywhere if node else 0
+    if isinstance(node, Test):
+        zero = negative = 0
+        for _, j, odd in node.parts:
+            own_zero, own_negative = columns[j]
+            zero |= own_zero
+            negative ^= own_negative if odd else 0
+        signs = {0: zero, -1: negative & ~zero, 1: everywhere & ~(zero | negative)}
+        return reduce(or_, (signs[sign] for sign in node.allowed), 0)
+    parts = (_where_true(arg, columns, everywhere) for arg in node.args)
+    return reduce(and_, parts, everywhere) if node.is_and else reduce(or_, parts, 0)

@@ -9,7 +9,6 @@ polynomial and its derivatives separate its roots, so this ends.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from math import inf
 
 from qe.cells.sign_table import Literal, SignTable, free_cells
 from qe.errors import InternalError
@@ -151,22 +150,28 @@ def _implicant(signs: SignTable, uncovered: int) -> tuple[Implicant, int]:
     remaining, covered = (1 << len(signs.false)) - 1, everything
     picked: list[Literal] = []
     while remaining:
-        best = max(usable, key=lambda x: _gain(x, remaining, covered & uncovered), default=None)
-        if best is None or best.keeps & remaining == remaining:
+        best, remaining = _best(usable, remaining, covered & uncovered)
+        if best is None:
             raise InternalError("a true cell cannot be distinguished from a false one")
         picked.append(best)
-        remaining &= best.keeps
         covered &= best.holds
     return _pruned(signs, usable, picked)
 
 
-def _gain(x: Literal, remaining: int, covered: int) -> tuple[float, int]:
-    total = remaining.bit_count()
-    excluded = total - (x.keeps & remaining).bit_count()
-    if not excluded:
-        return -inf, 0  # polynomials may cost thousands: what excludes something is still better
-    kept = (x.holds & covered).bit_count() / max(1, covered.bit_count())
-    return excluded / total + 1.5 * kept - 0.004 * x.cost, -x.cost
+def _best(usable: list[Literal], remaining: int, covered: int) -> tuple[Literal | None, int]:
+    """The literal that excludes and covers most for its cost, with the false cells it leaves; None if none excludes."""
+    total, wanted = remaining.bit_count(), max(1, covered.bit_count())
+    best: Literal | None = None
+    most, left = (0.0, 0), remaining
+    for x in usable:
+        kept = x.keeps & remaining
+        if kept == remaining:
+            continue
+        share = (x.holds & covered).bit_count() / wanted
+        gain = (total - kept.bit_count()) / total + 1.5 * share - 0.004 * x.cost, -x.cost
+        if best is None or gain > most:
+            best, most, left = x, gain, kept
+    return best, left
 
 
 def _pruned(signs: SignTable, usable: list[Literal], picked: list[Literal]) -> tuple[Implicant, int]:

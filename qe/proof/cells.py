@@ -36,6 +36,10 @@ class Stack:
     sections: tuple[tuple[int, ...], ...]
     cells: tuple[Cell, ...]
 
+    def __reduce__(self) -> tuple[type[Stack], tuple[object, ...]]:
+        """Tables are sent between processes by the hundred thousand cells; the way of all dataclasses is slow."""
+        return Stack, (self.used, self.sectors, self.sections, self.cells)
+
 
 @dataclass(frozen=True, slots=True)
 class Cell:
@@ -53,6 +57,10 @@ class Cell:
     signs: str
     truth: bool | None
     stack: Stack | None = None
+
+    def __reduce__(self) -> tuple[type[Cell], tuple[object, ...]]:
+        """See ``Stack.__reduce__``."""
+        return Cell, (self.signs, self.truth, self.stack)
 
 
 @dataclass(frozen=True, slots=True)

@@ -41,7 +41,5 @@ class StepKind(Enum):
 ALL_STEPS = frozenset(StepKind)
 EQUATION_STEPS = frozenset({StepKind.LINEAR, StepKind.GUARDED_LINEAR, StepKind.GROEBNER, StepKind.CANCELLING})
 SYMMETRY_STEPS = frozenset({StepKind.TRANSLATION, StepKind.ROTATION, StepKind.SCALING, StepKind.MIRROR, StepKind.SHEAR})
-POINTWISE_STEPS = frozenset(
-    {StepKind.SIMPLIFY, StepKind.MINISCOPE, StepKind.GROEBNER, StepKind.FACTOR_SPLIT}
-)
+POINTWISE_STEPS = frozenset({StepKind.SIMPLIFY, StepKind.MINISCOPE, StepKind.GROEBNER, StepKind.FACTOR_SPLIT})
 """The steps that change no variable: equivalences of the matrix at every point."""

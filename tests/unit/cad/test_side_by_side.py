@@ -8,10 +8,12 @@ import random
 import signal
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
+from functools import partial
 
 import pytest
 
 import qe
+from qe import arguments
 from qe.cad import lifting
 from qe.cad.decompose import Decomposition, decompose
 from qe.errors import BudgetExceeded
@@ -22,6 +24,7 @@ from qe.formula.normal import nnf, prenex
 from qe.formula.syntax import Constant
 from qe.io import formats
 from qe.options import Budget, Call, Cluster, Helpers, Result
+from qe.processes import cluster
 from qe.processes.cluster import helping
 from tests.differential.generate import NESTED, SMALL, random_formula
 
@@ -39,7 +42,10 @@ class Eager:
     """Helpers in this process that are always ahead, and know only what can be sent to them."""
 
     def __init__(self, width: int = 1, ahead: int = 3) -> None:
-        self.width, self.ahead, self.called, self.started = width, ahead, 0, False
+        self.width, self.ahead, self.called, self.started = width, ahead, 0, True
+
+    def ready(self) -> bool:
+        return self.started
 
     def results(self, calls: Iterable[Call[Result]], check: Callable[[], None]) -> Iterator[Result]:
         done: deque[tuple[bool, object]] = deque()
@@ -77,7 +83,6 @@ def table(text: str, helpers: Helpers | None, work: int | None = None) -> Decomp
 def at_once(monkeypatch: pytest.MonkeyPatch) -> None:
     """Helpers take part from the first cell on."""
     monkeypatch.setattr(lifting, "SPREAD_FROM", 0)
-    monkeypatch.setattr(lifting, "SPREAD_AGAIN", 0)
     monkeypatch.setattr(lifting, "SPREAD_WIDTH", 1)
 
 
@@ -110,27 +115,55 @@ def test_a_limit_on_work_holds_as_alone(work: int, at_once: None) -> None:
 
 def test_small_work_needs_no_helpers() -> None:
     helpers = Eager()
-    table(PROBLEMS["existential"], helpers)
+    table("ex y. x*y > 1 and y < 2", helpers)
     assert not helpers.called
 
 
-def test_helpers_that_have_started_take_part_sooner(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(lifting, "SPREAD_AGAIN", 1)
+def test_helpers_are_not_started_for_a_short_time() -> None:
+    with helping(Cluster(workers=1)) as helpers:
+        assert not helpers.ready() and helpers.width == 1
+
+
+def test_work_goes_on_alone_until_the_helpers_have_started(at_once: None) -> None:
     helpers = Eager()
-    helpers.started = True
-    table(PROBLEMS["existential"], helpers)
-    assert helpers.called
+    helpers.started = False
+    found = table(PROBLEMS["existential"], helpers)
+    assert not helpers.called and found.table == table(PROBLEMS["existential"], None).table
 
 
-def test_a_killed_worker_costs_its_own_work_only(at_once: None) -> None:
+class Murdered:
+    """Helpers of which one is killed when the first results are there."""
+
+    def __init__(self, helpers: Helpers) -> None:
+        self.helpers, self.width, self.killed = helpers, helpers.width, 0
+
+    def ready(self) -> bool:
+        return True
+
+    def results(self, calls: Iterable[Call[Result]], check: Callable[[], None]) -> Iterator[Result]:
+        for place, result in enumerate(self.helpers.results(calls, check)):
+            if place == 2 and not self.killed:
+                self.killed = next(iter(self.helpers._client.run(os.getpid).values()))  # type: ignore[attr-defined]
+                os.kill(self.killed, signal.SIGKILL)
+            yield result
+
+
+def test_a_worker_killed_in_the_middle_costs_its_own_work_only(at_once: None) -> None:
     pytest.importorskip("distributed")
     with helping(Cluster(workers=1)) as helpers:
-        first = table(PROBLEMS["existential"], helpers)
-        for worker in helpers._client.run(os.getpid).values():  # type: ignore[attr-defined]
-            os.kill(worker, signal.SIGKILL)
-        second = table(PROBLEMS["with a constraint"], helpers)
+        murdered = Murdered(helpers)
+        first = table(PROBLEMS["existential"], murdered)
+        second = table(PROBLEMS["with a constraint"], murdered)
+    assert murdered.killed
     assert first.table == table(PROBLEMS["existential"], None).table
     assert second.table == table(PROBLEMS["with a constraint"], None).table
+
+
+def test_calls_are_sent_together_and_an_error_stands_in_its_place() -> None:
+    made = cluster._together(
+        [partial(int, "1"), partial(int, "2"), partial(arguments.whole, -1, "n", 3), partial(int, "4")]
+    )
+    assert made.results == [1, 2] and made.count == 2 and isinstance(made.error, qe.InputError)
 
 
 @pytest.mark.parametrize(

@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+import random
+
 import pytest
 
+from qe.cad import matrix
 from qe.cad.decompose import decompose
+from qe.cad.matrix import Node, join, specialise
+from qe.cells import follows as following
 from qe.cells.follows import follows, is_listed
-from qe.cells.formulas import shortest
+from qe.cells.formulas import formula_of_cells
 from qe.cells.sign_table import SignTable, free_cells
 from qe.exact.ring import Ring
 from qe.formula.build import convert
@@ -107,6 +112,29 @@ def test_polynomials_of_huge_degree_are_told_apart() -> None:
     """The cost of x^1000 outweighed that it excludes a cell, and a literal that excludes nothing was chosen."""
     listed = [("++", True), ("-+", False), ("+-", False)]
     cells = [FreeCell((k,), (signs,), truth) for k, (signs, truth) in enumerate(listed)]
-    found = shortest([[X**1000 - Y, X**2000 - Y]], cells)
+    found = formula_of_cells([[X**1000 - Y, X**2000 - Y]], cells)
     assert len(conjuncts(found)) == 2
     assert holds_at(found, {"x": 2, "y": 0}) and not holds_at(found, {"x": 2, "y": 2**1500})
+
+
+def test_the_cells_of_a_stack_at_once_as_one_by_one() -> None:
+    rng = random.Random(5)
+
+    def node(depth: int) -> Node:
+        if depth and rng.random() < 0.7:
+            return join(rng.random() < 0.5, [node(depth - 1) for _ in range(3)])
+        parts = tuple((1, j, rng.random() < 0.5) for j in rng.sample(range(4), rng.randint(1, 3)))
+        return matrix.Test(parts, frozenset(rng.sample((-1, 0, 1), rng.randint(1, 2))))
+
+    for _ in range(200):
+        rows, asked = ["".join(rng.choices("+-0", k=4)) for _ in range(9)], node(3)
+        columns = following._columns(rows, range(4))
+        assert columns is not None
+        found = following._where_true(asked, columns, (1 << len(rows)) - 1)
+        signs = [{j: {"+": 1, "-": -1, "0": 0}[c] for j, c in enumerate(row)} for row in rows]
+        one_by_one = [specialise(asked, 1, sign) for sign in signs]
+        assert [bit == "1" for bit in f"{found:09b}"] == one_by_one
+
+
+def test_signs_that_are_not_known_have_no_columns() -> None:
+    assert following._columns(["+?", "-0"], range(2)) is None
