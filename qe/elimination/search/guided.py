@@ -36,9 +36,10 @@ def guided(clauses: Clauses, theory: Theory) -> Values | list[Clause]:
     bounds = list(said(clauses.inequalities()))
     theories: list[LinearTheory] = []
     differences = Differences(bounds) if Differences.suit(bounds) else None
-    forms = None
+    leading: Forms | None = None  # whose point says what is preferred; among curved conditions it says too little
     if differences is None or any(difference(one.direction) is None for one in bounds):
         theories.append(forms := Forms(bounds))
+        leading = forms if all(poly.total_degree == 1 for poly in clauses.polys) else None
     if differences is not None:
         theories.insert(0, differences)
 
@@ -57,13 +58,12 @@ def guided(clauses: Clauses, theory: Theory) -> Values | list[Clause]:
         return [[-clauses.literal(a) for a in reason] for reason in looked]
 
     def prefer() -> None:
-        changed = forms.changes() if forms is not None else []
-        if changed:
+        if leading is not None and (changed := leading.changes()):
             pysolvers.cadical195_setphases(solver.cadical, changed)
 
     propagator = Propagator(theories, check, last, prefer)
     with Cadical195(bootstrap_with=clauses.clauses) as solver:
-        if forms is not None:
+        if leading is not None:
             solver.set_phases([-zero for _, _, zero in clauses.triples()])
         solver.connect_propagator(propagator)
         for literal in clauses.signs():
