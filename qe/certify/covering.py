@@ -7,7 +7,7 @@ and ``intervals``: ``first`` and ``last`` position covered (sector k is 2*k, wha
 2*k + 1), ``at`` (the position of the sample), ``own`` (the factors of the level on which it depends, or more),
 ``lower`` and ``upper`` (one of these with a root at the end, null where there is none), and either ``atoms`` (whose
 truth at the sample decides the matrix) or the ``line`` over the sample. ``own`` is null where nobody asks what holds
-beside the sample.
+beside the sample. Older certificates have no ``quantifiers`` and no ``matrix``, and ``false`` for ``atoms``.
 
 THEOREM. Let an interval depend on the factors of its atoms, or on those on which the line over its sample does; let the
 factors of its own level (squarefree and coprime, as their discriminants and resultants are not zero) vanish nowhere on
@@ -39,6 +39,7 @@ from itertools import pairwise
 
 from qe.certify.arithmetic.products import FactorLists, Product, check_lists
 from qe.certify.arithmetic.triangular import Point
+from qe.certify.block import refuted_block
 from qe.certify.closure import checked_discriminant, checked_resultant
 from qe.certify.covering_line import Line, Sample, line_of
 from qe.certify.negation import normal
@@ -60,31 +61,47 @@ Signs = Mapping[Factor, int]
 
 def check_covering(claim: Claim, context: Context, limits: Limits) -> None:
     """The formula is equivalent to its answer by the covering."""
-    order, quantifiers, matrix, factors, line = only(claim, "order", "quantifiers", "matrix", "factors", "line")
+    optional = ("quantifiers", "matrix")
+    order, factors, line, quantifiers, matrix = only(claim, "order", "factors", "line", optional=optional)
     names = order.names()
+    if not set(names) <= set(claim.ring.names):
+        raise order.fail("it has other variables than the formula and its answer")
+    ring = Ring.of(names)
+    read = _older if quantifiers.value is None and matrix.value is None else _asked
+    question = read(claim, ring, quantifiers, matrix)
+    lists = [[f.polynomial(claim.ring).convert(ring).normal()[1] for f in level.items()] for level in factors.items()]
+    check_lists(ring, lists)
+    walk = _Walk(claim.ring, FactorLists(ring, lists), question, limits)
+    known = walk.line(line, Sample(Point(budget=limits.budget), {}), {})
+    if not question.free and question.answer != (TRUE if known.truth else FALSE):
+        raise claim.fail(f"the covering says {known.truth}")
+
+
+def _asked(claim: Claim, ring: Ring, quantifiers: Entry, matrix: Entry) -> _Question:
+    """The prenex form in the evidence, after a look that it is one of the formula."""
     kinds = tuple(q.text() for q in quantifiers.items())
     before, after = normal(claim.before), normal(claim.after)
-    if len(kinds) != len(names) or not {*kinds} <= {"", "E", "A"}:
+    if len(kinds) != len(ring.names) or not {*kinds} <= {"", "E", "A"}:
         raise quantifiers.fail('"", "E" or "A" expected for every variable')
     free = kinds.count("")
     if any(kinds[:free]):
         raise quantifiers.fail("a free variable after a quantified one")
-    if not set(before.free) | set(after.free) <= {*names[:free]} or not set(names) <= set(claim.ring.names):
-        raise order.fail("it has other variables than the formula and its answer")
+    if not set(before.free) | set(after.free) <= {*ring.names[:free]}:
+        raise claim.fail("the evidence has other free variables than the formula and its answer")
     if not after.is_quantifier_free:
         raise claim.fail("an answer without quantifiers expected")
-    ring = Ring.of(names)
     body = convert(formula_from_json(matrix, claim.ring), ring)
-    table = CellTable(names, kinds, body, Projection.BROWN_MCCALLUM, (), Cell("", None))
-    if not is_prenex_form(before, table):
+    if not is_prenex_form(before, CellTable(ring.names, kinds, body, Projection.BROWN_MCCALLUM, (), Cell("", None))):
         raise matrix.fail("it is no prenex form of the formula")
-    lists = [[f.polynomial(claim.ring).convert(ring).normal()[1] for f in level.items()] for level in factors.items()]
-    check_lists(ring, lists)
-    question = _Question(kinds, free, normal(body), convert(after, ring))
-    walk = _Walk(claim.ring, FactorLists(ring, lists), question, limits)
-    known = walk.line(line, Sample(Point(budget=limits.budget), {}), {})
-    if not free and after != (TRUE if known.truth else FALSE):
-        raise claim.fail(f"the covering says {known.truth}")
+    return _Question(kinds, free, normal(body), convert(after, ring))
+
+
+def _older(claim: Claim, ring: Ring, *_: Entry) -> _Question:
+    """Older certificates are about closed blocks without solutions, or their negations, and say nothing of prefixes."""
+    body = refuted_block(claim).body
+    if not set(body.free) <= set(ring.names):
+        raise claim.fail("the variables of the block expected")
+    return _Question(("E",) * len(ring.names), 0, normal(convert(body, ring)), FALSE)
 
 
 @dataclass(frozen=True, slots=True)
@@ -167,7 +184,7 @@ class _Walk:
     # --- intervals ------------------------------------------------------------------------------------
     def _interval(self, entry: Entry, line: Line, level: int, signs: Signs) -> _Part:
         names = ("first", "last", "at", "own", "lower", "upper")
-        first, last, at, listed, lower, upper, *either = entry.fields(*names, optional=("atoms", "line"))
+        first, last, at, listed, lower, upper, *either = entry.fields(*names, optional=("atoms", "false", "line"))
         low, high, place = first.integer(), last.integer(), at.integer()
         reasons = [reason for reason in either if reason.value is not None]
         if len(reasons) != 1:

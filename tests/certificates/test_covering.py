@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import json
 import random
 from collections.abc import Iterable, Iterator
+from typing import Any
 
 import pytest
 
@@ -12,9 +14,9 @@ from qe.coverings import cover
 from qe.coverings.line import Cover
 from qe.errors import InternalError, NotWellOriented, Unable
 from qe.exact.ring import Poly
-from qe.formula.build import exists, forall
+from qe.formula.build import atom, disj, exists, forall
 from qe.formula.normal import nnf
-from qe.formula.syntax import FALSE, TRUE, And, Atom, Constant, Formula, Or
+from qe.formula.syntax import FALSE, TRUE, And, Atom, Constant, Formula, Or, Relation
 from qe.io import formats
 from tests.certificates.coverings import (
     BODIES,
@@ -62,6 +64,26 @@ def test_an_answer_by_coverings_is_checked() -> None:
             answer = qe.eliminate(formula, method="coverings", check=True, process=False)
             assert str(answer.formula) == expected and answer.guarantee is qe.Guarantee.CHECKED
             assert [step.rule for step in answer.derivation.steps if step.rule == "covering"]
+
+
+def older(given: dict[str, Any]) -> dict[str, Any]:
+    """The evidence as certificates had it before prefixes and parameters."""
+    renamed = json.loads(json.dumps(given).replace('"atoms":', '"false":'))
+    return {name: renamed[name] for name in ("order", "factors", "line")}
+
+
+@pytest.mark.parametrize("text", BODIES)
+def test_older_coverings_are_read(text: str) -> None:
+    body = read(text)
+    assert body.ring is not None
+    given = older(proof(body, body.free))
+    assert verdict(body, given) == ""
+    assert judged(forall(body.free, nnf(body, negate=True)), TRUE, given) == ""
+    solved = disj((body, atom(body.ring.gen(body.ring.index[body.free[0]]), Relation.GT)))
+    assert verdict(solved, given) != "" and verdict(body, given, TRUE) != ""
+    assert judged(exists(body.free[1:], body), FALSE, given) != ""  # with a parameter
+    for name in given:
+        assert verdict(body, {**given, name: None}) != ""
 
 
 # --- the evidence altered -----------------------------------------------------------------------------
