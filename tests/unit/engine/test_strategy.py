@@ -27,6 +27,7 @@ QUESTIONS = {
     "convex": CONVEX,
     "cgs": "ex x, y. x^2 + y^2 = r and x*y = 1",
     "coverings": "ex x, y. x^3 + y^3 < 1 and x*y > 2 and x > 0",
+    "roots": "ex x. x > 0 and x^4 + p*x^2 + q*x + r = 0",
     "witness": "all a, b. ex x, y. (x - a)^2 + (y - b)^2 <= 0",
 }
 
