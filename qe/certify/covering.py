@@ -87,7 +87,7 @@ def _asked(claim: Claim, ring: Ring, quantifiers: Entry, matrix: Entry) -> _Ques
     if any(kinds[:free]):
         raise quantifiers.fail("a free variable after a quantified one")
     if not set(before.free) | set(after.free) <= {*ring.names[:free]}:
-        raise claim.fail("the evidence has other free variables than the formula and its answer")
+        raise claim.fail("its evidence has other variables free than the formula and its answer")
     if not after.is_quantifier_free:
         raise claim.fail("an answer without quantifiers expected")
     body = convert(formula_from_json(matrix, claim.ring), ring)
