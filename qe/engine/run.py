@@ -17,7 +17,7 @@ from qe.engine.early import early_parts, equations
 from qe.engine.finish import settled, shortened
 from qe.engine.local import WORK, without_locals
 from qe.engine.redundant import without_redundant_parts
-from qe.engine.strategy import SHORTCUT, SPARE, Attempt, Scope, alone, attempts, complete
+from qe.engine.strategy import SHORTCUT, SPARE, SWITCHED, Attempt, Scope, alone, attempts, complete
 from qe.errors import Unable
 from qe.exact.number import Values
 from qe.exact.ring import Ring
@@ -34,30 +34,8 @@ from qe.proof.run_log import RunLog
 from qe.proof.step import Nested, Step
 from qe.proving.certificates import certificate_of
 from qe.rules.preparation import Prepared, prepare
-from qe.rules.step import ALL_STEPS, EQUATION_STEPS, SYMMETRY_STEPS, StepKind
+from qe.rules.step import ALL_STEPS, StepKind
 from qe.simplify.simplify import simplify
-
-SWITCHED = {
-    Stage.EQUATIONS: EQUATION_STEPS,
-    Stage.SYMMETRY: SYMMETRY_STEPS,
-    Stage.GATHERING: {StepKind.GATHERING},
-    Stage.DISTRIBUTION: {StepKind.DISTRIBUTION},
-    Stage.VALUES: {StepKind.TAKES_VALUE, StepKind.SQUARE_ALONE},
-    Stage.ZEROS: {StepKind.ZEROS},
-    Stage.RANGES: {StepKind.RANGES},
-    Stage.BALLS: {StepKind.BALLS, StepKind.SPHERE},
-    Stage.STABILITY: {StepKind.HALF_PLANE},
-    Stage.QUADRICS: {StepKind.QUADRICS},
-    Stage.CUBIC: {StepKind.CUBIC_INTERVAL},
-    Stage.SQUARES: {StepKind.SQUARES},
-    Stage.EXCHANGE: {StepKind.EXCHANGE},
-    Stage.MINISCOPING: {StepKind.MINISCOPE},
-    Stage.SHIFT: {StepKind.DEGREE_SHIFT},
-    Stage.GENERIC: {StepKind.GENERIC, StepKind.BOUNDARY},
-    Stage.CANCELLING: {StepKind.CANCELLING},
-    Stage.SPLITTING: {StepKind.FACTOR_SPLIT},
-}
-"""The steps of preparation that a stage left out switches off."""
 
 
 def solve(formula: Formula, options: Options, budget: Budget) -> Outcome:

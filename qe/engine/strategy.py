@@ -17,6 +17,7 @@ from qe.engine import conditions as on
 from qe.errors import Unable
 from qe.formula.traverse import atoms
 from qe.options import Method, Options, Stage
+from qe.rules.step import EQUATION_STEPS, SYMMETRY_STEPS, StepKind
 
 METHODS = {
     "vs": ("qe.elimination.vs.method", "VirtualSubstitution"),
@@ -52,6 +53,28 @@ LEFT_OUT_BY = {
 }
 """The stage without which a method is not tried. Decomposition takes what all others leave, and nobody but the caller
 asks for coverings."""
+
+SWITCHED = {
+    Stage.EQUATIONS: EQUATION_STEPS,
+    Stage.SYMMETRY: SYMMETRY_STEPS,
+    Stage.GATHERING: {StepKind.GATHERING},
+    Stage.DISTRIBUTION: {StepKind.DISTRIBUTION},
+    Stage.VALUES: {StepKind.TAKES_VALUE, StepKind.SQUARE_ALONE},
+    Stage.ZEROS: {StepKind.ZEROS},
+    Stage.RANGES: {StepKind.RANGES},
+    Stage.BALLS: {StepKind.BALLS, StepKind.SPHERE},
+    Stage.STABILITY: {StepKind.HALF_PLANE},
+    Stage.QUADRICS: {StepKind.QUADRICS},
+    Stage.CUBIC: {StepKind.CUBIC_INTERVAL},
+    Stage.SQUARES: {StepKind.SQUARES},
+    Stage.EXCHANGE: {StepKind.EXCHANGE},
+    Stage.MINISCOPING: {StepKind.MINISCOPE},
+    Stage.SHIFT: {StepKind.DEGREE_SHIFT},
+    Stage.GENERIC: {StepKind.GENERIC, StepKind.BOUNDARY},
+    Stage.CANCELLING: {StepKind.CANCELLING},
+    Stage.SPLITTING: {StepKind.FACTOR_SPLIT},
+}
+"""The steps of preparation that a stage left out switches off."""
 
 SPOKEN = {
     "auto": "no method",

@@ -11,8 +11,8 @@ import qe
 from qe.certify.registry import RULES
 from qe.elimination.protocol import Problem
 from qe.engine.conditions import convex_conditions
-from qe.engine.run import SWITCHED, solve
-from qe.engine.strategy import LEFT_OUT_BY, METHODS, STRATEGY, Attempt, Scope, attempts
+from qe.engine.run import solve
+from qe.engine.strategy import LEFT_OUT_BY, METHODS, STRATEGY, SWITCHED, Attempt, Scope, attempts
 from qe.formula.syntax import TRUE, Formula
 from qe.io import formats
 from qe.options import Budget, Method, Options, Stage
