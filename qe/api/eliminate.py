@@ -13,7 +13,7 @@ from qe.api.input import AnyFormula, read_formula
 from qe.api.limits import cluster_of, limits_of, performed, reading
 from qe.errors import InputError, Unable
 from qe.formula.features import features
-from qe.formula.syntax import Formula
+from qe.formula.syntax import FALSE, Formula
 from qe.options import VERIFY_SECONDS, Budget, Cluster, Method, Options, Stage
 from qe.processes.execution import Budgets, Limits
 from qe.progress import Event, silent
@@ -172,6 +172,8 @@ def _partial(formula: Formula, options: Options, limits: Limits) -> Partial:
         return found
     from qe.api.verify import judged
 
+    if found.proved_true == found.proved_false == FALSE:
+        return replace(found, certificate=None, reason="nothing is decided")
     guarantee, reason = judged(found.certificate, budget)
     return replace(found, is_checked=guarantee is Guarantee.CHECKED, reason=reason)
 

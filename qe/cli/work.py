@@ -108,13 +108,18 @@ def _partial_reply(answer: Answer, partial: Partial, request: Request, output: F
     """What is known where a limit ended the work: three formulas, with the exit status of no answer."""
     from qe.io import formats
 
-    files = {"certificate": certificate_text(partial)} if request.certificate else {}
+    files = {} if partial.certificate is None else {"certificate": certificate_text(partial)}
     parts = {"true": partial.proved_true, "false": partial.proved_false, "open": partial.open}
     written = {name: formats.write(part, output.value).rstrip("\n") for name, part in parts.items()}
     if request.json:
-        data = {"status": answer.status.name.lower(), "reason": answer.reason, "partial": written}
+        guarantee = "checked" if partial.is_checked else "derived"
+        known = {"reason": answer.reason, "partial": written, "guarantee": guarantee}
+        data = {"status": answer.status.name.lower(), **known}
         return Reply(json.dumps(data, indent=2, ensure_ascii=False), files=files, code=3)
-    return Reply("\n".join(f"{name}: {text}" for name, text in written.items()), (answer.reason,), files, code=3)
+    lines = [f"{name}: {text}" for name, text in written.items()]
+    if request.certificate:
+        lines.append("certificate: " + ("checked" if partial.is_checked else partial.reason))
+    return Reply("\n".join(lines), (answer.reason,), files, code=3)
 
 
 def decide(channel: Channel, request: Request) -> Reply:

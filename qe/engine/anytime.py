@@ -118,7 +118,8 @@ class _Search:
         if len(proofs) < len(self.proofs):
             return None
         order = Ring.of(dict.fromkeys(n for f in (question, true, false) for n in names_in(f)))
-        return Certificate.parts(order.names, *(moved(f, order) for f in (question, true, false)), proofs)
+        asked, true, false = (moved(f, order) for f in (question, true, false))
+        return Certificate.parts(order.names, asked, true, false, proofs)
 
     def of_parts(self, parts: list[Formula], budget: Budget) -> Partial:
         """A disjunction; each part may take its share of what is left."""
@@ -161,7 +162,7 @@ def _decided_cells(formula: Formula, options: Options, budget: Budget) -> Partia
         known = _answered(TRUE if table.root.truth else FALSE)
     else:
         free = free_part(table)
-        known = Partial(*(extended_formula(_where(free, truth)) for truth in (True, False)))
+        known = Partial(extended_formula(_where(free, True)), extended_formula(_where(free, False)))
     true, false = (convert(part, Ring.of(order)) for part in (known.proved_true, known.proved_false))
     return replace(known, certificate=Certificate.decided(table, true, false)) if options.certify else known
 

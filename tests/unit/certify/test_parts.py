@@ -9,8 +9,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from qe.api.eliminate import verify
+from qe.api.eliminate import eliminate, verify
 from qe.certify.verify import verify_json
+from qe.engine import anytime
 from qe.engine.anytime import partly
 from qe.exact.ring import Ring
 from qe.formula.build import atom, conj, convert, disj, exists, forall
@@ -133,3 +134,22 @@ def test_another_question_is_rejected() -> None:
 def test_no_internal_error_where_an_answered_part_stands_beside_decided_cells() -> None:
     found = partly(read(MIXED), Options(), Budget(work=300), Limits())
     assert str(found.proved_false).startswith("a <= 0")
+
+
+def test_parts_of_the_wrong_truth_value_are_rejected(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A producer that mistakes true for false."""
+    right = anytime._where
+    monkeypatch.setattr(anytime, "_where", lambda table, truth: right(table, not truth))
+    found = parts(read(CELLS), 120).certificate
+    assert found is not None and verify(found).step.startswith("payload.proofs[0].payload.parts[")
+
+
+def test_a_checked_question_has_checked_parts() -> None:
+    hard = "ex x, y. x^3 + a*x*y + b = 0 and y^3 + b*x = a and x > 0 and x^5*y + a*y^4 < b"
+    answer = eliminate(f"(ex z. z < 0 and z^2 = a) or ({hard})", timeout=4, anytime=True, check=True)
+    if answer.formula is None:  # else the machine is fast
+        assert answer.partial is not None
+        if answer.partial.is_checked:  # else it is slow
+            assert answer.partial.certificate is not None and not answer.partial.reason
+        else:
+            assert answer.partial.reason
