@@ -13,11 +13,11 @@ from qe.api.input import AnyFormula, read_formula
 from qe.api.limits import cluster_of, limits_of, performed, reading
 from qe.errors import InputError, Unable
 from qe.formula.features import features
-from qe.formula.syntax import Formula
+from qe.formula.syntax import FALSE, Formula
 from qe.options import VERIFY_SECONDS, Budget, Cluster, Method, Options, Stage
 from qe.processes.execution import Budgets, Limits
 from qe.progress import Event, silent
-from qe.proof.answer import UNPROVED, Answer, Status
+from qe.proof.answer import UNPROVED, Answer, Guarantee, Status
 from qe.proof.certificate import Certificate, Kind
 from qe.proof.partial import Partial
 from qe.proof.run_log import RunLog
@@ -31,6 +31,9 @@ Result = TypeVar("Result")
 WHOLE_SHARE, PARTS_SHARE = 0.5, 0.85
 """Where parts are wanted if there is no answer: the share of the time that the formula as a whole may take; and the
 share of the rest in which the parts are looked at, so that what is found gets home."""
+
+UNVERIFIED_SHARE = 0.6
+"""Where the parts are to be checked, the share of the time for them in which they are found."""
 
 Progress = Callable[[Event], None]
 Order = Any
@@ -82,7 +85,7 @@ def eliminate(
     variable ``QE_PROCESS=off``, keeps it in this process.
 
     ``anytime``: at a ``timeout``, which is shared, ``Answer.partial`` says for which values of the free variables the
-    formula is proved to be true, for which false, and which are open.
+    formula is proved to be true, for which false, and which are open; with ``check`` under a certificate.
 
     ``check``: the answer comes with a certificate where one can be had (if the method makes none, by a decomposition of
     the whole formula), verified by the separate checker; certificates that are a witness always are. A proof
@@ -159,10 +162,20 @@ def _partial(formula: Formula, options: Options, limits: Limits) -> Partial:
     left = None
     if limits.timeout is not None and limits.start is not None:
         left = max(0.0, limits.start + limits.timeout - time.monotonic()) * PARTS_SHARE
+    budget = Budget(left)
+    finding = budget.share(UNVERIFIED_SHARE) if options.certify else budget
     try:
-        return partly(formula, options, Budget(left), Limits(memory=limits.memory, process=limits.process))
+        found = partly(formula, options, finding, Limits(memory=limits.memory, process=limits.process))
     except Unable:
         return Partial()
+    if not options.certify:
+        return found
+    from qe.api.verify import judged
+
+    if found.proved_true == found.proved_false == FALSE:
+        return replace(found, certificate=None, reason="nothing is decided")
+    guarantee, reason = judged(found.certificate, budget)
+    return replace(found, is_checked=guarantee is Guarantee.CHECKED, reason=reason)
 
 
 def _raced(formula: Formula, options: Options, limits: Limits, check: bool, methods: Iterable[Method]) -> Answer:

@@ -49,10 +49,10 @@ def verify(
 
 def of_question(certificate: Certificate, asked: Formula) -> Verdict:
     """The verdict on an accepted certificate: whether it is about a question."""
-    from qe.certify.claims import claim_of, is_about
+    from qe.certify.claims import claim_of, parts_of
     from qe.certify.verdict import Verdict
 
-    if is_about(certificate, asked) is not None:
+    if parts_of(certificate, asked) is not None:
         return Verdict(True)
     return Verdict(False, "claim", f"it is about something else: {' '.join(claim_of(certificate).words)}")
 

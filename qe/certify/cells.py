@@ -11,6 +11,9 @@ points and not for the samples only.
 Where an equational constraint restricts a level, the other factors are invariant on the constraint's sections alone
 (McCallum 1999, 2001; ``closure``). A sector is then a leaf, and its truth value has to follow from the signs of
 the constraint's factors: that the matrix implies the constraint is thus proved where it is used.
+
+Each of these statements is about one cell, its stack and the cells below it. So where parts are claimed, other cells
+over the free variables may be open: nothing follows from them, and the parts must be false there.
 """
 
 from __future__ import annotations
@@ -47,8 +50,11 @@ def check_cells(evidence: CellEvidence, budget: Budget) -> None:
     closure = check_closure(lists, table.projection, table.constraints, budget)
     matrix = strengthened(table.matrix, lists, closure, "payload.matrix")
     answer = None if evidence.answer is None else compiled(evidence.answer, lists, "payload.answer")
+    if answer is not None and evidence.parts is not None:
+        raise CertificateRejected("payload.parts", "an answer has no parts")
+    parts = [compiled(part, lists, f"payload.parts[{k}]") for k, part in enumerate(evidence.parts or ())]
     checker = StackChecker(lists, closure, table.projection)
-    walk = _Walk(table, free, checker, matrix, answer, budget)
+    walk = _Walk(table, free, checker, matrix, answer, parts, budget)
     sample = Sample(Point(budget=budget), {}, lists.lists, [], (0,))
     if table.root.signs:
         raise CertificateRejected("payload.root.signs", "the whole space has no signs")
@@ -79,6 +85,7 @@ class _Walk:
     checker: StackChecker
     matrix: Test
     answer: Test | None
+    parts: Sequence[Test]
     budget: Budget
 
     def cell(
@@ -98,8 +105,16 @@ class _Walk:
             self._check_free(cell, depth, situation, path)
 
     def _check_free(self, cell: Cell, depth: int, situation: Situation, path: Path) -> None:
-        """Cells over free variables: undecomposed ones have a truth value, and the answer agrees with it."""
+        """Cells over free variables: undecomposed ones have a truth value, and the answer agrees with it.
+
+        Where parts are claimed a cell may be open; a part is false by the signs on every cell of another truth value.
+        """
         if depth < self.free and cell.stack is not None:
+            return
+        if self.parts:
+            for k, (part, truth) in enumerate(zip(self.parts, (True, False), strict=True)):
+                if cell.truth is not truth and part(situation) is not False:
+                    raise CertificateRejected(f"payload.parts[{k}]", f"not excluded on {_text(path)}: {cell.truth}")
             return
         if cell.truth is None:
             raise CertificateRejected(_text((path, ".truth")), "no truth value for a cell over the free variables")

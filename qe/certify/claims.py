@@ -25,11 +25,13 @@ from qe.proof.entry import Entry, formula_from_json
 
 @dataclass(frozen=True, slots=True)
 class Claim:
-    """``words``: lines of text. ``question`` <-> ``answer``, where the claim has this form (else None)."""
+    """``words``: lines of text. ``question`` <-> ``answer``, where the claim has this form (else None); or ``parts``:
+    what implies the question, and what its negation."""
 
     words: tuple[str, ...]
     question: Formula | None = None
     answer: Formula | None = None
+    parts: tuple[Formula, Formula] | None = None
 
 
 def claim_of(certificate: Certificate) -> Claim:
@@ -64,6 +66,11 @@ def claim_of(certificate: Certificate) -> Claim:
             return _of_solutions(entry)
         case Kind.CLASSIFICATION:
             return _of_classification(entry)
+        case Kind.PARTS:
+            order, question_entry, true, false, _ = entry.fields("order", "question", "true", "false", "proofs")
+            ring = Ring.of(order.names())
+            question = formula_from_json(question_entry, ring, quantified=True)
+            return _of_parts(question, (formula_from_json(true, ring), formula_from_json(false, ring)))
         case Kind.INVERSE:
             rest = ("rotation", "turn", "roots", "marks", "solutions")
             count, rotation, *_ = entry.fields("arm", "point", "count", optional=rest)[2:]
@@ -84,14 +91,36 @@ def is_about(certificate: Certificate, formula: Formula) -> Formula | None:
         found = (is_about(member.certificate, formula) for member in certificate.payload)
         return next((answer for answer in found if answer is not None), None)
     claim = claim_of(certificate)
-    if claim.question is None or claim.answer is None:
+    if claim.answer is None or (negated := _asks(certificate, claim, formula)) is None:
         return None
-    for asked, answer in ((formula, claim.answer), (negation(formula), negation(claim.answer))):
+    return negation(claim.answer) if negated else claim.answer
+
+
+def parts_of(certificate: Certificate, formula: Formula) -> tuple[Formula, Formula] | None:
+    """What the certificate claims to imply this formula, and what its negation; as ``is_about``."""
+    answer = is_about(certificate, formula)
+    if answer is not None:
+        return answer, negation(answer)
+    if isinstance(certificate.payload, tuple):
+        return None
+    claim = claim_of(certificate)
+    if claim.parts is None or (negated := _asks(certificate, claim, formula)) is None:
+        return None
+    true, false = claim.parts
+    return (false, true) if negated else (true, false)
+
+
+def _asks(certificate: Certificate, claim: Claim, formula: Formula) -> bool | None:
+    """Whether the claim is about the negation of the formula; None where it is about neither."""
+    if claim.question is None:
+        return None
+    for negated in (False, True):
+        asked = negation(formula) if negated else formula
         if isinstance(certificate.payload, CellEvidence):
             if _is_table_of(asked, certificate.payload.table):
-                return answer
+                return negated
         elif arranged(normal(claim.question)) == arranged(normal(asked)):
-            return answer
+            return negated
     return None
 
 
@@ -108,6 +137,11 @@ def _equivalence(question: Formula, answer: Formula) -> tuple[str, ...]:
         return f"the sentence  {question}", f"is {answer}"
     values = f", for all real values of {', '.join(question.free)}" if question.free else ""
     return f"the formula  {question}", f"is equivalent to  {answer}{values}"
+
+
+def _of_parts(question: Formula, parts: tuple[Formula, Formula]) -> Claim:
+    words = f"the formula  {question}", f"is true where  {parts[0]}", f"and false where  {parts[1]}"
+    return Claim(words, question, parts=parts)
 
 
 def _rules(steps: Entry) -> str:
@@ -137,6 +171,8 @@ def _of_cells(evidence: CellEvidence) -> Claim:
     question = table.matrix
     for name, kind in reversed(list(zip(table.order, table.quantifiers, strict=True))):
         question = question if not kind else (exists if kind == "E" else forall)([name], question)
+    if evidence.parts is not None:
+        return _of_parts(question, evidence.parts)
     answer = evidence.answer
     if answer is None and not question.free and table.root.truth is not None:
         answer = TRUE if table.root.truth else FALSE

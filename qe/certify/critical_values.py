@@ -227,7 +227,7 @@ def _check_bound(conditions: Sequence[Quadratic], free: int, entry: Entry) -> No
 def check_shape(entry: Entry, holds: Formula, limits: Limits) -> None:
     """The table is one of this formula, and shows that it describes the closure of its interior."""
     evidence = limits.leaf(entry).payload
-    if not isinstance(evidence, CellEvidence) or any(evidence.table.quantifiers):
+    if not isinstance(evidence, CellEvidence) or evidence.parts is not None or any(evidence.table.quantifiers):
         raise entry.fail("expected a cell table without quantifiers")
     table, names = evidence.table, () if holds.ring is None else holds.ring.names
     if set(table.order) != set(names) or normal(convert(table.matrix, Ring.of(names))) != normal(holds):

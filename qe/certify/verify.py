@@ -89,6 +89,10 @@ def _checker(kind: Kind) -> Checker | None:
             from qe.certify.classification import check_classification
 
             return lambda payload, budget: check_classification(payload, budget, check_certificate)
+        case Kind.PARTS:
+            from qe.certify.parts import check_parts
+
+            return lambda payload, budget: check_parts(payload, budget, check_certificate)
         case Kind.WITNESS:
             from qe.certify.witness import check_witness
 

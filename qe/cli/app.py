@@ -378,7 +378,7 @@ def soft(timeout: float | None) -> float | None:
 def deliver(reply: Reply, paths: dict[str, Path | None], *, explain: bool = False) -> int:
     """Write the files first, then the answer; the exit status."""
     for key, path in paths.items():
-        if path is not None:
+        if path is not None and key in reply.files:  # decided parts may have no certificate: the text says so
             write_file(path, reply.files[key])
     typer.echo(reply.text)
     if explain:

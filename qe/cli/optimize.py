@@ -64,7 +64,15 @@ def _data(best: Optimum | GlobalOptimum) -> dict[str, Any]:
         "attained": best.attained,
     }
     if not isinstance(best, Optimum):
-        return {**data, "active": [], "unique": None, "multipliers": [], "minimisers": str(best.minimisers)}
+        points = [{name: exact_and_decimal(value) for name, value in p.items()} for p in best.points] or None
+        return {
+            **data,
+            "active": [],
+            "unique": None,
+            "multipliers": [],
+            "minimisers": str(best.minimisers),
+            "points": points,
+        }
     return {
         **data,
         "active": [best.constraints[i] for i in best.active],
@@ -77,9 +85,15 @@ def _lines(best: Optimum | GlobalOptimum) -> list[str]:
     from qe.convex.optimum import Optimum
 
     lines = [f"value {shown(best.value)}"]
-    lines += [f"{quoted(name)} = {shown(value)}" for name, value in best.point.items()]
+    several = () if isinstance(best, Optimum) or len(best.points) < 2 else best.points
+    for point in several:
+        lines.append(f"at {', '.join(f'{quoted(name)} = {shown(value)}' for name, value in point.items())}")
+    if not several:
+        lines += [f"{quoted(name)} = {shown(value)}" for name, value in best.point.items()]
     if isinstance(best, Optimum):
         lines.append(f"active: {', '.join(best.constraints[i] for i in best.active) or 'nothing'}")
+    elif best.points:
+        lines.append("attained nowhere else")
     elif best.attained:
         lines.append(f"attained where {best.minimisers}")
     if best.attained is False:

@@ -108,12 +108,18 @@ def _partial_reply(answer: Answer, partial: Partial, request: Request, output: F
     """What is known where a limit ended the work: three formulas, with the exit status of no answer."""
     from qe.io import formats
 
+    files = {} if partial.certificate is None else {"certificate": certificate_text(partial)}
     parts = {"true": partial.proved_true, "false": partial.proved_false, "open": partial.open}
     written = {name: formats.write(part, output.value).rstrip("\n") for name, part in parts.items()}
     if request.json:
-        data = {"status": answer.status.name.lower(), "reason": answer.reason, "partial": written}
-        return Reply(json.dumps(data, indent=2, ensure_ascii=False), code=3)
-    return Reply("\n".join(f"{name}: {text}" for name, text in written.items()), (answer.reason,), code=3)
+        guarantee = "checked" if partial.is_checked else "derived"
+        known = {"reason": answer.reason, "partial": written, "guarantee": guarantee}
+        data = {"status": answer.status.name.lower(), **known}
+        return Reply(json.dumps(data, indent=2, ensure_ascii=False), files=files, code=3)
+    lines = [f"{name}: {text}" for name, text in written.items()]
+    if request.certificate:
+        lines.append("certificate: " + ("checked" if partial.is_checked else partial.reason))
+    return Reply("\n".join(lines), (answer.reason,), files, code=3)
 
 
 def decide(channel: Channel, request: Request) -> Reply:
@@ -161,7 +167,7 @@ def convert(channel: Channel, source: Source, output: Format) -> Reply:
 def check(channel: Channel, text: str, asked: Source | None, seconds: float, as_json: bool = False) -> Reply:
     """``qe check``: exit status 4 when the certificate is rejected, 3 when that is not decided."""
     from qe.api.verify import of_question
-    from qe.certify.claims import claim_of, is_about
+    from qe.certify.claims import claim_of, is_about, parts_of
     from qe.certify.verify import verify
     from qe.errors import CertificateRejected
     from qe.options import Budget
@@ -183,7 +189,12 @@ def check(channel: Channel, text: str, asked: Source | None, seconds: float, as_
         return Reply(json.dumps(data, indent=2, ensure_ascii=False))
     lines = [f"accepted ({took:.3f} s)", *claim_of(certificate).words]
     if formula is not None:
-        lines.append(f"so the question that was given has the answer  {is_about(certificate, formula)}")
+        found = parts_of(certificate, formula)
+        assert found is not None
+        if (answer := is_about(certificate, formula)) is not None:
+            lines.append(f"so the question that was given has the answer  {answer}")
+        else:
+            lines.append(f"so the question that was given is true where  {found[0]}  and false where  {found[1]}")
     return Reply("\n".join(lines))
 
 

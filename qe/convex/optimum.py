@@ -80,7 +80,7 @@ class Optimum:
         return f"Optimum({self.value}{f' at {point_text(self.point)}' if self.attained else ', not attained'})"
 
     def _repr_latex_(self) -> str:
-        return optimum_in_latex(self.status.value, self.value, self.point if self.attained else {})
+        return optimum_in_latex(self.status.value, self.value, [self.point] if self.attained else [])
 
     @property
     def is_optimal(self) -> bool:

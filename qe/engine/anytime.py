@@ -11,23 +11,27 @@ cells below it, at which lifting has checked that nothing is nullified.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import TypeVar
 
 from qe.cad.decompose import Tactics, decompose
 from qe.cad.order_by_projection import variable_order
 from qe.cells.extended_tarski import extended_formula
 from qe.cells.sampled_cells import free_part
-from qe.engine.run import solve
+from qe.elimination.protocol import Outcome
+from qe.engine.run import answered, proved
 from qe.errors import Unable
 from qe.exact.ring import Ring
 from qe.formula.build import convert, disj, exists, neg
 from qe.formula.counting import without_root_atoms
 from qe.formula.normal import nnf, prenex, rename_apart
 from qe.formula.syntax import FALSE, TRUE, And, Constant, Exists, ForAll, Formula, Not, Or
+from qe.io.names import names_in
 from qe.options import Budget, Options
 from qe.processes.execution import Limits, perform
 from qe.proof.cells import Cell, CellTable
+from qe.proof.certificate import Certificate
+from qe.proof.derivation import moved
 from qe.proof.partial import Partial
 from qe.simplify.simplify import simplify
 
@@ -47,16 +51,26 @@ def partly(question: Formula, options: Options, budget: Budget, limits: Limits) 
     interrupted costs its own share only.
     """
     plain = rename_apart(without_root_atoms(question))
-    found = _Search(options, limits).known(plain, budget, tried=True)
-    ring = Ring.of(question.free)
-    true, false = (simplify(convert(part, ring)) for part in (found.proved_true, found.proved_false))
-    return Partial(true, false, simplify(nnf(neg(disj((true, false))))))
+    search = _Search(options, limits, Ring.of(question.free))
+    found = search.known(plain, budget, tried=True)
+    true, false = found.proved_true, found.proved_false
+    certificate = None
+    if options.certify:  # the parts stay as the proofs give them
+        certificate = search.certificate(question, true, false)
+    else:
+        true, false = simplify(true), simplify(false)
+    return Partial(true, false, simplify(nnf(neg(disj((true, false))))), certificate)
 
 
 @dataclass(frozen=True, slots=True)
 class _Search:
+    """``ring``: of the free variables, in which all parts are. ``proofs``: where certificates are wanted, one for every
+    part of which something was found; None for one that has none."""
+
     options: Options
     limits: Limits
+    ring: Ring
+    proofs: list[Certificate | None] = field(default_factory=list)
 
     def known(self, formula: Formula, budget: Budget, *, tried: bool = False) -> Partial:
         match formula:
@@ -73,16 +87,39 @@ class _Search:
             case Exists(variables, body) if isinstance(body, Or):
                 return self.of_parts([exists(variables, a) for a in body.args], budget)
         if formula.is_quantifier_free:
-            return _answered(formula)
+            return _answered(convert(formula, self.ring))
         if not tried:
             try:
-                return self.held(lambda own: _answered(solve(formula, self.options, own).formula), budget, SHARE)
+                outcome = self.held(lambda own: answered(formula, self.options, own), budget, SHARE)
             except Unable:
                 pass  # as far as cells go, then
+            else:
+                if self.options.certify:
+                    self.proofs.append(self.proof(formula, outcome, budget))
+                return _answered(convert(outcome.formula, self.ring))
         try:
-            return self.held(lambda own: _decided_cells(formula, self.options, own), budget, 1)
+            found = self.held(lambda own: _decided_cells(formula, self.options, own), budget, 1)
         except Unable:
             return Partial()
+        if self.options.certify:
+            self.proofs.append(found.certificate)
+        return Partial(convert(found.proved_true, self.ring), convert(found.proved_false, self.ring))
+
+    def proof(self, formula: Formula, outcome: Outcome, budget: Budget) -> Certificate | None:
+        """The certificate of a part's answer; None where none is found in its share."""
+        try:
+            return self.held(lambda own: proved(formula, outcome, self.options, own).certificate, budget, SHARE)
+        except Unable:
+            return None
+
+    def certificate(self, question: Formula, true: Formula, false: Formula) -> Certificate | None:
+        """What proves the parts of a question, by the proofs of its own parts."""
+        proofs = [proof for proof in self.proofs if proof is not None]
+        if len(proofs) < len(self.proofs):
+            return None
+        order = Ring.of(dict.fromkeys(n for f in (question, true, false) for n in names_in(f)))
+        asked, true, false = (moved(f, order) for f in (question, true, false))
+        return Certificate.parts(order.names, asked, true, false, proofs)
 
     def of_parts(self, parts: list[Formula], budget: Budget) -> Partial:
         """A disjunction; each part may take its share of what is left."""
@@ -122,9 +159,12 @@ def _decided_cells(formula: Formula, options: Options, budget: Budget) -> Partia
     lifting = _apportioned(budget, 1 - WRITING)
     table = decompose(matrix, order, quantifiers, budget=lifting, tactics=Tactics(anytime=True)).table
     if not formula.free:
-        return _answered(TRUE if table.root.truth else FALSE)
-    free = free_part(table)
-    return Partial(*(extended_formula(_where(free, truth)) for truth in (True, False)))
+        known = _answered(TRUE if table.root.truth else FALSE)
+    else:
+        free = free_part(table)
+        known = Partial(extended_formula(_where(free, True)), extended_formula(_where(free, False)))
+    true, false = (convert(part, Ring.of(order)) for part in (known.proved_true, known.proved_false))
+    return replace(known, certificate=Certificate.decided(table, true, false)) if options.certify else known
 
 
 def _where(table: CellTable, truth: bool) -> CellTable:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
 
 from flint import fmpz_poly
@@ -29,11 +29,12 @@ def point_in_latex(point: Mapping[str, object]) -> str:
     return r",\ ".join(rf"\mathit{{{_escaped(name)}}} = {in_latex(value)}" for name, value in point.items())
 
 
-def optimum_in_latex(status: str, value: object, point: Mapping[str, object]) -> str:
-    """An optimum as notebooks set it: its value, or why there is none, and a point that has it."""
+def optimum_in_latex(status: str, value: object, points: Sequence[Mapping[str, object]]) -> str:
+    """An optimum as notebooks set it: its value, or why there is none, and points that have it."""
     if value is None:
         return rf"$\text{{{status}}}$"
-    where = rf"\quad\text{{at}}\quad {point_in_latex(point)}" if point else r"\quad\text{(not attained)}"
+    at = r"\ \text{or}\ ".join(map(point_in_latex, points))
+    where = rf"\quad\text{{at}}\quad {at}" if points else r"\quad\text{(not attained)}"
     return rf"$\displaystyle {in_latex(value)}{where}$"
 
 

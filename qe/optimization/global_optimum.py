@@ -12,11 +12,12 @@ from qe.elimination.protocol import Problem
 from qe.engine.run import solve
 from qe.errors import Unable
 from qe.exact.algebraic import RealAlgebraic
-from qe.exact.number import Values, optimum_in_latex, point_text, simplest
+from qe.exact.number import ExactPoint, Values, optimum_in_latex, point_text, simplest
 from qe.exact.polynomial_system import solve_system
 from qe.exact.ring import Ring
 from qe.formula.build import atom, conj, convert, exists
 from qe.formula.syntax import FALSE, Atom, Constant, Formula, Relation
+from qe.optimization.finite import listed
 from qe.optimization.values import Goal
 from qe.options import Budget, Options
 from qe.proof.answer import UNPROVED, Answer, Guarantee
@@ -25,6 +26,9 @@ from qe.proof.multipliers import OptimumStatus
 
 Number = Fraction | RealAlgebraic
 Members = list[tuple[str, Certificate]]
+
+SHOWN = 8
+"""So many points stand in the short forms."""
 
 POINT = "point"
 """The label of the certificate of a point."""
@@ -36,8 +40,9 @@ class GlobalOptimum:
 
     OPTIMAL: ``value`` is the exact minimum or maximum where ``attained``; otherwise it is the infimum or supremum,
     and no point has it. ``point``: one point that has it, empty where none does. ``minimisers``: holds at exactly
-    the points that have it (``qe.region`` of it lists or describes them); quantifiers of the constraints stand in
-    it. INFEASIBLE: no point meets the constraints; UNBOUNDED: there is no bound. For both ``value`` and
+    the points that have it (``qe.region`` of it describes them); quantifiers of the constraints stand in it.
+    ``points``: all of them, ascending, where they are finitely many and that is seen with little work; else empty.
+    INFEASIBLE: no point meets the constraints; UNBOUNDED: there is no bound. For both ``value`` and
     ``attained`` are None. ``values``: a formula of ``variable``, the values that are taken. ``certificate``: a
     bundle that proves them, the least of them, and the point; None where the elimination had no certificate.
     ``answer``: how the values were found. ``guarantee``: CHECKED where ``check`` was asked for and separate code
@@ -55,6 +60,7 @@ class GlobalOptimum:
     certificate: Certificate | None = None
     guarantee: Guarantee = Guarantee.DERIVED
     reason: str = ""
+    points: tuple[Mapping[str, Number], ...] = ()
 
     @property
     def unchecked_steps(self) -> tuple[str, ...]:
@@ -69,10 +75,21 @@ class GlobalOptimum:
         value = str(self.value)
         if self.value is not None and "root(" in value.replace("sqrt(", ""):
             value += f" ≈ {float(self.value):.6g}"
-        return f"GlobalOptimum({value}{f' at {point_text(self.point)}' if self.point else ', not attained'})"
+        if self.attained is False:
+            return f"GlobalOptimum({value}, not attained)"
+        shown = self.points if 0 < len(self.points) <= SHOWN else [self.point]
+        more = (
+            ", for example"
+            if not self.points
+            else ""
+            if shown is self.points
+            else f", {len(self.points)} points in all"
+        )
+        return f"GlobalOptimum({value} at {' or '.join(map(point_text, shown))}{more})"
 
     def _repr_latex_(self) -> str:
-        return optimum_in_latex(self.status.value, self.value, self.point)
+        points = self.points if len(self.points) <= SHOWN else ()
+        return optimum_in_latex(self.status.value, self.value, points or ([self.point] if self.attained else []))
 
     @property
     def is_optimal(self) -> bool:
@@ -113,8 +130,12 @@ def _found(sign: int, goal: Goal, answer: Answer, limits: Budget) -> tuple[Globa
     assert end.value is not None
     value = simplest(end.value)
     point: Values = {}
+    having: Formula = FALSE
+    points: tuple[Mapping[str, Number], ...] = ()
     if attained:
-        point = point_of(goal, value, limits)
+        points, having = stationary(goal, value), level_set(goal, value, limits)
+        point = dict(points[0]) if points else point_of(goal, value, limits)
+        points = points or listed(having, goal.variables, limits)
         place = exists((goal.value, *goal.variables), _place(goal, value))
         members += _proof_of(place, {**point, goal.value: value})
     found = GlobalOptimum(
@@ -122,23 +143,21 @@ def _found(sign: int, goal: Goal, answer: Answer, limits: Budget) -> tuple[Globa
         value=value,
         attained=attained,
         point=point,
-        minimisers=level_set(goal, value, limits) if attained else FALSE,
+        minimisers=having,
         values=taken,
         variable=goal.value,
         answer=answer,
+        points=points,
     )
     return found, members
 
 
 def point_of(goal: Goal, value: Number, budget: Budget) -> Values:
     """A point with this value, which is the least or greatest one. Raises ``Unable`` where none is found."""
-    known = _stationary(goal, value)
+    place = exists((goal.value, *goal.parameters, *goal.variables), _place(goal, value))
+    known = solve(place, Options(progress=budget.listener), budget).witness
     if known is None:
-        place = exists((goal.value, *goal.parameters, *goal.variables), _place(goal, value))
-        found = solve(place, Options(progress=budget.listener), budget)
-        if found.witness is None:
-            raise Unable("the least value was found, but no point that has it")
-        known = found.witness
+        raise Unable("the least value was found, but no point that has it")
     return {name: known.get(name, Fraction(0)) for name in goal.variables}
 
 
@@ -155,10 +174,11 @@ def _proof_of(place: Formula, known: Values) -> Members:
     return [(POINT, problem.witnessed({name: known.get(name, Fraction(0)) for name in problem.variables}))]
 
 
-def _stationary(goal: Goal, value: Number) -> Values | None:
-    """Without constraints: a point with this least value among the zeros of the gradient, where they are finitely many.
+def stationary(goal: Goal, value: Number) -> tuple[ExactPoint, ...]:
+    """Without constraints: all points with this least value, where the zeros of the gradient are finitely many.
 
-    A point where a polynomial is least on all of space is a zero of its gradient (Fermat).
+    Empty where there are constraints or more zeros. A point where a polynomial is least on all of space is a zero of
+    its gradient (Fermat).
     """
     match goal:
         case Goal(conditions=Constant(True), graph=Atom(equation), polynomial=(objective, _), variables=(_, *_)):
@@ -167,11 +187,14 @@ def _stationary(goal: Goal, value: Number) -> Values | None:
             try:
                 zeros = solve_system([*slopes, equation], variables=[ring.index[goal.value]])
             except Unable:
-                return None
-            for zero in zeros:
-                if zero.values[goal.value] == value:
-                    return {name: simplest(zero.values[name].to_algebraic()) for name in goal.variables}
-    return None
+                return ()
+            points = (
+                ExactPoint({name: simplest(zero.values[name].to_algebraic()) for name in goal.variables})
+                for zero in zeros
+                if zero.values[goal.value] == value
+            )
+            return tuple(sorted(points, key=lambda point: tuple(point.values())))
+    return ()
 
 
 def _place(goal: Goal, value: Number) -> Formula:

@@ -20,6 +20,7 @@ from qe.exact.number import Number, simplest
 from qe.formula.build import conj, convert, exists
 from qe.formula.syntax import FALSE, Formula
 from qe.optimization import written
+from qe.optimization.finite import listed
 from qe.optimization.global_optimum import GlobalOptimum, level_set, number_conditions, point_of
 from qe.optimization.minimisers import minimisers, points
 from qe.optimization.values import Goal
@@ -127,8 +128,9 @@ class ParametricOptimum:
         value = simplest(value)
         point = point_of(place, value, budget) if attained else {}
         having = level_set(place, value, budget) if attained else FALSE
+        points = listed(having, place.variables, budget)
         optimal = OptimumStatus.OPTIMAL
-        return GlobalOptimum(optimal, value, attained, point, having, taken, self.variable, self.answer)
+        return GlobalOptimum(optimal, value, attained, point, having, taken, self.variable, self.answer, points=points)
 
     def to_dict(self) -> dict[str, object]:
         """The cases as plain data: where, value, attained, minimisers, each as text that ``str`` writes."""

@@ -19,16 +19,25 @@ from qe.proof.entry import Entry, Json, formula_from_json, formula_to_json, poly
 
 @dataclass(frozen=True, slots=True)
 class CellEvidence:
-    """A cell table, and the quantifier-free formula over its free variables that it is claimed to prove (or None)."""
+    """A cell table, and the quantifier-free formula over its free variables that it is claimed to prove (or None).
+
+    ``parts``, in place of an answer: (true, false), of which the first is claimed to imply the table's formula and the
+    second its negation. Only such a table may have cells over the free variables that are open, without truth value.
+    """
 
     table: CellTable
     answer: Formula | None = None
+    parts: tuple[Formula, Formula] | None = None
 
 
 def cells_to_json(evidence: CellEvidence) -> Json:
     """The evidence as JSON data; ``cells_from_json`` reads it back."""
     table = evidence.table
+    parts: dict[str, Json] = {}
+    if evidence.parts is not None:
+        parts["parts"] = [formula_to_json(part) for part in evidence.parts]
     return {
+        **parts,
         "order": list(table.order),
         "quantifiers": list(table.quantifiers),
         "matrix": formula_to_json(table.matrix),
@@ -63,8 +72,9 @@ def _cell_to_json(cell: Cell) -> Json:
 
 def cells_from_json(entry: Entry) -> CellEvidence:
     """The evidence; ``CertificateRejected`` names the first malformed entry."""
-    order, quantifiers, matrix, answer, projection, factors, constraints, root = entry.fields(
-        "order", "quantifiers", "matrix", "answer", "projection", "factors", "constraints", "root"
+    members = ("order", "quantifiers", "matrix", "answer", "projection", "factors", "constraints", "root")
+    order, quantifiers, matrix, answer, projection, factors, constraints, root, parts = entry.fields(
+        *members, optional=("parts",)
     )
     names = order.names()
     ring = Ring.of(names)
@@ -82,7 +92,11 @@ def cells_from_json(entry: Entry) -> CellEvidence:
         root=_cell_from_json(root, len(names)),
         constraints=tuple(tuple(e.integer() for e in level.items()) for level in constraints.items()),
     )
-    return CellEvidence(table, None if answer.value is None else formula_from_json(answer, ring))
+    found = None if answer.value is None else formula_from_json(answer, ring)
+    if parts.value is None:
+        return CellEvidence(table, found)
+    true, false = parts.row("true", "false")
+    return CellEvidence(table, found, (formula_from_json(true, ring), formula_from_json(false, ring)))
 
 
 def _cell_from_json(entry: Entry, depth: int) -> Cell:

@@ -36,7 +36,8 @@ class Kind(Enum):
     CONTAINMENT: that a Bezier curve stays in a ball or half-space. CLEARANCE: that one never meets an obstacle, or
     where it first does. DERIVATION: that a formula is equivalent to another, step by step. BRANCH: that an arm follows
     curves continuously. INVERSE: all joint positions of an arm at a point. SOLUTIONS: that a system has these real
-    solutions, and no others. CLASSIFICATION: where a parametric system has how many. BUNDLE: several certificates with
+    solutions, and no others. CLASSIFICATION: where a parametric system has how many.
+    PARTS: where a formula is true and where false, the rest being open. BUNDLE: several certificates with
     labels.
     """
 
@@ -51,6 +52,7 @@ class Kind(Enum):
     SOLUTIONS = "solutions"
     INVERSE = "inverse"
     CLASSIFICATION = "classification"
+    PARTS = "parts"
     BUNDLE = "bundle"
 
 
@@ -102,6 +104,25 @@ class Certificate:
         return Certificate(Kind.CELLS, CellEvidence(table, answer))
 
     @staticmethod
+    def decided(table: CellTable, true: Formula, false: Formula) -> Certificate:
+        """That ``true`` implies the formula of a table with open cells, and ``false`` its negation."""
+        return Certificate(Kind.CELLS, CellEvidence(table, None, (true, false)))
+
+    @staticmethod
+    def parts(
+        order: Sequence[str], question: Formula, true: Formula, false: Formula, proofs: Iterable[Certificate]
+    ) -> Certificate:
+        """That ``true`` implies ``question`` and ``false`` its negation, by what is proved of its parts."""
+        payload: dict[str, Json] = {
+            "order": list(order),
+            "question": formula_to_json(question, quantified=True),
+            "true": formula_to_json(true),
+            "false": formula_to_json(false),
+            "proofs": [proof.to_data() for proof in proofs],
+        }
+        return Certificate(Kind.PARTS, payload)
+
+    @staticmethod
     def bundle(members: Iterable[tuple[str, Certificate]]) -> Certificate:
         """Several certificates, each with a label."""
         return Certificate(Kind.BUNDLE, tuple(Labelled(label, c) for label, c in members))
@@ -146,7 +167,9 @@ class Certificate:
         """The version of the format in which it is written."""
         if isinstance(self.payload, tuple):
             return max((m.certificate.version for m in self.payload), default=1)
-        return 2 if self.kind is Kind.DERIVATION else 1
+        if isinstance(self.payload, CellEvidence):
+            return 1 if self.payload.parts is None else 2
+        return 2 if self.kind in (Kind.DERIVATION, Kind.PARTS) else 1
 
     def to_data(self) -> dict[str, Json]:
         """Kind and payload as JSON data."""

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from qe.formula.build import conj, disj
 from qe.formula.syntax import FALSE, TRUE, Formula
+from qe.proof.certificate import Certificate
 
 
 @dataclass(frozen=True, slots=True)
@@ -13,13 +14,16 @@ class Partial:
     """Where the question is proved to be true and where to be false, as quantifier-free formulas in its free variables.
 
     ``proved_true`` implies the question, and ``proved_false`` its negation; they may have root atoms. ``open`` holds
-    wherever neither does. By the theorems of the algorithms alone (``Guarantee.DERIVED``): no certificate goes with
-    the parts.
+    wherever neither does. ``certificate``: where a check was asked for, what proves both parts (of kind "parts");
+    None where one of them has no proof. ``is_checked``: separate code has accepted it, or ``reason`` says why not.
     """
 
     proved_true: Formula = FALSE
     proved_false: Formula = FALSE
     open: Formula = TRUE
+    certificate: Certificate | None = field(default=None, repr=False)
+    is_checked: bool = False
+    reason: str = ""
 
     @property
     def negated(self) -> Partial:

@@ -295,7 +295,7 @@ class Region(SetOperations):
         from qe.proof.cells_json import CellEvidence
 
         payload = Certificate.from_json(text).payload
-        if not isinstance(payload, CellEvidence) or any(payload.table.quantifiers):
+        if not isinstance(payload, CellEvidence) or payload.parts is not None or any(payload.table.quantifiers):
             raise InputError("a region in JSON expected")
         return Region(payload.table.matrix, payload.table, payload.table.order)
 

@@ -47,6 +47,6 @@ def test_rational_numbers_are_fractions() -> None:
 
 def test_points_and_optima_are_shown() -> None:
     assert point_text({"x": Fraction(1, 2), "y z": 3}).startswith("x = 1/2, ")
-    assert optimum_in_latex("unbounded", None, {}) == r"$\text{unbounded}$"
-    assert "not attained" in optimum_in_latex("optimal", Fraction(1), {})
-    assert r"\text{at}" in optimum_in_latex("optimal", Fraction(1), {"x": Fraction(2)})
+    assert optimum_in_latex("unbounded", None, []) == r"$\text{unbounded}$"
+    assert "not attained" in optimum_in_latex("optimal", Fraction(1), [])
+    assert r"\text{at}" in optimum_in_latex("optimal", Fraction(1), [{"x": Fraction(2)}])
