@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from qe.elimination.protocol import Outcome, Problem
-from qe.engine.conditions import has_cases, hopeless_cases
+from qe.engine.conditions import CASES_FROM, case_count, hopeless_cases
 from qe.exact.number import Values
 from qe.formula.build import conj, exists
 from qe.formula.evaluate import substituted
@@ -22,6 +22,9 @@ from qe.formula.traverse import atoms, conjuncts, connected, polynomials
 from qe.options import Options
 from qe.proof.step import Nested, Step
 from qe.rules.step import StepKind
+
+VARIABLES_FROM = 8
+"""In fewer variables, or with fewer cases than ``CASES_FROM``, the search is done sooner than this."""
 
 MOST_ATOMS = 8
 """Conditions with more comparisons are left to the search: what they have to say of the others takes longer to find."""
@@ -68,7 +71,9 @@ class WithoutLocals:
 def without_locals(problem: Problem, options: Options, eliminate: Eliminate) -> WithoutLocals | None:
     """An existential sentence, or the dual of a universal one, without local variables whose conditions do not grow;
     None where there are none."""
-    if hopeless_cases(problem, options) is None or any(p.total_degree > 1 for p in polynomials(problem.body)):
+    if len(problem.variables) < VARIABLES_FROM or case_count(problem) < CASES_FROM:
+        return None
+    if any(p.total_degree > 1 for p in polynomials(problem.body)):
         return None
     problem = problem.dual
     for most in SHARED_BY:
@@ -87,7 +92,7 @@ def without_locals(problem: Problem, options: Options, eliminate: Eliminate) -> 
 def _is_left_to_search(formula: Formula, options: Options) -> bool:
     """Whether no cases are left, or still so many that the search takes them: a few are slower for other methods."""
     left = Problem.of(formula)
-    return left is None or not has_cases(left) or hopeless_cases(left, options) is not None
+    return left is None or not case_count(left) or hopeless_cases(left, options) is not None
 
 
 def _local(problem: Problem, most: int) -> Iterator[tuple[tuple[str, ...], list[Formula]]]:
