@@ -24,8 +24,9 @@ from qe.formula.traverse import atoms
 from qe.proof.step import Nested, Place, Step
 from qe.simplify.simplify import simplify
 
-WORK, QUESTION_WORK, PATIENCE = 500, 100, 4
-"""Units of work for all sentences, and for one of them; how many parts in a row may make a difference after all."""
+WORK, QUESTION_WORK, LINEAR_WORK, PATIENCE = 500, 100, 500, 4
+"""Units of work for all sentences, for one of them, and for one that is linear (the simplex method answers it with
+little time for each unit); how many parts in a row may make a difference after all."""
 
 DEGREES = {1: 40, 2: 12, 3: 6}
 """The total degree of a sentence with so many variables that is decided; with more, it is ``MANY_DEGREE``."""
@@ -35,8 +36,8 @@ MANY_DEGREE = 3
 MOST_ATOMS, MOST_VARIABLES, MOST_TERMS = 60, 8, 400
 """A larger answer is left as it is."""
 
-MOST_ATOMS_ALONE = 40
-"""So many atoms of a larger answer are looked at as conditions on signs alone."""
+MOST_ATOMS_ALONE, MOST_TERMS_ALONE = 40, 10_000
+"""So many atoms of a larger answer are looked at as conditions on signs alone, with so many terms of conditions."""
 
 FEW_VARIABLES, FEW_TERMS = 4, 6
 """With more variables all polynomials that are not linear have so few terms: a single substitution of a root into
@@ -69,7 +70,7 @@ class Part:
 
 def without_redundant_parts(formula: Formula, context: Context) -> Formula:
     """The formula without parts that make no difference, as far as little work shows them."""
-    if context.decide is None or not _tells_cases_apart(formula):
+    if context.decide is None or not _is_worth_questions(formula):
         return formula
     if not _is_suited(formula):
         return _without_excluded_parts(formula, context)
@@ -77,8 +78,9 @@ def without_redundant_parts(formula: Formula, context: Context) -> Formula:
     budget, kept, patience = context.budget.part(WORK), set[Formula](), PATIENCE
     while patience and budget.used <= WORK and (part := next(_unsettled(formula, points, kept), None)) is not None:
         sentence = part.sentence
+        linear = all(a.poly.total_degree <= 1 for a in atoms(sentence))
         try:
-            found = context.decide(sentence, budget.part(QUESTION_WORK))
+            found = context.decide(sentence, budget.part(LINEAR_WORK if linear else QUESTION_WORK))
         except Unable:
             context.budget.check("shorten")
             found = None
@@ -96,17 +98,19 @@ def _without_excluded_parts(formula: Formula, context: Context) -> Formula:
     """The formula without parts that the signs of its own polynomials exclude: these need not be small for that."""
     if sum(1 for _ in atoms(formula)) > MOST_ATOMS_ALONE:
         return formula
-    points = _Points(formula.free)
+    points, kept, left = _Points(formula.free), set[Formula](), MOST_TERMS_ALONE
     points.fill(FIRST)
-    while (part := next(filter(_is_excluded, _by_size(formula, points)), None)) is not None:
-        nested = Nested(part.sentence, (Step("simplification", part.sentence, FALSE),), FALSE)
-        formula = _dropped(formula, part, nested, context)
+    # What mattered once has fewer conditions, not more, after another part is dropped: it is not looked at again.
+    while (part := next((p for p in _by_size(formula, points) if p.formula not in kept), None)) is not None:
+        left -= sum(length(condition)[1] for condition in part.conditions)
+        if left < 0:
+            break
+        if simplify(conj(part.conditions)) == FALSE:
+            nested = Nested(part.sentence, (Step("simplification", part.sentence, FALSE),), FALSE)
+            formula = _dropped(formula, part, nested, context)
+        else:
+            kept.add(part.formula)
     return formula
-
-
-def _is_excluded(part: Part) -> bool:
-    """Whether simplification sees that the part never matters."""
-    return simplify(conj(part.conditions)) == FALSE
 
 
 def _dropped(formula: Formula, part: Part, nested: Nested, context: Context) -> Formula:
@@ -116,11 +120,14 @@ def _dropped(formula: Formula, part: Part, nested: Nested, context: Context) -> 
     return context.log.step("simplification", shorter, simplify(shorter))
 
 
-def _tells_cases_apart(formula: Formula) -> bool:
-    """Atoms side by side are seldom worth a question."""
-    if not isinstance(formula, And | Or) or not any(isinstance(arg, And | Or) for arg in formula.args):
+def _is_worth_questions(formula: Formula) -> bool:
+    """Whether cases are told apart, or there are more linear conditions side by side than variables."""
+    if not isinstance(formula, And | Or):
         return False
-    return all(isinstance(a, Atom) for a in atoms(formula)) and formula == nnf(formula)
+    if all(isinstance(arg, Atom) and arg.poly.total_degree == 1 for arg in formula.args):
+        return len(formula.args) > len(formula.free) + 1
+    cases = any(isinstance(arg, And | Or) for arg in formula.args)
+    return cases and all(isinstance(a, Atom) for a in atoms(formula)) and formula == nnf(formula)
 
 
 def _is_suited(formula: Formula) -> bool:
