@@ -171,9 +171,12 @@ def _partial(formula: Formula, options: Options, limits: Limits) -> Partial:
     if not options.certify:
         return found
     from qe.api.verify import judged
+    from qe.certify.parts import claims_what_is_proved
 
     if found.proved_true == found.proved_false == FALSE:
         return replace(found, certificate=None, reason="nothing is decided")
+    if found.certificate is not None and not claims_what_is_proved(found.certificate, budget):
+        return replace(found, certificate=None, reason="the proofs of the parts do not give the parts as they stand")
     guarantee, reason = judged(found.certificate, budget)
     return replace(found, is_checked=guarantee is Guarantee.CHECKED, reason=reason)
 

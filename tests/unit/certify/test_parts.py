@@ -64,7 +64,11 @@ def test_what_is_decided_is_accepted(blocks: list[Formula], join: Any, work: int
         assert verdict.accepted or not verdict.decided, verdict
 
 
-@pytest.mark.parametrize(("text", "work"), [(CELLS, 120), (MIXED, 300)])
+SHARED = "(ex x. x^3 + a*x + b = 0 and x > 1) and (ex x, y. x^2 + a*y^2 < b and x*y > 1)"
+"""Two blocks bind one name."""
+
+
+@pytest.mark.parametrize(("text", "work"), [(CELLS, 120), (MIXED, 300), (SHARED, 700)])
 def test_something_is_decided_and_something_is_open(text: str, work: int) -> None:
     found = parts(read(text), work)
     assert disj((found.proved_true, found.proved_false)) != FALSE and found.open != FALSE
