@@ -334,6 +334,8 @@ ENGINE = {
     "ball",
     "compare",
     "compare_rational",
+    "decided",
+    "parts",
 }
 """Methods that take values of the engine."""
 

@@ -53,7 +53,7 @@ def test_an_answer_whose_proof_was_ended_comes_back_derived(name, monkeypatch):
 def test_an_answer_found_before_the_limit_is_not_lost_by_a_slow_proof(monkeypatch):
     asked = "ex x, y. x^2 + y^2 = a and x + y = b"
     monkeypatch.setattr("qe.proving.certificates.derived", stuck)
-    answer = qe.eliminate(asked, timeout=4, check=True)
+    answer = qe.eliminate(asked, timeout=3, check=True)
     assert answer.guarantee is qe.Guarantee.DERIVED and answer.reason == UNPROVED
     assert answer.formula == qe.eliminate(asked).formula
 

@@ -150,7 +150,7 @@ def test_parts_of_the_wrong_truth_value_are_rejected(monkeypatch: pytest.MonkeyP
 
 def test_a_checked_question_has_checked_parts() -> None:
     hard = "ex x, y. x^3 + a*x*y + b = 0 and y^3 + b*x = a and x > 0 and x^5*y + a*y^4 < b"
-    answer = eliminate(f"(ex z. z < 0 and z^2 = a) or ({hard})", timeout=4, anytime=True, check=True)
+    answer = eliminate(f"(ex z. z < 0 and z^2 = a) or ({hard})", timeout=3, anytime=True, check=True)
     if answer.formula is None:  # else the machine is fast
         assert answer.partial is not None
         if answer.partial.is_checked:  # else it is slow
