@@ -44,7 +44,7 @@ def test_the_answer_is_the_conditions(q0, r0, r2, candidates, kind):
         assert holds_at(answer, dict(zip(quadratic.FREE, q1, strict=True))) == expected
 
 
-@settings(max_examples=3)
+@settings(max_examples=2)
 @given(POINT, POINT, st.integers(0, 6))
 def test_plans_exist_exactly_when_the_balls_meet(q0, r0, more):
     least = max(dot(q0, q0), dot(r0, r0), Fraction(2))
