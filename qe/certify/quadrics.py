@@ -17,7 +17,8 @@ Analysis, theorem 7.2.5). With b = 0 in ((a, b), (b, c)) the minor a*c follows f
 where a row has two zeros beside the diagonal.
 
 Evidence: ``along``, the variable at the place i; ``turned``, 1 where h is minus the polynomial of an equation, 0 else;
-``below``, 1 where det H < 0 is known, 0 where m > 0 is; ``theory``, by which the three signs are known.
+``below``, 1 where det H < 0 is known (also in older certificates, which do not say it), 0 where m > 0 is; ``theory``,
+by which the three signs are known.
 """
 
 from __future__ import annotations
@@ -35,7 +36,7 @@ Rows = tuple[tuple[Poly, Poly, Poly], ...]
 
 def quadrics_goals(claim: Claim, context: Context) -> list[Goal]:
     """The signs are known, and what stands after denies that there is a multiplier."""
-    along, turned, below, _ = only(claim, "along", "turned", "below", "theory")
+    along, turned, _, below = only(claim, "along", "turned", "theory", optional=("below",))
     before, after = existential(claim)
     if not isinstance(before, Exists) or not isinstance(before.body, And) or len(before.body.args) != 2:
         raise claim.fail("a block over two conditions expected")
@@ -48,7 +49,7 @@ def quadrics_goals(claim: Claim, context: Context) -> list[Goal]:
     sign = _WEAK[weak[0].relation]
     if (turning := turned.integer(0)) > 1 or (turning and sign):
         raise turned.fail("0, or 1 for an equation, expected")
-    if (known := below.integer(0)) > 1:
+    if (known := 1 if below.value is None else below.integer(0)) > 1:
         raise below.fail("0 or 1 expected")
     outer = _rows(strict[0].poly * _STRICT[strict[0].relation], before.variables, claim)
     inner = _rows(weak[0].poly * (sign or (-1 if turning else 1)), before.variables, claim)

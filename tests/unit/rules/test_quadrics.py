@@ -156,6 +156,8 @@ BY = {"along": "x", "turned": 0, "below": 1, "theory": NO_LEMMAS}
         (BALL, NONE.replace(" and 2 - 4*x >= 0", ""), {}, "do not exclude"),
         (BALL, f"{NONE} or 1 = 0", {"below": 0}, ""),
         (BALL, NONE, {"below": 2}, "0 or 1"),
+        (BALL, NONE, {"below": None}, ""),  # an older certificate
+        (POINT, NONE, {"below": None}, "do not exclude"),
         (POINT, "-1 > 0", {"below": 0}, ""),
         (POINT.replace("> 3", "> -3"), "0 = 0", {"below": 0}, ""),
         (POINT.replace("> 3", "> -3"), "-1 > 0", {"below": 0}, "do not exclude"),
