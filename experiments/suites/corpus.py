@@ -10,6 +10,7 @@ from typing import Any
 from experiments.problem import ROOT, Problem
 from experiments.suites import paper, scaling
 from qe.errors import InputError, QEError
+from qe.io.text import CONSTANTS, read
 
 CORPUS = ROOT / "experiments" / "corpus"
 MIDDLE_SIZES = ("degree-8", "via-6", "balls-2d-6", "balls-3d-6", "bits-64", "tower-3")
@@ -104,4 +105,12 @@ def _of_literature(name: str, record: dict[str, Any]) -> Problem:
     assume = record.get("assume")
     if assume is not None:
         assume = assume.replace("[", "(").replace("]", ")")
-    return Problem(name, record["id"], record["formula"], record.get("expected"), assume)
+    return Problem(name, record["id"], record["formula"], _answer_of(record), assume)
+
+
+def _answer_of(record: dict[str, Any]) -> str | None:
+    """The expected answer, unless it has other variables than the question: then it is that of another one."""
+    expected: str | None = record.get("expected")
+    if expected is not None and "free" in record:
+        return expected if set(read(expected, known=CONSTANTS).free) <= {*record["free"]} else None
+    return expected

@@ -1,5 +1,7 @@
 """The suites: every formula reads, and the known answers are right."""
 
+import json
+
 import pytest
 
 import qe
@@ -105,3 +107,13 @@ def test_limits_are_positive(option, capsys, tmp_path):
     assert cli.main(arguments) == 2
     assert option in capsys.readouterr().err
     assert not (tmp_path / "r.jsonl").exists()
+
+
+def test_an_expected_answer_about_other_variables_is_none(tmp_path):
+    """Of a question on a it spoke of b and c, which were bound there: a right answer was called wrong."""
+    record = {"id": "one", "free": ["a"], "formula": "ex b, c. a = b^2 + c^2"}
+    file = tmp_path / "set.jsonl"
+    file.write_text(
+        "\n".join(json.dumps({**record, "expected": text}) for text in ("b = 1 /\\ c = 2", "a >= 0", "true"))
+    )
+    assert [problem.expected for problem in corpus._lines("set", file)] == [None, "a >= 0", "true"]
