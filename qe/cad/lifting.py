@@ -24,10 +24,7 @@ from qe.exact.sample import Fibre, FibreRoot, Point
 from qe.formula.openness import is_closed, is_open
 from qe.formula.syntax import Formula
 from qe.options import Budget, Call, Helpers, Projection
-from qe.proof.cells import Cell, Stack
-
-_VALUE = {"+": 1, "-": -1, "0": 0}
-
+from qe.proof.cells import SIGN_OF, Cell, Stack
 
 SPREAD_FROM = 200
 """Cells after which helpers take part: what is smaller is done before they have the first cell."""
@@ -268,7 +265,7 @@ class Lifter:
         key = (id(node), level, spoken)
         stored = self._shared.get(key)
         if stored is None:
-            signs = {j: _VALUE[c] for j, c in zip(relevant, spoken, strict=True) if c != "?"}
+            signs = {j: SIGN_OF[c] for j, c in zip(relevant, spoken, strict=True) if c != "?"}
             found = specialise(node, level, signs)
             stored = self._shared[key] = self._interned.setdefault(found, found)
         return stored

@@ -13,8 +13,7 @@ from fractions import Fraction
 from qe.exact.fibre_stack import Isolation, isolate_over
 from qe.exact.ring import Poly
 from qe.exact.sample import Point
-
-_CHARACTER = {1: "+", -1: "-", 0: "0", None: "?"}
+from qe.proof.cells import CHARACTER_OF
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,7 +63,7 @@ def restricted_stack(
     for position, text in enumerate(core.texts):
         characters = dict(zip(own, text, strict=True))
         for j in others:
-            characters[j] = _CHARACTER[signs[j][position // 2]] if position % 2 else "?"
+            characters[j] = CHARACTER_OF[signs[j][position // 2]] if position % 2 else "?"
         texts.append("".join([characters[j] for j in used]))
     return SampledStack(core.isolation, texts, core.sections, core.nullified, known, True)
 

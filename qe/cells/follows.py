@@ -11,9 +11,8 @@ from qe.exact.ring import Ring
 from qe.formula.build import convert
 from qe.formula.syntax import Formula
 from qe.formula.traverse import has_root_atoms, polynomials
-from qe.proof.cells import Cell, CellTable, Stack
+from qe.proof.cells import SIGN_OF, Cell, CellTable, Stack
 
-_VALUE = {"+": 1, "-": -1, "0": 0}
 _ZERO = str.maketrans("+-0", "001")
 _NEGATIVE = str.maketrans("+-0", "010")
 
@@ -43,7 +42,7 @@ def follows(answer: Formula, table: CellTable) -> bool:
 
 def signs_of(stack: Stack, cell: Cell) -> dict[int, int]:
     """The signs of the level's factors, by their numbers, on a cell of the stack; without those that are open."""
-    return {j: _VALUE[c] for j, c in zip(stack.used, cell.signs, strict=True) if c != "?"}
+    return {j: SIGN_OF[c] for j, c in zip(stack.used, cell.signs, strict=True) if c != "?"}
 
 
 def _agrees(cell: Cell, node: Node, level: int, free: int) -> bool:
@@ -61,7 +60,7 @@ def _agrees(cell: Cell, node: Node, level: int, free: int) -> bool:
     known_nodes: dict[str, Node] = {}  # neighbours often have the same signs
     for below, text in zip(cell.stack.cells, spoken, strict=True):
         if text not in known_nodes:
-            signs = {j: _VALUE[c] for (_, j), c in zip(places, text, strict=True) if c != "?"}
+            signs = {j: SIGN_OF[c] for (_, j), c in zip(places, text, strict=True) if c != "?"}
             known_nodes[text] = specialise(node, level, signs)
         if not _agrees(below, known_nodes[text], level + 1, free):
             return False

@@ -8,9 +8,8 @@ from functools import cached_property
 
 from qe.exact.ring import Poly
 from qe.formula.syntax import Relation
-from qe.proof.cells import Cell, CellTable, FreeCell
+from qe.proof.cells import CHARACTER_OF, Cell, CellTable, FreeCell
 
-_CHARACTER: dict[int | None, str] = {1: "+", -1: "-", 0: "0", None: "?"}
 _BITS = {own: {ord(c): "01"[c == own] for c in "+-0?"} for own in "+-0?"}
 _WEAK_FIRST = (Relation.LE, Relation.GE, Relation.NE, Relation.EQ, Relation.LT, Relation.GT)
 
@@ -93,4 +92,4 @@ def _columns(cells: Sequence[FreeCell], factors: Sequence[Sequence[Poly]]) -> It
         text = "".join([row.ljust(width, "?") for row in rows])
         for j in range(width):
             column = text[j::width]
-            yield {sign: int("0" + column.translate(_BITS[own]), 2) for sign, own in _CHARACTER.items()}
+            yield {sign: int("0" + column.translate(_BITS[own]), 2) for sign, own in CHARACTER_OF.items()}

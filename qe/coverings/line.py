@@ -17,8 +17,6 @@ from qe.formula.syntax import Atom, Formula
 from qe.formula.traverse import atoms
 from qe.truth import Truth
 
-_SIGN = {"+": 1, "-": -1, "0": 0}
-
 
 @dataclass(frozen=True, slots=True)
 class Bound:
@@ -121,8 +119,7 @@ class Line:
 
     def truths(self, position: int) -> dict[Atom, bool]:
         """The truth at a position of the atoms of this level."""
-        text = self.isolation.sign_texts()[position]
-        signs = {poly: _SIGN[character] for poly, character in zip(self.isolation.polys, text, strict=True)}
+        signs = self.isolation.signs_at(position)
         return {a: self._sign(a.poly, signs) in a.relation.signs for a in self._open}
 
     def _sign(self, poly: Poly, signs: Mapping[Poly, int]) -> int:

@@ -6,9 +6,7 @@ from collections.abc import Iterator, Mapping
 
 from qe.coverings.line import Cover, Interval
 from qe.exact.ring import Poly
-from qe.proof.cells import FreeCell
-
-_CHARACTER = {1: "+", -1: "-", 0: "0"}
+from qe.proof.cells import CHARACTER_OF, FreeCell
 
 Levels = tuple[tuple[Poly, ...], ...]
 
@@ -53,4 +51,4 @@ def _signs(interval: Interval) -> dict[Poly, int]:
 
 
 def _text(signs: Mapping[int, int], width: int) -> str:
-    return "".join([_CHARACTER[signs[j]] if j in signs else "?" for j in range(width)]).rstrip("?")
+    return "".join([CHARACTER_OF[signs.get(j)] for j in range(width)]).rstrip("?")

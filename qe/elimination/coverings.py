@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from itertools import count
 
 from qe.cad.order_by_projection import variable_order
 from qe.cells.formulas import formula_of_cells, undistinguished
@@ -73,7 +72,7 @@ class _Answered:
 def _answered(search: Search, free: int) -> _Answered:
     """The covering, finer where the signs of its polynomials do not tell true cells from false ones."""
     samples = 0
-    for _ in count():
+    while True:
         cover = search.run()
         samples += search.samples
         if not free:
@@ -83,7 +82,6 @@ def _answered(search: Search, free: int) -> _Answered:
         if pair is None:
             return _Answered(cover, formula_of_cells(factors, cells), samples, len(cells))
         search = _finer(search, *pair)
-    raise InternalError("no answer and no end")
 
 
 def _finer(search: Search, one: FreeCell, other: FreeCell) -> Search:

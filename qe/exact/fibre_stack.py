@@ -83,8 +83,14 @@ class Isolation:
 
     def sign_maps(self) -> list[dict[Poly, int]]:
         """The signs of the polynomials on every cell, from below."""
-        value = {"+": 1, "-": -1, "0": 0}
-        return [dict(zip(self.polys, map(value.__getitem__, text), strict=True)) for text in self.sign_texts()]
+        return [self._signs(text) for text in self.sign_texts()]
+
+    def signs_at(self, position: int) -> dict[Poly, int]:
+        """The signs of the polynomials on one cell."""
+        return self._signs(self.sign_texts()[position])
+
+    def _signs(self, text: str) -> dict[Poly, int]:
+        return dict(zip(self.polys, map({"+": 1, "-": -1, "0": 0}.__getitem__, text), strict=True))
 
     def sign_texts(self) -> list[str]:
         """The signs of the polynomials on every cell of the stack from below, one character of ``+-0`` each."""

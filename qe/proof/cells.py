@@ -18,6 +18,10 @@ from qe.exact.ring import Poly
 from qe.formula.syntax import Formula
 from qe.options import Projection
 
+SIGN_OF = {"+": 1, "-": -1, "0": 0}
+CHARACTER_OF: dict[int | None, str] = {1: "+", -1: "-", 0: "0", None: "?"}
+"""Signs of factors on a cell are written as texts, one character each; ``?``: not known."""
+
 
 @dataclass(frozen=True, slots=True)
 class Stack:

@@ -12,12 +12,11 @@ from qe.exact.ring import Poly
 from qe.formula.build import atom, conj, disj
 from qe.formula.syntax import FALSE, TRUE, And, Atom, Constant, Formula, Or, Relation
 from qe.formula.traverse import atoms
-from qe.proof.cells import FreeCell
+from qe.proof.cells import CHARACTER_OF, FreeCell
 
 Signs = tuple[int, ...]
 
 LE, GE = Relation.LE, Relation.GE
-_CHARACTER = {1: "+", 0: "0", -1: "-"}
 
 
 @dataclass(frozen=True)
@@ -82,7 +81,7 @@ class Rows:
 
     def _cells(self, bits: int, truth: bool) -> list[FreeCell]:
         chosen = [k for k in range(len(self.signs)) if bits >> k & 1]
-        return [FreeCell((k,), ("".join(_CHARACTER[s] for s in self.signs[k]),), truth) for k in chosen]
+        return [FreeCell((k,), ("".join(CHARACTER_OF[s] for s in self.signs[k]),), truth) for k in chosen]
 
 
 def gathered(formula: Formula) -> Formula:
