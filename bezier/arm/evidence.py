@@ -7,9 +7,9 @@ from fractions import Fraction
 from bezier.arm.angles import Angle
 from bezier.arm.joint_path import JointPath, Run
 from bezier.arm.model import Arm
+from bezier.arm.motion_chain import Piece
 from bezier.curves.curve import Bezier
 from bezier.curves.scalar import exactly
-from qe.exact.motion_chain import Piece
 from qe.proof.certificate import Certificate, Kind
 from qe.proof.entry import Json
 
@@ -27,7 +27,7 @@ def _of(found: JointPath, run: Run) -> Certificate:
     used = sorted({k for k, _ in run.parts})
     pieces: list[Json] = [_piece(k - used[0], p) for k, branch in run.parts for p in branch.pieces]
     listed: list[Json] = [_curve(curves[k]) for k in used]
-    return Certificate(Kind.BRANCH, {"arm": arm_json(found.arm), "curves": listed, "pieces": pieces})
+    return Certificate(Kind("branch"), {"arm": arm_json(found.arm), "curves": listed, "pieces": pieces})
 
 
 def arm_json(arm: Arm) -> Json:

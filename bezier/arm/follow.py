@@ -1,4 +1,4 @@
-"""Branches: joint positions followed along a curve, each step proved (``qe.exact.motion_chain``).
+"""Branches: joint positions followed along a curve, each step proved (``bezier.arm.motion_chain``).
 
 Every piece proves exactly one solution in a tube of boxes over an interval of s. Two pieces belong to one branch when
 at their common parameter the solution of the one, known to a smaller box, lies in the box of the other, which holds no
@@ -19,10 +19,10 @@ from bezier.arm.critical import powers
 from bezier.arm.inverse import Solution
 from bezier.arm.kinematics import wrapped
 from bezier.arm.model import Arm, Motion
+from bezier.arm.motion_chain import MotionChain, Piece
 from bezier.arm.value import Value
 from bezier.curves.curve import Bezier
 from bezier.curves.scalar import exactly
-from qe.exact.motion_chain import MotionChain, Piece
 from qe.exact.point_values import pi_ends
 
 FIRST, LEAST = Fraction(1, 16), Fraction(1, 1 << 24)

@@ -39,7 +39,7 @@ def inverse_certificate(found: Inverse) -> Certificate:
     verdict = None
     for bits, places in ATTEMPTS:
         for payload in _payloads(found, bits, places):
-            certificate = Certificate(Kind.INVERSE, {**listed, **payload})
+            certificate = Certificate(Kind("inverse"), {**listed, **payload})
             verdict = verify(certificate)
             if verdict.accepted:
                 return certificate

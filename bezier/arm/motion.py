@@ -15,10 +15,10 @@ from math import ceil, isqrt
 
 from bezier.arm.joint_path import JointPath, Run
 from bezier.arm.model import Joint
+from bezier.arm.motion_chain import Piece
 from bezier.curves import bernstein as bs
 from bezier.motion.timelaw import TICK, TimeLaw
 from qe.errors import Unable
-from qe.exact.motion_chain import Piece
 
 Range = tuple[Fraction, Fraction]
 ZERO = Fraction(0)

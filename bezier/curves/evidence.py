@@ -36,7 +36,7 @@ def containment(curve: Bezier, inside: Inside) -> Certificate | None:
         "condition": _condition(inside.condition),
         "breaks": [str(t) for t in breaks],
     }
-    return Certificate(Kind.CONTAINMENT, payload)
+    return Certificate(Kind("containment"), payload)
 
 
 def curve_payload(curve: Bezier) -> dict[str, Any]:

@@ -1,16 +1,16 @@
-"""Certificates about curves and obstacles, in the form that ``qe.certify.clearance`` multiplies out."""
+"""Certificates about curves and obstacles, in the form that ``bezier.certify.clearance`` multiplies out."""
 
 from __future__ import annotations
 
 from fractions import Fraction
 from typing import Any
 
+from bezier.certify.bernstein import MAX_DEGREE
 from bezier.curves.curve import Bezier
 from bezier.curves.evidence import curve_payload
 from bezier.obstacles.along import Along
 from bezier.obstacles.clearance import Contact, Search
 from bezier.obstacles.obstacle import Constraint, Obstacle, Piece
-from qe.certify.arithmetic.bernstein import MAX_DEGREE
 from qe.errors import InputError
 from qe.proof.certificate import Certificate, Kind
 
@@ -29,7 +29,7 @@ def clearance_certificate(curve: Bezier, obstacle: Obstacle) -> Certificate | No
     Raises ``InputError`` when the curve does meet the obstacle.
     """
     pieces = _pieces(curve, obstacle, Fraction(1))
-    return None if pieces is None else Certificate(Kind.CLEARANCE, {**curve_payload(curve), "pieces": pieces})
+    return None if pieces is None else Certificate(Kind("clearance"), {**curve_payload(curve), "pieces": pieces})
 
 
 def contact_certificate(curve: Bezier, obstacle: Obstacle, contact: Contact) -> Certificate | None:
@@ -46,7 +46,7 @@ def contact_certificate(curve: Bezier, obstacle: Obstacle, contact: Contact) -> 
     if pieces is None:
         return None
     where: dict[str, Any] = {"after": str(after), "t": str(high), "piece": met[0]}
-    return Certificate(Kind.CLEARANCE, {**curve_payload(curve), "pieces": pieces, "contact": where})
+    return Certificate(Kind("clearance"), {**curve_payload(curve), "pieces": pieces, "contact": where})
 
 
 def _pieces(curve: Bezier, obstacle: Obstacle, until: Fraction) -> list[Any] | None:

@@ -211,7 +211,7 @@ def _answer(formula: Formula, options: Options, budget: Budget, check: bool) -> 
         log.work("limits", {"work": budget.used})
         return Answer(Status.UNABLE, None, reason=str(error), question=formula, log=log)
     answer, certificate = answer_to(formula, found), found.certificate
-    if certificate is not None and (check or certificate.kind is Kind.WITNESS or found.witness is not None):
+    if certificate is not None and (check or certificate.kind == Kind.WITNESS or found.witness is not None):
         from qe.api.verify import with_verdict
 
         return with_verdict(answer, budget, checked=found.checked)

@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from qe.certify.kinds import brought_kind
 from qe.certify.negation import negation, normal
 from qe.certify.renaming import arranged, same_up_to_names
 from qe.certify.sentence import RELATIONS, read_polynomial
@@ -71,14 +72,8 @@ def claim_of(certificate: Certificate) -> Claim:
             ring = Ring.of(order.names())
             question = formula_from_json(question_entry, ring, quantified=True)
             return _of_parts(question, (formula_from_json(true, ring), formula_from_json(false, ring)))
-        case Kind.INVERSE:
-            rest = ("rotation", "turn", "roots", "marks", "solutions")
-            count, rotation, *_ = entry.fields("arm", "point", "count", optional=rest)[2:]
-            where = "point" if rotation.value is None else "pose"
-            number = "families of" if count.value is None else f"exactly {count.integer()}"
-            told = f"an arm has {number} joint positions at a {where}"
-            return Claim((f"inverse: {told}, see the entries of its payload",))
-    return Claim((f"{certificate.kind.value}: about a curve, see the entries of its payload",))
+    brought = brought_kind(certificate.kind.value)
+    return Claim((f"{certificate.kind.value}: {brought.words(entry) if brought else 'nothing that is known here'}",))
 
 
 def is_about(certificate: Certificate, formula: Formula) -> Formula | None:

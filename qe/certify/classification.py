@@ -78,7 +78,7 @@ def check_classification(
         if entry is None:
             raise proofs.fail("a case is left without a proof")
         certificate = certificate_from(entry)
-        if certificate.kind is Kind.BUNDLE or is_about(certificate, sentence) != TRUE:
+        if certificate.kind == Kind.BUNDLE or is_about(certificate, sentence) != TRUE:
             raise entry.fail("not a proof of the sentence of this case")
         try:
             check_leaf(certificate, budget)

@@ -62,7 +62,7 @@ def check_counted_solutions(claim: Claim, context: Context, limits: Limits) -> N
             check_block(by_lemmas(sentence, claim.ring, proof), (), limits)
             continue
         certificate = limits.leaf(proof)
-        if certificate.kind is Kind.BUNDLE or is_about(certificate, sentence) != TRUE:
+        if certificate.kind == Kind.BUNDLE or is_about(certificate, sentence) != TRUE:
             raise proof.fail("not a proof of the sentence of this case")
     if (proof := next(listed, None)) is not None:
         raise proof.fail("there are not so many cases")

@@ -38,7 +38,7 @@ def check_no_solutions(claim: Claim, context: Context, limits: Limits) -> None:
 def _system(entry: Entry, claim: Claim, limits: Limits) -> frozenset[Formula]:
     """The equations and conditions that a certificate refutes."""
     certificate = limits.leaf(entry)
-    if certificate.kind is not Kind.SOLUTIONS or not isinstance(certificate.payload, dict):
+    if certificate.kind != Kind.SOLUTIONS or not isinstance(certificate.payload, dict):
         raise entry.fail("expected a certificate of kind solutions")
     ring, parts, solutions = system_of(Entry(certificate.payload, f"{entry.path}.payload"))
     if solutions.value != []:

@@ -35,9 +35,9 @@ def check_sentence(claim: Claim, context: Context, limits: Limits) -> None:
     before, after = existential(claim)
     if not isinstance(before, Exists) or before.free:
         raise claim.fail("expected a sentence of one block")
-    if certificate.kind is Kind.WITNESS and payload is not None and after == TRUE:
+    if certificate.kind == Kind.WITNESS and payload is not None and after == TRUE:
         _check_point(payload, before, claim)
-    elif certificate.kind is Kind.OPTIMUM and payload is not None and after == FALSE:
+    elif certificate.kind == Kind.OPTIMUM and payload is not None and after == FALSE:
         _check_conjuncts(payload, before, claim)
     else:
         raise entry.fail("expected a point, or multipliers, for what is claimed")

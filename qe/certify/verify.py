@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 from qe.arguments import shown
+from qe.certify.kinds import Checker, brought_kind
 from qe.certify.verdict import Verdict
 from qe.errors import CertificateRejected, InputError, Unable
 from qe.options import Budget
 from qe.proof.cells_json import CellEvidence
 from qe.proof.certificate import Certificate, Kind, Labelled
-from qe.proof.entry import Json
-
-Checker = Callable[[dict[str, Json], Budget], None]
 
 
 def verify(certificate: Certificate, budget: Budget | None = None) -> Verdict:
@@ -56,13 +52,13 @@ def check_certificate(certificate: Certificate, budget: Budget) -> None:
     payload = certificate.payload
     if not isinstance(certificate.kind, Kind):
         raise CertificateRejected("kind", "unknown kind of certificate")
-    if isinstance(payload, CellEvidence) and certificate.kind is Kind.CELLS:
+    if isinstance(payload, CellEvidence) and certificate.kind == Kind.CELLS:
         from qe.certify.cells import check_cells
 
         check_cells(payload, budget)
     elif isinstance(payload, dict) and (checker := _checker(certificate.kind)) is not None:
         checker(payload, budget)
-    elif isinstance(payload, tuple) and certificate.kind is Kind.BUNDLE:
+    elif isinstance(payload, tuple) and certificate.kind == Kind.BUNDLE:
         if not payload:
             raise CertificateRejected("certificates", "an empty bundle proves nothing")
         for position, member in enumerate(payload):
@@ -105,24 +101,9 @@ def _checker(kind: Kind) -> Checker | None:
             from qe.certify.gauss import check_substitution
 
             return check_substitution
-        case Kind.CONTAINMENT:
-            from qe.certify.containment import check_containment
-
-            return check_containment
-        case Kind.CLEARANCE:
-            from qe.certify.clearance import check_clearance
-
-            return check_clearance
-        case Kind.BRANCH:
-            from qe.certify.branch import check_branch
-
-            return check_branch
         case Kind.SOLUTIONS:
             from qe.certify.solutions import check_solutions
 
             return check_solutions
-        case Kind.INVERSE:
-            from qe.certify.inverse_position import check_inverse
-
-            return check_inverse
-    return None
+    brought = brought_kind(kind.value)
+    return None if brought is None else brought.check

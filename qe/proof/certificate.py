@@ -10,8 +10,8 @@ import hashlib
 import json
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
-from enum import Enum
 from fractions import Fraction
+from typing import ClassVar
 
 from qe.arguments import whole as whole_number
 from qe.errors import CertificateRejected, InputError
@@ -27,33 +27,34 @@ VERSIONS = (1, 2)
 """The versions that are read. Written is the lowest that can say it: 2 where a derivation is inside, else 1."""
 
 
-class Kind(Enum):
-    """What a certificate proves.
+@dataclass(frozen=True)
+class Kind:
+    """What a certificate proves, by the name under which files have it. These are the engine's; other packages bring
+    more, each with its checker (``qe.certify.verify.checkers``).
 
     CELLS: truth values on the cells of a (partial) cylindrical algebraic decomposition, and the formula that
     follows. OPTIMUM: an optimal point of a convex problem, or that there is none. WITNESS: that an assignment
     satisfies a quantifier-free formula. SUBSTITUTION: that linear equations eliminate an existential block.
-    CONTAINMENT: that a Bezier curve stays in a ball or half-space. CLEARANCE: that one never meets an obstacle, or
-    where it first does. DERIVATION: that a formula is equivalent to another, step by step. BRANCH: that an arm follows
-    curves continuously. INVERSE: all joint positions of an arm at a point. SOLUTIONS: that a system has these real
-    solutions, and no others. CLASSIFICATION: where a parametric system has how many.
-    PARTS: where a formula is true and where false, the rest being open. BUNDLE: several certificates with
-    labels.
+    DERIVATION: that a formula is equivalent to another, step by step. SOLUTIONS: that a system has these real
+    solutions, and no others. CLASSIFICATION: where a parametric system has how many. PARTS: where a formula is true
+    and where false, the rest being open. BUNDLE: several certificates with labels.
     """
 
-    CELLS = "cells"
-    OPTIMUM = "optimum"
-    WITNESS = "witness"
-    SUBSTITUTION = "substitution"
-    CONTAINMENT = "containment"
-    CLEARANCE = "clearance"
-    DERIVATION = "derivation"
-    BRANCH = "branch"
-    SOLUTIONS = "solutions"
-    INVERSE = "inverse"
-    CLASSIFICATION = "classification"
-    PARTS = "parts"
-    BUNDLE = "bundle"
+    value: str
+
+    CELLS: ClassVar[Kind]
+    OPTIMUM: ClassVar[Kind]
+    WITNESS: ClassVar[Kind]
+    SUBSTITUTION: ClassVar[Kind]
+    DERIVATION: ClassVar[Kind]
+    SOLUTIONS: ClassVar[Kind]
+    CLASSIFICATION: ClassVar[Kind]
+    PARTS: ClassVar[Kind]
+    BUNDLE: ClassVar[Kind]
+
+
+for _name, _value in ((name, Kind(name.lower())) for name in Kind.__annotations__ if name.isupper()):
+    setattr(Kind, _name, _value)
 
 
 @dataclass(frozen=True, slots=True)
@@ -264,15 +265,12 @@ def certificate_from(entry: Entry, labelled: bool = False) -> Certificate:
     if not isinstance(entry.value, dict):
         raise entry.fail("expected an object")
     prefix = f"{entry.path}." if entry.path else ""
-    try:
-        kind = Kind(Entry(entry.value.get("kind"), f"{prefix}kind").text())
-    except ValueError:
-        raise CertificateRejected(f"{prefix}kind", "unknown kind of certificate") from None
-    if kind is Kind.BUNDLE:
+    kind = Kind(Entry(entry.value.get("kind"), f"{prefix}kind").text())
+    if kind == Kind.BUNDLE:
         members = entry.fields("kind", "certificates", *extra)[1]
         return Certificate(kind, tuple(_member(m) for m in members.items()))
     payload = entry.fields("kind", "payload", *extra)[1]
-    if kind is Kind.CELLS:
+    if kind == Kind.CELLS:
         return Certificate(kind, cells_from_json(payload))
     if not isinstance(payload.value, dict):
         raise payload.fail("expected an object")

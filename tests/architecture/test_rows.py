@@ -52,6 +52,7 @@ ROWS = {
     "qe.__main__": 11,
     "qe.sympy": 11,
     "qe": 11,
+    "bezier.certify": 12,
     "bezier.curves": 12,
     "bezier.input": 13,
     "bezier.obstacles": 14,
@@ -149,11 +150,14 @@ def test_rows() -> None:
     assert not wrong
 
 
+BALLS = ("qe.certify.arithmetic.", "bezier.certify.duals", "bezier.arm.motion_chain")
+
+
 def test_flint_is_imported_only_in_the_exact_layer_and_in_the_arithmetic_of_the_checkers() -> None:
     wrong = [
         f"{module}:{line}"
         for module, path in MODULES
-        if part(module) != "qe.exact" and not module.startswith("qe.certify.arithmetic.")
+        if part(module) != "qe.exact" and not module.startswith(BALLS)
         for line, name in imports(path, module)
         if name.split(".")[0] in ("flint", "ctypes") and (name, module) != ("ctypes", "qe.processes.worker")
     ]
@@ -184,11 +188,14 @@ def test_the_checker_shares_nothing_with_producers() -> None:
         "qe.engine",
         "qe.regions",
         "qe.api",
+        "bezier.curves",
+        "bezier.obstacles",
+        "bezier.arm",
     )
     wrong = [
         f"{module}:{line} {name}"
         for module, path in MODULES
-        if part(module) == "qe.certify"
+        if part(module) in ("qe.certify", "bezier.certify")
         for line, name in imports(path, module)
         if name.startswith(producers)
     ]

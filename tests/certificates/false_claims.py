@@ -50,7 +50,7 @@ def derivation(rng: random.Random) -> Certificate | None:
         found = solve(asked, Options(certify=True), Budget(2 * SECONDS)).certificate
     except Unable:
         return None
-    return found if found is not None and found.kind is Kind.DERIVATION else None
+    return found if found is not None and found.kind == Kind.DERIVATION else None
 
 
 def cells(rng: random.Random) -> Certificate | None:
@@ -126,7 +126,7 @@ def containment(rng: random.Random) -> Certificate:
     breaks = ["0", "1/2", "1"] if rng.random() < 0.5 else ["0", "1"]
     coordinates = [[[str(c)] for c in point] for point in points]
     payload: Any = {"field": rational, "points": coordinates, "condition": condition, "breaks": breaks}
-    return Certificate(Kind.CONTAINMENT, payload)
+    return Certificate(Kind("containment"), payload)
 
 
 def clearance(rng: random.Random) -> Certificate | None:

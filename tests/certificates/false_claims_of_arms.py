@@ -14,7 +14,7 @@ from typing import Any
 from bezier.arm.inverse import solve
 from bezier.arm.inverse_evidence import inverse_certificate
 from bezier.arm.reader import load_arm, read_arm
-from qe.certify.branch import check_branch
+from bezier.certify.branch import check_branch
 from qe.errors import CertificateRejected, QEError, Unable
 from qe.exact.polynomial_system import solve_system
 from qe.exact.quotient import PositiveDimensional
@@ -167,7 +167,7 @@ def branch(rng: random.Random) -> Certificate | None:
         check_branch(payload)
     except CertificateRejected:
         return None
-    return Certificate(Kind.BRANCH, payload)
+    return Certificate(Kind("branch"), payload)
 
 
 def leaves_the_branch(rng: random.Random, data: Data) -> bool:

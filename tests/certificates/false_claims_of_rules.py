@@ -171,4 +171,4 @@ def derivation_by_a_rule(rng: random.Random) -> Certificate | None:
         found = solve(asked, Options(method=Method(method), certify=True), Budget(SECONDS)).certificate
     except Unable:
         return None
-    return found if found is not None and found.kind is Kind.DERIVATION else None
+    return found if found is not None and found.kind == Kind.DERIVATION else None

@@ -20,8 +20,8 @@ from bezier.arm.kinematics import position
 from bezier.arm.model import Motion
 from bezier.arm.pose import rotation_of, solve_pose
 from bezier.arm.reader import load_arm
-from qe.certify.arithmetic.nested_roots import Nested, Place, nested, turns
-from qe.certify.arithmetic.square_roots import ONE, Surd, times
+from bezier.certify.nested_roots import Nested, Place, nested, turns
+from bezier.certify.square_roots import ONE, Surd, times
 from qe.certify.claims import claim_of
 from qe.certify.verify import verify
 from qe.errors import Unable
@@ -35,7 +35,7 @@ Change = Callable[[dict[str, Any]], object]
 
 
 def accepted(payload: Any) -> bool:
-    verdict = verify(Certificate(Kind.INVERSE, payload))
+    verdict = verify(Certificate(Kind("inverse"), payload))
     assert verdict.decided and (verdict.accepted or verdict.step.startswith("payload"))
     return verdict.accepted
 
@@ -172,7 +172,7 @@ def test_changed_certificates_are_rejected(name: str) -> None:
     for what, change in changes.items():
         changed = json.loads(json.dumps(payload))
         change(changed)
-        verdict = verify(Certificate(Kind.INVERSE, changed))
+        verdict = verify(Certificate(Kind("inverse"), changed))
         assert not verdict.accepted, what
     assert len(changes) > 10
 

@@ -222,7 +222,7 @@ CHANGES = {
 def test_changed_certificates_are_rejected(payload: dict, what: str) -> None:
     changed = json.loads(json.dumps(payload))
     CHANGES[what](changed)
-    verdict = verify(Certificate(Kind.BRANCH, changed))
+    verdict = verify(Certificate(Kind("branch"), changed))
     assert not verdict.accepted and verdict.decided
     assert verdict.step.startswith("payload")
 
@@ -233,7 +233,7 @@ def test_another_branch_does_not_join(straight: JointPath) -> None:
     assert isinstance(one, dict) and isinstance(other, dict)
     half = [p for p in one["pieces"] if Fraction(p["high"]) <= Fraction(1, 2)]
     rest = [p for p in other["pieces"] if Fraction(p["low"]) >= Fraction(1, 2)]
-    verdict = verify(Certificate(Kind.BRANCH, {**one, "pieces": [*half, *rest]}))
+    verdict = verify(Certificate(Kind("branch"), {**one, "pieces": [*half, *rest]}))
     assert "piece before" in verdict.reason or "one before" in verdict.reason
 
 

@@ -44,7 +44,7 @@ def test_each_is_accepted_and_about_its_question(plain, plan):
     for name, question in derivations.questions(plan).items():
         if name in plan.derivations:
             certificate = members(plan)[derivations.label(name)]
-            assert certificate.kind is Kind.DERIVATION
+            assert certificate.kind == Kind.DERIVATION
             assert qe.verify(certificate, formula=question).accepted
     assert members(plain).items() <= members(plan).items()
     assert qe.verify(plan.certificate).accepted and plan.certificate.version == 2

@@ -113,11 +113,11 @@ def test_coq_accepts_what_is_right(tmp_path: Path) -> None:
 def test_coq_refuses_what_is_wrong(tmp_path: Path) -> None:
     for certificate in certificates():
         payload: Any = certificate.payload
-        if certificate.kind is Kind.WITNESS:
+        if certificate.kind == Kind.WITNESS:
             wrong = {**payload, "matrix": ["atom", payload["matrix"][1][1], ">"]}
-        elif certificate.kind is Kind.SUBSTITUTION:
+        elif certificate.kind == Kind.SUBSTITUTION:
             wrong = {**payload, "answer": True}
-        elif certificate.kind is Kind.OPTIMUM:
+        elif certificate.kind == Kind.OPTIMUM:
             wrong = {**payload, "problem": {**payload["problem"], "constraints": []}, "multipliers": []}
         else:
             continue

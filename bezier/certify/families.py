@@ -12,10 +12,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from itertools import combinations
 
-from qe.certify.arithmetic import square_roots as sr
-from qe.certify.arithmetic.nested_roots import Joint, Nested, Place, nested, turns
-from qe.certify.arithmetic.square_roots import ONE, Interval, Polynomial
-from qe.certify.arm_rows import Box, read_joint, read_number
+from bezier.certify import square_roots as sr
+from bezier.certify.arm_rows import Box, read_joint, read_number
+from bezier.certify.nested_roots import Joint, Nested, Place, nested, turns
+from bezier.certify.square_roots import ONE, Interval, Polynomial
 from qe.options import Budget
 from qe.proof.entry import Entry
 

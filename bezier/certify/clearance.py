@@ -13,9 +13,10 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from qe.certify.arithmetic.bernstein import MAX_DEGREE, Vector, constant, product, read_points, restricted
+from bezier.certify.bernstein import MAX_DEGREE, Vector, constant, product, read_points, restricted
 from qe.certify.arithmetic.numbers import read_field
 from qe.certify.arithmetic.residue import Residue, RootField, add, scale
+from qe.certify.kinds import BroughtKind
 from qe.errors import CertificateRejected
 from qe.options import Budget
 from qe.proof.entry import Entry, Json
@@ -120,3 +121,6 @@ def _check_cover(constraints: list[Constraint], spans: Entry, field: RootField, 
         reached = end
     if reached != until:
         raise spans.fail(f"the intervals do not reach {until}")
+
+
+KIND = BroughtKind(check_clearance, lambda _: "about a curve, see the entries of its payload")

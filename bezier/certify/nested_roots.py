@@ -13,9 +13,9 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
-from qe.certify.arithmetic import square_roots as sr
-from qe.certify.arithmetic.motions import Motion
-from qe.certify.arithmetic.square_roots import ONE, Interval, Polynomial, Surd
+from bezier.certify import square_roots as sr
+from bezier.certify.motions import Motion
+from bezier.certify.square_roots import ONE, Interval, Polynomial, Surd
 from qe.errors import Unable
 
 BITS = 400

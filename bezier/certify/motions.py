@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from qe.certify.arithmetic.square_roots import ONE, ZERO, Surd
+from bezier.certify.square_roots import ONE, ZERO, Surd
 
 Triple = tuple[Surd, ...]
 Motion = tuple[tuple[Triple, Triple, Triple], Triple]

@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from qe.certify.branch import check_branch
+from bezier.certify.branch import check_branch
 from qe.errors import CertificateRejected
 
 

@@ -18,11 +18,11 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from qe.certify.arithmetic import square_roots as sr
-from qe.certify.arithmetic.motions import Motion, Triple, back, dot, image
-from qe.certify.arithmetic.nested_roots import Joint, Nested, Place, angle, nested
-from qe.certify.arithmetic.square_roots import ONE, ZERO, Interval, Polynomial, Surd
-from qe.certify.families import Arcs, Position, not_negative
+from bezier.certify import square_roots as sr
+from bezier.certify.families import Arcs, Position, not_negative
+from bezier.certify.motions import Motion, Triple, back, dot, image
+from bezier.certify.nested_roots import Joint, Nested, Place, angle, nested
+from bezier.certify.square_roots import ONE, ZERO, Interval, Polynomial, Surd
 from qe.errors import Unable
 from qe.options import Budget
 from qe.proof.entry import Entry

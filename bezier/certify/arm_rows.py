@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 
-from qe.certify.arithmetic import square_roots as sr
-from qe.certify.arithmetic.motions import STILL, Motion, Triple, back, together, turn
-from qe.certify.arithmetic.square_roots import ZERO, Interval, Surd
+from bezier.certify import square_roots as sr
+from bezier.certify.motions import STILL, Motion, Triple, back, together, turn
+from bezier.certify.square_roots import ZERO, Interval, Surd
 from qe.errors import Unable
 from qe.proof.entry import Entry
 

@@ -1,15 +1,16 @@
 """Checker for certificates of kind "inverse": all joint positions of an arm at a point or at a pose.
 
-A point, three joints that turn or slide: ``qe.certify.three_joints``, an equation E in t, what the last joint is told
-by, and perhaps a square root. ``roots``: intervals of t; the checker counts the roots of E in each (one) and encloses
-the positions over it. Those over all listed roots have to be as many as there are in all, which Sturm's and Tarski's
-theorems count over Q with square roots. With a ``rotation`` it is a pose: six joints with a spherical wrist, listed in
-the same way, each position of the first three with those of the wrist; or three parallel axes, where square roots alone
-tell all positions, in ``solutions`` (``qe.certify.inverse_pose``). Every position that was found has to lie in one of
-the boxes, each of which holds one, and no two of which meet: so there are as many positions as boxes, one in each. An
-empty list proves that there is none. Families have no box for their free joints, and list which of these can be chosen
-and for exactly which values (``qe.certify.families``); ``count`` is null then. Where the third joint can be chosen
-alone, ``marks`` stands for ``roots``: intervals of t around the places where a sign may change.
+A point, three joints that turn or slide: ``bezier.certify.three_joints``, an equation E in t, what the last joint is
+told by, and perhaps a square root. ``roots``: intervals of t; the checker counts the roots of E in each (one) and
+encloses the positions over it. Those over all listed roots have to be as many as there are in all, which Sturm's and
+Tarski's theorems count over Q with square roots. With a ``rotation`` it is a pose: six joints with a spherical wrist,
+listed in the same way, each position of the first three with those of the wrist; or three parallel axes, where square
+roots alone tell all positions, in ``solutions`` (``bezier.certify.inverse_pose``). Every position that was found has
+to lie in one of the boxes, each of which holds one, and no two of which meet: so there are as many positions as
+boxes, one in each. An empty list proves that there is none. Families have no box for their free joints, and list
+which of these can be chosen and for exactly which values (``bezier.certify.families``); ``count`` is null then. Where
+the third joint can be chosen alone, ``marks`` stands for ``roots``: intervals of t around the places where a sign may
+change.
 """
 
 from __future__ import annotations
@@ -17,12 +18,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import combinations
 
-from qe.certify.arithmetic.motions import Motion, Triple, back, image, is_motion
-from qe.certify.arithmetic.square_roots import ZERO
-from qe.certify.arm_rows import Chain, read_chain, read_circle, read_number, read_triple
-from qe.certify.families import Listed, Position, read_listed
-from qe.certify.inverse_pose import centre, parallel_axes, wrist
-from qe.certify.three_joints import Positions, is_still
+from bezier.certify.arm_rows import Chain, read_chain, read_circle, read_number, read_triple
+from bezier.certify.families import Listed, Position, read_listed
+from bezier.certify.inverse_pose import centre, parallel_axes, wrist
+from bezier.certify.motions import Motion, Triple, back, image, is_motion
+from bezier.certify.square_roots import ZERO
+from bezier.certify.three_joints import Positions, is_still
+from qe.certify.kinds import BroughtKind
 from qe.errors import Unable
 from qe.options import Budget
 from qe.proof.entry import Entry, Json
@@ -116,3 +118,14 @@ def _matched(found: Sequence[Position], chain: Chain, solutions: Entry) -> list[
             raise solutions.fail("a solution is not proved to lie in a box of its own")
         left.remove(held)
     return listed
+
+
+def _claim(payload: Entry) -> str:
+    rest = ("rotation", "turn", "roots", "marks", "solutions")
+    count, rotation, *_ = payload.fields("arm", "point", "count", optional=rest)[2:]
+    number = "families of" if count.value is None else f"exactly {count.integer()}"
+    place = "point" if rotation.value is None else "pose"
+    return f"an arm has {number} joint positions at a {place}, see the entries of its payload"
+
+
+KIND = BroughtKind(check_inverse, _claim)

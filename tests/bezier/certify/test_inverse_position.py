@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from qe.certify.inverse_position import check_inverse
+from bezier.certify.inverse_position import check_inverse
 from qe.errors import BudgetExceeded, CertificateRejected
 from qe.options import Budget
 from tests.certificates.test_inverse_position import POINT, made

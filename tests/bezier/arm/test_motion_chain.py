@@ -7,7 +7,7 @@ from math import cos, pi, sin
 
 import pytest
 
-from qe.exact.motion_chain import MotionChain
+from bezier.arm.motion_chain import MotionChain
 
 F = Fraction
 STILL = ((1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0))

@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from qe.certify.containment import check_containment
+from bezier.certify.containment import check_containment
 from qe.errors import CertificateRejected
 
 RATIONAL = {"minimal_polynomial": ["0", "1"], "interval": ["0", "0"]}

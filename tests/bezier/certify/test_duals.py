@@ -8,8 +8,8 @@ from fractions import Fraction
 import pytest
 from flint import arb
 
-from qe.certify.arithmetic import duals
-from qe.certify.arithmetic.duals import Dual
+from bezier.certify import duals
+from bezier.certify.duals import Dual
 
 
 def floats(d: Dual) -> tuple[float, ...]:

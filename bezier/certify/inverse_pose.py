@@ -16,12 +16,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from qe.certify.arithmetic.motions import Motion, Triple, back, dot, image, together
-from qe.certify.arithmetic.nested_roots import Joint, Nested, Vector, angle, basis, nested, turns
-from qe.certify.arithmetic.nested_roots import dot as inner
-from qe.certify.arithmetic.square_roots import ONE, ZERO, Surd
-from qe.certify.arm_rows import Chain
-from qe.certify.families import Arcs, Position, bounded
+from bezier.certify.arm_rows import Chain
+from bezier.certify.families import Arcs, Position, bounded
+from bezier.certify.motions import Motion, Triple, back, dot, image, together
+from bezier.certify.nested_roots import Joint, Nested, Vector, angle, basis, nested, turns
+from bezier.certify.nested_roots import dot as inner
+from bezier.certify.square_roots import ONE, ZERO, Surd
 from qe.errors import Unable
 from qe.options import Budget
 from qe.proof.entry import Entry

@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from qe.certify.clearance import check_clearance
+from bezier.certify.clearance import check_clearance
 from qe.errors import CertificateRejected
 
 RATIONAL = {"minimal_polynomial": ["0", "1"], "interval": ["0", "0"]}

@@ -11,9 +11,10 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from qe.certify.arithmetic.bernstein import Vector, product, read_points, restricted, total
+from bezier.certify.bernstein import Vector, product, read_points, restricted, total
 from qe.certify.arithmetic.numbers import read_field, read_number
 from qe.certify.arithmetic.residue import Residue, RootField, add, of_rationals, scale
+from qe.certify.kinds import BroughtKind
 from qe.errors import CertificateRejected
 from qe.options import Budget
 from qe.proof.entry import Entry, Json
@@ -56,3 +57,6 @@ def _margin(condition: Entry, points: list[Vector], field: RootField) -> list[Re
     r = read_number(radius, field)
     squares = [product(x, x, field) for x in zip(*moved, strict=True)]
     return [add(r, scale(total(row), Fraction(-1))) for row in zip(*squares, strict=True)]
+
+
+KIND = BroughtKind(check_containment, lambda _: "about a curve, see the entries of its payload")

@@ -17,8 +17,9 @@ from itertools import pairwise
 from math import comb
 from typing import Any
 
-from qe.certify.arithmetic import duals
-from qe.certify.arithmetic.duals import Dual, Vector
+from bezier.certify import duals
+from bezier.certify.duals import Dual, Vector
+from qe.certify.kinds import BroughtKind
 from qe.exact.balls import precision
 from qe.options import Budget
 from qe.proof.entry import Entry, Json
@@ -196,3 +197,6 @@ def _check_link(
         for inner, outer in ((first, other.radius), (second, one.radius))
     ):
         raise other.entry.fail("its solution is not proved to be that of the piece before at their common parameter")
+
+
+KIND = BroughtKind(check_branch, lambda _: "about an arm that follows curves, see the entries of its payload")
