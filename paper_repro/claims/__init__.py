@@ -3,6 +3,7 @@
 from paper_repro.claim import Claim
 from paper_repro.claims import (
     arm,
+    arm_points,
     conclusions,
     cubic,
     cubic_existence,
@@ -33,4 +34,5 @@ CLAIMS: tuple[Claim, ...] = (
     *quadratic_gaps.CLAIMS,
     *conclusions.CLAIMS,
     *arm.CLAIMS,
+    *arm_points.CLAIMS,
 )

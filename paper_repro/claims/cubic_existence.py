@@ -1,4 +1,4 @@
-"""Section 4.2: whether (7) has a solution, as printed and with Definition 1, which forbids coincident control points."""
+"""Section 4.2: whether (7) has a solution, as printed and with Definition 1: no two control points coincide."""
 
 from __future__ import annotations
 
@@ -6,12 +6,11 @@ import itertools
 from collections.abc import Iterator
 from fractions import Fraction
 
-import qe
 from paper_repro.ask import decided, optimised
 from paper_repro.claim import Evidence, Fact, Picture, Verdict, claim
 from paper_repro.claims.cubic import ENDS, LETTERS, PLANE, chosen, curves
 from paper_repro.figures.curves import path as drawn_path
-from paper_repro.written import SEVEN, Points, in_coordinate, inside
+from paper_repro.written import SEVEN, Points, inside
 
 ROWS = (("p0", "p1", "p2", "q0"), ("q0", "q1", "q2", "r0"), ("r0", "r1", "r2", "r3"))
 """The control points of the three curves: P_3 = Q_0 and Q_3 = R_0."""
