@@ -15,10 +15,11 @@ LIMIT = 60.0
 _POINT = re.compile(r"\\mathrm\{([pqr])([0-9])([xyz])\}")
 
 
-def eliminated(text: str, question: Any, expected: str) -> Asked:
-    """Eliminate the quantifiers of ``question``; the answer must be equivalent to ``expected``."""
+def eliminated(text: str, question: Any, expected: str, method: str = "auto") -> Asked:
+    """Eliminate the quantifiers of ``question``, by this method alone if one is named; the answer must be equivalent to
+    ``expected``."""
     start = time.perf_counter()
-    answer = qe.eliminate(question, timeout=LIMIT)
+    answer = qe.eliminate(question, timeout=LIMIT, method=method)
     seconds = time.perf_counter() - start
     as_expected = answer.formula is not None and qe.equivalent(answer.formula, expected, timeout=LIMIT)
     shown = tex(answer) if answer.formula is not None else rf"\text{{{answer.reason}}}"

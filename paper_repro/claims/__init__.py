@@ -4,6 +4,7 @@ from paper_repro.claim import Claim
 from paper_repro.claims import (
     arm,
     arm_points,
+    cited,
     conclusions,
     cubic,
     cubic_existence,
@@ -21,6 +22,7 @@ from paper_repro.claims import (
 
 CLAIMS: tuple[Claim, ...] = (
     *introduction.CLAIMS,
+    *cited.CLAIMS,
     *workspace.CLAIMS,
     *curves.CLAIMS,
     *heights.CLAIMS,
