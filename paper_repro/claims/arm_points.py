@@ -153,8 +153,8 @@ def _real(conditions: Iterable[Any]) -> int:
     "point (means of 1000 points).",
     verdict=Verdict.REPRODUCED,
     finding="Both ways give the same basis at every point, and putting the point into the system is the cheaper one, "
-    "here too. The gain is small (1.3 published), and the system has to be paid first: at 62.3 s [10] after some 370 "
-    "points, here after some hundred.",
+    "here too. The gain is small (a factor of 1.3 published), and the system has to be paid first: 62.3 s in [10], as "
+    "much as the gain at 370 points; here as much as at a few hundred.",
 )
 def two_methods() -> Iterator[Evidence]:
     """At four points of [9] and [10] the basis is taken from the system and computed anew; the reduced bases are

@@ -20,6 +20,7 @@ from bezier.curves.curve import Smoothness, join
 from bezier.motion.timelaw import Law, TimeLaw
 from paper_repro.ask import eliminated
 from paper_repro.claim import Evidence, Fact, Table, Verdict, claim
+from qe.exact.ring import format_poly
 
 FAMILY = ("a*x - b", "b*y - a", "c*x^2 - y", "c*y^2 - x")
 """A system with parameters a, b, c of the literature on comprehensive Gröbner systems (Kapur, Sun, Wang 2010)."""
@@ -46,10 +47,11 @@ def comprehensive() -> Iterator[Evidence]:
     At the 64 points with coordinates $-1, 0, 1, 2$ the basis of the system is compared with the one computed there;
     each point lies in one segment only."""
     found = qe.comprehensive_groebner(FAMILY, ["x", "y"], faithful=True)
-    yield Table(("segment", "basis"), [(str(found.condition(s)), ", ".join(map(str, s.basis))) for s in found.segments])
+    rows = [(str(found.condition(s)), ", ".join(map(format_poly, s.basis))) for s in found.segments]
+    yield Table(("segment", "basis"), rows)
     names = sympy.symbols("x y a b c")
     basis = sympy.groebner([sympy.sympify(p.replace("^", "**")) for p in FAMILY], *names).exprs
-    elements = [sympy.sympify(str(p).replace("^", "**")) for s in found.segments for p in s.faithful or ()]
+    elements = [sympy.sympify(format_poly(p).replace("^", "**")) for s in found.segments for p in s.faithful or ()]
     inside = bool(elements) and all(sympy.reduced(p, basis, *names, order="lex")[1] == 0 for p in elements)
     yield Fact(f"the {len(elements)} faithful elements lie in the ideal (SymPy)", inside)
     points = list(itertools.product(range(-1, 3), repeat=3))
