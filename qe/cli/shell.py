@@ -22,7 +22,7 @@ from typing import Any, TextIO, TypeVar
 import typer
 from typer.main import get_command
 
-from qe.cli.values import take_plain_values
+from qe.cli.values import take_leading_minus, take_plain_values
 from qe.errors import CertificateRejected, InputError, QEError, Unable
 from qe.extras import lacking
 from qe.processes.worker import GRACE, Channel, WorkerDied, WorkerStopped, run
@@ -55,6 +55,7 @@ def enter(app: typer.Typer, argv: Sequence[str] | None, *, name: str) -> int:
     _open_streams()
     command: Any = get_command(app)
     take_plain_values(command)
+    take_leading_minus(command)
     words = sys.argv[1:] if argv is None else argv
 
     def told(status: str, message: str, code: int) -> int:
@@ -64,6 +65,8 @@ def enter(app: typer.Typer, argv: Sequence[str] | None, *, name: str) -> int:
             return _unheard(name, lost)
         return fail(name, _PREFIX.get(status, "") + message, code)
 
+    if misspelt := _misspelt(command, words):
+        return told("input_error", f"{misspelt} (see {name} --help)", BAD_INPUT)
     before = _raising_at_termination()
     try:
         code = command.main(args=None if argv is None else list(argv), prog_name=name, standalone_mode=False)
@@ -73,12 +76,9 @@ def enter(app: typer.Typer, argv: Sequence[str] | None, *, name: str) -> int:
         return int(code or OK)
     except typer.TyperException as error:
         message = error.format_message().replace("Value error, ", "").rstrip(".")
-        message = _misspelt(command, words) or message
         return told("input_error", f"{message} (see {name} --help)", BAD_INPUT)
     except QEError as error:
-        unknown = str(error).startswith("no such option")
-        misspelt = _misspelt(command, words) if unknown else ""
-        return told(*(("input_error", misspelt, BAD_INPUT) if misspelt else _failure(error)))
+        return told(*_failure(error))
     except (KeyboardInterrupt, typer.Abort):
         return told("interrupted", "interrupted", INTERRUPTED)
     except _Terminated:
@@ -148,16 +148,23 @@ def _put(data: dict[str, object]) -> OSError | None:
 
 def _misspelt(command: Any, words: Sequence[str]) -> str:
     """The first word that looks like an option and is none, with the nearest one that there is; "" without one."""
-    from difflib import get_close_matches
+    from itertools import takewhile
 
-    commands = [command, *getattr(command, "commands", {}).values()]
-    known = {option for one in commands for parameter in one.params for option in parameter.opts} | {"--help"}
-    for word in words:
+    known = {"--help", *_options(command)}
+    for word in takewhile(lambda word: word != "--", words):
         option = word.split("=")[0]
-        if option.startswith("--") and len(option) > 2 and option not in known and " " not in option:
+        if option.startswith("--") and option not in known and " " not in option:
+            from difflib import get_close_matches
+
             near = get_close_matches(option, sorted(known), 1)
             return f"no such option: {option}" + (f"; did you mean {near[0]}?" if near else "")
     return ""
+
+
+def _options(command: Any) -> set[str]:
+    """The options of a command and of those inside it."""
+    inner = (_options(one) for one in getattr(command, "commands", {}).values())
+    return {name for one in command.params for name in (*one.opts, *one.secondary_opts)}.union(*inner)
 
 
 def _open_streams() -> None:

@@ -134,8 +134,29 @@ def test_minimize() -> None:
     assert "4" in run("minimize", "(x - 3)^2 + y^2", "x^2 + y^2 <= 1").stdout
 
 
-def test_minimize_infeasible() -> None:
-    refused(run("minimize", "x", "x^2 <= 1 and x >= 2"), 3, "infeasible")
+@pytest.mark.parametrize(
+    ("words", "status", "said"),
+    [
+        (["x", "x^2 <= 1 and x >= 2"], "infeasible", "no point meets the constraints"),
+        (["x^3", "x^3 > 1 and x < 0"], "infeasible", "no point meets the constraints"),
+        (["a*x", "x > 1 and x^2 < 1", "--parameters", "a"], "infeasible", "no point meets the constraints"),
+        (["x"], "unbounded", "there is no least value\nwithout an end from x = 0 along x = -1"),
+        (["-x^2"], "unbounded", "there is no least value"),
+        (["x", "x > 0", "--maximize"], "unbounded", "there is no greatest value"),
+    ],
+)
+def test_that_there_is_no_optimum_is_an_answer(words: list[str], status: str, said: str) -> None:
+    """``qe minimize x`` ended with "unable: unbounded", as if nothing had been proved."""
+    plain, data = run("minimize", *words), run("minimize", *words, "--json")
+    assert (plain.returncode, plain.stderr) == (0, "") and said in plain.stdout
+    assert (data.returncode, json.loads(data.stdout)["status"]) == (0, status)
+    assert json.loads(data.stdout).get("value") is None
+
+
+def test_what_is_proved_about_an_optimum_that_is_none_has_a_certificate(tmp_path: Path) -> None:
+    for words in (["x"], ["x^3"], ["x", "x > 1 and x < 0"]):
+        assert run("minimize", *words, "--certificate", "c.json", cwd=tmp_path).returncode == 0
+        assert run("check", "c.json", cwd=tmp_path).stdout.startswith("accepted")
 
 
 BAD_FORMULAS = [
