@@ -14,7 +14,9 @@ import sys
 import tempfile
 import threading
 import time
+import warnings
 from collections.abc import Callable, Sequence
+from functools import partial
 from pathlib import Path
 from types import FrameType, TracebackType
 from typing import Any, TextIO, TypeVar
@@ -23,9 +25,9 @@ import typer
 from typer.main import get_command
 
 from qe.cli.values import take_leading_minus, take_plain_values
-from qe.errors import CertificateRejected, InputError, QEError, Unable
+from qe.errors import CertificateRejected, DoubtfulInput, InputError, QEError, Unable
 from qe.extras import lacking
-from qe.processes.worker import GRACE, Channel, WorkerDied, WorkerStopped, run
+from qe.processes.worker import GRACE, Channel, Known, WorkerDied, WorkerStopped, run
 from qe.progress import Event
 
 T = TypeVar("T")
@@ -41,6 +43,8 @@ _PREFIX = {
 
 DISPLAY_AFTER = 0.4
 """Seconds before a progress display appears: quick answers stay quiet."""
+NOTE = "note"
+"""The fact under which a worker tells what may have been meant otherwise."""
 LINES_APART = 2.0
 """Seconds between two lines of progress where there is no terminal."""
 
@@ -67,6 +71,7 @@ def enter(app: typer.Typer, argv: Sequence[str] | None, *, name: str) -> int:
 
     if misspelt := _misspelt(command, words):
         return told("input_error", f"{misspelt} (see {name} --help)", BAD_INPUT)
+    _note_doubts(name, wanted="--plain" not in words)
     before = _raising_at_termination()
     try:
         code = command.main(args=None if argv is None else list(argv), prog_name=name, standalone_mode=False)
@@ -144,6 +149,20 @@ def _put(data: dict[str, object]) -> OSError | None:
     except OSError as error:
         return error
     return None
+
+
+def _note_doubts(name: str, *, wanted: bool) -> None:
+    """Have what may have been meant otherwise noted on stderr, each time in a line of its own."""
+    shown = warnings.showwarning
+
+    def note(message: Warning | str, category: type[Warning], *place: Any, **more: Any) -> None:
+        if issubclass(category, DoubtfulInput):
+            fail(name, f"note: {message}", OK)
+        else:
+            shown(message, category, *place, **more)
+
+    warnings.showwarning = note
+    warnings.simplefilter("always" if wanted else "ignore", DoubtfulInput)
 
 
 def _misspelt(command: Any, words: Sequence[str]) -> str:
@@ -277,9 +296,27 @@ def limited(
 
     The time limit is the user's, for the whole command: what start-up has taken of it is gone.
     """
-    grace = 0.0 if timeout is None else remaining(timeout) - timeout + GRACE
+    grace, known = 0.0 if timeout is None else remaining(timeout) - timeout + GRACE, Known()
     with Display(wanted=not plain, lines=lines) as display:
-        return run(work, timeout=timeout, memory=memory, progress=display, grace=grace)
+        work = partial(_with_doubts, work)
+        done = run(work, timeout=timeout, memory=memory, progress=display, known=known, grace=grace)
+    if NOTE in known.facts:
+        warnings.warn(str(known.facts[NOTE]), DoubtfulInput, stacklevel=2)
+    return done
+
+
+def _with_doubts(work: Callable[[Channel], T], channel: Channel) -> T:
+    """The work, with the channel told of the doubts that it warns of: a worker has no stderr."""
+    doubts: list[str] = []
+
+    def tell(message: Warning | str, category: type[Warning], *place: Any, **more: Any) -> None:
+        if issubclass(category, DoubtfulInput):
+            doubts.append(str(message))
+            channel.fact(NOTE, "; ".join(doubts))
+
+    with warnings.catch_warnings():
+        warnings.showwarning = tell
+        return work(channel)
 
 
 def remaining(timeout: float) -> float:

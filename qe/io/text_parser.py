@@ -96,12 +96,20 @@ def text_parser(start: str = "start") -> Parser:
 
 def _tokens(text: str, token: Make) -> Iterator[Token]:
     """The tokens of a text, which may be LaTeX."""
+    if is_latex(text):
+        from qe.io import latex_lexer
+
+        return latex_lexer.tokens(text, token)
+    return tokens(text, token)
+
+
+def is_latex(text: str) -> bool:
+    """Whether a text is read as LaTeX."""
     if "\\" in text or "{" in text or "$" in text:
         from qe.io import latex_lexer
 
-        if latex_lexer.is_latex(text):
-            return latex_lexer.tokens(text, token)
-    return tokens(text, token)
+        return latex_lexer.is_latex(text)
+    return False
 
 
 @cache

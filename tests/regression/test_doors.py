@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import warnings
 from decimal import Decimal
 from fractions import Fraction
 
@@ -36,7 +37,7 @@ def test_bars_are_not_read_as_a_name(given: str, meant: str) -> None:
     assert qe.equivalent(given, meant)
 
 
-@pytest.mark.parametrize("given", ["x > pi", "ex x. x^2 = e", "x < 2*π", "(all e. e > 0) or e = 1"])
+@pytest.mark.parametrize("given", ["x > pi", "ex x. x^2 = Pi", "x < 2*π", "(all π. π > 0) or π = 1", r"x \leq e"])
 def test_constants_of_mathematics_are_not_taken_for_variables(given: str) -> None:
     with pytest.raises(qe.ParseError, match="no number here"):
         qe.eliminate(given)
@@ -44,10 +45,74 @@ def test_constants_of_mathematics_are_not_taken_for_variables(given: str) -> Non
 
 def test_constants_may_be_names_where_that_is_meant() -> None:
     assert formats.read("`pi` > `e` and `e` = i").free == ("pi", "e", "i")
+    with pytest.raises(qe.InputError):
+        qe.eliminate(sp.Eq(x, sp.E))
     assert qe.decide("all e. e > 0 -> ex d. d > 0 and d < e")
     answer = qe.eliminate(formats.read("(declare-const e Real)(assert (> (* e e) 2))", "smtlib"))
     assert qe.equivalent(str(answer), answer.formula)
     assert text.read("x > pi", known=("pi",)).free == ("x", "pi")
+
+
+LETTERS = ("e", "i", "E", "I")
+
+
+@pytest.mark.parametrize("name", LETTERS)
+def test_letters_are_variables_and_noted_where_their_neighbours_are_none(name: str) -> None:
+    """``a*x^4 + b*x^3 + c*x^2 + d*x + e = 0`` was refused: "e is no number here"."""
+    neighbours = chr(ord(name) - 1), chr(ord(name) + 1)
+    with pytest.warns(qe.DoubtfulInput, match=f"^{name} is a variable here, no number$") as noted:
+        assert qe.equivalent(qe.eliminate(f"ex x. x > 0 and {name}*x = 1"), f"{name} > 0")
+    assert noted[0].filename == __file__
+    for quiet in (f"ex {name}. {name}*x = 1", f"`{name}`*x = 1", *(f"{name}*x = {other}" for other in neighbours)):
+        assert not noted_in(quiet), quiet
+    with pytest.warns(qe.DoubtfulInput, match=f"{name} is a variable"):
+        qe.minimize(f"({name} - 1)^2", "x >= 0")
+
+
+def noted_in(given: object, format: str = "text") -> list[str]:
+    """What is noted when this is read."""
+    with warnings.catch_warnings(record=True) as noted:
+        warnings.simplefilter("always")
+        qe.eliminate(given, format=format)
+    return [str(one.message) for one in noted if one.category is qe.DoubtfulInput]
+
+
+@pytest.mark.parametrize(
+    ("given", "format", "note"),
+    [
+        ("ex x. ax^2 + bx + c = 0", "text", "x does not occur; did you mean a*x^2?"),
+        ("all x. 2*ax² > b", "text", "x does not occur; did you mean a*x²?"),
+        ("ex x. x > 0 and ax = 1", "text", "ax is one name; a product is written a*x"),
+        ("ex x, y. a*x = 1", "text", "y does not occur"),
+        ("all a. (ex x. a > 0)", "text", "x does not occur"),
+        (["a > 0", "ex x. ax < 1"], "text", "x does not occur; did you mean a*x?"),
+        (r"\exists x\colon a > 0", "latex", "x does not occur"),
+        ("(E x)[a > 0]", "qepcad", "x does not occur"),
+        ("ex({x}, a > 0)", "redlog", "x does not occur"),
+        ("(declare-const a Real)(assert (exists ((x Real)) (> a 0)))", "smtlib", "x does not occur"),
+        (qe.Exists(x, sp.Gt(b, 0)), "text", "x does not occur"),
+        (qe.exists("x", qe.variables("b") > 0), "text", "x does not occur"),
+    ],
+)
+def test_a_quantified_variable_that_does_not_occur_is_noted(given: object, format: str, note: str) -> None:
+    """``ex x. ax^2 + bx + c = 0`` was answered by itself, without a word."""
+    assert noted_in(given, format) == [note]
+
+
+@pytest.mark.parametrize(
+    "given",
+    [
+        "ex x. a*x^2 + b*x + c = 0",
+        "ex x. x - x + a = 0",
+        "ex x in Reals. a*x > 0 and amax > 1",
+        "ex x. x^2 = x1 and xmax > tax",
+        "ex x, ax. x^2 = ax",
+        r"\exists x\colon ax^2 + bx + c = 0",
+        "all x. (ex x. x > a) -> x < b",
+    ],
+)
+def test_nothing_is_noted_where_all_occur(given: str) -> None:
+    assert noted_in(given) == []
 
 
 def test_a_comma_in_an_order_is_no_variable() -> None:
