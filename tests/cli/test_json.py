@@ -68,7 +68,7 @@ GOOD = {
     "eliminate": [["ex x. x^2 = 2"], ["x > 0", "--output", "smtlib"]],
     "decide": [["all x. x > 0"], ["(assert false)", "--format", "smtlib"]],
     "solve": [["x*y = 1", "--variables", "y"]],
-    "minimize": [["x"], ["x^2 - x"], ["x", "x > 0"], ["x^3 - x", "0 < x < 1"], ["x^2 - a*x", "--parameters", "a"], ["x^3"]],
+    "minimize": [["x"], ["x^3"], ["x", "x > 0"], ["x^3 - x", "0 < x < 1"], ["x^2 - a*x", "--parameters", "a"]],
 }
 
 

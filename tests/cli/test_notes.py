@@ -27,7 +27,8 @@ def test_one_note_in_every_command(words: list[str]) -> None:
 
 def test_all_notes_of_a_command_stand_in_one_line() -> None:
     done = command.run("qe", "minimize", "(e - 1)^2 + I^2", "ex x. a*e > 0")
-    assert done.stderr == "qe: note: x does not occur; e is a variable here, no number; I is a variable here, no number\n"
+    line = "qe: note: x does not occur; e is a variable here, no number; I is a variable here, no number\n"
+    assert done.stderr == line
     assert command.run("qe", "decide", "all a. (ex x. a^2 >= 0)").stderr == "qe: note: x does not occur\n"
 
 
