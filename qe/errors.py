@@ -42,7 +42,7 @@ class ParseError(InputError):
 
 
 class DoubtfulInput(UserWarning):
-    """A formula can be read, but it may not say what was meant: see ``qe.io.doubts``. Nothing but a warning."""
+    """A formula can be read, but it may not say what was meant: see ``qe.formula.doubts``. Nothing but a warning."""
 
 
 class NoTruthValue(InputError, TypeError):

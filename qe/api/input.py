@@ -57,13 +57,13 @@ def note_doubts(given: AnyFormula, formula: Formula, format: str = "text") -> No
 
     A ``Formula`` or an answer was made or read before.
     """
+    from qe.formula.doubts import doubts
     from qe.io import formats
-    from qe.io.doubts import doubts
 
     if isinstance(given, Formula | Answer):
         return
     text = "\n".join(part for part in (given if isinstance(given, list | tuple) else [given]) if isinstance(part, str))
-    warned(doubts(formula, text, formats.checked(format) if text else None))
+    warned(doubts(formula, text, formats.checked(format).value if text else ""))
 
 
 def warned(notes: Iterable[str]) -> None:

@@ -153,8 +153,8 @@ def _best(
 ) -> Optimum | GlobalOptimum | ParametricOptimum:
     """The optimum of a convex problem by its method, of any other by elimination."""
     from qe.convex.optimum import NotConvex, maximize, minimize
+    from qe.formula.doubts import numbers_as_names
     from qe.formula.traverse import ring_of
-    from qe.io.doubts import numbers_as_names
     from qe.optimization.values import Goal
 
     limits = limits.begun(time.monotonic())

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import re
 import warnings
 from decimal import Decimal
 from fractions import Fraction
@@ -325,3 +326,28 @@ def test_letters_side_by_side_are_told_to_be_one_name() -> None:
         qe.decide("all a, b, c > 0. abc = 1 -> a + b + c >= 3")
     with pytest.raises(qe.InputError, match=r"free: area$"):
         qe.decide("all a, r. area = a*r")
+
+
+# --- points and their names ---------------------------------------------------------------------------------
+def test_a_point_with_an_unknown_name_is_refused() -> None:
+    """``{"x": 1, "y": 0, "z": 3}`` was in the disc: z was left out without a word."""
+    disc = qe.region("x^2 + y^2 <= 4")
+    for ask in (disc.contains, disc.distance):
+        with pytest.raises(qe.InputError, match="values for x, y expected, z found"):
+            ask({"x": 1, "y": 0, "z": 3})
+        ask({"x": 1, "y": 0})
+
+
+@pytest.mark.parametrize("given", ["z > 1 and x = 2 and y < x", "x in [a, b] and b > a", "1/z > y and sqrt(x) < y"])
+def test_an_instance_has_the_names_in_the_order_of_the_question(given: str) -> None:
+    """The ends of an interval came before the variable that lies in it."""
+    found = qe.find_instance(given)
+    assert found is not None and [*found] == [*dict.fromkeys(re.findall(r"\b[abxyz]\b", given))]
+    assert all([*point] == [*found] for point in qe.find_instances(given, 2))
+
+
+@pytest.mark.parametrize("given", ["∀t>0 a*t^2 > -1", "∀t>0a*t^2 > -1", "exists t >= 1/2 2*t = a", "all t>0 not a>t"])
+def test_a_missing_dot_is_named(given: str) -> None:
+    """ "An operator is missing; a product is written 0*a" was the hint."""
+    with pytest.raises(qe.ParseError, match="the condition of a quantifier ends with a dot"):
+        qe.eliminate(given)

@@ -8,20 +8,19 @@ from collections.abc import Iterable, Iterator
 
 from qe.formula.syntax import Exists, ForAll, Formula
 from qe.formula.traverse import children
-from qe.io.formats import Format
 from qe.spelling import NUMERALS, WORD, joined_names
 
 _NUMBERS = ("e", "i", "E", "I")
 """Letters that are numbers to many readers, and variables here."""
 _WORD = re.compile(WORD)
 _EXPONENT = rf"(?![^\W{NUMERALS}])\s*((?:\^|\*\*)\s*\d+|[²³⁴-⁹]+)?"
-_WRITTEN_OUT = (Format.TEXT, Format.LATEX, Format.SMTLIB, Format.REDLOG)
+_WRITTEN_OUT = ("text", "latex", "smtlib", "redlog")
 """Formats in which a variable stands at its quantifier and where it is used, and nowhere else."""
 
 
-def doubts(formula: Formula, text: str = "", format: Format | None = None) -> tuple[str, ...]:
+def doubts(formula: Formula, text: str = "", format: str = "") -> tuple[str, ...]:
     """The notes on a formula, each a line; ``text`` and its ``format`` where it was read from one."""
-    typed = text if format is Format.TEXT and "\\" not in text else ""  # in LaTeX letters side by side are a product
+    typed = text if format == "text" and "\\" not in text else ""  # in LaTeX letters side by side are a product
     words = _WORD.findall(text) if format in _WRITTEN_OUT else []
     names = formula.ring.names if formula.ring is not None else ()
     blocks = list(_blocks(formula))
