@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 
 from tests.cli import command
+from tests.waiting import ending
 
 QE = str(Path(sys.executable).parent / "qe")
 HARD = "ex a, b, c. all x, y. a*x^4*y + b*x*y^3 + c*x^2*y^2 + d*x + g*y + f > a^2*x^3 + b^2*y^5"
@@ -240,17 +241,13 @@ def test_the_memory_limit_holds() -> None:
 
 
 def test_no_worker_stays_behind() -> None:
-    process = subprocess.Popen(
-        [QE, "eliminate", HARD, "--timeout", "30"], stdout=subprocess.PIPE, stderr=subprocess.PIPE
-    )
-    children = Path(f"/proc/{process.pid}/task/{process.pid}/children")
-    deadline = time.monotonic() + 20
-    while not (workers := children.read_text().split()) and time.monotonic() < deadline:
-        time.sleep(0.02)
-    assert workers
-    time.sleep(0.3)  # until the worker has tied its life to its parent's
-    process.kill()
-    process.communicate()
+    with ending(subprocess.Popen([QE, "eliminate", HARD, "--timeout", "30"], stderr=subprocess.DEVNULL)) as process:
+        children = Path(f"/proc/{process.pid}/task/{process.pid}/children")
+        deadline = time.monotonic() + 20
+        while not (workers := children.read_text().split()) and time.monotonic() < deadline:
+            time.sleep(0.02)
+        assert workers
+        time.sleep(0.3)  # until the worker has tied its life to its parent's
     deadline = time.monotonic() + 10
     while os.path.exists(f"/proc/{workers[0]}") and time.monotonic() < deadline:
         time.sleep(0.02)
