@@ -82,6 +82,7 @@ def minimize(
     "convex" or "elimination" takes that way only.
     ``parameters``: variables that are not optimised over; the answer is a ``ParametricOptimum``: value and points as
     functions of them.
+    That there is no optimum is an answer too: ``status`` says ``UNBOUNDED`` or ``INFEASIBLE``, and ``value`` is None.
     With ``check`` its certificate is verified: ``guarantee`` is ``CHECKED``, or ``reason`` says why not; an elimination
     comes with its derivation (``answer``).
     Raises ``Unable`` where no proof was found, ``BudgetExceeded`` at a limit; see ``eliminate`` for the limits.

@@ -15,7 +15,8 @@ import tempfile
 import threading
 import time
 import warnings
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
 from types import FrameType, TracebackType
@@ -71,10 +72,10 @@ def enter(app: typer.Typer, argv: Sequence[str] | None, *, name: str) -> int:
 
     if misspelt := _misspelt(command, words):
         return told("input_error", f"{misspelt} (see {name} --help)", BAD_INPUT)
-    _note_doubts(name, wanted="--plain" not in words)
     before = _raising_at_termination()
     try:
-        code = command.main(args=None if argv is None else list(argv), prog_name=name, standalone_mode=False)
+        with _doubts_noted(name, wanted="--plain" not in words):
+            code = command.main(args=None if argv is None else list(argv), prog_name=name, standalone_mode=False)
         sys.stdout.flush()
         if code == INTERRUPTED:  # typer has taken the interrupt for itself
             raise KeyboardInterrupt
@@ -151,8 +152,9 @@ def _put(data: dict[str, object]) -> OSError | None:
     return None
 
 
-def _note_doubts(name: str, *, wanted: bool) -> None:
-    """Have what may have been meant otherwise noted on stderr, each time in a line of its own."""
+@contextmanager
+def _doubts_noted(name: str, *, wanted: bool) -> Iterator[None]:
+    """Within, what may have been meant otherwise is noted on stderr, each time in a line of its own."""
     shown = warnings.showwarning
 
     def note(message: Warning | str, category: type[Warning], *place: Any, **more: Any) -> None:
@@ -161,8 +163,10 @@ def _note_doubts(name: str, *, wanted: bool) -> None:
         else:
             shown(message, category, *place, **more)
 
-    warnings.showwarning = note
-    warnings.simplefilter("always" if wanted else "ignore", DoubtfulInput)
+    with warnings.catch_warnings():
+        warnings.showwarning = note
+        warnings.simplefilter("always" if wanted else "ignore", DoubtfulInput)
+        yield
 
 
 def _misspelt(command: Any, words: Sequence[str]) -> str:
