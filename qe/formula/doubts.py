@@ -21,16 +21,17 @@ _WRITTEN_OUT = ("text", "latex", "smtlib", "redlog")
 def doubts(formula: Formula, text: str = "", format: str = "") -> tuple[str, ...]:
     """The notes on a formula, each a line; ``text`` and its ``format`` where it was read from one."""
     typed = text if format == "text" and "\\" not in text else ""  # in LaTeX letters side by side are a product
-    words = _WORD.findall(text) if format in _WRITTEN_OUT else []
     names = formula.ring.names if formula.ring is not None else ()
     blocks = list(_blocks(formula))
-    count = Counter(name for block in blocks for name in block.variables)
     unused: dict[str, None] = {}
     joined: dict[str, str] = {}
     for block in blocks:
-        idle = (name for name in block.variables if name not in block.body.free)
-        unused |= dict.fromkeys(name for name in idle if words.count(name) <= count[name])  # others cancel
+        unused |= dict.fromkeys(name for name in block.variables if name not in block.body.free)
         joined |= joined_names(block.body.free, block.variables) if typed else {}
+    if unused and format in _WRITTEN_OUT:  # what is used as well cancels
+        bound = Counter(name for block in blocks for name in block.variables)
+        written = Counter(_WORD.findall(text))
+        unused = {name: None for name in unused if written[name] <= bound[name]}
     notes = []
     for variable in unused:
         meant = next((product + _exponent(name, typed) for name, product in joined.items() if variable in name), None)
