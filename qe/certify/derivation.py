@@ -107,10 +107,13 @@ class _Replay:
         if checker is None:
             raise Unable(f'{entry.path}: there is no checker for the rule "{claim.rule}"')
         key = None if self.accepted is None else step_key(claim, needed)
-        if self.accepted is None or key is None:
-            checker(claim, needed, self.limits)
-        elif key not in self.accepted:
-            checker(claim, needed, self.limits)
+        if self.accepted is None or key not in self.accepted:
+            try:
+                checker(claim, needed, self.limits)
+            except Exception as error:
+                error.add_note(entry.path)  # for one that is no verdict: it names no entry
+                raise
+        if self.accepted is not None and key is not None:
             self.accepted.add(key)
         return changed
 

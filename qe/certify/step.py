@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from qe.errors import CertificateRejected
 from qe.exact.ring import Ring
 from qe.formula.syntax import Exists, Formula
-from qe.formula.traverse import clashes
+from qe.formula.traverse import clashes, has_root_atoms
 from qe.options import Budget
 from qe.proof.certificate import Certificate
 from qe.proof.entry import Entry
@@ -41,6 +41,12 @@ class Claim:
         if not isinstance(self.before, Exists):
             raise self.fail("expected an existential block")
         return self.before
+
+    def plain(self, formula: Formula) -> Formula:
+        """A formula of the step, which has to be one of comparisons of polynomials, without quantifiers."""
+        if not formula.is_quantifier_free or has_root_atoms(formula):
+            raise self.fail("a formula without quantifiers and root atoms expected")
+        return formula
 
     def variable(self, entry: Entry) -> tuple[Exists, str, int]:
         """The existential block, and its variable that the entry names, with its index in the ring."""

@@ -61,7 +61,8 @@ def answered(formula: Formula, options: Options, budget: Budget) -> Outcome:
 def proved(formula: Formula, found: Outcome, options: Options, budget: Budget) -> Outcome:
     """What was ``answered`` to a formula, with its certificate."""
     started, log = time.perf_counter(), found.log
-    proof = certificate_of(formula, rename_apart(_counted(without_clashes(formula), options)), found, log, options, budget)
+    question = rename_apart(_counted(without_clashes(formula), options))
+    proof = certificate_of(formula, question, found, log, options, budget)
     log.seconds = round((log.seconds or 0.0) + time.perf_counter() - started, 6)
     return replace(found, certificate=proof.certificate, unchecked=proof.unchecked, checked=proof.checked)
 

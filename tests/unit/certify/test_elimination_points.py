@@ -6,11 +6,7 @@ from typing import Any
 
 import pytest
 
-from qe.certify.derivation import check_derivation
-from qe.certify.registry import RULES
-from qe.certify.verify import check_certificate, verify
-from qe.errors import CertificateRejected
-from qe.options import Budget
+from qe.certify.verify import verify
 from qe.proof.certificate import Certificate, Kind
 from tests.unit.certify.claims import NO_LEMMAS, objection, step, written
 
