@@ -149,7 +149,7 @@ def quantified(rng: random.Random, names: list[str], formula: Any) -> Any:
 def altered(rng: random.Random, given: Data, root: Path) -> Data:
     """The data with one entry below ``root`` changed."""
     made = deepcopy(given)
-    top = made
+    top: Any = made
     for key in root:
         top = top[key]
     listed = list(paths(top))
@@ -157,7 +157,7 @@ def altered(rng: random.Random, given: Data, root: Path) -> Data:
         return made
     path, names = rng.choice(listed), made["payload"].get("order") if isinstance(made.get("payload"), dict) else None
     known = names if isinstance(names, list) and names and all(isinstance(n, str) for n in names) else ["x", "y"]
-    node = top
+    node: Any = top
     for key in path[:-1]:
         node = node[key]
     old, shape = node[path[-1]], rng.random()
