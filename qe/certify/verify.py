@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from qe.arguments import shown
-from qe.certify.verdict import Verdict
-from qe.errors import CertificateRejected, InputError, QEError, Unable
+from qe.certify.verdict import CRASHES, Verdict
+from qe.errors import CertificateRejected, InputError, Unable
 from qe.options import Budget
 from qe.proof.cells_json import CellEvidence
 from qe.proof.certificate import Certificate, Kind, Labelled
@@ -14,7 +14,6 @@ from qe.proof.entry import Json
 
 Checker = Callable[[dict[str, Json], Budget], None]
 
-CRASHES = (QEError, ArithmeticError, AssertionError, AttributeError, LookupError, TypeError, ValueError)
 CRASHED = "its checker ends in an internal error here, please report"
 
 

@@ -161,7 +161,7 @@ def altered(rng: random.Random, given: Data, root: Path) -> Data:
     for key in path[:-1]:
         node = node[key]
     old, shape = node[path[-1]], rng.random()
-    if shape < 0.15 and isinstance(node, list | dict):
+    if shape < 0.15:
         del node[path[-1]]
     elif shape < 0.3 and isinstance(old, list) and old:
         node[path[-1]] = rng.choice((old[:1], old * 2, old[::-1], [], old[1:]))
