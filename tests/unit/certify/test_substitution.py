@@ -51,17 +51,25 @@ def test_quantifiers_and_negations_are_gone_through() -> None:
     given_ = formula("not (ex y. x + y > 0 and (all z. z*x < 1)) or y = x")
     assert at_number(given_, X, Fraction(2), CLAIM) == formula("not (ex y. 2 + y > 0 and (all z. z*2 < 1)) or y = 2")
     bound = formula("ex x. x > a")
-    with pytest.raises(CertificateRejected, match="binds a variable"):
+    with pytest.raises(CertificateRejected, match="a quantifier inside binds x"):
         at_number(bound, X, Fraction(2), CLAIM)
     with pytest.raises(CertificateRejected, match="root atoms"):
         at_number(formula("a > root(1, a^2 - b, a)"), X, Fraction(2), CLAIM)
 
 
 def test_every_atom_is_changed() -> None:
-    flipped = mapped(formula("x > 0 and (y > 0 or x < 1)"), lambda a: atom(-a.poly, a.relation), frozenset(), CLAIM)
+    flipped = mapped(formula("x > 0 and (y > 0 or x < 1)"), lambda a: atom(-a.poly, a.relation), (), CLAIM)
     assert flipped == formula("x < 0 and (y < 0 or x > 1)")
     with pytest.raises(CertificateRejected):
-        mapped(formula("all y. y > x"), lambda a: a, frozenset(("y",)), CLAIM)
+        mapped(formula("all y. y > x"), lambda a: a, (RING.var("y"),), CLAIM)
+
+
+def test_what_a_change_brings_in_is_not_captured() -> None:
+    y = RING.var("y")
+    with pytest.raises(CertificateRejected, match="brings in"):  # even where the caller has not said that it uses y
+        mapped(formula("all y. y > x and x > 0"), lambda a: atom(a.poly + y, a.relation), (), CLAIM)
+    beside = mapped(formula("(all y. y > z) and x > 0"), lambda a: atom(a.poly.compose({X: y}), a.relation), (), CLAIM)
+    assert beside == formula("(all y. y > z) and y > 0")
 
 
 def test_relations_stay() -> None:
