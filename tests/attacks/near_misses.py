@@ -1,0 +1,428 @@
+"""Near misses: a true equivalence with one thing changed in a way that invites a mistake.
+
+A near miss takes (before, after, facts, ring) and says nothing about evidence, so that the claims can be offered to any
+checker. Where the change is one of names or of polynomials, it also says what that makes of polynomials elsewhere
+(``Change``), so that evidence may follow. Whether the claim that comes out is false is for others to see.
+"""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+
+from qe.exact.ring import Poly, Ring
+from qe.formula.build import atom, conj, disj, exists, forall, neg
+from qe.formula.syntax import FALSE, TRUE, And, Atom, Constant, Exists, ForAll, Formula, Not, Or, Relation
+from qe.formula.traverse import atoms, children
+from qe.proof.step import Place
+from tests.certificates.altered_derivations import rebuilt
+
+
+@dataclass(frozen=True, slots=True)
+class Equivalence:
+    """``before`` <-> ``after`` wherever all ``facts`` hold; all over ``ring``."""
+
+    before: Formula
+    after: Formula
+    facts: tuple[Formula, ...]
+    ring: Ring
+
+    @property
+    def parts(self) -> tuple[Formula, ...]:
+        """Its formulas, the claimed answer first."""
+        return (self.after, self.before, *self.facts)
+
+    def with_part(self, k: int, new: Formula) -> Equivalence:
+        """The claim with another formula at place k of ``parts``; a fact that holds anyhow is none."""
+        if k < 2:
+            return replace(self, before=new) if k else replace(self, after=new)
+        others = self.facts[: k - 2] + (() if new == TRUE else (new,)) + self.facts[k - 1 :]
+        return replace(self, facts=others)
+
+
+@dataclass(frozen=True, slots=True)
+class Change:
+    """Every polynomial and every name replaced."""
+
+    poly: Callable[[Poly], Poly]
+    name: Callable[[str], str] = str
+
+    def __call__(self, formula: Formula) -> Formula:
+        return rebuilt(lambda a: atom(self.poly(a.poly), a.relation), self.name)(formula)
+
+
+Made = tuple[Equivalence, Change | None]
+NearMiss = Callable[[random.Random, Equivalence], Made | None]
+
+NEAR = {
+    Relation.LT: (Relation.LE, Relation.LE, Relation.NE),
+    Relation.LE: (Relation.LT, Relation.LT, Relation.EQ),
+    Relation.GT: (Relation.GE, Relation.GE, Relation.NE),
+    Relation.GE: (Relation.GT, Relation.GT, Relation.EQ),
+    Relation.EQ: (Relation.LE, Relation.GE),
+    Relation.NE: (Relation.LT, Relation.GT),
+}
+
+
+# --- places in formulas ------------------------------------------------------------------------------
+def places(formula: Formula, path: Place = ()) -> Iterator[tuple[Place, Formula]]:
+    """All parts of a formula, with the way down to them."""
+    yield path, formula
+    for k, child in enumerate(children(formula)):
+        yield from places(child, (*path, k))
+
+
+def put(formula: Formula, place: Place, new: Formula) -> Formula:
+    """The formula with another part at a place."""
+    if not place:
+        return new
+    match formula:
+        case And(args) | Or(args):
+            k = place[0]
+            join = conj if isinstance(formula, And) else disj
+            return join((*args[:k], put(args[k], place[1:], new), *args[k + 1 :]))
+        case Not(arg):
+            inner = put(arg, place[1:], new)
+            return neg(inner) if isinstance(inner, Constant) else Not(inner)
+        case Exists(variables, body) | ForAll(variables, body):
+            return (exists if isinstance(formula, Exists) else forall)(variables, put(body, place[1:], new))
+    raise AssertionError(formula)
+
+
+def somewhere(
+    rng: random.Random,
+    claim: Equivalence,
+    change: Callable[[Formula], Formula | None],
+    among: Callable[[Equivalence], range] = lambda claim: range(len(claim.parts)),
+) -> Made | None:
+    """The claim with one part changed, mostly one of the answer's."""
+    chosen = rng.sample(list(among(claim)), len(among(claim)))
+    if rng.random() < 0.5:
+        chosen.sort()
+    for k in chosen:
+        found = list(places(claim.parts[k]))
+        for place, part in rng.sample(found, len(found)):
+            new = change(part)
+            if new is not None and new != part:
+                return claim.with_part(k, put(claim.parts[k], place, new)), None
+    return None
+
+
+def facts(claim: Equivalence) -> range:
+    return range(2, len(claim.parts))
+
+
+def sides(claim: Equivalence) -> range:
+    return range(2)
+
+
+def free_names(claim: Equivalence) -> list[str]:
+    return sorted({n for f in claim.parts for n in f.free})
+
+
+def bound_names(claim: Equivalence) -> list[str]:
+    found = (q for f in claim.parts for _, q in places(f) if isinstance(q, Exists | ForAll))
+    return sorted({n for q in found for n in q.variables})
+
+
+# --- atoms ---------------------------------------------------------------------------------------------
+def strictness(rng: random.Random, claim: Equivalence) -> Made | None:
+    """An equality or an end where there is none, and the other way round."""
+    return somewhere(rng, claim, lambda f: Atom(f.poly, rng.choice(NEAR[f.relation])) if isinstance(f, Atom) else None)
+
+
+def sign(rng: random.Random, claim: Equivalence) -> Made | None:
+    """A variable of an atom with the other sign."""
+
+    def change(f: Formula) -> Formula | None:
+        if not isinstance(f, Atom):
+            return None
+        i = rng.choice(f.poly.variables)
+        return atom(f.poly.compose({i: -f.poly.ring.gen(i)}), f.relation)
+
+    return somewhere(rng, claim, change)
+
+
+def wrong_letter(rng: random.Random, claim: Equivalence) -> Made | None:
+    """A variable of an atom in place of another."""
+
+    def change(f: Formula) -> Formula | None:
+        if not isinstance(f, Atom):
+            return None
+        i, other = rng.choice(f.poly.variables), rng.choice(free_names(claim) or bound_names(claim))
+        return atom(f.poly.compose({i: f.poly.ring.var(other)}), f.relation)
+
+    return somewhere(rng, claim, change)
+
+
+def lower_degree(rng: random.Random, claim: Equivalence) -> Made | None:
+    """The highest power of a variable in an atom is forgotten."""
+
+    def change(f: Formula) -> Formula | None:
+        if not isinstance(f, Atom):
+            return None
+        i = rng.choice(f.poly.variables)
+        x = f.poly.ring.gen(i)
+        rest = f.poly.coefficients(i)[:-1]
+        return atom(sum((c * x**k for k, c in enumerate(rest)), f.poly.ring.constant(0)), f.relation)
+
+    return somewhere(rng, claim, change)
+
+
+def coefficient(rng: random.Random, claim: Equivalence) -> Made | None:
+    """One coefficient of an atom is another number."""
+
+    def change(f: Formula) -> Formula | None:
+        if not isinstance(f, Atom):
+            return None
+        terms = dict(f.poly.terms())
+        exponents = rng.choice([*terms, (0,) * f.poly.ring.size])
+        terms[exponents] = terms.get(exponents, 0) + rng.choice((-1, 1))
+        return atom(f.poly.ring.from_terms(terms), f.relation)
+
+    return somewhere(rng, claim, change)
+
+
+# --- Boolean structure -----------------------------------------------------------------------------------
+def missing_guard(rng: random.Random, claim: Equivalence) -> Made | None:
+    """A conjunct is forgotten."""
+
+    def change(f: Formula) -> Formula | None:
+        if not isinstance(f, And):
+            return None
+        k = rng.randrange(len(f.args))
+        return conj(f.args[:k] + f.args[k + 1 :])
+
+    return somewhere(rng, claim, change, sides)
+
+
+def missing_case(rng: random.Random, claim: Equivalence) -> Made | None:
+    """A disjunct is forgotten."""
+
+    def change(f: Formula) -> Formula | None:
+        if not isinstance(f, Or):
+            return None
+        k = rng.randrange(len(f.args))
+        return disj(f.args[:k] + f.args[k + 1 :])
+
+    return somewhere(rng, claim, change, sides)
+
+
+def missing_fact(rng: random.Random, claim: Equivalence) -> Made | None:
+    """What holds at the place does not."""
+    return somewhere(rng, claim, lambda f: TRUE if f in claim.facts else None, facts)
+
+
+def weaker_fact(rng: random.Random, claim: Equivalence) -> Made | None:
+    """What is not zero at the place may be."""
+    weak = {Relation.LT: Relation.LE, Relation.GT: Relation.GE}
+
+    def change(f: Formula) -> Formula | None:
+        return Atom(f.poly, weak[f.relation]) if isinstance(f, Atom) and f.relation in weak else None
+
+    return somewhere(rng, claim, change, facts)
+
+
+def boundary(rng: random.Random, claim: Equivalence) -> Made | None:
+    """The points where a polynomial vanishes belong to the answer, or do not."""
+    free = set(free_names(claim))
+    polys = [a.poly for f in claim.parts for a in atoms(f) if isinstance(a, Atom) and set(a.free) <= free]
+    if not polys:
+        return None
+    poly = rng.choice(polys)
+    if rng.random() < 0.5:
+        return replace(claim, after=disj((claim.after, atom(poly, Relation.EQ)))), None
+    return replace(claim, after=conj((claim.after, atom(poly, Relation.NE)))), None
+
+
+def empty_or_whole(rng: random.Random, claim: Equivalence) -> Made | None:
+    """A part is empty, or everything."""
+    if rng.random() < 0.5:
+        return replace(claim, after=rng.choice((TRUE, FALSE))), None
+    return somewhere(rng, claim, lambda f: rng.choice((TRUE, FALSE)), sides)
+
+
+def other_join(rng: random.Random, claim: Equivalence) -> Made | None:
+    """A conjunction for a disjunction."""
+
+    def change(f: Formula) -> Formula | None:
+        return (disj if isinstance(f, And) else conj)(f.args) if isinstance(f, And | Or) else None
+
+    return somewhere(rng, claim, change, sides)
+
+
+# --- quantifiers and names -----------------------------------------------------------------------------------
+def other_quantifier(rng: random.Random, claim: Equivalence) -> Made | None:
+    """A universal block for an existential one, or one variable of it."""
+
+    def change(f: Formula) -> Formula | None:
+        if not isinstance(f, Exists | ForAll):
+            return None
+        same, other = (exists, forall) if isinstance(f, Exists) else (forall, exists)
+        k = rng.randrange(len(f.variables))
+        first, rest = f.variables[k], f.variables[:k] + f.variables[k + 1 :]
+        if rng.random() < 0.5:
+            return other(f.variables, f.body)
+        return rng.choice((lambda: same(rest, other([first], f.body)), lambda: other([first], same(rest, f.body))))()
+
+    return somewhere(rng, claim, change, sides)
+
+
+def freed(rng: random.Random, claim: Equivalence) -> Made | None:
+    """A quantifier forgets one of its variables."""
+
+    def change(f: Formula) -> Formula | None:
+        if not isinstance(f, Exists | ForAll):
+            return None
+        k = rng.randrange(len(f.variables))
+        return (exists if isinstance(f, Exists) else forall)(f.variables[:k] + f.variables[k + 1 :], f.body)
+
+    return somewhere(rng, claim, change, sides)
+
+
+def captured_binder(rng: random.Random, claim: Equivalence) -> Made | None:
+    """A bound variable gets the name of one that is free below its quantifier, or beside it."""
+    names = free_names(claim)
+
+    def change(f: Formula) -> Formula | None:
+        if not isinstance(f, Exists | ForAll) or not names:
+            return None
+        return renaming(claim.ring, rng.choice(f.variables), rng.choice(names))(f)
+
+    return somewhere(rng, claim, change, sides)
+
+
+def captured_parts(rng: random.Random, claim: Equivalence) -> Made | None:
+    """An atom about a free variable becomes one about another variable of the same name: in one side, in both alike, or
+    as one more case."""
+    known = [a for f in claim.parts for a in atoms(f) if a.free and isinstance(a, Atom)]
+    if not known:
+        return None
+    one = rng.choice(known)
+    other = rng.choice((exists, exists, forall))([rng.choice(one.free)], one)
+    shape = rng.random()
+    if shape < 0.4:
+        join = rng.choice((conj, disj))
+        found = list(places(claim.after))
+        place, part = rng.choice(found)
+        return replace(claim, after=put(claim.after, place, join((part, other)))), None
+
+    def wrapped(f: Formula) -> Formula:
+        return next((put(f, place, other) for place, part in places(f) if part == one), f)
+
+    before = wrapped(claim.before) if shape < 0.7 else claim.before
+    return replace(claim, before=before, after=wrapped(claim.after)), None
+
+
+def captured_letter(rng: random.Random, claim: Equivalence) -> Made | None:
+    """A letter is bound in each atom that has it, on both sides alike, under the name of another letter."""
+    names = free_names(claim)
+    if len(names) < 2:
+        return None
+    old, new = rng.sample(names, 2)
+    quantify, change = rng.choice((exists, forall)), renaming(claim.ring, old, new)
+
+    def bound(f: Formula) -> Formula:
+        return rebuilt(lambda a: quantify([new], change(a)) if old in a.free else a)(f)
+
+    return everywhere(claim, bound), None
+
+
+def captured_everywhere(rng: random.Random, claim: Equivalence) -> Made | None:
+    """A bound variable, mostly of an inner block, gets the name of a free one wherever it stands, or a free one that of
+    a bound one."""
+    free, bound = free_names(claim), bound_names(claim)
+    if not free or not bound:
+        return None
+    outer = claim.before.variables if isinstance(claim.before, Exists | ForAll) else ()
+    inner = [n for n in bound if n not in outer]
+    if inner and rng.random() < 0.7:
+        change = renaming(claim.ring, rng.choice(inner), rng.choice([*free, *outer]))
+    else:
+        old, new = rng.sample((rng.choice(free), rng.choice(bound)), 2)
+        change = renaming(claim.ring, old, new)
+    return everywhere(claim, change), change
+
+
+def repeated_names(rng: random.Random, claim: Equivalence) -> Made | None:
+    """Two bound variables become one."""
+    bound = bound_names(claim)
+    if len(bound) < 2:
+        return None
+    change = renaming(claim.ring, *rng.sample(bound, 2))
+    if rng.random() < 0.5:
+        return replace(claim, before=change(claim.before)), change
+    return everywhere(claim, change), change
+
+
+# --- polynomials everywhere ----------------------------------------------------------------------------------
+def vanishing_lead(rng: random.Random, claim: Equivalence) -> Made | None:
+    """A bound variable times a free one, so that the leading coefficients vanish with that; the answer stays."""
+    free, bound = free_names(claim), bound_names(claim)
+    if not bound:
+        return None
+    x, a = claim.ring.var(rng.choice(bound)), claim.ring.var(rng.choice([*free, claim.ring.names[-1]]))
+    change = Change(lambda p: p.compose({x.variables[0]: x * a}))
+    return replace(claim, before=change(claim.before)), change
+
+
+def number_for_a_letter(rng: random.Random, claim: Equivalence) -> Made | None:
+    """A parameter is zero, or another number, on one side."""
+    free = free_names(claim)
+    if not free:
+        return None
+    i, value = claim.ring.index[rng.choice(free)], claim.ring.constant(rng.choice((0, 0, 0, 1, -1)))
+    change = Change(lambda p: p.compose({i: value}))
+    kept = rng.choice((claim.after, change(claim.after)))
+    return replace(claim, before=change(claim.before), after=kept), change
+
+
+def squared(rng: random.Random, claim: Equivalence) -> Made | None:
+    """A variable becomes a square: what had an odd degree has an even one."""
+    names = [*free_names(claim), *bound_names(claim)]
+    if not names:
+        return None
+    i = claim.ring.index[rng.choice(names)]
+    x = claim.ring.gen(i)
+    change = Change(lambda p: p.compose({i: x * x}) if p.total_degree <= 6 else p)
+    return replace(claim, before=change(claim.before)), change
+
+
+def renaming(ring: Ring, old: str, new: str) -> Change:
+    """One name for another, wherever it stands."""
+    i, image = ring.index[old], ring.var(new)
+    return Change(lambda p: p.compose({i: image}), lambda name: new if name == old else name)
+
+
+def everywhere(claim: Equivalence, change: Callable[[Formula], Formula]) -> Equivalence:
+    """All formulas of a claim changed."""
+    return replace(
+        claim, before=change(claim.before), after=change(claim.after), facts=tuple(map(change, claim.facts))
+    )
+
+
+NEAR_MISSES: tuple[NearMiss, ...] = (
+    strictness,
+    sign,
+    wrong_letter,
+    lower_degree,
+    coefficient,
+    missing_guard,
+    missing_case,
+    missing_fact,
+    weaker_fact,
+    boundary,
+    empty_or_whole,
+    other_join,
+    other_quantifier,
+    freed,
+    captured_binder,
+    captured_parts,
+    captured_letter,
+    captured_everywhere,
+    repeated_names,
+    vanishing_lead,
+    number_for_a_letter,
+    squared,
+)
