@@ -38,7 +38,7 @@ SECONDS = 5.0
 
 @dataclass(frozen=True, slots=True)
 class FalseClaim:
-    """``claim`` is false: at ``point`` the facts hold, ``before`` has the truth value ``truth``, and ``after`` has not."""
+    """``claim`` is false: at ``point`` the facts hold, and only one side does; ``truth`` is that of ``before``."""
 
     claim: Equivalence
     near_miss: str
@@ -70,8 +70,8 @@ def derivation(rule: str, claim: Equivalence, evidence: Json) -> dict[str, Any]:
     start, place = claim.before, []
     if claim.facts:
         start, place = And((*claim.facts, Not(Not(claim.before)))), [len(claim.facts), 0, 0]
-    _, answer = replaced(start, place, claim.before, claim.after, (), Entry(place, "at"))
     at: Json = [*place]
+    _, answer = replaced(start, place, claim.before, claim.after, (), Entry(at, "at"))
     step = {"rule": rule, "at": at, "evidence": evidence, "context": [_json(f) for f in claim.facts]}
     step |= {"before": _json(claim.before), "after": _json(claim.after)}
     return {"order": list(claim.ring.names), "start": _json(start), "steps": [step], "answer": _json(answer)}
@@ -98,10 +98,11 @@ def evidences(step: TrueStep, false: FalseClaim) -> Iterator[Json]:
     checker = RULES[step.rule]
     if isinstance(checker, ByLemmas) and isinstance(step.evidence, dict):
         evidence = {**step.evidence, "theory": EMPTY}
-        claim = Claim(step.rule, false.claim.before, false.claim.after, false.claim.ring, Entry(evidence, "evidence"), "step")
+        made, entry = false.claim, Entry(evidence, "evidence")
+        claim = Claim(step.rule, made.before, made.after, made.ring, entry, "step")
         limits = limits_of(Budget(SECONDS), RULES, check_certificate)
         try:
-            theory = refuting(checker.obligations(claim, false.claim.facts), false.claim.ring, limits)
+            theory = refuting(checker.obligations(claim, made.facts), made.ring, limits)
         except (CertificateRejected, Unable):
             return
         if theory is not None:

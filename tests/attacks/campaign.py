@@ -15,8 +15,8 @@ from qe.certify.registry import RULES as CHECKERS
 from qe.errors import Unable
 from tests.attacks.attack import accepted_evidence, derivation, equivalence, false_claim, is_accepted
 from tests.attacks.falsity import points, truth
-from tests.attacks.near_misses import NEAR_MISSES
-from tests.attacks.questions import FORMER, METHODS, RULES
+from tests.attacks.near_misses import CAPTURES, OTHERS
+from tests.attacks.rules import FORMER, METHODS, RULES
 from tests.attacks.true_steps import Answered, TrueStep, answered_with_steps, former_step, taken_alone
 
 QUESTIONS = 60
@@ -28,9 +28,9 @@ STEPS = 3
 
 @dataclass(slots=True)
 class Counts:
-    """``fired``: questions on whose way a rule or method was used; ``compared``: values of answers at points; ``wrong``:
-    those that differ; ``unproved``: questions where the rule's step has no evidence. ``claims`` by near miss; ``holes``:
-    derivations of false claims that are accepted."""
+    """``fired``: questions on whose way a rule or method was used; ``compared``: values of their answers at points;
+    ``wrong``: those that differ; ``unproved``: questions where a step of the rule has no evidence. ``claims``: false
+    ones, by near miss; ``holes``: derivations of such that are accepted."""
 
     fired: int = 0
     compared: int = 0
@@ -88,7 +88,7 @@ def _looked_at(rng: random.Random, name: str, found: Answered, counts: Counts) -
 def _attacked(rng: random.Random, step: TrueStep, counts: Counts, wanted: int) -> None:
     """Near misses of a step, offered until there are enough."""
     assert is_accepted(step.rule, equivalence(step), step.evidence), (step.rule, step.before, step.after)
-    for near_miss in rng.sample(NEAR_MISSES, 7):
+    for near_miss in (*rng.sample(CAPTURES, 3), *rng.sample(OTHERS, 7)):
         if counts.claims.total() < wanted:
             false = false_claim(rng, step, near_miss)
             if false is not None:
@@ -106,8 +106,11 @@ def main(formulas: int, claims: int, chosen: list[str]) -> int:
         counts = campaign(name, 0, formulas, claims if name in CHECKERS else 0)
         total += counts.claims
         bad += len(counts.holes) + len(counts.wrong)
-        print(f"{name:42} fired {counts.fired:4} compared {counts.compared:4} claims {counts.claims.total():5}"
-              f" unproved {len(counts.unproved):3} accepted {len(counts.holes)} wrong {len(counts.wrong)}", flush=True)
+        print(
+            f"{name:42} fired {counts.fired:4} compared {counts.compared:4} claims {counts.claims.total():5}"
+            f" unproved {len(counts.unproved):3} accepted {len(counts.holes)} wrong {len(counts.wrong)}",
+            flush=True,
+        )
         print(*counts.holes, *counts.wrong, sep="\n", end="\n" if counts.holes or counts.wrong else "", flush=True)
     print(f"{total.total()} false claims", dict(total), flush=True)
     return bad

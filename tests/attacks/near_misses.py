@@ -8,8 +8,9 @@ checker. Where the change is one of names or of polynomials, it also says what t
 from __future__ import annotations
 
 import random
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import wraps
 
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj, disj, exists, forall, neg
@@ -86,18 +87,20 @@ def put(formula: Formula, place: Place, new: Formula) -> Formula:
             inner = put(arg, place[1:], new)
             return neg(inner) if isinstance(inner, Constant) else Not(inner)
         case Exists(variables, body) | ForAll(variables, body):
-            return (exists if isinstance(formula, Exists) else forall)(variables, put(body, place[1:], new))
+            return same(formula)(variables, put(body, place[1:], new))
     raise AssertionError(formula)
 
 
+SIDES, FACTS, ALL = slice(2), slice(2, None), slice(None)
+"""Which of the ``parts`` of a claim may be changed."""
+
+
 def somewhere(
-    rng: random.Random,
-    claim: Equivalence,
-    change: Callable[[Formula], Formula | None],
-    among: Callable[[Equivalence], range] = lambda claim: range(len(claim.parts)),
+    rng: random.Random, claim: Equivalence, change: Callable[[Formula], Formula | None], among: slice = ALL
 ) -> Made | None:
     """The claim with one part changed, mostly one of the answer's."""
-    chosen = rng.sample(list(among(claim)), len(among(claim)))
+    chosen = list(range(len(claim.parts))[among])
+    rng.shuffle(chosen)
     if rng.random() < 0.5:
         chosen.sort()
     for k in chosen:
@@ -109,12 +112,9 @@ def somewhere(
     return None
 
 
-def facts(claim: Equivalence) -> range:
-    return range(2, len(claim.parts))
-
-
-def sides(claim: Equivalence) -> range:
-    return range(2)
+def same(f: Exists | ForAll) -> Callable[[Sequence[str], Formula], Formula]:
+    """The builder of the quantifier that the formula begins with."""
+    return exists if isinstance(f, Exists) else forall
 
 
 def free_names(claim: Equivalence) -> list[str]:
@@ -127,101 +127,78 @@ def bound_names(claim: Equivalence) -> list[str]:
 
 
 # --- atoms ---------------------------------------------------------------------------------------------
-def strictness(rng: random.Random, claim: Equivalence) -> Made | None:
+def of_an_atom(change: Callable[[random.Random, Equivalence, Atom], Formula]) -> NearMiss:
+    """One atom of the claim is another."""
+
+    @wraps(change)
+    def made(rng: random.Random, claim: Equivalence) -> Made | None:
+        return somewhere(rng, claim, lambda f: change(rng, claim, f) if isinstance(f, Atom) else None)
+
+    return made
+
+
+@of_an_atom
+def strictness(rng: random.Random, claim: Equivalence, f: Atom) -> Formula:
     """An equality or an end where there is none, and the other way round."""
-    return somewhere(rng, claim, lambda f: Atom(f.poly, rng.choice(NEAR[f.relation])) if isinstance(f, Atom) else None)
+    return Atom(f.poly, rng.choice(NEAR[f.relation]))
 
 
-def sign(rng: random.Random, claim: Equivalence) -> Made | None:
-    """A variable of an atom with the other sign."""
-
-    def change(f: Formula) -> Formula | None:
-        if not isinstance(f, Atom):
-            return None
-        i = rng.choice(f.poly.variables)
-        return atom(f.poly.compose({i: -f.poly.ring.gen(i)}), f.relation)
-
-    return somewhere(rng, claim, change)
+@of_an_atom
+def sign(rng: random.Random, claim: Equivalence, f: Atom) -> Formula:
+    """A variable with the other sign."""
+    i = rng.choice(f.poly.variables)
+    return atom(f.poly.compose({i: -f.poly.ring.gen(i)}), f.relation)
 
 
-def wrong_letter(rng: random.Random, claim: Equivalence) -> Made | None:
-    """A variable of an atom in place of another."""
-
-    def change(f: Formula) -> Formula | None:
-        if not isinstance(f, Atom):
-            return None
-        i, other = rng.choice(f.poly.variables), rng.choice(free_names(claim) or bound_names(claim))
-        return atom(f.poly.compose({i: f.poly.ring.var(other)}), f.relation)
-
-    return somewhere(rng, claim, change)
+@of_an_atom
+def wrong_letter(rng: random.Random, claim: Equivalence, f: Atom) -> Formula:
+    """A variable in place of another."""
+    other = rng.choice(free_names(claim) or bound_names(claim))
+    return atom(f.poly.compose({rng.choice(f.poly.variables): f.poly.ring.var(other)}), f.relation)
 
 
-def lower_degree(rng: random.Random, claim: Equivalence) -> Made | None:
-    """The highest power of a variable in an atom is forgotten."""
-
-    def change(f: Formula) -> Formula | None:
-        if not isinstance(f, Atom):
-            return None
-        i = rng.choice(f.poly.variables)
-        x = f.poly.ring.gen(i)
-        rest = f.poly.coefficients(i)[:-1]
-        return atom(sum((c * x**k for k, c in enumerate(rest)), f.poly.ring.constant(0)), f.relation)
-
-    return somewhere(rng, claim, change)
+@of_an_atom
+def lower_degree(rng: random.Random, claim: Equivalence, f: Atom) -> Formula:
+    """The highest power of a variable is forgotten."""
+    i = rng.choice(f.poly.variables)
+    return atom(f.poly - f.poly.leading(i) * f.poly.ring.gen(i) ** f.poly.degree(i), f.relation)
 
 
-def coefficient(rng: random.Random, claim: Equivalence) -> Made | None:
-    """One coefficient of an atom is another number."""
-
-    def change(f: Formula) -> Formula | None:
-        if not isinstance(f, Atom):
-            return None
-        terms = dict(f.poly.terms())
-        exponents = rng.choice([*terms, (0,) * f.poly.ring.size])
-        terms[exponents] = terms.get(exponents, 0) + rng.choice((-1, 1))
-        return atom(f.poly.ring.from_terms(terms), f.relation)
-
-    return somewhere(rng, claim, change)
+@of_an_atom
+def coefficient(rng: random.Random, claim: Equivalence, f: Atom) -> Formula:
+    """One coefficient is another number."""
+    terms = dict(f.poly.terms())
+    exponents = rng.choice([*terms, (0,) * f.poly.ring.size])
+    terms[exponents] = terms.get(exponents, 0) + rng.choice((-1, 1))
+    return atom(f.poly.ring.from_terms(terms), f.relation)
 
 
 # --- Boolean structure -----------------------------------------------------------------------------------
+def without_one(rng: random.Random, f: And | Or) -> Formula:
+    k = rng.randrange(len(f.args))
+    return (conj if isinstance(f, And) else disj)(f.args[:k] + f.args[k + 1 :])
+
+
 def missing_guard(rng: random.Random, claim: Equivalence) -> Made | None:
     """A conjunct is forgotten."""
-
-    def change(f: Formula) -> Formula | None:
-        if not isinstance(f, And):
-            return None
-        k = rng.randrange(len(f.args))
-        return conj(f.args[:k] + f.args[k + 1 :])
-
-    return somewhere(rng, claim, change, sides)
+    return somewhere(rng, claim, lambda f: without_one(rng, f) if isinstance(f, And) else None, SIDES)
 
 
 def missing_case(rng: random.Random, claim: Equivalence) -> Made | None:
     """A disjunct is forgotten."""
-
-    def change(f: Formula) -> Formula | None:
-        if not isinstance(f, Or):
-            return None
-        k = rng.randrange(len(f.args))
-        return disj(f.args[:k] + f.args[k + 1 :])
-
-    return somewhere(rng, claim, change, sides)
-
-
-def missing_fact(rng: random.Random, claim: Equivalence) -> Made | None:
-    """What holds at the place does not."""
-    return somewhere(rng, claim, lambda f: TRUE if f in claim.facts else None, facts)
+    return somewhere(rng, claim, lambda f: without_one(rng, f) if isinstance(f, Or) else None, SIDES)
 
 
 def weaker_fact(rng: random.Random, claim: Equivalence) -> Made | None:
-    """What is not zero at the place may be."""
+    """What holds at the place does not, or what is not zero there may be."""
     weak = {Relation.LT: Relation.LE, Relation.GT: Relation.GE}
 
     def change(f: Formula) -> Formula | None:
-        return Atom(f.poly, weak[f.relation]) if isinstance(f, Atom) and f.relation in weak else None
+        if isinstance(f, Atom) and f.relation in weak and rng.random() < 0.5:
+            return Atom(f.poly, weak[f.relation])
+        return TRUE if f in claim.facts else None
 
-    return somewhere(rng, claim, change, facts)
+    return somewhere(rng, claim, change, FACTS)
 
 
 def boundary(rng: random.Random, claim: Equivalence) -> Made | None:
@@ -230,17 +207,16 @@ def boundary(rng: random.Random, claim: Equivalence) -> Made | None:
     polys = [a.poly for f in claim.parts for a in atoms(f) if isinstance(a, Atom) and set(a.free) <= free]
     if not polys:
         return None
-    poly = rng.choice(polys)
-    if rng.random() < 0.5:
-        return replace(claim, after=disj((claim.after, atom(poly, Relation.EQ)))), None
-    return replace(claim, after=conj((claim.after, atom(poly, Relation.NE)))), None
+    poly, answer = rng.choice(polys), claim.after
+    more, less = disj((answer, atom(poly, Relation.EQ))), conj((answer, atom(poly, Relation.NE)))
+    return replace(claim, after=rng.choice((more, less))), None
 
 
 def empty_or_whole(rng: random.Random, claim: Equivalence) -> Made | None:
-    """A part is empty, or everything."""
+    """A part, or the whole answer, is empty, or everything."""
     if rng.random() < 0.5:
         return replace(claim, after=rng.choice((TRUE, FALSE))), None
-    return somewhere(rng, claim, lambda f: rng.choice((TRUE, FALSE)), sides)
+    return somewhere(rng, claim, lambda f: rng.choice((TRUE, FALSE)), SIDES)
 
 
 def other_join(rng: random.Random, claim: Equivalence) -> Made | None:
@@ -249,48 +225,41 @@ def other_join(rng: random.Random, claim: Equivalence) -> Made | None:
     def change(f: Formula) -> Formula | None:
         return (disj if isinstance(f, And) else conj)(f.args) if isinstance(f, And | Or) else None
 
-    return somewhere(rng, claim, change, sides)
+    return somewhere(rng, claim, change, SIDES)
 
 
 # --- quantifiers and names -----------------------------------------------------------------------------------
-def other_quantifier(rng: random.Random, claim: Equivalence) -> Made | None:
-    """A universal block for an existential one, or one variable of it."""
+def of_a_block(change: Callable[[random.Random, Equivalence, Exists | ForAll], Formula]) -> NearMiss:
+    """One block of quantifiers is another."""
 
-    def change(f: Formula) -> Formula | None:
-        if not isinstance(f, Exists | ForAll):
-            return None
-        same, other = (exists, forall) if isinstance(f, Exists) else (forall, exists)
-        k = rng.randrange(len(f.variables))
-        first, rest = f.variables[k], f.variables[:k] + f.variables[k + 1 :]
-        if rng.random() < 0.5:
-            return other(f.variables, f.body)
-        return rng.choice((lambda: same(rest, other([first], f.body)), lambda: other([first], same(rest, f.body))))()
+    @wraps(change)
+    def made(rng: random.Random, claim: Equivalence) -> Made | None:
+        return somewhere(rng, claim, lambda f: change(rng, claim, f) if isinstance(f, Exists | ForAll) else None, SIDES)
 
-    return somewhere(rng, claim, change, sides)
+    return made
 
 
-def freed(rng: random.Random, claim: Equivalence) -> Made | None:
+@of_a_block
+def other_quantifier(rng: random.Random, claim: Equivalence, f: Exists | ForAll) -> Formula:
+    """A universal block for an existential one, or one variable of it, which goes first or last."""
+    first, other = rng.choice(f.variables), forall if isinstance(f, Exists) else exists
+    rest = [v for v in f.variables if v != first]
+    some = (same(f)(rest, other([first], f.body)), other([first], same(f)(rest, f.body)))
+    return rng.choice((other(f.variables, f.body), *some))
+
+
+@of_a_block
+def freed(rng: random.Random, claim: Equivalence, f: Exists | ForAll) -> Formula:
     """A quantifier forgets one of its variables."""
-
-    def change(f: Formula) -> Formula | None:
-        if not isinstance(f, Exists | ForAll):
-            return None
-        k = rng.randrange(len(f.variables))
-        return (exists if isinstance(f, Exists) else forall)(f.variables[:k] + f.variables[k + 1 :], f.body)
-
-    return somewhere(rng, claim, change, sides)
+    k = rng.randrange(len(f.variables))
+    return same(f)(f.variables[:k] + f.variables[k + 1 :], f.body)
 
 
-def captured_binder(rng: random.Random, claim: Equivalence) -> Made | None:
+@of_a_block
+def captured_binder(rng: random.Random, claim: Equivalence, f: Exists | ForAll) -> Formula:
     """A bound variable gets the name of one that is free below its quantifier, or beside it."""
     names = free_names(claim)
-
-    def change(f: Formula) -> Formula | None:
-        if not isinstance(f, Exists | ForAll) or not names:
-            return None
-        return renaming(claim.ring, rng.choice(f.variables), rng.choice(names))(f)
-
-    return somewhere(rng, claim, change, sides)
+    return renaming(claim.ring, rng.choice(f.variables), rng.choice(names))(f) if names else f
 
 
 def captured_parts(rng: random.Random, claim: Equivalence) -> Made | None:
@@ -299,7 +268,8 @@ def captured_parts(rng: random.Random, claim: Equivalence) -> Made | None:
     known = [a for f in claim.parts for a in atoms(f) if a.free and isinstance(a, Atom)]
     if not known:
         return None
-    one = rng.choice(known)
+    about_one = [a for a in known if len(a.free) == 1]  # as a guard is
+    one = rng.choice(about_one if about_one and rng.random() < 0.5 else known)
     other = rng.choice((exists, exists, forall))([rng.choice(one.free)], one)
     shape = rng.random()
     if shape < 0.4:
@@ -397,12 +367,13 @@ def renaming(ring: Ring, old: str, new: str) -> Change:
 
 def everywhere(claim: Equivalence, change: Callable[[Formula], Formula]) -> Equivalence:
     """All formulas of a claim changed."""
-    return replace(
-        claim, before=change(claim.before), after=change(claim.after), facts=tuple(map(change, claim.facts))
-    )
+    return replace(claim, before=change(claim.before), after=change(claim.after), facts=tuple(map(change, claim.facts)))
 
 
-NEAR_MISSES: tuple[NearMiss, ...] = (
+CAPTURES: tuple[NearMiss, ...] = (captured_binder, captured_parts, captured_letter, captured_everywhere, repeated_names)
+"""Names that mean something else below a quantifier."""
+
+OTHERS: tuple[NearMiss, ...] = (
     strictness,
     sign,
     wrong_letter,
@@ -410,18 +381,12 @@ NEAR_MISSES: tuple[NearMiss, ...] = (
     coefficient,
     missing_guard,
     missing_case,
-    missing_fact,
     weaker_fact,
     boundary,
     empty_or_whole,
     other_join,
     other_quantifier,
     freed,
-    captured_binder,
-    captured_parts,
-    captured_letter,
-    captured_everywhere,
-    repeated_names,
     vanishing_lead,
     number_for_a_letter,
     squared,

@@ -19,10 +19,12 @@ from qe.proof.step import Step
 from qe.proving.prover import Prover
 from qe.rules.preparation import prepare
 from qe.rules.step import StepKind
-from tests.attacks.questions import FORMER, filled
+from tests.attacks.questions import filled
+from tests.attacks.rules import FORMER
 from tests.certificates.altered_derivations import steps
 
-SECONDS = 2.0
+SECONDS, TO_PROVE = 2.0, 10.0
+"""Limits of an answer and of its evidence."""
 KINDS = {kind.value: kind for kind in StepKind}
 
 
@@ -77,7 +79,7 @@ def proved(
     """The steps of a log for which evidence is accepted, those inside it too, and the rules of the others."""
     derivation = put_together(question, log.steps(), answer)
     formulas = (question, answer, *(s.before for s in derivation.steps))
-    prover = Prover(Ring.of(dict.fromkeys(n for f in formulas for n in names_in(f))), options, Budget(SECONDS))
+    prover = Prover(Ring.of(dict.fromkeys(n for f in formulas for n in names_in(f))), options, Budget(TO_PROVE))
     prover.whole(derivation, moved(derivation.start, prover.ring), moved(answer, prover.ring))
     return tuple(_read(prover.steps, prover.ring)), tuple(prover.unchecked)
 
@@ -88,7 +90,7 @@ def former_step(rng: random.Random, rule: str) -> TrueStep:
     before, after = (read(filled(random.Random(seed), text)) for text in FORMER[rule])
     ring = Ring.of(dict.fromkeys((*names_in(before), *names_in(after))))
     step = Step(rule, moved(before, ring), moved(after, ring))
-    found = Prover(ring, Options(), Budget(SECONDS)).evidence(step, ())
+    found = Prover(ring, Options(), Budget(TO_PROVE)).evidence(step, ())
     assert found is not None, step
     return TrueStep(rule, ring, step.before, step.after, (), found[1])
 
