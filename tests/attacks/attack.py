@@ -32,8 +32,8 @@ from tests.certificates.altered_derivations import polynomials
 
 SPARE = "k"
 """A letter that a near miss may need."""
-SECONDS = 5.0
-"""For one step."""
+SECONDS, TO_SEARCH = 5.0, 0.5
+"""Limits of one step, and of the search for its lemmas."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,7 +100,7 @@ def evidences(step: TrueStep, false: FalseClaim) -> Iterator[Json]:
         evidence = {**step.evidence, "theory": EMPTY}
         made, entry = false.claim, Entry(evidence, "evidence")
         claim = Claim(step.rule, made.before, made.after, made.ring, entry, "step")
-        limits = limits_of(Budget(SECONDS), RULES, check_certificate)
+        limits = limits_of(Budget(TO_SEARCH), RULES, check_certificate)
         try:
             theory = refuting(checker.obligations(claim, made.facts), made.ring, limits)
         except (CertificateRejected, Unable):

@@ -12,7 +12,7 @@ from collections import Counter
 from dataclasses import dataclass, field
 
 from qe.certify.registry import RULES as CHECKERS
-from qe.errors import Unable
+from qe.errors import QEError, Unable
 from tests.attacks.attack import accepted_evidence, derivation, equivalence, false_claim, is_accepted
 from tests.attacks.falsity import points, truth
 from tests.attacks.near_misses import CAPTURES, OTHERS
@@ -30,7 +30,7 @@ STEPS = 3
 class Counts:
     """``fired``: questions on whose way a rule or method was used; ``compared``: values of their answers at points;
     ``wrong``: those that differ; ``unproved``: questions where a step of the rule has no evidence. ``claims``: false
-    ones, by near miss; ``holes``: derivations of such that are accepted."""
+    ones, by near miss; ``holes``: derivations of such that are accepted; ``crashes``: errors that are no rejections."""
 
     fired: int = 0
     compared: int = 0
@@ -38,6 +38,7 @@ class Counts:
     wrong: list[str] = field(default_factory=list)
     unproved: list[str] = field(default_factory=list)
     holes: list[str] = field(default_factory=list)
+    crashes: list[str] = field(default_factory=list)
 
 
 def campaign(name: str, seed: int, formulas: int, claims: int) -> Counts:
@@ -93,7 +94,11 @@ def _attacked(rng: random.Random, step: TrueStep, counts: Counts, wanted: int) -
             false = false_claim(rng, step, near_miss)
             if false is not None:
                 counts.claims[false.near_miss] += 1
-                evidence = accepted_evidence(step, false)
+                try:
+                    evidence = accepted_evidence(step, false)
+                except QEError as error:  # neither a rejection nor "not decided"
+                    counts.crashes.append(f"{error!r}: {json.dumps(derivation(step.rule, false.claim, step.evidence))}")
+                    continue
                 if evidence is not None:
                     counts.holes.append(json.dumps(derivation(step.rule, false.claim, evidence)))
 
@@ -105,13 +110,14 @@ def main(formulas: int, claims: int, chosen: list[str]) -> int:
     for name in chosen or [*CHECKERS, *(m for m in METHODS if m not in CHECKERS)]:
         counts = campaign(name, 0, formulas, claims if name in CHECKERS else 0)
         total += counts.claims
-        bad += len(counts.holes) + len(counts.wrong)
+        listed = (*counts.holes, *counts.crashes, *counts.wrong)
+        bad += len(listed)
         print(
-            f"{name:42} fired {counts.fired:4} compared {counts.compared:4} claims {counts.claims.total():5}"
-            f" unproved {len(counts.unproved):3} accepted {len(counts.holes)} wrong {len(counts.wrong)}",
-            flush=True,
+            f"{name:42} fired {counts.fired:4} compared {counts.compared:4} unproved {len(counts.unproved):3}",
+            f"claims {counts.claims.total():5} accepted {len(counts.holes)} crashes {len(counts.crashes)}",
+            f"wrong {len(counts.wrong)}",
         )
-        print(*counts.holes, *counts.wrong, sep="\n", end="\n" if counts.holes or counts.wrong else "", flush=True)
+        print(*listed, sep="\n", end="\n" if listed else "", flush=True)
     print(f"{total.total()} false claims", dict(total), flush=True)
     return bad
 

@@ -31,7 +31,7 @@ STEPS = {
 
 def checked(counts: Counts, fired: int, claims: int) -> None:
     """Nothing false is accepted, no answer is wrong, and there is enough of everything."""
-    assert not counts.holes and not counts.wrong
+    assert not counts.holes and not counts.crashes and not counts.wrong
     assert counts.fired >= fired and counts.claims.total() >= claims
     assert len(counts.unproved) * 10 <= counts.fired
 
