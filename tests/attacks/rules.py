@@ -15,7 +15,6 @@ RULES: dict[str, Row] = {
     "renaming": row(
         "(ex x. {s}*x + {L} {O} 0 and x {R} b) and (ex x. x^2 {O} {L})",
         "(all x. x^2 + a*x {O} {n}) or (ex x. x {R} {L} and x {O} b)",
-        "x {R} b and (ex x. x^2 {O} a*x + {n})",
     ),
     "roots counted": row(
         "x {R} root({1|2|-1}, x^2 - {p}*y + {n})",
