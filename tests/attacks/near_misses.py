@@ -8,15 +8,15 @@ checker. Where the change is one of names or of polynomials, it also says what t
 from __future__ import annotations
 
 import random
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import wraps
 
 from qe.exact.ring import Poly, Ring
-from qe.formula.build import atom, conj, disj, exists, forall, neg
-from qe.formula.syntax import FALSE, TRUE, And, Atom, Constant, Exists, ForAll, Formula, Not, Or, Relation
-from qe.formula.traverse import atoms, children
-from qe.proof.step import Place
+from qe.formula.build import atom, conj, disj, exists, forall
+from qe.formula.syntax import FALSE, TRUE, And, Atom, Exists, ForAll, Formula, Or, Relation
+from qe.formula.traverse import atoms
+from tests.attacks.places import places, put, same
 from tests.certificates.altered_derivations import rebuilt
 
 
@@ -66,31 +66,7 @@ NEAR = {
 }
 
 
-# --- places in formulas ------------------------------------------------------------------------------
-def places(formula: Formula, path: Place = ()) -> Iterator[tuple[Place, Formula]]:
-    """All parts of a formula, with the way down to them."""
-    yield path, formula
-    for k, child in enumerate(children(formula)):
-        yield from places(child, (*path, k))
-
-
-def put(formula: Formula, place: Place, new: Formula) -> Formula:
-    """The formula with another part at a place."""
-    if not place:
-        return new
-    match formula:
-        case And(args) | Or(args):
-            k = place[0]
-            join = conj if isinstance(formula, And) else disj
-            return join((*args[:k], put(args[k], place[1:], new), *args[k + 1 :]))
-        case Not(arg):
-            inner = put(arg, place[1:], new)
-            return neg(inner) if isinstance(inner, Constant) else Not(inner)
-        case Exists(variables, body) | ForAll(variables, body):
-            return same(formula)(variables, put(body, place[1:], new))
-    raise AssertionError(formula)
-
-
+# --- parts of a claim ----------------------------------------------------------------------------------
 SIDES, FACTS, ALL = slice(2), slice(2, None), slice(None)
 """Which of the ``parts`` of a claim may be changed."""
 
@@ -110,11 +86,6 @@ def somewhere(
             if new is not None and new != part:
                 return claim.with_part(k, put(claim.parts[k], place, new)), None
     return None
-
-
-def same(f: Exists | ForAll) -> Callable[[Sequence[str], Formula], Formula]:
-    """The builder of the quantifier that the formula begins with."""
-    return exists if isinstance(f, Exists) else forall
 
 
 def free_names(claim: Equivalence) -> list[str]:
@@ -299,6 +270,19 @@ def captured_letter(rng: random.Random, claim: Equivalence) -> Made | None:
     return everywhere(claim, bound), None
 
 
+def captured_fact(rng: random.Random, claim: Equivalence) -> Made | None:
+    """A condition on a bound variable is forgotten, and known of a free one of the same name."""
+    block = claim.before
+    if not isinstance(block, Exists | ForAll) or not isinstance(block.body, And):
+        return None
+    conditions = block.body.args
+    one = rng.choice([c for c in conditions if {*block.variables} & {*c.free}])
+    before = same(block)(block.variables, conj(c for c in conditions if c != one))
+    place, _ = next((found for found in places(claim.after) if found[1] == one), ((), None))
+    after = put(claim.after, place, TRUE) if place else claim.after
+    return Equivalence(before, after, (*claim.facts, one), claim.ring), None
+
+
 def captured_everywhere(rng: random.Random, claim: Equivalence) -> Made | None:
     """A bound variable, mostly of an inner block, gets the name of a free one wherever it stands, or a free one that of
     a bound one."""
@@ -370,7 +354,14 @@ def everywhere(claim: Equivalence, change: Callable[[Formula], Formula]) -> Equi
     return replace(claim, before=change(claim.before), after=change(claim.after), facts=tuple(map(change, claim.facts)))
 
 
-CAPTURES: tuple[NearMiss, ...] = (captured_binder, captured_parts, captured_letter, captured_everywhere, repeated_names)
+CAPTURES: tuple[NearMiss, ...] = (
+    captured_binder,
+    captured_parts,
+    captured_letter,
+    captured_fact,
+    captured_everywhere,
+    repeated_names,
+)
 """Names that mean something else below a quantifier."""
 
 OTHERS: tuple[NearMiss, ...] = (
