@@ -77,7 +77,7 @@ def _looked_at(rng: random.Random, name: str, found: Answered, counts: Counts) -
         return
     counts.fired += 1
     text = f"{found.question} <-> {found.answer}"
-    if name in found.unchecked:
+    if name in found.unchecked and not found.is_witnessed:
         counts.unproved.append(text)
     for point in points(rng, (found.question, found.answer), found.question.free, 2):
         values = [truth(side, point) for side in (found.answer, found.question)]

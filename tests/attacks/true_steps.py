@@ -42,13 +42,15 @@ class TrueStep:
 
 @dataclass(frozen=True, slots=True)
 class Answered:
-    """A question, its answer, the steps between them, the rules among the ``unchecked`` ones, and the methods."""
+    """A question, its answer, the steps between them, the rules of ``unchecked`` ones (which need no evidence where a
+    witness proves the answer), and the methods."""
 
     question: Formula
     answer: Formula
     steps: tuple[TrueStep, ...]
     unchecked: tuple[str, ...]
     methods: tuple[str, ...]
+    is_witnessed: bool
 
     @property
     def rules(self) -> set[str]:
@@ -61,7 +63,7 @@ def answered_with_steps(question: Formula, options: Options) -> Answered:
     found = answered(question, options, Budget(SECONDS))
     taken, unchecked = proved(question, found.log, found.formula, options)
     methods = tuple(entry.method for entry in found.log.entries if isinstance(entry, Choice))
-    return Answered(question, found.formula, taken, unchecked, methods)
+    return Answered(question, found.formula, taken, unchecked, methods, found.witness is not None)
 
 
 def taken_alone(question: Formula, rule: str) -> tuple[TrueStep, ...]:
