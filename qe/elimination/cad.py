@@ -25,6 +25,7 @@ from qe.options import Budget, Options, Projection, Stage
 from qe.proof.cells import CellTable
 from qe.proof.cells_json import CellEvidence
 from qe.proof.certificate import Certificate
+from qe.proof.on_demand import OnDemand, Repeated
 from qe.proof.run_log import RunLog
 from qe.simplify.simplify import simplify
 
@@ -68,15 +69,18 @@ def decomposed(formula: Formula, options: Options, budget: Budget, log: RunLog) 
             values = deciding_point(proof, truth)
     log.work("cad", _figures(order, reason, first, time.perf_counter() - start))
     certificate = Certificate.cells(proof, convert(answer, Ring.of(order))) if follows(answer, proof) else None
-    log.step("cells", formula, answer, evidence=kept(certificate, options))
+    log.step("cells", formula, answer, evidence=kept(formula, certificate, options))
     # back into the ring of the formula it came from: it is joined with parts of that formula
     ring = formula.ring
     return Outcome(answer if ring is None else convert(answer, ring), values, certificate)
 
 
-def kept(certificate: Certificate | None, options: Options) -> dict[str, object]:
-    """The evidence of a step by a table, where evidence is wanted: tables are large."""
-    return {"proof": {"certificate": certificate}} if certificate is not None and options.certify else {}
+def kept(formula: Formula, certificate: Certificate | None, options: Options) -> dict[str, object]:
+    """The evidence of a step by a table of a formula: tables are large, and made again where it is wanted later."""
+    if certificate is None:
+        return {}
+    again = OnDemand(Repeated(decomposed, formula, options))
+    return {"proof": {"certificate": certificate} if options.certify else again}
 
 
 def certificate_for(formula: Formula, answer: Formula, options: Options, budget: Budget) -> Certificate | None:

@@ -85,7 +85,7 @@ def _outcome(
     # back into the ring of the formula it came from: it is joined with parts of that formula
     ring = ring_of(problem.formula)
     moved = found if ring is None else convert(found, ring)
-    evidence = {} if refuted is None or found != FALSE else {"refuted": refuted}
+    evidence = {} if refuted is None or found != FALSE else {"proof": refuted}
     answer = context.log.step("comprehensive Gröbner system", problem.formula, problem.asked(moved), evidence=evidence)
     return Outcome(answer, witness)
 
@@ -262,6 +262,10 @@ def _upward(found: Atom) -> Condition:
 class _Conjunctions:
     parts: tuple[_Conjunction, ...]
 
-    def certificates(self) -> list[Certificate]:
+    def certificates(self, budget: Budget) -> dict[str, object]:
         """Of the solutions of each."""
-        return [part.certificate() for part in self.parts]
+        found = []
+        for part in self.parts:
+            budget.check("prove")
+            found.append(part.certificate())
+        return {"certificates": found}
