@@ -13,7 +13,7 @@ from qe.cells.follows import follows
 from qe.cells.formulas import construct
 from qe.cells.sampled_cells import deciding_point
 from qe.elimination.protocol import Context, Outcome, Problem
-from qe.errors import BudgetExceeded, InternalError
+from qe.errors import BudgetExceeded, Contradiction
 from qe.exact.number import Values
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import convert
@@ -88,7 +88,7 @@ def certificate_for(formula: Formula, answer: Formula, options: Options, budget:
 
     The factors of the answer join the projection, and the space of the free variables is decomposed whole, so that the
     table has their signs on every cell. None where the formula has no matrix to decompose. Raises ``BudgetExceeded``,
-    and ``InternalError`` where the decomposition decides a sentence otherwise.
+    and ``Contradiction`` where the decomposition decides a sentence otherwise.
     """
     prefix, matrix = prenex(formula)
     matrix = nnf(matrix)
@@ -101,7 +101,7 @@ def certificate_for(formula: Formula, answer: Formula, options: Options, budget:
     question = _Question(matrix, order, quantifiers, free, options)
     proof = question.table(budget, whole_free=True, extra=tuple(polynomials(claim))).table
     if not free and answer != (TRUE if proof.root.truth else FALSE):
-        raise InternalError(f"a decomposition says {proof.root.truth} where the answer is {answer}")
+        raise Contradiction(f"a decomposition says {proof.root.truth} where the answer is {answer}")
     return Certificate.cells(proof, claim)
 
 

@@ -63,7 +63,8 @@ def proved(formula: Formula, found: Outcome, options: Options, budget: Budget) -
     started, log = time.perf_counter(), found.log
     proof = certificate_of(formula, rename_apart(_counted(formula, options)), found, log, options, budget)
     log.seconds = round((log.seconds or 0.0) + time.perf_counter() - started, 6)
-    return replace(found, certificate=proof.certificate, unchecked=proof.unchecked, checked=proof.checked)
+    known = replace(found, certificate=proof.certificate, unchecked=proof.unchecked)
+    return replace(known, checked=proof.checked, reason=proof.reason)
 
 
 def _counted(formula: Formula, options: Options) -> Formula:
@@ -361,6 +362,7 @@ def answer_to(question: Formula, found: Outcome) -> Answer:
         found.formula,
         found.witness,
         found.certificate,
+        reason=found.reason,
         unchecked_steps=found.unchecked,
         question=question,
         log=found.log,
