@@ -49,7 +49,7 @@ def completed(step: Step, budget: Budget) -> Step:
                     budget.check("prove")
                     return {}
             case Step():
-                return replace(value, evidence=made(value.evidence))
+                return completed(value, budget)
             case Nested():
                 return replace(value, steps=tuple(completed(inner, budget) for inner in value.steps))
             case RunLog():
@@ -60,6 +60,4 @@ def completed(step: Step, budget: Budget) -> Step:
                 return type(value)(map(made, value))
         return value
 
-    evidence = made(step.evidence)
-    assert isinstance(evidence, Mapping)
-    return replace(step, evidence=evidence)
+    return replace(step, evidence={name: made(part) for name, part in step.evidence.items()})
