@@ -156,7 +156,7 @@ class _Question:
             from qe.cells.extended_tarski import extended_formula
 
             answer = extended_formula(proof)
-        simple = simplify(convert(answer, Ring.of(self.free)))
+        simple = simplify(convert(answer, Ring.of(self.free)), watch=budget.check)
         return simple, proof
 
     def shortest(self, first: Table, budget: Budget) -> tuple[Formula, CellTable]:

@@ -76,7 +76,7 @@ class ComprehensiveGroebner:
                 # whatever does not occur in this conjunction may be 0
                 return _outcome(problem, context, TRUE, {v: witness.get(v, Fraction(0)) for v in problem.variables})
         refuted = OnDemand(_Conjunctions(tuple(read)).certificates) if listed else None
-        return _outcome(problem, context, simplify(disj(found)), None, refuted)
+        return _outcome(problem, context, simplify(disj(found), watch=context.budget.check), None, refuted)
 
 
 def _outcome(

@@ -60,7 +60,7 @@ class Coverings:
         given = problem.formula.ring
         answer = found.formula if given is None else convert(found.formula, given)
         context.log.step("covering", problem.formula, answer, evidence=proof)
-        return Outcome(context.log.step("simplification", answer, simplify(answer)), values)
+        return Outcome(context.log.step("simplification", answer, simplify(answer, watch=context.budget.check)), values)
 
 
 def covered(formula: Formula, options: Options, budget: Budget, log: RunLog) -> None:

@@ -105,7 +105,7 @@ def _without_excluded_parts(formula: Formula, context: Context) -> Formula:
         left -= sum(length(condition)[1] for condition in part.conditions)
         if left < 0:
             break
-        if simplify(conj(part.conditions)) == FALSE:
+        if simplify(conj(part.conditions), watch=context.budget.check) == FALSE:
             nested = Nested(part.sentence, (Step("simplification", part.sentence, FALSE),), FALSE)
             formula = _dropped(formula, part, nested, context)
         else:
@@ -117,7 +117,7 @@ def _dropped(formula: Formula, part: Part, nested: Nested, context: Context) -> 
     """The formula without a part, simplified; ``nested`` says why."""
     proof = {"at": list(part.place), "steps": nested}
     shorter = context.log.step("redundant part", formula, without_part(formula, part.place), evidence={"proof": proof})
-    return context.log.step("simplification", shorter, simplify(shorter))
+    return context.log.step("simplification", shorter, simplify(shorter, watch=context.budget.check))
 
 
 def _is_worth_questions(formula: Formula) -> bool:

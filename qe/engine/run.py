@@ -259,7 +259,7 @@ class _Run:
             case And(args) | Or(args):
                 parts = [self.without_quantifiers(a, inner=inner) for a in args]
                 joined = (conj if isinstance(formula, And) else disj)(parts)
-                return self.log.step("simplification", joined, simplify(joined))
+                return self.log.step("simplification", joined, simplify(joined, watch=self.budget.check))
             case Not(arg):
                 return neg(self.without_quantifiers(arg, inner=inner))
             case Exists(variables, body) | ForAll(variables, body):
@@ -273,7 +273,7 @@ class _Run:
         if not body.is_quantifier_free:
             return replace(problem, body=body)
         before = replace(problem, body=body).formula
-        simple = problem.asked(simplify(nnf(body, negate=problem.universal)))
+        simple = problem.asked(simplify(nnf(body, negate=problem.universal), watch=self.budget.check))
         after = (forall if problem.universal else exists)(problem.variables, simple)
         self.log.step("simplification", before, after)
         return Problem.of(after) or after
@@ -373,7 +373,7 @@ class _Run:
             formula = self.without_quantifiers(formula)
         if attempt.shorten and problem.free and Stage.SHORTENING not in self.options.without:
             formula = shortened(formula, self.context())
-        simple = self.log.step("simplification", formula, simplify(formula))
+        simple = self.log.step("simplification", formula, simplify(formula, watch=self.budget.check))
         return found if simple == found.formula else replace(found, formula=simple)
 
 

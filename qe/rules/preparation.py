@@ -76,7 +76,7 @@ def prepare(
 def _simplified(formula: Formula, context: BlockContext) -> Formula:
     if StepKind.SIMPLIFY not in context.enabled:
         return formula
-    simple = simplify(formula)
+    simple = simplify(formula, watch=context.watch)
     context.log.step(StepKind.SIMPLIFY.value, formula, simple)
     return simple
 
