@@ -192,6 +192,7 @@ class _Conjunction:
 
     def _on_a_line(self, x: int, conditions: Sequence[Condition], budget: Budget) -> Formula:
         """That they hold for some x, all of which contain it: at an end of the line, or at a zero."""
+        budget.check("zeros of conditions")
         if not conditions:
             return TRUE
         (g, relation), *rest = sorted(conditions, key=lambda c: c[1] is not Relation.GE)

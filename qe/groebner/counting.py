@@ -56,6 +56,7 @@ class SolutionCount:
             wider: dict[Poly, int] = {}
             for factor, weight in factors.items():
                 for power, c in weights.items():
+                    budget.check("sign conditions")
                     product, number = _without_sign(factor * g**power)
                     wider[product] = wider.get(product, 0) + weight * c * number
             factors = wider

@@ -80,6 +80,7 @@ def reduce_block(variables: Sequence[str], body: Formula, context: BlockContext)
     if not kept:
         return Leaf((), body)
     for rule in RULES:
+        context.watch()
         found = rule(kept, body, context)
         if found is not None:
             context.step(found.kind.value, exists(kept, body), found.node.formula, found.detail, found.proof)
