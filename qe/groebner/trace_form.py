@@ -220,9 +220,9 @@ class ParametricQuotient:
         for k in range(size):
             current: dict[tuple[int, ...], Poly] = {}
             for columns in combinations(range(size), k + 1):
-                self.budget.check("determinants of trace forms")
                 total = self.ring.constant(0)
                 for position, column in enumerate(columns):
+                    self.budget.check("determinants of trace forms")
                     entry, rest = matrix[k][column], previous[columns[:position] + columns[position + 1 :]]
                     if entry and rest:
                         total = total + entry * rest * (-1) ** (k - position)
