@@ -242,12 +242,13 @@ class ParametricQuotient:
         zero, one = ring.constant(0), ring.constant(1)
         current = [[one if i == j else zero for j in range(size)] for i in range(size)]
         coefficients = [one]
-        for k in range(1, size + 1):
+
+        def entry(i: int, j: int) -> Poly:
             self.budget.check("characteristic polynomials")
-            product = [
-                [sum((matrix[i][m] * current[m][j] for m in range(size)), start=zero) for j in range(size)]
-                for i in range(size)
-            ]
+            return sum((matrix[i][m] * current[m][j] for m in range(size)), start=zero)
+
+        for k in range(1, size + 1):
+            product = [[entry(i, j) for j in range(size)] for i in range(size)]
             trace = sum((product[i][i] for i in range(size)), start=zero)
             c = (-trace).exact_divide(k)
             if c.term_count() > MOST_TERMS:

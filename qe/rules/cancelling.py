@@ -68,10 +68,10 @@ def cancelled(formula: Formula, equation: Poly, watch: Callable[[], object] = ID
     return rewrite(formula, change, {equation.ring.names[i] for i in equation.variables})
 
 
-def cancel_by(equations: Sequence[Poly], formula: Formula) -> Formula:
+def cancel_by(equations: Sequence[Poly], formula: Formula, watch: Callable[[], object] = IDLE) -> Formula:
     """The formula with multiples of the equations subtracted, one equation after the other."""
     for equation in equations:
-        formula = cancelled(formula, equation)
+        formula = cancelled(formula, equation, watch)
     return formula
 
 

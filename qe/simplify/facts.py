@@ -136,6 +136,7 @@ class Facts:
 
     def signs(self, poly: Poly) -> frozenset[int]:
         """The signs that a polynomial can have, as far as known: from its range and from those of its factors."""
+        self.watch()
         if poly.is_constant:
             value = poly.constant_value()
             return frozenset(((value > 0) - (value < 0),))
