@@ -99,7 +99,11 @@ class _Run:
         if not any(step.rule == StepKind.LINEAR.value for step in self.log.steps(mark)):
             self.log.forget_steps(mark)
             return self.unnamed(formula)
-        found, problem = self.unnamed(ready.formula), Problem.of(formula)
+        gone, ring = {*features(formula).bound} - {*features(ready.formula).bound}, formula.ring
+        assert ring is not None
+        own = Ring.of(name for name in ring.names if name not in gone)  # as without the names: orders go by the ring
+        found, problem = self.unnamed(convert(ready.formula, own)), Problem.of(formula)
+        found = replace(found, formula=convert(found.formula, ring))
         known = found.witness if type(ready.formula) is type(formula) else {}
         if problem is None or problem.free or known is None or found.formula != problem.asked(TRUE):
             return Outcome(found.formula, order=found.order)

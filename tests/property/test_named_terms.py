@@ -124,3 +124,15 @@ def test_all_named_terms(name: str) -> None:
 @pytest.mark.parametrize("method", METHODS)
 def test_named_terms_by_one_method(method: str) -> None:
     assert sum(compared(text, seed, method, 10) for seed, text in enumerate(PROBLEMS.values())) > 5
+
+
+def test_a_name_that_nothing_else_looks_at_costs_nothing() -> None:
+    """A point is found for four curved conditions; with ``volume`` beside them decomposition did not end."""
+    text = "x^3*y + y^3*z + z^3*w + w^3*x*u > 5 and x*y*z*w*u > 1 and x^2*u - y*w > 1"
+    text += " and x^2 + y^2 + z^2 + w^2 + u^2 < 20"
+    plain = qe.find_instance(text, timeout=20)
+    named = qe.find_instance(f"{text} and volume = (x + 1)*(y + 2)*(z + 3)*(w + u)", timeout=20)
+    assert plain is not None and named is not None
+    assert {name: value for name, value in named.items() if name != "volume"} == dict(plain)
+    x, y, z, w, u = (plain[name] for name in "xyzwu")
+    assert named["volume"] == (x + 1) * (y + 2) * (z + 3) * (w + u)
