@@ -1,4 +1,4 @@
-"""A name for a term changes nothing: a problem that is solved without names is solved with them, by the same methods, in
+"""A name for a term changes nothing: what is solved without names is solved with them, by the same methods, in
 at most twice the time. That holds for names of whole sides and of parts of sums, in the block itself, in one inside it,
 at the single comparison, and for names of what nothing else looks at.
 """
