@@ -49,7 +49,7 @@ def optimize(channel: Channel, request: Request, goal: Goal) -> Reply:
     seconds = time.perf_counter() - start
     if request.json:
         return Reply(json.dumps({**data, "seconds": round(seconds, 6)}, indent=2, ensure_ascii=False), files=files)
-    how = "proved optimal" if best.certificate is not None and not best.reason else "found"
+    how = f"proved {data['status']}" if best.certificate is not None and not best.reason else "found"
     return Reply("\n".join([*lines, f"{how} in {seconds:.3f} s"]), files=files)
 
 
@@ -58,7 +58,7 @@ def _data(best: Optimum | GlobalOptimum) -> dict[str, Any]:
     from qe.convex.optimum import Optimum
 
     data: dict[str, Any] = {
-        "status": best.status.name.lower(),
+        "status": best.status.value,
         "value": exact_and_decimal(best.value),
         "point": {name: exact_and_decimal(value) for name, value in best.point.items()},
         "attained": best.attained,
@@ -73,6 +73,8 @@ def _data(best: Optimum | GlobalOptimum) -> dict[str, Any]:
             "minimisers": str(best.minimisers),
             "points": points,
         }
+    if best.bound is not None:
+        data["bound"] = exact_and_decimal(best.bound)
     return {
         **data,
         "active": [best.constraints[i] for i in best.active],
@@ -85,6 +87,9 @@ def _lines(best: Optimum | GlobalOptimum) -> list[str]:
     from qe.convex.optimum import Optimum
 
     lines = [f"value {shown(best.value)}"]
+    if isinstance(best, Optimum) and best.value is not None and best.bound is not None:
+        beyond = "below" if best.value > best.bound else "above"
+        lines.append(f"no point has one {beyond} {shown(best.bound)}; the exact numbers are out of reach")
     several = () if isinstance(best, Optimum) or len(best.points) < 2 else best.points
     for point in several:
         lines.append(f"at {', '.join(f'{quoted(name)} = {shown(value)}' for name, value in point.items())}")
