@@ -24,7 +24,8 @@ from bezier.paths import heights
 from bezier.paths.path import Path
 from bezier.planner import arm, avoid
 from bezier.planner.table import method_of
-from bezier.plans import Outcome, Plan
+from bezier.planner.words import why_not
+from bezier.plans import Plan
 from bezier.problem import Problem, to_json
 from qe.errors import InputError
 
@@ -145,8 +146,10 @@ def facts(plan: Plan) -> dict[str, Any]:
     }
     if plan.derivations:
         found["derivations"] = {name: list(item.rules) for name, item in plan.derivations.items()}
-    if plan.outcome is Outcome.INFEASIBLE:
-        found["reason"] = method.reason(plan)
+    if plan.bound is not None:
+        found["bound"] = described(plan.bound)
+    if not plan.outcome.is_success and not found.get("reason"):
+        found["reason"] = why_not(plan)
     return found
 
 
