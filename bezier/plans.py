@@ -132,8 +132,9 @@ class Plan:
 
     ``bound``: no choice of the method has an objective below it, where the exact optimum is out of reach (None: the
     objective is the least). ``formula``: as handed to the engine; ``answer``: its quantifier-free answer; ``active``:
-    labels of the conditions that hold with equality (with a ``bound``: that prove it); ``certificate``: all certificates, labelled; ``checks``: what the
-    independent checker says of them; ``seconds``: the time of each step; ``remarks``: for the reader;
+    labels of the conditions that hold with equality (with a ``bound``: that prove it); ``certificate``: all
+    certificates, labelled; ``checks``: what the independent checker says of them; ``seconds``: the time of each step;
+    ``remarks``: for the reader;
     ``findings``: each curve and each obstacle; ``attempts``: what was tried to get around the obstacles;
     ``quality``: lengths, curvatures and the motion in time. ``heights``: the height condition, decided for all curves.
     ``radius_rule``: what the radius forces where a via point lies on the sphere. ``joints``: of the arm.

@@ -24,9 +24,9 @@ from bezier.input.toml_table import Table
 from bezier.obstacles import survey
 from bezier.obstacles.clearance import Argument, Clear
 from bezier.obstacles.survey import Finding
-from bezier.planner.table import method_of
+from bezier.planner.table import method_for
 from bezier.plans import Attempt, Clock, Outcome, Plan
-from bezier.problem import INNER, PlanMethod, Problem, problem_of, to_json
+from bezier.problem import INNER, PlanMethod, Problem, ends_inside, problem_of, to_json
 from qe.errors import BudgetExceeded, CertificateRejected, InputError, Unable
 
 RAISES = (Fraction(1, 4), Fraction(1, 2), Fraction(1))
@@ -42,9 +42,10 @@ NOT_FOUND = "no path found: every path that was tried MEETS an obstacle"
 
 
 def avoiding(problem: Problem, clock: Clock) -> Plan:
-    """The first alternative whose whole path is clear of the obstacles; else the first path, ``Outcome.BLOCKED``."""
+    """The first alternative whose whole path is clear of the obstacles; else the first path, ``Outcome.BLOCKED``. Where
+    the start or the goal lies in an obstacle, the proof that no path exists, at once."""
     first = _attempted(AS_GIVEN, problem, clock)
-    if first.outcome.is_success:
+    if first.outcome.is_success or ends_inside(problem):
         return first
     attempts = first.attempts
     for what, candidate in _alternatives(problem, first):
@@ -65,7 +66,7 @@ def avoiding(problem: Problem, clock: Clock) -> Plan:
 
 def _attempted(what: str, problem: Problem, clock: Clock) -> Plan:
     """The plan of one problem, proved clear of the obstacles or not."""
-    plan: Plan = method_of(problem.method).make(problem, clock)
+    plan: Plan = method_for(problem).make(problem, clock)
     with clock.step(f"clearance, {what}"):
         plan = examined(plan)
     clock.learn(what, _detail(plan))
@@ -105,6 +106,8 @@ def _polygon_remark(finding: Finding) -> str:
 
 
 def _detail(plan: Plan) -> str:
+    if ends_inside(plan.problem):
+        return method_for(plan.problem).reason(plan)
     if plan.outcome is Outcome.INFEASIBLE:
         return "no control point exists"
     return "; ".join(map(survey.in_words, survey.contacts(plan.findings))) or "clear of all obstacles"

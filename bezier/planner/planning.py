@@ -14,7 +14,7 @@ from bezier.planner.avoid import avoiding
 from bezier.planner.derivations import with_derivations
 from bezier.planner.table import method_of
 from bezier.plans import Begun, Clock, Outcome, Plan, RadiusRule
-from bezier.problem import Problem
+from bezier.problem import Problem, ends_inside
 from qe.errors import BudgetExceeded, Unable
 
 NEAR = (
@@ -90,7 +90,7 @@ def with_findings(plan: Plan, rule: Callable[[bool], RadiusRule | None]) -> Plan
     found, remarks = plan, []
     try:
         solvable = plan.outcome is not Outcome.INFEASIBLE
-        forced = rule(solvable)
+        forced = None if ends_inside(plan.problem) else rule(solvable)
         if forced is not None:
             found = replace(found, radius_rule=forced)
             remarks += [forced.in_words()] if solvable else []  # else it is part of the reason

@@ -7,7 +7,7 @@ from bezier.motion import motion
 from bezier.obstacles import survey
 from bezier.paths import heights
 from bezier.planner import arm, avoid
-from bezier.planner.table import method_of
+from bezier.planner.table import method_for
 from bezier.plans import Outcome, Plan
 
 NONE = "no path exists"
@@ -16,7 +16,7 @@ NONE = "no path exists"
 
 def lines(made: Plan) -> list[str]:
     """The summary for people, but for the files."""
-    problem, method = made.problem, method_of(made.problem.method)
+    problem, method = made.problem, method_for(made.problem)
     found = [f"radius r = {problem.workspace.radius_text}, {problem.workspace.kind.value}"]
     found += [f"note: {note}" for note in (*problem.notes, *made.remarks)]
     if made.outcome is Outcome.INFEASIBLE:
@@ -48,7 +48,7 @@ def why_not(made: Plan) -> str | None:
         case Outcome.SOLVED | Outcome.NEAR_OPTIMAL:
             return None
         case Outcome.INFEASIBLE:
-            return f"{NONE}: {method_of(made.problem.method).reason(made)}"
+            return f"{NONE}: {method_for(made.problem).reason(made)}"
         case Outcome.BLOCKED:
             met = "; ".join(map(survey.in_words, survey.contacts(made.findings)))
             return f"{avoid.NOT_FOUND} ({met}); a path may exist all the same"
