@@ -30,7 +30,7 @@ radius = "17/4"
 @pytest.fixture(scope="module")
 def found() -> Comparison:
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(comparison, "REGION_SECONDS", 0.2)
+        patch.setattr(comparison, "COMPARE_SECONDS", 0.2)
         return compare(read_problem(PROBLEM), proofs=True)
 
 
