@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import signal
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
@@ -28,7 +29,6 @@ from bezier.problem import PlanMethod, Problem
 from qe.errors import BudgetExceeded, InputError, Unable
 from qe.formula.syntax import Formula
 from qe.processes.worker import Channel, Known, run
-from qe.progress import Event
 from qe.proof.certificate import Certificate
 
 Found = TypeVar("Found")
@@ -201,8 +201,8 @@ class _Parts:
     begin: float = field(default_factory=processor_time)
 
     def take(self, name: str, share: int, work: Callable[[float], Found], most: float | None = None) -> Found | None:
-        """The result of a part, which gets one part in ``share`` of the time asked for (where none is asked for, ``most``
-        seconds, or what is left of ``COMPARE_SECONDS``); None, with the reason noted."""
+        """The result of a part, which gets one part in ``share`` of the time asked for; where none is asked for,
+        ``most`` seconds, or what is left of ``COMPARE_SECONDS``. None, with the reason noted."""
         try:
             with self.clock.step(name):
                 left = self.clock.remaining(name)
@@ -302,17 +302,19 @@ def _measured(formula: Formula, channel: Channel, *, most: float | None) -> tupl
 
     Raises ``BudgetExceeded`` after ``most`` seconds of processor time.
     """
-    begin = processor_time()
 
-    def progress(event: Event) -> None:
-        channel.event(event)
-        if most is not None and processor_time() - begin > most:
-            raise _Spent
+    def spent(number: int, frame: object) -> None:
+        raise _Spent
 
+    if most is not None:  # this is a process of its own, which nothing else has set timers in
+        signal.signal(signal.SIGPROF, spent)
+        signal.setitimer(signal.ITIMER_PROF, most, 1.0)
     try:
-        given = qe.region(formula, progress=progress)
+        given = qe.region(formula, progress=channel.event)
     except _Spent:
         raise BudgetExceeded(f"limit of {most:.0f} s of processor time reached") from None
+    finally:
+        signal.setitimer(signal.ITIMER_PROF, 0.0)
     channel.fact("answer", given.answer)
     region = qe.Region.from_json(given.to_json())
     if region.cells and not region.is_empty:
