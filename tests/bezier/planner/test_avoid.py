@@ -43,10 +43,10 @@ radius = 1
 """
 WALL = """
 [[obstacle]]
-kind = "half_space"
+kind = "box"
 name = "wall"
-normal = [1, 0, 0]
-offset = 0
+low = [-3, -20, -20]
+high = [3, 20, 20]
 """
 
 
