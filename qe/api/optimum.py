@@ -189,7 +189,7 @@ def _best(
         if term.polynomial is not None and method != "elimination":
             poly, scale = term.polynomial
             try:
-                return (minimize if sign > 0 else maximize)(poly, conditions, scale=scale, budget=budget)
+                return (minimize if sign > 0 else maximize)(poly, conditions, scale=scale, budget=budget, near=True)
             except NotConvex:
                 if method == "convex":
                     raise
