@@ -62,15 +62,19 @@ def figures(repeat: int = 3) -> Iterator[Figure]:
     arm = load_arm("ev3-120")
     line = ("10 + 30*s", "40 + 60*s", "80 - 60*s")
     yield _timed(
-        "comprehensive Gröbner system, L = 120", lambda: qe.comprehensive_groebner(
-            _system(("x", "y", "z")), VARIABLES, constants=_constants(), process=False
-        ), repeat, 2.0, "31.6-62.3 s",
-    )  # fmt: skip
+        "comprehensive Gröbner system, L = 120",
+        lambda: qe.comprehensive_groebner(_system(("x", "y", "z")), VARIABLES, constants=_constants(), process=False),
+        repeat,
+        2.0,
+        "31.6-62.3 s",
+    )
     yield _timed(
-        "the same of the straight path, parameter s", lambda: qe.comprehensive_groebner(
-            _system(line), VARIABLES, constants=_constants(), process=False
-        ), repeat, 1.0, "485.8 s",
-    )  # fmt: skip
+        "the same of the straight path, parameter s",
+        lambda: qe.comprehensive_groebner(_system(line), VARIABLES, constants=_constants(), process=False),
+        repeat,
+        1.0,
+        "485.8 s",
+    )
     yield _timed("preparation of the arm, once", lambda: _prepared(arm), repeat, 2.0, "31.6-62.3 s")
     yield from _points()
     yield _timed("certificate at a point, made and checked", _certified, repeat, None)

@@ -23,9 +23,8 @@ from qe.errors import (
     QEError,
     Unable,
 )
-from qe.later import provide
 from qe.options import Method, Stage
-from qe.sympy_form import written_by
+from qe.services import Service, provide
 
 if TYPE_CHECKING:
     from qe.api.decide import check_witness, decide, equivalent, find_instance
@@ -93,13 +92,18 @@ def __getattr__(name: str) -> Any:
     return found
 
 
-written_by(lambda value: import_module("qe.io.sympy").sympy_form(value))
-provide("regions", lambda: import_module("qe.api.region_operators"))
-provide("connected", lambda: import_module("qe.io.expressions").connected)
-provide("substituted", lambda: import_module("qe.io.expressions").substituted)
-provide("formats", lambda: import_module("qe.io.formats"))
-provide("region", lambda: import_module("qe.api.eliminate").region)
-provide("partial_picture", lambda: import_module("qe.regions.partial_picture").plotted)
+provide(
+    {
+        Service.CONNECTED: lambda: import_module("qe.io.expressions").connected,
+        Service.SUBSTITUTED: lambda: import_module("qe.io.expressions").substituted,
+        Service.WRITTEN: lambda: import_module("qe.io.formats").write,
+        Service.SYMPY: lambda: import_module("qe.io.sympy").sympy_form,
+        Service.REGION: lambda: import_module("qe.api.eliminate").region,
+        Service.REGION_OPERATORS: lambda: import_module("qe.api.region_operators"),
+        Service.PARTIAL_PICTURE: lambda: import_module("qe.regions.partial_picture").plotted,
+        Service.THEOREM: lambda: import_module("qe.certify.theorems").theorem_of,
+    }
+)
 
 
 def __dir__() -> list[str]:

@@ -21,7 +21,7 @@ from qe.exact.algebraic_text import format_root, in_latex
 from qe.exact.balls import FIRST_PRECISION, ball_sign, hull, lower_end, precision, upper_end
 from qe.exact.combined_roots import combined_polynomial, power_polynomial
 from qe.exact.isolate import Interval, isolate, sign_at
-from qe.sympy_form import SymPyForm
+from qe.services import SymPyForm
 
 STALLED_BITS = 8
 """An enclosure that is right to so many bits and gets no better is held up by rounding, not by the polynomial."""

@@ -19,7 +19,7 @@ from qe.exact.algebraic import RealAlgebraic, irreducible_factors, irreducible_r
 from qe.exact.algebraic_text import in_latex
 from qe.exact.balls import FIRST_PRECISION, precision
 from qe.exact.radicals import format_number
-from qe.sympy_form import SymPyForm
+from qe.services import SymPyForm
 
 Rational = int | Fraction
 

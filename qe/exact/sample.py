@@ -31,8 +31,20 @@ SMALL = 100
 class Point:
     """A point of R^depth; immutable apart from caches. Long arithmetic at it and above asks its ``watch``."""
 
-    __slots__ = ("_balls", "_given", "_reduced", "_tower", "_vanishing", "algebraic", "depth", "parent", "ring",
-                 "value", "watch", "zeros")  # fmt: skip
+    __slots__ = (
+        "_balls",
+        "_given",
+        "_reduced",
+        "_tower",
+        "_vanishing",
+        "algebraic",
+        "depth",
+        "parent",
+        "ring",
+        "value",
+        "watch",
+        "zeros",
+    )
 
     def __init__(
         self,

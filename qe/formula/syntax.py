@@ -16,7 +16,7 @@ from qe.formula.notation import Level, Notation, bracketed, chain, oriented, pol
 from qe.formula.operators import Connected
 from qe.formula.relation import Relation as Relation
 from qe.formula.text import text_notation
-from qe.sympy_form import SymPyForm
+from qe.services import SymPyForm
 
 LONGEST = 300
 """Characters of a formula in its ``repr`` and those of values that have one."""
@@ -31,13 +31,12 @@ class Formula(Connected, SymPyForm):
     then kept. They are no part of what a node is equal to, of its ``repr`` or of its pickle.
     """
 
-    __slots__ = ("_bound", "_free", "_hash", "_is_quantifier_free", "_is_simple", "_ring")
+    __slots__ = ("_bound", "_free", "_hash", "_is_quantifier_free", "_ring")
     __match_args__: ClassVar[tuple[str, ...]] = ()
     _bound: frozenset[str]
     _free: tuple[str, ...]
     _hash: int
     _is_quantifier_free: bool
-    _is_simple: bool
     _ring: Ring | None
 
     @property
@@ -79,15 +78,6 @@ class Formula(Connected, SymPyForm):
             free = self._find_quantifier_free()
             object.__setattr__(self, "_is_quantifier_free", free)
             return free
-
-    @property
-    def is_simple(self) -> bool:
-        """Whether the simplifier has said that it leaves the formula as it is; ``False`` says nothing."""
-        return getattr(self, "_is_simple", False)
-
-    def mark_simple(self) -> None:
-        """Note that the simplifier leaves the formula as it is."""
-        object.__setattr__(self, "_is_simple", True)
 
     def __hash__(self) -> int:
         try:

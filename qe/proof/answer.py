@@ -13,11 +13,11 @@ from qe import arguments
 from qe.errors import InputError, NoTruthValue, Unable
 from qe.exact.number import Assignment, point_text
 from qe.formula.syntax import Constant, Formula
-from qe.later import later
 from qe.proof.certificate import Certificate
 from qe.proof.derivation import Derivation, put_together
 from qe.proof.partial import Partial
 from qe.proof.run_log import RunLog
+from qe.services import Service, service
 
 UNPROVED = "a limit ended the search for a proof"
 """Why an answer is no better than derived that was known before its proof."""
@@ -148,10 +148,10 @@ class Answer:
             names = arguments.names(order) or self.question.free
             if sorted(names) != sorted(self.question.free):
                 raise InputError(f"order: the free variables expected, {', '.join(names)} found")
-            return later("partial_picture")(self.partial, names, path, ax, timeout)
+            return service(Service.PARTIAL_PICTURE)(self.partial, names, path, ax, timeout)
         if self.formula is None:
             raise Unable(f"there is no formula to draw: {self.reason}")
-        return later("region")(self.formula, order, timeout=timeout).plot(path, ax=ax, timeout=timeout)
+        return service(Service.REGION)(self.formula, order, timeout=timeout).plot(path, ax=ax, timeout=timeout)
 
     def __repr__(self) -> str:
         found = f"unable: {self.reason}" if self.formula is None else self.formula.brief()
@@ -167,7 +167,7 @@ class Answer:
         notes = [self.guarantee.value, *([] if seconds is None else [f"{seconds:.3f} s"])]
         if self.witness:
             notes.append(f"{'counterexample' if self.truth is False else 'witness'}: {point_text(self.witness)}")
-        shown = "unable" if self.formula is None else later("formats").write(self.formula, "mathml")
+        shown = "unable" if self.formula is None else service(Service.WRITTEN)(self.formula, "mathml")
         reason = [self.reason] if self.reason else []
         return f"<div>{shown}<br><small>{escape('; '.join((*notes, *reason)))}</small></div>"
 

@@ -12,7 +12,7 @@ from qe.io import mathml
 from qe.proof.certificate import Certificate
 from qe.proof.run_log import RunLog
 from qe.proof.step import Step
-from qe.proof.theorems import theorem_of
+from qe.services import Service, service
 
 RULES: Mapping[str, str] = {
     "renaming": "Bound variables get names of their own.",
@@ -123,7 +123,7 @@ def _list(steps: Sequence[Step], prefix: str = "") -> str:
 
 def _row(step: Step, anchor: str) -> str:
     where = "" if step.context == TRUE else f"<p>where {_math(step.context)}</p>"
-    theorem = "".join(f"<p>{escape(text)}</p>" for text in theorem_of(step.rule))
+    theorem = "".join(f"<p>{escape(text)}</p>" for text in service(Service.THEOREM)(step.rule))
     return (
         f'<li{anchor}><span class="rule">{escape(step.rule)}</span> '
         f'<span class="says">{escape(RULES.get(step.rule, ""))}</span>{_folded("theorem", theorem)}{where}'

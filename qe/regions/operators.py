@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Self
 
-from qe.later import later
+from qe.services import Service, service
 
 if TYPE_CHECKING:  # loaded with ``qe`` itself, which loads nothing of the engine
     from qe.cells.interval import Coordinate, Interval, Number
@@ -172,4 +172,4 @@ class SetOperations:
 
 
 def _ways() -> Any:
-    return later("regions")
+    return service(Service.REGION_OPERATORS)

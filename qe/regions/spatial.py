@@ -168,8 +168,11 @@ class Space:
         low, high = self._around(near, bits) if near[1] % 2 else (point.number(1),) * 2
         assert isinstance(low, Fraction) and isinstance(high, Fraction)
         factors, ring = self.table.factors[1], Ring.of(self.table.order)
-        crossed = [f.at_quotient(1, ring.constant(y.numerator), ring.constant(y.denominator))
-                   for f in factors for y in {low, high}]  # fmt: skip
+        crossed = [
+            f.at_quotient(1, ring.constant(y.numerator), ring.constant(y.denominator))
+            for f in factors
+            for y in {low, high}
+        ]
         x = nearer(start, self._beyond(near, cell, start, bits), crossed)
         line = Point(ring).extend(rational(x))
         left, right = enclosure(point, 0, bits + 64)

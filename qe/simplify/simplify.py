@@ -27,6 +27,27 @@ from qe.simplify.univariate import irredundant
 _ROUNDS = 60  # every round removes degree, an atom or a subformula; this only guards against a bug
 
 
+class _Recent:
+    """A set that forgets: its last members, at least ``most`` and less than twice as many."""
+
+    def __init__(self, most: int) -> None:
+        self._most = most
+        self._new: set[Formula] = set()
+        self._old: set[Formula] = set()
+
+    def __contains__(self, formula: Formula) -> bool:
+        return formula in self._new or formula in self._old
+
+    def add(self, formula: Formula) -> None:
+        if len(self._new) >= self._most:
+            self._old, self._new = self._new, set()
+        self._new.add(formula)
+
+
+_SIMPLE = _Recent(500)
+"""Formulas that the simplifier leaves as they are where nothing is assumed: its results come back to it."""
+
+
 def simplify(formula: Formula, assumptions: Formula = TRUE, *, watch: Callable[[], object] = IDLE) -> Formula:
     """A formula, not larger, that is equivalent to ``formula`` wherever ``assumptions`` holds.
 
@@ -45,7 +66,7 @@ def simplify(formula: Formula, assumptions: Formula = TRUE, *, watch: Callable[[
 
 def simplify_under(formula: Formula, facts: Facts) -> Formula:
     """As ``simplify``, with the assumptions given as facts."""
-    if formula.is_simple and facts.is_empty:
+    if facts.is_empty and formula in _SIMPLE:
         return formula
     current = nnf(formula)
     for _ in range(_ROUNDS):
@@ -53,7 +74,7 @@ def simplify_under(formula: Formula, facts: Facts) -> Formula:
         if current == previous:
             current = formula if current == formula else current  # with what is known about the node that was given
             if facts.is_empty:
-                current.mark_simple()
+                _SIMPLE.add(current)
             break
     return current
 

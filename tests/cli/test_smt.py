@@ -37,15 +37,36 @@ def answers(script: str, *, timeout: float | None = None) -> list[str]:
         ("(assert (= x 1))(check-sat-assuming ((= x 2)))(check-sat)", ["unsat", "sat"]),
         ("(assert (> x 0))(reset-assertions)(declare-const x Real)(assert (< x 0))(check-sat)", ["sat"]),
         ("(assert false)(reset)(check-sat)", ["sat"]),
-        ("(assert (= (* 2 x) 1))(check-sat)(get-value (x (+ x y) p (> x 0)))", ["sat", "((x (/ 1.0 2.0)) ((+ x y) (/ 1.0 2.0)) (p false) ((> x 0) true))"]),
-        ("(assert p)(assert (= x (- 3)))(check-sat)(get-model)", ["sat", "(\n  (define-fun x () Real (- 3.0))\n  (define-fun y () Real 0.0)\n  (define-fun p () Bool true)\n)"]),
-        ("(assert (and (= (* x x) 2) (< x 0)))(check-sat)(get-value (x (* x x)))", ["sat", "((x (root-obj (+ (^ x 2) (- 2)) 1)) ((* x x) 2.0))"]),
-        ("(assert (= x (root-obj (+ (^ x 2) (- 2)) 1)))(assert (= (* x x) y))(check-sat)(get-value (y))", ["sat", "((y 2.0))"]),
-        ("(assert (! (> x 0) :named a))(assert (! (> y 0) :named b))(assert (! (< x 0) :named |c d|))(check-sat)(get-unsat-core)", ["unsat", "(a |c d|)"]),
+        (
+            "(assert (= (* 2 x) 1))(check-sat)(get-value (x (+ x y) p (> x 0)))",
+            ["sat", "((x (/ 1.0 2.0)) ((+ x y) (/ 1.0 2.0)) (p false) ((> x 0) true))"],
+        ),
+        (
+            "(assert p)(assert (= x (- 3)))(check-sat)(get-model)",
+            [
+                "sat",
+                "(\n  (define-fun x () Real (- 3.0))\n  (define-fun y () Real 0.0)\n  (define-fun p () Bool true)\n)",
+            ],
+        ),
+        (
+            "(assert (and (= (* x x) 2) (< x 0)))(check-sat)(get-value (x (* x x)))",
+            ["sat", "((x (root-obj (+ (^ x 2) (- 2)) 1)) ((* x x) 2.0))"],
+        ),
+        (
+            "(assert (= x (root-obj (+ (^ x 2) (- 2)) 1)))(assert (= (* x x) y))(check-sat)(get-value (y))",
+            ["sat", "((y 2.0))"],
+        ),
+        (
+            "(assert (! (> x 0) :named a))(assert (! (> y 0) :named b))(assert (! (< x 0) :named |c d|))(check-sat)(get-unsat-core)",
+            ["unsat", "(a |c d|)"],
+        ),
         ("(check-sat-assuming (p (> x 0) (not p)))(get-unsat-assumptions)", ["unsat", "(p (not p))"]),
         ("(get-qe (exists ((z Real)) (= (* z z) x)))", ["(>= x 0)"]),
         ("(assert (> x 0))(get-assertions)", ["((> x 0))"]),
-        ('(echo "a b")(get-info :name)(get-info :assertion-stack-levels)', ['"a b"', '(:name "bezier-qe")', "(:assertion-stack-levels 0)"]),
+        (
+            '(echo "a b")(get-info :name)(get-info :assertion-stack-levels)',
+            ['"a b"', '(:name "bezier-qe")', "(:assertion-stack-levels 0)"],
+        ),
         ("(set-option :print-success true)(set-logic QF_NRA)(push)", ["success", "success", "success"]),
         ("(check-sat-using qfnra)", ["check-sat-using: tactics are not used, the answer is that of check-sat", "sat"]),
         ("(declare-const || Real)(assert (= || 1))(check-sat)(get-value (||))", ["sat", "((|| 1.0))"]),
@@ -53,9 +74,15 @@ def answers(script: str, *, timeout: float | None = None) -> list[str]:
         ("(exit)(check-sat)", []),
         ("(assert (= (/ x 0) 1))(assert (= (/ y 0) 2))(assert (= x y))(check-sat)", ["unsat"]),
         ("(assert (= (/ x 0) 1))(assert (= (/ y 0) 2))(check-sat)", ["sat"]),
-        ("(assert (= (/ 1 y) 3))(assert (= y 0))(check-sat)(get-value ((/ 1 y) (/ 1 0)))", ["sat", "(((/ 1 y) 3.0) ((/ 1 0) 3.0))"]),
+        (
+            "(assert (= (/ 1 y) 3))(assert (= y 0))(check-sat)(get-value ((/ 1 y) (/ 1 0)))",
+            ["sat", "(((/ 1 y) 3.0) ((/ 1 0) 3.0))"],
+        ),
         ("(assert (>= (/ y 0) 1))(check-sat)(get-value ((/ y 0) y))", ["sat", "(((/ y 0) 1.0) (y 0.0))"]),
-        ("(assert (= (/ (ite (distinct y 3) 3 y) 0) 5))(assert (= y 3))(check-sat)(get-value ((/ (ite (distinct y 3) 3 y) 0)))", ["sat", "(((/ (ite (distinct y 3) 3 y) 0) 5.0))"]),
+        (
+            "(assert (= (/ (ite (distinct y 3) 3 y) 0) 5))(assert (= y 3))(check-sat)(get-value ((/ (ite (distinct y 3) 3 y) 0)))",
+            ["sat", "(((/ (ite (distinct y 3) 3 y) 0) 5.0))"],
+        ),
         ("(assert (distinct (/ 1 (- x x)) (/ 1 0)))(check-sat)", ["unsat"]),
         ("(assert (forall ((z Real)) (= z (/ 0 0))))(check-sat)", ["unsat"]),
         ("(assert (forall ((z Real)) (= z (/ z 0))))(check-sat)", ["sat"]),
@@ -63,9 +90,12 @@ def answers(script: str, *, timeout: float | None = None) -> list[str]:
         ("(assert (forall ((z Real)) (> (/ z z) 0)))(check-sat)", ["sat"]),
         ("(assert (forall ((z Real)) (= (/ z 0) (* z z))))(check-sat)", ["unknown"]),
         ("(assert (forall ((z Real)) (= (/ z 0) y)))(check-sat)(get-value ((/ 1 0)))", ["sat", "(((/ 1 0) 0.0))"]),
-        ("(assert (= (sqrt x) 2))(assert (> x 0))(check-sat)(get-value (x (sqrt x)))", ["sat", "((x 4.0) ((sqrt x) 2.0))"]),
+        (
+            "(assert (= (sqrt x) 2))(assert (> x 0))(check-sat)(get-value (x (sqrt x)))",
+            ["sat", "((x 4.0) ((sqrt x) 2.0))"],
+        ),
     ],
-)  # fmt: skip
+)
 def test_answers(script: str, expected: list[str]) -> None:
     assert answers(XY + script) == expected
 
@@ -116,7 +146,7 @@ def test_after_an_assertion_that_was_not_understood_the_answer_is_never_sat() ->
         ("(push)(declare-const n Int)(pop)(declare-const n Real)(assert (< n 0))(check-sat)", ["sat"]),
         ("(assert (> x (to_int y)))(push)(assert (< x (to_int y)))(check-sat)(pop)(check-sat)", ["unsat", "unknown"]),
     ],
-)  # fmt: skip
+)
 def test_values_that_are_not_read_may_be_any(script: str, expected: list[str]) -> None:
     assert [line for line in answers(XY + script) if not line.startswith("(error")] == expected
 

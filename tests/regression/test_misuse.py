@@ -176,9 +176,9 @@ def test_a_list_holds_together() -> None:
         (lambda: qe.decide("ex x. x > 1", race="fastest"), "race: "),
         (lambda: qe.equivalent("x > 1", "x > 1", cluster="here"), "cluster: "),
         (lambda: qe.region("x > 0").contains({"y": 1}), "x"),
-        (lambda: qe.variables("x")**2 == Fraction(1), "x.equals"),
+        (lambda: qe.variables("x") ** 2 == Fraction(1), "x.equals"),
     ],
-)  # fmt: skip
+)
 def test_one_line_that_helps(misuse: Callable[[], object], hint: str) -> None:
     with pytest.raises(qe.InputError) as caught:
         misuse()

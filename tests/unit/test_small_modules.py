@@ -1,4 +1,4 @@
-"""Small modules that others rest on: names resolved later, forms for SymPy, workers that know of each other."""
+"""Small modules that others rest on: services looked up when they are used, workers that know of each other."""
 
 from __future__ import annotations
 
@@ -9,28 +9,28 @@ import sys
 
 import pytest
 
-from qe import later, sympy_form
+from qe import services
 from qe.processes import surroundings
 from qe.proof.on_demand import OnDemand
+from qe.services import Service
 
 
-def test_a_name_is_loaded_when_it_is_asked_for(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(later, "_PROVIDED", {})
+def test_a_service_is_loaded_when_it_is_looked_up(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(services, "_LOADERS", {})
     loaded: list[int] = []
-    later.provide("it", lambda: loaded.append(1) or "value")
-    assert not loaded and later.later("it") == "value" and loaded == [1]
-    later.provide("it", lambda: "another")
-    assert later.later("it") == "another"
+    services.provide({Service.REGION: lambda: loaded.append(1) or "value"})
+    assert not loaded and services.service(Service.REGION) == "value" and loaded == [1]
+    services.provide({Service.SYMPY: lambda: lambda value: ("written", value)})
+    value = services.SymPyForm()
+    assert value._sympy_() == ("written", value)
     with pytest.raises(KeyError):
-        later.later("nothing")
+        services.service(Service.WRITTEN)
 
 
-def test_values_ask_their_writer(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(sympy_form, "_WRITERS", [])
-    sympy_form.written_by(lambda value: ("first", value))
-    sympy_form.written_by(lambda value: ("last", value))
-    value = sympy_form.SymPyForm()
-    assert value._sympy_() == ("last", value)
+@pytest.mark.parametrize("name", Service)
+def test_every_service_is_provided(name: Service) -> None:
+    assert callable(services.service(name)) or name is Service.REGION_OPERATORS
+    assert hasattr(services.service(Service.REGION_OPERATORS), "joined")
 
 
 @pytest.mark.parametrize(

@@ -1,6 +1,5 @@
 """Questions with SymPy objects as answers, and z3 objects as questions."""
 
-# ruff: noqa: E501
 from __future__ import annotations
 
 from collections.abc import Callable
@@ -28,13 +27,19 @@ n = sp.Symbol("n", nonzero=True, real=True)
         (1 / sp.Abs(x) <= 1, sp.Union(sp.Interval(-sp.oo, -1), sp.Interval(1, sp.oo))),
         (p**2 > 4, sp.Interval.open(2, sp.oo)),
         (n**2 < 4, sp.Interval.open(-2, 2) - sp.FiniteSet(0)),
-        (sp.Contains(x, sp.Union(sp.Interval.open(0, 1), sp.FiniteSet(3))), sp.Union(sp.Interval.open(0, 1), sp.FiniteSet(3))),
-        (sp.Piecewise((x, x > 0), (x**2, x < -1)) > 2, sp.Union(sp.Interval.open(-sp.oo, -sp.sqrt(2)), sp.Interval.open(2, sp.oo))),
+        (
+            sp.Contains(x, sp.Union(sp.Interval.open(0, 1), sp.FiniteSet(3))),
+            sp.Union(sp.Interval.open(0, 1), sp.FiniteSet(3)),
+        ),
+        (
+            sp.Piecewise((x, x > 0), (x**2, x < -1)) > 2,
+            sp.Union(sp.Interval.open(-sp.oo, -sp.sqrt(2)), sp.Interval.open(2, sp.oo)),
+        ),
         (sp.And(x < sp.oo, x >= 0), sp.Interval(0, sp.oo)),
         (x**2 < sp.sqrt(2), sp.Interval.open(-sp.root(2, 4), sp.root(2, 4))),
         (sp.sign(x) * sp.Max(x, 1) >= 1, sp.Interval.open(0, sp.oo)),
     ],
-)  # fmt: skip
+)
 def test_regions(condition: object, expected: sp.Set) -> None:
     found = exact.solve_region(condition)
     assert found == expected or (found - expected).is_empty or sp.simplify(found.measure - expected.measure) == 0

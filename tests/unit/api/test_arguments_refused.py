@@ -88,9 +88,7 @@ DOORS = {
     "decide": Door(qe.decide, {"formula": "ex x. x^2 = 2"}),
     "find_instance": Door(qe.find_instance, {"formula": "x^2 = 2"}),
     "equivalent": Door(qe.equivalent, {"left": "x > 0", "right": "x > 0"}),
-    "check_witness": Door(
-        qe.check_witness, {"sentence": "ex x. x > 0", "witness": {"x": "1"}}, {"witness": {"dict"}}
-    ),
+    "check_witness": Door(qe.check_witness, {"sentence": "ex x. x > 0", "witness": {"x": "1"}}, {"witness": {"dict"}}),
     "check_witness term": Door(
         qe.check_witness,
         {"sentence": "ex x. x > 0", "witness": "1"},
@@ -126,12 +124,8 @@ DOORS = {
     "region order": Door(
         qe.region, {"formula": "x > 0", "order": "y"}, {"order": {"text", "digits"}}, {"order": lambda v: ["x", v]}
     ),
-    "minimize": Door(
-        qe.minimize, {"objective": "x"}, GOAL
-    ),
-    "maximize": Door(
-        qe.maximize, {"objective": "-x"}, GOAL
-    ),
+    "minimize": Door(qe.minimize, {"objective": "x"}, GOAL),
+    "maximize": Door(qe.maximize, {"objective": "-x"}, GOAL),
     "minimize list": Door(
         qe.minimize, {"objective": "x", "constraints": "x > 0"}, {}, {"constraints": lambda value: ["x > 1", value]}
     ),
@@ -210,7 +204,9 @@ DOORS = {
         qe.RealAlgebraic.from_root, {"coefficients": [-2, 0, 1], "lo": 1, "hi": 2}, BETWEEN
     ),
     "RealAlgebraic.from_root coefficient": Door(
-        qe.RealAlgebraic.from_root, {"coefficients": -1, "lo": 0, "hi": 1}, {"coefficients": {"negative", "zero"}},
+        qe.RealAlgebraic.from_root,
+        {"coefficients": -1, "lo": 0, "hi": 1},
+        {"coefficients": {"negative", "zero"}},
         {"coefficients": lambda value: [value, 1]},
     ),
     "RealAlgebraic.rational": Door(
@@ -226,9 +222,7 @@ DOORS = {
     "ComprehensiveGroebnerSystem.contains": Door(
         SYSTEM.contains, {"poly": SYSTEM.basis_at({"a": 2})[0], "point": {"a": 2}}, {"poly": {"digits"}}
     ),
-    "ComprehensiveGroebnerSystem.from_json": Door(
-        qe.ComprehensiveGroebnerSystem.from_json, {"text": SYSTEM.to_json()}
-    ),
+    "ComprehensiveGroebnerSystem.from_json": Door(qe.ComprehensiveGroebnerSystem.from_json, {"text": SYSTEM.to_json()}),
     "ComprehensiveGroebnerSystem.place": Door(SYSTEM.place, {"point": {"a": 2}}),
     "ComprehensiveGroebnerSystem.place value": Door(
         SYSTEM.place, {"point": 2}, {"point": {*NUMBERS, "float", "digits"}}, {"point": lambda v: {"a": v}}
@@ -239,9 +233,7 @@ DOORS = {
     "RealRootClassification.to_json": Door(COUNTED.to_json, {"indent": 1}, {"indent": {"int", "zero", "none"}}),
     "RealRootClassification.at": Door(COUNTED.at, {"point": {"a": 2}}),
     "RealRootClassification.certificate_at": Door(COUNTED.certificate_at, {"point": {"a": 2}}),
-    "RealRootClassification.condition": Door(
-        COUNTED.condition, {"count": 1}, {"count": {"zero"}}
-    ),
+    "RealRootClassification.condition": Door(COUNTED.condition, {"count": 1}, {"count": {"zero"}}),
     "Expression.equals": Door(X.equals, {"other": 1}, {"other": {*NUMBERS, "float", "digits"}}),
     "Expression.differs": Door(X.differs, {"other": 1}, {"other": {*NUMBERS, "float", "digits"}}),
     "Statement.substitute": Door((X > 0).substitute, {"values": {"x": 1}}, {"values": {"dict"}}),
@@ -253,7 +245,7 @@ DOORS = {
     ),
     "formats.read": Door(formats.read, {"text": "x > 0"}, {"total_division": {"bool"}}),
     "formats.write": Door(formats.write, {"formula": REGION.formula}),
-}  # fmt: skip
+}
 SKIPPED = {
     "bits": {"huge"},
     "memory": {"int"},

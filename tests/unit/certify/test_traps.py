@@ -131,9 +131,13 @@ def test_a_degree_drop_is_not_a_double_root() -> None:
 def test_equal_intervals_are_not_equal_roots() -> None:
     """x^2 - 2 and x^2 - 3 have roots between 1 and 2, but not the same."""
     merged = _stack(
-        (0, 1), "-2 0 2", ((0, 1), (0, 1)), *(_leaf(s, t) for s, t in [("++", False), ("00", True), ("--", False)]),
-        _leaf("00", True), _leaf("++", False),
-    )  # fmt: skip
+        (0, 1),
+        "-2 0 2",
+        ((0, 1), (0, 1)),
+        *(_leaf(s, t) for s, t in [("++", False), ("00", True), ("--", False)]),
+        _leaf("00", True),
+        _leaf("++", False),
+    )
     names = ("x",)
     ring = Ring.of(names)
     both = conj([atom(_poly("x^2 - 2", names), Relation.EQ), atom(_poly("x^2 - 3", names), Relation.EQ)])

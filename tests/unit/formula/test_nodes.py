@@ -20,11 +20,11 @@ from qe.formula.normal import nnf
 from qe.formula.syntax import FALSE, TRUE, And, Atom, Exists, ForAll, Formula, Or, Relation, RootAtom
 from qe.formula.traverse import atoms, children, is_quantifier_free, map_atoms, ring_of
 from qe.io.text import read
-from qe.simplify.simplify import simplify
+from qe.simplify.simplify import _Recent, simplify
 from tests.strategies import formulas
 
 ROOT = Path(__file__).resolve().parents[3]
-FACTS = ("_free", "_hash", "_is_quantifier_free", "_is_simple", "_ring")
+FACTS = ("_free", "_hash", "_is_quantifier_free", "_ring")
 
 
 def occurring_free(formula: Formula) -> set[str]:
@@ -95,10 +95,19 @@ def test_converted_only_where_the_ring_changes(formula: Formula) -> None:
 @given(formulas(max_quantifiers=1, root_atoms=True))
 def test_a_simplified_formula_is_not_simplified_again(formula: Formula) -> None:
     found = simplify(formula)
-    assert found.is_simple
-    assert simplify(found) is found
-    fresh = pickle.loads(pickle.dumps(found))  # equal, but nothing is known about it
-    assert simplify(fresh) == found
+    equal = pickle.loads(pickle.dumps(found))
+    with pytest.MonkeyPatch.context() as patch:
+        patch.delattr("qe.simplify.simplify._node")
+        assert simplify(found) is found
+        assert simplify(equal) is equal
+
+
+def test_the_simplifier_forgets() -> None:
+    simple = [read(f"x > {k}") for k in range(10)]
+    recent = _Recent(3)
+    for formula in simple:
+        recent.add(formula)
+    assert [formula in recent for formula in simple] == [False] * 6 + [True] * 4
 
 
 @given(formulas(max_quantifiers=2, root_atoms=True))
@@ -125,7 +134,6 @@ def test_nothing_is_known_under_assumptions() -> None:
     assert there == TRUE
     kept = simplify(read("x > 1"), assumed)
     assert kept == read("x > 1")
-    assert not pickle.loads(pickle.dumps(kept)).is_simple
     assert simplify(kept, read("x > 2")) == TRUE  # what is simple by itself is not simple under assumptions
 
 

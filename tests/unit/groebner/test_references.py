@@ -52,9 +52,14 @@ def solved(record: dict[str, Any]) -> ComprehensiveGroebnerSystem:
         return [t.replace("**", "^") for t in record[name]]
 
     return qe.comprehensive_groebner(
-        texts("polys"), record["variables"], record["parameters"], record["order"],
-        equal=texts("null"), nonzero=texts("nonnull"), timeout=120,
-    )  # fmt: skip
+        texts("polys"),
+        record["variables"],
+        record["parameters"],
+        record["order"],
+        equal=texts("null"),
+        nonzero=texts("nonnull"),
+        timeout=120,
+    )
 
 
 def check(

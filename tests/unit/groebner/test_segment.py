@@ -56,8 +56,14 @@ def test_what_is_remembered_is_not_pickled() -> None:
     assert one.base is not None and one.leads
     again = pickle.loads(pickle.dumps(one))
     assert again == one and set(vars(again)) == {
-        "block", "equal", "nonzero", "some", "basis", "elements", "faithful",
-    }  # fmt: skip
+        "block",
+        "equal",
+        "nonzero",
+        "some",
+        "basis",
+        "elements",
+        "faithful",
+    }
 
 
 def test_names_of_monomials() -> None:

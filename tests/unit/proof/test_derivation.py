@@ -13,7 +13,6 @@ from qe.formula.syntax import FALSE, TRUE, ForAll, Formula, Not
 from qe.io import formats
 from qe.proof.derivation import put_together
 from qe.proof.step import Step
-from qe.proof.theorems import theorem_of
 from qe.proof.writing import RULES
 from tests.differential.generate import NESTED, SMALL, random_formula
 
@@ -102,16 +101,6 @@ def test_names_in_a_page_are_no_markup() -> None:
     page = qe.eliminate("ex x. x + `<script>` = 1 and x > `a&b`").derivation.to_html()
     assert "<script>" not in page
     ET.fromstring(page[page.index("<body>") : page.index("</body>") + 7])
-
-
-def test_every_rule_with_a_checker_has_its_theorem() -> None:
-    from qe.certify.registry import RULES as CHECKED
-
-    for rule in CHECKED:
-        assert theorem_of(rule), f'the docstring of the checker begins with Rule "{rule}" and says THEOREM'
-    assert "translation" in theorem_of("translation of the origin")[0]
-    assert len(theorem_of("homogeneous scaling")) == 1
-    assert theorem_of("no such rule") == ()
 
 
 def test_no_derivation_without_an_answer() -> None:

@@ -49,9 +49,17 @@ COEFFICIENTS = st.integers(-3, 3)
 @given(st.lists(COEFFICIENTS, min_size=10, max_size=10))
 def test_minima_of_quadratics_are_least_values(c):
     poly = (
-        c[0] * X**2 + c[1] * Y**2 + c[2] * Z**2 + c[3] * X * Y + c[4] * X * Z + c[5] * Y * Z
-        + c[6] * X + c[7] * Y + c[8] * Z + c[9]
-    )  # fmt: skip
+        c[0] * X**2
+        + c[1] * Y**2
+        + c[2] * Z**2
+        + c[3] * X * Y
+        + c[4] * X * Z
+        + c[5] * Y * Z
+        + c[6] * X
+        + c[7] * Y
+        + c[8] * Z
+        + c[9]
+    )
     if poly.total_degree != 2:
         return
     found = minimum_of_quadratic(poly)

@@ -1,0 +1,20 @@
+"""Theorems of rules: what the modules of their checkers say."""
+
+from __future__ import annotations
+
+import pytest
+
+from qe.certify.registry import RULES
+from qe.certify.theorems import theorem_of
+
+
+@pytest.mark.parametrize("rule", RULES)
+def test_every_rule_with_a_checker_has_its_theorem(rule: str) -> None:
+    assert theorem_of(rule), f'the docstring of the module of the checker of "{rule}" says THEOREM'
+
+
+def test_a_rule_has_the_theorem_of_its_checker_and_no_other() -> None:
+    assert "Buchberger" not in str(theorem_of("two balls")) and "|x|^2" in theorem_of("two balls")[0]
+    assert "translation" in theorem_of("translation of the origin")[0]
+    assert len(theorem_of("homogeneous scaling")) == 1
+    assert theorem_of("no such rule") == ()
