@@ -1,121 +1,50 @@
-"""The public functions that decide: sentences, instances, witnesses, equivalence. All of them ask ``eliminate``."""
+"""The public functions that decide: sentences, instances, witnesses, equivalence."""
 
 from __future__ import annotations
 
-import time
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from fractions import Fraction
-from typing import Any
+from typing import Any, Unpack
 
 from qe import arguments
-from qe.api.eliminate import Order, Progress, eliminate
+from qe.api.eliminate import answered_under
 from qe.api.input import AnyFormula, order_of, read_polynomial, together
-from qe.api.limits import left_of, limits_of, read_under, reading
+from qe.api.limits import limits_of, read_under, reading
+from qe.api.settings import Decision, Search, with_settings
 from qe.errors import InputError, Unable
 from qe.exact.number import Assignment, ExactPoint
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import convert, exists, forall, iff
 from qe.formula.counting import without_root_atoms
 from qe.formula.features import features
+from qe.formula.syntax import Formula
 from qe.formula.traverse import bound_variables, ring_of
-from qe.options import Method, Stage
-from qe.progress import silent
+from qe.processes.execution import Limits
+from qe.proof.answer import Answer
 from qe.spelling import glued
 
 
-def decide(
-    formula: AnyFormula,
-    *,
-    format: str = "text",
-    total_division: bool = False,
-    timeout: float | None = None,
-    memory: int | None = None,
-    method: str | Method = Method.AUTO,
-    order: Order = None,
-    progress: Progress = silent,
-    root_atoms: bool = False,
-    without: Iterable[str | Stage] | str | Stage = (),
-    explain: bool = False,
-    check: bool = False,
-    process: bool = True,
-    workers: int = 0,
-    cluster: str | None = None,
-    race: Iterable[str | Method] | str | Method = (),
-) -> bool:
-    """The truth of a sentence; the keywords are those of ``eliminate``.
+@with_settings(Decision)
+def decide(formula: AnyFormula, **settings: Unpack[Decision]) -> bool:
+    """The truth of a sentence.
 
     Raises ``InputError`` for free variables and ``Unable`` at a limit.
     """
-    limits = limits_of(timeout, memory, progress, process).begun(time.monotonic())
-    given = reading(formula, format, limits, total_division)
-    free = given.free
-    if free:
-        raise InputError(f"a sentence expected; free: {', '.join(free)}{glued(free, bound_variables(given))}")
-    answer = eliminate(
-        given,
-        timeout=left_of(limits),
-        memory=memory,
-        method=method,
-        order=order_of(order, formula, given),
-        progress=progress,
-        root_atoms=root_atoms,
-        without=without,
-        explain=explain,
-        check=check,
-        process=process,
-        workers=workers,
-        cluster=cluster,
-        race=race,
-    )
-    if answer.truth is None:
-        raise Unable(answer.reason or "no decision was reached")
-    return answer.truth
+    limits = limits_of(settings)
+    given = reading(formula, settings["format"], limits, settings["total_division"])
+    return _decided(given, formula, settings, limits).truth is True
 
 
-def find_instance(
-    formula: AnyFormula,
-    *,
-    format: str = "text",
-    total_division: bool = False,
-    timeout: float | None = None,
-    memory: int | None = None,
-    method: str | Method = Method.AUTO,
-    order: Order = None,
-    progress: Progress = silent,
-    root_atoms: bool = False,
-    without: Iterable[str | Stage] | str | Stage = (),
-    explain: bool = False,
-    check: bool = False,
-    process: bool = True,
-    workers: int = 0,
-    cluster: str | None = None,
-    race: Iterable[str | Method] | str | Method = (),
-) -> Assignment | None:
+@with_settings(Decision)
+def find_instance(formula: AnyFormula, **settings: Unpack[Decision]) -> Assignment | None:
     """Exact values of the free variables that satisfy the formula, or None if there are none.
 
-    The keywords are those of ``eliminate``. Raises ``Unable`` at a limit.
+    Raises ``Unable`` at a limit.
     """
-    limits = limits_of(timeout, memory, progress, process).begun(time.monotonic())
-    given = reading(formula, format, limits, total_division)
+    limits = limits_of(settings)
+    given = reading(formula, settings["format"], limits, settings["total_division"])
     free = given.free
-    answer = eliminate(
-        exists(free, given),
-        timeout=left_of(limits),
-        memory=memory,
-        method=method,
-        order=order_of(order, formula, given),
-        progress=progress,
-        root_atoms=root_atoms,
-        without=without,
-        explain=explain,
-        check=check,
-        process=process,
-        workers=workers,
-        cluster=cluster,
-        race=race,
-    )
-    if answer.truth is None:
-        raise Unable(answer.reason or "no decision was reached")
+    answer = _decided(exists(free, given), formula, settings, limits)
     if answer.truth is False:
         return None
     if answer.witness is None and free:
@@ -123,25 +52,8 @@ def find_instance(
     return ExactPoint({name: (answer.witness or {}).get(name, Fraction(0)) for name in free})
 
 
-def check_witness(
-    sentence: AnyFormula,
-    witness: Mapping[Any, AnyFormula],
-    *,
-    format: str = "text",
-    timeout: float | None = None,
-    memory: int | None = None,
-    method: str | Method = Method.AUTO,
-    order: Order = None,
-    progress: Progress = silent,
-    root_atoms: bool = False,
-    without: Iterable[str | Stage] | str | Stage = (),
-    explain: bool = False,
-    check: bool = False,
-    process: bool = True,
-    workers: int = 0,
-    cluster: str | None = None,
-    race: Iterable[str | Method] | str | Method = (),
-) -> bool:
+@with_settings(Search)
+def check_witness(sentence: AnyFormula, witness: Mapping[Any, AnyFormula], **settings: Unpack[Search]) -> bool:
     """Whether existential variables can be given by these polynomials in the variables quantified further outside.
 
     The polynomials (text, ``Poly`` or SymPy) are put in and the stronger sentence is decided: True proves the
@@ -150,8 +62,8 @@ def check_witness(
     """
     from qe.elimination.witness import Term, instantiate
 
-    limits = limits_of(timeout, memory, progress, process).begun(time.monotonic())
-    given = without_root_atoms(reading(sentence, format, limits))
+    limits = limits_of(settings)
+    given = without_root_atoms(reading(sentence, settings["format"], limits))
     offered, known = arguments.by_name(witness, "witness"), features(given).bound
 
     def polynomials() -> dict[str, tuple[Poly, Fraction]]:
@@ -162,64 +74,26 @@ def check_witness(
     ring = Ring.of(dict.fromkeys(name for r in rings for name in r.names))
     terms = {name: Term.of(poly.convert(ring), scale) for name, (poly, scale) in read.items()}
     asked = instantiate(convert(given, ring), terms)
-    return decide(
-        asked,
-        timeout=left_of(limits),
-        memory=memory,
-        method=method,
-        order=order_of(order, sentence, asked),
-        progress=progress,
-        root_atoms=root_atoms,
-        without=without,
-        explain=explain,
-        check=check,
-        process=process,
-        workers=workers,
-        cluster=cluster,
-        race=race,
-    )
+    return _decided(asked, sentence, settings, limits).truth is True
 
 
-def equivalent(
-    left: AnyFormula,
-    right: AnyFormula,
-    *,
-    format: str = "text",
-    timeout: float | None = None,
-    memory: int | None = None,
-    method: str | Method = Method.AUTO,
-    order: Order = None,
-    progress: Progress = silent,
-    root_atoms: bool = False,
-    without: Iterable[str | Stage] | str | Stage = (),
-    explain: bool = False,
-    check: bool = False,
-    process: bool = True,
-    workers: int = 0,
-    cluster: str | None = None,
-    race: Iterable[str | Method] | str | Method = (),
-) -> bool:
+@with_settings(Search)
+def equivalent(left: AnyFormula, right: AnyFormula, **settings: Unpack[Search]) -> bool:
     """Whether two formulas have the same solutions in all their free variables together.
 
-    The keywords are those of ``eliminate``. Raises ``Unable`` at a limit.
+    Raises ``Unable`` at a limit.
     """
-    limits = limits_of(timeout, memory, progress, process).begun(time.monotonic())
-    f, g = together(reading(left, format, limits), reading(right, format, limits))
-    free = dict.fromkeys((*f.free, *g.free))
-    asked = forall(free, iff(f, g))
-    return decide(
-        asked,
-        timeout=left_of(limits),
-        memory=memory,
-        method=method,
-        order=order_of(order, [left, right], asked),
-        progress=progress,
-        root_atoms=root_atoms,
-        without=without,
-        explain=explain,
-        check=check,
-        process=process,
-        workers=workers,
-        cluster=cluster,
-        race=race,
-    )
+    limits = limits_of(settings)
+    f, g = together(*(reading(formula, settings["format"], limits) for formula in (left, right)))
+    claim = forall(dict.fromkeys((*f.free, *g.free)), iff(f, g))
+    return _decided(claim, [left, right], settings, limits).truth is True
+
+
+def _decided(sentence: Formula, given: AnyFormula, settings: Search, limits: Limits) -> Answer:
+    """The answer to a sentence, which is true or false; ``given``: what it was made of."""
+    if free := sentence.free:
+        raise InputError(f"a sentence expected; free: {', '.join(free)}{glued(free, bound_variables(sentence))}")
+    answer = answered_under(sentence, order_of(settings["order"], given, sentence), settings, limits)
+    if answer.truth is None:
+        raise Unable(answer.reason or "no decision was reached")
+    return answer

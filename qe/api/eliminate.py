@@ -4,18 +4,18 @@ from __future__ import annotations
 
 import sys
 import time
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Unpack, cast
 
 from qe import arguments
 from qe.api.input import AnyFormula, order_of, read_formula
-from qe.api.limits import cluster_of, limits_of, performed, reading
+from qe.api.limits import limits_of, performed, reading
+from qe.api.settings import Elimination, Order, ProvedQuestion, Search, with_settings
 from qe.errors import InputError, Unable
 from qe.formula.syntax import FALSE, Formula
 from qe.options import VERIFY_SECONDS, Budget, Cluster, Method, Options, Stage
 from qe.processes.execution import Budgets, Limits
-from qe.progress import Event, silent
 from qe.proof.answer import UNPROVED, Answer, Guarantee, Status
 from qe.proof.certificate import Certificate, Kind
 from qe.proof.partial import Partial
@@ -25,8 +25,6 @@ if TYPE_CHECKING:  # the checker and the optimiser are loaded where they are use
     from qe.certify.verdict import Verdict
     from qe.regions.region import Region
 
-Result = TypeVar("Result")
-
 WHOLE_SHARE, PARTS_SHARE = 0.5, 0.85
 """Where parts are wanted if there is no answer: the share of the time that the formula as a whole may take; and the
 share of the rest in which the parts are looked at, so that what is found gets home."""
@@ -34,97 +32,57 @@ share of the rest in which the parts are looked at, so that what is found gets h
 UNVERIFIED_SHARE = 0.6
 """Where the parts are to be checked, the share of the time for them in which they are found."""
 
-Progress = Callable[[Event], None]
-Order = Any
-"""``"y, x"``, ``"y x"``, or a list of names or SymPy symbols."""
 
-
-def _options(
-    method: str | Method,
-    order: Order,
-    root_atoms: bool,
-    without: Iterable[str | Stage] | str | Stage,
-    progress: Progress,
-) -> Options:
-    return Options(
-        method=arguments.member(method, Method, "method"),
-        order=arguments.names(order),
-        root_atoms=arguments.flag(root_atoms, "root_atoms"),
-        without=arguments.members(without, Stage, "without"),
-        progress=arguments.listener(progress),
-    )
-
-
-def eliminate(
-    formula: AnyFormula,
-    *,
-    format: str = "text",
-    total_division: bool = False,
-    timeout: float | None = None,
-    memory: int | None = None,
-    method: str | Method = Method.AUTO,
-    order: Order = None,
-    progress: Progress = silent,
-    root_atoms: bool = False,
-    without: Iterable[str | Stage] | str | Stage = (),
-    explain: bool = False,
-    check: bool = False,
-    process: bool = True,
-    workers: int = 0,
-    cluster: str | None = None,
-    race: Iterable[str | Method] | str | Method = (),
-    anytime: bool = False,
-) -> Answer:
+@with_settings(Elimination)
+def eliminate(formula: AnyFormula, **settings: Unpack[Elimination]) -> Answer:
     """Quantifier elimination over the reals: an equivalent quantifier-free formula.
 
-    ``timeout`` (seconds), ``memory`` (MB): with either, the work runs in a forked worker process that is killed at the
-    limit, since a single polynomial operation can take long (where processes cannot fork, ``timeout`` is only checked
-    between steps). At a limit the answer has status UNABLE, with the reason. Without limits the work moves to such a
-    process when it takes longer than a moment, so that Ctrl-C ends it at once; ``process=False``, or the environment
-    variable ``QE_PROCESS=off``, keeps it in this process.
-
-    ``anytime``: at a ``timeout``, which is shared, ``Answer.partial`` says for which values of the free variables the
-    formula is proved to be true, for which false, and which are open; with ``check`` under a certificate.
-
-    ``check``: the answer comes with a certificate where one can be had (if the method makes none, by a decomposition of
-    the whole formula), verified by the separate checker; certificates that are a witness always are. A proof
-    or verification that does not end in time costs the certificate, not the answer (``Answer.reason`` says so).
-
-    ``total_division``: a quotient in text has some value where its denominator is zero, too, as in SMT-LIB: the formula
-    holds if it does for a choice of these values.
-
-    ``explain``: how the answer was found is told on stderr; ``Answer.explanation`` holds the same text. ``without``:
-    stages of the engine to be left out (``qe.Stage``), to measure what they gain.
-
-    ``workers`` (processes on this machine) or ``cluster`` (the address of a Dask scheduler): the cells of long
-    decompositions are lifted side by side; the answer and its certificate are the same as without. ``race``: methods
-    that try side by side, each in a process of its own; the answer is the first one, and which that is may differ from
-    run to run.
-
+    At a limit, for which the work runs in a process that can be killed, the answer has status UNABLE, with the reason.
     Raises ``InputError`` for input that cannot be read.
     """
-    start = time.monotonic()
-    explain, check = arguments.flag(explain, "explain"), arguments.flag(check, "check")
-    limits = limits_of(timeout, memory, progress, process).begun(start)
-    options = _options(method, order, root_atoms, without, progress).with_(certify=check)
-    helpers, racing = cluster_of(workers, cluster), arguments.members(race, Method, "race")
-    if racing and (helpers is not None or options.method is not Method.AUTO or not limits.process):
-        raise InputError("race: cannot go with method, workers, cluster or process=False")
+    limits = limits_of(settings)
     try:
-        given = reading(formula, format, limits, total_division)
+        given = reading(formula, settings["format"], limits, settings["total_division"])
     except Unable as error:
         return Answer(Status.UNABLE, None, reason=str(error))
-    options = options.with_(order=order_of(order, formula, given))
-    whole = limits.shared(WHOLE_SHARE) if arguments.flag(anytime, "anytime") else limits
-    if racing:
-        answer = _raced(given, options, whole, check, racing)
+    order = order_of(settings["order"], formula, given)
+    return answered_under(given, order, settings, limits, anytime=settings["anytime"])
+
+
+def answered_under(
+    formula: Formula, order: tuple[str, ...] | None, settings: Search, limits: Limits, *, anytime: bool = False
+) -> Answer:
+    """The answer to a formula that has been read; ``order`` is that of the settings, of its variables alone."""
+    check, methods = settings["check"], cast(frozenset[Method], settings["race"])
+    options = Options(
+        method=Method(settings["method"]),
+        order=order,
+        root_atoms=settings["root_atoms"],
+        without=cast(frozenset[Stage], settings["without"]),
+        certify=check,
+        progress=settings["progress"],
+    )
+    helpers = _cluster(settings)
+    if methods and (helpers is not None or options.method is not Method.AUTO or not limits.process):
+        raise InputError("race: cannot go with method, workers, cluster or process=False")
+    whole = limits.shared(WHOLE_SHARE) if anytime else limits
+    if methods:
+        answer = _raced(formula, options, whole, check, methods)
     else:
-        answer = _limited(given, options, whole, check, helpers)
+        answer = _limited(formula, options, whole, check, helpers)
     if anytime and answer.formula is None:
-        answer = replace(answer, partial=_partial(given, options, limits))
-    if explain:
+        answer = replace(answer, partial=_partial(formula, options, limits))
+    if settings["explain"]:
         print(answer.explanation or answer.reason, file=sys.stderr)
     return answer
+
+
+def _cluster(settings: Search) -> Cluster | None:
+    """The processes that help; None where there are none."""
+    count, address = settings["workers"], settings["cluster"]
+    if address is not None and count:
+        raise InputError("workers, cluster: one of them expected, both found")
+    return None if address is None and not count else Cluster(count, address)
 
 
 def _limited(formula: Formula, options: Options, limits: Limits, check: bool, cluster: Cluster | None) -> Answer:
@@ -209,38 +167,26 @@ def _answer(formula: Formula, options: Options, budget: Budget, check: bool) -> 
     return answer
 
 
-def region(
-    formula: AnyFormula,
-    order: Order = None,
-    *,
-    format: str = "text",
-    total_division: bool = False,
-    timeout: float | None = None,
-    memory: int | None = None,
-    progress: Progress = silent,
-    check: bool = False,
-    process: bool = True,
-) -> Region:
+@with_settings(ProvedQuestion)
+def region(formula: AnyFormula, order: Order = None, **settings: Unpack[ProvedQuestion]) -> Region:
     """The solution set of a formula in its free variables (or in ``order``, which may name more).
 
     Without ``order`` a quantified formula is described in the order in which its answer was found by critical values:
     factors of that projection are part of the answer, and the other order may be much harder.
     A cylindrical description with a certificate; quantifiers are eliminated first. For a conjunction of convex
     quadratic conditions in four or more variables, or with existential quantifiers before it, membership, fibres
-    and bounds are found by exact optimisation, and the description only on request. ``timeout`` (seconds) and
-    ``memory`` (MB) hold here and then for every question that is asked of the region; see ``eliminate`` for them and
-    for ``process``. With ``check`` the description is made at once (not where there are four or more variables and
-    convex conditions) and verified, and ``Region.answer`` has the elimination of the quantifiers with its derivation;
-    ``Region.guarantee`` and ``reason`` say what came of it, ``Region.proof`` is for others.
+    and bounds are found by exact optimisation, and the description only on request. The limits hold here and then for
+    every question that is asked of the region. With ``check`` the description is made at once (not where there are
+    four or more variables and convex conditions) and verified, and ``Region.answer`` has the elimination of the
+    quantifiers with its derivation; ``Region.guarantee`` and ``reason`` say what came of it, ``Region.proof`` is for
+    others.
     Raises ``BudgetExceeded`` at a limit.
     """
-    start = time.monotonic()
     from qe.regions.build import described
 
-    whole, names = limits_of(timeout, memory, progress, process), arguments.names(order)
-    limits = whole.begun(start)
-    check = arguments.flag(check, "check")
-    given = reading(formula, format, limits, total_division)
+    limits, names = limits_of(settings), arguments.names(order)
+    whole, check = replace(limits, start=None), settings["check"]
+    given = reading(formula, settings["format"], limits, settings["total_division"])
 
     def work(budgets: Budgets) -> Region:
         from qe.api.verify import with_guarantee

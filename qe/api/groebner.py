@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Container, Mapping, Sequence
 from enum import Enum
-from typing import Any
+from typing import Any, Unpack
 
 from qe import arguments
 from qe.api.input import read_polynomial
 from qe.api.limits import limits_of, read_under
+from qe.api.settings import Limited, Proved, with_settings
 from qe.errors import InputError
 from qe.exact.algebraic import RealAlgebraic
 from qe.exact.block_order import Block
@@ -19,7 +19,6 @@ from qe.groebner.counting import RealRootClassification, classified
 from qe.groebner.question import ParametricSystem
 from qe.groebner.system import ComprehensiveGroebnerSystem, exact_number
 from qe.processes.execution import Budgets, perform
-from qe.progress import silent
 
 Names = Any
 """``"y, x"``, ``"y x"``, or a list of names or SymPy symbols."""
@@ -40,6 +39,7 @@ _ORDERS = {
 }
 
 
+@with_settings(Limited)
 def comprehensive_groebner(
     polys: Sequence[Any],
     variables: Names,
@@ -50,10 +50,7 @@ def comprehensive_groebner(
     equal: Sequence[Any] = (),
     nonzero: Sequence[Any] = (),
     faithful: bool = False,
-    timeout: float | None = None,
-    memory: int | None = None,
-    progress: Any = silent,
-    process: bool = True,
+    **settings: Unpack[Limited],
 ) -> ComprehensiveGroebnerSystem:
     """A comprehensive Gröbner system: parameter space in disjoint segments, each with one basis for all its points.
 
@@ -63,21 +60,21 @@ def comprehensive_groebner(
     algebraic numbers (``RealAlgebraic``, SymPy numbers), treated exactly by their minimal polynomials. ``equal`` and
     ``nonzero``: polynomials in the parameters; only where the former vanish and none of the latter does segments are
     made. ``faithful``: every segment also has elements of the given ideal itself with the same values as its basis.
-    Limits as for ``qe.eliminate``. Raises ``InputError``, ``Unable`` where bases grow too large, ``BudgetExceeded``.
+    Raises ``InputError``, ``Unable`` where bases grow too large, ``BudgetExceeded``.
     """
-    start = time.monotonic()
+    limits = limits_of(settings)
     chosen = _ORDERS[arguments.member(order, Order, "order")]
     wanted = arguments.flag(faithful, "faithful")
-    limits = limits_of(timeout, memory, progress, process).begun(start)
     given = polys, variables, parameters, chosen, constants, equal, nonzero
     system, _ = read_under(limits, lambda: read_system(*given), polys, equal, nonzero)
 
     def work(budgets: Budgets) -> ComprehensiveGroebnerSystem:
         return system.solved(budgets(), faithful=wanted)
 
-    return perform(work, limits, at_once=timeout is not None)
+    return perform(work, limits, at_once=limits.timeout is not None)
 
 
+@with_settings(Proved)
 def real_root_classification(
     polys: Sequence[Any],
     variables: Names,
@@ -87,11 +84,7 @@ def real_root_classification(
     constants: Mapping[str, Any] | None = None,
     equal: Sequence[Any] = (),
     nonzero: Sequence[Any] = (),
-    timeout: float | None = None,
-    memory: int | None = None,
-    progress: Any = silent,
-    process: bool = True,
-    check: bool = False,
+    **settings: Unpack[Proved],
 ) -> RealRootClassification:
     """The partition of parameter space by the number of distinct real solutions of polys = 0, as formulas.
 
@@ -101,21 +94,20 @@ def real_root_classification(
     with a certificate that the checker has accepted, or ``Unable`` is raised. Other arguments and errors as for
     ``comprehensive_groebner``.
     """
-    start, check = time.monotonic(), arguments.flag(check, "check")
-    limits = limits_of(timeout, memory, progress, process).begun(start)
+    limits = limits_of(settings)
     given = polys, variables, parameters, MonomialOrder.DEGREVLEX, constants, equal, nonzero, positive
     asked = read_under(limits, lambda: read_system(*given), polys, equal, nonzero, positive)
 
     def work(budgets: Budgets) -> RealRootClassification:
         budget = budgets()
         found = classified(*asked, budget)
-        if not check:
+        if not settings["check"]:
             return found
         from qe.api.classified import certified
 
         return certified(asked[0], found, budget)
 
-    return perform(work, limits, at_once=timeout is not None)
+    return perform(work, limits, at_once=limits.timeout is not None)
 
 
 def read_system(

@@ -2,33 +2,23 @@
 
 from __future__ import annotations
 
-import re
 import time
 from collections.abc import Callable, Mapping
 from importlib import import_module
 from typing import TypeVar
 
-from qe import arguments
 from qe.api.input import AnyFormula, note_doubts, read_formula
-from qe.errors import InputError
+from qe.api.settings import Limited
 from qe.formula.syntax import Formula
 from qe.formula.weight import may_block, text_may_block
 from qe.io.sharing import refuse_shared
-from qe.options import Cluster
 from qe.processes.execution import Budgets, Limits, perform
-from qe.progress import Event
 
 Result = TypeVar("Result")
-Progress = Callable[[Event], None]
 Reader = Callable[[AnyFormula, str, bool], Formula]
-
-MOST_WORKERS = 256
-"""Processes that one call starts at most."""
 
 LIMITED_POWER = 12
 """The greatest exponent in what is read here although a limit is to hold: higher powers of sums are long."""
-
-_ADDRESS = re.compile(r"(?:[a-z]+://)?[^\s:/]+:[0-9]{1,5}")
 
 MOSTLY_NEEDED = ("qe.engine.run", "qe.rules.block", "qe.elimination.vs.block", "qe.elimination.vs.witness")
 """The parts of the engine that nearly every problem with a quantifier needs."""
@@ -43,26 +33,11 @@ def performed(work: Callable[[Budgets], Result], formula: Formula, limits: Limit
     return perform(work, limits, at_once=at_once)
 
 
-def limits_of(timeout: float | None, memory: int | None, progress: Progress, process: bool) -> Limits:
-    """The limits that a caller sets, checked."""
+def limits_of(settings: Limited) -> Limits:
+    """The limits that a caller sets, of a call that begins now."""
     return Limits(
-        arguments.seconds(timeout),
-        arguments.mebibytes(memory),
-        arguments.listener(progress),
-        arguments.flag(process, "process"),
+        settings["timeout"], settings["memory"], settings["progress"], settings["process"], start=time.monotonic()
     )
-
-
-def cluster_of(workers: int, address: str | None) -> Cluster | None:
-    """The cluster that a caller names, checked; None where there is none."""
-    count = arguments.whole(workers, "workers", MOST_WORKERS)
-    if address is not None and count:
-        raise InputError("workers, cluster: one of them expected, both found")
-    if address is None and not count:
-        return None
-    if address is not None and not _ADDRESS.fullmatch(arguments.text(address, "cluster")):
-        raise arguments.wrong("cluster", "an address such as tcp://host:8786", address)
-    return Cluster(count, address)
 
 
 def reading(
@@ -70,8 +45,7 @@ def reading(
 ) -> Formula:
     """The formula, read under the limits where reading may take long. Raises ``BudgetExceeded`` at one, ``Unable`` for
     a formula whose parts are shared so much that no method, all of which write it out, comes to an end."""
-    total = arguments.flag(total_division, "total_division")
-    found = read_under(limits, lambda: reader(formula, format, total), formula)
+    found = read_under(limits, lambda: reader(formula, format, total_division), formula)
     refuse_shared(found)
     note_doubts(formula, found, format)
     return found
@@ -98,11 +72,3 @@ def _may_take_long(given: object, limited: bool) -> bool:
         return text_may_block(str(given), LIMITED_POWER)
     except ValueError:  # a number that Python does not write
         return True
-
-
-def left_of(limits: Limits) -> float | None:
-    """The seconds that are left of a limit, all of them where few have passed; what has none left ends at once."""
-    if limits.timeout is None or limits.start is None:
-        return limits.timeout
-    left = limits.start + limits.timeout - time.monotonic()
-    return limits.timeout if left > 0.9 * limits.timeout else max(left, limits.timeout * 1e-3)

@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Iterable
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, Literal, overload
+from typing import TYPE_CHECKING, Any, Literal, Unpack, overload
 
 from qe import arguments
 from qe.api.input import AnyFormula, names_typed, note_doubts, read_constraints, read_objective, warned
-from qe.api.limits import Progress, limits_of, performed, read_under
+from qe.api.limits import limits_of, performed, read_under
+from qe.api.settings import Proved, with_settings
 from qe.errors import InputError
 from qe.options import Budget
-from qe.processes.execution import Budgets, Limits
-from qe.progress import silent
+from qe.processes.execution import Budgets
 
 if TYPE_CHECKING:
     from qe.convex.optimum import Optimum
@@ -30,11 +29,7 @@ def minimize(
     constraints: AnyFormula = ...,
     *,
     method: Literal["convex"],
-    timeout: float | None = ...,
-    memory: int | None = ...,
-    progress: Progress = ...,
-    check: bool = ...,
-    process: bool = ...,
+    **settings: Unpack[Proved],
 ) -> Optimum: ...
 @overload
 def minimize(
@@ -43,11 +38,7 @@ def minimize(
     *,
     parameters: Names,
     method: Way = ...,
-    timeout: float | None = ...,
-    memory: int | None = ...,
-    progress: Progress = ...,
-    check: bool = ...,
-    process: bool = ...,
+    **settings: Unpack[Proved],
 ) -> ParametricOptimum: ...
 @overload
 def minimize(
@@ -55,23 +46,16 @@ def minimize(
     constraints: AnyFormula = ...,
     *,
     method: Way = ...,
-    timeout: float | None = ...,
-    memory: int | None = ...,
-    progress: Progress = ...,
-    check: bool = ...,
-    process: bool = ...,
+    **settings: Unpack[Proved],
 ) -> Optimum | GlobalOptimum: ...
+@with_settings(Proved)
 def minimize(
     objective: AnyFormula,
     constraints: AnyFormula = "true",
     *,
     parameters: Names | None = None,
     method: Way = "auto",
-    timeout: float | None = None,
-    memory: int | None = None,
-    progress: Progress = silent,
-    check: bool = False,
-    process: bool = True,
+    **settings: Unpack[Proved],
 ) -> Optimum | GlobalOptimum | ParametricOptimum:
     """The exact global minimum of a term where it has a value and the constraints hold.
 
@@ -85,9 +69,9 @@ def minimize(
     That there is no optimum is an answer too: ``status`` says ``UNBOUNDED`` or ``INFEASIBLE``, and ``value`` is None.
     With ``check`` its certificate is verified: ``guarantee`` is ``CHECKED``, or ``reason`` says why not; an elimination
     comes with its derivation (``answer``).
-    Raises ``Unable`` where no proof was found, ``BudgetExceeded`` at a limit; see ``eliminate`` for the limits.
+    Raises ``Unable`` where no proof was found, ``BudgetExceeded`` at a limit.
     """
-    return _best(1, objective, constraints, parameters, method, limits_of(timeout, memory, progress, process), check)
+    return _best(1, objective, constraints, parameters, method, settings)
 
 
 @overload
@@ -96,11 +80,7 @@ def maximize(
     constraints: AnyFormula = ...,
     *,
     method: Literal["convex"],
-    timeout: float | None = ...,
-    memory: int | None = ...,
-    progress: Progress = ...,
-    check: bool = ...,
-    process: bool = ...,
+    **settings: Unpack[Proved],
 ) -> Optimum: ...
 @overload
 def maximize(
@@ -109,11 +89,7 @@ def maximize(
     *,
     parameters: Names,
     method: Way = ...,
-    timeout: float | None = ...,
-    memory: int | None = ...,
-    progress: Progress = ...,
-    check: bool = ...,
-    process: bool = ...,
+    **settings: Unpack[Proved],
 ) -> ParametricOptimum: ...
 @overload
 def maximize(
@@ -121,26 +97,19 @@ def maximize(
     constraints: AnyFormula = ...,
     *,
     method: Way = ...,
-    timeout: float | None = ...,
-    memory: int | None = ...,
-    progress: Progress = ...,
-    check: bool = ...,
-    process: bool = ...,
+    **settings: Unpack[Proved],
 ) -> Optimum | GlobalOptimum: ...
+@with_settings(Proved)
 def maximize(
     objective: AnyFormula,
     constraints: AnyFormula = "true",
     *,
     parameters: Names | None = None,
     method: Way = "auto",
-    timeout: float | None = None,
-    memory: int | None = None,
-    progress: Progress = silent,
-    check: bool = False,
-    process: bool = True,
+    **settings: Unpack[Proved],
 ) -> Optimum | GlobalOptimum | ParametricOptimum:
     """The exact global maximum; see ``minimize``."""
-    return _best(-1, objective, constraints, parameters, method, limits_of(timeout, memory, progress, process), check)
+    return _best(-1, objective, constraints, parameters, method, settings)
 
 
 def _best(
@@ -149,8 +118,7 @@ def _best(
     constraints: AnyFormula,
     parameters: Names | None,
     method: Way,
-    limits: Limits,
-    check: bool,
+    settings: Proved,
 ) -> Optimum | GlobalOptimum | ParametricOptimum:
     """The optimum of a convex problem by its method, of any other by elimination."""
     from qe.convex.optimum import NotConvex, maximize, minimize
@@ -158,9 +126,9 @@ def _best(
     from qe.formula.traverse import ring_of
     from qe.optimization.values import Goal
 
-    limits = limits.begun(time.monotonic())
+    limits, check = limits_of(settings), settings["check"]
     conditions = read_under(limits, lambda: read_constraints(constraints), constraints)
-    given, check = arguments.names(parameters, "parameters"), arguments.flag(check, "check")
+    given = arguments.names(parameters, "parameters")
     strangers = sorted({*(given or ())} - names_typed([objective, constraints, conditions]))
     if strangers:
         raise InputError(f"parameters: variables of the problem expected, each once, {', '.join(strangers)} found")

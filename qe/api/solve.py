@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import random
-import time
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Unpack
 
 from qe import arguments
 from qe.api.input import AnyFormula, read_block
-from qe.api.limits import Progress, limits_of, performed, reading
+from qe.api.limits import limits_of, performed, reading
+from qe.api.settings import ProvedBlock, Question, with_settings
 from qe.engine.run import solve as eliminated
 from qe.exact.number import Values
 from qe.formula.counting import without_root_atoms
@@ -18,7 +18,6 @@ from qe.formula.syntax import Exists, ForAll, Formula
 from qe.formula.traverse import is_quantifier_free
 from qe.options import Budget, Options
 from qe.processes.execution import Budgets
-from qe.progress import silent
 from qe.proof.answer import UNPROVED, Answer, Status
 from qe.proof.run_log import RunLog
 from qe.regions.build import described
@@ -29,28 +28,18 @@ if TYPE_CHECKING:
     from qe.elimination.vs.parametric import ParametricWitnesses
 
 
-def solve(
-    formula: AnyFormula,
-    variables: Any = None,
-    *,
-    format: str = "text",
-    total_division: bool = False,
-    timeout: float | None = None,
-    memory: int | None = None,
-    progress: Progress = silent,
-    process: bool = True,
-) -> Solutions:
+@with_settings(Question)
+def solve(formula: AnyFormula, variables: Any = None, **settings: Unpack[Question]) -> Solutions:
     """All real solutions, case by case, as Mathematica's ``Reduce`` writes them (cylindrical decomposition).
 
     ``variables``: those to solve for, in their order; they come after all others, so that each is told in terms of the
     parameters and of the variables before it. Without them all free variables are meant, in the order of the formula.
-    Quantifiers are eliminated first. See ``eliminate`` for the limits.
+    Quantifiers are eliminated first.
     Raises ``InputError`` for what cannot be read, ``Unable`` (``BudgetExceeded`` at a limit) where elimination does.
     """
-    start = time.monotonic()
-    whole = limits_of(timeout, memory, progress, process)
-    limits = whole.begun(start)
-    given, wanted = reading(formula, format, limits, total_division), arguments.names(variables, "variables")
+    limits, wanted = limits_of(settings), arguments.names(variables, "variables")
+    whole = replace(limits, start=None)
+    given = reading(formula, settings["format"], limits, settings["total_division"])
     order = None if wanted is None else (*(v for v in given.free if v not in wanted), *wanted)
 
     def work(budgets: Budgets) -> Solutions:
@@ -67,57 +56,35 @@ reduce = solve
 """The older name of ``solve``."""
 
 
-def find_instances(
-    formula: AnyFormula,
-    n: int,
-    *,
-    seed: int = 0,
-    format: str = "text",
-    total_division: bool = False,
-    timeout: float | None = None,
-    memory: int | None = None,
-    progress: Progress = silent,
-    process: bool = True,
-) -> list[Values]:
+@with_settings(Question)
+def find_instances(formula: AnyFormula, n: int, *, seed: int = 0, **settings: Unpack[Question]) -> list[Values]:
     """Up to ``n`` different exact solutions; fewer only where there are no more. The same for the same ``seed``.
 
-    See ``eliminate`` for the limits. Raises ``Unable`` (``BudgetExceeded`` at a limit) where no description is found.
+    Raises ``Unable`` (``BudgetExceeded`` at a limit) where no description is found.
     """
-    start = time.monotonic()
     count, walk = arguments.whole(n, "n", MOST_POINTS), random.Random(arguments.integers([seed], "seed")[0])
-    whole = limits_of(timeout, memory, progress, process)
-    limits = whole.begun(start)
-    given = reading(formula, format, limits, total_division)
+    limits = limits_of(settings)
+    given = reading(formula, settings["format"], limits, settings["total_division"])
 
     def work(budgets: Budgets) -> list[Values]:
-        found = described(given, None, budgets(), replace(whole, process=False))
+        found = described(given, None, budgets(), replace(limits, start=None, process=False))
         return different_points(found, count, walk, budgets())
 
     return performed(work, given, limits)
 
 
-def parametric_witnesses(
-    formula: AnyFormula,
-    *,
-    format: str = "text",
-    timeout: float | None = None,
-    memory: int | None = None,
-    progress: Progress = silent,
-    check: bool = False,
-    process: bool = True,
-) -> ParametricWitnesses:
+@with_settings(ProvedBlock)
+def parametric_witnesses(formula: AnyFormula, **settings: Unpack[ProvedBlock]) -> ParametricWitnesses:
     """Solutions of the outermost block as terms in the free variables, each under its guard (extended answers).
 
     The guards together are equivalent to an existential block; for a universal block the terms are counterexamples.
     ``answer`` of the tuple says so as an ``Answer``; with ``check`` it has a certificate, whose steps put the terms in.
     Raises ``InputError`` for a formula without an outermost block, ``Unable`` where substitution does not apply.
     """
-    start = time.monotonic()
+    limits, check = limits_of(settings), settings["check"]
     from qe.elimination.vs.parametric import parametric_witnesses as find
 
-    limits = limits_of(timeout, memory, progress, process).begun(start)
-    check = arguments.flag(check, "check")
-    given = reading(formula, format, limits, reader=read_block)
+    given = reading(formula, settings["format"], limits, reader=read_block)
 
     def work(budgets: Budgets) -> ParametricWitnesses:
         from qe.api.verify import with_verdict
