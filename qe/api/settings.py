@@ -59,16 +59,17 @@ _PROCESS = Setting(True, "False, or the environment variable QE_PROCESS=off, kee
 _CHECK = Setting(
     False,
     "a certificate, verified by the separate checker, where one can be had; if the method makes none, by a "
-    "decomposition of the whole formula. Without it only witnesses are proved. A proof that does not end in time costs the "
-    "certificate, not the answer (its reason says so)",
+    "decomposition of the whole formula. Without it only witnesses are proved. A proof that does not end in "
+    "time costs the certificate, not the answer (its reason says so)",
 )
 _DIVISION = Setting(
     False,
-    "x/0 is some number, as in SMT-LIB, instead of nothing; the formula holds if it does for a choice of these numbers",
+    "a quotient x/0 is some number, as in SMT-LIB, instead of nothing; the formula holds if it does for "
+    "a choice of these numbers",
 )
 _METHOD = Setting(Method.AUTO, "elimination method, the only one to be used", partial(arguments.member, choices=Method))
 _ORDER = Setting(None, "variable order, as in x,y,z", arguments.names)
-_ROOT_ATOMS = Setting(False, "x < root(k, p) may occur in the answer")
+_ROOT_ATOMS = Setting(False, "the answer may have x < root(k, p)")
 _WITHOUT = Setting(
     (), "stages of the engine to be left out; to measure what they gain", partial(arguments.members, choices=Stage)
 )
@@ -86,8 +87,8 @@ _RACE = Setting(
 )
 _ANYTIME = Setting(
     False,
-    "at the time limit, which is shared, where it is true, where false, what is open; Answer.partial says so of the "
-    "values of the free variables, with check under a certificate",
+    "at the time limit, which is shared, say where it is true, where false, what is open; Answer.partial says "
+    "so of the values of the free variables, with check under a certificate",
 )
 
 

@@ -38,8 +38,7 @@ def optimize(channel: Channel, request: Request, goal: Goal) -> Reply:
     start = time.perf_counter()
     solve = api_optimum.maximize if goal.maximize else api_optimum.minimize
     constraints = read_formula(channel, request.source)
-    asked: dict[str, Any] = {"timeout": request.timeout, "progress": channel.event, "parameters": goal.parameters}
-    asked["check"] = request.certificate
+    asked = {**request.keywords(channel, constraints), "parameters": goal.parameters}
     best: Optimum | GlobalOptimum | ParametricOptimum = solve(goal.objective, constraints, **asked)
     files: dict[str, str | bytes] = {"certificate": certificate_text(best)} if request.certificate else {}
     if isinstance(best, ParametricOptimum):

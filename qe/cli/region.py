@@ -6,7 +6,7 @@ import json
 import tempfile
 import time
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from qe.cli.numbers import shown
 from qe.cli.work import Reply, Request, certificate_text, read_formula
@@ -28,8 +28,7 @@ def region(channel: Channel, request: Request, picture: str | None) -> Reply:
         raise InputError(f"--plot: a file ending in {', '.join(PICTURES)} expected, {picture} found")
     start = time.perf_counter()
     formula = read_formula(channel, request.source)
-    asked: dict[str, Any] = {"order": request.order, "timeout": request.timeout, "check": request.certificate}
-    found = api.region(formula, progress=channel.event, **asked)
+    found = api.region(formula, progress=channel.event, check=request.certificate, **request.settings)
     seconds = time.perf_counter() - start
     files: dict[str, str | bytes] = {}
     if request.certificate:
@@ -40,13 +39,13 @@ def region(channel: Channel, request: Request, picture: str | None) -> Reply:
     return Reply(text, files=files)
 
 
-def solve(channel: Channel, request: Request) -> Reply:
+def solve(channel: Channel, request: Request, variables: tuple[str, ...] | None) -> Reply:
     """``qe solve``."""
     import qe.api.solve as api_solve
 
     start = time.perf_counter()
     formula = read_formula(channel, request.source)
-    found = api_solve.solve(formula, request.order, timeout=request.timeout, progress=channel.event)
+    found = api_solve.solve(formula, variables, progress=channel.event, **request.settings)
     files = {"certificate": certificate_text(found.region)} if request.certificate else {}
     if not request.json:
         return Reply(str(found), files=files)

@@ -39,33 +39,18 @@ class Request:
     """What the command line requests."""
 
     source: Source
-    method: str = "auto"
-    order: tuple[str, ...] | None = None
-    timeout: float | None = None
-    root_atoms: bool = False
+    settings: Mapping[str, Any] = field(default_factory=dict)
     certificate: bool = False
     json: bool = False
-    workers: int = 0
-    cluster: str | None = None
-    race: tuple[str, ...] = ()
-    anytime: bool = False
 
     def keywords(self, channel: Channel, formula: Formula) -> dict[str, Any]:
-        """The keywords for a call of the public functions about a formula that was read from the source; the memory
-        limit is the worker's own."""
+        """The keywords for a call of the public functions about a formula that was read from the source."""
         from qe.api.input import order_of
 
-        return {
-            "timeout": self.timeout,
-            "method": self.method,
-            "order": order_of(self.order, self.source.text, formula),
-            "progress": channel.event,
-            "root_atoms": self.root_atoms,
-            "check": self.certificate,
-            "workers": self.workers,
-            "cluster": self.cluster,
-            "race": self.race,
-        }
+        order = (
+            {"order": order_of(self.settings["order"], self.source.text, formula)} if "order" in self.settings else {}
+        )
+        return {**self.settings, **order, "progress": channel.event, "check": self.certificate}
 
 
 def read_formula(channel: Channel, source: Source, *, is_sentence: bool = False) -> Formula:
@@ -99,7 +84,7 @@ def eliminate(channel: Channel, request: Request, output: Format) -> Reply:
 
     start = time.perf_counter()
     formula = read_formula(channel, request.source)
-    answer = api.eliminate(formula, anytime=request.anytime, **request.keywords(channel, formula))
+    answer = api.eliminate(formula, **request.keywords(channel, formula))
     seconds = time.perf_counter() - start
     if answer.formula is None:
         if answer.partial is None:

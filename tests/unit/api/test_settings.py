@@ -11,10 +11,13 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from typer.main import get_command
 
 import qe
 from qe.api import settings
 from qe.api.settings import MOST_WORKERS, Elimination, settings_in, table_of_settings
+from qe.cli.app import app
+from qe.cli.options import ELSEWHERE, checked
 
 ROOT = Path(__file__).resolve().parents[3]
 TABLE = settings_in(Elimination)
@@ -101,6 +104,24 @@ def test_every_setting_is_said_once() -> None:
 
 def test_the_reference_has_the_table() -> None:
     assert table_of_settings() in (ROOT / "docs" / "api.md").read_text()
+
+
+def test_the_command_line_has_the_settings_as_options() -> None:
+    commands = get_command(app).commands  # type: ignore[attr-defined]
+    for name, also in (("eliminate", set()), ("decide", {"anytime"})):
+        options = {o.name: o for o in commands[name].params}
+        assert set(TABLE) - ELSEWHERE - also <= set(options)
+        assert not options["workers"].default and options["timeout"].help == "Seconds, enforced."
+
+
+def test_an_option_is_checked_by_its_own_name() -> None:
+    assert checked({"race": "vs,cad", "order": "x,y"}) == {
+        "race": frozenset({qe.Method.VS, qe.Method.CAD}),
+        "order": ("x", "y"),
+    }
+    for name, value in (("race", "fastest"), ("timeout", 0.0), ("workers", -1), ("order", "x x"), ("cluster", "here")):
+        with pytest.raises(qe.InputError, match=f"^--{name}: "):
+            checked({name: value})
 
 
 def test_users_of_type_checkers_see_the_keywords(tmp_path: Path) -> None:
