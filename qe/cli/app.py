@@ -16,8 +16,8 @@ from typing import Annotated, Any
 import typer
 
 from qe import __version__, arguments
-from qe.api.settings import Decision, Elimination, Limited, Proved, ProvedQuestion, Question
-from qe.cli.options import checked, command
+from qe.api.settings import Decision, Elimination, Limited, Proved, ProvedQuestion
+from qe.cli.options import REPORT, Json, checked, command
 from qe.cli.shell import check_writable, enter, examples, limited, remaining, write_file
 from qe.cli.source import ProofFormat, no_file, read_source
 from qe.cli.work import Reply, Request
@@ -37,12 +37,9 @@ InputFormat = Annotated[
 ]
 Output = Annotated[Format, typer.Option("--output", help="Format of the answer.")]
 CertificateSource = Annotated[str, typer.Argument(metavar="CERTIFICATE|-", show_default=False)]
-CertificateFile = Annotated[Path | None, typer.Option("--certificate", help="Write the certificate to this file.")]
 PictureFile = Annotated[
     Path | None, typer.Option("--plot", help="Draw the region to this file (.png, .pdf, .svg; .html: turnable).")
 ]
-Plain = Annotated[bool, typer.Option("--plain", help="No progress display and no notes.")]
-Json = Annotated[bool, typer.Option("--json", help="One JSON object on stdout.")]
 
 
 def _version(wanted: bool) -> None:
@@ -78,32 +75,24 @@ def eliminate(
     formula: Formula,
     format: InputFormat = None,
     output: Output = Format.TEXT,
-    certificate: CertificateFile = None,
-    json: Json = False,
-    plain: Plain = False,
     **settings: Any,
 ) -> int:
     """Print a quantifier-free formula equivalent to FORMULA over the real numbers."""
     from qe.cli import work
 
-    request = requested(formula, format, certificate, json, settings)
-    return answered(partial(work.eliminate, output=output), request, settings, plain, certificate=certificate)
+    return answered(partial(work.eliminate, output=output), formula, format, settings)
 
 
 @command(app, Decision, "Whether a sentence is true, a script satisfiable.", 'qe decide "all x. ex y. y^3 = x"')
 def decide(
     formula: Formula,
     format: InputFormat = None,
-    certificate: CertificateFile = None,
-    json: Json = False,
-    plain: Plain = False,
     **settings: Any,
 ) -> int:
     """Print true or false for a sentence, sat or unsat for an SMT-LIB script."""
     from qe.cli import work
 
-    request = requested(formula, format, certificate, json, settings)
-    return answered(work.decide, request, settings, plain, certificate=certificate)
+    return answered(work.decide, formula, format, settings)
 
 
 @command(
@@ -117,23 +106,19 @@ def region(
     formula: Formula,
     format: InputFormat = None,
     plot: PictureFile = None,
-    certificate: CertificateFile = None,
-    json: Json = False,
-    plain: Plain = False,
     **settings: Any,
 ) -> int:
     """Describe the set of real points that satisfy FORMULA, cell by cell."""
     from qe.cli import region as cli_region
 
     check_writable(plot)
-    request = requested(formula, format, certificate, json, settings)
     work = partial(cli_region.region, picture=None if plot is None else plot.suffix or ".png")
-    return answered(work, request, settings, plain, certificate=certificate, plot=plot)
+    return answered(work, formula, format, settings, plot=plot)
 
 
 @command(
     app,
-    Question,
+    ProvedQuestion,
     "All solutions of FORMULA, case by case.",
     'qe solve "x^2 + y^2 = 1 and x >= y" --variables x,y',
 )
@@ -143,17 +128,13 @@ def solve(
         str | None, typer.Option("--variables", help="Those to solve for, as in x,y; the others come before them.")
     ] = None,
     format: InputFormat = None,
-    certificate: CertificateFile = None,
-    json: Json = False,
-    plain: Plain = False,
     **settings: Any,
 ) -> int:
     """Print all real solutions, one case a line, each variable in terms of those before it."""
     from qe.cli import region as cli_region
 
-    request = requested(formula, format, certificate, json, settings)
     work = partial(cli_region.solve, variables=arguments.names(variables, "--variables"))
-    return answered(work, request, settings, plain, certificate=certificate)
+    return answered(work, formula, format, settings)
 
 
 @command(app, Proved, "The exact least value under CONSTRAINTS.", 'qe minimize "x + y" "x^2 + y^2 <= 1"')
@@ -163,17 +144,13 @@ def minimize(
     format: InputFormat = None,
     maximize: Annotated[bool, typer.Option("--maximize", help="Find the greatest value instead.")] = False,
     parameters: Annotated[str | None, typer.Option("--parameters", help="Variables not optimised over: a, b.")] = None,
-    certificate: CertificateFile = None,
-    json: Json = False,
-    plain: Plain = False,
     **settings: Any,
 ) -> int:
     """Print the exact least value of a polynomial under CONSTRAINTS, and where it is attained."""
     from qe.cli import optimize as cli_optimize
 
-    request = requested(constraints, format, certificate, json, settings)
     work = partial(cli_optimize.optimize, goal=cli_optimize.Goal(objective, maximize, parameters))
-    return answered(work, request, settings, plain, certificate=certificate)
+    return answered(work, constraints, format, settings)
 
 
 @command(
@@ -276,27 +253,23 @@ def prompt() -> int:
     return cli_prompt.run(None if cli_prompt.is_wanted() else cli_prompt.plain_reader())
 
 
-def requested(
-    source: str, format: Format | None, certificate: Path | None, json: bool, settings: Mapping[str, Any]
-) -> Request:
-    """What all answering commands are asked; options and files are checked before anything is read."""
-    values = checked(settings)
-    check_writable(certificate)
-    given = replace(read_source(source, format), total_division=values.pop("total_division", False))
-    del values["memory"]  # the worker's own limit
-    values.pop("explain", None)  # the answer's story comes with the reply
-    if values["timeout"] is not None:  # the checks inside the engine can end the work in order
-        values["timeout"] = remaining(values["timeout"])
-    return Request(source=given, settings=values, certificate=certificate is not None, json=json)
-
-
 def answered(
-    work: Callable[..., Reply], request: Request, settings: Mapping[str, Any], plain: bool, **files: Path | None
+    work: Callable[..., Reply], source: str, format: Format | None, given: Mapping[str, Any], **files: Path | None
 ) -> int:
-    """The exit status of a command whose work is done, and its answer printed and written."""
-    limits = {name: settings[name] for name in ("timeout", "memory")}
-    reply = limited(partial(work, request=request), plain=plain, **limits)
-    return deliver(reply, files, explain=settings.get("explain", False))
+    """The exit status of a command whose work is done, and its answer printed and written.
+
+    Options and files are checked before anything is read.
+    """
+    files["certificate"] = certificate = given["certificate"]
+    settings = checked({name: value for name, value in given.items() if name not in REPORT})
+    check_writable(certificate)
+    text = replace(read_source(source, format), total_division=settings.pop("total_division", False))
+    timeout, memory, explain = settings["timeout"], settings.pop("memory"), settings.pop("explain", False)
+    if timeout is not None:  # the checks inside the engine can end the work in order
+        settings["timeout"] = remaining(timeout)
+    request = Request(source=text, settings=settings, certificate=certificate is not None, json=given["json"])
+    reply = limited(partial(work, request=request), timeout=timeout, memory=memory, plain=given["plain"])
+    return deliver(reply, files, explain=explain)
 
 
 def check_limits(timeout: float | None, memory: int | None) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Callable, Mapping
+from pathlib import Path
 from typing import Annotated, Any
 
 import typer
@@ -15,6 +16,11 @@ from qe.options import Method
 
 Command = Callable[..., int]
 
+
+def _parameter(name: str, default: object, annotation: Any) -> inspect.Parameter:
+    return inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=default, annotation=annotation)
+
+
 WRITTEN: Mapping[str, Any] = {"method": Method, "order": str | None, "race": str | None}
 """The types of options that the command line writes in a way of its own."""
 METAVARS = {"cluster": "ADDRESS", "race": "METHODS"}
@@ -22,19 +28,30 @@ ELSEWHERE = {"format", "progress", "process", "check", "without"}
 """Settings that are no options, or are options of another kind: ``--format``, ``--certificate FILE``."""
 
 
+Json = Annotated[bool, typer.Option("--json", help="One JSON object on stdout.")]
+_CERTIFICATE = typer.Option("--certificate", help="Write the certificate to this file.")
+REPORT = {
+    "certificate": _parameter("certificate", None, Annotated[Path | None, _CERTIFICATE]),
+    "json": _parameter("json", False, Json),
+    "plain": _parameter(
+        "plain", False, Annotated[bool, typer.Option("--plain", help="No progress display and no notes.")]
+    ),
+}
+"""What all commands take that answer a question: how the answer is written."""
+
+
 def command(
     app: typer.Typer, kind: type, short: str, *shown: str, also: tuple[str, ...] = ()
 ) -> Callable[[Command], Command]:
-    """Add a command that ends in ``**settings``: those of this class, and ``also`` these, that it does not list itself.
-
-    ``shown``: examples for its help.
-    """
+    """Add a command that ends in ``**settings``: those of this class, and ``also`` these, that it does not list itself;
+    one that may have a certificate takes what is in ``REPORT``, too. ``shown``: examples for its help."""
 
     def added(function: Command) -> Command:
         signature = inspect.signature(function, eval_str=True)
         listed = [p for p in signature.parameters.values() if p.kind is not p.VAR_KEYWORD]
         given = ELSEWHERE | {p.name for p in listed}
-        options = [option(name) for name in (*also, *settings_in(kind)) if name not in given]
+        names = [name for name in (*also, *settings_in(kind)) if name not in given]
+        options = [*(REPORT.values() if "check" in settings_in(kind) else ()), *map(option, names)]
         function.__signature__ = signature.replace(parameters=[*listed, *options])  # type: ignore[attr-defined]
         app.command(short_help=short, epilog=examples(*shown) if shown else None)(function)
         return function
@@ -49,12 +66,8 @@ def option(name: str) -> inspect.Parameter:
     info = typer.Option(
         f"--{name.replace('_', '-')}", metavar=METAVARS.get(name), help=f"{short[0].upper()}{short[1:]}."
     )
-    return inspect.Parameter(
-        name,
-        inspect.Parameter.KEYWORD_ONLY,
-        default=setting.default or None if name in WRITTEN else setting.default,
-        annotation=Annotated[WRITTEN.get(name, hint), info],
-    )
+    default = setting.default or None if name in WRITTEN else setting.default
+    return _parameter(name, default, Annotated[WRITTEN.get(name, hint), info])
 
 
 def checked(options: Mapping[str, Any]) -> dict[str, Any]:
