@@ -70,11 +70,11 @@ def option(name: str) -> inspect.Parameter:
     return _parameter(name, default, Annotated[WRITTEN.get(name, hint), info])
 
 
-def checked(options: Mapping[str, Any]) -> dict[str, Any]:
+def checked(options: Mapping[str, Any], mark: str = "--") -> dict[str, Any]:
     """The values of the options. Raises ``InputError``, naming the option, for those that make no sense."""
     values = {}
     for name, value in options.items():
-        what = f"--{name.replace('_', '-')}"
+        what = mark + name.replace("_", "-")
         given = (arguments.names(value, what) or ()) if name == "race" else value
         values[name] = settings_in(Elimination)[name][1].check(given, what=what)
     return values

@@ -17,6 +17,8 @@ from pathlib import Path
 from typing import Any
 
 import qe
+from qe.api.settings import Decision, Elimination, Proved, ProvedQuestion, Question, settings_in
+from qe.cli.options import ELSEWHERE, checked
 from qe.errors import InputError, QEError, Unable
 from qe.extras import lacking
 
@@ -31,19 +33,22 @@ HELP = """A formula is answered by one without quantifiers, a sentence by true o
   :decide FORMULA               true or false
   :plot FILE                    a picture of the last answer (.png, .svg, .pdf; .html in three variables)
   :why                          how the last answer was found
-  :timeout SECONDS              the limit for each question (off: none), now {timeout}
+  :NAME VALUE                   sets an option of qe eliminate for all questions that take it, as in :method cad,
+                                :order x,y or :timeout 5 (off: as without it); now {settings}
   :help   :quit (or Ctrl-D)     Ctrl-C ends a question that takes too long"""
 
 _MORE = re.compile(r"(?:[-+*/^=<>,.:&|]|\\|\b(?:and|or|not|implies|iff|then|else|if|AND|OR|NOT))\s*$")
+_NUMBER = re.compile(r"-?[0-9]{1,9}(?:\.[0-9]{1,9})?")
 _LAST = re.compile(r"(`(?:[^`\\]|\\.)*`)|%")
-COMMANDS = ("decide", "help", "instance", "max", "min", "plot", "quit", "region", "solve", "timeout", "why")
+COMMANDS = ("decide", "help", "instance", "max", "min", "plot", "quit", "region", "solve", "why")
+SETTINGS = {name: setting for name, (_, setting) in settings_in(Elimination).items() if name not in ELSEWHERE}
 
 
 @dataclass(slots=True)
 class Session:
-    """What a prompt remembers: the last answer, its text for ``%``, and the limit."""
+    """What a prompt remembers: the last answer, its text for ``%``, and what has been set."""
 
-    timeout: float | None = 60.0
+    settings: dict[str, Any] = field(default_factory=lambda: {"timeout": 60.0})
     last: Any = None
     text: str = ""
     commands: dict[str, Callable[[str], str]] = field(default_factory=dict)
@@ -72,10 +77,12 @@ class Session:
         if not line.startswith(":"):
             return self._eliminate(self._meant(line))
         name, _, rest = line[1:].partition(" ")
+        if (setting := name.replace("-", "_")) in SETTINGS:
+            return self._set(setting, rest.strip())
         if name not in self.commands:
             from difflib import get_close_matches
 
-            near = get_close_matches(name, COMMANDS, 1)
+            near = get_close_matches(name, (*COMMANDS, *SETTINGS), 1)
             raise InputError(
                 f"no such command: :{name}; " + (f"did you mean :{near[0]}?" if near else ":help lists them")
             )
@@ -98,7 +105,7 @@ class Session:
         return text
 
     def _eliminate(self, line: str) -> str:
-        answer = qe.eliminate(line, timeout=self.timeout)
+        answer = qe.eliminate(line, **self.settings)
         if answer.formula is None:
             raise Unable(answer.reason)
         lines = [self._keep(answer, str(answer))]
@@ -108,22 +115,22 @@ class Session:
         return "\n".join(lines)
 
     def _decide(self, rest: str) -> str:
-        return self._keep(None, str(qe.decide(rest, timeout=self.timeout)).lower())
+        return self._keep(None, str(qe.decide(rest, **self._those_of(Decision))).lower())
 
     def _solve(self, rest: str) -> str:
         names, colon, formula = rest.partition(":")
         named = bool(colon) and not re.search(r"[=<>.()]|\b(ex|all|exists|forall)\b", names)
-        found = qe.solve(formula if named else rest, names if named else None, timeout=self.timeout)
+        found = qe.solve(formula if named else rest, names if named else None, **self._those_of(Question))
         return self._keep(found.region, str(found))
 
     def _instance(self, rest: str) -> str:
-        point = qe.find_instance(rest, timeout=self.timeout)
+        point = qe.find_instance(rest, **self._those_of(Decision))
         if point is None:
             return "there is none"
         return self._keep(None, " and ".join(f"{name} = {value}" for name, value in point.items()) or "true")
 
     def _region(self, rest: str) -> str:
-        found = qe.region(rest, timeout=self.timeout)
+        found = qe.region(rest, self.settings.get("order"), **self._those_of(ProvedQuestion))
         if found.is_empty:
             return self._keep(found, "false")
         lines = [f"dimension {found.dimension} in {', '.join(found.order)}"]
@@ -140,7 +147,7 @@ class Session:
 
     def _best(self, rest: str, solve: Callable[..., Any]) -> str:
         term, _, conditions = rest.partition(":")
-        best = solve(term, conditions.strip() or "true", timeout=self.timeout)
+        best = solve(term, conditions.strip() or "true", **self._those_of(Proved))
         if best.value is None:
             return str(best.status.name.lower())
         point = ", ".join(f"{name} = {value}" for name, value in best.point.items())
@@ -155,7 +162,7 @@ class Session:
         words = shlex.split(rest)
         if len(words) != 1:
             raise InputError("the name of a file expected, as in :plot region.png")
-        self.last.plot(words[0], timeout=self.timeout)
+        self.last.plot(words[0], timeout=self.settings.get("timeout"))
         return f"written: {words[0]}"
 
     def _why(self, rest: str) -> str:
@@ -163,17 +170,34 @@ class Session:
             raise InputError("there is no elimination to explain yet")
         return self.last.explanation
 
-    def _timeout(self, rest: str) -> str:
-        from qe import arguments
+    def _set(self, name: str, rest: str) -> str:
+        """Set what all further questions are asked with, or no longer."""
+        default = SETTINGS[name].default
+        if rest in ("off", "none"):
+            self.settings.pop(name, None)
+        elif isinstance(default, bool):
+            self.settings[name] = True
+        else:
+            value = float(rest) if _NUMBER.fullmatch(rest) else rest
+            whole = isinstance(value, float) and value.is_integer()
+            self.settings |= checked({name: int(value) if whole else value}, ":")
+        return f"set: {self._all_settings()}"
 
-        try:
-            self.timeout = None if rest in ("off", "none") else arguments.seconds(float(rest))
-        except ValueError:
-            raise InputError(f"a positive number of seconds, or off, expected, {rest or 'nothing'} found") from None
-        return f"limit: {'none' if self.timeout is None else f'{self.timeout:g} s'}"
+    def _those_of(self, kind: type) -> dict[str, Any]:
+        """What has been set and such a question takes."""
+        return {name: value for name, value in self.settings.items() if name in settings_in(kind)}
+
+    def _all_settings(self) -> str:
+        return ", ".join(f"{name} {_written(value)}" for name, value in sorted(self.settings.items())) or "nothing"
 
     def _help(self, rest: str) -> str:
-        return HELP.format(timeout="off" if self.timeout is None else f"{self.timeout:g}")
+        return HELP.format(settings=self._all_settings())
+
+
+def _written(value: object) -> str:
+    if isinstance(value, frozenset | tuple):
+        return ",".join(sorted(map(_written, value)) if isinstance(value, frozenset) else value)
+    return f"{value:g}" if isinstance(value, float) else str(getattr(value, "value", value))
 
 
 def is_open(text: str) -> bool:
