@@ -10,6 +10,7 @@ import typer
 
 from bezier.cli.ik import ArmName
 from bezier.cli.options import Json, Memory, Out, Timeout
+from bezier.curves.scalar import rational
 from bezier.motion.timelaw import Law, TimeLaw
 from qe.cli.app import check_limits
 from qe.cli.shell import limited
@@ -32,7 +33,6 @@ def joints(
     from bezier.arm.exact_text import read_exact
     from bezier.arm.reader import load_arm
     from bezier.arm.route import load_route
-    from bezier.curves.scalar import rational
     from bezier.planner.outputs import all_or_none
 
     check_limits(timeout, memory)

@@ -11,8 +11,10 @@ from qe.api.input import AnyFormula, names_typed, note_doubts, read_constraints,
 from qe.api.limits import limits_of, performed, read_under
 from qe.api.settings import Proved, with_settings
 from qe.errors import InputError
+from qe.formula.traverse import ring_of
 from qe.options import Budget
 from qe.processes.execution import Budgets
+from qe.proof.answer import Guarantee
 
 if TYPE_CHECKING:
     from qe.convex.optimum import Optimum
@@ -123,7 +125,6 @@ def _best(
     """The optimum of a convex problem by its method, of any other by elimination."""
     from qe.convex.optimum import NotConvex, maximize, minimize
     from qe.formula.doubts import numbers_as_names
-    from qe.formula.traverse import ring_of
     from qe.optimization.values import Goal
 
     limits, check = limits_of(settings), settings["check"]
@@ -177,7 +178,6 @@ def _with_guarantee(
     from qe.api.verify import judged
     from qe.convex.optimum import Optimum
     from qe.optimization.global_optimum import POINT, GlobalOptimum
-    from qe.proof.answer import Guarantee
 
     guarantee, reason = judged(found.certificate, budget)
     if isinstance(found, Optimum):

@@ -13,6 +13,7 @@ from qe import arguments
 from qe.api.input import together
 from qe.api.limits import performed, reading
 from qe.cells.interval import Coordinate, Interval, Number, number_of
+from qe.convex.optimum import exact, minimize
 from qe.engine.run import solve as eliminated
 from qe.errors import BudgetExceeded, InputError, InternalError, Unable
 from qe.exact.algebraic import RealAlgebraic
@@ -26,6 +27,7 @@ from qe.io import surface as s
 from qe.io.lowering import lower
 from qe.options import Options
 from qe.processes.execution import Budgets, Limits
+from qe.proof.multipliers import OptimumStatus
 from qe.regions import planar, spatial, topology
 from qe.regions.build import described
 from qe.regions.convex_region import ConvexRegion
@@ -145,10 +147,8 @@ def section(region: Region, values: Mapping[Any, Coordinate], timeout: float | N
 
 def distance(region: Region, point: object, timeout: float | None) -> Number:
     """The infimum of the distances of a point from the points of a region."""
-    from qe.convex.optimum import exact, minimize
     from qe.optimization.global_optimum import best
     from qe.optimization.values import Goal, Objective, new_name
-    from qe.proof.multipliers import OptimumStatus
 
     given = _numbers(region, arguments.point(point, region.order), "point")
     if missing := [v for v in region.order if v not in given]:

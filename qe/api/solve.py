@@ -20,6 +20,7 @@ from qe.options import Budget, Options
 from qe.processes.execution import Budgets
 from qe.proof.answer import UNPROVED, Answer, Status
 from qe.proof.run_log import RunLog
+from qe.proving.certificates import NOT_WANTED, derived
 from qe.regions.build import described
 from qe.regions.solutions import Solutions
 from qe.regions.walk import MOST_POINTS, different_points
@@ -88,7 +89,6 @@ def parametric_witnesses(formula: AnyFormula, **settings: Unpack[ProvedBlock]) -
 
     def work(budgets: Budgets) -> ParametricWitnesses:
         from qe.api.verify import with_verdict
-        from qe.proving.certificates import NOT_WANTED, derived
 
         log, options, budget = RunLog(), Options(certify=check), budgets()
         found = find(_outermost_block(given, log, options, budget), budget=budget, log=log)

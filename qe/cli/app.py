@@ -17,6 +17,7 @@ import typer
 
 from qe import __version__, arguments
 from qe.api.settings import Decision, Elimination, Limited, Proved, ProvedQuestion
+from qe.cli import work
 from qe.cli.options import REPORT, Json, checked, command
 from qe.cli.shell import check_writable, enter, examples, limited, remaining, write_file
 from qe.cli.source import ProofFormat, no_file, read_source
@@ -78,8 +79,6 @@ def eliminate(
     **settings: Any,
 ) -> int:
     """Print a quantifier-free formula equivalent to FORMULA over the real numbers."""
-    from qe.cli import work
-
     return answered(partial(work.eliminate, output=output), formula, format, settings)
 
 
@@ -90,8 +89,6 @@ def decide(
     **settings: Any,
 ) -> int:
     """Print true or false for a sentence, sat or unsat for an SMT-LIB script."""
-    from qe.cli import work
-
     return answered(work.decide, formula, format, settings)
 
 
@@ -172,8 +169,6 @@ def check(
 
     Exit status 4 when it is rejected or not about --formula, 3 when the time does not suffice to tell.
     """
-    from qe.cli import work
-
     text, limits = _certificate(certificate, settings)
     asked = None if formula is None else read_source(formula, None)
     seconds = remaining(limits["timeout"])
@@ -190,8 +185,6 @@ def export_proof(
 
     Exit status 4 when it is rejected, 3 where it is of a kind that cannot be written so.
     """
-    from qe.cli import work
-
     text, limits = _certificate(certificate, settings)
     seconds = remaining(limits["timeout"])
     return deliver(limited(partial(work.export_proof, text=text, seconds=seconds), **limits), {})
@@ -209,8 +202,6 @@ def _certificate(name: str, settings: dict[str, Any]) -> tuple[str, dict[str, An
 @command(app, Limited, "FORMULA in another format.", 'qe convert "ex x. x^2 = a" --output smtlib')
 def convert(formula: Formula, format: InputFormat = None, output: Output = Format.TEXT, **settings: Any) -> int:
     """Print FORMULA in another format, unchanged in meaning."""
-    from qe.cli import work
-
     limits = checked(settings)
     converted = partial(work.convert, source=read_source(formula, format), output=output)
     return deliver(limited(converted, plain=True, **limits), {})

@@ -13,8 +13,10 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from qe.cli.source import Source
-from qe.errors import InputError, Unable
+from qe.errors import CertificateRejected, InputError, Unable
+from qe.io import formats
 from qe.io.formats import Format
+from qe.options import Budget
 from qe.processes.worker import Channel
 from qe.spelling import glued, quoted
 
@@ -61,7 +63,6 @@ def read_formula(channel: Channel, source: Source, *, is_sentence: bool = False)
     from qe.api.input import note_doubts
     from qe.formula.features import features
     from qe.formula.traverse import bound_variables
-    from qe.io import formats
 
     formula = formats.read(source.text, source.format.value, source=source.name, total_division=source.total_division)
     if is_sentence and (free := formula.free):
@@ -80,7 +81,6 @@ def read_formula(channel: Channel, source: Source, *, is_sentence: bool = False)
 def eliminate(channel: Channel, request: Request, output: Format) -> Reply:
     """``qe eliminate``."""
     import qe.api.eliminate as api
-    from qe.io import formats
 
     start = time.perf_counter()
     formula = read_formula(channel, request.source)
@@ -103,8 +103,6 @@ def eliminate(channel: Channel, request: Request, output: Format) -> Reply:
 
 def _partial_reply(answer: Answer, partial: Partial, request: Request, output: Format) -> Reply:
     """What is known where a limit ended the work: three formulas, with the exit status of no answer."""
-    from qe.io import formats
-
     files = {} if partial.certificate is None else {"certificate": certificate_text(partial)}
     parts = {"true": partial.proved_true, "false": partial.proved_false, "open": partial.open}
     written = {name: formats.write(part, output.value).rstrip("\n") for name, part in parts.items()}
@@ -152,8 +150,6 @@ def _summary(answer: Answer, seconds: float) -> dict[str, Any]:
 
 def convert(channel: Channel, source: Source, output: Format) -> Reply:
     """``qe convert``."""
-    from qe.io import formats
-
     return Reply(formats.write(read_formula(channel, source), output.value).rstrip("\n"))
 
 
@@ -162,8 +158,6 @@ def check(channel: Channel, text: str, asked: Source | None, seconds: float, as_
     from qe.api.verify import of_question
     from qe.certify.claims import claim_of, is_about, parts_of
     from qe.certify.verify import verify
-    from qe.errors import CertificateRejected
-    from qe.options import Budget
     from qe.proof.certificate import Certificate
 
     start = time.perf_counter()
@@ -194,8 +188,6 @@ def check(channel: Channel, text: str, asked: Source | None, seconds: float, as_
 def export_proof(channel: Channel, text: str, seconds: float) -> Reply:
     """``qe export-proof``: exit status 4 when the certificate is rejected, 3 where it cannot be checked or written."""
     from qe.certify.verify import verify
-    from qe.errors import CertificateRejected
-    from qe.options import Budget
     from qe.proof.certificate import Certificate
     from qe.proof.coq import to_coq
 

@@ -31,6 +31,7 @@ from qe.options import Budget
 from qe.processes.execution import Budgets, Limits, perform
 from qe.proof.answer import Answer, Guarantee
 from qe.proof.cells import Cell, CellTable
+from qe.proof.cells_json import CellEvidence
 from qe.proof.certificate import Certificate
 from qe.regions.operators import SetOperations
 from qe.regions.volume import enclose
@@ -292,8 +293,6 @@ class Region(SetOperations):
     @staticmethod
     def from_json(text: str) -> Region:
         """The region of a JSON text. Nothing is verified; use ``qe.verify`` on ``certificate`` for that."""
-        from qe.proof.cells_json import CellEvidence
-
         payload = Certificate.from_json(text).payload
         if not isinstance(payload, CellEvidence) or payload.parts is not None or any(payload.table.quantifiers):
             raise InputError("a region in JSON expected")

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from qe.exact.ring import Ring
 from qe.formula.build import atom, conj
 from qe.formula.syntax import Relation
 from qe.regions.described import Described as Region
@@ -32,8 +33,6 @@ Frame = dict[str, tuple[int | None, int | None]]
 
 def framed(region: Region) -> tuple[Region, Frame]:
     """The region within a box that cuts off whatever goes on for ever, and where the box cuts."""
-    from qe.exact.ring import Ring
-
     frame: Frame = {}
     conditions = []
     ring = Ring.of(region.order)
