@@ -10,14 +10,17 @@ from qe import arguments
 from qe.api.input import AnyFormula, names_typed, note_doubts, read_constraints, read_objective, warned
 from qe.api.limits import limits_of, performed, read_under
 from qe.api.settings import Proved, with_settings
+from qe.convex import optimum as convex
+from qe.convex.optimum import NotConvex, Optimum
 from qe.errors import InputError
+from qe.formula.doubts import numbers_as_names
 from qe.formula.traverse import ring_of
+from qe.optimization.values import Goal
 from qe.options import Budget
 from qe.processes.execution import Budgets
 from qe.proof.answer import Guarantee
 
 if TYPE_CHECKING:
-    from qe.convex.optimum import Optimum
     from qe.optimization.global_optimum import GlobalOptimum
     from qe.optimization.parametric_optimum import ParametricOptimum
 
@@ -27,11 +30,7 @@ Way = Literal["auto", "convex", "elimination"]
 
 @overload
 def minimize(
-    objective: AnyFormula,
-    constraints: AnyFormula = ...,
-    *,
-    method: Literal["convex"],
-    **settings: Unpack[Proved],
+    objective: AnyFormula, constraints: AnyFormula = ..., *, method: Literal["convex"], **settings: Unpack[Proved]
 ) -> Optimum: ...
 @overload
 def minimize(
@@ -44,11 +43,7 @@ def minimize(
 ) -> ParametricOptimum: ...
 @overload
 def minimize(
-    objective: AnyFormula,
-    constraints: AnyFormula = ...,
-    *,
-    method: Way = ...,
-    **settings: Unpack[Proved],
+    objective: AnyFormula, constraints: AnyFormula = ..., *, method: Way = ..., **settings: Unpack[Proved]
 ) -> Optimum | GlobalOptimum: ...
 @with_settings(Proved)
 def minimize(
@@ -78,11 +73,7 @@ def minimize(
 
 @overload
 def maximize(
-    objective: AnyFormula,
-    constraints: AnyFormula = ...,
-    *,
-    method: Literal["convex"],
-    **settings: Unpack[Proved],
+    objective: AnyFormula, constraints: AnyFormula = ..., *, method: Literal["convex"], **settings: Unpack[Proved]
 ) -> Optimum: ...
 @overload
 def maximize(
@@ -95,11 +86,7 @@ def maximize(
 ) -> ParametricOptimum: ...
 @overload
 def maximize(
-    objective: AnyFormula,
-    constraints: AnyFormula = ...,
-    *,
-    method: Way = ...,
-    **settings: Unpack[Proved],
+    objective: AnyFormula, constraints: AnyFormula = ..., *, method: Way = ..., **settings: Unpack[Proved]
 ) -> Optimum | GlobalOptimum: ...
 @with_settings(Proved)
 def maximize(
@@ -123,10 +110,6 @@ def _best(
     settings: Proved,
 ) -> Optimum | GlobalOptimum | ParametricOptimum:
     """The optimum of a convex problem by its method, of any other by elimination."""
-    from qe.convex.optimum import NotConvex, maximize, minimize
-    from qe.formula.doubts import numbers_as_names
-    from qe.optimization.values import Goal
-
     limits, check = limits_of(settings), settings["check"]
     conditions = read_under(limits, lambda: read_constraints(constraints), constraints)
     given = arguments.names(parameters, "parameters")
@@ -158,7 +141,8 @@ def _best(
         if term.polynomial is not None and method != "elimination":
             poly, scale = term.polynomial
             try:
-                return (minimize if sign > 0 else maximize)(poly, conditions, scale=scale, budget=budget, near=True)
+                solved = convex.minimize if sign > 0 else convex.maximize
+                return solved(poly, conditions, scale=scale, budget=budget, near=True)
             except NotConvex:
                 if method == "convex":
                     raise
@@ -176,7 +160,6 @@ def _with_guarantee(
 ) -> Optimum | GlobalOptimum | ParametricOptimum:
     """The optimum with what the checker says of its certificate."""
     from qe.api.verify import judged
-    from qe.convex.optimum import Optimum
     from qe.optimization.global_optimum import POINT, GlobalOptimum
 
     guarantee, reason = judged(found.certificate, budget)

@@ -72,22 +72,13 @@ def whole(
     'qe eliminate "ex x. x^2 + b*x + c = 0"',
     'qe eliminate "all x. x^2 >= a*x" --explain',
 )
-def eliminate(
-    formula: Formula,
-    format: InputFormat = None,
-    output: Output = Format.TEXT,
-    **settings: Any,
-) -> int:
+def eliminate(formula: Formula, format: InputFormat = None, output: Output = Format.TEXT, **settings: Any) -> int:
     """Print a quantifier-free formula equivalent to FORMULA over the real numbers."""
     return answered(partial(work.eliminate, output=output), formula, format, settings)
 
 
 @command(app, Decision, "Whether a sentence is true, a script satisfiable.", 'qe decide "all x. ex y. y^3 = x"')
-def decide(
-    formula: Formula,
-    format: InputFormat = None,
-    **settings: Any,
-) -> int:
+def decide(formula: Formula, format: InputFormat = None, **settings: Any) -> int:
     """Print true or false for a sentence, sat or unsat for an SMT-LIB script."""
     return answered(work.decide, formula, format, settings)
 
@@ -99,12 +90,7 @@ def decide(
     'qe region "x^2 + y^2 <= 4 and y >= x" --plot region.png',
     also=("order",),
 )
-def region(
-    formula: Formula,
-    format: InputFormat = None,
-    plot: PictureFile = None,
-    **settings: Any,
-) -> int:
+def region(formula: Formula, format: InputFormat = None, plot: PictureFile = None, **settings: Any) -> int:
     """Describe the set of real points that satisfy FORMULA, cell by cell."""
     from qe.cli import region as cli_region
 
