@@ -23,7 +23,7 @@ from qe.errors import (
     QEError,
     Unable,
 )
-from qe.options import Method, Stage
+from qe.options import Method, Projection, Stage
 from qe.services import Service, provide
 
 if TYPE_CHECKING:
@@ -132,6 +132,7 @@ __all__ = [
     "ParametricOptimum",
     "ParametricWitness",
     "ParseError",
+    "Projection",
     "QEError",
     "RealAlgebraic",
     "RealRootClassification",

@@ -14,7 +14,7 @@ from qe.api.limits import limits_of, performed, reading
 from qe.api.settings import Elimination, Order, ProvedQuestion, Search, with_settings
 from qe.errors import InputError, Unable
 from qe.formula.syntax import FALSE, Formula
-from qe.options import VERIFY_SECONDS, Budget, Cluster, Method, Options, Stage
+from qe.options import VERIFY_SECONDS, Budget, Cluster, Method, Options, Projection, Stage
 from qe.processes.execution import Budgets, Limits
 from qe.proof.answer import UNPROVED, Answer, Guarantee, Status
 from qe.proof.certificate import Certificate, Kind
@@ -57,6 +57,7 @@ def answered_under(
     options = Options(
         method=Method(settings["method"]),
         order=order,
+        projection=Projection(settings["projection"]),
         root_atoms=settings["root_atoms"],
         without=cast(frozenset[Stage], settings["without"]),
         certify=check,

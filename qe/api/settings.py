@@ -19,7 +19,7 @@ from functools import partial
 from typing import Annotated, Any, ParamSpec, TypedDict, TypeVar, get_args, get_type_hints
 
 from qe import arguments
-from qe.options import Method, Stage
+from qe.options import Method, Projection, Stage
 from qe.progress import Event, silent
 
 P = ParamSpec("P")
@@ -69,6 +69,11 @@ _DIVISION = Setting(
 )
 _METHOD = Setting(Method.AUTO, "elimination method, the only one to be used", partial(arguments.member, choices=Method))
 _ORDER = Setting(None, "variable order, as in x,y,z", arguments.names)
+_PROJECTION = Setting(
+    Projection.BROWN_MCCALLUM,
+    "operator by which decompositions project; the answers are equivalent",
+    partial(arguments.member, choices=Projection),
+)
 _ROOT_ATOMS = Setting(False, "the answer may have x < root(k, p)")
 _WITHOUT = Setting(
     (), "stages of the engine to be left out; to measure what they gain", partial(arguments.members, choices=Stage)
@@ -134,6 +139,7 @@ class Search(Read, Proved, total=False):
 
     method: Annotated[str | Method, _METHOD]
     order: Annotated[Order, _ORDER]
+    projection: Annotated[str | Projection, _PROJECTION]
     root_atoms: Annotated[bool, _ROOT_ATOMS]
     without: Annotated[Iterable[str | Stage] | str | Stage, _WITHOUT]
     explain: Annotated[bool, _EXPLAIN]
@@ -205,5 +211,5 @@ def table_of_settings() -> str:
 
 
 def _shown(default: object) -> str:
-    value = default.value if isinstance(default, Method) else default
+    value = default.value if isinstance(default, Method | Projection) else default
     return "no listener" if callable(value) else f"`{value!r}`"

@@ -12,7 +12,7 @@ import typer
 from qe import arguments
 from qe.api.settings import Elimination, settings_in
 from qe.cli.shell import examples
-from qe.options import Method
+from qe.options import Method, Projection
 
 Command = Callable[..., int]
 
@@ -21,7 +21,7 @@ def _parameter(name: str, default: object, annotation: Any) -> inspect.Parameter
     return inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=default, annotation=annotation)
 
 
-WRITTEN: Mapping[str, Any] = {"method": Method, "order": str | None, "race": str | None}
+WRITTEN: Mapping[str, Any] = {"method": Method, "projection": Projection, "order": str | None, "race": str | None}
 """The types of options that the command line writes in a way of its own."""
 METAVARS = {"cluster": "ADDRESS", "race": "METHODS"}
 ELSEWHERE = {"format", "progress", "process", "check", "without"}
