@@ -1,6 +1,6 @@
 """What sets are asked and joined by that needs the engine: the operators and further questions of a region.
 
-Their work stands where the engine is known, in ``qe.api.region_operators``, which is reached by ``qe.later``.
+Their work stands where the engine is known, in ``qe.api.region_operators``, which is reached by ``qe.services``.
 """
 
 from __future__ import annotations
