@@ -14,7 +14,6 @@ from qe.certify.counted_solutions import check_counted_solutions
 from qe.certify.covering import check_covering
 from qe.certify.critical_universal import check_critical_universal
 from qe.certify.critical_values import check_critical_values
-from qe.certify.cubic_interval import check_cubic_interval
 from qe.certify.degenerate_truth_set import check_degenerate_truth_set
 from qe.certify.degree_shift import check_degree_shift
 from qe.certify.distribution import check_distribution
@@ -49,6 +48,7 @@ from qe.certify.table import check_table
 from qe.certify.value_taken import check_value_taken
 from qe.certify.witness_in_parameters import check_witness_in_parameters
 from qe.certify.zeros import check_zeros
+from qe.kernel.theorem import check_theorem
 
 RULES: Mapping[str, Check] = {
     "renaming": check_renaming,
@@ -66,7 +66,7 @@ RULES: Mapping[str, Check] = {
     "sphere seen along a form": check_sphere,
     "roots in a half-plane": check_half_plane,
     "quadric in a quadric": check_quadrics,
-    "cubic on an interval": check_cubic_interval,
+    "theorem": check_theorem,
     "square of a variable alone": check_square_alone,
     "ranges that exclude each other": check_ranges,
     "conditions on zeros that follow": check_zeros,

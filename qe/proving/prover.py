@@ -49,6 +49,7 @@ SIMPLIFYING = (
 
 CRITICAL = ("critical values", "critical values of a universal block")
 SEARCH, SQUARES = "Boolean search", "signs by sums of squares"
+THEOREM = "theorem"
 COUNTED = "comprehensive Gröbner system"
 
 UNRECORDED = "steps that are not recorded"
@@ -208,8 +209,9 @@ class Prover:
             evidence = completed
         if step.rule == COUNTED:
             evidence = {"proofs": case_proofs(self._claim(step.rule, step, {}), self.options, self.limits)}
-        own = self._tried(step.rule, step, context, evidence)
-        return None if own is None else (step.rule, own)
+        rule = THEOREM if "theorem" in evidence else step.rule
+        own = self._tried(rule, step, context, evidence)
+        return None if own is None else (rule, own)
 
     def _tried(self, rule: str, step: Step, context: Context, evidence: dict[str, Json]) -> Json | None:
         checker = RULES.get(rule)

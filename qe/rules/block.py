@@ -10,7 +10,7 @@ from qe.rules.balls import two_balls
 from qe.rules.block_context import BlockContext, Rule
 from qe.rules.cancelling import cancel_equations
 from qe.rules.cases import groebner_equations, split_factors
-from qe.rules.cubic_interval import cubic_on_interval
+from qe.rules.closed_forms import closed_form
 from qe.rules.degree_shift import shift_degree
 from qe.rules.exchange import exchange_variables
 from qe.rules.generic import drop_inequations
@@ -36,7 +36,7 @@ RULES: tuple[Rule, ...] = (
     sphere_along_form,
     root_in_half_plane,
     quadric_in_quadric,
-    cubic_on_interval,
+    closed_form(StepKind.CUBIC_INTERVAL),
     linear_equation,
     known_signs,
     drop_what_can_be_met,
