@@ -13,6 +13,7 @@ from qe.api.limits import Progress, limits_of, performed, reading
 from qe.engine.run import solve as eliminated
 from qe.exact.number import Values
 from qe.formula.counting import without_root_atoms
+from qe.formula.normal import without_clashes
 from qe.formula.syntax import Exists, ForAll, Formula
 from qe.formula.traverse import is_quantifier_free
 from qe.options import Budget, Options
@@ -139,7 +140,8 @@ def parametric_witnesses(
 
 def _outermost_block(given: Formula, log: RunLog, options: Options, budget: Budget) -> Formula:
     """The formula with nothing quantified inside its outermost block; the steps go to the log."""
-    block = log.step("roots counted", given, without_root_atoms(given))
+    clear = log.step("renaming", given, without_clashes(given))
+    block = log.step("roots counted", clear, without_root_atoms(clear))
     if isinstance(block, Exists | ForAll) and not is_quantifier_free(block.body):
         # what is left may well be a constant
         inner = eliminated(block.body, options.with_(certify=False), budget)

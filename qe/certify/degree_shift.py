@@ -22,13 +22,13 @@ def shift_goals(claim: Claim, context: Context) -> list[Goal]:
     """The exponents are divided and the result compared with what stands after; x >= 0 is to be shown where needed."""
     variable, exponent, _ = only(claim, "variable", "exponent", "theory")
     k, ring, asked = exponent.integer(2), claim.ring, []
-    before, name, x = claim.variable(variable)
+    before, _, x = claim.variable(variable)
 
     def change(given: Atom) -> Formula:
         asked.append(asks_sign(given, x))
         return divided(given, x, k, exponent) if given.poly.degree(x) else given
 
-    lowered = mapped(before.body, change, frozenset((name,)), claim)
+    lowered = mapped(before.body, change, (ring.gen(x),), claim)
     positive = TRUE if k % 2 else atom(ring.gen(x), Relation.GE)
     if claim.after != exists(before.variables, conj((positive, lowered))):
         raise claim.fail("not what the shift of degrees gives")

@@ -9,6 +9,8 @@ F <-> F', where F' has B in place of A. The facts of a place are collected on th
 conjunction the other conjuncts, in a disjunction the negations of the other disjuncts, all as they stand in F; facts
 with a variable that a quantifier binds are dropped below it; a negation keeps them. Proof: where a fact does not hold,
 the conjunction is false (the disjunction true) whether A or B stands there. By induction start <-> answer.
+What a place sees, the names free in F or in what holds around it and those bound above the place, nothing below the
+place binds, before and after every step: no name changes its meaning on the way inwards (``traverse.clashes``).
 A place may also be a conjunction (disjunction) of which ``before`` is a part: its arguments are among those there.
 """
 
@@ -19,11 +21,12 @@ import json
 from collections.abc import Callable, Mapping, Sequence
 
 from qe.certify.negation import negation
-from qe.certify.step import Check, Claim, Context, Limits, outside
+from qe.certify.step import Check, Claim, Context, Limits, check_names, outside
 from qe.errors import CertificateRejected, Unable
 from qe.exact.ring import Ring
 from qe.formula.build import conj, disj, exists, forall, neg
 from qe.formula.syntax import And, Constant, Exists, ForAll, Formula, Not, Or
+from qe.formula.traverse import clashes
 from qe.options import Budget
 from qe.proof.certificate import Certificate, certificate_from
 from qe.proof.entry import Entry, Json, formula_from_json
@@ -81,6 +84,7 @@ class _Replay:
 
     def run(self, steps: Entry, current: Formula, context: Context, ring: Ring) -> Formula:
         """The formula after the steps, each of them checked."""
+        check_seen(steps, current, context)
         for entry in steps.items():
             self.limits.tick()
             current = self.step(entry, current, context, ring)
@@ -96,15 +100,20 @@ class _Replay:
         for fact, told in zip(needed, used.items(), strict=True):
             if fact not in facts:
                 raise told.fail("this does not stand beside the place of the step")
+        check_seen(new, changed, context)
         claim = Claim(rule.text(), before, after, ring, evidence, entry.path)
+        check_names(claim, needed)
         checker = self.rules.get(claim.rule)
         if checker is None:
             raise Unable(f'{entry.path}: there is no checker for the rule "{claim.rule}"')
         key = None if self.accepted is None else step_key(claim, needed)
-        if self.accepted is None or key is None:
-            checker(claim, needed, self.limits)
-        elif key not in self.accepted:
-            checker(claim, needed, self.limits)
+        if self.accepted is None or key not in self.accepted:
+            try:
+                checker(claim, needed, self.limits)
+            except Exception as error:
+                error.add_note(entry.path)  # for one that is no verdict: it names no entry
+                raise
+        if self.accepted is not None and key is not None:
             self.accepted.add(key)
         return changed
 
@@ -116,6 +125,13 @@ class _Replay:
         except CertificateRejected as error:
             raise CertificateRejected(f"{entry.path}.{error.step}", error.reason) from None
         return certificate
+
+
+def check_seen(entry: Entry, formula: Formula, context: Context) -> None:
+    """No quantifier of the formula binds a name that it sees."""
+    ambiguous = clashes(formula, (name for fact in context for name in fact.free))
+    if ambiguous:
+        raise entry.fail(f"{min(ambiguous)} is bound where it is seen from outside")
 
 
 def replaced(

@@ -45,16 +45,15 @@ def check_exchange(claim: Claim, context: Context, limits: Limits) -> None:
         check_power(x * y, given.poly.degree(j))
         return atom(given.poly.compose({i: x + y, j: x * y}), given.relation)
 
-    bound = frozenset(names)
-    found = mapped(after.body, back, bound, claim)
-    wanted = conj((*_parts(before.body, i, j, bound, claim), atom((x - y) ** 2, Relation.GE)))
+    found = mapped(after.body, back, (x, y), claim)
+    wanted = conj((*_parts(before.body, i, j, claim), atom((x - y) ** 2, Relation.GE)))
     if exists(before.variables, found).free != before.free or set(conjuncts(found)) != set(conjuncts(wanted)):
         raise claim.fail("not the same conditions on the sum and the product")
 
 
-def _parts(body: Formula, i: int, j: int, names: frozenset[str], claim: Claim) -> Iterator[Formula]:
+def _parts(body: Formula, i: int, j: int, claim: Claim) -> Iterator[Formula]:
     """The conjuncts, those that change places taken together."""
-    left = list(conjuncts(body))
+    left, names = list(conjuncts(body)), (claim.ring.gen(i), claim.ring.gen(j))
     while left:
         part = left.pop(0)
         if all(isinstance(a, Atom) and _stays(a, i, j) for a in atoms(part)):

@@ -134,9 +134,8 @@ def substituted(pivot: Pivot, claim: Claim) -> Formula:
             image = image * (lead if pivot.sign in (0, None) else claim.ring.constant(pivot.sign or 1))
         return atom(image, relation)
 
-    used = {claim.ring.names[i] for p in (lead, pivot.rest) for i in p.variables} | {pivot.name}
     return conj(
-        mapped(part, change, frozenset(used), claim) if pivot.name in part.free else part
+        mapped(part, change, (pivot.equation,), claim) if pivot.name in part.free else part
         for part in conjuncts(pivot.others)
     )
 

@@ -22,8 +22,8 @@ from qe.certify.step import Claim, Context, Limits, only
 from qe.certify.substitution import mapped
 from qe.exact.ring import Poly
 from qe.formula.build import atom, exists
-from qe.formula.syntax import And, Atom, Constant, Exists, ForAll, Formula, Or, Relation
-from qe.formula.traverse import subformulas
+from qe.formula.syntax import And, Atom, Constant, Exists, ForAll, Formula, Or, Relation, RootAtom
+from qe.formula.traverse import map_atoms, subformulas
 from qe.proof.entry import Entry
 
 Images = Mapping[int, Poly]
@@ -42,11 +42,12 @@ def check_mirror(claim: Claim, context: Context, limits: Limits) -> None:
         raise evidence.fail("no variable of the block moves")
     if not _is_convex(before.body, moved):
         raise claim.fail("not seen to be convex in the moved variables of the block")
-    if _members(_composed(before.body, images, claim)) != _members(before.body):
+    if _members(map_atoms(before.body, lambda a: _at(a, images, claim))) != _members(before.body):
         raise evidence.fail("the body is not its own mirror image")
     values = _values(images, before.variables, claim)
     rest = [name for name in before.variables if ring.index[name] not in values]
-    if after != exists(rest, _composed(before.body, values, claim)):
+    about = [p for i, image in values.items() for p in (ring.gen(i), image)]
+    if after != exists(rest, mapped(before.body, lambda a: _at(a, values, claim), about, claim)):
         raise claim.fail("not the block at the fixed points")
 
 
@@ -90,11 +91,10 @@ def _values(images: Images, variables: tuple[str, ...], claim: Claim) -> Images:
     return values
 
 
-def _composed(formula: Formula, images: Images, claim: Claim) -> Formula:
-    def change(given: Atom) -> Formula:
-        return atom(given.poly.compose(dict(images)), given.relation)
-
-    return mapped(formula, change, frozenset(), claim)
+def _at(given: Atom | RootAtom, images: Images, claim: Claim) -> Formula:
+    if isinstance(given, RootAtom):
+        raise claim.fail("no mirror images of root atoms")
+    return atom(given.poly.compose(dict(images)), given.relation)
 
 
 def _is_convex(formula: Formula, moved: frozenset[int]) -> bool:

@@ -160,7 +160,7 @@ def _check_lower(core: Formula, asked: _Asked, x: int, claim: Claim) -> None:
     def change(found: Atom) -> Formula:
         return (TRUE if found.relation.holds(0) else FALSE) if found.poly == zero else found
 
-    if shape(mapped(core, change, frozenset(), claim)) != shape(wanted):
+    if shape(mapped(core, change, (lead,), claim)) != shape(wanted):
         raise claim.fail("not the question of lower degree where the leading coefficient is 0")
 
 

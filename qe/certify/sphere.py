@@ -50,7 +50,7 @@ def check_sphere(claim: Claim, context: Context, limits: Limits) -> None:
             image = image * _image(factor, sphere, form, slopes, indices, claim) ** times
         return atom(image, found.relation)
 
-    rest = [mapped(p, change, frozenset(names), claim) for p in conjuncts(before.body) if p != part]
+    rest = [mapped(p, change, (sphere.poly, form), claim) for p in conjuncts(before.body) if p != part]
     radicand = _sum([p * p for p in sphere.linear], claim) - 4 * sphere.lead * sphere.rest
     offset = _sum([p * q for p, q in zip(slopes, sphere.linear, strict=True)], claim)
     bound = (claim.ring.gen(indices[0]) * (2 * sphere.lead) + offset) ** 2 - length * radicand

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from qe.errors import CertificateRejected
 from qe.exact.ring import Ring
 from qe.formula.syntax import Exists, Formula
+from qe.formula.traverse import clashes, has_root_atoms
 from qe.options import Budget
 from qe.proof.certificate import Certificate
 from qe.proof.entry import Entry
@@ -40,6 +41,12 @@ class Claim:
         if not isinstance(self.before, Exists):
             raise self.fail("expected an existential block")
         return self.before
+
+    def plain(self, formula: Formula) -> Formula:
+        """A formula of the step, which has to be one of comparisons of polynomials, without quantifiers."""
+        if not formula.is_quantifier_free or has_root_atoms(formula):
+            raise self.fail("a formula without quantifiers and root atoms expected")
+        return formula
 
     def variable(self, entry: Entry) -> tuple[Exists, str, int]:
         """The existential block, and its variable that the entry names, with its index in the ring."""
@@ -71,6 +78,19 @@ def outside(context: Context, names: Iterable[str]) -> Context:
     """What of a context holds inside a block over these names: formulas with one of them are about another variable."""
     inner = set(names)
     return tuple(f for f in context if not inner & set(f.free))
+
+
+def check_names(claim: Claim, context: Context) -> None:
+    """What every checker may rely on: nowhere in a step does a quantifier bind a name that is seen there.
+
+    That is: no formula of the step binds a name below a quantifier that binds it, and none that is free in one of
+    them is bound in another. So whatever a checker takes from the place of the step inwards keeps its meaning.
+    """
+    formulas = (claim.before, claim.after, *context)
+    free = {name for formula in formulas for name in formula.free}
+    ambiguous = frozenset[str]().union(*(clashes(formula, free) for formula in formulas))
+    if ambiguous:
+        raise claim.fail(f"{min(ambiguous)} is bound where it is seen from outside")
 
 
 def only(claim: Claim, *names: str, optional: Sequence[str] = ()) -> list[Entry]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from fractions import Fraction
 
 from qe.certify.limits import check_power, check_value
@@ -14,22 +14,35 @@ from qe.formula.syntax import And, Atom, Constant, Exists, ForAll, Formula, Not,
 Change = Callable[[Atom], Formula]
 
 
-def mapped(formula: Formula, change: Change, names: frozenset[str], claim: Claim) -> Formula:
-    """The formula with its atoms changed. Refused: a quantifier that binds one of ``names``, and root atoms."""
+def mapped(formula: Formula, change: Change, about: Iterable[Poly], claim: Claim) -> Formula:
+    """The formula with its atoms changed. ``about``: the polynomials of which the change makes use, those for which it
+    puts others in included.
+
+    Refused: a quantifier that binds a variable of one of these, as it is another variable there; root atoms; and, below
+    a quantifier, a change that brings in a variable which it binds.
+    """
+    seen = frozenset(claim.ring.names[i] for p in about for i in p.variables)
+    if formula.bound & seen:
+        raise claim.fail(f"a quantifier inside binds {min(formula.bound & seen)}, a variable of the substitution")
+    return _mapped(formula, change, frozenset(), claim)
+
+
+def _mapped(formula: Formula, change: Change, bound: frozenset[str], claim: Claim) -> Formula:
     match formula:
         case Constant():
             return formula
         case Atom():
-            return change(formula)
+            image = change(formula)
+            if bound and not bound.isdisjoint({*image.free} - {*formula.free}):
+                raise claim.fail("a substitution brings in a variable that a quantifier inside binds")
+            return image
         case And(args) | Or(args):
-            return (conj if isinstance(formula, And) else disj)(mapped(a, change, names, claim) for a in args)
+            return (conj if isinstance(formula, And) else disj)(_mapped(a, change, bound, claim) for a in args)
         case Not(arg):
-            return neg(mapped(arg, change, names, claim))
+            return neg(_mapped(arg, change, bound, claim))
         case Exists(variables, body) | ForAll(variables, body):
-            if names & set(variables):
-                raise claim.fail("a quantifier inside binds a variable of the substitution")
             quantify = exists if isinstance(formula, Exists) else forall
-            return quantify(variables, mapped(body, change, names, claim))
+            return quantify(variables, _mapped(body, change, bound.union(variables), claim))
     raise claim.fail("no substitution into root atoms")
 
 
@@ -42,7 +55,7 @@ def at_number(formula: Formula, x: int, value: Fraction, claim: Claim) -> Formul
         check_value(given.poly, x, value)
         return atom(given.poly.at_rational(x, value), given.relation)
 
-    return mapped(formula, change, frozenset((claim.ring.names[x],)), claim)
+    return mapped(formula, change, (claim.ring.gen(x),), claim)
 
 
 def quotient(poly: Poly, x: int, top: Poly, bottom: Poly) -> Poly:

@@ -5,17 +5,21 @@ from __future__ import annotations
 from qe.arguments import shown
 from qe.certify.kinds import Checker, brought_kind
 from qe.certify.verdict import Verdict
-from qe.errors import CertificateRejected, InputError, Unable
+from qe.errors import CertificateRejected, InputError, QEError, Unable
 from qe.options import Budget
 from qe.proof.cells_json import CellEvidence
 from qe.proof.certificate import Certificate, Kind, Labelled
+
+CRASHES = (QEError, ArithmeticError, AssertionError, AttributeError, LookupError, TypeError, ValueError)
+CRASHED = "its checker ends in an internal error here, please report"
 
 
 def verify(certificate: Certificate, budget: Budget | None = None) -> Verdict:
     """Whether the certificate proves what it says, checked from scratch by code that produces no answers.
 
     Every entry is checked for its meaning; the digest of a certificate read from text comes last. The budget is looked
-    at between steps; when it is used up, or a step is out of reach (``limits``), the verdict is not decided. Raises
+    at between steps; when it is used up, or a step is out of reach (``limits``), the verdict is not decided. A checker
+    that ends in an error of its own has accepted nothing: that is a rejection, too, and asks to be reported. Raises
     ``InputError`` for anything but a ``Certificate``.
     """
     if not isinstance(certificate, Certificate):
@@ -33,6 +37,9 @@ def verify(certificate: Certificate, budget: Budget | None = None) -> Verdict:
         return Verdict(False, "", "the certificate is nested too deeply", decided=False)
     except (MemoryError, OverflowError):
         return Verdict(False, "", "a number or a table in it is too large", decided=False)
+    except CRASHES as error:
+        step = next(iter(getattr(error, "__notes__", ())), "certificate")
+        return Verdict(False, step, f"{CRASHED} ({type(error).__name__}: {error})")
     return Verdict(True)
 
 

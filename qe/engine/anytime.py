@@ -24,7 +24,7 @@ from qe.errors import Unable
 from qe.exact.ring import Ring
 from qe.formula.build import convert, disj, exists, neg
 from qe.formula.counting import without_root_atoms
-from qe.formula.normal import nnf, prenex, rename_apart
+from qe.formula.normal import nnf, prenex, rename_apart, without_clashes
 from qe.formula.syntax import FALSE, TRUE, And, Constant, Exists, ForAll, Formula, Not, Or
 from qe.io.names import names_in
 from qe.options import Budget, Options
@@ -117,8 +117,9 @@ class _Search:
         proofs = [proof for proof in self.proofs if proof is not None]
         if len(proofs) < len(self.proofs):
             return None
-        order = Ring.of(dict.fromkeys(n for f in (question, true, false) for n in names_in(f)))
-        asked, true, false = (moved(f, order) for f in (question, true, false))
+        clear = without_clashes(question)
+        order = Ring.of(dict.fromkeys(n for f in (clear, true, false) for n in names_in(f)))
+        asked, true, false = (moved(f, order) for f in (clear, true, false))
         return Certificate.parts(order.names, asked, true, false, proofs)
 
     def of_parts(self, parts: list[Formula], budget: Budget) -> Partial:

@@ -24,7 +24,7 @@ from qe.exact.ring import Ring
 from qe.formula.build import conj, convert, disj, exists, forall, neg
 from qe.formula.counting import without_root_atoms
 from qe.formula.features import features
-from qe.formula.normal import nnf, rename_apart
+from qe.formula.normal import nnf, rename_apart, without_clashes
 from qe.formula.syntax import FALSE, TRUE, And, Constant, Exists, ForAll, Formula, Not, Or
 from qe.formula.traverse import subformulas
 from qe.options import Budget, Method, Options, Stage
@@ -50,8 +50,8 @@ def answered(formula: Formula, options: Options, budget: Budget) -> Outcome:
     """As ``solve``, with no certificate but one that a method made on its way."""
     started = time.perf_counter()
     run, free = _Run(options, budget), formula.free
-    plain = _counted(formula, options)
-    run.log.step("roots counted", formula, plain)
+    clear = run.log.step("renaming", formula, without_clashes(formula))
+    plain = run.log.step("roots counted", clear, _counted(clear, options))
     found = run.question(run.log.step("renaming", plain, rename_apart(plain)))
     answer = convert(found.formula, Ring.of(free)) if free else found.formula
     run.log.seconds = round(time.perf_counter() - started, 6)
@@ -61,7 +61,8 @@ def answered(formula: Formula, options: Options, budget: Budget) -> Outcome:
 def proved(formula: Formula, found: Outcome, options: Options, budget: Budget) -> Outcome:
     """What was ``answered`` to a formula, with its certificate."""
     started, log = time.perf_counter(), found.log
-    proof = certificate_of(formula, rename_apart(_counted(formula, options)), found, log, options, budget)
+    question = rename_apart(_counted(without_clashes(formula), options))
+    proof = certificate_of(formula, question, found, log, options, budget)
     log.seconds = round((log.seconds or 0.0) + time.perf_counter() - started, 6)
     return replace(found, certificate=proof.certificate, unchecked=proof.unchecked, checked=proof.checked)
 

@@ -8,7 +8,7 @@ from enum import StrEnum
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj, disj, exists, forall, neg, root_atom
 from qe.formula.syntax import And, Atom, Constant, Exists, ForAll, Formula, Not, Or, RootAtom
-from qe.formula.traverse import children, map_atoms, ring_of
+from qe.formula.traverse import children, clashes, map_atoms, ring_of
 
 
 class Quantifier(StrEnum):
@@ -59,6 +59,11 @@ def rename_apart(formula: Formula, avoid: Iterable[str] = ()) -> Formula:
     renaming = _Renaming(ring, (*formula.free, *avoid))
     names = renaming.plan(formula)
     return renaming.apply(formula, names, {})
+
+
+def without_clashes(formula: Formula) -> Formula:
+    """As ``rename_apart``; a formula in which no quantifier binds a name that it sees stays as it is."""
+    return rename_apart(formula) if clashes(formula) else formula
 
 
 def _strip(formula: Formula) -> Formula:

@@ -21,16 +21,19 @@ from qe.sympy_form import SymPyForm
 LONGEST = 300
 """Characters of a formula in its ``repr`` and those of values that have one."""
 
+NO_NAMES = frozenset[str]()
+
 
 class Formula(Connected, SymPyForm):
     """Base class of all nodes; ``str()`` prints the text syntax.
 
-    ``ring``, ``free``, ``is_quantifier_free`` and the hash are worked out when they are first asked for and then kept.
-    They are no part of what a node is equal to, of its ``repr`` or of its pickle.
+    ``ring``, ``free``, ``bound``, ``is_quantifier_free`` and the hash are worked out when they are first asked for and
+    then kept. They are no part of what a node is equal to, of its ``repr`` or of its pickle.
     """
 
-    __slots__ = ("_free", "_hash", "_is_quantifier_free", "_is_simple", "_ring")
+    __slots__ = ("_bound", "_free", "_hash", "_is_quantifier_free", "_is_simple", "_ring")
     __match_args__: ClassVar[tuple[str, ...]] = ()
+    _bound: frozenset[str]
     _free: tuple[str, ...]
     _hash: int
     _is_quantifier_free: bool
@@ -56,6 +59,16 @@ class Formula(Connected, SymPyForm):
             free = self._find_free()
             object.__setattr__(self, "_free", free)
             return free
+
+    @property
+    def bound(self) -> frozenset[str]:
+        """The names that quantifiers in the formula bind."""
+        try:
+            return self._bound
+        except AttributeError:
+            bound = NO_NAMES if self.is_quantifier_free else self._find_bound()
+            object.__setattr__(self, "_bound", bound)
+            return bound
 
     @property
     def is_quantifier_free(self) -> bool:
@@ -92,6 +105,9 @@ class Formula(Connected, SymPyForm):
 
     def _find_quantifier_free(self) -> bool:
         return True
+
+    def _find_bound(self) -> frozenset[str]:
+        return NO_NAMES
 
     def __str__(self) -> str:
         return self.written(text_notation(self.free))
@@ -209,6 +225,9 @@ class Connective(Formula):
     def _find_quantifier_free(self) -> bool:
         return all(arg.is_quantifier_free for arg in self.args)
 
+    def _find_bound(self) -> frozenset[str]:
+        return NO_NAMES.union(*(arg.bound for arg in self.args))
+
 
 @_node
 class And(Connective):
@@ -241,6 +260,9 @@ class Not(Formula):
     def _find_quantifier_free(self) -> bool:
         return self.arg.is_quantifier_free
 
+    def _find_bound(self) -> frozenset[str]:
+        return self.arg.bound
+
     def written(self, notation: Notation, level: Level = Level.OPEN, last: bool = True) -> str:
         if isinstance(self.arg, RootAtom) or notation.strict:
             return notation.negation + bracketed(self.arg, notation.brackets, notation)
@@ -262,6 +284,9 @@ class Quantified(Formula):
 
     def _find_quantifier_free(self) -> bool:
         return False
+
+    def _find_bound(self) -> frozenset[str]:
+        return self.body.bound.union(self.variables)
 
     def written(self, notation: Notation, level: Level = Level.OPEN, last: bool = True) -> str:
         prefix = notation.quantifier(isinstance(self, ForAll), self.variables)

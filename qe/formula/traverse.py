@@ -7,7 +7,7 @@ from typing import TypeVar
 
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import conj, disj, exists, forall, neg
-from qe.formula.syntax import And, Atom, Exists, ForAll, Formula, Not, Or, RootAtom
+from qe.formula.syntax import And, Atom, Exists, ForAll, Formula, Not, Or, Quantified, RootAtom
 
 Name = TypeVar("Name")
 
@@ -45,6 +45,25 @@ def bound_variables(formula: Formula) -> tuple[str, ...]:
     """The names that quantifiers bind, in the order of the quantifiers, without repetition."""
     blocks = (f.variables for f in subformulas(formula) if isinstance(f, Exists | ForAll))
     return tuple(dict.fromkeys(name for block in blocks for name in block))
+
+
+def rebound(formula: Formula) -> frozenset[str]:
+    """The names that a quantifier binds below another one that binds them."""
+    if not formula.bound:
+        return formula.bound
+    inner = frozenset[str]().union(*map(rebound, children(formula)))
+    return inner | formula.body.bound.intersection(formula.variables) if isinstance(formula, Quantified) else inner
+
+
+def clashes(formula: Formula, visible: Iterable[str] = ()) -> frozenset[str]:
+    """The names that a quantifier of the formula binds although they are seen there: bound above it, free in the
+    formula, or ``visible`` around it.
+
+    Without clashes, what a place sees (the names free or visible there, and those bound above it) keeps its meaning
+    everywhere below the place, so that no quantifier captures what is taken from there inwards. Quantifiers beside
+    each other may bind one name: neither stands below the other.
+    """
+    return rebound(formula) | formula.bound.intersection((*formula.free, *visible))
 
 
 def atoms(formula: Formula) -> Iterator[Atom | RootAtom]:

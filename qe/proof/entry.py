@@ -211,11 +211,21 @@ def formula_to_json(formula: Formula, *, quantified: bool = False) -> Json:
     raise CertificateRejected("matrix", f"unknown kind of formula {type(formula).__name__}")
 
 
-def formula_from_json(entry: Entry, ring: Ring, depth: int = 0, *, quantified: bool = False) -> Formula:
-    """The formula written by ``formula_to_json``, exactly as it stands (nothing is simplified)."""
+def formula_from_json(entry: Entry, ring: Ring, *, quantified: bool = False) -> Formula:
+    """The formula written by ``formula_to_json``, exactly as it stands (nothing is simplified).
 
+    Refused: a name that is bound below a quantifier that binds it, and one that is both free and bound (``clashes``).
+    """
+    formula = _formula(entry, ring, 0, quantified)
+    ambiguous = formula.bound.intersection(formula.free)
+    if ambiguous:
+        raise entry.fail(f"{min(ambiguous)} is both free and bound")
+    return formula
+
+
+def _formula(entry: Entry, ring: Ring, depth: int, quantified: bool) -> Formula:
     def inner(part: Entry) -> Formula:
-        return formula_from_json(part, ring, depth + 1, quantified=quantified)
+        return _formula(part, ring, depth + 1, quantified)
 
     if isinstance(entry.value, bool):
         return TRUE if entry.value else FALSE
@@ -229,7 +239,10 @@ def formula_from_json(entry: Entry, ring: Ring, depth: int = 0, *, quantified: b
     if kind == "not" and len(rest) == 1:
         return Not(inner(rest[0]))
     if quantified and kind in ("exists", "forall") and len(rest) == 2:
-        return (Exists if kind == "exists" else ForAll)(variables_from_json(rest[0], ring), inner(rest[1]))
+        names, body = variables_from_json(rest[0], ring), inner(rest[1])
+        if body.bound.intersection(names):
+            raise rest[0].fail(f"{min(body.bound.intersection(names))} is bound once more inside")
+        return (Exists if kind == "exists" else ForAll)(names, body)
     if kind == "atom" and len(rest) == 2:
         return Atom(polynomial_from_json(rest[0], ring), relation_from_json(rest[1]))
     if kind == "root" and len(rest) == 4:

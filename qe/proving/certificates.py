@@ -6,6 +6,7 @@ from dataclasses import replace
 
 from qe.elimination.protocol import Outcome, Problem
 from qe.errors import Unable
+from qe.formula.normal import without_clashes
 from qe.formula.syntax import Formula
 from qe.options import Budget, Options
 from qe.proof.certificate import Certificate, Kind, Proof, written
@@ -52,10 +53,14 @@ def certificate_of(
 
 
 def derived(asked: Formula, log: RunLog, answer: Formula, options: Options, budget: Budget) -> Proof:
-    """The steps of the log from a formula to its answer with evidence for each, within a share of the time."""
+    """The steps of the log from a formula to its answer with evidence for each, within a share of the time.
+
+    Certificates say nothing about a formula in which a quantifier binds a name that it sees: theirs begins with other
+    names of its bound variables.
+    """
     from qe.proving.prover import proved
 
-    derivation = put_together(asked, log.steps(), answer)
+    derivation = put_together(without_clashes(asked), log.steps(), answer)
     try:
         return proved(derivation, answer, options, budget.share(PROOF_SHARE).part(CERTIFY_WORK))
     except Unable as error:

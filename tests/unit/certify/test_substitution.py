@@ -58,10 +58,18 @@ def test_quantifiers_and_negations_are_gone_through() -> None:
 
 
 def test_every_atom_is_changed() -> None:
-    flipped = mapped(formula("x > 0 and (y > 0 or x < 1)"), lambda a: atom(-a.poly, a.relation), frozenset(), CLAIM)
+    flipped = mapped(formula("x > 0 and (y > 0 or x < 1)"), lambda a: atom(-a.poly, a.relation), (), CLAIM)
     assert flipped == formula("x < 0 and (y < 0 or x > 1)")
     with pytest.raises(CertificateRejected):
-        mapped(formula("all y. y > x"), lambda a: a, frozenset(("y",)), CLAIM)
+        mapped(formula("all y. y > x"), lambda a: a, (RING.var("y"),), CLAIM)
+
+
+def test_what_a_change_brings_in_is_not_captured() -> None:
+    y = RING.var("y")
+    with pytest.raises(CertificateRejected, match="brings in"):  # even where the caller has not said that it uses y
+        mapped(formula("all y. y > x and x > 0"), lambda a: atom(a.poly + y, a.relation), (), CLAIM)
+    beside = mapped(formula("(all y. y > z) and x > 0"), lambda a: atom(a.poly.compose({X: y}), a.relation), (), CLAIM)
+    assert beside == formula("(all y. y > z) and y > 0")
 
 
 def test_relations_stay() -> None:
