@@ -48,6 +48,7 @@ from qe.certify.table import check_table
 from qe.certify.value_taken import check_value_taken
 from qe.certify.witness_in_parameters import check_witness_in_parameters
 from qe.certify.zeros import check_zeros
+from qe.kernel.terms import check_terms
 from qe.kernel.theorem import check_theorem
 
 RULES: Mapping[str, Check] = {
@@ -67,6 +68,7 @@ RULES: Mapping[str, Check] = {
     "roots in a half-plane": check_half_plane,
     "quadric in a quadric": check_quadrics,
     "theorem": check_theorem,
+    "terms": check_terms,
     "square of a variable alone": check_square_alone,
     "ranges that exclude each other": check_ranges,
     "conditions on zeros that follow": check_zeros,

@@ -1,15 +1,16 @@
 """Primitive "terms": a block whose variables are values of terms in those of another, and the other way round.
 
-THEOREM. Let s be terms in the variables w, and t in v, one for each variable of the other block, all of them quotients
-of polynomials. If for all w for which B holds no denominator of s is 0 and A holds at v = s, and for all v for which A
-holds no denominator of t is 0 and B holds at w = t, then ex v A <-> ex w B. Either list of variables may be empty; a
-variable without a term stands for itself. A universal block and what stands after it are the negations of these.
+THEOREM. Let s be terms in the variables w, and t in v, one for each variable of the other block, all of them
+quotients of polynomials. If for all w for which B holds no denominator of s is 0 and A holds at v = s, and for all v
+for which A holds no denominator of t is 0 and B holds at w = t, then ex v A <-> ex w B. Either list of variables may
+be empty; a variable without a term stands for itself. A universal block and what stands after it are the negations of
+these.
 
-A polynomial of degree d in a variable whose term is p/q is multiplied by q^d, and once more by q where d is odd, so that
-its sign stays; by q^d where q is a positive number.
+A polynomial of degree d in a variable whose term is p/q is multiplied by q^d, and once more by q where d is odd, so
+that its sign stays; by q^d where q is a positive number.
 
-Evidence: ``there``, the terms s: [variable, numerator, denominator, ...]; ``back``, the terms t; ``theory``, by which the
-conditions follow.
+Evidence: ``there``, the terms s: [variable, numerator, denominator, ...]; ``back``, the terms t; ``theory``, by which
+the conditions follow.
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ from qe.certify.limits import check_power
 from qe.certify.negation import negation, normal
 from qe.certify.step import Claim, Context, only, outside
 from qe.certify.substitution import mapped
-from qe.exact.ring import Poly, Ring
+from qe.exact.ring import Poly
 from qe.formula.build import atom
 from qe.formula.syntax import TRUE, Atom, Exists, Formula, Relation
 from qe.formula.traverse import conjuncts
@@ -74,7 +75,8 @@ def _terms(entry: Entry, variables: tuple[str, ...], others: tuple[str, ...], cl
 
 def _following(known: Context, given: Formula, wanted: Formula, terms: Terms, claim: Claim) -> list[Goal]:
     """What has to be refuted so that ``wanted`` holds at the terms where ``given`` does."""
-    image = normal(mapped(wanted, lambda a: atom(at_terms(a.poly, terms), a.relation), claim, terms))
+    about = [poly for i, quotient in terms.items() for poly in (claim.ring.gen(i), *quotient)]
+    image = normal(mapped(wanted, lambda a: atom(at_terms(a.poly, terms), a.relation), about, claim))
     parts = set(conjuncts(given))
     goals = [(*known, given, negation(part)) for part in conjuncts(image) if part not in parts and part != TRUE]
     bottoms = [atom(bottom, Relation.EQ) for _, bottom in terms.values()]
