@@ -19,22 +19,17 @@ from qe.certify.degree_shift import check_degree_shift
 from qe.certify.distribution import check_distribution
 from qe.certify.elimination_set import check_elimination_set
 from qe.certify.exchange import check_exchange
-from qe.certify.gathering import check_gathering
 from qe.certify.half_plane import check_half_plane
 from qe.certify.independent_parts import check_independent_parts
 from qe.certify.inequations import check_inequations, check_only_nonzero
 from qe.certify.infinity_first import check_infinity_first
 from qe.certify.linear_equation import check_guarded_linear, check_linear
-from qe.certify.miniscoping import check_miniscoping
 from qe.certify.mirror import check_mirror
 from qe.certify.named_form import check_named_form
-from qe.certify.negation import check_negation
 from qe.certify.open_block import check_open_block
 from qe.certify.quadrics import check_quadrics
 from qe.certify.ranges import check_ranges
 from qe.certify.redundant import check_redundant
-from qe.certify.renaming import check_renaming
-from qe.certify.replayed_block import check_replayed_block
 from qe.certify.roots_by_signs import check_roots_by_signs
 from qe.certify.roots_counted import check_roots_counted
 from qe.certify.rotation import check_rotation
@@ -48,14 +43,19 @@ from qe.certify.table import check_table
 from qe.certify.value_taken import check_value_taken
 from qe.certify.witness_in_parameters import check_witness_in_parameters
 from qe.certify.zeros import check_zeros
+from qe.kernel.nested import check_no_exception, check_steps
+from qe.kernel.quantifiers import check_quantifiers
 from qe.kernel.terms import check_terms
 from qe.kernel.theorem import check_theorem
 
 RULES: Mapping[str, Check] = {
-    "renaming": check_renaming,
+    "quantifiers": check_quantifiers,
+    "steps": check_steps,
+    "no exception": check_no_exception,
+    "renaming": check_quantifiers,
     "roots counted": check_roots_counted,
-    "duality": check_negation,
-    "negation normal form": check_negation,
+    "duality": check_quantifiers,
+    "negation normal form": check_quantifiers,
     "simplification": check_block,
     "standard simplification": check_block,
     "case split on factors": check_block,
@@ -72,7 +72,7 @@ RULES: Mapping[str, Check] = {
     "square of a variable alone": check_square_alone,
     "ranges that exclude each other": check_ranges,
     "conditions on zeros that follow": check_zeros,
-    "independent parts and miniscoping": check_miniscoping,
+    "independent parts and miniscoping": check_quantifiers,
     "linear equation solved": check_linear,
     "linear equation solved under a guard": check_guarded_linear,
     "degree shift": check_degree_shift,
@@ -83,12 +83,12 @@ RULES: Mapping[str, Check] = {
     "linear form as a variable": check_shear,
     "linear form named": check_named_form,
     "mirror images of a convex set": check_mirror,
-    "nested blocks of one kind gathered": check_gathering,
+    "nested blocks of one kind gathered": check_quantifiers,
     "disjuncts with equations apart": check_distribution,
     "value that is taken": check_value_taken,
-    "equations taken apart": check_replayed_block,
+    "equations taken apart": check_steps,
     "inequations that remove no interior": check_inequations,
-    "virtual substitution": check_replayed_block,
+    "virtual substitution": check_steps,
     "critical values": check_critical_values,
     "critical values of a universal block": check_critical_universal,
     "constant along directions": check_constant_along,
