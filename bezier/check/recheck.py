@@ -29,8 +29,8 @@ from bezier.planner.radius_rule import stated_rule
 from bezier.planner.table import method_of
 from bezier.plans import Outcome, Plan, Stated
 from bezier.problem import Problem, to_json
+from qe.api.verify import checked as verify
 from qe.certify.verdict import Verdict
-from qe.certify.verify import verify
 from qe.errors import CertificateRejected, InputError
 from qe.processes.worker import Channel
 from qe.progress import Event

@@ -7,8 +7,8 @@ from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from qe.certify.verify import verify as checked
-from qe.errors import InternalError, Unable
+from qe.certify.verify import verify as kernel_verdict
+from qe.errors import CertificateRejected, InternalError, Unable
 from qe.formula.syntax import Formula
 from qe.options import VERIFY_SECONDS, Budget, Options
 from qe.proof.answer import UNPROVED, Answer, Guarantee
@@ -45,6 +45,27 @@ def verify(
         return checked(certificate)  # which says what was expected
     verdict = _limited(certificate, timeout)
     return verdict if formula is None or not verdict.accepted else of_question(certificate, formula)
+
+
+def checked(certificate: Certificate, budget: Budget | None = None) -> Verdict:
+    """The verdict on a certificate, which may be one of a former release (``qe.proving.older``)."""
+    from qe.certify.verdict import Verdict
+
+    budget = budget or Budget()
+    try:
+        return kernel_verdict(_recent(certificate, budget), budget)
+    except CertificateRejected as error:
+        return Verdict(False, error.step, error.reason)
+    except Unable as error:
+        return Verdict(False, "", str(error), decided=False)
+
+
+def _recent(certificate: Certificate, budget: Budget) -> Certificate:
+    if not isinstance(certificate, Certificate) or certificate.digests is None:
+        return certificate  # what was not read is of this release
+    from qe.proving.older import recent
+
+    return recent(certificate, budget)
 
 
 def of_question(certificate: Certificate, asked: Formula) -> Verdict:

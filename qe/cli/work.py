@@ -166,9 +166,9 @@ def convert(channel: Channel, source: Source, output: Format) -> Reply:
 
 def check(channel: Channel, text: str, asked: Source | None, seconds: float, as_json: bool = False) -> Reply:
     """``qe check``: exit status 4 when the certificate is rejected, 3 when that is not decided."""
+    from qe.api.verify import checked as verify
     from qe.api.verify import of_question
     from qe.certify.claims import claim_of, is_about, parts_of
-    from qe.certify.verify import verify
     from qe.errors import CertificateRejected
     from qe.options import Budget
     from qe.proof.certificate import Certificate
@@ -200,7 +200,7 @@ def check(channel: Channel, text: str, asked: Source | None, seconds: float, as_
 
 def export_proof(channel: Channel, text: str, seconds: float) -> Reply:
     """``qe export-proof``: exit status 4 when the certificate is rejected, 3 where it cannot be checked or written."""
-    from qe.certify.verify import verify
+    from qe.api.verify import checked as verify
     from qe.errors import CertificateRejected
     from qe.options import Budget
     from qe.proof.certificate import Certificate

@@ -17,7 +17,7 @@ from qe.formula.syntax import TRUE, Atom, Exists, Formula, Relation
 from qe.formula.traverse import conjuncts
 from qe.kernel.statements import Theorem, rows, theorem
 from qe.kernel.theorem import instance
-from qe.proof.entry import poly_to_text
+from qe.proof.entry import Json, poly_to_text
 from qe.rules.block_context import BlockContext, Found, Rule
 from qe.rules.step import StepKind
 from qe.rules.tree import Leaf
@@ -76,7 +76,7 @@ class Match:
         return instance(formula, self.letters, self.variables, ring)
 
     @property
-    def evidence(self) -> dict[str, object]:
+    def evidence(self) -> dict[str, Json]:
         """What the kernel needs beside the formulas, but for lemmas."""
         return {
             "theorem": self.theorem.name,
