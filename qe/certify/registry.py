@@ -8,7 +8,6 @@ from qe.certify.alternatives import check_alternatives
 from qe.certify.balls import check_balls
 from qe.certify.block import check_block
 from qe.certify.boolean_search import check_boolean_search
-from qe.certify.constant import check_constant
 from qe.certify.constant_along import check_constant_along
 from qe.certify.counted_solutions import check_counted_solutions
 from qe.certify.covering import check_covering
@@ -29,7 +28,6 @@ from qe.certify.named_form import check_named_form
 from qe.certify.open_block import check_open_block
 from qe.certify.quadrics import check_quadrics
 from qe.certify.ranges import check_ranges
-from qe.certify.redundant import check_redundant
 from qe.certify.roots_by_signs import check_roots_by_signs
 from qe.certify.roots_counted import check_roots_counted
 from qe.certify.rotation import check_rotation
@@ -104,8 +102,6 @@ RULES: Mapping[str, Check] = {
     "witness in the parameters": check_witness_in_parameters,
     "shorter": check_table,
     "covering": check_covering,
-    "redundant part": check_redundant,
-    "constant": check_constant,
     "Boolean search": check_boolean_search,
     "convex": check_sentence,
     "point or multipliers": check_sentence,

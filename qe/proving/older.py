@@ -11,13 +11,14 @@ from dataclasses import replace
 
 from qe.certify.block import existential
 from qe.certify.boolean import equivalence
-from qe.certify.derivation import limits_of
+from qe.certify.derivation import limits_of, replaced
 from qe.certify.registry import RULES
-from qe.certify.step import Claim, Context, Limits
+from qe.certify.step import Claim, Context, Limits, only
 from qe.certify.verify import check_certificate
 from qe.exact.ring import Ring
 from qe.formula.normal import nnf
-from qe.formula.syntax import Exists, Formula
+from qe.formula.syntax import FALSE, TRUE, Exists, Formula, Or
+from qe.formula.traverse import subformula
 from qe.kernel.theorem import theorem_goals
 from qe.options import Budget
 from qe.proof.certificate import Certificate, Labelled, written
@@ -55,7 +56,30 @@ def simplified(before: Formula, after: Formula, context: Context, claim: Claim, 
     return written("simplification", (), before, after, context, {"theory": theory})
 
 
-CONVERTERS: Mapping[str, Converter] = {"cubic on an interval": closed_form}
+def redundant(claim: Claim, context: Context, limits: Limits) -> list[Json]:
+    """A part that makes no difference, turned into a constant at its own place."""
+    at, steps = only(claim, "at", "steps")
+    place = [entry.integer() for entry in at.items()]
+    parent = subformula(claim.before, place[:-1])
+    part, constant = subformula(parent, place[-1:]), FALSE if isinstance(parent, Or) else TRUE
+    facts, _ = replaced(claim.before, place, part, constant, (), at)
+    return [written("no exception", place, part, constant, facts, {"exceptions": [steps.value]})]
+
+
+def constant(claim: Claim, context: Context, limits: Limits) -> list[Json]:
+    """A formula that holds nowhere, or everywhere: by steps, or by a table."""
+    value = claim.evidence.value
+    if isinstance(value, dict) and "certificate" in value:
+        return [written("cells", (), claim.before, claim.after, context, value)]
+    steps = only(claim, "steps")[0]
+    return [written("no exception", (), claim.before, claim.after, (), {"exceptions": [steps.value]})]
+
+
+CONVERTERS: Mapping[str, Converter] = {
+    "cubic on an interval": closed_form,
+    "redundant part": redundant,
+    "constant": constant,
+}
 
 
 def recent(certificate: Certificate, budget: Budget) -> Certificate:

@@ -19,8 +19,9 @@ from qe.elimination.cad import certificate_for
 from qe.elimination.vs.trace import Eliminated
 from qe.errors import CertificateRejected, InternalError, Unable
 from qe.exact.ring import Poly, Ring
-from qe.formula.syntax import And, Exists, Formula, Or
-from qe.formula.traverse import children, conjuncts
+from qe.formula.build import conj
+from qe.formula.syntax import FALSE, TRUE, And, Exists, Formula, Or
+from qe.formula.traverse import children, conjuncts, subformula
 from qe.io.names import names_in
 from qe.options import Budget, Options
 from qe.proof.certificate import Certificate, Proof, written
@@ -49,7 +50,10 @@ SIMPLIFYING = (
 
 CRITICAL = ("critical values", "critical values of a universal block")
 SEARCH, SQUARES = "Boolean search", "signs by sums of squares"
-THEOREM = "theorem"
+THEOREM, REDUNDANT = "theorem", "redundant part"
+_PRIMITIVES = {REDUNDANT: "no exception", "constant": "no exception"}
+"""The primitive that stands in the certificate for steps of a rule."""
+
 COUNTED = "comprehensive Gröbner system"
 
 UNRECORDED = "steps that are not recorded"
@@ -147,6 +151,8 @@ class Prover:
             yield from self._places(child, before, (*path, k))
 
     def _at(self, place: Place, step: Step, current: Formula) -> Formula:
+        if step.rule == REDUNDANT:
+            place, step = _part_dropped(place, step)
         facts, changed = replaced(current, place, step.before, step.after, self.known, Entry(None, "place"))
         context = tuple(f for f in conjuncts(step.context) if f in facts)
         found = self.own(step, context)
@@ -209,7 +215,7 @@ class Prover:
             evidence = completed
         if step.rule == COUNTED:
             evidence = {"proofs": case_proofs(self._claim(step.rule, step, {}), self.options, self.limits)}
-        rule = THEOREM if "theorem" in evidence else step.rule
+        rule = _PRIMITIVES.get(step.rule, THEOREM if "theorem" in evidence else step.rule)
         own = self._tried(rule, step, context, evidence)
         return None if own is None else (rule, own)
 
@@ -362,3 +368,15 @@ class Prover:
             case None | bool() | int() | str():
                 return value
         raise TypeError(f"no evidence: {type(value).__name__}")
+
+
+def _part_dropped(place: Place, step: Step) -> tuple[Place, Step]:
+    """A part that makes no difference turned into a constant, at its own place, under what stands beside it there."""
+    proof = step.evidence["proof"]
+    assert isinstance(proof, Mapping)
+    at = tuple(proof["at"])
+    parent = subformula(step.before, at[:-1])
+    part, constant = subformula(parent, at[-1:]), FALSE if isinstance(parent, Or) else TRUE
+    beside, _ = replaced(step.before, at, part, constant, (), Entry(None, "place"))
+    evidence = {"proof": {"exceptions": [proof["steps"]]}}
+    return (*place, *at), replace(step, before=part, after=constant, context=conj(beside), evidence=evidence)
