@@ -15,7 +15,6 @@ from qe.certify.critical_universal import check_critical_universal
 from qe.certify.critical_values import check_critical_values
 from qe.certify.degenerate_truth_set import check_degenerate_truth_set
 from qe.certify.degree_shift import check_degree_shift
-from qe.certify.distribution import check_distribution
 from qe.certify.elimination_set import check_elimination_set
 from qe.certify.exchange import check_exchange
 from qe.certify.half_plane import check_half_plane
@@ -32,14 +31,12 @@ from qe.certify.roots_by_signs import check_roots_by_signs
 from qe.certify.roots_counted import check_roots_counted
 from qe.certify.rotation import check_rotation
 from qe.certify.sentence import check_sentence
-from qe.certify.shear import check_shear
 from qe.certify.sphere import check_sphere
 from qe.certify.square_alone import check_square_alone
 from qe.certify.step import Check
 from qe.certify.symmetry import check_scaling, check_translation
 from qe.certify.table import check_table
 from qe.certify.value_taken import check_value_taken
-from qe.certify.witness_in_parameters import check_witness_in_parameters
 from qe.certify.zeros import check_zeros
 from qe.kernel.nested import check_no_exception, check_steps
 from qe.kernel.quantifiers import check_quantifiers
@@ -78,11 +75,9 @@ RULES: Mapping[str, Check] = {
     "two variables exchanged": check_exchange,
     "homogeneous scaling": check_scaling,
     "rotation of the axes": check_rotation,
-    "linear form as a variable": check_shear,
     "linear form named": check_named_form,
     "mirror images of a convex set": check_mirror,
     "nested blocks of one kind gathered": check_quantifiers,
-    "disjuncts with equations apart": check_distribution,
     "value that is taken": check_value_taken,
     "equations taken apart": check_steps,
     "inequations that remove no interior": check_inequations,
@@ -99,7 +94,6 @@ RULES: Mapping[str, Check] = {
     "open block": check_open_block,
     "instance": check_sentence,
     "cells": check_table,
-    "witness in the parameters": check_witness_in_parameters,
     "shorter": check_table,
     "covering": check_covering,
     "Boolean search": check_boolean_search,

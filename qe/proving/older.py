@@ -1,85 +1,23 @@
 """Certificates of former releases, whose steps had rules with checkers of their own, in the language of the kernel.
 
-Nothing here is trusted: the kernel checks what comes out. A converter says by which steps of today a step of a former
-rule is made. Rules that only had another name have none (``qe.certify.registry``). Kept for one release.
+Nothing here is trusted: the kernel checks what comes out. The elaborators of today read them
+(``qe.proving.elaborators``); rules that only had another name have none (``qe.certify.registry``). Kept for one
+release.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
 from dataclasses import replace
 
-from qe.certify.block import existential
-from qe.certify.boolean import equivalence
-from qe.certify.derivation import limits_of, replaced
+from qe.certify.derivation import limits_of
 from qe.certify.registry import RULES
-from qe.certify.step import Claim, Context, Limits, only
+from qe.certify.step import Claim
 from qe.certify.verify import check_certificate
 from qe.exact.ring import Ring
-from qe.formula.normal import nnf
-from qe.formula.syntax import FALSE, TRUE, Exists, Formula, Or
-from qe.formula.traverse import subformula
-from qe.kernel.theorem import theorem_goals
 from qe.options import Budget
-from qe.proof.certificate import Certificate, Labelled, written
+from qe.proof.certificate import Certificate, Labelled
 from qe.proof.entry import Entry, Json, formula_from_json
-from qe.proving.lemma_list import EMPTY
-from qe.proving.lemmas import refuting
-from qe.rules.closed_forms import matches
-
-Converter = Callable[[Claim, Context, Limits], list[Json]]
-"""The steps that lead from ``claim.before`` to ``claim.after``; ``CertificateRejected`` where there are none."""
-
-
-def closed_form(claim: Claim, context: Context, limits: Limits) -> list[Json]:
-    """An instance of a theorem of the family that is called like the rule, and what the answer was simplified to."""
-    before, after = existential(claim)
-    if not isinstance(before, Exists):
-        raise claim.fail("a block expected")
-    for match in matches(claim.rule, before.variables, before.body):
-        answer = nnf(match.instance(match.theorem.answer))
-        evidence = {**match.evidence, "theory": EMPTY}
-        middle = replace(claim, rule="theorem", before=before, after=answer, evidence=Entry(evidence, claim.path))
-        theory = refuting(theorem_goals(middle, context), claim.ring, limits)
-        if theory is None:
-            continue
-        steps = [written("theorem", (), before, answer, context, {**evidence, "theory": theory})]
-        return steps if answer == after else [*steps, simplified(answer, after, context, claim, limits)]
-    raise claim.fail("not an instance of a theorem")
-
-
-def simplified(before: Formula, after: Formula, context: Context, claim: Claim, limits: Limits) -> Json:
-    """A step that signs of polynomials prove."""
-    theory = refuting(equivalence(before, after, context), claim.ring, limits)
-    if theory is None:
-        raise claim.fail("not shown that this was simplified to that")
-    return written("simplification", (), before, after, context, {"theory": theory})
-
-
-def redundant(claim: Claim, context: Context, limits: Limits) -> list[Json]:
-    """A part that makes no difference, turned into a constant at its own place."""
-    at, steps = only(claim, "at", "steps")
-    place = [entry.integer() for entry in at.items()]
-    parent = subformula(claim.before, place[:-1])
-    part, constant = subformula(parent, place[-1:]), FALSE if isinstance(parent, Or) else TRUE
-    facts, _ = replaced(claim.before, place, part, constant, (), at)
-    return [written("no exception", place, part, constant, facts, {"exceptions": [steps.value]})]
-
-
-def constant(claim: Claim, context: Context, limits: Limits) -> list[Json]:
-    """A formula that holds nowhere, or everywhere: by steps, or by a table."""
-    value = claim.evidence.value
-    if isinstance(value, dict) and "certificate" in value:
-        return [written("cells", (), claim.before, claim.after, context, value)]
-    steps = only(claim, "steps")[0]
-    return [written("no exception", (), claim.before, claim.after, (), {"exceptions": [steps.value]})]
-
-
-CONVERTERS: Mapping[str, Converter] = {
-    "cubic on an interval": closed_form,
-    "redundant part": redundant,
-    "constant": constant,
-}
+from qe.proving.elaborators import ELABORATORS, Elaborator
 
 
 def recent(certificate: Certificate, budget: Budget) -> Certificate:
@@ -104,7 +42,7 @@ def _mentions_former(data: Json) -> bool:
         node = pending.pop()
         if isinstance(node, dict):
             rule = node.get("rule")
-            if isinstance(rule, str) and rule in CONVERTERS:
+            if isinstance(rule, str) and rule in ELABORATORS:
                 return True
             pending += node.values()
         elif isinstance(node, list):
@@ -130,16 +68,16 @@ class _Conversion:
             self.ring = Ring.of(Entry(value["order"], f"{path}.order").names())
         found = {name: self.data(part, f"{path}.{name}") for name, part in value.items()}
         rule = value.get("rule")
-        if isinstance(rule, str) and (converter := CONVERTERS.get(rule)) is not None:
-            found = self.step(Entry(found, path), converter)
+        if isinstance(rule, str) and (elaborator := ELABORATORS.get(rule)) is not None:
+            found = self.step(Entry(found, path), elaborator)
         self.ring = outer
         return found
 
-    def step(self, entry: Entry, converter: Converter) -> dict[str, Json]:
+    def step(self, entry: Entry, elaborator: Elaborator) -> dict[str, Json]:
         """A step of a former rule, made of steps of today."""
         assert isinstance(entry.value, dict)
         rule, _, old, new, used, evidence = entry.fields("rule", "at", "before", "after", "context", "evidence")
         before, after = (formula_from_json(e, self.ring, quantified=True) for e in (old, new))
         context = tuple(formula_from_json(e, self.ring, quantified=True) for e in used.items())
         claim = Claim(rule.text(), before, after, self.ring, evidence, entry.path)
-        return {**entry.value, "rule": "steps", "evidence": {"steps": converter(claim, context, self.limits)}}
+        return {**entry.value, "rule": "steps", "evidence": {"steps": elaborator(claim, context, self.limits)}}

@@ -31,6 +31,7 @@ from qe.proof.on_demand import OnDemand
 from qe.proof.run_log import RunLog
 from qe.proof.step import Nested, Place, Step
 from qe.proving.counted import case_proofs
+from qe.proving.elaborators import ELABORATORS
 from qe.proving.lemma_list import EMPTY, identities
 from qe.proving.lemmas import refuting
 from qe.proving.nested import derivations_within, formulas_within, proved_inside
@@ -51,6 +52,8 @@ SIMPLIFYING = (
 CRITICAL = ("critical values", "critical values of a universal block")
 SEARCH, SQUARES = "Boolean search", "signs by sums of squares"
 THEOREM, REDUNDANT = "theorem", "redundant part"
+STEPS = "steps"
+ELABORATED = ("witness in the parameters", "linear form as a variable", "disjuncts with equations apart")
 _PRIMITIVES = {REDUNDANT: "no exception", "constant": "no exception"}
 """The primitive that stands in the certificate for steps of a rule."""
 
@@ -215,6 +218,8 @@ class Prover:
             evidence = completed
         if step.rule == COUNTED:
             evidence = {"proofs": case_proofs(self._claim(step.rule, step, {}), self.options, self.limits)}
+        if step.rule in ELABORATED:
+            return self._elaborated(step, context, evidence)
         rule = _PRIMITIVES.get(step.rule, THEOREM if "theorem" in evidence else step.rule)
         own = self._tried(rule, step, context, evidence)
         return None if own is None else (rule, own)
@@ -238,6 +243,18 @@ class Prover:
             self.budget.check("prove")
             return None
         return evidence
+
+    def _elaborated(self, step: Step, context: Context, evidence: Json) -> tuple[str, Json] | None:
+        """Steps of the kernel that make a step of another rule."""
+        try:
+            made: list[Json] = ELABORATORS[step.rule](self._claim(step.rule, step, evidence), context, self.limits)
+        except CertificateRejected:
+            return None
+        except Unable:
+            self.budget.check("prove")
+            return None
+        own = self._tried(STEPS, step, context, {"steps": made})
+        return None if own is None else (STEPS, own)
 
     def _positive(self, step: Step, given: object, context: Context) -> tuple[str, Json] | None:
         """Signs that follow from identities, which the rule has found."""
