@@ -32,7 +32,6 @@ from qe.certify.roots_counted import check_roots_counted
 from qe.certify.rotation import check_rotation
 from qe.certify.sentence import check_sentence
 from qe.certify.sphere import check_sphere
-from qe.certify.square_alone import check_square_alone
 from qe.certify.step import Check
 from qe.certify.symmetry import check_scaling, check_translation
 from qe.certify.table import check_table
@@ -64,7 +63,6 @@ RULES: Mapping[str, Check] = {
     "quadric in a quadric": check_quadrics,
     "theorem": check_theorem,
     "terms": check_terms,
-    "square of a variable alone": check_square_alone,
     "ranges that exclude each other": check_ranges,
     "conditions on zeros that follow": check_zeros,
     "independent parts and miniscoping": check_quantifiers,

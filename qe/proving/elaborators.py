@@ -18,7 +18,7 @@ from qe.certify.step import Claim, Context, Limits, only
 from qe.formula.build import atom, conj, disj, exists
 from qe.formula.normal import nnf
 from qe.formula.syntax import FALSE, TRUE, Exists, Formula, Or, Relation
-from qe.formula.traverse import subformula
+from qe.formula.traverse import conjuncts, subformula
 from qe.kernel.terms import Quotient, at_terms, terms_goals
 from qe.kernel.theorem import theorem_goals
 from qe.proof.certificate import written
@@ -36,16 +36,35 @@ def closed_form(claim: Claim, context: Context, limits: Limits) -> list[Json]:
     before, after = existential(claim)
     if not isinstance(before, Exists):
         raise claim.fail("a block expected")
-    for match in matches(claim.rule, before.variables, before.body):
+    instance, answer = by_theorem(before, context, claim, limits)
+    return [instance] if answer == after else [instance, simplified(answer, after, context, claim, limits)]
+
+
+def by_theorem(
+    block: Exists, context: Context, claim: Claim, limits: Limits, place: tuple[int, ...] = ()
+) -> tuple[Json, Formula]:
+    """The step from a block to its answer by a theorem of the family that is called like the rule, and the answer."""
+    for match in matches(claim.rule, block.variables, block.body):
         answer = nnf(match.instance(match.theorem.answer))
         evidence = {**match.evidence, "theory": EMPTY}
-        middle = replace(claim, rule="theorem", before=before, after=answer, evidence=Entry(evidence, claim.path))
-        theory = refuting(theorem_goals(middle, context), claim.ring, limits)
-        if theory is None:
-            continue
-        steps = [written("theorem", (), before, answer, context, {**evidence, "theory": theory})]
-        return steps if answer == after else [*steps, simplified(answer, after, context, claim, limits)]
+        step = replace(claim, rule="theorem", before=block, after=answer, evidence=Entry(evidence, claim.path))
+        theory = refuting(theorem_goals(step, context), claim.ring, limits)
+        if theory is not None:
+            return written("theorem", place, block, answer, context, {**evidence, "theory": theory}), answer
     raise claim.fail("not an instance of a theorem")
+
+
+def square_alone(claim: Claim, context: Context, limits: Limits) -> list[Json]:
+    """A variable that one condition looks at, as a parabola: that condition in a block of its own, by a theorem."""
+    (variable,) = only(claim, "variable")
+    block, name, _ = claim.variable(variable)
+    parts = conjuncts(block.body)
+    part = next((f for f in parts if name in f.free), TRUE)
+    inner, rest = Exists((name,), part), tuple(v for v in block.variables if v != name)
+    body = conj(inner if f is part else f for f in parts)
+    middle = Exists(rest, body) if rest else body  # the blocks stay two, also where one stands in the other alone
+    place = (*((0,) if rest else ()), *((parts.index(part),) if len(parts) > 1 else ()))
+    return [written("quantifiers", (), block, middle, (), {}), by_theorem(inner, (), claim, limits, place)[0]]
 
 
 def simplified(before: Formula, after: Formula, context: Context, claim: Claim, limits: Limits) -> Json:
@@ -149,6 +168,7 @@ def distributed(claim: Claim, context: Context, limits: Limits) -> list[Json]:
 
 ELABORATORS: Mapping[str, Elaborator] = {
     "cubic on an interval": closed_form,
+    "square of a variable alone": square_alone,
     "redundant part": redundant,
     "constant": constant,
     "witness in the parameters": witness,

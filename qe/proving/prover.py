@@ -53,7 +53,12 @@ CRITICAL = ("critical values", "critical values of a universal block")
 SEARCH, SQUARES = "Boolean search", "signs by sums of squares"
 THEOREM, REDUNDANT = "theorem", "redundant part"
 STEPS = "steps"
-ELABORATED = ("witness in the parameters", "linear form as a variable", "disjuncts with equations apart")
+ELABORATED = (
+    "disjuncts with equations apart",
+    "linear form as a variable",
+    "square of a variable alone",
+    "witness in the parameters",
+)
 _PRIMITIVES = {REDUNDANT: "no exception", "constant": "no exception"}
 """The primitive that stands in the certificate for steps of a rule."""
 
