@@ -35,10 +35,10 @@ from qe.certify.sphere import check_sphere
 from qe.certify.step import Check
 from qe.certify.symmetry import check_scaling, check_translation
 from qe.certify.table import check_table
-from qe.certify.value_taken import check_value_taken
 from qe.certify.zeros import check_zeros
 from qe.kernel.nested import check_no_exception, check_steps
 from qe.kernel.quantifiers import check_quantifiers
+from qe.kernel.root import check_root
 from qe.kernel.terms import check_terms
 from qe.kernel.theorem import check_theorem
 
@@ -63,6 +63,7 @@ RULES: Mapping[str, Check] = {
     "quadric in a quadric": check_quadrics,
     "theorem": check_theorem,
     "terms": check_terms,
+    "root": check_root,
     "ranges that exclude each other": check_ranges,
     "conditions on zeros that follow": check_zeros,
     "independent parts and miniscoping": check_quantifiers,
@@ -76,7 +77,6 @@ RULES: Mapping[str, Check] = {
     "linear form named": check_named_form,
     "mirror images of a convex set": check_mirror,
     "nested blocks of one kind gathered": check_quantifiers,
-    "value that is taken": check_value_taken,
     "equations taken apart": check_steps,
     "inequations that remove no interior": check_inequations,
     "virtual substitution": check_steps,

@@ -17,8 +17,9 @@ from qe.certify.linear_equation import term
 from qe.certify.step import Claim, Context, Limits, only
 from qe.formula.build import atom, conj, disj, exists
 from qe.formula.normal import nnf
-from qe.formula.syntax import FALSE, TRUE, Exists, Formula, Or, Relation
+from qe.formula.syntax import FALSE, TRUE, Atom, Exists, Formula, Or, Relation
 from qe.formula.traverse import conjuncts, subformula
+from qe.kernel.root import root_goals
 from qe.kernel.terms import Quotient, at_terms, terms_goals
 from qe.kernel.theorem import theorem_goals
 from qe.proof.certificate import written
@@ -65,6 +66,28 @@ def square_alone(claim: Claim, context: Context, limits: Limits) -> list[Json]:
     middle = Exists(rest, body) if rest else body  # the blocks stay two, also where one stands in the other alone
     place = (*((0,) if rest else ()), *((parts.index(part),) if len(parts) > 1 else ()))
     return [written("quantifiers", (), block, middle, (), {}), by_theorem(inner, (), claim, limits, place)[0]]
+
+
+def value_taken(claim: Claim, context: Context, limits: Limits) -> list[Json]:
+    """A variable of which one comparison alone asks something: a value far out, or a root, meets it."""
+    variable, _ = only(claim, "variable", "theory")
+    block, name, _ = claim.variable(variable)
+    parts = conjuncts(block.body)
+    part = next((f for f in parts if name in f.free), TRUE)
+    others = tuple(f for f in parts if f is not part)
+    inner, rest = Exists((name,), part), tuple(v for v in block.variables if v != name)
+    middle = exists(rest, conj((inner, *others)))
+    place = (*((0,) if rest else ()), *((0,) if others else ()))
+    facts = replaced(middle, place, inner, TRUE, context, variable)[0]
+    directions = (0,) if isinstance(part, Atom) and part.relation is Relation.EQ else (1, -1)
+    for rising in directions:
+        evidence: dict[str, Json] = {"low": None, "high": None, "rising": rising, "theory": EMPTY}
+        step = replace(claim, rule="root", before=inner, after=TRUE, evidence=Entry(evidence, claim.path))
+        theory = refuting(root_goals(step, facts), claim.ring, limits)
+        if theory is not None:
+            taken = written("root", place, inner, TRUE, facts, {**evidence, "theory": theory})
+            return [written("quantifiers", (), block, middle, (), {}), taken]
+    raise claim.fail("not shown that the value is taken")
 
 
 def simplified(before: Formula, after: Formula, context: Context, claim: Claim, limits: Limits) -> Json:
@@ -169,6 +192,7 @@ def distributed(claim: Claim, context: Context, limits: Limits) -> list[Json]:
 ELABORATORS: Mapping[str, Elaborator] = {
     "cubic on an interval": closed_form,
     "square of a variable alone": square_alone,
+    "value that is taken": value_taken,
     "redundant part": redundant,
     "constant": constant,
     "witness in the parameters": witness,

@@ -57,6 +57,7 @@ ELABORATED = (
     "disjuncts with equations apart",
     "linear form as a variable",
     "square of a variable alone",
+    "value that is taken",
     "witness in the parameters",
 )
 _PRIMITIVES = {REDUNDANT: "no exception", "constant": "no exception"}

@@ -39,6 +39,49 @@ SOLVED = {"solved": [["x", "-a + x", 1]], "theory": NO_LEMMAS}
 NOWHERE = [step("linear equation solved", "ex a, x. x = a and x > a", "false", SOLVED)]
 BESIDE = [step("linear equation solved", "ex a, b, x. b <= 0 and x = a and x > a", "false", SOLVED)]
 
+VALUE_TAKEN = [
+    ("ex x. x = a and b > 0", "b > 0", "true"),
+    ("ex x. x^3 + a*x < b", "true", "true"),
+    ("ex x, y. x^3 - y = 0 and y > b", "ex y. y > b", "true"),
+    ("ex x. a*x^3 = b and a /= 0", "a /= 0", "true"),
+    ("ex x. a*x > b", "true", "a < 0"),
+    ("ex x. a*x^2 > b and a > 0", "a > 0", "true"),
+    ("ex x. a*x^2 >= b and a > 0", "a > 0", "true"),
+    ("ex x. a*x^2 < b and a < 0", "a < 0", "true"),
+    ("ex x. a*x^2 <= b and a < 0", "a < 0", "true"),
+    ("ex x. a*x^2 /= b and a < 0", "a < 0", "true"),
+    ("ex x. a*x^2 + b*x /= c and a /= 0", "a /= 0", "true"),
+]
+VALUE_NOT_TAKEN = [
+    ("ex x. a*x > b", "true", "true"),
+    ("ex x. a*x^2 > b and a < 0", "a < 0", "true"),
+    ("ex x. a*x^2 > b and a >= 0", "a >= 0", "true"),
+    ("ex x. a*x^2 < b and a > 0", "a > 0", "true"),
+    ("ex x. a*x^2 <= b and a > 0", "a > 0", "true"),
+    ("ex x. a*x^2 + x /= b", "true", "true"),
+    ("ex x. x^2 = b", "true", "true"),
+    ("ex x. x > a and x < b", "true", "true"),
+    ("ex x. x > a or x < b", "true", "true"),
+    ("ex x. x = a and b > 0", "true", "true"),
+    ("ex x, y. x = a and y > b", "y > b", "true"),
+    ("all x. x = a and b > 0", "b > 0", "true"),
+    ("ex x, y. y*x > b", "true", "y > 0"),
+]
+PARABOLA = [
+    ("ex x, y. x^2 + a*x + y <= 0 and y > b", "ex y. 4*y - a^2 <= 0 and y > b"),
+    ("ex x, y. x^2 + a*x + y = 0 and y > b", "ex y. 4*y - a^2 <= 0 and y > b"),
+    ("ex x, y. x^2 + a*x + y < 0 and y > b", "ex y. 4*y - a^2 < 0 and y > b"),
+    ("ex x. 1 - x^2 > a", "a < 1"),
+]
+NO_PARABOLA = [
+    ("ex x, y. x^2 + a*x + y < 0 and y > b", "ex y. 4*y - a^2 <= 0 and y > b"),
+    ("ex x, y. x^2 + a*x + y > 0 and y > b", "ex y. 4*y - a^2 > 0 and y > b"),
+    ("ex x, y. x^2 + a*x + y <= 0 and y > x", "ex y. 4*y - a^2 <= 0 and y > b"),
+    ("ex x, y. c*x^2 + a*x + y <= 0 and y > b", "ex y. 4*c*y - a^2 <= 0 and y > b"),
+]
+FREE = {"variable": "x", "theory": NO_LEMMAS}
+TAKEN, ALONE = "value that is taken", "square of a variable alone"
+
 TRUE_STEPS: list[tuple[str, str, str, Any, str]] = [
     (WITNESS, "ex x. x > a and x < b", "true", by(MIDDLE), "a < b"),
     (WITNESS, "ex x. x >= a", "true", by(("x", "a - x")), "true"),
@@ -55,6 +98,8 @@ TRUE_STEPS: list[tuple[str, str, str, Any, str]] = [
         {"variable": "x", "form": "a*x + b"},
         "true",
     ),
+    *((TAKEN, before, after, FREE, given) for before, after, given in VALUE_TAKEN),
+    *((ALONE, before, after, {"variable": "x"}, "true") for before, after in PARABOLA),
     (CONSTANT, "x = a and x > a", "false", {"steps": NOWHERE}, "true"),
     (CONSTANT, "x /= a or x <= a", "true", {"steps": NOWHERE}, "true"),
     (REDUNDANT, "b > 0 or (x = a and x > a)", "b > 0", {"at": [1], "steps": BESIDE}, "true"),
@@ -73,6 +118,8 @@ FALSE_STEPS: list[tuple[str, str, str, Any, str]] = [
     (APART, "ex x. x > a and x < b", "(ex x. x > a) and (ex x. x < b)", {}, "true"),
     (SHEAR, "ex x. x + a > b and x < c", "ex x. x > b and x < c", {"variable": "x", "form": "a + x"}, "true"),
     (SHEAR, "ex x. a*x > b and a*x < c", "ex x. x > b and x < c", {"variable": "x", "form": "a*x"}, "true"),
+    *((TAKEN, before, after, FREE, given) for before, after, given in VALUE_NOT_TAKEN),
+    *((ALONE, before, after, {"variable": "x"}, "true") for before, after in NO_PARABOLA),
     (CONSTANT, "x = a and x > a", "true", {"steps": NOWHERE}, "true"),
     (CONSTANT, "x /= a or x <= a", "false", {"steps": NOWHERE}, "true"),
     (CONSTANT, "x = a and x > a", "a > 0", {"steps": NOWHERE}, "true"),
