@@ -16,7 +16,6 @@ from qe.certify.critical_values import check_critical_values
 from qe.certify.degenerate_truth_set import check_degenerate_truth_set
 from qe.certify.degree_shift import check_degree_shift
 from qe.certify.elimination_set import check_elimination_set
-from qe.certify.exchange import check_exchange
 from qe.certify.half_plane import check_half_plane
 from qe.certify.independent_parts import check_independent_parts
 from qe.certify.inequations import check_inequations, check_only_nonzero
@@ -36,7 +35,7 @@ from qe.certify.step import Check
 from qe.certify.symmetry import check_scaling, check_translation
 from qe.certify.table import check_table
 from qe.certify.zeros import check_zeros
-from qe.kernel.nested import check_no_exception, check_steps
+from qe.kernel.nested import check_converse, check_no_exception, check_steps
 from qe.kernel.quantifiers import check_quantifiers
 from qe.kernel.root import check_root
 from qe.kernel.terms import check_terms
@@ -45,6 +44,7 @@ from qe.kernel.theorem import check_theorem
 RULES: Mapping[str, Check] = {
     "quantifiers": check_quantifiers,
     "steps": check_steps,
+    "converse": check_converse,
     "no exception": check_no_exception,
     "renaming": check_quantifiers,
     "roots counted": check_roots_counted,
@@ -71,7 +71,6 @@ RULES: Mapping[str, Check] = {
     "linear equation solved under a guard": check_guarded_linear,
     "degree shift": check_degree_shift,
     "translation of the origin": check_translation,
-    "two variables exchanged": check_exchange,
     "homogeneous scaling": check_scaling,
     "rotation of the axes": check_rotation,
     "linear form named": check_named_form,

@@ -1,12 +1,12 @@
-"""Primitives "steps" and "no exception": one step that is made of steps of its own.
+"""Primitives "steps", "converse" and "no exception": one step that is made of steps of its own.
 
-THEOREM (steps). Equivalence is transitive, and A <-> B iff not A <-> not B: the steps lead from A to B; for a universal
-block both sides are negated.
-THEOREM (no exception). Let G be what holds at the place. If the sentence that G and A and not B hold for some values of
-the variables is false, and that with A and B exchanged, too, then A <-> B where G holds.
+THEOREM (steps). Equivalence is transitive, and A <-> B iff not A <-> not B: the steps lead from A to B; for a
+universal block both sides are negated. THEOREM (converse). A <-> B iff B <-> A: the steps lead from B to A. THEOREM
+(no exception). Let G be what holds at the place. If the sentence that G and A and not B hold for some values of the
+variables is false, and that with A and B exchanged, too, then A <-> B where G holds.
 
-Evidence: ``steps`` from A to B; or ``exceptions``, a list of steps to false for each of the two sentences that is not
-false as it stands.
+Evidence: ``steps`` from A to B, or from B to A; or ``exceptions``, a list of steps to false for each of the two
+sentences that is not false as it stands.
 """
 
 from __future__ import annotations
@@ -24,6 +24,13 @@ def check_steps(claim: Claim, context: Context, limits: Limits) -> None:
     before, after = existential(claim)
     if limits.replay(steps, before, context, claim.ring) != after:
         raise claim.fail("the steps do not lead there")
+
+
+def check_converse(claim: Claim, context: Context, limits: Limits) -> None:
+    """The steps lead from what stands after to what stands before."""
+    steps = only(claim, "steps")[0]
+    if limits.replay(steps, claim.after, context, claim.ring) != claim.before:
+        raise claim.fail("the steps do not lead back")
 
 
 def check_no_exception(claim: Claim, context: Context, limits: Limits) -> None:

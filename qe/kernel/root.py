@@ -10,7 +10,8 @@ on its side. ex x (p rel 0) is true for other relations.
 
 Evidence: ``low`` and ``high``, the places: [numerator, positive number] or null for the end of the line; ``rising``,
 1 or -1, the sign with which p goes from at most 0 to at least 0, or 0 where that is not known, at two terms, or with
-an odd degree at both ends (for other relations no place is a term, and ``rising`` says at which end); ``theory``, by which the signs are known.
+an odd degree at both ends (for other relations no place is a term, and ``rising`` says at which end); ``theory``, by
+which the signs are known.
 """
 
 from __future__ import annotations

@@ -18,7 +18,7 @@ from qe.certify.step import Claim, Context, Limits, only
 from qe.formula.build import atom, conj, disj, exists
 from qe.formula.normal import nnf
 from qe.formula.syntax import FALSE, TRUE, Atom, Exists, Formula, Or, Relation
-from qe.formula.traverse import conjuncts, subformula
+from qe.formula.traverse import conjuncts, map_atoms, subformula
 from qe.kernel.root import root_goals
 from qe.kernel.terms import Quotient, at_terms, terms_goals
 from qe.kernel.theorem import theorem_goals
@@ -88,6 +88,43 @@ def value_taken(claim: Claim, context: Context, limits: Limits) -> list[Json]:
             taken = written("root", place, inner, TRUE, facts, {**evidence, "theory": theory})
             return [written("quantifiers", (), block, middle, (), {}), taken]
     raise claim.fail("not shown that the value is taken")
+
+
+def exchanged(claim: Claim, context: Context, limits: Limits) -> list[Json]:
+    """The sum and the product of two variables in their place, which get two names that are free in the ring."""
+    (listed,) = only(claim, "variables")
+    x, y = (entry.text() for entry in listed.items())
+    z, w = (name for name in FRESH if name in claim.ring.index)
+    (before, after), ring = existential(claim), claim.ring
+    if not isinstance(before, Exists) or not isinstance(after, Exists):
+        raise claim.fail("two blocks expected")
+    one, other = ring.var(z), ring.var(w)
+    by = {ring.index[x]: one + other, ring.index[y]: one * other}
+    names = {ring.index[x]: one, ring.index[y]: other}
+    apart = tuple({x: z, y: w}.get(v, v) for v in after.variables)
+    renamed = exists(apart, map_atoms(before.body, lambda a: atom(a.poly.compose(names), a.relation)))
+    image = exists(apart, map_atoms(after.body, lambda a: atom(a.poly.compose(by), a.relation)))
+    sums = [Atom((ring.var(v) - poly).normal()[1], Relation.EQ) for v, poly in ((x, one + other), (y, one * other))]
+    solved = [_solved(equation, v) for v, equation in zip((x, y), sums, strict=True)]
+    named = Exists(tuple(dict.fromkeys((*apart, *after.variables))), conj((*sums, *conjuncts(after.body))))
+    inner = Exists((z, w), conj(sums))
+    middle = exists(after.variables, conj((*conjuncts(after.body), inner)))
+    back = written("linear equation solved", (), named, image, (), {"solved": solved, "theory": EMPTY})
+    place = (0, len(conjuncts(after.body)))
+    theorem = by_theorem(inner, (), claim, limits, place)[0]
+    return [
+        written("quantifiers", (), before, renamed, (), {}),
+        simplified(renamed, image, (), claim, limits),
+        written("converse", (), image, named, (), {"steps": [back]}),
+        written("quantifiers", (), named, middle, (), {}),
+        theorem,
+    ]
+
+
+def _solved(equation: Atom, name: str) -> Json:
+    """An equation for a variable with a number as coefficient, and the sign of that, as the kernel wants them."""
+    lead = equation.poly.leading(equation.poly.ring.index[name])
+    return [name, poly_to_text(equation.poly), 1 if lead.constant_value() > 0 else -1]
 
 
 def simplified(before: Formula, after: Formula, context: Context, claim: Claim, limits: Limits) -> Json:
@@ -189,8 +226,13 @@ def distributed(claim: Claim, context: Context, limits: Limits) -> list[Json]:
     return [simplified(claim.before, claim.after, (), claim, limits)]
 
 
+FRESH = ("'", "''")
+NAMING = frozenset(("two variables exchanged",))
+"""Names for variables that steps of these rules need on their way; where a formula has them, there are no steps."""
+
 ELABORATORS: Mapping[str, Elaborator] = {
     "cubic on an interval": closed_form,
+    "two variables exchanged": exchanged,
     "square of a variable alone": square_alone,
     "value that is taken": value_taken,
     "redundant part": redundant,

@@ -13,7 +13,7 @@ from qe.errors import CertificateRejected
 from qe.exact.ring import Ring
 from qe.formula.syntax import Formula
 from qe.proof.entry import Entry, Json
-from qe.proof.step import Nested
+from qe.proof.step import Nested, Step
 
 Prove = Callable[[Nested, Formula, Context], tuple[Formula, list[Json]]]
 """From the formula with which a checker begins, under a context, to the answer of a derivation: that, and the steps.
@@ -40,6 +40,12 @@ def formulas_within(value: object) -> Iterator[Formula]:
         yield from (inner.start, inner.answer)
         for step in inner.steps:
             yield from (step.before, step.after, step.context)
+
+
+def steps_within(value: object) -> Iterator[Step]:
+    """The steps of those derivations."""
+    for inner in derivations_within(value):
+        yield from inner.steps
 
 
 def proved_inside(checker: Check, claim: Claim, context: Context, limits: Limits, prove: Prove) -> dict[str, Json]:

@@ -7,6 +7,7 @@ release.
 
 from __future__ import annotations
 
+from collections.abc import Container
 from dataclasses import replace
 
 from qe.certify.derivation import limits_of
@@ -17,7 +18,7 @@ from qe.exact.ring import Ring
 from qe.options import Budget
 from qe.proof.certificate import Certificate, Labelled
 from qe.proof.entry import Entry, Json, formula_from_json
-from qe.proving.elaborators import ELABORATORS, Elaborator
+from qe.proving.elaborators import ELABORATORS, FRESH, NAMING, Elaborator
 
 
 def recent(certificate: Certificate, budget: Budget) -> Certificate:
@@ -29,20 +30,21 @@ def recent(certificate: Certificate, budget: Budget) -> Certificate:
     if isinstance(payload, tuple):
         members = tuple(Labelled(m.label, recent(m.certificate, budget)) for m in payload)
         return certificate if members == payload else replace(certificate, payload=members)
-    if not isinstance(payload, dict) or not _mentions_former(payload):
+    if not isinstance(payload, dict) or not _mentions(payload, ELABORATORS):
         return certificate
     found = _Conversion(budget).data(payload, "payload")
     assert isinstance(found, dict)
     return replace(certificate, payload=found)
 
 
-def _mentions_former(data: Json) -> bool:
-    pending = [data]
+def _mentions(data: Json, rules: Container[str]) -> bool:
+    """Whether a step of one of these rules is in the data."""
+    pending: list[Json] = [data]
     while pending:
         node = pending.pop()
         if isinstance(node, dict):
             rule = node.get("rule")
-            if isinstance(rule, str) and rule in ELABORATORS:
+            if isinstance(rule, str) and rule in rules:
                 return True
             pending += node.values()
         elif isinstance(node, list):
@@ -65,7 +67,10 @@ class _Conversion:
             return value
         outer = self.ring
         if "order" in value:
-            self.ring = Ring.of(Entry(value["order"], f"{path}.order").names())
+            names = Entry(value["order"], f"{path}.order").names()
+            fresh = FRESH if _mentions(value, NAMING) else ()
+            value = {**value, "order": list(dict.fromkeys((*names, *fresh)))}
+            self.ring = Ring.of(dict.fromkeys((*names, *fresh)))
         found = {name: self.data(part, f"{path}.{name}") for name, part in value.items()}
         rule = value.get("rule")
         if isinstance(rule, str) and (elaborator := ELABORATORS.get(rule)) is not None:

@@ -31,10 +31,10 @@ from qe.proof.on_demand import OnDemand
 from qe.proof.run_log import RunLog
 from qe.proof.step import Nested, Place, Step
 from qe.proving.counted import case_proofs
-from qe.proving.elaborators import ELABORATORS
+from qe.proving.elaborators import ELABORATORS, FRESH, NAMING
 from qe.proving.lemma_list import EMPTY, identities
 from qe.proving.lemmas import refuting
-from qe.proving.nested import derivations_within, formulas_within, proved_inside
+from qe.proving.nested import derivations_within, formulas_within, proved_inside, steps_within
 from qe.proving.simplified import Simplified
 from qe.proving.substitution_steps import steps
 
@@ -57,6 +57,7 @@ ELABORATED = (
     "disjuncts with equations apart",
     "linear form as a variable",
     "square of a variable alone",
+    "two variables exchanged",
     "value that is taken",
     "witness in the parameters",
 )
@@ -93,7 +94,9 @@ def _ring(derivation: Derivation, answer: Formula) -> Ring:
     formulas = (derivation.start, *(step.before for step in derivation.steps), answer)
     ring = next((f.ring for f in formulas if f.ring is not None), Ring.of(()))
     inner = [f for step in derivation.steps for f in formulas_within(step.evidence)]
-    return Ring.of(dict.fromkeys((*ring.names, *(name for f in inner for name in names_in(f)))))
+    rules = {step.rule for step in (*derivation.steps, *steps_within([step.evidence for step in derivation.steps]))}
+    fresh = FRESH if rules & NAMING else ()
+    return Ring.of(dict.fromkeys((*ring.names, *(name for f in inner for name in names_in(f)), *fresh)))
 
 
 @dataclass(slots=True)
