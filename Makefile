@@ -27,10 +27,16 @@ $(CORE): pyproject.toml constraints.txt
 	$(PIP) install --editable '.[plan]'
 	@touch $@
 
-$(DEV): $(CORE)
+$(DEV): $(CORE) | $(BIN)/experiments
 	$(PIP) install --editable '.[dev,solvers,sweep,sat]'
-	@printf '#!/bin/sh\nexec "$$(dirname "$$0")/python" -m experiments "$$@"\n' > $(BIN)/experiments && chmod +x $(BIN)/experiments
 	@touch $@
+
+# Nothing of so common a name is installed: the package is taken from here, whatever the current folder.
+$(BIN)/experiments: Makefile | $(CORE)
+	@rm -f $@
+	@printf '%s\n' '#!/bin/sh' 'export PYTHONPATH="$(CURDIR)$${PYTHONPATH:+:$$PYTHONPATH}" PYTHONSAFEPATH=1' \
+		'exec "$$(dirname "$$0")/python" -m experiments "$$@"' > $@
+	@chmod +x $@
 
 $(DOCS): $(DEV)
 	$(PIP) install --editable '.[docs]'

@@ -242,10 +242,16 @@ def _check_distinct(table: Table, points: Mapping[str, Vector]) -> None:
 def _check_inside(table: Table, points: Mapping[str, Vector], workspace: Workspace) -> None:
     for name, point in points.items():
         if workspace.ball.margin(point) < 0:
-            needed = root_text(dot(point, point))
-            raise table.error("radius", f"at least {needed}, the norm of {name}", shorten(workspace.radius_text))
+            needed, given = dot(point, point), workspace.radius_squared
+            raise table.error("radius", f"at least {_root(needed)}, the norm of {name}", _root(given))
         if workspace.kind is WorkspaceKind.HEMISPHERE and workspace.floor.margin(point) < 0:
             raise table.error(name, "a point with z >= 0 in the hemisphere", f"z = {point[-1]}")
+
+
+def _root(square: Fraction) -> str:
+    """A square root, with a decimal beside it unless it is an integer."""
+    text = root_text(square)
+    return text if text.isdigit() else f"{shorten(text)} (about {float(square) ** 0.5:.8g})"
 
 
 def _notes(points: Mapping[str, Vector], via: tuple[Vector, Vector]) -> tuple[str, ...]:

@@ -15,26 +15,30 @@ LIMIT = 60.0
 _POINT = re.compile(r"\\mathrm\{([pqr])([0-9])([xyz])\}")
 
 
-def eliminated(text: str, question: Any, expected: str) -> Asked:
-    """Eliminate the quantifiers of ``question``; the answer must be equivalent to ``expected``."""
+def eliminated(text: str, question: Any, expected: str, method: str = "auto") -> Asked:
+    """Eliminate the quantifiers of ``question``, by this method alone if one is named; the answer must be equivalent to
+    ``expected``."""
     start = time.perf_counter()
-    answer = qe.eliminate(question, timeout=LIMIT)
+    answer = qe.eliminate(question, timeout=LIMIT, method=method)
     seconds = time.perf_counter() - start
     as_expected = answer.formula is not None and qe.equivalent(answer.formula, expected, timeout=LIMIT)
     shown = tex(answer) if answer.formula is not None else rf"\text{{{answer.reason}}}"
     return Asked(text, str(question), shown, as_expected, seconds, expected=expected)
 
 
-def decided(text: str, sentence: Any, expected: bool = True) -> Asked:
-    """Decide a sentence. A witness or counterexample is part of the answer, and its certificate is checked."""
+def decided(text: str, sentence: Any, expected: bool = True, *, proved: bool = False) -> Asked:
+    """Decide a sentence. A witness or counterexample is part of the answer, and its certificate is checked.
+
+    ``proved``: a certificate is demanded of every answer, also of one that has no witness.
+    """
     start = time.perf_counter()
-    answer = qe.eliminate(sentence, timeout=LIMIT)
+    answer = qe.eliminate(sentence, timeout=LIMIT, check=proved)
     seconds = time.perf_counter() - start
     shown = answer.reason if answer.truth is None else str(answer.truth).lower()
     if answer.witness:
         values = ", ".join(f"{name} = {value}" for name, value in sorted(answer.witness.items()))
         shown = f"{shown}: {values}" if len(values) < 160 else shown
-    holds = answer.truth is expected and _accepted(answer.certificate)
+    holds = answer.truth is expected and _accepted(answer.certificate) and not (proved and answer.certificate is None)
     return Asked(text, str(sentence), rf"\text{{{shown}}}", holds, seconds, answer.certificate)
 
 

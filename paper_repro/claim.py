@@ -147,12 +147,20 @@ def examine(given: Claim) -> Entry:
 
 
 def examine_all(claims: Iterable[Claim], tell: Callable[[Entry], None] = lambda entry: None) -> tuple[Entry, ...]:
-    """Run all checks in order, telling each entry as it comes. A claim fails with one that it rests on."""
-    entries: list[Entry] = []
-    for given in claims:
+    """Run all checks in order, but what a claim rests on, and fails with, before it; each entry is told as it comes."""
+    known, done = {given.key: given for given in claims}, dict[str, Entry]()
+
+    def run(given: Claim) -> None:
+        for key in given.rests_on:
+            if key in known and key not in done:
+                run(known[key])
         entry = examine(given)
-        broken = [e.claim.key for e in entries if e.verdict is Verdict.FAILED and e.claim.key in given.rests_on]
+        broken = [key for key in given.rests_on if key in done and done[key].verdict is Verdict.FAILED]
         facts = tuple(Fact(f"rests on {key}, whose check failed", False) for key in broken)
-        entries.append(replace(entry, evidence=entry.evidence + facts))
-        tell(entries[-1])
-    return tuple(entries)
+        done[given.key] = replace(entry, evidence=entry.evidence + facts)
+        tell(done[given.key])
+
+    for given in known.values():
+        if given.key not in done:
+            run(given)
+    return tuple(done[key] for key in known)

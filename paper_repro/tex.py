@@ -15,7 +15,7 @@ _OPERATORS = {
 _FENCES = {"(": "prefix", ")": "postfix", "[": "prefix", "]": "postfix", r"\{": "prefix", r"\}": "postfix"}
 _BEFORE_A_SIGN = ("(", "[", "{", ",", "=", "<", ">", r"\le", r"\ge")
 _TIGHT = ("/", "|", r"\|")
-_LETTERS = {r"\top": "true", r"\bot": "false", r"\max": "max", r"\min": "min"}
+_LETTERS = {r"\top": "true", r"\bot": "false", r"\max": "max", r"\min": "min", r"\varrho": "ϱ", r"\beta": "β"}
 _SPACES = {r"\,": "0.17em", r"\;": "0.28em", r"\quad": "1em", r"\ ": "0.3em"}
 
 

@@ -105,6 +105,13 @@ class Printed:
         parts += [f"{in_coordinate(solved.get(p, p), last, given, axes)} >= 0" for p in self.bounded if above]
         return " and ".join(parts)
 
+    def different(self, curves: Sequence[Sequence[str]], axes: str, given: Points) -> str:
+        """Definition 1: the control points of each curve are different, those of the block put in."""
+        solved = dict(e.split(" = ") for e in self.equations)
+        pairs = [(solved.get(a, a), solved.get(b, b)) for row in curves for a, b in itertools.combinations(row, 2)]
+        sides = [[tuple(in_coordinate(p, axis, given, axes) for p in pair) for axis in axes] for pair in pairs]
+        return " and ".join(f"({' or '.join(f'{a} /= {b}' for a, b in pair)})" for pair in sides)
+
     def objective(self, axes: str, given: Points) -> str:
         """What the paper wants as small as possible."""
         stops = ("q0", *self.chosen, "r0")

@@ -226,9 +226,12 @@ def by_name(value: object, what: str) -> dict[str, Any]:
 
 
 def point(value: object, order: Sequence[str], what: str = "point") -> dict[str, Any]:
-    """Values by name, from a mapping or from as many values in the order of the variables."""
+    """Values by name, from a mapping or from as many values in the order of the variables, and for no other names."""
     if isinstance(value, Mapping):
-        return by_name(value, what)
+        named = by_name(value, what)
+        if strangers := [name for name in named if name not in order]:
+            raise InputError(f"{what}: values for {', '.join(order)} expected, {strangers[0]} found")
+        return named
     values = by_place(value, what)
     if len(values) != len(order):
         raise InputError(f"{what}: values for {', '.join(order)} expected, {len(values)} found")

@@ -41,6 +41,10 @@ class ParseError(InputError):
         super().__init__(f"{source}:{line}:{column}: {message}{tail}")
 
 
+class DoubtfulInput(UserWarning):
+    """A formula can be read, but it may not say what was meant: see ``qe.formula.doubts``. Nothing but a warning."""
+
+
 class NoTruthValue(InputError, TypeError):
     """Python asked whether something is true that is not a statement, or not one decided yet."""
 

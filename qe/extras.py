@@ -25,6 +25,8 @@ _EXTRAS = {
     "z3": "solvers",
 }
 """Module to extra, as ``pyproject.toml`` lists them."""
+_PARTS = {"markupsafe": "jinja2", "mpl_toolkits": "matplotlib"}
+"""Modules that come with others, which are those that people know."""
 
 
 def lacking(error: ImportError) -> Unable | None:
@@ -32,7 +34,8 @@ def lacking(error: ImportError) -> Unable | None:
     module = (error.name or "").split(".")[0]
     if module not in _EXTRAS:
         return None
-    return Unable(f"{module} is not installed; it comes with: pip install 'bezier-qe[{_EXTRAS[module]}]'")
+    known, extra = _PARTS.get(module, module), _EXTRAS[module]
+    return Unable(f"{known} is not installed; it comes with: pip install 'bezier-qe[{extra}]'")
 
 
 @contextmanager

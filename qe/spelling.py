@@ -27,7 +27,7 @@ KEYWORDS = frozenset(
 )
 """Words that mean something else in the text syntax."""
 
-CONSTANTS = frozenset(("pi", "Pi", "π", "e", "nan", "NaN"))
+CONSTANTS = frozenset(("pi", "Pi", "π", "nan", "NaN"))
 """Words that mathematics reads as numbers: the text syntax takes them as free variables only between backquotes."""
 
 _PLAIN = re.compile(WORD)
@@ -57,10 +57,22 @@ def visible(name: str) -> str:
     return "".join(c if c.isprintable() else f"\\u{{{ord(c):x}}}" for c in name)
 
 
-def glued(names: Iterable[str], letters: Collection[str]) -> str:
+def joined_names(names: Iterable[str], letters: Collection[str]) -> dict[str, str]:
+    """The names that look like products of different letters, one of ``letters`` among them, of which all but perhaps
+    one are names or ``letters`` themselves. Each with the product that may be meant: ``ax`` beside x with ``a*x``."""
+    known = {*names, *letters}
+    return {
+        name: "*".join(name)
+        for name in names
+        if len({*name} & known) >= len(name) - 1 > 0 and name.isalpha()
+        if name not in letters and not {*name}.isdisjoint(letters)
+    }
+
+
+def glued(names: Collection[str], letters: Collection[str]) -> str:
     """A hint where a name is made of others, as ``abc`` of the letters a, b and c: a product was meant."""
-    made = next((name for name in names if len(name) > 1 and all(letter in letters for letter in name)), None)
-    return "" if made is None else f" ({made} is one name; a product is written {'*'.join(made)})"
+    made = next(iter(joined_names(names, letters).items()), None)
+    return "" if made is None else f" ({made[0]} is one name; a product is written {made[1]})"
 
 
 def on_one_line(message: str) -> str:

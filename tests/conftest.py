@@ -15,6 +15,7 @@ import pytest
 from hypothesis import HealthCheck, settings
 
 from qe.processes import execution
+from tests.waiting import limit
 
 ROOT = Path(__file__).resolve().parent.parent
 
@@ -32,6 +33,20 @@ settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "ci"))
 
 FAR = 5.0
 """Seconds: a longer limit is there for a fault; that it is met is no part of the test."""
+
+
+LONGEST = 600.0
+"""Seconds that a test may take; tests marked ``deep`` are long on purpose, and have forty times as much."""
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_call(item: pytest.Item) -> Iterator[Any]:
+    """No wait is without a limit: what a test waits for may never come."""
+    with limit(LONGEST * (40 if item.get_closest_marker("deep") else 1)):
+        return (yield)
+
+
+pytest_runtest_setup = pytest_runtest_teardown = pytest_runtest_call
 
 
 @pytest.fixture(autouse=True, scope="module")

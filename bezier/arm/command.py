@@ -11,7 +11,7 @@ from typing import Any
 from bezier.arm import path_report
 from bezier.arm.choices import Arc, Choice, Edge, spans
 from bezier.arm.evidence import certificates
-from bezier.arm.inverse import Inverse, Solution, solve
+from bezier.arm.inverse import MOST_BITS, Inverse, Solution, separated, solve
 from bezier.arm.inverse_evidence import inverse_certificate
 from bezier.arm.joint_path import joint_path
 from bezier.arm.model import Arm, Joint, Motion
@@ -25,6 +25,8 @@ from qe.processes.worker import Channel
 from qe.proof.certificate import Certificate
 
 DIGITS = 15
+FURTHER = 6
+"""Decimal places more, again and again, while two solutions print alike."""
 MOST_FOR_A_POINT = 3
 """Joints that a point alone can determine."""
 
@@ -86,7 +88,7 @@ def to_json(found: Inverse) -> dict[str, Any]:
         "reachable": found.is_reachable,
         "free": list(found.free),
         "special": list(found.cases),
-        "solutions": [_solution(found.arm, s) for s in found.solutions],
+        "solutions": [_solution(found.arm, s) for s in separated(found).solutions],
     }
 
 
@@ -147,19 +149,30 @@ def in_words(found: Inverse) -> list[str]:
         lines.append(f"infinitely many solutions, {', '.join(found.free)} free; {_families(found)}")
     else:
         lines.append(f"{len(found.solutions)} solution{'s' if len(found.solutions) != 1 else ''} (proved), in rad:")
-    for k, solution in enumerate(found.solutions, start=1):
-        parts = [
-            f"{joint.name} follows" if value is None else f"{joint.name} = {_told(value)}"
-            for joint, value in zip(found.arm.joints, solution.values, strict=True)
-        ]
-        for choice in solution.choices:
-            joint = found.arm.joints[choice.joint]
-            parts[choice.joint] = f"{joint.name} {_range(joint, choice)}"
+    found, further = separated(found), 0
+    while True:
+        told = [_positions(found.arm, solution, further) for solution in found.solutions]
+        if len({*told}) == len(told) or found.free or further > MOST_BITS:
+            break
+        further += FURTHER
+    for k, (solution, positions) in enumerate(zip(found.solutions, told, strict=True), start=1):
         notes = ["two solutions meet"] * solution.multiple + ["outside the limits of the joints"] * (
             not solution.allowed
         )
-        lines.append(f"  {k}. " + ", ".join(parts) + (f"  [{'; '.join(notes)}]" if notes else ""))
+        lines.append(f"  {k}. {positions}" + (f"  [{'; '.join(notes)}]" if notes else ""))
     return lines
+
+
+def _positions(arm: Arm, solution: Solution, further: int) -> str:
+    """The joints of one solution, with so many further decimal places."""
+    parts = [
+        f"{joint.name} follows" if value is None else f"{joint.name} = {_told(value, further)}"
+        for joint, value in zip(arm.joints, solution.values, strict=True)
+    ]
+    for choice in solution.choices:
+        joint = arm.joints[choice.joint]
+        parts[choice.joint] = f"{joint.name} {_range(joint, choice)}"
+    return ", ".join(parts)
 
 
 def _families(found: Inverse) -> str:
@@ -190,6 +203,7 @@ def _between(low: float | None, high: float | None) -> str:
     return f"from {low:.9f} to {high:.9f}"
 
 
-def _told(value: Value) -> str:
-    number = float(value)
-    return f"{number:.9f} mm" if value.pair is None else f"{number:.12f} ({degrees(number):.4f}°)"
+def _told(value: Value, further: int) -> str:
+    if value.pair is None:
+        return f"{value.fixed(9 + further)} mm"
+    return f"{value.fixed(12 + further)} ({degrees(float(value)):.4f}°)"

@@ -25,7 +25,8 @@ _BINARY: dict[type[ast.operator], Callable[[Any, Any], Any]] = {
 
 
 def read_exact(text: str) -> Exact:
-    """The number that the text stands for. Raises ``InputError``."""
+    """The number that the text stands for, also with the minus sign of printed pages. Raises ``InputError``."""
+    text = text.replace("−", "-")
     try:
         return parse(text)
     except NotANumber as error:

@@ -8,9 +8,10 @@ one solution.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import lru_cache, partial
+from itertools import combinations
 from numbers import Integral
 from typing import Any
 
@@ -32,6 +33,9 @@ Reductions = Callable[[int], Reduction]
 
 LARGEST = 10**100
 """Coordinates in mm: larger ones have no decimal that a float holds."""
+
+MOST_BITS = 4096
+"""Balls are made no narrower than 2^-4096 to tell solutions from each other."""
 
 NAMES = ("w", "x", "y", "z", "t", "m")
 
@@ -55,6 +59,10 @@ class Solution:
     def angles(self) -> tuple[float | None, ...]:
         """The angles (rad), and the lengths (mm) of joints that slide."""
         return tuple(None if value is None else float(value) for value in self.values)
+
+    def may_be(self, other: Solution) -> bool:
+        """Whether the balls of both leave it open that they are the same."""
+        return all(a and b and a.meets(b) for a, b in zip(self.values, other.values, strict=True))
 
     def refined(self, joint: int, bits: int) -> Value | None:
         """The value of a joint with intervals at most about 2^-bits wide."""
@@ -87,6 +95,20 @@ class Inverse:
     def is_reachable(self) -> bool:
         """Whether there is a solution."""
         return bool(self.solutions)
+
+
+def separated(found: Inverse) -> Inverse:
+    """The same with balls so narrow that no two solutions share those of all joints, as far as ``MOST_BITS`` go.
+
+    Different solutions differ in the cosine, the sine or the length of a joint. Families stay as they are.
+    """
+    solutions, bits = found.solutions, BITS
+    while bits < MOST_BITS and not found.free and any(a.may_be(b) for a, b in combinations(solutions, 2)):
+        bits *= 2
+        solutions = tuple(
+            replace(one, values=tuple(one.refined(k, bits) for k in range(len(one.values)))) for one in solutions
+        )
+    return replace(found, solutions=solutions)
 
 
 def solve(arm: Arm, point: Sequence[Any]) -> Inverse:

@@ -31,6 +31,17 @@ class Value:
         """An interval around the angle or the length."""
         return self.ball.ends
 
+    def fixed(self, places: int) -> str:
+        """The angle or the length with so many decimal places."""
+        digits = round(sum(self.ends) / 2 * 10**places)
+        whole, part = divmod(abs(digits), 10**places)
+        return f"{'-' if digits < 0 else ''}{whole}.{part:0{places}d}"
+
+    def meets(self, other: Value) -> bool:
+        """Whether the balls leave it open that both are the same: those of cosine and sine, or of the length."""
+        pairs = zip(self.pair or (self.ball,), other.pair or (other.ball,), strict=True)
+        return all(a.ends[0] <= b.ends[1] and b.ends[0] <= a.ends[1] for a, b in pairs)
+
     @property
     def cosine(self) -> Ends | None:
         """An interval around the cosine; None for a length."""

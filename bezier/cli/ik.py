@@ -38,7 +38,7 @@ def ik(
     timeout: Timeout = None,
     memory: Memory = None,
 ) -> int:
-    """All real joint positions that put the end effector of ARM at the point (X, Y, Z); -- before negative numbers."""
+    """All real joint positions that put the end effector of ARM at the point (X, Y, Z)."""
     from bezier.arm.command import inverse
     from bezier.arm.exact_text import read_exact
     from bezier.arm.reader import load_arm

@@ -3,8 +3,11 @@
 from paper_repro.claim import Claim
 from paper_repro.claims import (
     arm,
+    arm_points,
+    cited,
     conclusions,
     cubic,
+    cubic_existence,
     cubic_region,
     curves,
     heights,
@@ -19,6 +22,7 @@ from paper_repro.claims import (
 
 CLAIMS: tuple[Claim, ...] = (
     *introduction.CLAIMS,
+    *cited.CLAIMS,
     *workspace.CLAIMS,
     *curves.CLAIMS,
     *heights.CLAIMS,
@@ -26,9 +30,11 @@ CLAIMS: tuple[Claim, ...] = (
     *method_one_gaps.CLAIMS,
     *joins.CLAIMS,
     *cubic.CLAIMS,
+    *cubic_existence.CLAIMS,
     *cubic_region.CLAIMS,
     *quadratic.CLAIMS,
     *quadratic_gaps.CLAIMS,
     *conclusions.CLAIMS,
     *arm.CLAIMS,
+    *arm_points.CLAIMS,
 )

@@ -67,57 +67,6 @@ def equation_7() -> Iterator[Evidence]:
 
 
 @claim(
-    key="eq-7-always",
-    place="Section 4.2, formula (7)",
-    title="When does (7) have a solution?",
-    says="Finding $Q_1, Q_2$ that satisfy (7) is the problem to be solved; whether there are any is left open.",
-    verdict=Verdict.CORRECTED,
-    finding="Always: $Q_1 = Q_0$, $Q_2 = R_0$ is a solution for all points and the radius of the paper, since then "
-    "every control point is $Q_0$ or $R_0$. But this solution is of no use: the velocity at both joins is zero and "
-    "the path turns back there in a cusp. The objective avoids it only where the points to pass are nearer to $O$ than "
-    "$r$: if $\\|Q_0\\| = r$, every solution has $Q_1 = Q_0$ and stops there, whatever the objective, and likewise "
-    "$\\|R_0\\| = r$ forces $Q_2 = R_0$. With the radius of the paper this is so whenever a point to pass is the "
-    "farthest; a larger radius is needed then.",
-    rests_on=("radius-rule",),
-)
-def always_satisfiable() -> Iterator[Evidence]:
-    """The choice is put into (7) with letters for everything, and the sentence is decided for all points and radii. The
-    velocity and the direction at the joins follow from the control points. For $Q_0 = (-1,1)$, $R_0 = (1,1)$ the
-    optimum is computed with $r = \\sqrt 2$, their distance from $O$, and with $r = 2$."""
-    norms = " and ".join(" + ".join(f"{v}0{axis}^2" for axis in "xyz") + " <= r^2" for v in "qr")
-    block = ", ".join((*LETTERS["q0"], *LETTERS["r0"], "r"))
-    trivial = SEVEN.text("xyz", LETTERS, "r^2").replace("q1", "q0").replace("q2", "r0")
-    yield decided(
-        "for all $Q_0, R_0, r$ with norms at most $r$ this choice satisfies (7)", f"all {block}. {norms} -> ({trivial})"
-    )
-    some = SEVEN.satisfiable("xyz", LETTERS, "r^2")
-    yield decided(
-        "the engine finds this itself, when it is not told the choice", f"all {block}. {norms} and r >= 0 -> ({some})"
-    )
-    path = curves(PLANE, PLANE["q0"], PLANE["r0"], ENDS)
-    velocity = [c.derivative(1, t) for c, t in zip(path.values(), (1, 1, 0))]
-    yield Fact("the velocity at both joins is zero", all(not any(v) for v in velocity))
-    before, after = path["P"].derivative(2, 1), path["Q"].derivative(2, 0)
-    yield Fact(
-        "the second derivative there is not zero and equal on both sides, so the path reverses: a cusp",
-        before == after and any(after),
-    )
-    for square, stops in ((2, True), (4, False)):
-        found = qe.minimize(SEVEN.objective("xy", PLANE), SEVEN.substituted("xy", PLANE, square), method="convex")
-        q1, q2 = chosen(found, "xy")
-        stopped = (tuple(map(str, q1)), tuple(map(str, q2))) == (("-1", "1"), ("1", "1"))
-        said = "is this very choice" if stops else "is another one, without a stop at the joins"
-        yield Fact(
-            f"with $r^2 = {square}$ the optimum of (7) {said}, certificate accepted",
-            stopped is stops and qe.verify(found.certificate).accepted,
-        )
-    yield Picture(
-        "The solution $Q_1 = Q_0$, $Q_2 = R_0$: the curve doubles back on the segment from $Q_0$ to $R_0$.",
-        drawn_path(path, 1.5, "always possible, never wanted"),
-    )
-
-
-@claim(
     key="eq-7-choice",
     place="Section 4.2, after (7)",
     title="Choosing $Q_1$ and $Q_2$",
@@ -179,4 +128,4 @@ def active(found: qe.Optimum, radius_squared: Fraction) -> list[str]:
     return [name for name, p in inner.items() if is_zero(dot(p, p) - radius_squared)]
 
 
-CLAIMS = (equation_7, always_satisfiable, choice)
+CLAIMS = (equation_7, choice)

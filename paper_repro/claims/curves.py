@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
+from math import comb
 from typing import Any
 
 import sympy
@@ -86,6 +87,35 @@ def inner_points() -> Iterator[Evidence]:
     )
     points = ((0, 0), (1, 0), (1, 1), (2, -3))
     yield Fact("then $P(1/2) = P_1$", Bezier.of(points).point(Fraction(1, 2)) == (1, 0))
+
+
+@claim(
+    key="attracted",
+    place="Section 3, paragraph after Definition 1 (the pull)",
+    title="The curve is attracted by the control points",
+    says="The curve is attracted by its inner control points, as if they exerted a pull on it.",
+    verdict=Verdict.REPRODUCED,
+    finding="In this sense: if $P_i$ moves by a vector $V$, the point $P(t)$ moves by $\\beta_i(t) V$, in the same "
+    "direction and less far, for every $t$ in $(0,1)$; most at $t = i/n$. So no inner control point is without effect "
+    "anywhere on the open curve, and moving one changes all of it. Proved for $n = 2, \\dots, 5$; in general "
+    "$\\beta_i(t) = \\binom{n}{i} t^i (1-t)^{n-i}$ has the derivative $\\beta_i(t) (i - nt)/(t(1-t))$.",
+)
+def attracted() -> Iterator[Evidence]:
+    """One coordinate suffices. The coefficient of $P_i$ is positive and below 1 on $(0,1)$ and largest at $i/n$; that
+    it is the factor of $V$ is an identity in all control points."""
+    for n in range(2, 6):
+        points = names("p", n)
+        weights = [curve([int(k == i) for k in range(n + 1)]) for i in range(n + 1)]
+        moved = [curve([f"{p} + v" if k == i else p for k, p in enumerate(points)]) for i in range(n + 1)]
+        shifts = " and ".join(f"{moved[i]} = {curve(points)} + ({weights[i]})*v" for i in range(1, n))
+        text = f"$n = {n}$: moving $P_i$ by $V$ moves $P(t)$ by $\\beta_i(t) V$"
+        yield decided(text, f"all t, v, {', '.join(points)}. {shifts}")
+        pulls = " and ".join(
+            f"{w} > 0 and {w} < 1 and {w} <= {comb(n, i) * Fraction(i, n) ** i * Fraction(n - i, n) ** (n - i)}"
+            for i, w in enumerate(weights[1:-1], start=1)
+        )
+        text = f"$n = {n}$: $0 < \\beta_i(t) < 1$, and $\\beta_i(t) \\le \\beta_i(i/n)$, for all inner $i$"
+        yield decided(text, f"all t. 0 < t and t < 1 -> {pulls}")
 
 
 @claim(
@@ -214,4 +244,4 @@ def polyhedron_test() -> Iterator[Evidence]:
     yield Picture("A curve in the unit disc with a control point outside.", loose_hull(Bezier.of(points), 1.0))
 
 
-CLAIMS = (end_points, degree, inner_points, de_casteljau, locus, unisurf, convex_hull, polyhedron_test)
+CLAIMS = (end_points, degree, inner_points, attracted, de_casteljau, locus, unisurf, convex_hull, polyhedron_test)

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from fractions import Fraction
 
+from bezier.arm.route import natural_spline
 from bezier.curves.containment import Leaves, examine
-from bezier.curves.curve import Bezier, Smoothness, join
+from bezier.curves.curve import Smoothness, join
 from bezier.curves.workspace import Workspace, WorkspaceKind
 from paper_repro.ask import decided, eliminated
 from paper_repro.claim import Evidence, Fact, Picture, Table, Verdict, claim
@@ -46,7 +47,7 @@ def polyline() -> Iterator[Evidence]:
 def spline_leaves() -> Iterator[Evidence]:
     """The natural cubic spline through $(-5,0), (-4,3), (4,3), (5,0)$, all at distance 5 from $O$, is computed exactly
     and examined over the whole parameter interval."""
-    spans = natural_spline(STOPS)
+    spans = natural_spline([tuple(map(Fraction, stop)) for stop in STOPS])
     smooth = all(join(a, b).smoothness is Smoothness.C2 for a, b in itertools.pairwise(spans))
     free = all(c == 0 for c in (*spans[0].derivative(2, 0), *spans[2].derivative(2, 1)))
     yield Fact("the three cubic spans pass the points, join $C^2$, and have no curvature at the ends", smooth and free)
@@ -62,25 +63,6 @@ def spline_leaves() -> Iterator[Evidence]:
     yield Picture(
         "The spline bulges over the boundary of the half-disc near its ends.", spline_outside(spans, 5, outcome.point)
     )
-
-
-def natural_spline(stops: Sequence[Sequence[int]]) -> list[Bezier]:
-    """The natural cubic spline through four points, one unit of parameter per span, as Bézier curves."""
-    columns = [_natural([Fraction(c) for c in column]) for column in zip(*stops)]
-    return [Bezier(tuple(zip(*spans))) for spans in zip(*columns)]
-
-
-def _natural(f: Sequence[Fraction]) -> list[tuple[Fraction, ...]]:
-    """One coordinate: second derivatives m with m_(i-1) + 4 m_i + m_(i+1) = 6 (f_(i-1) - 2 f_i + f_(i+1)), 0 at the
-    ends."""
-    left, right = (6 * (f[i - 1] - 2 * f[i] + f[i + 1]) for i in (1, 2))
-    m = (Fraction(0), (4 * left - right) / 15, (4 * right - left) / 15, Fraction(0))
-    spans: list[tuple[Fraction, ...]] = []
-    for i in range(3):
-        rise = f[i + 1] - f[i]
-        begin, end = rise - (2 * m[i] + m[i + 1]) / 6, rise + (m[i] + 2 * m[i + 1]) / 6
-        spans.append((f[i], f[i] + begin / 3, f[i + 1] - end / 3, f[i + 1]))
-    return spans
 
 
 CLAIMS = (polyline, spline_leaves)

@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 from fractions import Fraction
 
+import qe
 from bezier.curves.containment import Inside, Leaves, examine, examine_all
 from bezier.curves.curve import Bezier
 from bezier.curves.workspace import Ball, Workspace, WorkspaceKind
 from bezier.input.task import Axis, task
 from bezier.methods.single import program as single
 from bezier.methods.single.closed import ProvedCurve, close
-from paper_repro.ask import decided, optimised, verified
+from paper_repro.ask import decided, eliminated, optimised, verified
 from paper_repro.claim import Evidence, Fact, Picture, Table, Verdict, claim
 from paper_repro.claims.method_one import STARTED, A, B, N, Y, four, placed
 from paper_repro.figures.curves import dip as drawn_dip
@@ -156,4 +157,51 @@ def closed() -> Iterator[Evidence]:
     yield Fact("it keeps the heights for all $t$ in $[t_a, t_b]$", not single.dips(given, found.curve))
 
 
-CLAIMS = (dips, bulge, leaves, closed)
+PLACED = ((Fraction(2, 5), Fraction(3, 5)), (Fraction(3, 5), Fraction(9, 10)), (Fraction(9, 10), Fraction(19, 20)))
+
+
+@claim(
+    key="method-1-flexible",
+    place="Section 4.1, last paragraph (the advantage)",
+    title="The curve can be flexibly designed according to the obstacles",
+    says="The curve can be flexibly designed according to the position and the size of the obstacles.",
+    verdict=Verdict.CORRECTED,
+    finding="With the degree as a free choice it can; with a given degree it cannot. For $n = 3$ on $[0, 1]$ with ends "
+    "at height 0, (4) has a solution exactly if $a^2 (1 - a) \\le b^2 (1 - b)$, whatever the height: an obstacle near "
+    "the end of the path, such as $[3/5, 9/10]$, cannot be passed. There the least degree is 6, for $[9/10, 19/20]$ it "
+    "is 14. The nearer the obstacle is to an end, the larger degree and bulge. Height is no limit where both ends lie "
+    "at height 0, since (4) then scales with $h$; the feasible region is one (see the entries around this one).",
+    rests_on=("index-condition", "eq-4"),
+)
+def flexible() -> Iterator[Evidence]:
+    """For $n = 3$ the inner ordinates are eliminated with letters for $a$, $b$, $h$. For three intervals the exact
+    linear program is solved for $n = 3, 4, \\dots$ until (4) has a solution; a refusal has multipliers as proof."""
+    where = "1/3 < a and a <= 2/3 and 2/3 <= b and b < 1 and a < b and h > 0"
+    meets = " and ".join(f"{curve(['0', 'y1', 'y2', '0'], v)} = h" for v in "ab")
+    yield eliminated(
+        "$n = 3$, $y_0 = y_3 = 0$: (4) has a solution exactly if",
+        f"{where} and (ex y1, y2. {meets} and y1 >= 0 and y2 >= h)",
+        f"{where} and a^2*(1 - a) <= b^2*(1 - b)",
+    )
+    rows, least = [], []
+    raised = (Axis("y", Fraction(0), Fraction(0), Fraction(1)),)
+    for interval in PLACED:
+        refuted = []
+        for n in range(3, 20):
+            try:
+                given = task(n, (Fraction(0), Fraction(1)), interval, raised)
+            except qe.InputError:  # no indices p and q for this degree
+                continue
+            found = single.choose(given, given.axes[0]).values
+            if found is not None:
+                break
+            refuted.append(str(n))
+        assert found is not None
+        least.append(n)
+        top = f"{float(max(found)):.2f}"
+        rows.append((f"[{interval[0]}, {interval[1]}]", ", ".join(refuted) or "none", str(n), top))
+    yield Table(("obstacle", "degrees with indices, without solution", "least degree", "greatest ordinate"), rows)
+    yield Fact("the least degrees are 4, 6, 14", least == [4, 6, 14])
+
+
+CLAIMS = (dips, bulge, leaves, flexible, closed)

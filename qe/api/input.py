@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import sys
+import warnings
 from collections.abc import Container, Iterable
 from decimal import Decimal
 from fractions import Fraction
@@ -9,7 +11,7 @@ from numbers import Real
 from typing import TYPE_CHECKING, Any
 
 from qe import arguments
-from qe.errors import InputError
+from qe.errors import DoubtfulInput, InputError
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import conj, convert
 from qe.formula.syntax import TRUE, Constant, Exists, ForAll, Formula
@@ -48,6 +50,29 @@ def read_formula(given: AnyFormula, format: str = "text", total_division: bool =
     from qe.io.sympy import from_sympy
 
     return from_sympy(given)
+
+
+def note_doubts(given: AnyFormula, formula: Formula, format: str = "text") -> None:
+    """Warn of what may have been meant otherwise in what was given and read as this formula (``DoubtfulInput``).
+
+    A ``Formula`` or an answer was made or read before.
+    """
+    from qe.formula.doubts import doubts
+    from qe.io import formats
+
+    if isinstance(given, Formula | Answer):
+        return
+    text = "\n".join(part for part in (given if isinstance(given, list | tuple) else [given]) if isinstance(part, str))
+    warned(doubts(formula, text, formats.checked(format).value if text else ""))
+
+
+def warned(notes: Iterable[str]) -> None:
+    """Warn of these notes, at the line outside this package that called it."""
+    if message := "; ".join(notes):
+        frame, level = sys._getframe(), 1
+        while frame.f_back is not None and str(frame.f_globals.get("__name__")).partition(".")[0] == "qe":
+            frame, level = frame.f_back, level + 1
+        warnings.warn(message, DoubtfulInput, stacklevel=level)
 
 
 def read_block(given: AnyFormula, format: str = "text", total_division: bool = False) -> Formula:
@@ -151,10 +176,12 @@ def read_objective(given: AnyFormula, taken: Iterable[str]) -> Objective:
 
 __all__ = [
     "AnyFormula",
+    "note_doubts",
     "read_block",
     "read_constraints",
     "read_formula",
     "read_objective",
     "read_polynomial",
     "together",
+    "warned",
 ]

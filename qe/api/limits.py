@@ -9,7 +9,7 @@ from importlib import import_module
 from typing import TypeVar
 
 from qe import arguments
-from qe.api.input import AnyFormula, read_formula
+from qe.api.input import AnyFormula, note_doubts, read_formula
 from qe.errors import InputError
 from qe.formula.syntax import Formula
 from qe.formula.weight import may_block, text_may_block
@@ -73,6 +73,7 @@ def reading(
     total = arguments.flag(total_division, "total_division")
     found = read_under(limits, lambda: reader(formula, format, total), formula)
     refuse_shared(found)
+    note_doubts(formula, found, format)
     return found
 
 

@@ -8,7 +8,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Literal, overload
 
 from qe import arguments
-from qe.api.input import AnyFormula, read_constraints, read_objective
+from qe.api.input import AnyFormula, note_doubts, read_constraints, read_objective, warned
 from qe.api.limits import Progress, limits_of, performed, read_under
 from qe.errors import InputError
 from qe.options import Budget
@@ -82,6 +82,7 @@ def minimize(
     "convex" or "elimination" takes that way only.
     ``parameters``: variables that are not optimised over; the answer is a ``ParametricOptimum``: value and points as
     functions of them.
+    That there is no optimum is an answer too: ``status`` says ``UNBOUNDED`` or ``INFEASIBLE``, and ``value`` is None.
     With ``check`` its certificate is verified: ``guarantee`` is ``CHECKED``, or ``reason`` says why not; an elimination
     comes with its derivation (``answer``).
     Raises ``Unable`` where no proof was found, ``BudgetExceeded`` at a limit; see ``eliminate`` for the limits.
@@ -153,6 +154,7 @@ def _best(
 ) -> Optimum | GlobalOptimum | ParametricOptimum:
     """The optimum of a convex problem by its method, of any other by elimination."""
     from qe.convex.optimum import NotConvex, maximize, minimize
+    from qe.formula.doubts import numbers_as_names
     from qe.formula.traverse import ring_of
     from qe.optimization.values import Goal
 
@@ -162,6 +164,10 @@ def _best(
     ring = ring_of(conditions)
     taken = (*(ring.names if ring is not None else ()), *(given or ()))
     term = read_under(limits, lambda: read_objective(objective, taken), objective)
+    note_doubts(constraints, conditions)
+    if isinstance(objective, str):
+        alone = [name for name in term.names if name not in conditions.free]
+        warned(numbers_as_names(alone, objective, (*term.names, *taken)))
     if not isinstance(method, str) or method not in ("auto", "convex", "elimination"):
         raise arguments.wrong("method", "auto, convex or elimination", method)
     if given is not None and method == "convex":

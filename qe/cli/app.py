@@ -27,8 +27,6 @@ app = typer.Typer(
     rich_markup_mode=None,
     help="Exact real quantifier elimination. FORMULA is text ('ex x. x^2 + b*x + c = 0'), a file, or - for stdin.",
 )
-# A formula may begin with a minus sign; it is not an option then.
-_LENIENT = {"ignore_unknown_options": True}
 
 Formula = Annotated[str, typer.Argument(metavar="FORMULA|FILE|-", show_default=False)]
 InputFormat = Annotated[
@@ -87,7 +85,6 @@ def whole(
 
 
 @app.command(
-    context_settings=_LENIENT,
     short_help="A quantifier-free formula equivalent to FORMULA.",
     epilog=examples('qe eliminate "ex x. x^2 + b*x + c = 0"', 'qe eliminate "all x. x^2 >= a*x" --explain'),
 )
@@ -122,7 +119,6 @@ def eliminate(
 
 
 @app.command(
-    context_settings=_LENIENT,
     short_help="Whether a sentence is true, a script satisfiable.",
     epilog=examples('qe decide "all x. ex y. y^3 = x"'),
 )
@@ -151,7 +147,6 @@ def decide(
 
 
 @app.command(
-    context_settings=_LENIENT,
     short_help="The set of points that satisfy FORMULA.",
     epilog=examples('qe region "x^2 + y^2 <= 4 and y >= x" --plot region.png'),
 )
@@ -178,7 +173,6 @@ def region(
 
 
 @app.command(
-    context_settings=_LENIENT,
     short_help="All solutions of FORMULA, case by case.",
     epilog=examples('qe solve "x^2 + y^2 = 1 and x >= y" --variables x,y'),
 )
@@ -205,7 +199,6 @@ def solve(
 
 
 @app.command(
-    context_settings=_LENIENT,
     short_help="The exact least value under CONSTRAINTS.",
     epilog=examples('qe minimize "x + y" "x^2 + y^2 <= 1"'),
 )
@@ -285,7 +278,6 @@ def export_proof(
 
 
 @app.command(
-    context_settings=_LENIENT,
     short_help="FORMULA in another format.",
     epilog=examples('qe convert "ex x. x^2 = a" --output smtlib'),
 )

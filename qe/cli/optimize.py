@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import json
 import time
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from qe.cli.numbers import exact_and_decimal, shown
 from qe.cli.work import Reply, Request, certificate_text, read_formula
-from qe.errors import Unable
+from qe.exact.number import point_text
 from qe.processes.worker import Channel
+from qe.proof.multipliers import OptimumStatus
 from qe.spelling import quoted
 
 if TYPE_CHECKING:
@@ -41,35 +43,38 @@ def optimize(channel: Channel, request: Request, goal: Goal) -> Reply:
     best: Optimum | GlobalOptimum | ParametricOptimum = solve(goal.objective, constraints, **asked)
     files: dict[str, str | bytes] = {"certificate": certificate_text(best)} if request.certificate else {}
     if isinstance(best, ParametricOptimum):
-        data, lines = {"status": "optimal", **best.to_dict()}, str(best).splitlines()
-    elif best.value is None:
-        raise Unable(f"{best.status.name.lower()}: no {'greatest' if goal.maximize else 'least'} value")
+        status = OptimumStatus.OPTIMAL if best.cases else OptimumStatus.INFEASIBLE
+        data, lines = {"status": status.value, **best.to_dict()}, str(best).splitlines()
     else:
-        data, lines = _data(best), _lines(best)
+        data, lines = _data(best), _lines(best, "greatest" if goal.maximize else "least")
     seconds = time.perf_counter() - start
     if request.json:
         return Reply(json.dumps({**data, "seconds": round(seconds, 6)}, indent=2, ensure_ascii=False), files=files)
-    how = "proved optimal" if best.certificate is not None and not best.reason else "found"
+    how = f"proved {data['status']}" if best.certificate is not None and not best.reason else "found"
     return Reply("\n".join([*lines, f"{how} in {seconds:.3f} s"]), files=files)
 
 
 def _data(best: Optimum | GlobalOptimum) -> dict[str, Any]:
-    """One optimum for machines; what only convex problems have is empty for others."""
+    """One optimum for machines; what only convex problems have is empty for others.
+
+    Where no point meets the constraints there is none to show, and no direction where there is an optimum.
+    """
     from qe.convex.optimum import Optimum
 
     data: dict[str, Any] = {
-        "status": best.status.name.lower(),
-        "value": exact_and_decimal(best.value),
-        "point": {name: exact_and_decimal(value) for name, value in best.point.items()},
+        "status": best.status.value,
+        "value": None if best.value is None else exact_and_decimal(best.value),
+        "point": {} if best.status is OptimumStatus.INFEASIBLE else _exact(best.point),
         "attained": best.attained,
     }
     if not isinstance(best, Optimum):
-        points = [{name: exact_and_decimal(value) for name, value in p.items()} for p in best.points] or None
+        points = [_exact(point) for point in best.points] or None
         return {
             **data,
             "active": [],
             "unique": None,
             "multipliers": [],
+            "direction": {},
             "minimisers": str(best.minimisers),
             "points": points,
         }
@@ -78,12 +83,25 @@ def _data(best: Optimum | GlobalOptimum) -> dict[str, Any]:
         "active": [best.constraints[i] for i in best.active],
         "unique": best.unique,
         "multipliers": [exact_and_decimal(value) for value in best.multipliers],
+        "direction": _exact(best.direction) if best.status is OptimumStatus.UNBOUNDED else {},
     }
 
 
-def _lines(best: Optimum | GlobalOptimum) -> list[str]:
+def _exact(point: Mapping[str, object]) -> dict[str, dict[str, str]]:
+    return {name: exact_and_decimal(value) for name, value in point.items()}
+
+
+def _lines(best: Optimum | GlobalOptimum, extreme: str) -> list[str]:
+    """One optimum for people; ``extreme``: the least or greatest value was asked for."""
     from qe.convex.optimum import Optimum
 
+    if best.status is OptimumStatus.INFEASIBLE:
+        return ["infeasible: no point meets the constraints"]
+    if best.status is OptimumStatus.UNBOUNDED:
+        lines = [f"unbounded: there is no {extreme} value"]
+        if isinstance(best, Optimum):
+            lines.append(f"without an end from {point_text(best.point)} along {point_text(best.direction)}")
+        return lines
     lines = [f"value {shown(best.value)}"]
     several = () if isinstance(best, Optimum) or len(best.points) < 2 else best.points
     for point in several:

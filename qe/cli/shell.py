@@ -14,7 +14,10 @@ import sys
 import tempfile
 import threading
 import time
-from collections.abc import Callable, Sequence
+import warnings
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 from types import FrameType, TracebackType
 from typing import Any, TextIO, TypeVar
@@ -22,10 +25,10 @@ from typing import Any, TextIO, TypeVar
 import typer
 from typer.main import get_command
 
-from qe.cli.values import take_plain_values
-from qe.errors import CertificateRejected, InputError, QEError, Unable
+from qe.cli.values import take_leading_minus, take_plain_values
+from qe.errors import CertificateRejected, DoubtfulInput, InputError, QEError, Unable
 from qe.extras import lacking
-from qe.processes.worker import GRACE, Channel, WorkerDied, WorkerStopped, run
+from qe.processes.worker import GRACE, Channel, Known, WorkerDied, WorkerStopped, run
 from qe.progress import Event
 
 T = TypeVar("T")
@@ -41,6 +44,8 @@ _PREFIX = {
 
 DISPLAY_AFTER = 0.4
 """Seconds before a progress display appears: quick answers stay quiet."""
+NOTE = "note"
+"""The fact under which a worker tells what may have been meant otherwise."""
 LINES_APART = 2.0
 """Seconds between two lines of progress where there is no terminal."""
 
@@ -55,6 +60,7 @@ def enter(app: typer.Typer, argv: Sequence[str] | None, *, name: str) -> int:
     _open_streams()
     command: Any = get_command(app)
     take_plain_values(command)
+    take_leading_minus(command)
     words = sys.argv[1:] if argv is None else argv
 
     def told(status: str, message: str, code: int) -> int:
@@ -64,21 +70,21 @@ def enter(app: typer.Typer, argv: Sequence[str] | None, *, name: str) -> int:
             return _unheard(name, lost)
         return fail(name, _PREFIX.get(status, "") + message, code)
 
+    if misspelt := _misspelt(command, words):
+        return told("input_error", f"{misspelt} (see {name} --help)", BAD_INPUT)
     before = _raising_at_termination()
     try:
-        code = command.main(args=None if argv is None else list(argv), prog_name=name, standalone_mode=False)
+        with _doubts_noted(name, wanted="--plain" not in words):
+            code = command.main(args=None if argv is None else list(argv), prog_name=name, standalone_mode=False)
         sys.stdout.flush()
         if code == INTERRUPTED:  # typer has taken the interrupt for itself
             raise KeyboardInterrupt
         return int(code or OK)
     except typer.TyperException as error:
         message = error.format_message().replace("Value error, ", "").rstrip(".")
-        message = _misspelt(command, words) or message
         return told("input_error", f"{message} (see {name} --help)", BAD_INPUT)
     except QEError as error:
-        unknown = str(error).startswith("no such option")
-        misspelt = _misspelt(command, words) if unknown else ""
-        return told(*(("input_error", misspelt, BAD_INPUT) if misspelt else _failure(error)))
+        return told(*_failure(error))
     except (KeyboardInterrupt, typer.Abort):
         return told("interrupted", "interrupted", INTERRUPTED)
     except _Terminated:
@@ -146,18 +152,42 @@ def _put(data: dict[str, object]) -> OSError | None:
     return None
 
 
+@contextmanager
+def _doubts_noted(name: str, *, wanted: bool) -> Iterator[None]:
+    """Within, what may have been meant otherwise is noted on stderr, each time in a line of its own."""
+    shown = warnings.showwarning
+
+    def note(message: Warning | str, category: type[Warning], *place: Any, **more: Any) -> None:
+        if issubclass(category, DoubtfulInput):
+            fail(name, f"note: {message}", OK)
+        else:
+            shown(message, category, *place, **more)
+
+    with warnings.catch_warnings():
+        warnings.showwarning = note
+        warnings.simplefilter("always" if wanted else "ignore", DoubtfulInput)
+        yield
+
+
 def _misspelt(command: Any, words: Sequence[str]) -> str:
     """The first word that looks like an option and is none, with the nearest one that there is; "" without one."""
-    from difflib import get_close_matches
+    from itertools import takewhile
 
-    commands = [command, *getattr(command, "commands", {}).values()]
-    known = {option for one in commands for parameter in one.params for option in parameter.opts} | {"--help"}
-    for word in words:
+    known = {"--help", *_options(command)}
+    for word in takewhile(lambda word: word != "--", words):
         option = word.split("=")[0]
-        if option.startswith("--") and len(option) > 2 and option not in known and " " not in option:
+        if option.startswith("--") and option not in known and " " not in option:
+            from difflib import get_close_matches
+
             near = get_close_matches(option, sorted(known), 1)
             return f"no such option: {option}" + (f"; did you mean {near[0]}?" if near else "")
     return ""
+
+
+def _options(command: Any) -> set[str]:
+    """The options of a command and of those inside it."""
+    inner = (_options(one) for one in getattr(command, "commands", {}).values())
+    return {name for one in command.params for name in (*one.opts, *one.secondary_opts)}.union(*inner)
 
 
 def _open_streams() -> None:
@@ -270,9 +300,27 @@ def limited(
 
     The time limit is the user's, for the whole command: what start-up has taken of it is gone.
     """
-    grace = 0.0 if timeout is None else remaining(timeout) - timeout + GRACE
+    grace, known = 0.0 if timeout is None else remaining(timeout) - timeout + GRACE, Known()
     with Display(wanted=not plain, lines=lines) as display:
-        return run(work, timeout=timeout, memory=memory, progress=display, grace=grace)
+        work = partial(_with_doubts, work)
+        done = run(work, timeout=timeout, memory=memory, progress=display, known=known, grace=grace)
+    if NOTE in known.facts:
+        warnings.warn(str(known.facts[NOTE]), DoubtfulInput, stacklevel=2)
+    return done
+
+
+def _with_doubts(work: Callable[[Channel], T], channel: Channel) -> T:
+    """The work, with the channel told of the doubts that it warns of: a worker has no stderr."""
+    doubts: list[str] = []
+
+    def tell(message: Warning | str, category: type[Warning], *place: Any, **more: Any) -> None:
+        if issubclass(category, DoubtfulInput):
+            doubts.append(str(message))
+            channel.fact(NOTE, "; ".join(doubts))
+
+    with warnings.catch_warnings():
+        warnings.showwarning = tell
+        return work(channel)
 
 
 def remaining(timeout: float) -> float:

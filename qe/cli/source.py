@@ -46,8 +46,6 @@ def read_source(argument: str, wanted: Format | None) -> Source:
         if len(given) > MOST_BYTES:
             raise InputError(f"<stdin>: at most {MOST_BYTES:,} characters expected, more found")
         return Source(given.removeprefix("\ufeff"), wanted or Format.TEXT, "<stdin>")
-    if argument.startswith("--"):
-        raise InputError(f"no such option: {argument.split('=')[0]}")
     path = Path(argument)
     if is_file(path):
         return Source(read_text(path), wanted or BY_ENDING.get(path.suffix.lower(), Format.TEXT), argument)

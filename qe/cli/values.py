@@ -1,4 +1,5 @@
-"""Values of a command line that are taken as they are, without the library by which typer converts the others."""
+"""Values of a command line that are taken as they are: with a minus sign in front, and without the library by which
+typer converts the others."""
 
 from __future__ import annotations
 
@@ -14,6 +15,16 @@ from qe import arguments
 
 _NATURAL = re.compile(r"0|[1-9][0-9]{0,14}")
 _DECIMAL = re.compile(r"[0-9]{1,9}(\.[0-9]{1,9})?")
+
+
+def take_leading_minus(command: Any) -> None:
+    """Let a command, and those inside it, take ``-5`` and ``-x^2`` for what they are: no options, which have two minus
+    signs (or are one letter that the command knows)."""
+    inner = getattr(command, "commands", {})
+    for one in inner.values():
+        take_leading_minus(one)
+    if not inner:
+        command.context_settings["ignore_unknown_options"] = True
 
 
 def take_plain_values(command: Any) -> None:

@@ -65,12 +65,21 @@ class Request:
         }
 
 
-def read_formula(channel: Channel, source: Source) -> Formula:
-    """The formula of a source; its size is the first thing to be known about the run."""
+def read_formula(channel: Channel, source: Source, *, is_sentence: bool = False) -> Formula:
+    """The formula of a source; its size is the first thing to be known about the run.
+
+    Raises ``InputError`` for free variables where a sentence is expected.
+    """
+    from qe.api.input import note_doubts
     from qe.formula.features import features
+    from qe.formula.traverse import bound_variables
     from qe.io import formats
 
     formula = formats.read(source.text, source.format.value, source=source.name, total_division=source.total_division)
+    if is_sentence and (free := formula.free):
+        names = ", ".join(free) + glued(free, bound_variables(formula))
+        raise InputError(f"{source.name}: a sentence expected, but free here: {names} (use qe eliminate)")
+    note_doubts(source.text, formula, source.format.value)
     size = features(formula)
     channel.fact(
         "formula",
@@ -125,16 +134,12 @@ def _partial_reply(answer: Answer, partial: Partial, request: Request, output: F
 def decide(channel: Channel, request: Request) -> Reply:
     """``qe decide``: a sentence is true or false; an SMT-LIB script, whose constants are existential, sat or unsat."""
     import qe.api.eliminate as api
-    from qe.formula import build, traverse
+    from qe.formula import build
 
-    formula = read_formula(channel, request.source)
-    free = formula.free
     script = request.source.format is Format.SMTLIB
-    if free and not script:
-        names = ", ".join(free) + glued(free, traverse.bound_variables(formula))
-        raise InputError(f"{request.source.name}: a sentence expected, but free here: {names} (use qe eliminate)")
+    formula = read_formula(channel, request.source, is_sentence=not script)
     start = time.perf_counter()
-    answer = api.eliminate(build.exists(free, formula), **request.keywords(channel))
+    answer = api.eliminate(build.exists(formula.free, formula), **request.keywords(channel))
     seconds = time.perf_counter() - start
     if answer.truth is None:
         raise Unable(answer.reason or "no answer")

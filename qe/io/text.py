@@ -18,7 +18,7 @@ from qe.formula.syntax import Formula, Relation
 from qe.io.grammar import Failing, parse
 from qe.io.lowering import lower, lower_term
 from qe.io.surface import Comparison, Meet, Name, Quantification, Term
-from qe.io.text_parser import text_parser
+from qe.io.text_parser import is_latex, text_parser
 from qe.io.total import Total
 from qe.spelling import CONSTANTS as CONSTANTS
 
@@ -26,8 +26,8 @@ from qe.spelling import CONSTANTS as CONSTANTS
 def read(text: str, *, source: str = "<text>", known: Container[str] = (), total_division: bool = False) -> Formula:
     """The formula that ``text`` means. ``source`` names the text in messages.
 
-    ``pi`` and ``e`` are no numbers here: as free variables they are refused unless they stand between backquotes
-    or are ``known`` to be variables (for texts that programs wrote). A quotient has no value where its denominator is
+    ``pi`` is no number here: as a free variable it is refused unless it stands between backquotes or is ``known`` to be
+    a variable (for texts that programs wrote); in LaTeX so is ``e``. A quotient has no value where its denominator is
     zero; with ``total_division`` it has one there that nothing is known of, as in SMT-LIB, and the formula holds if it
     holds for some choice of these values. Raises ``ParseError``, one line with line, column and what was expected.
     """
@@ -65,8 +65,10 @@ def outermost(text: str) -> tuple[bool, tuple[str, ...]] | None:
 
 
 def _no_constants(fail: Failing, known: Container[str]) -> Meet:
+    refused = {*CONSTANTS, "e"} if is_latex(fail.text) else CONSTANTS
+
     def meet(name: str, at: int) -> None:
-        if name in CONSTANTS and name not in known and not fail.text.startswith("`", at):
+        if name in refused and name not in known and not fail.text.startswith("`", at):
             hint = f"put a rational number in its place, or write `{name}` for a variable of that name"
             raise fail(f"{name} is no number here, coefficients are rational; {hint}", at)
 

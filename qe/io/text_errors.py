@@ -122,6 +122,8 @@ def _hint(text: str, before: str, kind: str, value: str, at: int, expected: Coll
         return "':=' is not used here; an equation is written with one ="
     if previous == "(" and kind in ("AND", "OR", "NOT", "RELATION", "IMPLIES", "IFF", "TIMES", "OVER"):
         return "operators stand between what they join; a text in SMT-LIB is read with format smtlib"
+    if {"DOT", "PLUS"} <= {*expected} and kind in ("NAME", "NUMBER", "OPEN", "OPENBAR", "RADICAL", "NOT", "IF"):
+        return f"the condition of a quantifier ends with a dot, as in …{_last_word(before)}. {value}…"
     if kind in ("NAME", "NUMBER", "OPEN", "OPENBAR", "RADICAL") and behind_a_term and "\n" in text[len(before) : at]:
         return "the conditions of several lines are joined by and, or stand in braces {…, …}"
     if kind in ("NAME", "NUMBER", "OPEN", "OPENBAR", "RADICAL") and behind_a_term:

@@ -96,12 +96,20 @@ def text_parser(start: str = "start") -> Parser:
 
 def _tokens(text: str, token: Make) -> Iterator[Token]:
     """The tokens of a text, which may be LaTeX."""
+    if is_latex(text):
+        from qe.io import latex_lexer
+
+        return latex_lexer.tokens(text, token)
+    return tokens(text, token)
+
+
+def is_latex(text: str) -> bool:
+    """Whether a text is read as LaTeX."""
     if "\\" in text or "{" in text or "$" in text:
         from qe.io import latex_lexer
 
-        if latex_lexer.is_latex(text):
-            return latex_lexer.tokens(text, token)
-    return tokens(text, token)
+        return latex_lexer.is_latex(text)
+    return False
 
 
 @cache
@@ -199,13 +207,14 @@ class TextBuilder(Builder):
 
     # --- sets: functions from a term and a place to a formula ------------------------------------------------
     def interval(self, c: list[Any]) -> Any:
-        low = Relation.LE if c[0].type == "LEFT" else Relation.LT
+        low = Relation.GE if c[0].type == "LEFT" else Relation.GT
         high = Relation.LE if c[4].type == "RIGHT" else Relation.LT
         left, right = c[1], c[3]
         ends = (left.part if isinstance(left, s.Minus) else left), right
-        low = Relation.LT if isinstance(ends[0], s.Infinity) else low
+        low = Relation.GT if isinstance(ends[0], s.Infinity) else low
         high = Relation.LT if isinstance(ends[1], s.Infinity) else high
-        return lambda term, at: s.Comparison([left, term, right], [low, high], at)
+        bounds = (left, low), (right, high)  # behind the term, whose names stand in front of theirs
+        return lambda term, at: s.Every([s.Comparison([term, end], [relation], at) for end, relation in bounds])
 
     def finite(self, c: list[Any]) -> Any:
         return lambda term, at: s.Some([s.Comparison([term, value], [Relation.EQ], at) for value in c[1]])

@@ -177,7 +177,7 @@ class Region(SetOperations):
         """Exact membership. ``point``: values by name (or variable), or in the order of the variables.
 
         Coordinates: int, Fraction, decimal or fraction text, exact irrational numbers, numpy's and SymPy's. A float is
-        the decimal number that it prints. Raises ``InputError`` for other things and missing names.
+        the decimal number that it prints. Raises ``InputError`` for other things, and for missing or unknown names.
         """
         values = self._values(point_of(point, self.order), len(self.order))
         return self._asked(lambda: self._holds(values), timeout, at_once=_are_irrational(values))

@@ -50,7 +50,7 @@ def test_what_is_asked_for_is_found_once_and_is_that_of_planning_at_once(finishe
     for thread in threads:
         thread.start()
     for thread in threads:
-        thread.join()
+        thread.join(300)
     assert plan.certified and qe.verify(plan.certificate).accepted and plan.length.low > 8
     assert plan.to_json() == facts(make_plan(plan.problem)) and "certified" in repr(plan)
     assert len(finished) == 1

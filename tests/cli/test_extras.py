@@ -41,6 +41,11 @@ def test_an_unknown_module_is_a_bug() -> None:
     assert isinstance(lacking(ImportError("no", name="scipy.spatial")), Unable)
 
 
+def test_the_library_is_named_that_people_know() -> None:
+    """A core installation asked for markupsafe, which nobody installs by that name."""
+    assert str(lacking(ImportError("no", name="markupsafe"))).startswith("jinja2 is not installed")
+
+
 def test_the_core_works(tmp_path: Path) -> None:
     code = "import qe; print(qe.eliminate('ex x. x^2 = b').formula, qe.region('x^2 <= 2').bounds('x').upper)"
     assert run(code, tmp_path).stdout.strip() == "b >= 0 sqrt(2)"

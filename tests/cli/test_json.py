@@ -32,7 +32,8 @@ def run(*words: str, **environment: str) -> subprocess.CompletedProcess[str]:
         (["decide", "ex x. x^2 = 2"], "solved", 0),
         (["solve", "x*y = 1", "--variables", "y"], "solved", 0),
         (["minimize", "x^2 - x"], "optimal", 0),
-        (["minimize", "x"], "unable", 3),
+        (["minimize", "x"], "unbounded", 0),
+        (["minimize", "x", "x < 0 and x > 0"], "infeasible", 0),
         (["eliminate", "x <"], "input_error", 2),
         (["decide", "x > 0"], "input_error", 2),
         (["region", "x > 0", "--tmeout", "5"], "input_error", 2),
@@ -67,7 +68,7 @@ GOOD = {
     "eliminate": [["ex x. x^2 = 2"], ["x > 0", "--output", "smtlib"]],
     "decide": [["all x. x > 0"], ["(assert false)", "--format", "smtlib"]],
     "solve": [["x*y = 1", "--variables", "y"]],
-    "minimize": [["x^2 - x"], ["x", "x > 0"], ["x^3 - x", "0 < x < 1"], ["x^2 - a*x", "--parameters", "a"]],
+    "minimize": [["x"], ["x^3"], ["x", "x > 0"], ["x^3 - x", "0 < x < 1"], ["x^2 - a*x", "--parameters", "a"]],
 }
 
 

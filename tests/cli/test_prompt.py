@@ -6,12 +6,12 @@ import os
 import re
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import pytest
 
 from qe.cli.prompt import Session, is_open, run
+from tests.waiting import ending
 
 QE = Path(sys.executable).parent / "qe"
 
@@ -124,15 +124,12 @@ def test_a_terminal(tmp_path) -> None:
     process = subprocess.Popen([QE], stdin=follower, stdout=follower, stderr=follower, env=environment)
     os.close(follower)
     seen = ""
-    try:
+    with ending(process):
         for line, expected in (("", ":help lists"), ("ex x. x^2 = b\r", "b >= 0"), (":quit\r", "")):
             os.write(leader, line.encode())
-            end = time.monotonic() + 60
-            while expected and expected not in seen and time.monotonic() < end:
+            while expected and expected not in seen:
                 seen += os.read(leader, 4096).decode(errors="replace")
         assert process.wait(60) == 0
-    finally:
-        process.kill()
-        os.close(leader)
+    os.close(leader)
     assert "b >= 0" in seen and not re.search(r"\x1b\[[0-9;]*3[0-9]m", seen)
     assert (tmp_path / "bezier-qe" / "history").exists()

@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 
 from tests.cli import command
+from tests.waiting import ending
 
 QE = str(Path(sys.executable).parent / "qe")
 HARD = "ex a, b, c. all x, y. a*x^4*y + b*x*y^3 + c*x^2*y^2 + d*x + g*y + f > a^2*x^3 + b^2*y^5"
@@ -134,8 +135,29 @@ def test_minimize() -> None:
     assert "4" in run("minimize", "(x - 3)^2 + y^2", "x^2 + y^2 <= 1").stdout
 
 
-def test_minimize_infeasible() -> None:
-    refused(run("minimize", "x", "x^2 <= 1 and x >= 2"), 3, "infeasible")
+@pytest.mark.parametrize(
+    ("words", "status", "said"),
+    [
+        (["x", "x^2 <= 1 and x >= 2"], "infeasible", "no point meets the constraints"),
+        (["x^3", "x^3 > 1 and x < 0"], "infeasible", "no point meets the constraints"),
+        (["a*x", "x > 1 and x^2 < 1", "--parameters", "a"], "infeasible", "no point meets the constraints"),
+        (["x"], "unbounded", "there is no least value\nwithout an end from x = 0 along x = -1"),
+        (["-x^2"], "unbounded", "there is no least value"),
+        (["x", "x > 0", "--maximize"], "unbounded", "there is no greatest value"),
+    ],
+)
+def test_that_there_is_no_optimum_is_an_answer(words: list[str], status: str, said: str) -> None:
+    """``qe minimize x`` ended with "unable: unbounded", as if nothing had been proved."""
+    plain, data = run("minimize", *words), run("minimize", *words, "--json")
+    assert (plain.returncode, plain.stderr) == (0, "") and said in plain.stdout
+    assert (data.returncode, json.loads(data.stdout)["status"]) == (0, status)
+    assert json.loads(data.stdout).get("value") is None
+
+
+def test_what_is_proved_about_an_optimum_that_is_none_has_a_certificate(tmp_path: Path) -> None:
+    for words in (["x"], ["x^3"], ["x", "x > 1 and x < 0"]):
+        assert run("minimize", *words, "--certificate", "c.json", cwd=tmp_path).returncode == 0
+        assert run("check", "c.json", cwd=tmp_path).stdout.startswith("accepted")
 
 
 BAD_FORMULAS = [
@@ -219,17 +241,13 @@ def test_the_memory_limit_holds() -> None:
 
 
 def test_no_worker_stays_behind() -> None:
-    process = subprocess.Popen(
-        [QE, "eliminate", HARD, "--timeout", "30"], stdout=subprocess.PIPE, stderr=subprocess.PIPE
-    )
-    children = Path(f"/proc/{process.pid}/task/{process.pid}/children")
-    deadline = time.monotonic() + 20
-    while not (workers := children.read_text().split()) and time.monotonic() < deadline:
-        time.sleep(0.02)
-    assert workers
-    time.sleep(0.3)  # until the worker has tied its life to its parent's
-    process.kill()
-    process.communicate()
+    with ending(subprocess.Popen([QE, "eliminate", HARD, "--timeout", "30"], stderr=subprocess.DEVNULL)) as process:
+        children = Path(f"/proc/{process.pid}/task/{process.pid}/children")
+        deadline = time.monotonic() + 20
+        while not (workers := children.read_text().split()) and time.monotonic() < deadline:
+            time.sleep(0.02)
+        assert workers
+        time.sleep(0.3)  # until the worker has tied its life to its parent's
     deadline = time.monotonic() + 10
     while os.path.exists(f"/proc/{workers[0]}") and time.monotonic() < deadline:
         time.sleep(0.02)

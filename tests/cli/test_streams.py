@@ -17,6 +17,7 @@ from qe.cli.app import main as qe_main
 from qe.cli.shell import check_writable, write_file
 from qe.cli.source import read_text
 from qe.errors import InputError
+from tests.waiting import ending
 
 FOLDER = Path(sys.executable).parent
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -97,14 +98,15 @@ def on_a_terminal(command: list[str], **environment: str) -> bytes:
     )
     os.close(theirs)
     written = b""
-    try:
-        while piece := os.read(ours, 65536):
-            written += piece
-    except OSError:  # the other end is closed
-        pass
-    finally:
-        os.close(ours)
-    assert started.wait(120) in (0, 2)
+    with ending(started):
+        try:
+            while piece := os.read(ours, 65536):
+                written += piece
+        except OSError:  # the other end is closed
+            pass
+        finally:
+            os.close(ours)
+        assert started.wait(60) in (0, 2)
     return written
 
 
@@ -163,7 +165,7 @@ def test_what_is_no_plain_file_is_written_to_and_never_replaced(tmp_path: Path) 
     """``--certificate /dev/null`` put a file in the place of the device, for whom the system lets do that."""
     pipe, link, real = tmp_path / "pipe", tmp_path / "link", tmp_path / "real"
     os.mkfifo(pipe)
-    with subprocess.Popen(["cat", str(pipe)], stdout=subprocess.PIPE, text=True) as reader:
+    with ending(subprocess.Popen(["cat", str(pipe)], stdout=subprocess.PIPE, text=True)) as reader:
         write_file(pipe, "certificate")
         assert reader.communicate(timeout=60)[0] == "certificate" and pipe.is_fifo()
     real.write_text("old")
@@ -195,7 +197,7 @@ def test_a_command_that_is_terminated_leaves_nothing_half_written(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """SIGTERM left a hidden folder beside the output."""
-    before = signal.getsignal(signal.SIGTERM)
+    before = signal.signal(signal.SIGTERM, signal.SIG_DFL)  # whoever started this may have ignored it
 
     def terminated(*given: object, **named: object) -> None:
         signal.raise_signal(signal.SIGTERM)
@@ -203,4 +205,4 @@ def test_a_command_that_is_terminated_leaves_nothing_half_written(
     monkeypatch.setattr("bezier.planner.outputs._move", terminated)
     assert bezier_main(["plan", str(EXAMPLES / "no_control_point.toml"), "--out", str(tmp_path / "out")]) == 143
     assert not list(tmp_path.iterdir()) and capsys.readouterr().err == "bezier: ended by a signal\n"
-    assert signal.getsignal(signal.SIGTERM) is before
+    assert signal.signal(signal.SIGTERM, before) is signal.SIG_DFL

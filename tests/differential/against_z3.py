@@ -99,7 +99,7 @@ def block(seeds: list[str]) -> tuple[Counter[str], list[str]]:
     except EOFError:
         pass
     child.kill()
-    child.join()
+    child.join(60)
     counts["not reached"] = len(seeds) - counts.total()
     return counts, wrong
 

@@ -65,6 +65,26 @@ def test_the_classics_run_from_an_installed_package(installed: Path, tmp_path: P
     assert files(installed) == before
 
 
+def test_the_command_of_the_repository_works_in_any_folder(tmp_path: Path) -> None:
+    """Outside the repository it said "No module named experiments"; a folder of that name must not take its place."""
+    made, elsewhere = tmp_path / "bin", tmp_path / "elsewhere"
+    (elsewhere / "experiments").mkdir(parents=True)
+    made.mkdir()
+    (made / "python").write_text(f'#!/bin/sh\nexec "{sys.executable}" "$@"\n')
+    (made / "python").chmod(0o755)
+    make = ["make", "-s", f"BIN={made}", f"CORE={made / 'python'}", f"{made}/experiments"]
+    subprocess.run(make, cwd=PROJECT, check=True, timeout=60)
+    done = subprocess.run(
+        [made / "experiments", "run", "--suite", "classics", "--only", "davenport-heintz", "--limit", "30"],
+        cwd=elsewhere,
+        capture_output=True,
+        text=True,
+        timeout=120,
+    )
+    assert done.returncode == 0, done.stderr
+    assert (elsewhere / "out" / "corpus.jsonl").exists()
+
+
 @pytest.mark.parametrize("command", ["report", "table", "figures", "html"])
 @pytest.mark.parametrize("content", [None, "", '{"kind": "environment", "name": "e"}\n', "spoilt\n"])
 def test_a_report_without_results_overwrites_nothing(command, content, tmp_path, monkeypatch, capsys):

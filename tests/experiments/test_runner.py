@@ -158,7 +158,7 @@ def test_a_killed_session_resumes(tmp_path, root):
     while (not path.exists() or path.read_text().count("\n") < 2) and time.monotonic() < deadline:
         time.sleep(0.02)
     os.killpg(process.pid, signal.SIGKILL)
-    process.wait()
+    process.wait(60)
     before = path.read_text()
     assert cli.main(command) == 0
     assert path.read_text().startswith(before)

@@ -90,3 +90,13 @@ def test_a_claim_fails_with_what_it_rests_on() -> None:
     entries = examine_all([stated("bad", False), stated("other", True), stated("last", True, ("bad", "other"))])
     assert [e.verdict for e in entries] == [Verdict.FAILED, Verdict.REPRODUCED, Verdict.FAILED]
     assert "bad" in entries[2].failures[0]
+
+
+def test_a_claim_fails_with_one_that_comes_later() -> None:
+    told: list[str] = []
+    entries = examine_all(
+        [stated("first", True, ("bad",)), stated("bad", False), stated("last", True, ("first",))],
+        lambda entry: told.append(entry.claim.key),
+    )
+    assert [(e.claim.key, e.verdict) for e in entries] == [(k, Verdict.FAILED) for k in ("first", "bad", "last")]
+    assert told == ["bad", "first", "last"]

@@ -45,6 +45,24 @@ def test_the_planner_solves_the_same_formulas(printed: Printed, shape: Shape) ->
     assert qe.equivalent(qe.eliminate(f"r >= 0 and ({text})").formula, qe.eliminate(shape.symbolic().formula).formula)
 
 
+def test_an_answer_without_the_certificate_demanded_does_not_hold(monkeypatch: pytest.MonkeyPatch) -> None:
+    without = qe.eliminate("all x. x^2 + 1 > 0")
+    assert without.certificate is None
+    monkeypatch.setattr(qe, "eliminate", lambda *args, **options: without)
+    assert ask.decided("", "all x. x^2 + 1 > 0").holds
+    assert not ask.decided("", "all x. x^2 + 1 > 0", proved=True).holds
+
+
+@given(points=st.lists(st.tuples(st.integers(-1, 1), st.integers(-1, 1)), min_size=4, max_size=4))
+def test_different_points_by_definition_1(points: list[tuple[int, int]]) -> None:
+    given = dict(zip(("q0", "q1", "q2", "r0"), points))
+    solved = {"p1": [4 * a - 4 * b + c for a, b, c in zip(*points[:3])], "p2": [2 * a - b for a, b in zip(*points[:2])]}
+    rows = (("p1", "p2", "q0"), ("q0", "q1", "q2", "r0"))
+    places = [[tuple((given | solved)[name]) for name in row] for row in rows]
+    expected = all(len(set(row)) == len(row) for row in places)
+    assert qe.decide(SEVEN.different(rows, "xy", given)) is expected
+
+
 def test_objective_of_the_paper() -> None:
     assert EIGHT.objective("x", {"q0": (1,), "r0": (3,)}) == "(q1x - 1)^2 + (3 - q1x)^2"
     assert SEVEN.objective("x", {}) == "(q1x - q0x)^2 + (q2x - q1x)^2 + (r0x - q2x)^2"
@@ -97,7 +115,11 @@ def test_questions_that_are_answered_otherwise_do_not_hold() -> None:
     assert ask.decided("", "ex x. x^2 = 2").holds
     assert not ask.decided("", "ex x. x^2 = -1").holds
     assert ask.decided("", "ex x. x^2 = -1", expected=False).holds
+    proved = ask.decided("", "all x. x^2 + 1 > 0", proved=True)
+    assert proved.holds and proved.certificate is not None
+    assert not ask.decided("", "all x. x^2 > 0", proved=True).holds
     assert ask.eliminated("", "ex x. x^2 + b*x + c = 0", "b^2 >= 4*c").holds
+    assert ask.eliminated("", "ex x. x^2 + b*x + c = 0", "b^2 >= 4*c", "cgs").holds
     assert not ask.eliminated("", "ex x. x^2 + b*x + c = 0", "b^2 > 4*c").holds
     assert ask.optimised("", "x^2", "x >= 3/2", "9/4")[0].holds
     assert not ask.optimised("", "x^2", "x >= 3/2", "2")[0].holds

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import json
 import math
+import re
+import warnings
 from decimal import Decimal
 from fractions import Fraction
 
@@ -36,7 +38,7 @@ def test_bars_are_not_read_as_a_name(given: str, meant: str) -> None:
     assert qe.equivalent(given, meant)
 
 
-@pytest.mark.parametrize("given", ["x > pi", "ex x. x^2 = e", "x < 2*π", "(all e. e > 0) or e = 1"])
+@pytest.mark.parametrize("given", ["x > pi", "ex x. x^2 = Pi", "x < 2*π", "(all π. π > 0) or π = 1", r"x \leq e"])
 def test_constants_of_mathematics_are_not_taken_for_variables(given: str) -> None:
     with pytest.raises(qe.ParseError, match="no number here"):
         qe.eliminate(given)
@@ -44,10 +46,74 @@ def test_constants_of_mathematics_are_not_taken_for_variables(given: str) -> Non
 
 def test_constants_may_be_names_where_that_is_meant() -> None:
     assert formats.read("`pi` > `e` and `e` = i").free == ("pi", "e", "i")
+    with pytest.raises(qe.InputError):
+        qe.eliminate(sp.Eq(x, sp.E))
     assert qe.decide("all e. e > 0 -> ex d. d > 0 and d < e")
     answer = qe.eliminate(formats.read("(declare-const e Real)(assert (> (* e e) 2))", "smtlib"))
     assert qe.equivalent(str(answer), answer.formula)
     assert text.read("x > pi", known=("pi",)).free == ("x", "pi")
+
+
+LETTERS = ("e", "i", "E", "I")
+
+
+@pytest.mark.parametrize("name", LETTERS)
+def test_letters_are_variables_and_noted_where_their_neighbours_are_none(name: str) -> None:
+    """``a*x^4 + b*x^3 + c*x^2 + d*x + e = 0`` was refused: "e is no number here"."""
+    neighbours = chr(ord(name) - 1), chr(ord(name) + 1)
+    with pytest.warns(qe.DoubtfulInput, match=f"^{name} is a variable here, no number$") as noted:
+        assert qe.equivalent(qe.eliminate(f"ex x. x > 0 and {name}*x = 1"), f"{name} > 0")
+    assert noted[0].filename == __file__
+    for quiet in (f"ex {name}. {name}*x = 1", f"`{name}`*x = 1", *(f"{name}*x = {other}" for other in neighbours)):
+        assert not noted_in(quiet), quiet
+    with pytest.warns(qe.DoubtfulInput, match=f"{name} is a variable"):
+        qe.minimize(f"({name} - 1)^2", "x >= 0")
+
+
+def noted_in(given: object, format: str = "text") -> list[str]:
+    """What is noted when this is read."""
+    with warnings.catch_warnings(record=True) as noted:
+        warnings.simplefilter("always")
+        qe.eliminate(given, format=format)
+    return [str(one.message) for one in noted if one.category is qe.DoubtfulInput]
+
+
+@pytest.mark.parametrize(
+    ("given", "format", "note"),
+    [
+        ("ex x. ax^2 + bx + c = 0", "text", "x does not occur; did you mean a*x^2?"),
+        ("all x. 2*ax² > b", "text", "x does not occur; did you mean a*x²?"),
+        ("ex x. x > 0 and ax = 1", "text", "ax is one name; a product is written a*x"),
+        ("ex x, y. a*x = 1", "text", "y does not occur"),
+        ("all a. (ex x. a > 0)", "text", "x does not occur"),
+        (["a > 0", "ex x. ax < 1"], "text", "x does not occur; did you mean a*x?"),
+        (r"\exists x\colon a > 0", "latex", "x does not occur"),
+        ("(E x)[a > 0]", "qepcad", "x does not occur"),
+        ("ex({x}, a > 0)", "redlog", "x does not occur"),
+        ("(declare-const a Real)(assert (exists ((x Real)) (> a 0)))", "smtlib", "x does not occur"),
+        (qe.Exists(x, sp.Gt(b, 0)), "text", "x does not occur"),
+        (qe.exists("x", qe.variables("b") > 0), "text", "x does not occur"),
+    ],
+)
+def test_a_quantified_variable_that_does_not_occur_is_noted(given: object, format: str, note: str) -> None:
+    """``ex x. ax^2 + bx + c = 0`` was answered by itself, without a word."""
+    assert noted_in(given, format) == [note]
+
+
+@pytest.mark.parametrize(
+    "given",
+    [
+        "ex x. a*x^2 + b*x + c = 0",
+        "ex x. x - x + a = 0",
+        "ex x in Reals. a*x > 0 and amax > 1",
+        "ex x. x^2 = x1 and xmax > tax",
+        "ex x, ax. x^2 = ax",
+        r"\exists x\colon ax^2 + bx + c = 0",
+        "all x. (ex x. x > a) -> x < b",
+    ],
+)
+def test_nothing_is_noted_where_all_occur(given: str) -> None:
+    assert noted_in(given) == []
 
 
 def test_a_comma_in_an_order_is_no_variable() -> None:
@@ -260,3 +326,28 @@ def test_letters_side_by_side_are_told_to_be_one_name() -> None:
         qe.decide("all a, b, c > 0. abc = 1 -> a + b + c >= 3")
     with pytest.raises(qe.InputError, match=r"free: area$"):
         qe.decide("all a, r. area = a*r")
+
+
+# --- points and their names ---------------------------------------------------------------------------------
+def test_a_point_with_an_unknown_name_is_refused() -> None:
+    """``{"x": 1, "y": 0, "z": 3}`` was in the disc: z was left out without a word."""
+    disc = qe.region("x^2 + y^2 <= 4")
+    for ask in (disc.contains, disc.distance):
+        with pytest.raises(qe.InputError, match="values for x, y expected, z found"):
+            ask({"x": 1, "y": 0, "z": 3})
+        ask({"x": 1, "y": 0})
+
+
+@pytest.mark.parametrize("given", ["z > 1 and x = 2 and y < x", "x in [a, b] and b > a", "1/z > y and sqrt(x) < y"])
+def test_an_instance_has_the_names_in_the_order_of_the_question(given: str) -> None:
+    """The ends of an interval came before the variable that lies in it."""
+    found = qe.find_instance(given)
+    assert found is not None and [*found] == [*dict.fromkeys(re.findall(r"\b[abxyz]\b", given))]
+    assert all([*point] == [*found] for point in qe.find_instances(given, 2))
+
+
+@pytest.mark.parametrize("given", ["∀t>0 a*t^2 > -1", "∀t>0a*t^2 > -1", "exists t >= 1/2 2*t = a", "all t>0 not a>t"])
+def test_a_missing_dot_is_named(given: str) -> None:
+    """ "An operator is missing; a product is written 0*a" was the hint."""
+    with pytest.raises(qe.ParseError, match="the condition of a quantifier ends with a dot"):
+        qe.eliminate(given)

@@ -123,6 +123,15 @@ def test_the_command_says_it_in_one_line(
     assert message in told.replace("\n", " ") and not list(tmp_path.iterdir())
 
 
+def test_negative_coordinates_are_taken_as_typed(capsys: pytest.CaptureFixture[str]) -> None:
+    """``-50`` was taken for an option."""
+    for minus in "-−":
+        assert main(["ik", "ev3-120", "100", f"{minus}50", "20"]) == 0
+        assert "at (100, -50, 20) mm\n4 solutions (proved)" in capsys.readouterr().out
+    assert main(["ik", "planar-3r", "-1/2", "-0.5", "0", "--quaternion", "1", "0", "0", "-1"]) == 0
+    assert "at (-0.5, -0.5, 0) mm, turned" in capsys.readouterr().out
+
+
 def test_systems_that_do_not_fit() -> None:
     """Dependent or doubled parameters, and segments with infinitely many solutions."""
     with pytest.raises(qe.InputError):

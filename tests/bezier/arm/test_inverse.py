@@ -14,6 +14,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from bezier.arm import inverse
+from bezier.arm.command import in_words, to_json
 from bezier.arm.elimination import TURNS, Geometry
 from bezier.arm.exact_text import read_exact
 from bezier.arm.inverse import solve
@@ -258,3 +259,15 @@ def test_exact_numbers() -> None:
     assert read_exact("1/3") == Fraction(1, 3)
     assert read_exact("0.1*sqrt(4)") == Fraction(1, 5)
     assert float(read_exact("44*sqrt(2) - 8*sqrt(293)/2")) == pytest.approx(44 * sqrt(2) - 4 * sqrt(293))
+
+
+@pytest.mark.parametrize("places", [6, 20, 40, 200])
+def test_two_solutions_never_print_alike(places: int) -> None:
+    """At 1e-36 mm from the border both lines were the same, and so were both boxes."""
+    border = read_exact("44*sqrt(2) + 120 + 8*sqrt(293)") - Fraction(1, 10**places)
+    found = solve(load_arm("ev3-120"), (border, Fraction(0), read_exact("44*sqrt(2) + 104")))
+    lines = [line.partition(".")[2] for line in in_words(found)[2:]]
+    assert len(lines) == found.count == 2 and len(set(lines)) == 2
+    first, second = (one["joints"]["theta4"]["box"] for one in to_json(found)["solutions"])
+    bounds = [[[Fraction(end) for end in box[key]] for box in (first, second)] for key in ("cos", "sin")]
+    assert any(a[1] < b[0] or b[1] < a[0] for a, b in bounds)

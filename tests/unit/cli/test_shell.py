@@ -84,6 +84,8 @@ def test_a_misspelt_option(capsys: pytest.CaptureFixture[str], monkeypatch: pyte
     assert shell.enter(app, ["--timeout", "3"], name="prog") == 0
     assert shell.enter(app, ["--timout", "3"], name="prog") == 2
     assert "no such option: --timout; did you mean --timeout? (see prog --help)" in capsys.readouterr().err
+    assert shell.enter(app, ["--", "--zzz"], name="prog") == 2
+    assert "no such option" not in capsys.readouterr().err
     assert shell.enter(app, ["--zzz"], name="prog") == 2
     assert "did you mean" not in capsys.readouterr().err
 

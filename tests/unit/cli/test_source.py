@@ -48,8 +48,3 @@ def test_standard_input(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(sys, "stdin", io.TextIOWrapper(io.BytesIO(b"\xff"), encoding="utf-8"))
     with pytest.raises(InputError, match="<stdin>: UTF-8"):
         read_source("-", Format.TEXT)
-
-
-def test_a_misspelt_option_is_no_formula() -> None:
-    with pytest.raises(InputError, match="no such option: --timeot"):
-        read_source("--timeot=5", None)

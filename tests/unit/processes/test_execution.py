@@ -19,6 +19,8 @@ from qe.formula.weight import may_block, text_may_block
 from qe.options import Budget
 from qe.processes.execution import HERE, SWITCH, Budgets, Limits, perform
 from qe.progress import Event
+from tests.conftest import ROOT
+from tests.waiting import ending
 
 pytestmark = pytest.mark.processes
 
@@ -197,7 +199,8 @@ def test_ctrl_c_ends_it_at_once_and_leaves_nothing_behind(call):
 import qe, signal
 from flint import fmpz
 from qe.processes.execution import Limits, perform
-signal.pthread_sigmask(signal.SIG_UNBLOCK, {{signal.SIGINT}})  # whoever started this
+signal.pthread_sigmask(signal.SIG_UNBLOCK, {{signal.SIGINT}})  # whoever started this, and
+signal.signal(signal.SIGINT, signal.default_int_handler)  # whatever was ignored there (nohup make test &)
 print("go", flush=True)
 try:
     {call}
@@ -206,7 +209,7 @@ except KeyboardInterrupt:
     left = open(f"/proc/self/task/{{os.getpid()}}/children").read().split()
     print("interrupted", left, flush=True)
 """
-    with subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True) as process:
+    with ending(subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True)) as process:
         assert process.stdout is not None and process.stdout.readline() == "go\n"
         time.sleep(1.0)
         assert process.poll() is None, "it is no longer at work"
@@ -214,6 +217,17 @@ except KeyboardInterrupt:
         process.send_signal(signal.SIGINT)
         assert process.stdout.readline() == "interrupted []\n"
         assert time.monotonic() - start < 1, "0.2 s are asked; the machine may be busy"
+
+
+def test_ctrl_c_is_tested_also_where_the_tests_were_started_without_it():
+    """``nohup make test &`` never ended: a child waited for a signal that it had been told to ignore."""
+    name = f"{__file__}::{test_ctrl_c_ends_it_at_once_and_leaves_nothing_behind.__name__}[eliminate]"
+    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    try:
+        done = subprocess.run([sys.executable, "-m", "pytest", "-q", name], cwd=ROOT, capture_output=True, timeout=120)
+    finally:
+        signal.signal(signal.SIGINT, before)
+    assert b"1 passed" in done.stdout and done.returncode == 0
 
 
 def test_what_may_block_is_forked_at_once():

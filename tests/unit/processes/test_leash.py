@@ -8,6 +8,8 @@ import sys
 
 import pytest
 
+from tests.waiting import ending, limit
+
 CHILD = "import os; from qe.processes import leash; print(os.getpid(), flush=True); leash.watch({parent})"
 PARENT = "import subprocess, sys, os; subprocess.run([sys.executable, '-c', sys.argv[1].format(parent=os.getpid())])"
 
@@ -16,12 +18,13 @@ pytestmark = pytest.mark.processes
 
 def test_a_process_ends_when_its_parent_is_killed() -> None:
     pytest.importorskip("click")
-    with subprocess.Popen([sys.executable, "-c", PARENT, CHILD], stdout=subprocess.PIPE, text=True) as parent:
+    with ending(subprocess.Popen([sys.executable, "-c", PARENT, CHILD], stdout=subprocess.PIPE, text=True)) as parent:
         assert parent.stdout is not None
         watching = int(parent.stdout.readline())
         os.kill(watching, 0)
         parent.kill()
-        assert parent.stdout.read() == ""  # comes only when both processes, which have the other end, are gone
+        with limit(60):
+            assert parent.stdout.read() == ""  # comes only when both processes, which have the other end, are gone
 
 
 def test_a_process_ends_when_its_parent_was_gone_before_it_looked() -> None:

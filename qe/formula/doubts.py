@@ -1,0 +1,70 @@
+"""What somebody may have meant otherwise who wrote a formula that can be read: notes, for people alone."""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Iterable, Iterator
+
+from qe.formula.syntax import Exists, ForAll, Formula
+from qe.formula.traverse import children
+from qe.spelling import NUMERALS, WORD, joined_names
+
+_NUMBERS = ("e", "i", "E", "I")
+"""Letters that are numbers to many readers, and variables here."""
+_WORD = re.compile(WORD)
+_EXPONENT = rf"(?![^\W{NUMERALS}])\s*((?:\^|\*\*)\s*\d+|[²³⁴-⁹]+)?"
+_WRITTEN_OUT = ("text", "latex", "smtlib", "redlog")
+"""Formats in which a variable stands at its quantifier and where it is used, and nowhere else."""
+
+
+def doubts(formula: Formula, text: str = "", format: str = "") -> tuple[str, ...]:
+    """The notes on a formula, each a line; ``text`` and its ``format`` where it was read from one."""
+    typed = text if format == "text" and "\\" not in text else ""  # in LaTeX letters side by side are a product
+    names = formula.ring.names if formula.ring is not None else ()
+    blocks = list(_blocks(formula))
+    unused: dict[str, None] = {}
+    joined: dict[str, str] = {}
+    for block in blocks:
+        unused |= dict.fromkeys(name for name in block.variables if name not in block.body.free)
+        joined |= joined_names(block.body.free, block.variables) if typed else {}
+    if unused and format in _WRITTEN_OUT:  # what is used as well cancels
+        bound = Counter(name for block in blocks for name in block.variables)
+        written = Counter(_WORD.findall(text))
+        unused = {name: None for name in unused if written[name] <= bound[name]}
+    notes = []
+    for variable in unused:
+        meant = next((product + _exponent(name, typed) for name, product in joined.items() if variable in name), None)
+        notes.append(f"{variable} does not occur" + (f"; did you mean {meant}?" if meant else ""))
+    for name, product in joined.items():
+        if unused.keys().isdisjoint(name):
+            notes.append(f"{name} is one name; a product is written {product}")
+    return (*notes, *numbers_as_names(formula.free, typed, names))
+
+
+def numbers_as_names(free: Iterable[str], text: str, names: Iterable[str] = ()) -> tuple[str, ...]:
+    """A note where ``e`` or ``i`` is free in a text and none of its neighbours in the alphabet is one of the names."""
+    alphabet = {*free, *names}
+    doubtful = [
+        name
+        for name in _NUMBERS
+        if name in free and re.search(rf"(?<![\w`]){name}(?!\w)", text) and "\\" not in text
+        if not alphabet & {chr(ord(name) - 1), chr(ord(name) + 1)}
+    ]
+    verb = "is a variable here, no number" if len(doubtful) == 1 else "are variables here, no numbers"
+    return (f"{' and '.join(doubtful)} {verb}",) if doubtful else ()
+
+
+def _blocks(formula: Formula) -> Iterator[Exists | ForAll]:
+    if formula.is_quantifier_free:
+        return
+    if isinstance(formula, Exists | ForAll):
+        yield formula
+    for child in children(formula):
+        yield from _blocks(child)
+
+
+def _exponent(name: str, text: str) -> str:
+    """The exponent behind a name in the text, if there is one."""
+    behind = re.search(rf"(?<!\w){name}{_EXPONENT}", text)
+    return (behind and behind[1]) or ""
