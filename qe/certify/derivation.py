@@ -22,6 +22,7 @@ from collections.abc import Callable, Mapping, Sequence
 
 from qe.certify.negation import negation
 from qe.certify.step import Check, Claim, Context, Limits, check_names, outside
+from qe.certify.verdict import CRASHES
 from qe.errors import CertificateRejected, Unable
 from qe.exact.ring import Ring
 from qe.formula.build import conj, disj, exists, forall, neg
@@ -110,7 +111,7 @@ class _Replay:
         if self.accepted is None or key not in self.accepted:
             try:
                 checker(claim, needed, self.limits)
-            except Exception as error:
+            except CRASHES as error:
                 error.add_note(entry.path)  # for one that is no verdict: it names no entry
                 raise
         if self.accepted is not None and key is not None:

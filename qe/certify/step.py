@@ -87,10 +87,11 @@ def check_names(claim: Claim, context: Context) -> None:
     them is bound in another. So whatever a checker takes from the place of the step inwards keeps its meaning.
     """
     formulas = (claim.before, claim.after, *context)
-    free = {name for formula in formulas for name in formula.free}
-    ambiguous = frozenset[str]().union(*(clashes(formula, free) for formula in formulas))
-    if ambiguous:
-        raise claim.fail(f"{min(ambiguous)} is bound where it is seen from outside")
+    if quantified := [formula for formula in formulas if formula.bound]:
+        free = {name for formula in formulas for name in formula.free}
+        for ambiguous in (clashes(formula, free) for formula in quantified):
+            if ambiguous:
+                raise claim.fail(f"{min(ambiguous)} is bound where it is seen from outside")
 
 
 def only(claim: Claim, *names: str, optional: Sequence[str] = ()) -> list[Entry]:

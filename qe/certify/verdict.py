@@ -4,6 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from qe.errors import QEError
+
+CRASHES = (QEError, ArithmeticError, AssertionError, AttributeError, LookupError, TypeError, ValueError)
+"""In what a checker may end that does not understand what it reads."""
+
 
 @dataclass(frozen=True, slots=True)
 class Verdict:

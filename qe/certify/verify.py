@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from qe.arguments import shown
 from qe.certify.kinds import Checker, brought_kind
-from qe.certify.verdict import Verdict
-from qe.errors import CertificateRejected, InputError, QEError, Unable
+from qe.certify.verdict import CRASHES, Verdict
+from qe.errors import CertificateRejected, InputError, Unable
 from qe.options import Budget
 from qe.proof.cells_json import CellEvidence
 from qe.proof.certificate import Certificate, Kind, Labelled
 
-CRASHES = (QEError, ArithmeticError, AssertionError, AttributeError, LookupError, TypeError, ValueError)
 CRASHED = "its checker ends in an internal error here, please report"
 
 

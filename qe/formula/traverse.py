@@ -70,7 +70,8 @@ def clashes(formula: Formula, visible: Iterable[str] = ()) -> frozenset[str]:
     everywhere below the place, so that no quantifier captures what is taken from there inwards. Quantifiers beside
     each other may bind one name: neither stands below the other.
     """
-    return rebound(formula) | formula.bound.intersection((*formula.free, *visible))
+    bound = formula.bound
+    return rebound(formula) | bound.intersection((*formula.free, *visible)) if bound else bound
 
 
 def atoms(formula: Formula) -> Iterator[Atom | RootAtom]:

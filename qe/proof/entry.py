@@ -217,9 +217,8 @@ def formula_from_json(entry: Entry, ring: Ring, *, quantified: bool = False) -> 
     Refused: a name that is bound below a quantifier that binds it, and one that is both free and bound (``clashes``).
     """
     formula = _formula(entry, ring, 0, quantified)
-    ambiguous = formula.bound.intersection(formula.free)
-    if ambiguous:
-        raise entry.fail(f"{min(ambiguous)} is both free and bound")
+    if formula.bound and not formula.bound.isdisjoint(formula.free):
+        raise entry.fail(f"{min(formula.bound.intersection(formula.free))} is both free and bound")
     return formula
 
 

@@ -13,7 +13,7 @@ from qe.certify.block import existential
 from qe.certify.boolean import ByLemmas
 from qe.certify.derivation import Accepted, check_derivation, limits_of, replaced, step_key
 from qe.certify.registry import RULES
-from qe.certify.step import Claim, Context, Limits
+from qe.certify.step import Claim, Context, Limits, check_names
 from qe.certify.verify import check_certificate
 from qe.elimination.cad import certificate_for
 from qe.elimination.vs.trace import Eliminated
@@ -21,7 +21,7 @@ from qe.errors import CertificateRejected, InternalError, Unable
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import conj
 from qe.formula.syntax import FALSE, TRUE, And, Exists, Formula, Or
-from qe.formula.traverse import children, conjuncts, subformula
+from qe.formula.traverse import children, clashes, conjuncts, subformula
 from qe.io.names import names_in
 from qe.options import Budget, Options
 from qe.proof.certificate import Certificate, Proof, written
@@ -167,6 +167,9 @@ class Prover:
             place, step = _part_dropped(place, step)
         facts, changed = replaced(current, place, step.before, step.after, self.known, Entry(None, "place"))
         context = tuple(f for f in conjuncts(step.context) if f in facts)
+        if clashes(changed, (name for fact in self.known for name in fact.free)):  # no checker would look at it
+            self.unchecked.append(step.rule)
+            return changed
         found = self.own(step, context)
         if found is None and step.rule in SIMPLIFYING and self._simplified_inside(place, step, current) == changed:
             return changed
@@ -238,6 +241,7 @@ class Prover:
         if checker is None:
             return None
         try:
+            check_names(self._claim(rule, step, evidence), context)
             if any(derivations_within(evidence)):
                 evidence = proved_inside(checker, self._claim(rule, step, evidence), context, self.limits, self.nested)
             if isinstance(checker, ByLemmas):

@@ -19,13 +19,18 @@ STRICTER = re.compile(r"payload\.factors|payload\.field\.interval")
 """Where the first reader wants more than the claim needs: projections in full, and bounds of an irrational number that
 keep a derivative away from 0. The second one looks at the cells and counts roots instead."""
 
+STRICTER_REASONS = re.compile(
+    "is not a product of listed factors|both free and bound|bound once more inside|is bound where it is seen"
+)
+"""Also of names: the second one resolves them to their quantifiers, where the first asks that none can be mistaken."""
+
 
 def agree(text: str) -> bool:
     """Whether neither accepts what the other rejects, but for what only the first asks for."""
     first, second = said(text), said_plainly(text)
     if (first, second) == ("rejected", "accepted"):
         verdict = verify_json(text)
-        return bool(STRICTER.match(verdict.step)) or verdict.reason.endswith("is not a product of listed factors")
+        return bool(STRICTER.match(verdict.step) or STRICTER_REASONS.search(verdict.reason))
     return (first, second) != ("accepted", "rejected")
 
 

@@ -51,7 +51,7 @@ def test_quantifiers_and_negations_are_gone_through() -> None:
     given_ = formula("not (ex y. x + y > 0 and (all z. z*x < 1)) or y = x")
     assert at_number(given_, X, Fraction(2), CLAIM) == formula("not (ex y. 2 + y > 0 and (all z. z*2 < 1)) or y = 2")
     bound = formula("ex x. x > a")
-    with pytest.raises(CertificateRejected, match="binds a variable"):
+    with pytest.raises(CertificateRejected, match="a quantifier inside binds x"):
         at_number(bound, X, Fraction(2), CLAIM)
     with pytest.raises(CertificateRejected, match="root atoms"):
         at_number(formula("a > root(1, a^2 - b, a)"), X, Fraction(2), CLAIM)
