@@ -38,13 +38,21 @@ class Outcome(Enum):
     """What planning ended with."""
 
     SOLVED = "solved"
+    NEAR_OPTIMAL = "near-optimal"
+    """Solved, but for the exact optimum: the objective is proved to be within 10^-9 of the least."""
     INFEASIBLE = "infeasible"
+    """No path exists, proved."""
     BLOCKED = "blocked"
-    """There is a path, but an obstacle is in its way."""
+    """No path was found: an obstacle is in the way of every one that was tried."""
     TOO_FAST = "limits_not_kept"
     """There is a path, but the motion asked for is not proved to keep the limits asked for."""
     OUT_OF_REACH = "out_of_reach"
     """There is a path, but the arm cannot follow it."""
+
+    @property
+    def is_success(self) -> bool:
+        """Whether there is a path to use."""
+        return self in (Outcome.SOLVED, Outcome.NEAR_OPTIMAL)
 
 
 @dataclass(frozen=True, slots=True)
@@ -122,9 +130,11 @@ def derivation_page(number: int, first: str = "") -> str:
 class Plan:
     """What every method finds out. ``path`` and ``objective`` are None exactly when the problem is infeasible.
 
-    ``formula``: as handed to the engine; ``answer``: its quantifier-free answer; ``active``: labels of the
-    conditions that hold with equality; ``certificate``: all certificates, labelled; ``checks``: what the
-    independent checker says of them; ``seconds``: the time of each step; ``remarks``: for the reader;
+    ``bound``: no choice of the method has an objective below it, where the exact optimum is out of reach (None: the
+    objective is the least). ``formula``: as handed to the engine; ``answer``: its quantifier-free answer; ``active``:
+    labels of the conditions that hold with equality (with a ``bound``: that prove it); ``certificate``: all
+    certificates, labelled; ``checks``: what the independent checker says of them; ``seconds``: the time of each step;
+    ``remarks``: for the reader;
     ``findings``: each curve and each obstacle; ``attempts``: what was tried to get around the obstacles;
     ``quality``: lengths, curvatures and the motion in time. ``heights``: the height condition, decided for all curves.
     ``radius_rule``: what the radius forces where a via point lies on the sphere. ``joints``: of the arm.
@@ -146,6 +156,7 @@ class Plan:
     remarks: tuple[str, ...] = ()
     findings: tuple[Finding, ...] = ()
     attempts: tuple[Attempt, ...] = ()
+    bound: Fraction | None = None
     quality: Quality | None = None
     heights: Heights | None = None
     radius_rule: RadiusRule | None = None

@@ -17,9 +17,10 @@ from bezier.input.numbers import NotANumber, describe, read_squared, shorten
 from bezier.input.single_table import SingleCurve, Via, read_single, stated_via
 from bezier.input.toml_table import LARGEST, POINT, Table
 from bezier.motion.motion import Timing, read_timing
+from bezier.obstacles.inside import Inside, inside
 from bezier.obstacles.obstacle import Obstacle
 from bezier.obstacles.reader import read_obstacles
-from bezier.obstacles.via import via_over
+from bezier.obstacles.via import via_at_thirds, via_over
 from bezier.paths.heights import AXES, Strip
 from qe.errors import InputError
 
@@ -99,6 +100,11 @@ class Problem:
         return Strip(low, high, kept) if kept else None
 
 
+def ends_inside(problem: Problem) -> tuple[Inside, ...]:
+    """The start and the goal with the obstacles that they lie in: then no path exists."""
+    return inside({"start": problem.start, "goal": problem.goal}, problem.obstacles)
+
+
 _POINTS = ("start", "via", "goal")
 _WISHES = ("half_space", "ratio", "join_speed", "obstacle", "timing", "single", "arm")
 _KEYS = ("method", "workspace", *_POINTS, "radius", *_WISHES)
@@ -154,9 +160,11 @@ def load_problem(path: Path) -> Problem:
 
 
 def _via(table: Table, start: Vector, goal: Vector, obstacles: tuple[Obstacle, ...]) -> tuple[Vector, Vector]:
-    """The via points given, or those over the obstacles (``bezier.obstacles.via``)."""
+    """The via points given, or those over the obstacles (``bezier.obstacles.via``); where no path exists, any."""
     expected = "two points of 3 numbers"
     if "via" not in table.values and obstacles:
+        if inside({"start": start, "goal": goal}, obstacles):
+            return via_at_thirds(start, goal)
         try:
             return via_over(start, goal, obstacles)
         except InputError as error:

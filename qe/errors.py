@@ -84,6 +84,10 @@ class InternalError(QEError):
     """A broken invariant: a bug in this package."""
 
 
+class Contradiction(InternalError):
+    """Two ways to an answer disagree: one of them is wrong, and nobody may be given either."""
+
+
 def _restored(kind: type[QEError], arguments: tuple[object, ...], attributes: dict[str, object]) -> QEError:
     error = kind.__new__(kind, *arguments)
     vars(error).update(attributes)

@@ -68,6 +68,19 @@ def work_moves_later(request: pytest.FixtureRequest) -> Iterator[None]:
         yield
 
 
+@pytest.fixture(autouse=True, scope="module")
+def faults_are_heard(request: pytest.FixtureRequest) -> Iterator[None]:
+    """An error that ends a proof costs users the proof alone; here it fails a test that is about others."""
+
+    def raised(error: Exception) -> str:
+        raise error
+
+    with pytest.MonkeyPatch.context() as patch:
+        if request.node.get_closest_marker("faults") is None:
+            patch.setattr("qe.proving.certificates.fault", raised)
+        yield
+
+
 def pytest_collection_finish() -> None:
     """What was collected stays until the end: no search for garbage goes through it, here or in forked processes.
 

@@ -26,9 +26,10 @@ from bezier.planner.derivations import with_stated
 from bezier.planner.outputs import COMPARISON, DATA, LISTED_IN, PICTURES, PROBLEM, REPORT, SUMMARY, data_texts, facts
 from bezier.planner.planning import with_findings, with_quality
 from bezier.planner.radius_rule import stated_rule
-from bezier.planner.table import method_of
+from bezier.planner.table import method_for
+from bezier.planner.words import NONE
 from bezier.plans import Outcome, Plan, Stated
-from bezier.problem import Problem, to_json
+from bezier.problem import Problem, ends_inside, to_json
 from qe.api.verify import checked as verify
 from qe.certify.verdict import Verdict
 from qe.errors import CertificateRejected, InputError
@@ -64,7 +65,7 @@ def recheck(channel: Channel, folder: FilePath) -> list[str]:
 
 def restored(problem: Problem, certificate: Certificate, stated: Stated) -> tuple[Plan, tuple[str, ...]]:
     """The plan that the certificates and the stated path prove, and what was checked for that."""
-    found = _of_certificate(lambda: method_of(problem.method).restore(problem, certificate, stated))
+    found = _of_certificate(lambda: method_for(problem).restore(problem, certificate, stated))
     plan: Plan = found.plan
     if problem.obstacles:
         plan = avoid.with_stated_attempts(avoid.examined(plan), stated.summary.get("attempts"))
@@ -213,7 +214,8 @@ def _seconds(value: Any, place: str) -> Fraction:
 def _told(plan: Plan) -> list[str]:
     """What the checks of the path showed."""
     if plan.path is None:
-        return ["no control point exists: the conditions contradict each other"]
+        inside = "by any method" if ends_inside(plan.problem) else ""
+        return [f"{NONE}: {inside or 'no control point exists: the conditions contradict each other'}"]
     lines = []
     if plan.outcome is Outcome.BLOCKED:
         lines += [f"{PATH}: {survey.in_words(finding)}" for finding in survey.contacts(plan.findings)]

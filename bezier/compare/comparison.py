@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+import signal
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
@@ -24,7 +26,7 @@ from bezier.planner.derivations import members_of
 from bezier.planner.table import method_of
 from bezier.plans import Clock, Derived, Plan, derivation_page
 from bezier.problem import PlanMethod, Problem
-from qe.errors import InputError, Unable
+from qe.errors import BudgetExceeded, InputError, Unable
 from qe.formula.syntax import Formula
 from qe.processes.worker import Channel, Known, run
 from qe.proof.certificate import Certificate
@@ -38,12 +40,15 @@ PAPER = {PlanMethod.QUADRATIC: "about 15.4 s", PlanMethod.CUBIC: "has not yet be
 NUMBERS = {PlanMethod.QUADRATIC: "(8):", PlanMethod.CUBIC: "(7):"}
 """What the labels of the certificates of a plan begin with."""
 
-REGION_SECONDS, PROOF_SECONDS = 30.0, 30.0
-"""No part, nor all derivations together, is worked on longer than this; the comparison then says so."""
+COMPARE_SECONDS, PROOF_SECONDS = 28.0, 30.0
+"""Processor time that the comparison may take without a limit of the caller, and seconds for all derivations together;
+what is not finished then is left out, and the comparison says so."""
+PATIENCE = 20
+"""A region may wait for the processor so many times as long as it may have it."""
 OUTPUT_SHARE = 0.15
 """The share of the time left after the plans that is kept for the pictures and the files."""
-SHARES = (3, 3, 2)
-"""One part in so many of the time left is for each planar region; the steps after them are short."""
+SHARES = {"(8)": 4, "(7)": 3, "(8*)": 2}
+"""One part in so many of the time left is for each planar region. (8*) may take long, so it comes last."""
 AREA_REL, VOLUME_REL = Fraction(1, 1000), 0.05
 """Relative width of areas and volumes."""
 
@@ -159,12 +164,16 @@ def compare(problem: Problem, clock: Clock | None = None, *, proofs: bool = Fals
             sides[method] = _side(problem, method, watch)
         watch.learn(method.value, sides[method].plan.outcome.value)
     parts = _Parts(watch)
-    planar = _planar(problem, parts)
+    regions = _Regions(problem, parts)
+    polygon, cubic_region = regions.part("(8)"), regions.part("(7)")
+    answers = parts.take("(8) lies in (8*)", 3, lambda seconds: _contained(problem, regions.plane, seconds))
     plan = sides[PlanMethod.QUADRATIC].plan
     volume = parts.take("volume of the region of (8)", 2, lambda seconds: _volume(plan, seconds))
-    theorem = parts.take("existence theorem of (7)", 1, lambda seconds: existence(timeout=seconds))
+    theorem = parts.take("existence theorem of (7)", 2, lambda seconds: existence(timeout=seconds))
     if theorem is None:
         theorem = Existence(sentence(), None, "")
+    contained = None if answers is None else all(answer.truth for answer in answers.values())
+    planar = Planar(regions.plane, polygon, regions.part("(8*)"), cubic_region, contained, answers or {})
     found: tuple[dict[str, Derived], dict[str, str]] | None = None
     if proofs:
         asked = {name: answer for side in sides.values() for name, answer in side.plan.eliminations.items()}
@@ -178,20 +187,28 @@ def compare(problem: Problem, clock: Clock | None = None, *, proofs: bool = Fals
     return Comparison(problem, sides, planar, volume, theorem, dict(watch.seconds), parts.unfinished, known, unproved)
 
 
+def processor_time() -> float:
+    """Seconds that this process and those it has waited for had the processor."""
+    return sum(os.times()[:4])
+
+
 @dataclass(slots=True)
 class _Parts:
     """The common parts, one after the other; each may take a share of the time that is left."""
 
     clock: Clock
     unfinished: dict[str, str] = field(default_factory=dict)
+    begin: float = field(default_factory=processor_time)
 
     def take(self, name: str, share: int, work: Callable[[float], Found], most: float | None = None) -> Found | None:
-        """The result of a part, which gets one part in ``share`` of the time asked for (``most`` where none is asked
-        for); None, with the reason noted."""
+        """The result of a part, which gets one part in ``share`` of the time asked for; where none is asked for,
+        ``most`` seconds, or what is left of ``COMPARE_SECONDS``. None, with the reason noted."""
         try:
             with self.clock.step(name):
                 left = self.clock.remaining(name)
-                return work((most or REGION_SECONDS) if left is None else left * (1 - OUTPUT_SHARE) / share)
+                if left is None:
+                    return work(most or max(0.1, COMPARE_SECONDS - (processor_time() - self.begin)))
+                return work(left * (1 - OUTPUT_SHARE) / share)
         except Unable as error:
             self.unfinished[name] = str(error)
             self.clock.learn(name, f"not finished: {error}")
@@ -220,16 +237,23 @@ def _side(problem: Problem, method: PlanMethod, clock: Clock) -> Side:
     return Side(replace(plan, seconds=dict(own.seconds)), lengths, curvatures)
 
 
-def _planar(problem: Problem, parts: _Parts) -> Planar:
-    plane = Plane.through(problem)
-    regions = {}
-    for share, (name, asked) in zip(SHARES, planar_statements(problem, plane).items(), strict=True):
-        step = f"planar region of {name}"
-        found = parts.take(step, share, partial(_region, asked, plane, parts.clock))
-        regions[name] = found or PlanarRegion(str(asked), reason=parts.unfinished[step])
-    answers = parts.take("(8) lies in (8*)", 3, lambda seconds: _contained(problem, plane, seconds))
-    contained = None if answers is None else all(answer.truth for answer in answers.values())
-    return Planar(plane, regions["(8)"], regions["(8*)"], regions["(7)"], contained, answers or {})
+@dataclass(frozen=True, slots=True)
+class _Regions:
+    """The planar regions of a problem, each as a part."""
+
+    problem: Problem
+    parts: _Parts
+
+    @property
+    def plane(self) -> Plane:
+        """Where they are."""
+        return Plane.through(self.problem)
+
+    def part(self, name: str) -> PlanarRegion:
+        """The region of this formula, or why there is none."""
+        step, asked = f"planar region of {name}", planar_statements(self.problem, self.plane)[name]
+        found = self.parts.take(step, SHARES[name], partial(_region, asked, self.plane, self.parts.clock))
+        return found or PlanarRegion(str(asked), reason=self.parts.unfinished[step])
 
 
 def _contained(problem: Problem, plane: Plane, seconds: float) -> dict[str, Any]:
@@ -248,10 +272,15 @@ def planar_statements(problem: Problem, plane: Plane) -> dict[str, Statement]:
 
 
 def _region(asked: Statement, plane: Plane, clock: Clock, seconds: float) -> PlanarRegion:
-    """The region, which is convex: its conditions are convex in Q1 and Q2, for every t; its area if time allows."""
+    """The region, which is convex: its conditions are convex in Q1 and Q2, for every t; its area if time allows.
+
+    ``seconds``: of processor time, where the clock has no limit, so that a busy machine shows as much as another one.
+    """
     known = Known()
+    work = partial(_measured, asked.formula, most=seconds if clock.limit is None else None)
+    patience = seconds if clock.limit is not None else PATIENCE * seconds
     try:
-        region, area = run(partial(_measured, asked.formula), timeout=seconds, known=known, progress=clock.listener)
+        region, area = run(work, timeout=patience, known=known, progress=clock.listener)
     except Unable as error:
         found = known.facts.get("region")
         if found is None:
@@ -264,9 +293,28 @@ def _region(asked: Statement, plane: Plane, clock: Clock, seconds: float) -> Pla
     return PlanarRegion(str(asked), region, Enclosure(area.low * unit.low, area.high * unit.high), answer=answer)
 
 
-def _measured(formula: Formula, channel: Channel) -> tuple[qe.Region, Enclosure]:
-    """The region with all that is shown of it, which is told as soon as it is known, and its area."""
-    given = qe.region(formula, progress=channel.event)
+class _Spent(Exception):
+    """The processor time is over. No ``Unable``, after which the engine would try another way."""
+
+
+def _measured(formula: Formula, channel: Channel, *, most: float | None) -> tuple[qe.Region, Enclosure]:
+    """The region with all that is shown of it, which is told as soon as it is known, and its area.
+
+    Raises ``BudgetExceeded`` after ``most`` seconds of processor time.
+    """
+
+    def spent(number: int, frame: object) -> None:
+        raise _Spent
+
+    if most is not None:  # this is a process of its own, which nothing else has set timers in
+        signal.signal(signal.SIGPROF, spent)
+        signal.setitimer(signal.ITIMER_PROF, most, 1.0)
+    try:
+        given = qe.region(formula, progress=channel.event)
+    except _Spent:
+        raise BudgetExceeded(f"limit of {most:.0f} s of processor time reached") from None
+    finally:
+        signal.setitimer(signal.ITIMER_PROF, 0.0)
     channel.fact("answer", given.answer)
     region = qe.Region.from_json(given.to_json())
     if region.cells and not region.is_empty:

@@ -11,9 +11,9 @@ from bezier.curves.enclosure import Enclosure
 from bezier.curves.scalar import brief
 from bezier.methods.cubic.existence import trivial_witness
 from bezier.planner.outputs import summary
-from bezier.planner.table import method_of
-from bezier.plans import Outcome
+from bezier.planner.words import why_not
 from bezier.problem import PlanMethod
+from bezier.report.first import RESULTS
 
 TITLES = {PlanMethod.QUADRATIC: "quadratic, formula (8)", PlanMethod.CUBIC: "cubic, formula (7)"}
 DIGITS = 8
@@ -97,11 +97,7 @@ def _both(sides: list[Side], text: Any) -> tuple[str, str]:
 
 
 def _result(side: Side) -> str:
-    if side.plan.outcome is Outcome.SOLVED:
-        return "path found"
-    if side.plan.outcome is Outcome.INFEASIBLE:
-        return method_of(side.plan.problem.method).reason(side.plan)
-    return "path meets an obstacle"
+    return why_not(side.plan) or RESULTS[side.plan.outcome]
 
 
 def _joins(side: Side) -> str:

@@ -10,7 +10,6 @@ from markupsafe import Markup
 from bezier.compare.comparison import METHODS, Comparison
 from bezier.compare.output import TITLES, Row, duration, notes, rows, step_rows
 from bezier.pictures.picture import Chart
-from bezier.plans import Outcome
 from bezier.report import html, parts
 from bezier.report.first import DRAWING
 from bezier.report.html import Card, Page, Section, Text
@@ -51,7 +50,7 @@ def _cards(found: Comparison) -> list[Card]:
     cards = []
     for method in METHODS:
         side = found.sides[method]
-        good = side.plan.outcome is Outcome.SOLVED
+        good = side.plan.outcome.is_success
         facts = [f"eliminated in {duration(side.plan.seconds['elimination'])}"]
         if side.length is not None and side.curvature is not None:
             bend = "a cusp" if side.curvature.high is None else f"curvature at most {side.curvature.shown()} per mm"

@@ -10,7 +10,7 @@ from typing import TypeVar
 
 from bezier.paths.path import Path
 from bezier.planner.planning import begin_plan, finish_plan, make_plan
-from bezier.plans import Begun, Clock, Outcome, Plan
+from bezier.plans import Begun, Clock, Plan
 from bezier.problem import Problem
 from qe.errors import BudgetExceeded
 from qe.options import Budget
@@ -48,7 +48,7 @@ class Work:
         """Whether the first part alone shows that there is a path; else all is done. Raises as ``make_plan``."""
         if self._plan is None and self._begun is None and not self.proofs:
             self._begun = self._limited(lambda clock: begin_plan(self.problem, clock))
-        return self._begun is not None and self._begun.outcome is Outcome.SOLVED
+        return self._begun is not None and self._begun.outcome.is_success
 
     @property
     def known(self) -> Begun | Plan:

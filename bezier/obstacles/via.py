@@ -25,7 +25,7 @@ def via_over(
     along = subtract(goal, start)
     boxes = [o.box for o in obstacles if o.box is not None and _shadow(start, along, o.box) is not None]
     if not boxes:
-        return add(start, scale(Fraction(1, 3), along)), add(start, scale(Fraction(2, 3), along))
+        return via_at_thirds(start, goal)
     spans = [span for box in boxes if (span := _shadow(start, along, box)) is not None]
     first, last = min(s for s, _ in spans), max(s for _, s in spans)
     if first <= 0 or last >= 1 or first == last:
@@ -34,6 +34,12 @@ def via_over(
     height = high + lift * (high - low)
     q0, r0 = add(start, scale(first, along)), add(start, scale(last, along))
     return (*q0[:2], height), (*r0[:2], height)
+
+
+def via_at_thirds(start: Vector, goal: Vector) -> tuple[Vector, Vector]:
+    """The points at a third and two thirds of the way."""
+    along = subtract(goal, start)
+    return add(start, scale(Fraction(1, 3), along)), add(start, scale(Fraction(2, 3), along))
 
 
 def _shadow(start: Vector, along: Vector, box: Box) -> tuple[Fraction, Fraction] | None:

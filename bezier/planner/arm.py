@@ -84,9 +84,9 @@ def with_joints(plan: Plan) -> Plan:
             raise
         return replace(plan, remarks=(*plan.remarks, f"the joints are not planned: {error}"))
     outcome = plan.outcome
-    if outcome is Outcome.SOLVED and (not found.path.is_reachable or found.sequence is None):
+    if outcome.is_success and (not found.path.is_reachable or found.sequence is None):
         outcome = Outcome.OUT_OF_REACH
-    elif outcome is Outcome.SOLVED and found.motion is not None and not found.motion.keeps_limits:
+    elif outcome.is_success and found.motion is not None and not found.motion.keeps_limits:
         outcome = Outcome.TOO_FAST
     return replace(plan, joints=found, outcome=outcome)
 

@@ -24,9 +24,9 @@ from bezier.input.toml_table import Table
 from bezier.obstacles import survey
 from bezier.obstacles.clearance import Argument, Clear
 from bezier.obstacles.survey import Finding
-from bezier.planner.table import method_of
+from bezier.planner.table import method_for
 from bezier.plans import Attempt, Clock, Outcome, Plan
-from bezier.problem import INNER, PlanMethod, Problem, problem_of, to_json
+from bezier.problem import INNER, PlanMethod, Problem, ends_inside, problem_of, to_json
 from qe.errors import BudgetExceeded, CertificateRejected, InputError, Unable
 
 RAISES = (Fraction(1, 4), Fraction(1, 2), Fraction(1))
@@ -34,14 +34,18 @@ METHODS = (PlanMethod.QUADRATIC, PlanMethod.CUBIC, PlanMethod.SINGLE)
 """Those after the one asked for are tried in this order."""
 
 
+ENDS = (Outcome.SOLVED, Outcome.NEAR_OPTIMAL, Outcome.BLOCKED, Outcome.INFEASIBLE)
+"""What an attempt can end with, the best first: at most one of the first two, and that is the last attempt."""
 AS_GIVEN = "as given"
 """The first attempt."""
+NOT_FOUND = "no path found: every path that was tried MEETS an obstacle"
 
 
 def avoiding(problem: Problem, clock: Clock) -> Plan:
-    """The first alternative whose whole path is clear of the obstacles; else the first path, ``Outcome.BLOCKED``."""
+    """The first alternative whose whole path is clear of the obstacles; else the first path, ``Outcome.BLOCKED``. Where
+    the start or the goal lies in an obstacle, the proof that no path exists, at once."""
     first = _attempted(AS_GIVEN, problem, clock)
-    if first.outcome is Outcome.SOLVED:
+    if first.outcome.is_success or ends_inside(problem):
         return first
     attempts = first.attempts
     for what, candidate in _alternatives(problem, first):
@@ -53,7 +57,7 @@ def avoiding(problem: Problem, clock: Clock) -> Plan:
             attempts += (Attempt(what, None, str(error)),)
             continue
         attempts += plan.attempts
-        if plan.outcome is Outcome.SOLVED:
+        if plan.outcome.is_success:
             return replace(plan, attempts=attempts)
         if first.path is None and plan.path is not None:
             first = plan
@@ -62,7 +66,7 @@ def avoiding(problem: Problem, clock: Clock) -> Plan:
 
 def _attempted(what: str, problem: Problem, clock: Clock) -> Plan:
     """The plan of one problem, proved clear of the obstacles or not."""
-    plan: Plan = method_of(problem.method).make(problem, clock)
+    plan: Plan = method_for(problem).make(problem, clock)
     with clock.step(f"clearance, {what}"):
         plan = examined(plan)
     clock.learn(what, _detail(plan))
@@ -102,6 +106,8 @@ def _polygon_remark(finding: Finding) -> str:
 
 
 def _detail(plan: Plan) -> str:
+    if ends_inside(plan.problem):
+        return method_for(plan.problem).reason(plan)
     if plan.outcome is Outcome.INFEASIBLE:
         return "no control point exists"
     return "; ".join(map(survey.in_words, survey.contacts(plan.findings))) or "clear of all obstacles"
@@ -165,8 +171,8 @@ def with_stated_attempts(plan: Plan, stated: Any) -> Plan:
     told = [_attempt(item, f"summary.json: attempts[{i}]") for i, item in enumerate(stated)]
     outcomes = [item.outcome for item in told]
     own = outcomes.index(plan.outcome) if plan.outcome in outcomes else 0
-    solved = plan.outcome is Outcome.SOLVED
-    best = next((o for o in (Outcome.SOLVED, Outcome.BLOCKED, Outcome.INFEASIBLE) if o in outcomes), None)
+    solved = plan.outcome.is_success
+    best = next((o for o in ENDS if o in outcomes), None)
     if best is not plan.outcome or (solved and own != len(told) - 1) or outcomes[0] is None:
         raise CertificateRejected("summary.json: attempts", f"these do not end with {plan.outcome.value}")
     what = told[own].what if own else AS_GIVEN
@@ -178,7 +184,7 @@ def _attempt(stated: Any, place: str) -> Attempt:
     """An attempt as ``json_entries`` writes it."""
     if not isinstance(stated, dict) or not all(isinstance(text, str) for text in stated.values()):
         raise CertificateRejected(place, "expected an object of texts")
-    known = {"unable": None, **{o.value: o for o in (Outcome.SOLVED, Outcome.BLOCKED, Outcome.INFEASIBLE)}}
+    known = {"unable": None, **{o.value: o for o in ENDS}}
     if stated.keys() != {"what", "outcome", "detail"} or stated["outcome"] not in known:
         raise CertificateRejected(place, f"expected what, outcome ({', '.join(known)}) and detail")
     return Attempt(stated["what"], known[stated["outcome"]], stated["detail"])
@@ -193,7 +199,7 @@ def summary_lines(plan: Plan) -> list[str]:
         return []
     lines = [survey.in_words(finding) for finding in plan.findings]
     if plan.outcome is Outcome.BLOCKED:
-        lines.append("the path MEETS an obstacle, and no alternative was found; a path may exist all the same")
+        lines.append(f"{NOT_FOUND}; a path may exist all the same")
     if len(plan.attempts) > 1:
         lines += [f"tried: {attempt.what}: {attempt.detail}" for attempt in plan.attempts]
     return lines

@@ -10,7 +10,7 @@ from bezier.planner.folder import write_folder
 from bezier.planner.outputs import REPORT
 from bezier.planner.planning import make_plan
 from bezier.planner.words import lines
-from bezier.plans import Clock, Outcome, Plan
+from bezier.plans import Clock, Plan
 from bezier.problem import Problem
 from qe.cli.shell import OK, UNABLE
 from qe.processes.worker import Channel
@@ -42,7 +42,7 @@ def plan(channel: Channel, request: Request) -> Reply:
     made = make_plan(request.problem, clock, proofs=True)
     files, told = write_folder(made, request.folder, request.target, clock, plots=request.plots)
     text = json.dumps(told, indent=1, ensure_ascii=False)
-    code = OK if made.outcome is Outcome.SOLVED else UNABLE
+    code = OK if made.outcome.is_success else UNABLE
     return Reply(text if request.json else in_words(made, request.target, files, told["seconds"]["total"]), code)
 
 

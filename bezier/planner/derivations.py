@@ -12,7 +12,7 @@ from typing import Any
 
 from bezier.obstacles.obstacle import Obstacle
 from bezier.planner import radius_rule
-from bezier.planner.table import method_of
+from bezier.planner.table import method_for
 from bezier.plans import Clock, Derived, Plan
 from qe.api.verify import with_derivation
 from qe.certify.claims import is_about
@@ -115,7 +115,7 @@ def questions(plan: Plan) -> dict[str, Formula]:
     """Everything that may be eliminated for a plan, by name."""
     radius = {name: statement.formula for name, statement in radius_rule.questions(plan.problem).items()}
     obstacles = {name: answer.question for name, answer in of_obstacles(plan.problem.obstacles).items()}
-    return {**method_of(plan.problem.method).questions(plan.problem), **radius, **obstacles}
+    return {**method_for(plan.problem).questions(plan.problem), **radius, **obstacles}
 
 
 def _check_question(member: Labelled, question: Formula | None) -> None:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from bezier.planner import derivations
 from bezier.planner.outputs import REPORT, SUMMARY, summary, write_data
-from bezier.planner.table import method_of
+from bezier.planner.table import method_for
 from bezier.plans import Clock, Plan
 
 if TYPE_CHECKING:
@@ -23,7 +23,7 @@ def write_folder(
     made: Plan, folder: FilePath, target: FilePath, clock: Clock, *, plots: bool
 ) -> tuple[list[str], dict[str, Any]]:
     """All files into ``folder``, whose place will be ``target``; their names, and what the summary says."""
-    method = method_of(made.problem.method)
+    method = method_for(made.problem)
     files = write_data(made, folder)
     drawing = None
     if plots:

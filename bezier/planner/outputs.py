@@ -23,8 +23,9 @@ from bezier.motion import motion
 from bezier.paths import heights
 from bezier.paths.path import Path
 from bezier.planner import arm, avoid
-from bezier.planner.table import method_of
-from bezier.plans import Outcome, Plan
+from bezier.planner.table import method_for
+from bezier.planner.words import why_not
+from bezier.plans import Plan
 from bezier.problem import Problem, to_json
 from qe.errors import InputError
 
@@ -121,7 +122,7 @@ def summary(plan: Plan, files: list[str], seconds: float) -> dict[str, Any]:
 def facts(plan: Plan) -> dict[str, Any]:
     """What the summary says of a plan: all that ``bezier check`` finds again, but for what is named under
     ``not_certified``."""
-    problem, method = plan.problem, method_of(plan.problem.method)
+    problem, method = plan.problem, method_for(plan.problem)
     found: dict[str, Any] = {
         "status": plan.outcome.value,
         "method": problem.method.value,
@@ -145,8 +146,10 @@ def facts(plan: Plan) -> dict[str, Any]:
     }
     if plan.derivations:
         found["derivations"] = {name: list(item.rules) for name, item in plan.derivations.items()}
-    if plan.outcome is Outcome.INFEASIBLE:
-        found["reason"] = method.reason(plan)
+    if plan.bound is not None:
+        found["bound"] = described(plan.bound)
+    if not plan.outcome.is_success and not found.get("reason"):
+        found["reason"] = why_not(plan)
     return found
 
 
@@ -239,7 +242,7 @@ def path_csv(path: Path) -> str:
 def data_texts(plan: Plan) -> dict[str, str]:
     """The files that carry exact data, by name."""
     texts = {"certificate.json": plan.certificate.to_json(), PROBLEM: problem_json(plan.problem)}
-    texts |= method_of(plan.problem.method).files(plan)
+    texts |= method_for(plan.problem).files(plan)
     if plan.path is not None:
         texts["path.json"] = path_text(plan, plan.path)
         texts["path.csv"] = path_csv(plan.path)

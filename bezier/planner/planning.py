@@ -14,8 +14,13 @@ from bezier.planner.avoid import avoiding
 from bezier.planner.derivations import with_derivations
 from bezier.planner.table import method_of
 from bezier.plans import Begun, Clock, Outcome, Plan, RadiusRule
-from bezier.problem import Problem
+from bezier.problem import Problem, ends_inside
 from qe.errors import BudgetExceeded, Unable
+
+NEAR = (
+    "the exact optimum needs a number field of high degree: rational control points are proved to be within 10^-9 of"
+    " its objective"
+)
 
 
 def make_plan(problem: Problem, clock: Clock | None = None, *, proofs: bool = False) -> Plan:
@@ -85,10 +90,11 @@ def with_findings(plan: Plan, rule: Callable[[bool], RadiusRule | None]) -> Plan
     found, remarks = plan, []
     try:
         solvable = plan.outcome is not Outcome.INFEASIBLE
-        forced = rule(solvable)
+        forced = None if ends_inside(plan.problem) else rule(solvable)
         if forced is not None:
             found = replace(found, radius_rule=forced)
             remarks += [forced.in_words()] if solvable else []  # else it is part of the reason
+        remarks += [] if plan.bound is None else [NEAR]
         if plan.path is not None:
             found = replace(found, heights=heights.heights_of(plan.problem.strip, plan.path))
             remarks += origin.remarks(plan.path)
@@ -113,5 +119,5 @@ def with_quality(plan: Plan) -> Plan:
             raise
         return replace(plan, remarks=(*plan.remarks, f"lengths and curvatures are left out: {error}"))
     kept = quality.motion is None or quality.motion.keeps_limits
-    solved = plan.outcome is Outcome.SOLVED
+    solved = plan.outcome.is_success
     return replace(plan, quality=quality, outcome=Outcome.TOO_FAST if solved and not kept else plan.outcome)

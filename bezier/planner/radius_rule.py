@@ -143,7 +143,7 @@ def helps(problem: Problem, radius: Fraction, remaining: Limit = unlimited) -> b
     optimum = qe.minimize(
         system.objective().polynomial, system.in_free_points().formula, method="convex", timeout=remaining()
     )
-    if not optimum.is_optimal or not qe.verify(optimum.certificate).accepted:
+    if optimum.value is None or not qe.verify(optimum.certificate).accepted:
         return False
     values = iter([optimum.point[name] for name in system.shape.variables])
     free: dict[str, Vector] = {name: (next(values), next(values), next(values)) for name in system.shape.free}

@@ -5,8 +5,17 @@ from __future__ import annotations
 from typing import Any
 
 from bezier.plans import Method
-from bezier.problem import PlanMethod
+from bezier.problem import PlanMethod, Problem, ends_inside
 from qe.extras import wanted
+
+
+def method_for(problem: Problem) -> Method[Any]:
+    """The method of a problem: the one that it asks for, unless its start or goal lies in an obstacle."""
+    if ends_inside(problem):
+        from bezier.methods.refuted.method import REFUTED
+
+        return REFUTED
+    return method_of(problem.method)
 
 
 def method_of(choice: PlanMethod) -> Method[Any]:

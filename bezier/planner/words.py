@@ -2,25 +2,29 @@
 
 from __future__ import annotations
 
-from bezier.curves.scalar import brief
+from bezier.curves.scalar import brief, decimal_text
 from bezier.motion import motion
 from bezier.obstacles import survey
 from bezier.paths import heights
 from bezier.planner import arm, avoid
-from bezier.planner.table import method_of
+from bezier.planner.table import method_for
 from bezier.plans import Outcome, Plan
+
+NONE = "no path exists"
+"""What is proved; ``avoid.NOT_FOUND`` says that a search gave up."""
 
 
 def lines(made: Plan) -> list[str]:
     """The summary for people, but for the files."""
-    problem, method = made.problem, method_of(made.problem.method)
+    problem, method = made.problem, method_for(made.problem)
     found = [f"radius r = {problem.workspace.radius_text}, {problem.workspace.kind.value}"]
     found += [f"note: {note}" for note in (*problem.notes, *made.remarks)]
     if made.outcome is Outcome.INFEASIBLE:
-        found.append(method.reason(made))
+        found.append(why_not(made) or "")
     found += method.summary_lines(made)
     if made.objective is not None:
-        found.append(f"objective {brief(made.objective)}, active: {', '.join(made.active) or 'nothing'}")
+        below = "" if made.bound is None else f", never below {decimal_text(made.bound, 12)}"
+        found.append(f"objective {brief(made.objective)}{below}, active: {', '.join(made.active) or 'nothing'}")
     if made.path is not None:
         inside = "proved to lie in the workspace" if made.path.is_inside else "which LEAVES the workspace"
         joins = f"{made.path.smoothness.name} at both joins, " if made.path.joins else ""
@@ -41,15 +45,16 @@ def lines(made: Plan) -> list[str]:
 def why_not(made: Plan) -> str | None:
     """Why the plan is not a path to use, in one line; None where it is one."""
     match made.outcome:
-        case Outcome.SOLVED:
+        case Outcome.SOLVED | Outcome.NEAR_OPTIMAL:
             return None
         case Outcome.INFEASIBLE:
-            return method_of(made.problem.method).reason(made)
+            return f"{NONE}: {method_for(made.problem).reason(made)}"
         case Outcome.BLOCKED:
             met = "; ".join(map(survey.in_words, survey.contacts(made.findings)))
-            return f"the path meets an obstacle, and no alternative was found: {met}; a path may exist all the same"
+            return f"{avoid.NOT_FOUND} ({met}); a path may exist all the same"
         case Outcome.OUT_OF_REACH:
             return f"the arm cannot follow the path: {'; '.join(arm.summary_lines(made))}"
     motion_found = None if made.quality is None else made.quality.motion
-    assert motion_found is not None
-    return f"{motion_found.reason}; kept at all times with {motion_found.suggestion}"
+    if motion_found is not None and motion_found.reason:
+        return f"{motion_found.reason}; kept at all times with {motion_found.suggestion}"
+    return "; ".join(made.joints.remarks if made.joints is not None else ()) or "limits of the joints are not kept"

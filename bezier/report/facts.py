@@ -93,7 +93,7 @@ def obstacles(plan: Plan, drawing: Drawing | None) -> Section | None:
         return None
     content: list[Text] = []
     if plan.outcome is Outcome.BLOCKED:
-        said = "The path meets an obstacle, and no alternative was found; a path may exist all the same."
+        said = "No path was found: every one that was tried meets an obstacle. A path may exist all the same."
         content.append(html.paragraph(html.strong(said), "bad"))
     said = (
         "Each whole curve against each obstacle, enlarged by its margin: proved clear for all t, or the first contact."
@@ -118,7 +118,7 @@ def _finding(finding: survey.Finding) -> tuple[Text, ...]:
 
 
 def _attempt(item: Attempt) -> tuple[Text, ...]:
-    return item.what, toned(item.detail, item.outcome is Outcome.SOLVED)
+    return item.what, toned(item.detail, item.outcome is not None and item.outcome.is_success)
 
 
 def certificates(plan: Plan, claims: Mapping[str, str]) -> Section:

@@ -22,8 +22,9 @@ if TYPE_CHECKING:
 
 RESULTS = {
     Outcome.SOLVED: "path found",
-    Outcome.INFEASIBLE: "no such path exists",
-    Outcome.BLOCKED: "an obstacle is in the way",
+    Outcome.NEAR_OPTIMAL: "path found, near the optimum",
+    Outcome.INFEASIBLE: "no path exists",
+    Outcome.BLOCKED: "no path found: an obstacle is in the way",
     Outcome.TOO_FAST: "a limit of the motion is not kept",
     Outcome.OUT_OF_REACH: "the arm cannot follow the path",
 }
@@ -34,7 +35,7 @@ CURVES = {"P": "first curve", "Q": "second curve", "R": "third curve"}
 
 def cards(plan: Plan) -> list[Card]:
     """Whether it is proved, and length, clearance, least time and curvature where the problem has them."""
-    found = [Card("result", RESULTS[plan.outcome], html.tone(plan.outcome is Outcome.SOLVED), _proved(plan))]
+    found = [Card("result", RESULTS[plan.outcome], html.tone(plan.outcome.is_success), _proved(plan))]
     if plan.path is None:
         found.append(Card("radius", f"{float(plan.problem.workspace.radius_squared) ** 0.5:.6g} mm"))
     if plan.quality is not None:

@@ -157,7 +157,9 @@ def optimum(plan: Plan, system: System, found: Any, title: Text, free_minimum: s
     """The best free control points and those that follow; ``free_minimum`` describes the unconstrained minimum."""
     if plan.path is None:
         return None
-    if plan.active:
+    if plan.bound is not None:
+        active = f"Conditions that bound it: {', '.join(map(on_point, plan.active))}."
+    elif plan.active:
         active = f"Conditions that hold with equality there: {', '.join(map(on_point, plan.active))}."
     else:
         active = f"No condition is active: {free_minimum}, is allowed."
@@ -176,6 +178,10 @@ def least(plan: Plan) -> Markup:
     """The value of the objective."""
     decimal = decimal_text(plan.objective, 12)
     said = html.paragraph(Markup("It is {} {}.").format(decimal, plan.unit))
+    if plan.bound is not None:
+        low = decimal_text(plan.bound, 12)
+        near = Markup("At these control points it is {} {unit}, and no choice has less than {} {unit}, proved.")
+        said = html.paragraph(near.format(decimal, low, unit=plan.unit))
     if _is_all(plan.objective, decimal):
         return said
     return said + html.folded("exactly", html.formula([shown(mathml.number(plan.objective))]))

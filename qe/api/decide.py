@@ -9,7 +9,7 @@ from typing import Any
 
 from qe import arguments
 from qe.api.eliminate import Order, Progress, eliminate
-from qe.api.input import AnyFormula, read_polynomial, together
+from qe.api.input import AnyFormula, order_of, read_polynomial, together
 from qe.api.limits import left_of, limits_of, read_under, reading
 from qe.errors import InputError, Unable
 from qe.exact.number import Assignment, ExactPoint
@@ -56,7 +56,7 @@ def decide(
         timeout=left_of(limits),
         memory=memory,
         method=method,
-        order=order,
+        order=order_of(order, formula, given),
         progress=progress,
         root_atoms=root_atoms,
         without=without,
@@ -103,7 +103,7 @@ def find_instance(
         timeout=left_of(limits),
         memory=memory,
         method=method,
-        order=order,
+        order=order_of(order, formula, given),
         progress=progress,
         root_atoms=root_atoms,
         without=without,
@@ -161,12 +161,13 @@ def check_witness(
     rings = [r for r in (ring_of(given), *(poly.ring for poly, _ in read.values())) if r is not None]
     ring = Ring.of(dict.fromkeys(name for r in rings for name in r.names))
     terms = {name: Term.of(poly.convert(ring), scale) for name, (poly, scale) in read.items()}
+    asked = instantiate(convert(given, ring), terms)
     return decide(
-        instantiate(convert(given, ring), terms),
+        asked,
         timeout=left_of(limits),
         memory=memory,
         method=method,
-        order=order,
+        order=order_of(order, sentence, asked),
         progress=progress,
         root_atoms=root_atoms,
         without=without,
@@ -205,12 +206,13 @@ def equivalent(
     limits = limits_of(timeout, memory, progress, process).begun(time.monotonic())
     f, g = together(reading(left, format, limits), reading(right, format, limits))
     free = dict.fromkeys((*f.free, *g.free))
+    asked = forall(free, iff(f, g))
     return decide(
-        forall(free, iff(f, g)),
+        asked,
         timeout=left_of(limits),
         memory=memory,
         method=method,
-        order=order,
+        order=order_of(order, [left, right], asked),
         progress=progress,
         root_atoms=root_atoms,
         without=without,

@@ -9,10 +9,9 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from qe import arguments
-from qe.api.input import AnyFormula, read_formula
+from qe.api.input import AnyFormula, order_of, read_formula
 from qe.api.limits import cluster_of, limits_of, performed, reading
 from qe.errors import InputError, Unable
-from qe.formula.features import features
 from qe.formula.syntax import FALSE, Formula
 from qe.options import VERIFY_SECONDS, Budget, Cluster, Method, Options, Stage
 from qe.processes.execution import Budgets, Limits
@@ -115,7 +114,7 @@ def eliminate(
         given = reading(formula, format, limits, total_division)
     except Unable as error:
         return Answer(Status.UNABLE, None, reason=str(error))
-    _check_order(options.order, given)
+    options = options.with_(order=order_of(order, formula, given))
     whole = limits.shared(WHOLE_SHARE) if arguments.flag(anytime, "anytime") else limits
     if racing:
         answer = _raced(given, options, whole, check, racing)
@@ -126,14 +125,6 @@ def eliminate(
     if explain:
         print(answer.explanation or answer.reason, file=sys.stderr)
     return answer
-
-
-def _check_order(order: tuple[str, ...] | None, formula: Formula) -> None:
-    """Raise ``InputError`` for names in an order that are no variables of the formula, or stand twice."""
-    known = {*formula.free, *features(formula).bound}
-    names = order or ()
-    if not known.issuperset(names) or len(set(names)) < len(names):
-        raise InputError(f"order: variables of the formula expected, each once, {', '.join(names)} found")
 
 
 def _limited(formula: Formula, options: Options, limits: Limits, check: bool, cluster: Cluster | None) -> Answer:

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import re
 import sys
 import warnings
-from collections.abc import Container, Iterable
+from collections.abc import Container, Iterable, Mapping
 from decimal import Decimal
 from fractions import Fraction
 from numbers import Real
@@ -16,7 +17,9 @@ from qe.exact.ring import Poly, Ring
 from qe.formula.build import conj, convert
 from qe.formula.syntax import TRUE, Constant, Exists, ForAll, Formula
 from qe.formula.traverse import ring_of
+from qe.io.names import names_in
 from qe.proof.answer import Answer
+from qe.spelling import KEYWORDS, QUOTED, WORD, unquoted
 
 if TYPE_CHECKING:
     from qe.optimization.values import Objective
@@ -100,6 +103,35 @@ def read_block(given: AnyFormula, format: str = "text", total_division: bool = F
     return (ForAll if universal else Exists)(names, formula)
 
 
+def names_typed(given: AnyFormula) -> set[str]:
+    """The names in what a caller gave, also those that reading simplifies away: ``0 < 0 and (ex x. x > a)`` has two."""
+    if isinstance(given, str):
+        return set(re.findall(WORD, given)) - KEYWORDS | {unquoted(name) for name in re.findall(QUOTED, given)}
+    if isinstance(given, Formula):
+        return set(names_in(given))
+    if isinstance(given, Mapping):
+        given = list(given.values())
+    if isinstance(given, list | tuple):
+        return {name for part in given for name in names_typed(part)}
+    if isinstance(given, Poly):
+        return set(given.ring.names)
+    symbols = given.atoms() if hasattr(given, "free_symbols") else ()
+    return {symbol.name for symbol in symbols if getattr(symbol, "is_Symbol", False)}
+
+
+def order_of(order: Any, given: AnyFormula, formula: Formula) -> tuple[str, ...] | None:
+    """Those names of an order that a formula has, which was read from what was given, or made of it.
+
+    Raises ``InputError`` for names of neither, and for what is no order.
+    """
+    names, known = arguments.names(order), set(names_in(formula))
+    if names is None:
+        return None
+    if not (known | names_typed(given)).issuperset(names):
+        raise InputError(f"order: variables of the formula expected, each once, {', '.join(names)} found")
+    return tuple(name for name in names if name in known)
+
+
 def together(*parts: Formula) -> tuple[Formula, ...]:
     """The formulas over one ring."""
     names = dict.fromkeys(name for p in parts if (ring := ring_of(p)) is not None for name in ring.names)
@@ -176,7 +208,9 @@ def read_objective(given: AnyFormula, taken: Iterable[str]) -> Objective:
 
 __all__ = [
     "AnyFormula",
+    "names_typed",
     "note_doubts",
+    "order_of",
     "read_block",
     "read_constraints",
     "read_formula",

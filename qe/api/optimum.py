@@ -8,7 +8,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Literal, overload
 
 from qe import arguments
-from qe.api.input import AnyFormula, note_doubts, read_constraints, read_objective, warned
+from qe.api.input import AnyFormula, names_typed, note_doubts, read_constraints, read_objective, warned
 from qe.api.limits import Progress, limits_of, performed, read_under
 from qe.errors import InputError
 from qe.options import Budget
@@ -161,6 +161,9 @@ def _best(
     limits = limits.begun(time.monotonic())
     conditions = read_under(limits, lambda: read_constraints(constraints), constraints)
     given, check = arguments.names(parameters, "parameters"), arguments.flag(check, "check")
+    strangers = sorted({*(given or ())} - names_typed([objective, constraints, conditions]))
+    if strangers:
+        raise InputError(f"parameters: variables of the problem expected, each once, {', '.join(strangers)} found")
     ring = ring_of(conditions)
     taken = (*(ring.names if ring is not None else ()), *(given or ()))
     term = read_under(limits, lambda: read_objective(objective, taken), objective)
@@ -186,7 +189,7 @@ def _best(
         if term.polynomial is not None and method != "elimination":
             poly, scale = term.polynomial
             try:
-                return (minimize if sign > 0 else maximize)(poly, conditions, scale=scale, budget=budget)
+                return (minimize if sign > 0 else maximize)(poly, conditions, scale=scale, budget=budget, near=True)
             except NotConvex:
                 if method == "convex":
                     raise

@@ -121,16 +121,18 @@ def parametric_witnesses(
 
     def work(budgets: Budgets) -> ParametricWitnesses:
         from qe.api.verify import with_verdict
-        from qe.proving.certificates import derived
+        from qe.proving.certificates import NOT_WANTED, derived
 
         log, options, budget = RunLog(), Options(certify=check), budgets()
         found = find(_outermost_block(given, log, options, budget), budget=budget, log=log)
         formula = found.equivalent_to(given)
-        answer = Answer(Status.SOLVED, formula, question=given, log=log)
+        answer = Answer(Status.SOLVED, formula, question=given, log=log, reason=NOT_WANTED)
         if check:
             budget.keep(found.with_(replace(answer, reason=UNPROVED)))
             proof = derived(given, log, formula, options, budget)
-            answer = replace(answer, certificate=proof.certificate, unchecked_steps=proof.unchecked)
+            answer = replace(
+                answer, certificate=proof.certificate, unchecked_steps=proof.unchecked, reason=proof.reason
+            )
             if proof.certificate is not None:
                 answer = with_verdict(answer, budget, checked=proof.checked)
         return found.with_(answer)

@@ -14,6 +14,7 @@ from qe.options import VERIFY_SECONDS, Budget, Options
 from qe.proof.answer import UNPROVED, Answer, Guarantee
 from qe.proof.cells_json import CellEvidence
 from qe.proof.certificate import Certificate, Labelled
+from qe.proving.certificates import without_loss
 
 if TYPE_CHECKING:
     from qe.certify.verdict import Verdict
@@ -82,7 +83,7 @@ def with_verdict(answer: Answer, budget: Budget, *, checked: bool = False) -> An
     """The answer with the guarantee that its certificate gives, which the checkers may have accepted already.
 
     A certificate that is not verified in the time that the budget leaves is dropped, and the reason noted: the answer
-    follows from the algorithms all the same. Raises ``InternalError`` where a certificate is refused.
+    follows from the algorithms all the same.
     """
     guarantee, reason = (Guarantee.CHECKED, "") if checked else judged(answer.certificate, budget)
     if guarantee is Guarantee.CHECKED:
@@ -115,24 +116,25 @@ def _proved(answer: Answer, budget: Budget) -> Answer:
     found = derived(answer.question, answer.log, answer.formula, Options(certify=True), budget)
     proof = replace(answer, certificate=found.certificate, unchecked_steps=found.unchecked)
     if found.certificate is None:
-        return replace(proof, guarantee=Guarantee.DERIVED, reason=proof.why_unchecked)
-    return with_verdict(proof, budget, checked=found.checked)
+        return replace(proof, guarantee=Guarantee.DERIVED, reason=found.reason)
+    return with_verdict(replace(proof, reason=""), budget, checked=found.checked)
 
 
 def judged(certificate: Certificate | None, budget: Budget) -> tuple[Guarantee, str]:
-    """The guarantee that a certificate gives within what the budget leaves, and why it is no better.
-
-    Raises ``InternalError`` where the certificate is refused.
-    """
+    """The guarantee that a certificate gives within what the budget leaves, and why it is no better."""
     if certificate is None:
         return Guarantee.DERIVED, "there is no certificate"
-    left = budget.remaining()
-    verdict = _limited(certificate, VERIFY_SECONDS if left is None else min(VERIFY_SECONDS, max(0.0, SHARE * left)))
-    if verdict.accepted:
-        return Guarantee.CHECKED, ""
-    if verdict.decided:
-        raise InternalError(f"the certificate of an answer was rejected at {verdict.step}: {verdict.reason}")
-    return Guarantee.DERIVED, f"the certificate was not verified: {verdict.reason}"
+
+    def made() -> tuple[Guarantee, str]:
+        left = budget.remaining()
+        verdict = _limited(certificate, VERIFY_SECONDS if left is None else min(VERIFY_SECONDS, max(0.0, SHARE * left)))
+        if verdict.accepted:
+            return Guarantee.CHECKED, ""
+        if verdict.decided:
+            raise InternalError(f"the certificate of an answer was rejected at {verdict.step}: {verdict.reason}")
+        return Guarantee.DERIVED, f"the certificate was not verified: {verdict.reason}"
+
+    return without_loss(made, lambda reason: (Guarantee.DERIVED, reason))
 
 
 def with_guarantee(region: Region, budget: Budget) -> Region:

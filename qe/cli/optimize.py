@@ -78,6 +78,8 @@ def _data(best: Optimum | GlobalOptimum) -> dict[str, Any]:
             "minimisers": str(best.minimisers),
             "points": points,
         }
+    if best.bound is not None:
+        data["bound"] = exact_and_decimal(best.bound)
     return {
         **data,
         "active": [best.constraints[i] for i in best.active],
@@ -103,6 +105,9 @@ def _lines(best: Optimum | GlobalOptimum, extreme: str) -> list[str]:
             lines.append(f"without an end from {point_text(best.point)} along {point_text(best.direction)}")
         return lines
     lines = [f"value {shown(best.value)}"]
+    if isinstance(best, Optimum) and best.value is not None and best.bound is not None:
+        beyond = "below" if best.value > best.bound else "above"
+        lines.append(f"no point has one {beyond} {shown(best.bound)}; the exact numbers are out of reach")
     several = () if isinstance(best, Optimum) or len(best.points) < 2 else best.points
     for point in several:
         lines.append(f"at {', '.join(f'{quoted(name)} = {shown(value)}' for name, value in point.items())}")

@@ -143,9 +143,11 @@ class Session:
         best = solve(term, conditions.strip() or "true", timeout=self.timeout)
         if best.value is None:
             return str(best.status.name.lower())
-        at = ", ".join(f"{name} = {value}" for name, value in best.point.items()) if best.attained else "not attained"
+        point = ", ".join(f"{name} = {value}" for name, value in best.point.items())
+        at = "not attained" if best.attained is False else point
         self._keep(None, str(best.value))
-        return f"{best.value}  ({at})"
+        near = "" if best.is_optimal or best.attained is False else f"{best.status.value}: "
+        return f"{near}{best.value}  ({at})"
 
     def _plot(self, rest: str) -> str:
         if self.last is None:

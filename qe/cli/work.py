@@ -50,12 +50,15 @@ class Request:
     race: tuple[str, ...] = ()
     anytime: bool = False
 
-    def keywords(self, channel: Channel) -> dict[str, Any]:
-        """The keywords for a call of the public functions; the memory limit is the worker's own."""
+    def keywords(self, channel: Channel, formula: Formula) -> dict[str, Any]:
+        """The keywords for a call of the public functions about a formula that was read from the source; the memory
+        limit is the worker's own."""
+        from qe.api.input import order_of
+
         return {
             "timeout": self.timeout,
             "method": self.method,
-            "order": self.order,
+            "order": order_of(self.order, self.source.text, formula),
             "progress": channel.event,
             "root_atoms": self.root_atoms,
             "check": self.certificate,
@@ -96,7 +99,7 @@ def eliminate(channel: Channel, request: Request, output: Format) -> Reply:
 
     start = time.perf_counter()
     formula = read_formula(channel, request.source)
-    answer = api.eliminate(formula, anytime=request.anytime, **request.keywords(channel))
+    answer = api.eliminate(formula, anytime=request.anytime, **request.keywords(channel, formula))
     seconds = time.perf_counter() - start
     if answer.formula is None:
         if answer.partial is None:
@@ -139,7 +142,7 @@ def decide(channel: Channel, request: Request) -> Reply:
     script = request.source.format is Format.SMTLIB
     formula = read_formula(channel, request.source, is_sentence=not script)
     start = time.perf_counter()
-    answer = api.eliminate(build.exists(formula.free, formula), **request.keywords(channel))
+    answer = api.eliminate(build.exists(formula.free, formula), **request.keywords(channel, formula))
     seconds = time.perf_counter() - start
     if answer.truth is None:
         raise Unable(answer.reason or "no answer")

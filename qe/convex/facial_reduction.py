@@ -49,7 +49,7 @@ def on_flat(variables: Sequence[str], body: Formula, *, budget: Budget) -> tuple
         if len(replaced) < len(equations) - k:
             return None
         rest, *equations[k + 1 :] = replaced
-    return (outside, simplify(rest)) if implied else None
+    return (outside, simplify(rest, watch=budget.check)) if implied else None
 
 
 def implied_equations(conditions: Formula, *, budget: Budget) -> list[Poly] | None:

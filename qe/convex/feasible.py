@@ -13,11 +13,12 @@ from qe.options import Budget
 from qe.proof.multipliers import FormRelation, OptimumEvidence, OptimumStatus
 
 
-def proved(system: ConvexSystem, *, budget: Budget) -> OptimumEvidence:
-    """Evidence about the least value of the objective, strict conditions included. Raises ``Unable`` without a proof,
-    also where the floating-point numbers that propose one are beyond their range."""
+def proved(system: ConvexSystem, *, budget: Budget, near: bool = False) -> OptimumEvidence:
+    """Evidence about the least value of the objective, strict conditions included; ``near`` as in ``solve``.
+
+    Raises ``Unable`` without a proof, also where the floating-point numbers that propose one are beyond their range."""
     try:
-        return settle_strict(system, solve(system, budget=budget), budget=budget)
+        return settle_strict(system, solve(system, budget=budget, near=near), budget=budget)
     except Unable:
         raise
     except OverflowError:

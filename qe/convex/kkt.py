@@ -15,7 +15,7 @@ from itertools import combinations
 from qe.convex.float_linear_algebra import caratheodory, free_columns
 from qe.convex.interior_point import Proposal, interior_point, natural_scale, to_float
 from qe.exact.field import FieldElement, NumberField
-from qe.exact.kkt_system import MAX_DEGREE, Point, critical_point
+from qe.exact.kkt_system import MAX_DEGREE, HighDegree, Point, critical_point
 from qe.exact.quadratic_form import Number, Quadratic, independent_rows, solve_linear
 from qe.options import Budget
 
@@ -61,9 +61,12 @@ def kkt_point(
     for support in _supports(objective, forms, proposal):
         for equations in _pinned(objective, forms, proposal, support):
             check()
-            candidate = critical_point(
-                objective, equations, proposal.point, accept=feasible, max_degree=max_degree, check=check
-            )
+            try:
+                candidate = critical_point(
+                    objective, equations, proposal.point, accept=feasible, max_degree=max_degree, check=check
+                )
+            except HighDegree as reason:
+                raise HighDegree(str(reason), reason.near, support) from None
             if candidate is not None:
                 proved = _prove(objective, forms, support, *candidate)
                 if proved is not None:

@@ -16,6 +16,7 @@ from qe.convex.frame import centred_frame, lies_far, plain_frame
 from qe.convex.interior_point import interior_point
 from qe.convex.kkt import Kkt, kkt_point, sign
 from qe.convex.linear import LinearConflict, LinearFall, is_linear_problem, linear_optimum
+from qe.convex.near_optimum import bracket
 from qe.convex.system import ConvexSystem
 from qe.convex.violation import TRUSTED, height, rounded_contradiction, violation_forms
 from qe.errors import BudgetExceeded, InternalError, Unable
@@ -34,6 +35,7 @@ from qe.proof.multipliers import (
 
 Frame = Callable[[Flat, Sequence[Quadratic]], Flat]
 _ZERO, _ONE = Fraction(0), Fraction(1)
+_NEAR_DEGREE = 20  # of the optimum: beyond, rational numbers near it are preferred where they may be
 _SIMPLE_DEGREE = 4  # of the least violation: beyond, rounded multipliers are tried before an exact answer
 
 
@@ -54,17 +56,21 @@ def evidence_about(system: ConvexSystem, **parts: object) -> OptimumEvidence:
 
 @dataclass(frozen=True, slots=True)
 class _State:
-    """What is known: ``faces`` so far, the equations they derive, and the flat of all equations, as framed."""
+    """What is known: ``faces`` so far, the equations they derive, and the flat of all equations, as framed. ``near``:
+    whether rational numbers near the optimum may stand for it."""
 
     faces: tuple[Face, ...]
     derived: tuple[LinearEquation, ...]
     flat: Flat
     frame: Frame
+    near: bool
 
 
-def solve(system: ConvexSystem, *, budget: Budget) -> OptimumEvidence:
+def solve(system: ConvexSystem, *, budget: Budget, near: bool = False) -> OptimumEvidence:
     """Evidence that proves the optimum over the closed problem (strict relations read as weak ones), or that there
-    is none. Raises ``Unable`` when nothing could be proved."""
+    is none; with ``near`` rational numbers on both sides of it where it needs a number field of high degree.
+
+    Raises ``Unable`` when nothing could be proved."""
     equations = [f for f, r in zip(system.forms, system.relations, strict=True) if r is FormRelation.EQ]
     flat = Flat.whole(len(system.names)).cut(equations)
     if flat is None:
@@ -73,20 +79,19 @@ def solve(system: ConvexSystem, *, budget: Budget) -> OptimumEvidence:
     if lies_far(plain_frame(flat, system.forms), system.forms):
         first, second = second, first
     try:
-        return _solved(system, flat, first, budget)
+        return _solved(system, _State((), (), first(flat, system.forms), first, near), budget)
     except (BudgetExceeded, HighDegree):
         raise
     except Unable as reason:
         try:
-            return _solved(system, flat, second, budget)
+            return _solved(system, _State((), (), second(flat, system.forms), second, near), budget)
         except BudgetExceeded:
             raise
         except Unable:
             raise reason from None
 
 
-def _solved(system: ConvexSystem, flat: Flat, frame: Frame, budget: Budget) -> OptimumEvidence:
-    state = _State((), (), frame(flat, system.forms), frame)
+def _solved(system: ConvexSystem, state: _State, budget: Budget) -> OptimumEvidence:
     for _ in range(len(system.names) + 2):
         step = _on_flat(system, state, budget)
         if isinstance(step, OptimumEvidence):
@@ -108,13 +113,47 @@ def _on_flat(system: ConvexSystem, state: _State, budget: Budget) -> OptimumEvid
             return _close(system, state, NumberField.rationals(), flat.origin, {i: _ONE}, infeasible=True)
         del forms[i]
     keys = list(forms)
-    found = _least(objective, list(forms.values()), budget, MAX_DEGREE, refuse=True)
+    rest = list(forms.values())
+    try:
+        found = _least(objective, rest, budget, _NEAR_DEGREE if state.near else MAX_DEGREE, refuse=True)
+    except HighDegree as reason:
+        if not state.near:
+            raise
+        near = _near(system, state, objective, forms, reason, budget)
+        if near is not None:
+            return near
+        found = _least(objective, rest, budget, MAX_DEGREE, refuse=True)
     if found is not None:
         weights = {keys[k]: m for k, m in found.multipliers.items()}
         return _close(system, state, found.field, flat.lift(found.point), weights, unique=found.unique)
-    if is_linear_problem(objective, list(forms.values())):
+    if is_linear_problem(objective, rest):
         return _linear(system, state, objective, forms, budget)
     return _without_multipliers(system, state, {i: forms[i] for i in keys}, budget)
+
+
+def _near(
+    system: ConvexSystem,
+    state: _State,
+    objective: Quadratic,
+    forms: dict[int, Quadratic],
+    reason: HighDegree,
+    budget: Budget,
+) -> OptimumEvidence | None:
+    """Rational numbers on both sides of an optimum of high degree, if there are any."""
+    keys = list(forms)
+    known = bracket(objective, list(forms.values()), reason, lambda: budget.check("optimum: rational bounds"))
+    if known is None:
+        return None
+    weights: dict[int, Number] = {keys[k]: w for k, w in known.weights.items()}
+    stationary = state.flat.lift(known.stationary)
+    proof = _close(system, state, NumberField.rationals(), stationary, weights)
+    return replace(
+        proof,
+        status=OptimumStatus.NEAR_OPTIMAL,
+        point=state.flat.lift(known.point),
+        stationary=stationary,
+        bound=known.bound,
+    )
 
 
 def _linear(
@@ -216,7 +255,7 @@ def _face(system: ConvexSystem, state: _State, point: Point, weights: dict[int, 
     flat = Flat.whole(size).cut(rows + [Quadratic(nothing, e.row, -e.rhs) for e in known])
     if flat is None or len(flat.basis) >= len(state.flat.basis):
         raise Unable("facial reduction found no smaller flat")
-    return _State((*state.faces, face), known, state.frame(flat, system.forms), state.frame)
+    return replace(state, faces=(*state.faces, face), derived=known, flat=state.frame(flat, system.forms))
 
 
 def _fractions(values: Sequence[Number]) -> tuple[Fraction, ...]:

@@ -12,6 +12,7 @@ from fractions import Fraction
 
 from qe.convex.feasible import proved
 from qe.convex.kkt import sign
+from qe.convex.minimise import rational_numbers
 from qe.convex.system import NotConvex, atoms_of, read_system
 from qe.errors import Unable
 from qe.exact.algebraic import RealAlgebraic
@@ -19,7 +20,8 @@ from qe.exact.field import FieldElement, NumberField
 from qe.exact.number import optimum_in_latex, point_text
 from qe.exact.quadratic_form import independent_rows
 from qe.exact.ring import Poly, Ring
-from qe.formula.syntax import Atom, Formula
+from qe.formula.build import atom, conj, convert
+from qe.formula.syntax import Atom, Formula, Relation
 from qe.options import Budget
 from qe.proof.answer import Guarantee
 from qe.proof.certificate import Certificate, Kind
@@ -50,7 +52,11 @@ class Optimum:
     inequalities, such that grad f + sum multipliers_i grad p_i = 0 with constraint i read as p_i <= 0 (after facial
     reduction also equations implied by the constraints take part; see ``evidence``). ``unique`` is None when not
     decided. INFEASIBLE: ``multipliers`` combine the constraints to a contradiction, seen from ``point``. UNBOUNDED:
-    from ``point`` the objective improves forever along ``direction``. ``attained`` is None for both. ``guarantee``:
+    from ``point`` the objective improves forever along ``direction``. ``attained`` is None for both. NEAR_OPTIMAL: the
+    exact numbers need a field of high degree; ``point`` satisfies all constraints with room to spare, ``value`` is the
+    objective there, and no point has one beyond ``bound``, which ``multipliers`` prove; all are rational, and |value -
+    bound| <= 10^-9 |value|. The certificate is a bundle: the contradiction of a value beyond the bound, and the point.
+    ``active``: the constraints with a positive multiplier. ``attained`` and ``unique`` are None. ``guarantee``:
     CHECKED where ``check`` was asked for and separate code accepted the certificate; otherwise ``reason`` says why not.
     """
 
@@ -68,6 +74,7 @@ class Optimum:
     certificate: Certificate
     guarantee: Guarantee = Guarantee.DERIVED
     reason: str = ""
+    bound: Fraction | None = None
 
     @property
     def active_constraints(self) -> tuple[str, ...]:
@@ -75,12 +82,15 @@ class Optimum:
         return tuple(self.constraints[i] for i in self.active)
 
     def __repr__(self) -> str:
+        if self.bound is not None:
+            return f"Optimum(near {self.value}{f' at {point_text(self.point)}'}, proved bound {self.bound})"
         if not self.is_optimal:
             return f"Optimum({self.status.value})"
         return f"Optimum({self.value}{f' at {point_text(self.point)}' if self.attained else ', not attained'})"
 
     def _repr_latex_(self) -> str:
-        return optimum_in_latex(self.status.value, self.value, [self.point] if self.attained else [])
+        points = [] if self.attained is False else [self.point]
+        return optimum_in_latex(self.status.value, self.value, points, near=self.bound is not None)
 
     @property
     def is_optimal(self) -> bool:
@@ -89,24 +99,62 @@ class Optimum:
 
 
 def minimize(
-    objective: Poly, constraints: Formula, *, scale: Fraction | int = 1, budget: Budget | None = None
+    objective: Poly,
+    constraints: Formula,
+    *,
+    scale: Fraction | int = 1,
+    budget: Budget | None = None,
+    near: bool = False,
 ) -> Optimum:
-    """Minimise ``scale * objective`` (scale > 0 for a convex objective) subject to a conjunction of atoms.
+    """Minimise ``scale * objective`` (scale > 0 for a convex objective) subject to a conjunction of atoms; ``near``:
+    NEAR_OPTIMAL is an answer too.
 
     The answer is proved exactly and carries a certificate for ``qe.certify``. Raises ``NotConvex`` for problems
     outside the class, ``BudgetExceeded`` at a limit, and ``Unable`` when no proof was found.
     """
     system = read_system(constraints, objective, scale=scale)
-    evidence = proved(system, budget=budget or Budget())
-    return _answer(atoms_of(constraints), _uniform(evidence))
+    evidence = proved(system, budget=budget or Budget(), near=near)
+    found = _answer(atoms_of(constraints), _uniform(evidence))
+    if evidence.status is OptimumStatus.NEAR_OPTIMAL:
+        return _near(found, constraints, objective, Fraction(scale))
+    return found
 
 
 def maximize(
-    objective: Poly, constraints: Formula, *, scale: Fraction | int = 1, budget: Budget | None = None
+    objective: Poly,
+    constraints: Formula,
+    *,
+    scale: Fraction | int = 1,
+    budget: Budget | None = None,
+    near: bool = False,
 ) -> Optimum:
     """The maximum of a concave objective: minus the minimum of its negative, which the certificate is about."""
-    found = minimize(objective, constraints, scale=-Fraction(scale), budget=budget)
-    return found if found.value is None else replace(found, value=-found.value)
+    found = minimize(objective, constraints, scale=-Fraction(scale), budget=budget, near=near)
+    if found.value is None:
+        return found
+    return replace(found, value=-found.value, bound=None if found.bound is None else -found.bound)
+
+
+BOUND, POINT = "bound", "point"
+"""The labels of the certificates of a near optimum."""
+
+
+def _near(found: Optimum, constraints: Formula, objective: Poly, scale: Fraction) -> Optimum:
+    """The near optimum with its value and its proof: no point has a value below the bound, and one has this value."""
+    evidence = found.evidence
+    ring, values = Ring.of(evidence.names), rational_numbers(evidence.point) or ()
+    value = Fraction(evidence.objective.value(values))
+    goal = scale.numerator * value.denominator * objective.convert(ring) - value.numerator * scale.denominator
+    reached = conj((convert(constraints, ring), atom(goal, Relation.LE)))
+    return replace(
+        found,
+        value=value,
+        bound=evidence.bound,
+        active=tuple(i for i, (_, m) in enumerate(zip(found.constraints, found.multipliers, strict=False)) if m),
+        certificate=Certificate.bundle(
+            [(BOUND, found.certificate), (POINT, Certificate.witness(reached, evidence.names, values))]
+        ),
+    )
 
 
 @dataclass(frozen=True, slots=True)
@@ -169,7 +217,8 @@ def _answer(constraints: Sequence[Atom], evidence: OptimumEvidence) -> Optimum:
         raise Unable("the proposed optimum violates a constraint")
     unique = evidence.unique if optimal else None
     proved = replace(evidence, unique=unique is True and _provably_unique(evidence))
-    payload = to_payload(proved)
+    near = evidence.status is OptimumStatus.NEAR_OPTIMAL
+    payload = to_payload(evidence.contradiction() if near else proved)
     return Optimum(
         status=evidence.status,
         value=evidence.objective.value(evidence.point) if optimal else None,

@@ -51,7 +51,7 @@ def settle_strict(system: ConvexSystem, evidence: OptimumEvidence, *, budget: Bu
     has any point, and the strict problem is empty if it has none. The same holds for an objective without bound, which
     falls along its direction from any point.
     """
-    if evidence.status is OptimumStatus.INFEASIBLE:
+    if evidence.status in (OptimumStatus.INFEASIBLE, OptimumStatus.NEAR_OPTIMAL):
         return evidence
     optimal = evidence.status is OptimumStatus.OPTIMAL
     strict = [i for i, r in enumerate(system.relations) if r is FormRelation.LT]

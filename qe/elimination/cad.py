@@ -13,7 +13,7 @@ from qe.cells.follows import follows
 from qe.cells.formulas import construct
 from qe.cells.sampled_cells import deciding_point
 from qe.elimination.protocol import Context, Outcome, Problem
-from qe.errors import BudgetExceeded, InternalError
+from qe.errors import BudgetExceeded, Contradiction
 from qe.exact.number import Values
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import convert
@@ -25,6 +25,7 @@ from qe.options import Budget, Options, Projection, Stage
 from qe.proof.cells import CellTable
 from qe.proof.cells_json import CellEvidence
 from qe.proof.certificate import Certificate
+from qe.proof.on_demand import OnDemand, Repeated
 from qe.proof.run_log import RunLog
 from qe.simplify.simplify import simplify
 
@@ -68,15 +69,18 @@ def decomposed(formula: Formula, options: Options, budget: Budget, log: RunLog) 
             values = deciding_point(proof, truth)
     log.work("cad", _figures(order, reason, first, time.perf_counter() - start))
     certificate = Certificate.cells(proof, convert(answer, Ring.of(order))) if follows(answer, proof) else None
-    log.step("cells", formula, answer, evidence=kept(certificate, options))
+    log.step("cells", formula, answer, evidence=kept(formula, certificate, options))
     # back into the ring of the formula it came from: it is joined with parts of that formula
     ring = formula.ring
     return Outcome(answer if ring is None else convert(answer, ring), values, certificate)
 
 
-def kept(certificate: Certificate | None, options: Options) -> dict[str, object]:
-    """The evidence of a step by a table, where evidence is wanted: tables are large."""
-    return {"proof": {"certificate": certificate}} if certificate is not None and options.certify else {}
+def kept(formula: Formula, certificate: Certificate | None, options: Options) -> dict[str, object]:
+    """The evidence of a step by a table of a formula: tables are large, and made again where it is wanted later."""
+    if certificate is None:
+        return {}
+    again = OnDemand(Repeated(decomposed, formula, options))
+    return {"proof": {"certificate": certificate} if options.certify else again}
 
 
 def certificate_for(formula: Formula, answer: Formula, options: Options, budget: Budget) -> Certificate | None:
@@ -84,7 +88,7 @@ def certificate_for(formula: Formula, answer: Formula, options: Options, budget:
 
     The factors of the answer join the projection, and the space of the free variables is decomposed whole, so that the
     table has their signs on every cell. None where the formula has no matrix to decompose. Raises ``BudgetExceeded``,
-    and ``InternalError`` where the decomposition decides a sentence otherwise.
+    and ``Contradiction`` where the decomposition decides a sentence otherwise.
     """
     prefix, matrix = prenex(formula)
     matrix = nnf(matrix)
@@ -97,7 +101,7 @@ def certificate_for(formula: Formula, answer: Formula, options: Options, budget:
     question = _Question(matrix, order, quantifiers, free, options)
     proof = question.table(budget, whole_free=True, extra=tuple(polynomials(claim))).table
     if not free and answer != (TRUE if proof.root.truth else FALSE):
-        raise InternalError(f"a decomposition says {proof.root.truth} where the answer is {answer}")
+        raise Contradiction(f"a decomposition says {proof.root.truth} where the answer is {answer}")
     return Certificate.cells(proof, claim)
 
 
@@ -152,7 +156,7 @@ class _Question:
             from qe.cells.extended_tarski import extended_formula
 
             answer = extended_formula(proof)
-        simple = simplify(convert(answer, Ring.of(self.free)))
+        simple = simplify(convert(answer, Ring.of(self.free)), watch=budget.check)
         return simple, proof
 
     def shortest(self, first: Table, budget: Budget) -> tuple[Formula, CellTable]:

@@ -76,7 +76,7 @@ class ComprehensiveGroebner:
                 # whatever does not occur in this conjunction may be 0
                 return _outcome(problem, context, TRUE, {v: witness.get(v, Fraction(0)) for v in problem.variables})
         refuted = OnDemand(_Conjunctions(tuple(read)).certificates) if listed else None
-        return _outcome(problem, context, simplify(disj(found)), None, refuted)
+        return _outcome(problem, context, simplify(disj(found), watch=context.budget.check), None, refuted)
 
 
 def _outcome(
@@ -85,7 +85,7 @@ def _outcome(
     # back into the ring of the formula it came from: it is joined with parts of that formula
     ring = ring_of(problem.formula)
     moved = found if ring is None else convert(found, ring)
-    evidence = {} if refuted is None or found != FALSE else {"refuted": refuted}
+    evidence = {} if refuted is None or found != FALSE else {"proof": refuted}
     answer = context.log.step("comprehensive Gröbner system", problem.formula, problem.asked(moved), evidence=evidence)
     return Outcome(answer, witness)
 
@@ -192,6 +192,7 @@ class _Conjunction:
 
     def _on_a_line(self, x: int, conditions: Sequence[Condition], budget: Budget) -> Formula:
         """That they hold for some x, all of which contain it: at an end of the line, or at a zero."""
+        budget.check("zeros of conditions")
         if not conditions:
             return TRUE
         (g, relation), *rest = sorted(conditions, key=lambda c: c[1] is not Relation.GE)
@@ -262,6 +263,10 @@ def _upward(found: Atom) -> Condition:
 class _Conjunctions:
     parts: tuple[_Conjunction, ...]
 
-    def certificates(self) -> list[Certificate]:
+    def certificates(self, budget: Budget) -> dict[str, object]:
         """Of the solutions of each."""
-        return [part.certificate() for part in self.parts]
+        found = []
+        for part in self.parts:
+            budget.check("prove")
+            found.append(part.certificate())
+        return {"certificates": found}

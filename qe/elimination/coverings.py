@@ -17,8 +17,10 @@ from qe.exact.ring import Ring
 from qe.formula.build import convert
 from qe.formula.normal import nnf, prenex
 from qe.formula.syntax import FALSE, TRUE, Constant, Formula
-from qe.options import Options
+from qe.options import Budget, Options
 from qe.proof.cells import FreeCell
+from qe.proof.on_demand import OnDemand, Repeated
+from qe.proof.run_log import RunLog
 from qe.simplify.simplify import simplify
 
 
@@ -50,13 +52,22 @@ class Coverings:
         values = None
         if not free and found.cover.truth is (quantifiers[0] == "E"):
             values = _values(found.cover, search)
-        is_proved_by_values = values is not None and problem.is_flat
-        wanted = context.options.certify and not is_proved_by_values
-        proof: dict[str, object] = {"proof": evidence(found.cover, quantifiers, search.formula)} if wanted else {}
+        proof: dict[str, object] = {}
+        if values is None or not problem.is_flat:  # values prove the answer otherwise
+            wanted = context.options.certify
+            again = OnDemand(Repeated(covered, problem.formula, context.options))
+            proof["proof"] = evidence(found.cover, quantifiers, search.formula) if wanted else again
         given = problem.formula.ring
         answer = found.formula if given is None else convert(found.formula, given)
         context.log.step("covering", problem.formula, answer, evidence=proof)
-        return Outcome(context.log.step("simplification", answer, simplify(answer)), values)
+        return Outcome(context.log.step("simplification", answer, simplify(answer, watch=context.budget.check)), values)
+
+
+def covered(formula: Formula, options: Options, budget: Budget, log: RunLog) -> None:
+    """The steps of the method for a formula that begins with a quantifier, in the log."""
+    problem = Problem.of(formula)
+    if problem is not None:
+        Coverings().run(problem, Context(options, budget, log))
 
 
 @dataclass(frozen=True, slots=True)

@@ -81,7 +81,8 @@ class Outcome:
     one false; None when not known. ``certificate``: of this very problem and formula, where the method makes one.
     ``order``: that of the free variables in which the formula was found, where that matters to who goes on.
     ``unchecked``: the rules of the steps that no checker has accepted, where that was asked for. ``checked``: whether
-    the checkers have accepted the certificate. ``log``: how the whole answer was found; the engine fills these in.
+    the checkers have accepted the certificate; ``reason``: why there is none. ``log``: how the whole answer was found;
+    the engine fills these in.
     """
 
     formula: Formula
@@ -90,6 +91,7 @@ class Outcome:
     order: tuple[str, ...] | None = None
     unchecked: tuple[str, ...] = ()
     checked: bool = False
+    reason: str = ""
     log: RunLog = field(default_factory=RunLog)
 
     @property

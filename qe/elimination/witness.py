@@ -193,7 +193,7 @@ class _Search:
     def prove(self, formula: Formula, known: Formula) -> Witnesses | None:
         """Witnesses that prove ``formula``, in negation normal form, where ``known`` holds."""
         if formula.is_quantifier_free:
-            if simplify(formula, known) != TRUE:
+            if simplify(formula, known, watch=self.budget.check) != TRUE:
                 return None
             self.log.step("simplification", formula, TRUE, context=known)
             return ()
@@ -254,7 +254,7 @@ def _witness(block: Exists, known: Formula, budget: Budget) -> PolynomialWitness
     for terms in islice(_candidates(block), None if probes else UNPROBED):
         budget.check("polynomial witness")
         claim = substituted(block.body, terms)
-        if all(holds_at(claim, probe) for probe in probes) and simplify(claim, known) == TRUE:
+        if all(holds_at(claim, probe) for probe in probes) and simplify(claim, known, watch=budget.check) == TRUE:
             return PolynomialWitness(terms, known, block.body)
     return None
 

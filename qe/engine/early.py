@@ -9,8 +9,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from qe.elimination.protocol import Problem
 from qe.formula.build import conj
-from qe.formula.syntax import Atom, Exists, ForAll, Formula, Relation
+from qe.formula.syntax import And, Atom, Exists, ForAll, Formula, Relation
 from qe.formula.traverse import atoms, conjuncts
 
 BOUND, FREE, ATOMS = 2, 3, 8
@@ -49,3 +50,14 @@ def equations(formula: Formula, variables: tuple[str, ...]) -> Iterator[Atom]:
     for part in conjuncts(formula):
         if isinstance(part, Atom) and part.relation is Relation.EQ and not set(variables).isdisjoint(part.free):
             yield part
+
+
+def gathered_block(formula: Formula) -> Problem | None:
+    """The existential block of a conjunction together with the conditions that preparation moved out of it."""
+    args = formula.args if isinstance(formula, And) else (formula,)
+    blocks = [a for a in args if isinstance(a, Exists)]
+    if len(blocks) != 1:
+        return None
+    rest = [a for a in args if a is not blocks[0]]
+    body = conj((*rest, blocks[0].body))
+    return Problem(blocks[0].variables, body) if body.is_quantifier_free else None

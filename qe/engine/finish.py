@@ -48,7 +48,8 @@ def shortened(formula: Formula, context: Context, *, last: bool = False) -> Form
         return formula
     if length(found.formula) >= length(formula):
         return formula
-    return context.log.step("shorter", formula, found.formula, evidence=kept(found.certificate, context.options))
+    evidence = kept(formula, found.certificate, context.options)
+    return context.log.step("shorter", formula, found.formula, evidence=evidence)
 
 
 def _untangled(formula: Formula, context: Context) -> Formula:

@@ -9,7 +9,7 @@ most of these sentences at once; the others are decided, with little work, large
 from __future__ import annotations
 
 import random
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 
@@ -74,7 +74,7 @@ def without_redundant_parts(formula: Formula, context: Context) -> Formula:
         return formula
     if not _is_suited(formula):
         return _without_excluded_parts(formula, context)
-    points = _Points(formula.free)
+    points = _Points(formula.free, context.budget.check)
     budget, kept, patience = context.budget.part(WORK), set[Formula](), PATIENCE
     while patience and budget.used <= WORK and (part := next(_unsettled(formula, points, kept), None)) is not None:
         sentence = part.sentence
@@ -98,14 +98,14 @@ def _without_excluded_parts(formula: Formula, context: Context) -> Formula:
     """The formula without parts that the signs of its own polynomials exclude: these need not be small for that."""
     if sum(1 for _ in atoms(formula)) > MOST_ATOMS_ALONE:
         return formula
-    points, kept, left = _Points(formula.free), set[Formula](), MOST_TERMS_ALONE
+    points, kept, left = _Points(formula.free, context.budget.check), set[Formula](), MOST_TERMS_ALONE
     points.fill(FIRST)
     # What mattered once has fewer conditions, not more, after another part is dropped: it is not looked at again.
     while (part := next((p for p in _by_size(formula, points) if p.formula not in kept), None)) is not None:
         left -= sum(length(condition)[1] for condition in part.conditions)
         if left < 0:
             break
-        if simplify(conj(part.conditions)) == FALSE:
+        if simplify(conj(part.conditions), watch=context.budget.check) == FALSE:
             nested = Nested(part.sentence, (Step("simplification", part.sentence, FALSE),), FALSE)
             formula = _dropped(formula, part, nested, context)
         else:
@@ -117,7 +117,7 @@ def _dropped(formula: Formula, part: Part, nested: Nested, context: Context) -> 
     """The formula without a part, simplified; ``nested`` says why."""
     proof = {"at": list(part.place), "steps": nested}
     shorter = context.log.step("redundant part", formula, without_part(formula, part.place), evidence={"proof": proof})
-    return context.log.step("simplification", shorter, simplify(shorter))
+    return context.log.step("simplification", shorter, simplify(shorter, watch=context.budget.check))
 
 
 def _is_worth_questions(formula: Formula) -> bool:
@@ -196,6 +196,7 @@ class _Points:
     """Points, and for formulas the sets of those where they hold, as bits."""
 
     names: tuple[str, ...]
+    watch: Callable[[], object]
     listed: list[Mapping[str, Fraction | int]] = field(default_factory=list)
     known: dict[Formula, tuple[int, int]] = field(default_factory=dict)
     chosen: random.Random = field(default_factory=lambda: random.Random(1))
@@ -237,6 +238,7 @@ class _Points:
                 for arg in args:
                     mask |= self.holding(arg)
             case Atom(poly, relation):
+                self.watch()
                 for k in range(seen, len(self.listed)):
                     value = poly.evaluate([self.listed[k].get(name, 0) for name in poly.ring.names])
                     mask |= relation.holds((value > 0) - (value < 0)) << k

@@ -8,12 +8,12 @@ another method try; every choice and every switch is in the log, and every chang
 from __future__ import annotations
 
 import time
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 
 from qe.elimination.protocol import Context, Outcome, Problem
-from qe.engine.early import early_parts, equations
+from qe.engine.early import early_parts, equations, gathered_block
 from qe.engine.finish import settled, shortened
 from qe.engine.local import WORK, without_locals
 from qe.engine.redundant import without_redundant_parts
@@ -64,7 +64,8 @@ def proved(formula: Formula, found: Outcome, options: Options, budget: Budget) -
     question = rename_apart(_counted(without_clashes(formula), options))
     proof = certificate_of(formula, question, found, log, options, budget)
     log.seconds = round((log.seconds or 0.0) + time.perf_counter() - started, 6)
-    return replace(found, certificate=proof.certificate, unchecked=proof.unchecked, checked=proof.checked)
+    known = replace(found, certificate=proof.certificate, unchecked=proof.unchecked)
+    return replace(known, checked=proof.checked, reason=proof.reason)
 
 
 def _counted(formula: Formula, options: Options) -> Formula:
@@ -90,7 +91,28 @@ class _Run:
 
     # --- the question as a whole ---------------------------------------------------------------
     def question(self, formula: Formula) -> Outcome:
-        """The answer; for sentences that begin with a quantifier also a witness or counterexample."""
+        """The answer; for sentences that begin with a quantifier also a witness or counterexample.
+
+        What is there only to name a term is put in first: no choice below depends on it.
+        """
+        mark = self.log.mark()
+        ready = self.prepared(formula, {StepKind.DEFINITION})
+        if not any(step.rule == StepKind.LINEAR.value for step in self.log.steps(mark)):
+            self.log.forget_steps(mark)
+            return self.unnamed(formula)
+        gone, ring = {*features(formula).bound} - {*features(ready.formula).bound}, formula.ring
+        assert ring is not None
+        own = Ring.of(name for name in ring.names if name not in gone)  # as without the names: orders go by the ring
+        found, problem = self.unnamed(convert(ready.formula, own)), Problem.of(formula)
+        found = replace(found, formula=convert(found.formula, ring))
+        known = found.witness if type(ready.formula) is type(formula) else {}
+        if problem is None or problem.free or known is None or found.formula != problem.asked(TRUE):
+            return Outcome(found.formula, order=found.order)
+        values = self.lifted(ready, known)
+        return Outcome(found.formula, values and {v: values[v] for v in problem.variables})
+
+    def unnamed(self, formula: Formula) -> Outcome:
+        """As ``question``, for a formula without definitions."""
         problem, mark = Problem.of(formula), self.log.mark()
         found = None
         if problem is not None:
@@ -117,7 +139,7 @@ class _Run:
         if ready.formula == dual.formula and dual.is_flat:
             self.log.forget_steps(mark)
             return self.block(problem)
-        return self.lifted(ready, self.decided(ready.formula), problem)
+        return self.turned_back(ready, self.decided(ready.formula), problem)
 
     def turned(self, problem: Problem) -> None:
         """The step from a problem to its existential dual."""
@@ -125,16 +147,20 @@ class _Run:
         dual = problem.dual.formula
         self.log.step(rule, problem.formula, negated(dual) if problem.universal else dual)
 
-    def lifted(self, ready: Prepared, found: Outcome, problem: Problem) -> Outcome:
+    def turned_back(self, ready: Prepared, found: Outcome, problem: Problem) -> Outcome:
         """The answer to a problem from that to its prepared dual, with the values of its variables."""
         truth = problem.asked(found.formula)
         if found.formula != TRUE or found.witness is None:
             return Outcome(truth)
+        return Outcome(truth, self.lifted(ready, found.witness))
+
+    def lifted(self, ready: Prepared, values: Values) -> Values | None:
+        """The values of all variables of a block from those that preparation has left; None where they are too hard."""
         try:
-            return Outcome(truth, ready.lift(found.witness))
+            return ready.lift(values)
         except Unable as error:
             self.log.switch("no witness", error)
-            return Outcome(truth)
+            return None
 
     def by_local_variables(self, problem: Problem) -> Outcome | None:
         """A sentence by one without its local variables (``qe.engine.local``)."""
@@ -170,7 +196,7 @@ class _Run:
             self.log.forget_steps(mark)
         problem = Problem.of(ready)
         if found is None and problem is not None:
-            found = self.eliminated(problem)
+            found = self.first_of(Scope.ASKED, problem) or self.eliminated(problem)
         return found if found is not None else Outcome(self.without_quantifiers(ready))
 
     def finished(self, formula: Formula, question: Formula, mark: int) -> Formula:
@@ -200,10 +226,10 @@ class _Run:
         return _Run(options, self.budget).apart(sentence, budget)
 
     # --- preparation ---------------------------------------------------------------------------
-    def prepared(self, formula: Formula) -> Prepared:
-        """Every block brought to its real dimension by the rules."""
+    def prepared(self, formula: Formula, kinds: Collection[StepKind] = ALL_STEPS) -> Prepared:
+        """Every block brought to its real dimension by the rules of these kinds."""
         off = frozenset[StepKind]().union(*(SWITCHED.get(stage, ()) for stage in self.options.without))
-        return prepare(formula, budget=self.budget, enabled=ALL_STEPS - off, log=self.log)
+        return prepare(formula, budget=self.budget, enabled=frozenset(kinds) - off, log=self.log)
 
     # --- sentences, with their witnesses ---------------------------------------------------------
     def decided(self, formula: Formula) -> Outcome:
@@ -216,7 +242,8 @@ class _Run:
             case Or(args):
                 return next((found for found in map(self.decided, args) if found.formula == TRUE), Outcome(FALSE))
             case Exists(variables, body) | ForAll(variables, body):
-                return self.eliminated(Problem(variables, body, isinstance(formula, ForAll)))
+                problem = Problem(variables, body, isinstance(formula, ForAll))
+                return self.first_of(Scope.ASKED, problem) or self.eliminated(problem)
         return Outcome(self.without_quantifiers(formula))
 
     def conjunction(self, args: Iterable[Formula]) -> Outcome:
@@ -237,7 +264,7 @@ class _Run:
             case And(args) | Or(args):
                 parts = [self.without_quantifiers(a, inner=inner) for a in args]
                 joined = (conj if isinstance(formula, And) else disj)(parts)
-                return self.log.step("simplification", joined, simplify(joined))
+                return self.log.step("simplification", joined, simplify(joined, watch=self.budget.check))
             case Not(arg):
                 return neg(self.without_quantifiers(arg, inner=inner))
             case Exists(variables, body) | ForAll(variables, body):
@@ -251,7 +278,7 @@ class _Run:
         if not body.is_quantifier_free:
             return replace(problem, body=body)
         before = replace(problem, body=body).formula
-        simple = problem.asked(simplify(nnf(body, negate=problem.universal)))
+        simple = problem.asked(simplify(nnf(body, negate=problem.universal), watch=self.budget.check))
         after = (forall if problem.universal else exists)(problem.variables, simple)
         self.log.step("simplification", before, after)
         return Problem.of(after) or after
@@ -289,7 +316,7 @@ class _Run:
         found = Outcome(self.without_quantifiers(ready.formula)) if dual.free else self.decided(ready.formula)
         if problem.universal:
             self.log.step("negation normal form", negated(found.formula), problem.asked(found.formula))
-        return self.lifted(ready, found, problem)
+        return self.turned_back(ready, found, problem)
 
     def block(self, problem: Problem) -> Outcome:
         """One block by the strategy; raises ``Unable`` where no attempt ends."""
@@ -351,7 +378,7 @@ class _Run:
             formula = self.without_quantifiers(formula)
         if attempt.shorten and problem.free and Stage.SHORTENING not in self.options.without:
             formula = shortened(formula, self.context())
-        simple = self.log.step("simplification", formula, simplify(formula))
+        simple = self.log.step("simplification", formula, simplify(formula, watch=self.budget.check))
         return found if simple == found.formula else replace(found, formula=simple)
 
 
@@ -362,18 +389,8 @@ def answer_to(question: Formula, found: Outcome) -> Answer:
         found.formula,
         found.witness,
         found.certificate,
+        reason=found.reason,
         unchecked_steps=found.unchecked,
         question=question,
         log=found.log,
     )
-
-
-def gathered_block(formula: Formula) -> Problem | None:
-    """The existential block of a conjunction together with the conditions that preparation moved out of it."""
-    args = formula.args if isinstance(formula, And) else (formula,)
-    blocks = [a for a in args if isinstance(a, Exists)]
-    if len(blocks) != 1:
-        return None
-    rest = [a for a in args if a is not blocks[0]]
-    body = conj((*rest, blocks[0].body))
-    return Problem(blocks[0].variables, body) if body.is_quantifier_free else None

@@ -40,7 +40,7 @@ def _attempt(formula: Formula, context: Context, enabled: frozenset[StepKind]) -
     rules, steps = BlockContext(context.budget.part(UNTANGLE_WORK), enabled), RunLog()
     try:
         apart = _matrix(reduce_block(formula.free, formula, rules))
-        shorter = simplify(apart)
+        shorter = simplify(apart, watch=context.budget.check)
     except Unable:
         context.budget.check("shorten")
         return formula

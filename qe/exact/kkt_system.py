@@ -25,6 +25,7 @@ from qe.exact.quadratic_form import Number, Quadratic, combine, independent_rows
 Point = tuple[Number, ...]
 
 MAX_DEGREE = 40  # of the number field: beyond, lattice reduction takes seconds
+NEAR_BITS = 160
 _PATIENCE = 6  # Newton steps without a gain, although each should double the digits
 _MANY_TRIALS = 12  # degree up to which several generators are tried
 
@@ -181,7 +182,14 @@ def _dense(q: Quadratic) -> tuple[list[list[tuple[int, fmpq]]], list[fmpq], fmpq
 
 
 class HighDegree(Unable):
-    """The coordinates of the wanted point seem to have an algebraic degree above the limit."""
+    """The coordinates of the wanted point seem to have an algebraic degree above the limit.
+
+    ``near``: a rational point within about 2^-``NEAR_BITS`` of it; ``support``: the inequalities it was sought with.
+    """
+
+    def __init__(self, message: str = "", near: Sequence[Fraction] = (), support: Sequence[int] = ()) -> None:
+        super().__init__(message)
+        self.near, self.support = tuple(near), tuple(support)
 
 
 def critical_point(
@@ -221,8 +229,17 @@ def critical_point(
     reach = 1e-2 * (1 + max((abs(c) for c in near), default=0.0))
     if any(abs(p - q) > reach for p, q in zip(approximate, near, strict=True)) or not accept(approximate):
         return None
-    field, found = _recognise(newton, f, rest, max_degree, check)
+    try:
+        field, found = _recognise(newton, f, rest, max_degree, check)
+    except HighDegree as reason:
+        close = newton.at(NEAR_BITS) or limit
+        raise HighDegree(str(reason), flat.lift([_middle(v) for v in close[: f.size]])) from None
     return field, flat.lift(found)
+
+
+def _middle(ball: arb) -> Fraction:
+    value = ball.mid().fmpq()
+    return Fraction(round(Fraction(int(value.p), int(value.q)) * 2**NEAR_BITS), 2**NEAR_BITS)
 
 
 def _primitive(q: Quadratic) -> Quadratic:

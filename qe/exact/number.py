@@ -29,13 +29,17 @@ def point_in_latex(point: Mapping[str, object]) -> str:
     return r",\ ".join(rf"\mathit{{{_escaped(name)}}} = {in_latex(value)}" for name, value in point.items())
 
 
-def optimum_in_latex(status: str, value: object, points: Sequence[Mapping[str, object]]) -> str:
-    """An optimum as notebooks set it: its value, or why there is none, and points that have it."""
+def optimum_in_latex(
+    status: str, value: object, points: Sequence[Mapping[str, object]], *, near: bool = False
+) -> str:
+    """An optimum as notebooks set it: its value (``near``: one close to it), or why there is none, and points that
+    have it."""
     if value is None:
         return rf"$\text{{{status}}}$"
     at = r"\ \text{or}\ ".join(map(point_in_latex, points))
     where = rf"\quad\text{{at}}\quad {at}" if points else r"\quad\text{(not attained)}"
-    return rf"$\displaystyle {in_latex(value)}{where}$"
+    about = r"\approx " if near else ""
+    return rf"$\displaystyle {about}{in_latex(value)}{where}$"
 
 
 def _escaped(name: str) -> str:

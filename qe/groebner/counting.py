@@ -56,6 +56,7 @@ class SolutionCount:
             wider: dict[Poly, int] = {}
             for factor, weight in factors.items():
                 for power, c in weights.items():
+                    budget.check("sign conditions")
                     product, number = _without_sign(factor * g**power)
                     wider[product] = wider.get(product, 0) + weight * c * number
             factors = wider
@@ -211,7 +212,7 @@ def classified(question: ParametricSystem, positive: Sequence[Poly], budget: Bud
             number = SolutionCount(segment, [(g, Relation.GT) for g in positive], budget)
             for k in range(number.most + 1):
                 parts.setdefault(k, []).append(conj([where, number.is_in({k})]))
-    found = {count: simplify(disj(conditions)) for count, conditions in parts.items()}
+    found = {count: simplify(disj(conditions), watch=budget.check) for count, conditions in parts.items()}
     classes = [RootClass(count, f) for count, f in found.items() if f != FALSE]
     return RealRootClassification(
         system, tuple(sorted(classes, key=lambda c: (c.count is None, c.count or 0))), tuple(positive)

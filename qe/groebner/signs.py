@@ -24,6 +24,7 @@ from itertools import product
 
 from qe.errors import Unable
 from qe.exact.ring import Poly
+from qe.exact.watch import IDLE
 from qe.formula.build import atom, conj, disj
 from qe.formula.syntax import FALSE, TRUE, Formula, Relation
 from qe.formula.traverse import atoms
@@ -47,13 +48,15 @@ class SignatureConditions:
     """A symmetric matrix of polynomials by its leading minors (from 1 by 1 on) and its characteristic polynomial.
 
     ``coefficients()``: of the latter, highest first, worked out where they are needed. ``is_hankel``: a trace form in
-    the powers of one variable. ``least``: what the signature is at least, where that is known.
+    the powers of one variable. ``least``: what the signature is at least, where that is known. ``watch`` is asked while
+    conditions are made.
     """
 
     minors: tuple[Poly, ...]
     coefficients: Callable[[], tuple[Poly, ...]]
     is_hankel: bool = False
     least: int | None = None
+    watch: Callable[[], object] = IDLE
 
     @property
     def size(self) -> int:
@@ -88,7 +91,7 @@ class SignatureConditions:
                 return self._by_descartes(wanted)
             return self._leaf(state.signature, wanted)
 
-        return _diagram(self.minors, after, end)
+        return self._diagram(self.minors, after, end)
 
     def _leaf(self, signature: int, wanted: Collection[int]) -> Formula | None:
         if self.least is not None and signature < self.least:
@@ -103,34 +106,35 @@ class SignatureConditions:
             change = (sign != state.last) - (sign != mirrored)
             return _State(sign, 0, (state.signature or 0) + change)
 
-        return _diagram(self.coefficients()[1:], after, lambda state: self._leaf(state.signature or 0, wanted))
+        return self._diagram(self.coefficients()[1:], after, lambda state: self._leaf(state.signature or 0, wanted))
 
+    def _diagram(
+        self,
+        polys: Sequence[Poly],
+        after: Callable[[_State, int], _State | None],
+        end: Callable[[_State], Formula | None],
+    ) -> Formula:
+        """The condition that reading the signs of the polynomials from a positive one on leads to."""
 
-def _diagram(
-    polys: Sequence[Poly],
-    after: Callable[[_State, int], _State | None],
-    end: Callable[[_State], Formula | None],
-) -> Formula:
-    """The condition that reading the signs of the polynomials from a positive one on leads to."""
+        @cache
+        def decided(k: int, state: _State) -> Formula | None:
+            self.watch()
+            if k == len(polys):
+                return end(state)
+            return _chosen(polys[k], {sign: step(k, state, sign) for sign in (1, 0, -1)})
 
-    @cache
-    def decided(k: int, state: _State) -> Formula | None:
-        if k == len(polys):
-            return end(state)
-        return _chosen(polys[k], {sign: step(k, state, sign) for sign in (1, 0, -1)})
+        def step(k: int, state: _State, sign: int) -> Formula | None:
+            if sign == 0:
+                return decided(k + 1, _State(state.last, state.zeros + 1, state.signature))
+            reached = after(state, sign)
+            return None if reached is None else decided(k + 1, reached)
 
-    def step(k: int, state: _State, sign: int) -> Formula | None:
-        if sign == 0:
-            return decided(k + 1, _State(state.last, state.zeros + 1, state.signature))
-        reached = after(state, sign)
-        return None if reached is None else decided(k + 1, reached)
-
-    found = decided(0, _State(1, 0, 0))
-    if found is None:
-        return FALSE
-    if sum(1 for _ in atoms(found)) > MOST_ATOMS:
-        raise Unable("the sign conditions on a trace form grow past their limits")
-    return found
+        found = decided(0, _State(1, 0, 0))
+        if found is None:
+            return FALSE
+        if sum(1 for _ in atoms(found)) > MOST_ATOMS:
+            raise Unable("the sign conditions on a trace form grow past their limits")
+        return found
 
 
 def _chosen(poly: Poly, cases: dict[int, Formula | None]) -> Formula | None:

@@ -114,6 +114,7 @@ class ParametricQuotient:
         common = _least_common([v.bottom for _, v in parts])
         tops = [self.ring.constant(0)] * self.size
         for c, v in parts:
+            self.budget.check("trace forms")
             factor = c * self._expanded(_quotient(common, v.bottom))
             for k, top in enumerate(v.tops):
                 if top:
@@ -132,6 +133,7 @@ class ParametricQuotient:
         kept: Powers = {}
         for f, e in bottom.items():
             while e and all(not p or _divides(f, p) for p in tops):
+                self.budget.check("trace forms")
                 tops, e = [p.exact_divide(f) for p in tops], e - 1
             if e:
                 kept[f] = e
@@ -202,7 +204,8 @@ class ParametricQuotient:
             minors = (self.ring.constant(1), *minors[1:])
         is_hankel = len({k for m in self.monomials for k, e in enumerate(m) if e}) <= 1
         squares = factor is None or _is_square(factor)
-        return SignatureConditions(minors, lambda: self.characteristic(matrix), is_hankel, 0 if squares else None)
+        least = 0 if squares else None
+        return SignatureConditions(minors, lambda: self.characteristic(matrix), is_hankel, least, self.budget.check)
 
     def _leading_minors(self, matrix: Matrix) -> list[Poly]:
         """The determinants of the leading blocks, from 1 by 1 on.
@@ -215,11 +218,11 @@ class ParametricQuotient:
             raise Unable(f"a trace form of {size} complex solutions is too large for sign conditions")
         previous: dict[tuple[int, ...], Poly] = {(): self.ring.constant(1)}
         for k in range(size):
-            self.budget.check("determinants of trace forms")
             current: dict[tuple[int, ...], Poly] = {}
             for columns in combinations(range(size), k + 1):
                 total = self.ring.constant(0)
                 for position, column in enumerate(columns):
+                    self.budget.check("determinants of trace forms")
                     entry, rest = matrix[k][column], previous[columns[:position] + columns[position + 1 :]]
                     if entry and rest:
                         total = total + entry * rest * (-1) ** (k - position)
@@ -239,12 +242,13 @@ class ParametricQuotient:
         zero, one = ring.constant(0), ring.constant(1)
         current = [[one if i == j else zero for j in range(size)] for i in range(size)]
         coefficients = [one]
-        for k in range(1, size + 1):
+
+        def entry(i: int, j: int) -> Poly:
             self.budget.check("characteristic polynomials")
-            product = [
-                [sum((matrix[i][m] * current[m][j] for m in range(size)), start=zero) for j in range(size)]
-                for i in range(size)
-            ]
+            return sum((matrix[i][m] * current[m][j] for m in range(size)), start=zero)
+
+        for k in range(1, size + 1):
+            product = [[entry(i, j) for j in range(size)] for i in range(size)]
             trace = sum((product[i][i] for i in range(size)), start=zero)
             c = (-trace).exact_divide(k)
             if c.term_count() > MOST_TERMS:

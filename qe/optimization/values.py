@@ -14,10 +14,9 @@ from itertools import chain
 
 from qe.elimination.protocol import Outcome
 from qe.engine.run import answer_to, answered, proved
-from qe.errors import InputError
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj, convert, exists
-from qe.formula.syntax import FALSE, Formula, Relation
+from qe.formula.syntax import Formula, Relation
 from qe.formula.traverse import ring_of
 from qe.options import Budget, Options
 from qe.proof.answer import UNPROVED, Answer
@@ -72,15 +71,12 @@ class Goal:
 
     @staticmethod
     def of(objective: Objective, conditions: Formula, parameters: Iterable[str] = ()) -> Goal:
-        """The goal with all names in one ring. Raises ``InputError`` for a parameter that is unknown or named twice."""
+        """The goal with all names in one ring; parameters may be others."""
         given, parts = tuple(parameters), (objective.graph, conditions)
         rings = [ring.names for part in parts if (ring := ring_of(part)) is not None]
         if objective.polynomial is not None:
             rings.insert(0, objective.polynomial[0].ring.names)
         names = [name for name in dict.fromkeys(chain(*rings)) if name != objective.value]
-        strangers = [name for name in given if name not in names and conditions is not FALSE]
-        if strangers or len(set(given)) < len(given):
-            raise InputError(f"parameters: variables of the problem expected, each once, {', '.join(given)} found")
         ring = Ring.of((*given, objective.value, *(name for name in names if name not in given)))
         used = {*conditions.free, *objective.names}
         variables = tuple(name for name in names if name in used and name not in given)

@@ -31,10 +31,12 @@ class Status(Enum):
 
 
 class Guarantee(Enum):
-    """CHECKED: separate code accepted the certificate. DERIVED: it follows from the algorithms' theorems only."""
+    """CHECKED: separate code accepted the certificate. DERIVED: it follows from the algorithms' theorems only. NONE:
+    there is no answer."""
 
     CHECKED = "checked"
     DERIVED = "derived"
+    NONE = "none"
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -43,7 +45,7 @@ class Answer:
 
     ``truth``: True or False for sentences. ``witness``: exact values for the outermost block of a true existential
     sentence, or a counterexample to a false universal one. ``certificate``: what ``qe.verify`` accepts, when the
-    method produces one. ``reason``: why there is no answer, or why its certificate was not verified.
+    method produces one. ``reason``: why there is no answer, or no certificate that was verified.
     ``unchecked_steps``: with ``check``, the rules of the steps of the derivation that no checker has accepted; the
     answer can be ``CHECKED`` all the same, by a decomposition. ``question`` and ``log``: what was asked, and how it was
     answered. ``partial``: what is known where there is no answer, if that was asked for (``anytime``).
@@ -60,6 +62,10 @@ class Answer:
     log: RunLog = field(default_factory=RunLog, repr=False)
     partial: Partial | None = None
 
+    def __post_init__(self) -> None:
+        if self.status is Status.UNABLE:
+            object.__setattr__(self, "guarantee", Guarantee.NONE)
+
     @property
     def truth(self) -> bool | None:
         """The truth value of a sentence, None for a formula with free variables."""
@@ -67,10 +73,8 @@ class Answer:
 
     @property
     def why_unchecked(self) -> str:
-        """Why the guarantee is no better, where a check was asked for; empty for ``CHECKED``."""
-        if self.guarantee is Guarantee.CHECKED:
-            return ""
-        return self.reason or f"no checked evidence for: {', '.join(self.unchecked_steps) or 'any step'}"
+        """Why the guarantee is no better; empty for ``CHECKED``."""
+        return "" if self.guarantee is Guarantee.CHECKED else self.reason or "no check was asked for"
 
     @property
     def stats(self) -> Mapping[str, Any]:

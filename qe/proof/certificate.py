@@ -236,12 +236,13 @@ def written(
 
 @dataclass(frozen=True, slots=True)
 class Proof:
-    """``certificate`` of an answer, if there is one; ``unchecked``: the rules of the steps of its derivation that no
-    checker has accepted; ``checked``: whether the checkers have accepted the whole certificate."""
+    """``certificate`` of an answer, or the ``reason`` why there is none; ``unchecked``: the rules of the steps of its
+    derivation that no checker has accepted; ``checked``: whether the checkers have accepted the whole certificate."""
 
     certificate: Certificate | None
     unchecked: tuple[str, ...] = ()
     checked: bool = False
+    reason: str = ""
 
 
 def digest(whole: dict[str, Json]) -> str:

@@ -7,7 +7,7 @@ quadratic polynomials over Q. The statements that the data proves are those of `
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum
 from fractions import Fraction
 
@@ -22,6 +22,8 @@ class OptimumStatus(Enum):
     """What is known about a minimisation problem."""
 
     OPTIMAL = "optimal"
+    NEAR_OPTIMAL = "near-optimal"
+    """The optimum lies between two rational numbers, proved, whose difference is at most 10^-9 of it."""
     INFEASIBLE = "infeasible"
     UNBOUNDED = "unbounded"
 
@@ -139,6 +141,22 @@ class OptimumEvidence:
     inner_field: NumberField | None = None
     inner_point: Point = ()
     links: tuple[FaceLink, ...] = ()
+    stationary: Point = ()
+    bound: Fraction | None = None
+
+    def contradiction(self) -> OptimumEvidence:
+        """Of NEAR_OPTIMAL evidence: that f < ``bound`` contradicts the constraints, by the same multipliers."""
+        assert self.bound is not None
+        below = Quadratic(self.objective.hessian, self.objective.gradient, self.objective.constant - self.bound)
+        return replace(
+            self,
+            status=OptimumStatus.INFEASIBLE,
+            forms=(*self.forms, below),
+            relations=(*self.relations, FormRelation.LT),
+            faces=tuple(replace(face, weights=(*face.weights, Fraction(0))) for face in self.faces),
+            multipliers=(*self.multipliers, Fraction(1)),
+            point=self.stationary,
+        )
 
 
 # --- plain data ------------------------------------------------------------------------------------------------

@@ -96,9 +96,9 @@ class RunLog:
     def __repr__(self) -> str:
         return f"RunLog({len(self.entries)} entries)"
 
-    def steps(self) -> Iterator[Step]:
-        """The steps in order."""
-        return (e for e in self.entries if isinstance(e, Step))
+    def steps(self, mark: int = 0) -> Iterator[Step]:
+        """The steps in order, since a mark."""
+        return (e for e in self.entries[mark:] if isinstance(e, Step))
 
     def stats(self) -> dict[str, object]:
         """Lists by kind: ``preparation``, ``plan`` (choices), figures by method, ``switches``; and ``seconds``."""

@@ -2,24 +2,32 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
+from typing import TypeVar
 
 from qe.elimination.protocol import Outcome, Problem
-from qe.errors import Unable
+from qe.errors import Contradiction, Unable
 from qe.formula.normal import without_clashes
 from qe.formula.syntax import Formula
 from qe.options import Budget, Options
+from qe.proof.answer import UNPROVED
 from qe.proof.certificate import Certificate, Kind, Proof, written
 from qe.proof.derivation import put_together
 from qe.proof.entry import Json
 from qe.proof.run_log import RunLog
 from qe.proving.linear import substitution_certificate
 
+Result = TypeVar("Result")
+
 CERTIFY_WORK = 200_000
 """Units of work that a decomposition may take for nothing but a certificate (the longest in the corpus: 90 000)."""
 
 CERTIFY_SHARE = 0.4
 """Where the caller limits the time, the share of what is left that it may take: the answer has to get home."""
+
+NOT_WANTED = "no proof was asked for"
+"""Why an answer has no certificate that was not to be checked."""
 
 PROOF_SHARE = 0.8
 """The share of the time left after the answer that finding evidence for its steps may take. (Of 343 answers of the
@@ -44,12 +52,13 @@ def certificate_of(
         return Proof(_as_asked(problem.witnessed(found.witness), problem, found.formula))
     linear = substitution_certificate(question, found.formula)
     if linear is not None or not options.certify:
-        return Proof(linear)
+        return Proof(linear, reason="" if linear is not None else NOT_WANTED)
     proof = derived(asked, log, found.formula, options, budget)
     if proof.certificate is not None:
         return proof
-    log.switch("derivation", f"no checked evidence for: {', '.join(proof.unchecked)}")
-    return replace(proof, certificate=_table(question, found.formula, log, options, budget))
+    log.switch("derivation", proof.reason)
+    table = _table(question, found.formula, log, options, budget)
+    return proof if table is None else replace(proof, certificate=table, reason="")
 
 
 def derived(asked: Formula, log: RunLog, answer: Formula, options: Options, budget: Budget) -> Proof:
@@ -58,24 +67,48 @@ def derived(asked: Formula, log: RunLog, answer: Formula, options: Options, budg
     Certificates say nothing about a formula in which a quantifier binds a name that it sees: theirs begins with other
     names of its bound variables.
     """
-    from qe.proving.prover import proved
 
-    derivation = put_together(without_clashes(asked), log.steps(), answer)
+    def made() -> Proof:
+        from qe.proving.prover import proved
+
+        derivation = put_together(without_clashes(asked), log.steps(), answer)
+        found = proved(derivation, answer, options, budget.share(PROOF_SHARE).part(CERTIFY_WORK))
+        missing = "" if found.certificate else f"no checked evidence for: {', '.join(found.unchecked)}"
+        return replace(found, reason=missing)
+
+    return without_loss(made, lambda reason: Proof(None, (f"all ({reason})",), reason=reason))
+
+
+def without_loss(work: Callable[[], Result], instead: Callable[[str], Result]) -> Result:
+    """What ``work`` finds that proves an answer, or ``instead`` of the reason why it does not come to an end.
+
+    No answer is lost for its proof, whatever goes wrong: every search for one, and every check, is called here. Raises
+    ``Contradiction`` only, which is a proof that the answer, or another one, is wrong.
+    """
     try:
-        return proved(derivation, answer, options, budget.share(PROOF_SHARE).part(CERTIFY_WORK))
+        return work()
     except Unable as error:
-        return Proof(None, (f"all ({error})",))
+        return instead(f"{UNPROVED} ({error})")
+    except Contradiction:
+        raise
+    except Exception as error:  # noqa: BLE001
+        return instead(fault(error))
+
+
+def fault(error: Exception) -> str:
+    """What is said of a proof that an error of this program ended."""
+    return f"internal error, please report: {type(error).__name__}: {error}"
 
 
 def _table(question: Formula, answer: Formula, log: RunLog, options: Options, budget: Budget) -> Certificate | None:
     """A decomposition of the whole question, made for its certificate only; None where it does not end."""
-    from qe.elimination.cad import certificate_for
 
-    try:
+    def made() -> Certificate | None:
+        from qe.elimination.cad import certificate_for
+
         return certificate_for(question, answer, options, budget.share(CERTIFY_SHARE).part(CERTIFY_WORK))
-    except Unable as error:
-        log.switch("no certificate", error)
-        return None
+
+    return without_loss(made, lambda reason: log.switch("no certificate", reason))
 
 
 def _as_asked(certificate: Certificate, problem: Problem | None, answer: Formula) -> Certificate:

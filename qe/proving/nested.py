@@ -10,10 +10,13 @@ from dataclasses import replace
 
 from qe.certify.step import Check, Claim, Context, Limits
 from qe.errors import CertificateRejected
-from qe.exact.ring import Ring
+from qe.exact.ring import Poly, Ring
 from qe.formula.syntax import Formula
+from qe.io.names import names_in
 from qe.proof.entry import Entry, Json
+from qe.proof.run_log import RunLog
 from qe.proof.step import Nested, Step
+from qe.proving.elaborators import FRESH, NAMING
 
 Prove = Callable[[Nested, Formula, Context], tuple[Formula, list[Json]]]
 """From the formula with which a checker begins, under a context, to the answer of a derivation: that, and the steps.
@@ -34,18 +37,25 @@ def derivations_within(value: object) -> Iterator[Nested]:
             yield from derivations_within(part)
 
 
-def formulas_within(value: object) -> Iterator[Formula]:
-    """The formulas of those derivations."""
-    for inner in derivations_within(value):
-        yield from (inner.start, inner.answer)
-        for step in inner.steps:
-            yield from (step.before, step.after, step.context)
-
-
-def steps_within(value: object) -> Iterator[Step]:
-    """The steps of those derivations."""
-    for inner in derivations_within(value):
-        yield from inner.steps
+def names_within(value: object) -> Iterator[str]:
+    """The names in the formulas and polynomials of evidence, also in derivations inside it."""
+    match value:
+        case Formula():
+            yield from names_in(value)
+        case Poly():
+            yield from (value.ring.names[i] for i in value.variables)
+        case Nested(start, steps, answer):
+            yield from names_within([start, *steps, answer])
+        case Step(rule, before, after, context, evidence):
+            yield from FRESH if rule in NAMING else ()
+            yield from names_within([before, after, context, evidence])
+        case RunLog():
+            yield from names_within(list(value.steps()))
+        case Mapping():
+            yield from names_within(list(value.values()))
+        case list() | tuple():
+            for part in value:
+                yield from names_within(part)
 
 
 def proved_inside(checker: Check, claim: Claim, context: Context, limits: Limits, prove: Prove) -> dict[str, Json]:

@@ -22,19 +22,18 @@ from qe.exact.ring import Poly, Ring
 from qe.formula.build import conj
 from qe.formula.syntax import FALSE, TRUE, And, Exists, Formula, Or
 from qe.formula.traverse import children, clashes, conjuncts, subformula
-from qe.io.names import names_in
 from qe.options import Budget, Options
 from qe.proof.certificate import Certificate, Proof, written
 from qe.proof.derivation import Derivation, moved, put_together
 from qe.proof.entry import Entry, Json, formula_to_json, poly_to_text
-from qe.proof.on_demand import OnDemand
+from qe.proof.on_demand import completed
 from qe.proof.run_log import RunLog
 from qe.proof.step import Nested, Place, Step
 from qe.proving.counted import case_proofs
-from qe.proving.elaborators import ELABORATORS, FRESH, NAMING
+from qe.proving.elaborators import ELABORATORS
 from qe.proving.lemma_list import EMPTY, identities
 from qe.proving.lemmas import refuting
-from qe.proving.nested import derivations_within, formulas_within, proved_inside, steps_within
+from qe.proving.nested import derivations_within, names_within, proved_inside
 from qe.proving.simplified import Simplified
 from qe.proving.substitution_steps import steps
 
@@ -74,6 +73,7 @@ def proved(derivation: Derivation, answer: Formula, options: Options, budget: Bu
 
     Raises ``BudgetExceeded``, and ``InternalError`` where accepted steps do not fit together, which would be a bug.
     """
+    derivation = replace(derivation, steps=tuple(completed(step, budget) for step in derivation.steps))
     prover = Prover(_ring(derivation, answer), options, budget)
     start, goal = moved(derivation.start, prover.ring), moved(answer, prover.ring)
     prover.whole(derivation, start, goal)
@@ -90,13 +90,10 @@ def proved(derivation: Derivation, answer: Formula, options: Options, budget: Bu
 
 
 def _ring(derivation: Derivation, answer: Formula) -> Ring:
-    """The ring of the derivation, with the names of those inside the evidence of its steps."""
+    """The ring of the derivation, with the names that the evidence of its steps brings in."""
     formulas = (derivation.start, *(step.before for step in derivation.steps), answer)
     ring = next((f.ring for f in formulas if f.ring is not None), Ring.of(()))
-    inner = [f for step in derivation.steps for f in formulas_within(step.evidence)]
-    rules = {step.rule for step in (*derivation.steps, *steps_within([step.evidence for step in derivation.steps]))}
-    fresh = FRESH if rules & NAMING else ()
-    return Ring.of(dict.fromkeys((*ring.names, *(name for f in inner for name in names_in(f)), *fresh)))
+    return Ring.of(dict.fromkeys((*ring.names, *(n for step in derivation.steps for n in names_within(step)))))
 
 
 @dataclass(slots=True)
@@ -216,9 +213,6 @@ class Prover:
         if isinstance(trace, RunLog):
             inner = self._replayed(step, trace)
             return None if inner is None else (step.rule, inner)
-        refuted = step.evidence.get("refuted")
-        if isinstance(refuted, OnDemand):
-            return self._refuted(step, refuted)
         given = step.evidence.get("proof")
         if step.rule == SQUARES:
             return self._positive(step, given, context)
@@ -228,7 +222,7 @@ class Prover:
             if completed is None:
                 return None
             evidence = completed
-        if step.rule == COUNTED:
+        if step.rule == COUNTED and not evidence:
             evidence = {"proofs": case_proofs(self._claim(step.rule, step, {}), self.options, self.limits)}
         if step.rule in ELABORATED:
             return self._elaborated(step, context, evidence)
@@ -321,16 +315,6 @@ class Prover:
         if current != step.after:
             inner.joined(current, step.after)
         return None if inner.unchecked else self._tried(step.rule, step, (), {"steps": inner.steps})
-
-    def _refuted(self, step: Step, refuted: OnDemand) -> tuple[str, Json] | None:
-        """That the conjunctions of a sentence have no solutions."""
-        try:
-            evidence: dict[str, Json] = {"certificates": [c.to_data() for c in refuted.make()]}
-        except Unable:
-            self.budget.check("prove")
-            return None
-        own = self._tried(step.rule, step, (), evidence)
-        return None if own is None else (step.rule, own)
 
     def _searched(self, step: Step, evidence: dict[str, Json]) -> dict[str, Json] | None:
         """The evidence for a refutation by a Boolean search, with the clauses that lead to a contradiction."""

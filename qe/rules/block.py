@@ -23,13 +23,20 @@ from qe.rules.sphere import sphere_along_form
 from qe.rules.square_alone import square_alone
 from qe.rules.squares import known_signs
 from qe.rules.step import StepKind
-from qe.rules.structural import guarded_linear_equation, independent_parts, linear_equation, solvable_disjuncts
+from qe.rules.structural import (
+    definitions,
+    guarded_linear_equation,
+    independent_parts,
+    linear_equation,
+    solvable_disjuncts,
+)
 from qe.rules.takes_value import drop_what_can_be_met
 from qe.rules.translation import fix_origin
 from qe.rules.tree import NEVER, All, Any, Leaf, Lifted, Node, Pending, Perturbed, either
 from qe.simplify.simplify import simplify_under
 
 RULES: tuple[Rule, ...] = (
+    definitions,
     excluded_by_ranges,
     independent_parts,
     two_balls,
@@ -73,6 +80,7 @@ def reduce_block(variables: Sequence[str], body: Formula, context: BlockContext)
     if not kept:
         return Leaf((), body)
     for rule in RULES:
+        context.watch()
         found = rule(kept, body, context)
         if found is not None:
             context.step(found.kind.value, exists(kept, body), found.node.formula, found.detail, found.proof)

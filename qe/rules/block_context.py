@@ -34,6 +34,13 @@ class BlockContext:
     bases: int = _BASES
     log: RunLog = field(default_factory=RunLog)
 
+    def __post_init__(self) -> None:
+        self.facts = replace(self.facts, watch=self.watch)
+
+    def watch(self) -> None:
+        """Raises ``BudgetExceeded`` at a limit."""
+        self.budget.check("prepare")
+
     def may_split(self, kind: StepKind, cases: int) -> bool:
         """Whether a case distinction is allowed; if so, it is charged."""
         if kind not in self.enabled or cases - 1 > self.splits:

@@ -7,10 +7,11 @@ The equation stays. What is replaced is irreducible, and the factors of what rep
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from math import gcd
 
 from qe.exact.ring import Poly, format_poly
+from qe.exact.watch import IDLE
 from qe.formula.build import atom, conj
 from qe.formula.syntax import Atom, Formula, Relation
 from qe.formula.traverse import conjuncts
@@ -56,20 +57,21 @@ def _is_product(poly: Poly) -> bool:
     return len([f for f, _ in factor_list(poly) if not f.is_constant]) > 1
 
 
-def cancelled(formula: Formula, equation: Poly) -> Formula:
+def cancelled(formula: Formula, equation: Poly, watch: Callable[[], object] = IDLE) -> Formula:
     """The formula with a multiple of the equation subtracted from every polynomial where a product remains."""
 
     def change(found: Atom) -> Formula:
+        watch()
         known = difference(found.poly, equation)
         return found if known is None else atom(known[2], found.relation)
 
     return rewrite(formula, change, {equation.ring.names[i] for i in equation.variables})
 
 
-def cancel_by(equations: Sequence[Poly], formula: Formula) -> Formula:
+def cancel_by(equations: Sequence[Poly], formula: Formula, watch: Callable[[], object] = IDLE) -> Formula:
     """The formula with multiples of the equations subtracted, one equation after the other."""
     for equation in equations:
-        formula = cancelled(formula, equation)
+        formula = cancelled(formula, equation, watch)
     return formula
 
 
@@ -80,7 +82,7 @@ def cancel_equations(variables: tuple[str, ...], body: Formula, context: BlockCo
     parts = conjuncts(body)
     for k, part in enumerate(parts):
         if isinstance(part, Atom) and part.relation is Relation.EQ:
-            changed = tuple(p if i == k else cancelled(p, part.poly) for i, p in enumerate(parts))
+            changed = tuple(p if i == k else cancelled(p, part.poly, context.watch) for i, p in enumerate(parts))
             if changed != tuple(parts):
                 return Found(StepKind.CANCELLING, format_poly(part.poly), Pending(variables, conj(changed)))
     return None

@@ -28,7 +28,7 @@ def groebner_equations(variables: tuple[str, ...], body: Formula, context: Block
     if basis.is_unit:
         return Found(StepKind.GROEBNER, f"{eq.describe(found)}: no common zero", NEVER)
     chosen = eq.better_equations(found, basis, variables) if len(found) > 1 else tuple(found)
-    reduced = [eq.reduce_atoms(f, basis) for f in others]
+    reduced = [eq.reduce_atoms(f, basis, context.watch) for f in others]
     if set(chosen) == set(found) and reduced == others:
         return None
     result = conj((eq.equal_to_zero(chosen), *reduced))

@@ -10,10 +10,11 @@ No step introduces, removes or changes a variable: they all lift to themselves.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 from qe.exact.groebner import Basis, Limits, MonomialOrder, groebner_basis
 from qe.exact.ring import Poly, format_poly
+from qe.exact.watch import IDLE
 from qe.formula.build import atom, conj
 from qe.formula.syntax import Atom, Formula, Relation
 from qe.formula.traverse import atoms, is_quantifier_free
@@ -53,10 +54,11 @@ def ideal_basis(polys: Sequence[Poly], variables: Sequence[int]) -> Basis | None
     return groebner_basis(polys, variables=variables, limits=_LIMITS)
 
 
-def reduce_atoms(formula: Formula, basis: Basis) -> Formula:
+def reduce_atoms(formula: Formula, basis: Basis, watch: Callable[[], object] = IDLE) -> Formula:
     """The formula with every atom's polynomial replaced by its normal form where that is simpler."""
 
     def change(found: Atom) -> Formula:
+        watch()
         scale, rest = basis.reduce(found.poly)
         if not rest:
             return atom(rest, found.relation)
@@ -69,13 +71,15 @@ def reduce_atoms(formula: Formula, basis: Basis) -> Formula:
     return rewrite(formula, change, names)
 
 
-def reduce_by_equations(assumed: Sequence[Formula], parts: Sequence[Formula]) -> tuple[Formula, ...]:
+def reduce_by_equations(
+    assumed: Sequence[Formula], parts: Sequence[Formula], watch: Callable[[], object] = IDLE
+) -> tuple[Formula, ...]:
     """The parts, every one that has quantifiers with its atoms reduced by the equations among what is assumed."""
     found, _ = split_equations(assumed)
     basis = ideal_basis(squarefree(found), variable_order(conj((*assumed, *parts)), ())) if found else None
     if basis is None or basis.is_unit:
         return tuple(parts)
-    return tuple(part if is_quantifier_free(part) else reduce_atoms(part, basis) for part in parts)
+    return tuple(part if is_quantifier_free(part) else reduce_atoms(part, basis, watch) for part in parts)
 
 
 def complexity(poly: Poly) -> tuple[int, int, int]:

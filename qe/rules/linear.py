@@ -11,6 +11,7 @@ sign of a is not known, so the factor is positive.
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
@@ -22,6 +23,10 @@ from qe.formula.traverse import atoms
 from qe.simplify.facts import Facts
 
 _TERMS = 3000  # a substitution whose result has more terms than this is not done
+
+
+MOST_VARIABLES = 60
+"""In more variables the search for linear forms that one atom alone looks at would take longer than it gains."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,14 +62,7 @@ def choose_pivot(parts: Sequence[Formula], variables: Sequence[str], facts: Call
     """
     best: Pivot | None = None
     best_cost: tuple[int, int, int] | None = None
-    occurrences: dict[int, int] = {}
-    for part in parts:
-        for found in atoms(part):
-            for i in found.poly.variables:
-                occurrences[i] = occurrences.get(i, 0) + 1
-            if isinstance(found, RootAtom):
-                named = found.poly.ring.index[found.variable]
-                occurrences[named] = occurrences.get(named, 0) + 1
+    occurrences = _occurrences(parts)
     # those with a constant coefficient first: where there is one, the signs of the others need not be known
     for position, i, rest, lead in sorted(_linear_in(parts, variables), key=lambda found: not found[3].is_constant):
         if best_cost is not None and best_cost[0] == 0 and not lead.is_constant:
@@ -77,6 +75,40 @@ def choose_pivot(parts: Sequence[Formula], variables: Sequence[str], facts: Call
         if best_cost is None or cost < best_cost:
             best_cost, best = cost, Pivot(position, i, lead, rest, sign, alone)
     return best
+
+
+def defining(parts: Sequence[Formula], variables: Sequence[str]) -> list[Pivot]:
+    """Equations v = t among the conjuncts that are there to give t a name.
+
+    All those with a v that occurs nowhere else; if there is none, the one of least cost whose t is not linear, or whose
+    v stands in one other atom only: so no form is written out twice. In very many variables linear forms stay named.
+    """
+    occurrences = _occurrences(parts)
+    alone: dict[int, Pivot] = {}
+    best: tuple[int, Pivot] | None = None
+    few = len(occurrences) <= MOST_VARIABLES
+    for position, i, rest, lead in _linear_in(parts, variables):
+        if not lead.is_constant:
+            continue
+        sign = 1 if lead.constant_value() > 0 else -1
+        pivot = Pivot(position, i, lead, rest, sign, occurrences[i] == 1)
+        if pivot.alone:
+            alone.setdefault(position, pivot)
+        elif rest.total_degree > 1 or (few and occurrences[i] == 2):
+            cost = (occurrences[i] - 1) * rest.term_count()
+            best = (cost, pivot) if best is None or cost < best[0] else best
+    return list(alone.values()) or ([] if best is None else [best[1]])
+
+
+def _occurrences(parts: Sequence[Formula]) -> Counter[int]:
+    """In how many atoms each variable stands."""
+    found: Counter[int] = Counter()
+    for part in parts:
+        for a in atoms(part):
+            found.update(a.poly.variables)
+            if isinstance(a, RootAtom):
+                found[a.poly.ring.index[a.variable]] += 1
+    return found
 
 
 def _linear_in(parts: Sequence[Formula], variables: Sequence[str]) -> Iterator[tuple[int, int, Poly, Poly]]:

@@ -13,9 +13,9 @@ convex g; and ``ex x. g`` where g is convex in x and the moved variables.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from functools import partial
-from itertools import combinations
+from itertools import chain, combinations
 
 from qe.exact.ring import Poly
 from qe.formula.build import atom, exists, forall
@@ -42,7 +42,7 @@ def at_fixed_points(formula: Exists | ForAll, context: BlockContext) -> tuple[Fo
         context.budget.check("prepare")
         universal = isinstance(current, ForAll)
         body = nnf(current.body, negate=True) if universal else current.body
-        mirror = next(_mirrors(current.variables, body), None)
+        mirror = next(_mirrors(current.variables, body, context.watch), None)
         if mirror is None:
             break
         values = fixed(mirror, current.variables, next(atoms(body)).poly)
@@ -73,7 +73,7 @@ def _put_in(values: Mapping[str, Poly], given: Atom) -> Formula:
     return atom(given.poly.compose(places), given.relation)
 
 
-def _mirrors(variables: Sequence[str], body: Formula) -> Iterator[Mirror]:
+def _mirrors(variables: Sequence[str], body: Formula, watch: Callable[[], object]) -> Iterator[Mirror]:
     """The mirrors that leave the body alone, where it is convex."""
     inner = bound_variables(body)
     if isinstance(body, Constant) or len(variables) + len(inner) > _VARIABLES or {*inner} & {*variables, *body.free}:
@@ -84,7 +84,8 @@ def _mirrors(variables: Sequence[str], body: Formula) -> Iterator[Mirror]:
     if sum(a.poly.term_count() for a in atoms(body)) > _TERMS:
         return
     same = _shape(body, {})
-    for mirror in (*_sign_changes(single, inner, polynomials(body)), *_exchanges(single)):
+    for mirror in chain(_sign_changes(single, inner, polynomials(body)), _exchanges(single)):
+        watch()
         moved = frozenset(mirror) & frozenset(variables)
         if is_convex(body, moved) and _shape(body, mirror) == same:
             yield mirror

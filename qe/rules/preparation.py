@@ -76,7 +76,7 @@ def prepare(
 def _simplified(formula: Formula, context: BlockContext) -> Formula:
     if StepKind.SIMPLIFY not in context.enabled:
         return formula
-    simple = simplify(formula)
+    simple = simplify(formula, watch=context.watch)
     context.log.step(StepKind.SIMPLIFY.value, formula, simple)
     return simple
 
@@ -116,11 +116,11 @@ def _reduced(formula: And | Or, assumed: tuple[Formula, ...], context: BlockCont
 
     join, parts = conj if isinstance(formula, And) else disj, formula.args
     if StepKind.GROEBNER in context.enabled:
-        parts = reduce_by_equations(assumed, parts)
+        parts = reduce_by_equations(assumed, parts, context.watch)
         context.step(StepKind.GROEBNER.value, formula, join(parts))
     if StepKind.CANCELLING in context.enabled:
         equations, before = split_equations(assumed)[0], parts
-        parts = tuple(p if p.is_quantifier_free else cancel_by(equations, p) for p in parts)
+        parts = tuple(p if p.is_quantifier_free else cancel_by(equations, p, context.watch) for p in parts)
         context.step(StepKind.CANCELLING.value, join(before), join(parts))
     return parts
 

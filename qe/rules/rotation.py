@@ -14,13 +14,14 @@ their plane, some t makes v = 0 and u >= 0, and:  ex u, v, y f  iff  ex u, y (u 
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import combinations
 from typing import TypeVar
 
 from qe.exact.ring import Poly
+from qe.exact.watch import IDLE
 from qe.formula.syntax import And, Atom, Exists, ForAll, Formula, Or, Relation, RootAtom
 from qe.formula.traverse import atoms, children, polynomials, subformulas
 
@@ -53,7 +54,9 @@ class Turn:
         return {"zero": self.zero, "half": self.half, "plane": self.skew}
 
 
-def invariant_plane(variables: Sequence[str], body: Formula, wanted: Iterable[str]) -> Turn | None:
+def invariant_plane(
+    variables: Sequence[str], body: Formula, wanted: Iterable[str], watch: Callable[[], object] = IDLE
+) -> Turn | None:
     """A plane of the corollary in which a coordinate can be fixed.
 
     Planes with one of ``wanted`` go first, as u; then the ones that occur in most terms. None if there is no plane.
@@ -64,7 +67,7 @@ def invariant_plane(variables: Sequence[str], body: Formula, wanted: Iterable[st
     if max(p.total_degree for p in polys) < 2 or sum(p.term_count() for p in polys) > _TERMS:
         return None
     for taken in dict.fromkeys((tuple(polys), tuple(dict.fromkeys(_sums(body))))):
-        found = _plane(variables, body, taken, frozenset(wanted))
+        found = _plane(variables, body, taken, frozenset(wanted), watch)
         if found is not None:
             return found
     return None
@@ -92,7 +95,13 @@ def _sums(formula: Formula) -> Iterator[Poly]:
             yield from _sums(child)
 
 
-def _plane(variables: Sequence[str], body: Formula, polys: Sequence[Poly], wanted: frozenset[str]) -> Turn | None:
+def _plane(
+    variables: Sequence[str],
+    body: Formula,
+    polys: Sequence[Poly],
+    wanted: frozenset[str],
+    watch: Callable[[], object],
+) -> Turn | None:
     """``invariant_plane`` for given polynomials that the truth of the body depends on."""
     ring = polys[0].ring
     blocks = [tuple(variables), *(f.variables for f in subformulas(body) if isinstance(f, Exists | ForAll))]
@@ -111,7 +120,7 @@ def _plane(variables: Sequence[str], body: Formula, polys: Sequence[Poly], wante
     favoured = {ring.index[v] for v in wanted}
     weight = {i: sum(p.degree(i) > 0 for p in polys) for i in outer}
     best: tuple[tuple[bool, int, int, int], Turn] | None = None
-    for skew in rotations(polys, pairs):
+    for skew in rotations(polys, pairs, watch):
         moved = {i for pair in skew for i in pair}
         for i, j in skew:
             if i not in outer or sum(i in pair or j in pair for pair in skew) > 1:
@@ -149,15 +158,18 @@ def _movable(polys: Sequence[Poly], candidates: set[int]) -> set[int]:
     return movable
 
 
-def rotations(polys: Sequence[Poly], pairs: Sequence[Pair]) -> list[Skew]:
+def rotations(polys: Sequence[Poly], pairs: Sequence[Pair], watch: Callable[[], object] = IDLE) -> list[Skew]:
     """A basis of the matrices on these pairs whose X annihilates all polynomials, in reduced echelon form."""
     found: list[Skew] = [{pair: Fraction(1)} for pair in pairs]
     for p in sorted(dict.fromkeys(polys), key=Poly.term_count):
         own = set(p.variables)
         moving = [skew for skew in found if any(i in own or j in own for i, j in skew)]
         if moving:
-            turned = {pair: _turned(p, pair) for skew in moving for pair in skew}
-            relations = _relations([_image(skew, turned) for skew in moving])
+            turned: dict[Pair, Image] = {}
+            for pair in dict.fromkeys(pair for skew in moving for pair in skew):
+                watch()
+                turned[pair] = _turned(p, pair)
+            relations = _relations([_image(skew, turned) for skew in moving], watch)
             found = [skew for skew in found if skew not in moving] + [_combined(moving, r) for r in relations]
         if not found:
             break
@@ -185,11 +197,12 @@ def _image(skew: Skew, turned: Mapping[Pair, Image]) -> Image:
     return total
 
 
-def _relations(rows: Sequence[Image]) -> list[dict[int, Fraction]]:
+def _relations(rows: Sequence[Image], watch: Callable[[], object]) -> list[dict[int, Fraction]]:
     """A basis of the vectors r with sum of r_k * rows_k = 0."""
     pivots: list[tuple[Powers, Image, dict[int, Fraction]]] = []
     relations: list[dict[int, Fraction]] = []
     for k, row in enumerate(rows):
+        watch()
         rest, made = dict(row), {k: Fraction(1)}
         for lead, other, how in pivots:
             if lead in rest:

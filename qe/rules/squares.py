@@ -48,6 +48,7 @@ def known_signs(variables: tuple[str, ...], body: Formula, context: BlockContext
 
     for poly in polys:
         for sign in (1, -1):
+            context.watch()
             proof: Positive | None = nowhere_negative(poly * sign, orthant) or positive_on_cone(poly * sign, bounds)
             if proof is None:
                 continue

@@ -11,6 +11,7 @@ class StepKind(Enum):
     SIMPLIFY = "standard simplification"
     GATHERING = "nested blocks of one kind gathered"
     MINISCOPE = "independent parts and miniscoping"
+    DEFINITION = "definition put in"
     LINEAR = "linear equation solved"
     GUARDED_LINEAR = "linear equation solved under a guard"
     DEGREE_SHIFT = "degree shift"
@@ -39,7 +40,9 @@ class StepKind(Enum):
 
 
 ALL_STEPS = frozenset(StepKind)
-EQUATION_STEPS = frozenset({StepKind.LINEAR, StepKind.GUARDED_LINEAR, StepKind.GROEBNER, StepKind.CANCELLING})
+EQUATION_STEPS = frozenset(
+    {StepKind.DEFINITION, StepKind.LINEAR, StepKind.GUARDED_LINEAR, StepKind.GROEBNER, StepKind.CANCELLING}
+)
 SYMMETRY_STEPS = frozenset({StepKind.TRANSLATION, StepKind.ROTATION, StepKind.SCALING, StepKind.MIRROR, StepKind.SHEAR})
 POINTWISE_STEPS = frozenset({StepKind.SIMPLIFY, StepKind.MINISCOPE, StepKind.GROEBNER, StepKind.FACTOR_SPLIT})
 """The steps that change no variable: equivalences of the matrix at every point."""

@@ -12,7 +12,7 @@ from qe.formula.syntax import Atom, Constant, Formula, Or, Relation
 from qe.formula.traverse import conjuncts, connected
 from qe.rules.block_context import BlockContext, Found
 from qe.rules.lift import Solve
-from qe.rules.linear import Pivot, choose_pivot, substitute
+from qe.rules.linear import Pivot, choose_pivot, defining, substitute
 from qe.rules.step import StepKind
 from qe.rules.tree import All, Any, Leaf, Lifted, Node, Pending
 from qe.simplify.facts import Facts
@@ -66,6 +66,32 @@ def linear_equation(variables: tuple[str, ...], body: Formula, context: BlockCon
         return None
     node = Lifted(tuple(rules), Pending(variables, body))
     return Found(StepKind.LINEAR, ", ".join(details), node, {"solved": solved_by})
+
+
+def definitions(variables: tuple[str, ...], body: Formula, context: BlockContext) -> Found | None:
+    """The same for equations that do nothing but define a variable, all in a row (``qe.rules.linear.definitions``)."""
+    if StepKind.DEFINITION not in context.enabled:
+        return None
+    rules: list[Solve] = []
+    details: list[str] = []
+    solved_by: list[tuple[str, Poly, int | None]] = []
+    while not isinstance(body, Constant):
+        context.budget.check("prepare")
+        parts = conjuncts(body)
+        pivots = defining(parts, variables)
+        gone = {pivot.position for pivot in pivots}
+        others = conj(p for k, p in enumerate(parts) if k not in gone)
+        after = substitute(others, pivots[0]) if pivots and not pivots[0].alone else others
+        if not pivots or after is None:
+            break
+        details += [_described(parts, pivot) for pivot in pivots]
+        solved_by += [_evidence(parts, pivot) for pivot in pivots]
+        rules += [Solve(pivot.name, -pivot.rest, pivot.lead) for pivot in pivots]
+        body = after
+    if not rules:
+        return None
+    left = tuple(v for v in variables if v not in {rule.variable for rule in rules})
+    return Found(StepKind.LINEAR, ", ".join(details), Lifted(tuple(rules), Pending(left, body)), {"solved": solved_by})
 
 
 def _solved(parts: Sequence[Formula], pivot: Pivot) -> Formula | None:

@@ -25,7 +25,7 @@ def without_rotations(formula: Exists | ForAll, context: BlockContext) -> tuple[
     rules: list[Solve] = []
     while StepKind.ROTATION in context.enabled and len(variables) > 1:
         context.budget.check("prepare")
-        turn = invariant_plane(variables, body, signs)
+        turn = invariant_plane(variables, body, signs, context.watch)
         if turn is None:
             break
         v, signs = turn.zero, (signs - turn.moved) | {turn.half}

@@ -9,12 +9,13 @@ implicit theory, here with ranges instead of pairwise rules).
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import lru_cache
 
 from qe.exact.ring import Poly, Ring
+from qe.exact.watch import IDLE
 from qe.formula.syntax import Atom, Formula, Relation, RootAtom
 from qe.simplify.minima import minimum
 from qe.simplify.ranges import EVERYTHING, Range, add, compare, make, meet, multiply, power, scale
@@ -92,11 +93,17 @@ class Facts:
     """What is known to hold: ranges by key polynomial, and literals that are opaque to ranges.
 
     ``ranges``: key -> range (inherent ranges are not stored). ``literals``: root atoms and quantified
-    subformulas known to be true or false.
+    subformulas known to be true or false. ``watch`` is asked wherever work under the facts may take long.
     """
 
     ranges: Mapping[Poly, Range] = field(default_factory=dict)
     literals: Mapping[Formula, bool] = field(default_factory=dict)
+    watch: Callable[[], object] = field(default=IDLE, compare=False, repr=False)
+
+    @property
+    def is_empty(self) -> bool:
+        """Whether nothing is known."""
+        return not self.ranges and not self.literals
 
     def known(self, key: Poly) -> Range:
         """The best range of a key: stored, inherent and enclosed from the ranges of its variables."""
@@ -129,6 +136,7 @@ class Facts:
 
     def signs(self, poly: Poly) -> frozenset[int]:
         """The signs that a polynomial can have, as far as known: from its range and from those of its factors."""
+        self.watch()
         if poly.is_constant:
             value = poly.constant_value()
             return frozenset(((value > 0) - (value < 0),))
@@ -157,7 +165,7 @@ class Facts:
             if isinstance(given, Atom):
                 key, wanted = constraint(given)
                 ranges[key] = meet(ranges.get(key, EVERYTHING), wanted)
-        return Facts(ranges, self.literals)
+        return replace(self, ranges=ranges)
 
     def without(self, names: tuple[str, ...]) -> Facts:
         """The facts that do not mention these variables (they get bound)."""
@@ -170,7 +178,7 @@ class Facts:
             for f, value in self.literals.items()
             if isinstance(f, RootAtom) and free(f.poly) and f.variable not in names
         }
-        return Facts({key: r for key, r in self.ranges.items() if free(key)}, literals)
+        return replace(self, ranges={key: r for key, r in self.ranges.items() if free(key)}, literals=literals)
 
 
 NOTHING = Facts()

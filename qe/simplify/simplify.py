@@ -9,9 +9,11 @@ variables does not grow, and the result is a fixed point.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
+from dataclasses import replace
 
 from qe.exact.ring import Poly
+from qe.exact.watch import IDLE
 from qe.formula.build import atom, conj, disj, exists, forall
 from qe.formula.normal import nnf
 from qe.formula.syntax import FALSE, TRUE, And, Atom, Constant, Exists, ForAll, Formula, Not, Or, RootAtom
@@ -25,31 +27,32 @@ from qe.simplify.univariate import irredundant
 _ROUNDS = 60  # every round removes degree, an atom or a subformula; this only guards against a bug
 
 
-def simplify(formula: Formula, assumptions: Formula = TRUE) -> Formula:
+def simplify(formula: Formula, assumptions: Formula = TRUE, *, watch: Callable[[], object] = IDLE) -> Formula:
     """A formula, not larger, that is equivalent to ``formula`` wherever ``assumptions`` holds.
 
     Negations end up in the atoms. Quantified formulas are simplified inside; variables that do not occur
-    lose their quantifier. Only conjoined atoms of ``assumptions`` (after simplification) are used.
+    lose their quantifier. Only conjoined atoms of ``assumptions`` (after simplification) are used. Whatever ``watch``
+    raises ends the work.
     """
     facts = NOTHING
     if assumptions != TRUE:
-        known = simplify(assumptions)
+        known = simplify(assumptions, watch=watch)
         if known == FALSE:
             return TRUE
         facts = facts_of(known, formula)
-    return simplify_under(formula, facts)
+    return simplify_under(formula, facts if watch is IDLE else replace(facts, watch=watch))
 
 
 def simplify_under(formula: Formula, facts: Facts) -> Formula:
     """As ``simplify``, with the assumptions given as facts."""
-    if formula.is_simple and facts is NOTHING:
+    if formula.is_simple and facts.is_empty:
         return formula
     current = nnf(formula)
     for _ in range(_ROUNDS):
         previous, current = current, _node(current, facts)
         if current == previous:
             current = formula if current == formula else current  # with what is known about the node that was given
-            if facts is NOTHING:
+            if facts.is_empty:
                 current.mark_simple()
             break
     return current
@@ -89,6 +92,7 @@ def _level(args: Iterable[Formula], facts: Facts, conjunctive: bool) -> Formula:
     join = conj if conjunctive else disj
     absorbing: Formula = FALSE if conjunctive else TRUE
     atoms, literals, others = _sort(args, conjunctive)
+    nothing = replace(NOTHING, watch=facts.watch)
     for _ in range(_ROUNDS):
         tidied = _tidy(atoms, facts, conjunctive)
         if tidied is None:
@@ -100,7 +104,7 @@ def _level(args: Iterable[Formula], facts: Facts, conjunctive: bool) -> Formula:
         literals = kept
         inner = _extended(facts, atoms, literals, conjunctive)
         simplified = [_node(f, inner) for f in (*others, *produced)]
-        simplified = absorb(simplified, conjunctive, lambda parts, flag: _level(parts, NOTHING, flag))
+        simplified = absorb(simplified, conjunctive, lambda parts, flag: _level(parts, nothing, flag))
         if absorbing in simplified:
             return absorbing
         new_atoms, new_literals, others = _sort(simplified, conjunctive)
@@ -156,7 +160,7 @@ def _extended(facts: Facts, atoms: Iterable[Atom], literals: Iterable[Formula], 
             values[literal.arg] = not conjunctive
         else:
             values[literal] = conjunctive
-    return Facts(known.ranges, values)
+    return replace(known, literals=values)
 
 
 class _Board:
@@ -167,7 +171,7 @@ class _Board:
         self.groups: dict[Poly, list[Atom]] = {}
         self.own: dict[Poly, Range] = {}
         self.ranges: dict[Poly, Range] = dict(facts.ranges)
-        self.view = Facts(self.ranges, facts.literals)
+        self.view = replace(facts, ranges=self.ranges)
         for given in atoms:
             self.insert(given)
 
@@ -206,6 +210,7 @@ def _tidy(atoms: list[Atom], facts: Facts, conjunctive: bool) -> tuple[list[Atom
     for _ in range(_ROUNDS):
         changed = False
         for key in list(board.groups):
+            facts.watch()
             if key not in board.groups:
                 continue
             board.hide(key)
@@ -256,6 +261,7 @@ def _emit(board: _Board, conjunctive: bool) -> list[Atom] | None:
     """The shortest list of atoms for the ranges on the board; None if a range is empty."""
     out: list[Atom] = []
     for key, group in board.groups.items():
+        board.facts.watch()
         board.hide(key)
         base = board.view.known(key)
         board.show(key)

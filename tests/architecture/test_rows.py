@@ -69,6 +69,7 @@ ROWS = {
     "bezier.methods.quadratic": 22,
     "bezier.methods.cubic": 22,
     "bezier.methods.single": 22,
+    "bezier.methods.refuted": 22,
     "bezier.planner": 23,
     "bezier.check": 24,
     "bezier.compare": 24,

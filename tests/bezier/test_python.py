@@ -191,14 +191,14 @@ def test_a_motion_that_is_too_fast_is_no_path() -> None:
     assert caught.value.plan.outcome is bezier.Outcome.TOO_FAST and caught.value.plan.curves
 
 
-def test_a_path_that_meets_an_obstacle_is_no_path() -> None:
+def test_a_start_in_an_obstacle_is_no_path() -> None:
     around = {"kind": "ball", "name": "cage", "centre": [-4, 0, 1], "radius": 0.5}
     given = {NAMES.get(key, key): value for key, value in values("single.toml").items()}
     with pytest.raises(bezier.NoPath) as caught:
         bezier.plan(**{**given, "obstacles": [{**around, "centre": given["start"]}]})
     told, plan = str(caught.value), caught.value.plan
-    assert "meets an obstacle" in told and "cage, first at t = 0" in told and "\n" not in told
-    assert plan.outcome is bezier.Outcome.BLOCKED and plan.curves and not plan.certified
+    assert told.startswith("no path exists: the start") and "obstacle cage" in told and "\n" not in told
+    assert plan.outcome is bezier.Outcome.INFEASIBLE and qe.verify(plan.certificate).accepted
 
 
 def test_limits_of_time_hold() -> None:

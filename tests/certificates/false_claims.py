@@ -30,9 +30,10 @@ from qe.options import Budget, Options
 from qe.proof.certificate import Certificate, Kind, digest
 from qe.proof.entry import Entry, formula_from_json, formula_to_json, poly_to_text
 from qe.proving.linear import substitution_certificate
+from tests.attacks.formulas import altered, differs, eliminated, formula, question, simple
+from tests.attacks.rules import RULES
 from tests.bezier.bodies import ball
 from tests.certificates.mutation import Path, leaves, lists
-from tests.certificates.test_false_steps import altered, differs, eliminated, formula, question, simple
 
 Data = dict[str, Any]
 IsFalse = Callable[[random.Random, Data], bool]
@@ -45,9 +46,18 @@ SECONDS, PARAMETERS = 0.5, 33
 # --- true certificates -----------------------------------------------------------------------------
 def derivation(rng: random.Random) -> Certificate | None:
     """The certificate of an answer, where it is a derivation."""
-    asked = question(rng)
+    return _derivation(question(rng), Options(certify=True))
+
+
+def derivation_by_a_rule(rng: random.Random) -> Certificate | None:
+    """The same for a question on whose way a rule fires that others seldom need."""
+    row = rng.choice(list(RULES.values()))
+    return _derivation(row.question(rng), row.options)
+
+
+def _derivation(asked: Formula, options: Options) -> Certificate | None:
     try:
-        found = solve(asked, Options(certify=True), Budget(2 * SECONDS)).certificate
+        found = solve(asked, options, Budget(4 * SECONDS)).certificate
     except Unable:
         return None
     return found if found is not None and found.kind == Kind.DERIVATION else None
@@ -240,6 +250,7 @@ def _at(points: list[list[list[str]]], t: Fraction) -> list[Fraction]:
 
 KINDS: dict[str, tuple[Callable[[random.Random], Certificate | None], IsFalse]] = {
     "derivation": (derivation, not_equivalent),
+    "derivation by a rule": (derivation_by_a_rule, not_equivalent),
     "cells": (cells, not_equivalent),
     "substitution": (substitution, not_equivalent),
     "witness": (witness, _not_a_solution),

@@ -23,8 +23,8 @@ from qe.formula.syntax import Relation
 from qe.groebner.evidence import solutions_certificate
 from qe.proof.certificate import Certificate, Kind
 from qe.proof.entry import Entry
+from tests.attacks.formulas import simple
 from tests.certificates.false_claims import number
-from tests.certificates.test_false_steps import simple
 
 Data = dict[str, Any]
 Vector = list[float]

@@ -15,8 +15,7 @@ from qe.options import Budget
 from qe.proof.certificate import Certificate
 from tests.certificates.altered_derivations import ALTERATIONS, Data, altered_derivation
 from tests.certificates.derivations import CASES, data
-from tests.certificates.false_claims import derivation, not_equivalent, text_of
-from tests.certificates.false_claims_of_rules import derivation_by_a_rule
+from tests.certificates.false_claims import derivation, derivation_by_a_rule, not_equivalent, text_of
 from tests.certificates.mutation import lists
 
 TRIES = 25

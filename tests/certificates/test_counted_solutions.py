@@ -140,8 +140,8 @@ def never_negative(m: pytest.MonkeyPatch) -> None:
 def always_hankel(m: pytest.MonkeyPatch) -> None:
     """Minors are read as those of forms in the powers of one variable."""
 
-    def read(minors: Any, coefficients: Any, is_hankel: bool, least: int | None) -> SignatureConditions:
-        return SignatureConditions(minors, coefficients, True, least)
+    def read(minors: Any, coefficients: Any, is_hankel: bool, *rest: Any) -> SignatureConditions:
+        return SignatureConditions(minors, coefficients, True, *rest)
 
     m.setattr(trace_form, "SignatureConditions", read)
 

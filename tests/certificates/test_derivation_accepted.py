@@ -3,64 +3,16 @@
 from __future__ import annotations
 
 import doctest
-import random
 from pathlib import Path
 
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
 import qe
 from qe.certify.claims import claim_of
 from qe.certify.verify import verify
-from qe.formula.syntax import TRUE
-from qe.formula.traverse import clashes, conjuncts
 from qe.proof.answer import Guarantee
 from qe.proof.certificate import Certificate, Kind
-from qe.proof.derivation import moved
 from tests.certificates.derivations import CASES, certificate
-from tests.certificates.test_false_steps import true_steps
-
-ALWAYS = {
-    "renaming",
-    "duality",
-    "negation normal form",
-    "independent parts and miniscoping",
-    "linear equation solved under a guard",
-    "degree shift",
-    "translation of the origin",
-    "homogeneous scaling",
-    "inequations that remove no interior",
-    "case split on factors",
-    "boundary apart",
-    "signs by sums of squares",
-    "nested blocks of one kind gathered",
-    "rotation of the axes",
-    "mirror images of a convex set",
-    "linear form as a variable",
-    "disjuncts with equations apart",
-}
-"""Rules whose steps need little or no search for evidence."""
-
-
-@settings(deadline=None, max_examples=15, derandomize=True)
-@given(st.integers(0, 10**9))
-def test_steps_of_random_questions(seed: int) -> None:
-    for prover, step in true_steps(random.Random(seed)):
-        prover.tables = False
-        known = moved(step.context, prover.ring)
-        context = tuple(conjuncts(known)) if known != TRUE else ()
-        if clashes(step.before):  # the question as it was typed: certificates begin after its renaming
-            assert step.rule == "renaming" and prover.evidence(step, context) is None
-        elif step.rule in ALWAYS:
-            assert prover.evidence(step, context) is not None, (step.rule, step.before, step.after)
-
-
-@pytest.mark.deep
-@settings(deadline=None, max_examples=1000)
-@given(st.integers(0, 10**9))
-def test_steps_of_many_random_questions(seed: int) -> None:
-    test_steps_of_random_questions.hypothesis.inner_test(seed)  # type: ignore[attr-defined]
 
 
 @pytest.mark.parametrize("name", list(CASES)[::2])
@@ -101,10 +53,10 @@ def test_what_is_not_checked_is_named() -> None:
     """Critical values of a block with a constraint of degree 3 are beyond the checkers."""
     answer = qe.eliminate("ex x, y. x^2 = 2 and y^3 = 3 and a = x*y", check=True)
     if answer.unchecked_steps:
-        assert answer.certificate is None or answer.certificate.kind != Kind.DERIVATION
+        assert answer.certificate is None or answer.certificate.kind is not Kind.DERIVATION
     else:
         assert answer.certificate is not None
-        assert answer.certificate.kind == Kind.DERIVATION
+        assert answer.certificate.kind is Kind.DERIVATION
 
 
 def test_versions() -> None:

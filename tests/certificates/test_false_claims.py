@@ -13,7 +13,7 @@ from qe.errors import QEError
 from qe.options import Budget
 from qe.proof.certificate import Certificate
 from tests.certificates.false_claims import KINDS as OLDER
-from tests.certificates.false_claims import Data, not_equivalent, other_claim, text_of
+from tests.certificates.false_claims import Data, other_claim, text_of
 from tests.certificates.false_claims_of_arms import (
     branch,
     inverse,
@@ -23,11 +23,9 @@ from tests.certificates.false_claims_of_arms import (
     solutions,
 )
 from tests.certificates.false_claims_of_classifications import classification, other_numbers
-from tests.certificates.false_claims_of_rules import derivation_by_a_rule
 
 KINDS = {
     **OLDER,
-    "derivation by a rule": (derivation_by_a_rule, not_equivalent),
     "solutions": (solutions, other_solutions),
     "branch": (branch, leaves_the_branch),
     "inverse": (inverse, other_positions),

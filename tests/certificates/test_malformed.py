@@ -21,11 +21,11 @@ from qe.certify.registry import RULES
 from qe.certify.verify import CRASHED, verify, verify_json
 from qe.options import Budget
 from qe.proof.certificate import FORMAT, Certificate, Kind
+from tests.attacks.rules import RULES as QUESTIONS
 from tests.certificates import false_claims, false_claims_of_arms, false_claims_of_classifications
 from tests.certificates.altered_derivations import steps
 from tests.certificates.derivations import CASES, data
 from tests.certificates.false_claims import Data, text_of
-from tests.certificates.false_claims_of_rules import cases
 from tests.unit.certify import test_parts
 from tests.unit.certify.claims import NO_LEMMAS, RING, step
 from tests.unit.certify.test_degenerate_truth_set import by, contradiction
@@ -48,7 +48,7 @@ OTHERS = [
     ("ex x, y. x^2 + y^2 <= a and x^2 > b", "auto"),
     ("all x. x >= 0 and x <= 1 -> a*x^3 + b*x^2 + x + c > 0", "auto"),
     ("all x, y, z, u. x^2 + y^2 + z^2 + u^2 > 1", "auto"),
-    (str(cases(random.Random(0))), "auto"),
+    (str(QUESTIONS["Boolean search"].question(random.Random(0))), "auto"),
 ]
 """Questions for rules that those of ``derivations`` do not need, with the method."""
 

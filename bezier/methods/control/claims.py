@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from typing import Any
 
-from bezier.curves.scalar import Vector
+from bezier.curves.scalar import Vector, exactly
 from bezier.input.stored import DIMENSION, numbers
 from bezier.methods.control.system import System
 from bezier.methods.control.terms import (
@@ -21,6 +21,7 @@ from bezier.methods.control.terms import (
     reduced,
     terms_of,
 )
+from qe.convex.near_optimum import GAP
 from qe.errors import CertificateRejected
 from qe.proof.certificate import Certificate, Kind
 
@@ -48,6 +49,57 @@ def optimal_points(system: System, payload: Mapping[str, Any]) -> dict[str, Vect
     for label in system.violated(points):
         raise CertificateRejected("optimum.point", f"violates the condition {label}")
     return points
+
+
+def has_member(certificate: Certificate, label: str) -> bool:
+    """Whether a bundle has a member with this label."""
+    return isinstance(certificate.payload, tuple) and any(item.label == label for item in certificate.payload)
+
+
+def near_points(
+    system: System, payload: Mapping[str, Any], reached: Mapping[str, Any]
+) -> tuple[dict[str, Vector], Fraction]:
+    """The control points of a witness, and the bound on the objective that a contradiction proves (``check_bound_of``).
+
+    Raises ``CertificateRejected`` when they violate a condition, or are not as near to each other as they have to be.
+    """
+    bound = objective_terms(system).get(_origin(system), Fraction(0)) - _last(system, payload).get(
+        _origin(system), Fraction(0)
+    )
+    if tuple(reached["order"]) != system.shape.variables:
+        raise CertificateRejected("optimum: point: order", f"expected {', '.join(system.shape.variables)}")
+    flat = numbers(reached["values"], None, "optimum: point: values")
+    points = system.points([flat[i : i + DIMENSION] for i in range(0, len(flat), DIMENSION)])
+    for label in system.violated(points):
+        raise CertificateRejected("optimum: point", f"violates the condition {label}")
+    value = exactly(system.objective_at(points))
+    if value - bound > GAP * abs(value):
+        raise CertificateRejected("optimum: bound", "not as near to the objective as it has to be")
+    return points, bound
+
+
+def check_bound_of(system: System, payload: Mapping[str, Any], label: str) -> None:
+    """The certificate shows that the objective of the system has no value below some number under its conditions."""
+    *conditions, last = payload["problem"]["constraints"]
+    terms, goal = _last(system, payload), objective_terms(system)
+    slopes = [{e: c for e, c in found.items() if any(e)} for found in (terms, goal)]
+    if payload["status"] != "infeasible" or last["relation"] != "<" or slopes[0] != slopes[1]:
+        raise CertificateRejected(f"{label}: problem.constraints", "the last one is no bound of the objective")
+    weaker = {**payload, "problem": {**payload["problem"], "constraints": conditions}}
+    check_optimum_of(system, weaker, label)
+
+
+def _last(system: System, payload: Mapping[str, Any]) -> Terms:
+    """The last condition of a certificate."""
+    stated = payload["problem"]
+    if not stated["constraints"] or sorted(stated["variables"]) != sorted(system.shape.variables):
+        raise CertificateRejected("optimum: bound: problem", "not about the control points of this problem")
+    order = [stated["variables"].index(name) for name in system.shape.variables]
+    return _ordered(stated["constraints"][-1]["terms"], order)
+
+
+def _origin(system: System) -> tuple[int, ...]:
+    return (0,) * len(system.shape.variables)
 
 
 def check_optimum_of(system: System, payload: Mapping[str, Any], label: str, minimise: Terms | None = None) -> None:

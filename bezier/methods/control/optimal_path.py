@@ -11,12 +11,21 @@ import qe
 from bezier.curves.containment import Inside
 from bezier.curves.scalar import Vector
 from bezier.input.stored import numbers
-from bezier.methods.control.claims import check_optimum_of, member, optimal_points
+from bezier.methods.control.claims import (
+    check_bound_of,
+    check_optimum_of,
+    has_member,
+    member,
+    near_points,
+    optimal_points,
+)
 from bezier.methods.control.statements import Statement
 from bezier.methods.control.system import System
+from bezier.methods.control.terms import named_multipliers, proof_of
 from bezier.paths.path import Path, Proof, assemble, path_certificates, prove
 from bezier.plans import Begun, Clock, Outcome, Plan
 from bezier.problem import Problem
+from qe.convex.optimum import BOUND, POINT
 from qe.errors import CertificateRejected, InternalError, Unable
 from qe.exact.ring import Ring
 from qe.formula.build import convert
@@ -24,6 +33,7 @@ from qe.formula.syntax import FALSE, Atom, Exists, Formula
 from qe.proof.certificate import Certificate, Kind
 
 ELIMINATION, OPTIMUM = "elimination", "optimum"
+NEAR, NEAR_KINDS = (f"{OPTIMUM}: {BOUND}", f"{OPTIMUM}: {POINT}"), (Kind.OPTIMUM, Kind.WITNESS)
 """The labels of the certificates that every method with a system of control points has."""
 Members = list[tuple[str, Certificate]]
 """Certificates with their labels."""
@@ -55,19 +65,25 @@ def least(system: System, answer: Any, clock: Clock) -> Any:
 class Certified:
     """What the certificate of an optimum shows about a system: its point and the multipliers of its constraints.
 
-    ``points``: all control points, None when the conditions contradict each other.
+    ``points``: all control points, None when the conditions contradict each other. ``bound``: the objective is not
+    below it, where the point is only near the optimum.
     """
 
     certificate: qe.Certificate
     points: Mapping[str, Vector] | None
     multipliers: Vector
+    bound: Fraction | None = None
 
     @staticmethod
     def of(system: System, certificate: qe.Certificate) -> Certified:
         """Read the certificate. Raises ``CertificateRejected`` when its point violates a condition of the system."""
-        payload: Any = certificate.payload
+        whole: Any = certificate.payload
+        payload = proof_of(certificate)
         multipliers = numbers(payload["multipliers"], payload["field"], "optimum.multipliers")
-        return Certified(certificate, optimal_points(system, payload), multipliers)
+        if payload is whole:
+            return Certified(certificate, optimal_points(system, payload), multipliers)
+        points, bound = near_points(system, payload, whole[1].certificate.payload)
+        return Certified(certificate, points, multipliers[:-1], bound)
 
 
 def found_optimum(system: System, certificate: qe.Certificate) -> Certified:
@@ -80,9 +96,22 @@ def found_optimum(system: System, certificate: qe.Certificate) -> Certified:
 
 def restored_optimum(system: System, certificate: qe.Certificate) -> Certified:
     """The optimum in the certificates of a folder. Raises ``CertificateRejected`` when it is not this system's."""
+    if has_member(certificate, NEAR[0]):
+        payloads = [member(certificate, label, kind) for label, kind in zip(NEAR, NEAR_KINDS, strict=True)]
+        check_bound_of(system, payloads[0], NEAR[0])
+        parts = [qe.Certificate(kind, payload) for kind, payload in zip(NEAR_KINDS, payloads, strict=True)]
+        return Certified.of(system, qe.Certificate.bundle(zip((BOUND, POINT), parts, strict=True)))
     payload = member(certificate, OPTIMUM, Kind.OPTIMUM)
     check_optimum_of(system, payload, OPTIMUM)
     return Certified.of(system, qe.Certificate(Kind.OPTIMUM, payload))
+
+
+def optimum_members(certificate: qe.Certificate) -> Members:
+    """The certificate of an optimum under its label, or both parts of that of a point near it."""
+    if certificate.kind is Kind.OPTIMUM:
+        return [(OPTIMUM, certificate)]
+    payload: Any = certificate.payload
+    return [(label, part.certificate) for label, part in zip(NEAR, payload, strict=True)]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, repr=False)
@@ -98,15 +127,17 @@ class SystemPlan(Plan):
 
 def drawn(problem: Problem, system: System, found: Certified) -> dict[str, Any]:
     """What follows from the optimum of a system, as fields of its plan: the path through it, if there is one, the
-    labels of the active conditions and the value of the objective."""
-    points = found.points
+    labels of the active conditions (near an optimum: of those that bound it) and the value of the objective."""
+    points, near = found.points, found.bound is not None
+    close = [label for label, _ in named_multipliers(system, found)] if near else []
     return {
         "problem": problem,
         "system": system,
         "formula": str(system.statement()),
-        "outcome": Outcome.INFEASIBLE if points is None else Outcome.SOLVED,
+        "outcome": Outcome.INFEASIBLE if points is None else Outcome.NEAR_OPTIMAL if near else Outcome.SOLVED,
+        "bound": found.bound,
         "path": None if points is None else path_through(problem, system, points),
-        "active": () if points is None else system.active(points),
+        "active": tuple(close) if near else () if points is None else system.active(points),
         "objective": None if points is None else system.objective_at(points),
     }
 

@@ -11,6 +11,7 @@ from bezier.curves.scalar import exactly, sign
 from bezier.curves.workspace import Ball, HalfSpace
 from bezier.methods.control.system import OnPoint, System
 from qe.errors import InternalError
+from qe.proof.certificate import Certificate
 
 Terms = dict[tuple[int, ...], Fraction]
 """Coefficient by exponents of the free coordinates, in the order of ``Shape.variables``."""
@@ -137,6 +138,12 @@ def reduced(terms: Terms, fixed: Mapping[int, Fraction]) -> Terms:
     return _total(parts)
 
 
+def proof_of(certificate: Certificate) -> Any:
+    """What an optimum, or a bound near one, holds of multipliers."""
+    payload: Any = certificate.payload
+    return payload[0].certificate.payload if isinstance(payload, tuple) else payload
+
+
 def named_multipliers(system: System, optimum: Any) -> list[tuple[str, Any]]:
     """(label, multiplier) for each condition with a non-zero multiplier.
 
@@ -144,7 +151,7 @@ def named_multipliers(system: System, optimum: Any) -> list[tuple[str, Any]]:
     positive multiple of it the engine worked with.
     """
     known = [(item.label, condition_terms(system, item)) for item in system.conditions]
-    stated = optimum.certificate.payload["problem"]["constraints"]
+    stated = proof_of(optimum.certificate)["problem"]["constraints"][: len(optimum.multipliers)]
     fixed = fixed_values(stated)
     found = []
     for constraint, value in zip(stated, optimum.multipliers, strict=True):

@@ -7,12 +7,13 @@ from dataclasses import dataclass
 from typing import Any
 
 from bezier.methods.control.optimal_path import (
-    OPTIMUM,
     Drawn,
+    Members,
     SystemPlan,
     begun,
     drawn,
     elimination,
+    optimum_members,
     path_through,
     restored,
     restored_optimum,
@@ -63,7 +64,7 @@ def finish(given: Begun, clock: Clock) -> CubicPlan:
     with clock.step("speed"):
         fields = {**found.fields, **_speeds(given.problem, found.system, given.path)}
     with clock.step("verification"):
-        certificate, checks = verified([elimination(found.system), (OPTIMUM, found.optimum.certificate)], given.path)
+        certificate, checks = verified(_members(found.system, found.optimum.certificate), given.path)
     return CubicPlan(
         **fields,
         answer=found.answer,
@@ -86,7 +87,11 @@ def restore(problem: Problem, certificate: Certificate) -> CubicPlan:
     optimum = restored_optimum(system, certificate)
     fields = drawn(problem, system, optimum)
     fields |= _speeds(problem, system, fields["path"])
-    return CubicPlan(**restored(fields, optimum, [elimination(system), (OPTIMUM, optimum.certificate)]))
+    return CubicPlan(**restored(fields, optimum, _members(system, optimum.certificate)))
+
+
+def _members(system: System, certificate: Certificate) -> Members:
+    return [elimination(system), *optimum_members(certificate)]
 
 
 def _speeds(problem: Problem, system: System, path: Path | None) -> dict[str, Any]:

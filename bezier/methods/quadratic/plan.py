@@ -11,7 +11,6 @@ import qe
 from bezier.curves.scalar import Vector, rational, sign
 from bezier.curves.workspace import Workspace, WorkspaceKind
 from bezier.methods.control.optimal_path import (
-    OPTIMUM,
     Drawn,
     Members,
     SystemPlan,
@@ -19,6 +18,7 @@ from bezier.methods.control.optimal_path import (
     begun,
     body_of,
     elimination,
+    optimum_members,
     verified,
 )
 from bezier.methods.control.system import System
@@ -26,7 +26,7 @@ from bezier.methods.quadratic import formula as quadratic
 from bezier.paths.path import Path, Proof, prove
 from bezier.plans import Begun, Clock
 from bezier.problem import Problem
-from qe.errors import InternalError
+from qe.errors import InternalError, Unable
 from qe.formula.syntax import Formula
 
 REGION, BELOW = "region", "below the table"
@@ -85,7 +85,7 @@ def finish(given: Begun, clock: Clock) -> QuadraticPlan:
     with clock.step("region"):
         region = qe.region(answer.formula, order=quadratic.FREE, timeout=clock.remaining())
     clock.learn("region", "empty" if region.is_empty else "not empty")
-    if region.is_empty == optimum.is_optimal:
+    if region.is_empty == (optimum.value is not None):
         raise InternalError("the region and the optimum disagree about the existence of a control point")
     with clock.step("hemisphere question"):
         gap = _gap(problem, region, given.path, clock)
@@ -115,8 +115,8 @@ def questions(problem: Problem) -> dict[str, Formula]:
 
 def certificates(system: System, region: qe.Region, optimum: Any, gap: Gap) -> Members:
     """The labelled certificates of a plan, those of its path left out."""
-    found = [elimination(system), (REGION, region.certificate), (OPTIMUM, optimum.certificate)]
-    return [*found, *gap.certificates]
+    found = [elimination(system), (REGION, region.certificate)]
+    return [*found, *optimum_members(optimum.certificate), *gap.certificates]
 
 
 def _gap(problem: Problem, region: Any, path: Path | None, clock: Clock) -> Gap:
@@ -154,6 +154,8 @@ def above_certificates(problem: Problem, clock: Clock) -> Iterator[tuple[str, qe
             method="convex",
             timeout=clock.remaining(),
         )
+        if least_height.bound is not None:
+            raise Unable(f"the least height of {point} needs a number field of high degree")
         if least_height.is_optimal and sign(least_height.value) < 0:
             raise InternalError(f"{point} can lie below the table although that was refuted")
         yield above_label(point), least_height.certificate

@@ -118,7 +118,8 @@ class ConvexUniversal:
         """None where the set is not seen to be convex. Raises ``Unable`` where side conditions are not met."""
         if len(problem.free) > FEW:
             return self.apart(problem, context)
-        negated, budget = simplify(problem.positive), context.budget
+        budget = context.budget
+        negated = simplify(problem.positive, watch=budget.check)
         order = _order(problem.variables, negated, context.options)
         formula = self.convex(problem.variables, negated, order, context)
         if formula is None:
@@ -163,7 +164,7 @@ class ConvexUniversal:
         if answer is None:  # in the plane the table of a convex set settles every cell
             whole = found.found.tabulate()
             answer = construct(whole.table, whole.refine)[0]
-        return _logged(simplify(answer), negated, order, [found], context, start)
+        return _logged(simplify(answer, watch=budget.check), negated, order, [found], context, start)
 
 
 def pieces_of(problem: Problem) -> tuple[Piece, ...]:
@@ -181,7 +182,8 @@ def by_critical_values(variables: Sequence[str], body: Formula, context: Context
         outside, rest = flat
         left = [v for v in variables if v in rest.free]
         inside = by_critical_values(left, rest, context) if left else Found(rest, None)
-        return Found(simplify(conj(convert(part, ring) for part in (*outside, inside.formula))), inside.order)
+        whole = conj(convert(part, ring) for part in (*outside, inside.formula))
+        return Found(simplify(whole, watch=budget.check), inside.order)
     parameters = _order(variables, body, context.options)
     found = eliminate_block(variables, body, parameters, procedures=procedures(budget), budget=budget)
     formulas = [convert(_formula(variables, parameters, part, budget), ring) for part in found]
@@ -189,7 +191,7 @@ def by_critical_values(variables: Sequence[str], body: Formula, context: Context
         Part(convert(exists(variables, part.body), ring), formula)
         for part, formula in zip(found, formulas, strict=True)
     ]
-    whole = _logged(simplify(disj(formulas)), body, parameters, found, context, start)
+    whole = _logged(simplify(disj(formulas), watch=budget.check), body, parameters, found, context, start)
     return Found(whole, parameters, tuple(parts))
 
 

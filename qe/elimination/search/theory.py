@@ -117,8 +117,12 @@ class Theory:
     def _reason(self, part: Sequence[Atom], point: Values) -> list[Atom]:
         """Fewer of the atoms that cannot hold together."""
         needed = list(part)
-        if simplify(conj(needed)) == FALSE:
-            return _without_needless(needed, lambda atoms: simplify(conj(atoms)) == FALSE)
+
+        def contradict(atoms: Sequence[Atom]) -> bool:
+            return simplify(conj(atoms), watch=self.budget.check) == FALSE
+
+        if contradict(needed):
+            return _without_needless(needed, contradict)
         trials = 0
 
         def refuted(atoms: Sequence[Atom]) -> bool:

@@ -67,7 +67,7 @@ def far_first(variable: str, body: Formula, *, budget: Budget) -> FarFirst | Non
     x = high[0].ring.index[variable]
     lead = max(high, key=lambda p: p.degree(x)).leading(x)
     near = disj(Substitution(x, Infinity(side), NOTHING)(body) for side in (-1, 1))
-    far = simplify(near)
+    far = simplify(near, watch=budget.check)
     solutions = Nested(near, (), far)
     if far == TRUE:
         return FarFirst(TRUE, FALSE, (TRUE,), (solutions, Nested(FALSE, (), FALSE)))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from functools import partial
 
 from qe.elimination.protocol import Context, Outcome, Problem
 from qe.elimination.vs.block import eliminate_block
@@ -27,16 +28,15 @@ class VirtualSubstitution:
         """The block as far as substitution goes: what it could not eliminate stays quantified in the formula."""
         start = time.perf_counter()
         matrix = problem.positive
-        result = eliminate_block(
-            problem.variables, matrix, budget=context.budget, simplify=simplify, highest=self.highest
-        )
+        tidy = partial(simplify, watch=context.budget.check)
+        result = eliminate_block(problem.variables, matrix, budget=context.budget, simplify=tidy, highest=self.highest)
         seconds = round(time.perf_counter() - start, 6)
         context.log.work(self.name, {"variables": list(problem.variables), **result.stats, "seconds": seconds})
         evidence = {**result.stats, "trace": result.trace}
         answer = context.log.step("elimination set", problem.formula, problem.asked(result.formula), evidence=evidence)
         values: Values | None = None
         if not result.remaining and result.formula == TRUE:
-            certain = next((found for found in result.answers if simplify(found.guard) == TRUE), None)
+            certain = next((found for found in result.answers if tidy(found.guard) == TRUE), None)
             values = None if certain is None else witness(certain, budget=context.budget)
         return Outcome(answer, values)
 

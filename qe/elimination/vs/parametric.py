@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
+from functools import partial
 from itertools import islice
 
 from qe.arguments import by_name, flag, seconds
@@ -108,15 +109,16 @@ def parametric_witnesses(block: Formula, *, budget: Budget, log: RunLog | None =
         raise InputError(f"the formula is {text} as it stands: no quantifier is left to find witnesses for")
     if not isinstance(block, Exists | ForAll) or not block.body.is_quantifier_free:
         raise InputError("a formula that begins with one quantifier, with a quantifier-free body, expected")
-    body = simplify(nnf(block.body, negate=isinstance(block, ForAll)))
-    result = eliminate_block(block.variables, body, budget=budget, simplify=simplify)
+    tidy = partial(simplify, watch=budget.check)
+    body = tidy(nnf(block.body, negate=isinstance(block, ForAll)))
+    result = eliminate_block(block.variables, body, budget=budget, simplify=tidy)
     if result.remaining:
         names = ", ".join(result.remaining[0].variables)
         raise DegreeTooHigh(f"no parametric witness: substitution does not eliminate {names}, whose degree is too high")
     found = list(islice(result.answers, MOST + 1))
     if len(found) > MOST:
         raise Unable(f"more than {MOST} parametric witnesses")
-    guarded = ((simplify(answer.guard), answer) for answer in found)
+    guarded = ((tidy(answer.guard), answer) for answer in found)
     made = ParametricWitnesses(
         ParametricWitness(guard, _terms(answer), answer, block.variables) for guard, answer in guarded if guard != FALSE
     )

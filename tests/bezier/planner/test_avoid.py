@@ -43,10 +43,10 @@ radius = 1
 """
 WALL = """
 [[obstacle]]
-kind = "half_space"
+kind = "box"
 name = "wall"
-normal = [1, 0, 0]
-offset = 0
+low = [-3, -20, -20]
+high = [3, 20, 20]
 """
 
 
@@ -129,7 +129,8 @@ def test_where_nothing_helps_the_path_is_blocked_and_all_methods_were_tried(tmp_
     assert {'method "cubic"', 'method "single"'} <= {a.what for a in plan.attempts}
     assert all(a.outcome is not Outcome.SOLVED for a in plan.attempts)
     words = in_words(plan, tmp_path, [], 1.0)
-    assert "the path MEETS an obstacle" in words and "tried: as given: P: enters wall" in words
+    assert "no path found: every path that was tried MEETS an obstacle" in words
+    assert "tried: as given: P: enters wall" in words
     assert "an obstacle is in the way" in render(plan, method_of(plan.problem.method), None)
 
 

@@ -75,7 +75,7 @@ def test_where_there_is_no_path_the_reason_comes_first(root: FilePath) -> None:
     plan = make_plan(load_problem(root / "examples" / "no_control_point.toml"))
     page = page_of(plan, method_of(plan.problem.method), None)
     assert page.sections[0].key == "none" and "least 6" in page.sections[0].content
-    assert page.title == "no control point: no such path exists" and page.first is None
+    assert page.title == "no control point: no path exists" and page.first is None
 
 
 def test_the_scene_moves_with_the_motion(tmp_path: FilePath) -> None:

@@ -6,11 +6,11 @@ import random
 from fractions import Fraction
 
 import pytest
+import qe.rules.cubic_interval as cubic_interval
+from qe.certify.cubic_interval import check_cubic_interval
 
 import qe
-import qe.rules.cubic_interval as cubic_interval
 from qe.api.input import read_formula
-from qe.certify.cubic_interval import check_cubic_interval
 from qe.proof.run_log import RunLog
 from qe.proof.step import Step
 from qe.rules.preparation import prepare

@@ -1,0 +1,1 @@
+"""Problems that no path of any method can solve: the start or the goal lies in an obstacle."""

@@ -1,0 +1,122 @@
+"""What goes wrong while an answer is proved costs the certificate, never the answer; and the reason is told."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+
+import pytest
+
+import qe
+from qe.api.verify import judged, with_derivation
+from qe.errors import Contradiction, InternalError, Unable
+from qe.formula.syntax import FALSE, TRUE
+from qe.options import Budget
+from qe.proof.on_demand import OnDemand, completed
+from qe.proof.step import Step
+
+pytestmark = pytest.mark.faults
+
+OUTSIDE = "all y. ex x. x /= root(2, 2*x^2 + a + y/2 + 2) and 2*a*x = 0"
+CUBIC = "ex x. x^3 + a*x + b = 0 and x^2 < c"
+
+
+def test_names_of_the_prenex_form_of_a_covering_have_a_place_in_its_certificate() -> None:
+    answer = qe.eliminate(OUTSIDE, method="coverings", check=True)
+    assert (answer.truth, answer.guarantee) == (False, qe.Guarantee.CHECKED)
+    assert qe.verify(answer.certificate).accepted
+
+
+PLACES = (
+    "qe.proving.prover.proved",
+    "qe.proving.prover.Prover._at",
+    "qe.proving.prover.check_derivation",
+    "qe.elimination.cad.certificate_for",
+    "qe.api.verify._limited",
+)
+ERRORS = (InternalError("odd"), KeyError("x_1"), RecursionError(), ZeroDivisionError(), MemoryError(), Unable("no"))
+QUESTIONS: dict[str, Callable[[], qe.Answer]] = {
+    "eliminate": lambda: qe.eliminate(CUBIC, check=True, process=False),
+    "coverings": lambda: qe.eliminate("ex x. a*x > 1", check=True, method="coverings", process=False),
+    "with_derivation": lambda: with_derivation(qe.eliminate("ex x. a*x^2 + b*x + 1 = 0")),
+    "parametric_witnesses": lambda: qe.parametric_witnesses("ex x. a*x > 1", check=True, process=False).answer,
+    "region": lambda: qe.region("ex x. a*x > 1", check=True, process=False).answer,  # type: ignore[return-value]
+    "minimize": lambda: qe.minimize("x^4 - x*y", "x^2 = y", check=True, process=False).answer,  # type: ignore[union-attr]
+}
+
+
+@pytest.mark.parametrize("place", PLACES)
+@pytest.mark.parametrize("name", QUESTIONS)
+def test_whatever_breaks_while_a_proof_is_made_or_checked_leaves_the_answer(name, place, monkeypatch):
+    plain = QUESTIONS[name]()
+    for error in ERRORS:
+
+        def broken(*given: object, error: Exception = error, **named: object) -> object:
+            raise error
+
+        with monkeypatch.context() as patch:
+            patch.setattr(place, broken)
+            answer = QUESTIONS[name]()
+        assert answer.formula == plain.formula
+        assert answer.certificate is not None or answer.reason, (error, place)
+
+
+def test_a_refused_certificate_of_an_answer_is_told_and_does_not_end_it() -> None:
+    answer = qe.eliminate("ex x. x^2 = a", check=True)
+    assert answer.certificate is not None
+    text = json.loads(answer.certificate.to_json())
+    text["payload"]["answer"] = ["true"]
+    guarantee, reason = judged(qe.Certificate(answer.certificate.kind, text["payload"]), Budget())
+    assert guarantee is qe.Guarantee.DERIVED and "internal error" in reason and "rejected" in reason
+
+
+def test_a_contradiction_between_two_methods_is_never_a_reason_only(monkeypatch):
+    """An answer that a decomposition refutes is not handed out."""
+    from qe.elimination.protocol import Outcome
+
+    monkeypatch.setattr("qe.engine.run._Run.question", lambda self, formula: Outcome(FALSE))
+    with pytest.raises(Contradiction):
+        qe.eliminate("ex x, y. x^2 + y^2 < 1 and x^3 > y", check=True, process=False)
+
+
+UNCHECKED = (
+    CUBIC,  # read off cells
+    "ex x. x^4 + a*x^2 + b = 0 and x > 0",
+    "ex x, y. x^2 + y^2 = a and x*y = b and x > y",
+    "ex x1, x2. f = (x1^2 + x2 - 11)^2 + (x1 + x2^2 - 7)^2 and 0 <= x1 and x1 <= 6 and 0 <= x2 and x2 <= 6",  # deb11#1
+)
+
+
+@pytest.mark.parametrize("text", UNCHECKED)
+def test_an_unchecked_answer_gets_its_derivation_later(text):
+    found = with_derivation(qe.eliminate(text))
+    assert (found.guarantee, found.unchecked_steps, found.reason) == (qe.Guarantee.CHECKED, (), "")
+    assert qe.verify(found.certificate, formula=text).accepted
+
+
+@pytest.mark.parametrize("text", ["ex x. x^2 + a*x + b < 0 and x > c", "all x. ex y. x*y = a or x = 0", UNCHECKED[0]])
+def test_an_unchecked_covering_gets_its_derivation_later(text):
+    found = with_derivation(qe.eliminate(text, method="coverings"))
+    assert (found.guarantee, found.unchecked_steps, found.reason) == (qe.Guarantee.CHECKED, (), "")
+
+
+def test_what_cannot_be_made_later_is_no_evidence() -> None:
+    def unable(budget: Budget) -> dict[str, object]:
+        raise Unable("no")
+
+    step = completed(Step("cells", TRUE, FALSE, TRUE, {"proof": OnDemand(unable), "detail": "x"}), Budget())
+    assert step.evidence == {"proof": {}, "detail": "x"}
+
+
+def test_a_missing_certificate_always_has_a_reason_and_no_answer_has_no_guarantee() -> None:
+    plain = qe.eliminate("ex x. x^3 + a*x = b")
+    assert plain.certificate is not None or plain.reason
+    for text in ("ex x. a*x^2 + b*x + c = 0", "ex x. x^5 - x = a and x > b", "a > 0"):
+        for check in (False, True):
+            for method in ("auto", "vs", "coverings", "roots"):
+                answer = qe.eliminate(text, method=method, check=check)
+                assert answer.certificate is not None or answer.reason, (text, check, method)
+                none = answer.formula is None
+                assert (answer.guarantee is qe.Guarantee.NONE) == none == (answer.status is qe.Status.UNABLE)
+    limited = qe.eliminate("ex x, y, z. x^7 + a*y^5 + b*z^3 + x*y*z < c and x^3*y > b", timeout=0.05)
+    assert limited.formula is None and limited.guarantee is qe.Guarantee.NONE
