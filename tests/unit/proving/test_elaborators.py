@@ -6,23 +6,8 @@ from typing import Any
 
 import pytest
 
-from qe.certify.step import Claim
-from qe.errors import CertificateRejected
-from qe.formula.traverse import conjuncts
-from qe.proof.entry import Entry
-from qe.proving.elaborators import ELABORATORS
-from tests.unit.certify.claims import NO_LEMMAS, RING, formula, limits, line, objection, step
-
-
-def refused(rule: str, before: str, after: str, evidence: Any, given: str = "true") -> str:
-    """Why a step is not one of the kernel; nothing where it is."""
-    context = conjuncts(formula(given)) if given != "true" else ()
-    claim = Claim(rule, formula(before), formula(after), RING, Entry(evidence, "evidence"), "step")
-    try:
-        steps = ELABORATORS[rule](claim, context, limits())
-    except CertificateRejected as error:
-        return str(error)
-    return objection("steps", before, after, {"steps": steps}, given)
+from tests.unit.certify.claims import NO_LEMMAS, line, step
+from tests.unit.proving.elaborated import refused
 
 
 def by(*equations: tuple[str, str]) -> dict[str, Any]:
