@@ -48,6 +48,16 @@ def subformula(formula: Formula, place: Sequence[int]) -> Formula:
     return formula
 
 
+def with_child(formula: Formula, k: int, child: Formula) -> Formula:
+    """The formula with another direct subformula in the place of one."""
+    match formula:
+        case And(args) | Or(args):
+            return (conj if isinstance(formula, And) else disj)((*args[:k], child, *args[k + 1 :]))
+        case Exists(variables, _) | ForAll(variables, _):
+            return (exists if isinstance(formula, Exists) else forall)(variables, child)
+    return neg(child)
+
+
 def bound_variables(formula: Formula) -> tuple[str, ...]:
     """The names that quantifiers bind, in the order of the quantifiers, without repetition."""
     blocks = (f.variables for f in subformulas(formula) if isinstance(f, Exists | ForAll))

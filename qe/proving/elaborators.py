@@ -9,16 +9,19 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from fractions import Fraction
 
 from qe.certify.block import block_goals, existential
-from qe.certify.boolean import Goal
+from qe.certify.boolean import Goal, equivalence
 from qe.certify.derivation import replaced
 from qe.certify.linear_equation import term
 from qe.certify.step import Claim, Context, Limits, only
+from qe.errors import CertificateRejected
+from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj, disj, exists
 from qe.formula.normal import nnf
-from qe.formula.syntax import FALSE, TRUE, Atom, Exists, Formula, Or, Relation
-from qe.formula.traverse import conjuncts, map_atoms, subformula
+from qe.formula.syntax import FALSE, TRUE, Atom, Exists, ForAll, Formula, Or, Relation
+from qe.formula.traverse import children, conjuncts, map_atoms, subformula, with_child
 from qe.kernel.root import root_goals
 from qe.kernel.terms import Quotient, at_terms, terms_goals
 from qe.kernel.theorem import theorem_goals
@@ -26,6 +29,7 @@ from qe.proof.certificate import written
 from qe.proof.entry import Entry, Json, poly_to_text
 from qe.proving.lemma_list import EMPTY
 from qe.proving.lemmas import refuting
+from qe.proving.simplified import Simplified
 from qe.rules.closed_forms import matches
 
 Elaborator = Callable[[Claim, Context, Limits], list[Json]]
@@ -119,6 +123,139 @@ def exchanged(claim: Claim, context: Context, limits: Limits) -> list[Json]:
         written("quantifiers", (), named, middle, (), {}),
         theorem,
     ]
+
+
+def scaled(claim: Claim, context: Context, limits: Limits) -> list[Json]:
+    """The cases of the sign of a variable, in each of which the others are measured in powers of it."""
+    variable, weights, values, _ = only(claim, "variable", "weights", "values", "theory")
+    (block, name, x), ring = claim.variable(variable), claim.ring
+    powers = _moves(weights, name)
+    if any(power.denominator > 1 for power in powers.values()):
+        raise weights.fail("a root of the variable would be needed")
+    rest, one = [v for v in block.variables if v != name], ring.constant(1)
+    cases = [(s, exists(block.variables, conj((atom(ring.gen(x), _SIDE[s]), block.body)))) for s in (1, 0, -1)]
+    kept = [case for case in cases if case[0] in {entry.integer(-1) for entry in values.items()}]
+    current = disj(case for _, case in kept)
+    steps = [simplified(block, current, context, claim, limits)]
+    for s, case in kept:
+        after = exists(rest, _at_number(block.body, x, s))
+        place = () if current == case else (current.args.index(case),)  # type: ignore[attr-defined]
+        if s:
+            times = {v: _times(ring, v, ring.gen(x) * s, power.numerator) for v, power in powers.items()}
+            back = {v: _times(ring, v, ring.gen(x) * s, -power.numerator) for v, power in powers.items()}
+            known = (atom(ring.gen(x), _SIDE[s]),)
+            moved = moved_inside(case, place, times, back, known, steps, claim, limits, start=True)
+            image = _image(after, {v: q for v, q in back.items() if v in rest}, known, rest, ring)
+            regular = exists(block.variables, conj((*known, image)))
+            current = replaced(current, place, case, moved, (), variable)[1]
+            if moved != regular:
+                current = _simplified_inside(place, moved, regular, current, steps, claim, limits)
+            outer = {v: q for v, q in back.items() if v in rest}
+            steps.append(terms(regular, after, {name: (one * s, one)}, outer, (), claim, limits, place))
+            current = replaced(current, place, regular, after, (), variable)[1]
+        else:
+            evidence: dict[str, Json] = {"solved": [[name, poly_to_text(ring.gen(x)), 1]], "theory": EMPTY}
+            steps.append(written("linear equation solved", place, case, after, (), evidence))
+            current = replaced(current, place, case, after, (), variable)[1]
+    return steps
+
+
+def translated(claim: Claim, context: Context, limits: Limits) -> list[Json]:
+    """A variable at 0, the others moved along; those bound inside first."""
+    variable, weights = only(claim, "variable", "weights")
+    (block, name, x), ring = claim.variable(variable), claim.ring
+    steps, moves = list[Json](), _moves(weights, name)
+    there = {v: _along(ring, v, by, name) for v, by in moves.items()}
+    back = {v: _along(ring, v, -by, name) for v, by in moves.items()}
+    moved = moved_inside(block, (), there, back, (), steps, claim, limits, start=True)
+    rest = [v for v in block.variables if v != name]
+    after = exists(rest, _at_number(block.body, x, 0))
+    outer = {v: q for v, q in back.items() if v in rest}
+    zero = {name: (ring.constant(0), ring.constant(1))}
+    return [*steps, terms(moved, after, zero, outer, (), claim, limits)]
+
+
+def _moves(weights: Entry, name: str) -> dict[str, Fraction]:
+    """How the other variables move where this one moves by 1."""
+    rows = [entry.row("name", "weight") for entry in weights.items()]
+    by_name = {row[0].text(): row[1].rational() for row in rows}
+    return {other: weight / by_name[name] for other, weight in by_name.items() if other != name}
+
+
+def moved_inside(
+    formula: Formula,
+    place: tuple[int, ...],
+    there: Mapping[str, Quotient],
+    back: Mapping[str, Quotient],
+    known: Context,
+    steps: list[Json],
+    claim: Claim,
+    limits: Limits,
+    *,
+    start: bool = False,
+) -> Formula:
+    """The formula with these terms for the variables that quantifiers inside bind, and the steps to it.
+
+    ``start``: the outermost quantifier is left alone.
+    """
+    if isinstance(formula, Exists | ForAll) and not start and (names := set(formula.variables) & there.keys()):
+        inner, outer = ({v: of[v] for v in sorted(names)} for of in (there, back))
+        by = {claim.ring.index[v]: quotient for v, quotient in inner.items()}
+        moved = map_atoms(formula, lambda a: atom(at_terms(a.poly, by), a.relation))
+        steps.append(terms(formula, moved, inner, outer, known, claim, limits, place))
+        formula = moved
+    for k, child in enumerate(children(formula)):
+        changed = moved_inside(child, (*place, k), there, back, known, steps, claim, limits)
+        formula = formula if changed == child else with_child(formula, k, changed)
+    return formula
+
+
+def _simplified_inside(
+    place: tuple[int, ...],
+    before: Formula,
+    after: Formula,
+    current: Formula,
+    steps: list[Json],
+    claim: Claim,
+    limits: Limits,
+) -> Formula:
+    """The formula ``current`` with one part made simpler, also under quantifiers."""
+
+    def evidence(one: Formula, other: Formula, used: Context) -> Json | None:
+        try:
+            return {"theory": _theory(equivalence(one, other, used), claim, limits)}
+        except CertificateRejected:
+            return None
+
+    found = Simplified(evidence, (), steps).inside(place, before, after, current)
+    if found is None:
+        raise claim.fail("not shown that this was simplified to that")
+    return found
+
+
+def _image(formula: Formula, back: Mapping[str, Quotient], known: Context, rest: list[str], ring: Ring) -> Formula:
+    """The body of a block at these terms for its variables."""
+    by = {ring.index[v]: quotient for v, quotient in back.items()}
+    body = formula.body if isinstance(formula, Exists) and rest else formula
+    return map_atoms(body, lambda a: atom(at_terms(a.poly, by), a.relation))
+
+
+def _times(ring: Ring, name: str, unit: Poly, power: int) -> Quotient:
+    """name * unit^power, as a quotient."""
+    return ring.var(name) * unit ** max(power, 0), unit ** max(-power, 0)
+
+
+def _at_number(formula: Formula, x: int, value: int) -> Formula:
+    return map_atoms(formula, lambda a: atom(a.poly.at_rational(x, value), a.relation))
+
+
+def _along(ring: Ring, name: str, by: Fraction, variable: str) -> Quotient:
+    """name + by * variable, as a quotient."""
+    bottom = ring.constant(by.denominator)
+    return ring.var(name) * bottom + ring.var(variable) * by.numerator, bottom
+
+
+_SIDE = {1: Relation.GT, 0: Relation.EQ, -1: Relation.LT}
 
 
 def _solved(equation: Atom, name: str) -> Json:
@@ -233,6 +370,8 @@ NAMING = frozenset(("two variables exchanged",))
 ELABORATORS: Mapping[str, Elaborator] = {
     "cubic on an interval": closed_form,
     "two variables exchanged": exchanged,
+    "homogeneous scaling": scaled,
+    "translation of the origin": translated,
     "square of a variable alone": square_alone,
     "value that is taken": value_taken,
     "redundant part": redundant,

@@ -54,8 +54,10 @@ THEOREM, REDUNDANT = "theorem", "redundant part"
 STEPS = "steps"
 ELABORATED = (
     "disjuncts with equations apart",
+    "homogeneous scaling",
     "linear form as a variable",
     "square of a variable alone",
+    "translation of the origin",
     "two variables exchanged",
     "value that is taken",
     "witness in the parameters",
@@ -225,7 +227,9 @@ class Prover:
         if step.rule == COUNTED and not evidence:
             evidence = {"proofs": case_proofs(self._claim(step.rule, step, {}), self.options, self.limits)}
         if step.rule in ELABORATED:
-            return self._elaborated(step, context, evidence)
+            elaborated = self._elaborated(step, context, evidence)
+            if elaborated is not None or step.rule not in RULES:
+                return elaborated
         rule = _PRIMITIVES.get(step.rule, THEOREM if "theorem" in evidence else step.rule)
         own = self._tried(rule, step, context, evidence)
         return None if own is None else (rule, own)
