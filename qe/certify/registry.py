@@ -32,7 +32,7 @@ from qe.certify.rotation import check_rotation
 from qe.certify.sentence import check_sentence
 from qe.certify.sphere import check_sphere
 from qe.certify.step import Check
-from qe.certify.symmetry import check_scaling, check_translation
+from qe.certify.symmetry import check_scaling
 from qe.certify.table import check_table
 from qe.certify.zeros import check_zeros
 from qe.kernel.nested import check_converse, check_no_exception, check_steps
@@ -70,7 +70,6 @@ RULES: Mapping[str, Check] = {
     "linear equation solved": check_linear,
     "linear equation solved under a guard": check_guarded_linear,
     "degree shift": check_degree_shift,
-    "translation of the origin": check_translation,
     "homogeneous scaling": check_scaling,
     "rotation of the axes": check_rotation,
     "linear form named": check_named_form,

@@ -129,7 +129,7 @@ def scaled(claim: Claim, context: Context, limits: Limits) -> list[Json]:
     """The cases of the sign of a variable, in each of which the others are measured in powers of it."""
     variable, weights, values, _ = only(claim, "variable", "weights", "values", "theory")
     (block, name, x), ring = claim.variable(variable), claim.ring
-    powers = _moves(weights, name)
+    powers = _moves(weights, name, claim)
     if any(power.denominator > 1 for power in powers.values()):
         raise weights.fail("a root of the variable would be needed")
     rest, one = [v for v in block.variables if v != name], ring.constant(1)
@@ -164,7 +164,7 @@ def translated(claim: Claim, context: Context, limits: Limits) -> list[Json]:
     """A variable at 0, the others moved along; those bound inside first."""
     variable, weights = only(claim, "variable", "weights")
     (block, name, x), ring = claim.variable(variable), claim.ring
-    steps, moves = list[Json](), _moves(weights, name)
+    steps, moves = list[Json](), _moves(weights, name, claim)
     there = {v: _along(ring, v, by, name) for v, by in moves.items()}
     back = {v: _along(ring, v, -by, name) for v, by in moves.items()}
     moved = moved_inside(block, (), there, back, (), steps, claim, limits, start=True)
@@ -175,10 +175,12 @@ def translated(claim: Claim, context: Context, limits: Limits) -> list[Json]:
     return [*steps, terms(moved, after, zero, outer, (), claim, limits)]
 
 
-def _moves(weights: Entry, name: str) -> dict[str, Fraction]:
+def _moves(weights: Entry, name: str, claim: Claim) -> dict[str, Fraction]:
     """How the other variables move where this one moves by 1."""
     rows = [entry.row("name", "weight") for entry in weights.items()]
     by_name = {row[0].text(): row[1].rational() for row in rows}
+    if not by_name.get(name) or not by_name.keys() <= claim.ring.index.keys():
+        raise weights.fail(f"{name} does not move, or what moves is no variable")
     return {other: weight / by_name[name] for other, weight in by_name.items() if other != name}
 
 
