@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from qe.certify.alternatives import check_alternatives
-from qe.certify.balls import check_balls
 from qe.certify.block import check_block
 from qe.certify.boolean_search import check_boolean_search
 from qe.certify.constant_along import check_constant_along
@@ -16,7 +15,6 @@ from qe.certify.critical_values import check_critical_values
 from qe.certify.degenerate_truth_set import check_degenerate_truth_set
 from qe.certify.degree_shift import check_degree_shift
 from qe.certify.elimination_set import check_elimination_set
-from qe.certify.half_plane import check_half_plane
 from qe.certify.independent_parts import check_independent_parts
 from qe.certify.inequations import check_inequations, check_only_nonzero
 from qe.certify.infinity_first import check_infinity_first
@@ -24,7 +22,6 @@ from qe.certify.linear_equation import check_guarded_linear, check_linear
 from qe.certify.mirror import check_mirror
 from qe.certify.named_form import check_named_form
 from qe.certify.open_block import check_open_block
-from qe.certify.quadrics import check_quadrics
 from qe.certify.ranges import check_ranges
 from qe.certify.roots_by_signs import check_roots_by_signs
 from qe.certify.roots_counted import check_roots_counted
@@ -57,10 +54,7 @@ RULES: Mapping[str, Check] = {
     "signs by sums of squares": check_block,
     "Groebner basis of the equations": check_block,
     "multiple of an equation subtracted": check_block,
-    "two balls": check_balls,
     "sphere seen along a form": check_sphere,
-    "roots in a half-plane": check_half_plane,
-    "quadric in a quadric": check_quadrics,
     "theorem": check_theorem,
     "terms": check_terms,
     "root": check_root,

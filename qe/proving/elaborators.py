@@ -7,7 +7,8 @@ certificates of former releases have (``qe.proving.older``).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from fractions import Fraction
 
@@ -41,22 +42,27 @@ def closed_form(claim: Claim, context: Context, limits: Limits) -> list[Json]:
     before, after = existential(claim)
     if not isinstance(before, Exists):
         raise claim.fail("a block expected")
-    instance, answer = by_theorem(before, context, claim, limits)
-    return [instance] if answer == after else [instance, simplified(answer, after, context, claim, limits)]
+    steps = by_theorems(before, context, claim, limits)
+    same = next((step for step, answer in steps if answer == after), None)
+    if same is not None:
+        return [same]
+    for step, answer in by_theorems(before, context, claim, limits):
+        with suppress(CertificateRejected):
+            return [step, simplified(answer, after, context, claim, limits)]
+    raise claim.fail("not an instance of a theorem")
 
 
-def by_theorem(
+def by_theorems(
     block: Exists, context: Context, claim: Claim, limits: Limits, place: tuple[int, ...] = ()
-) -> tuple[Json, Formula]:
-    """The step from a block to its answer by a theorem of the family that is called like the rule, and the answer."""
+) -> Iterator[tuple[Json, Formula]]:
+    """Steps from a block to its answer by theorems of the family that is called like the rule, and the answers."""
     for match in matches(claim.rule, block.variables, block.body):
-        answer = nnf(match.instance(match.theorem.answer))
+        answer = nnf(match.formula("answer"))
         evidence = {**match.evidence, "theory": EMPTY}
         step = replace(claim, rule="theorem", before=block, after=answer, evidence=Entry(evidence, claim.path))
         theory = refuting(theorem_goals(step, context), claim.ring, limits)
         if theory is not None:
-            return written("theorem", place, block, answer, context, {**evidence, "theory": theory}), answer
-    raise claim.fail("not an instance of a theorem")
+            yield written("theorem", place, block, answer, context, {**evidence, "theory": theory}), answer
 
 
 def square_alone(claim: Claim, context: Context, limits: Limits) -> list[Json]:
@@ -69,7 +75,10 @@ def square_alone(claim: Claim, context: Context, limits: Limits) -> list[Json]:
     body = conj(inner if f is part else f for f in parts)
     middle = Exists(rest, body) if rest else body  # the blocks stay two, also where one stands in the other alone
     place = (*((0,) if rest else ()), *((parts.index(part),) if len(parts) > 1 else ()))
-    return [written("quantifiers", (), block, middle, (), {}), by_theorem(inner, (), claim, limits, place)[0]]
+    solved = next(by_theorems(inner, (), claim, limits, place), None)
+    if solved is None:
+        raise claim.fail("not an instance of a theorem")
+    return [written("quantifiers", (), block, middle, (), {}), solved[0]]
 
 
 def value_taken(claim: Claim, context: Context, limits: Limits) -> list[Json]:
@@ -115,13 +124,15 @@ def exchanged(claim: Claim, context: Context, limits: Limits) -> list[Json]:
     middle = exists(after.variables, conj((*conjuncts(after.body), inner)))
     back = written("linear equation solved", (), named, image, (), {"solved": solved, "theory": EMPTY})
     place = (0, len(conjuncts(after.body)))
-    theorem = by_theorem(inner, (), claim, limits, place)[0]
+    theorem = next(by_theorems(inner, (), claim, limits, place), None)
+    if theorem is None:
+        raise claim.fail("not an instance of a theorem")
     return [
         written("quantifiers", (), before, renamed, (), {}),
         simplified(renamed, image, (), claim, limits),
         written("converse", (), image, named, (), {"steps": [back]}),
         written("quantifiers", (), named, middle, (), {}),
-        theorem,
+        theorem[0],
     ]
 
 
@@ -374,6 +385,9 @@ ELABORATORS: Mapping[str, Elaborator] = {
     "two variables exchanged": exchanged,
     "homogeneous scaling": scaled,
     "translation of the origin": translated,
+    "two balls": closed_form,
+    "quadric in a quadric": closed_form,
+    "roots in a half-plane": closed_form,
     "square of a variable alone": square_alone,
     "value that is taken": value_taken,
     "redundant part": redundant,

@@ -6,21 +6,27 @@ block are held against those of the theorem one by one; the letters stand for wh
 
 from __future__ import annotations
 
+import ast
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from contextlib import suppress
+from dataclasses import dataclass, replace
 from functools import cache
-from itertools import permutations
+from itertools import permutations, product
+from math import isqrt, prod
 
-from qe.exact.ring import Poly
+from qe.errors import Unable
+from qe.exact.ring import Poly, Ring
 from qe.formula.normal import nnf
 from qe.formula.syntax import TRUE, Atom, Exists, Formula, Relation
-from qe.formula.traverse import conjuncts
-from qe.kernel.statements import Theorem, rows, theorem
-from qe.kernel.theorem import instance
+from qe.formula.traverse import conjuncts, polynomials
+from qe.kernel.statements import Row, Theorem, rows, theorem
 from qe.proof.entry import Json, poly_to_text
 from qe.rules.block_context import BlockContext, Found, Rule
 from qe.rules.step import StepKind
 from qe.rules.tree import Leaf
+
+MOST_TERMS = 2_000
+"""With more terms in a polynomial an answer is of no use."""
 
 Letters = Mapping[str, Poly]
 Terms = Mapping[tuple[int, ...], Poly]
@@ -37,29 +43,47 @@ class Condition:
 
 @dataclass(frozen=True, slots=True)
 class Pattern:
-    """A theorem with the conditions of its block, over these variables."""
+    """A theorem with the variables and conditions of its block; ``roots``: by letters that do not stand there, terms
+    whose square roots they are."""
 
     theorem: Theorem
+    row: Row
     variables: tuple[str, ...]
     conditions: tuple[Condition, ...]
+    roots: Mapping[str, ast.expr]
 
 
-def patterns(family: str, size: tuple[int, int], parameters: int) -> Iterator[Pattern]:
-    """Those of a family about so many variables and conditions, for use with so many parameters."""
+def patterns(family: str, body: Formula, variables: Sequence[str], conditions: int) -> Iterator[Pattern]:
+    """Those of a family that the block may be an instance of, by its size and the number of its parameters."""
+    parameters = len(set(body.free) - set(variables))
+    degrees = (p.degree(p.ring.index[v]) for p in polynomials(body) for v in variables)
+    size = frozenset((len(variables), max(degrees, default=0)))
     for row in rows().values():
-        if row.family == family and row.size == size and row.parameters <= parameters:
-            yield from (_pattern(row.name, words) for words in row.choices)
+        if row.family == family and row.data.get("parameters", 0) <= parameters:
+            for pattern in (_pattern(row.name, words) for words in row.choices(size)):
+                if len(pattern.variables) == len(variables) and len(pattern.conditions) == conditions:
+                    yield pattern
 
 
 @cache
 def _pattern(name: str, words: tuple[str, ...]) -> Pattern:
     used = theorem(name, words)
-    assert used is not None and isinstance(used.block, Exists)
-    variables, ring = used.block.variables, used.block.ring
-    assert ring is not None
-    indices = [ring.index[v] for v in variables]
-    parts = [part for part in conjuncts(used.block.body) if isinstance(part, Atom)]
-    return Pattern(used, variables, tuple(Condition(p.relation, p.poly.collected(indices)) for p in parts))
+    assert used is not None
+    block = used.generic("block")
+    assert isinstance(block, Exists) and block.ring is not None
+    indices = [block.ring.index[v] for v in block.variables]
+    parts = [part for part in conjuncts(block.body) if isinstance(part, Atom)]
+    conditions = tuple(Condition(p.relation, p.poly.collected(indices)) for p in parts)
+    return Pattern(used, rows()[name], block.variables, conditions, dict(_roots(used, block)))
+
+
+def _roots(used: Theorem, block: Formula) -> Iterator[tuple[str, ast.expr]]:
+    """Letters that what is given says to be square roots, as in T^2 = 4*R*S."""
+    for node in ast.walk(used.trees["given"]):
+        match node:
+            case ast.Compare(ast.BinOp(ast.Name(name), ast.Pow(), ast.Constant(2)), [ast.Eq()], [square]):
+                if name not in block.free:
+                    yield name, square
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,11 +93,11 @@ class Match:
     theorem: Theorem
     letters: Letters
     variables: Mapping[str, str]
+    ring: Ring
 
-    def instance(self, formula: Formula) -> Formula:
-        """A formula of the theorem about what its letters stand for."""
-        ring = next(iter(self.letters.values())).ring
-        return instance(formula, self.letters, self.variables, ring)
+    def formula(self, part: str) -> Formula:
+        """A part of the theorem about what its letters stand for."""
+        return self.theorem.formula(part, self.letters, self.variables, self.ring)
 
     @property
     def evidence(self) -> dict[str, Json]:
@@ -91,27 +115,45 @@ def matches(family: str, variables: Sequence[str], body: Formula) -> Iterator[Ma
     parts = [part for part in conjuncts(body) if isinstance(part, Atom)]
     if body.ring is None or len(parts) < len(conjuncts(body)):
         return
-    parameters = len(set(body.free) - set(variables))
-    for pattern in patterns(family, (len(variables), len(parts)), parameters):
-        for names in permutations(variables):
+    for pattern in patterns(family, body, variables, len(parts)):
+        if pattern.row.data.get("dense") and not all(set(variables) <= set(part.free) for part in parts):
+            continue
+        for names in permutations(variables) if len(variables) < 3 else [tuple(variables)]:
             indices = [body.ring.index[name] for name in names]
             for letters in _assigned(pattern.conditions, parts, indices, {}):
-                whole = {name: letters.get(name, body.ring.constant(0)) for name in pattern.theorem.letters}
-                yield from _completed(pattern, whole, names, body)
+                yield from _completed(pattern, letters, names, variables, body)
 
 
-def _completed(pattern: Pattern, letters: Letters, names: Sequence[str], body: Formula) -> Iterator[Match]:
-    """The match, with names for the variables that only the answer binds, if the block is what it has to be."""
-    used = {name for poly in letters.values() for name in (poly.ring.names[i] for i in poly.variables)}
+def _completed(
+    pattern: Pattern, letters: Letters, names: Sequence[str], variables: Sequence[str], body: Formula
+) -> Iterator[Match]:
+    """The matches, with names for the variables that only the answer binds and square roots, if the block fits."""
+    assert body.ring is not None
     others = [v for v in pattern.theorem.variables if v not in pattern.variables]
-    free = [name for name in names if name not in used]
-    variables = dict(zip((*pattern.variables, *others), (*names, *free), strict=False))
-    if len(variables) < len(pattern.theorem.variables):
+    if len(others) > len(variables):
         return
-    match = Match(pattern.theorem, letters, variables)
-    block = match.instance(pattern.theorem.block)
-    if isinstance(block, Exists) and set(conjuncts(block.body)) == set(conjuncts(body)):
-        yield match
+    named = dict(zip((*pattern.variables, *others), (*names, *variables), strict=False))
+    whole = {name: letters.get(name, body.ring.constant(0)) for name in pattern.theorem.letters}
+    match = Match(pattern.theorem, whole, named, body.ring)
+    block = match.formula("block")
+    if not isinstance(block, Exists) or set(conjuncts(block.body)) != set(conjuncts(body)):
+        return
+    roots = {name: square_root(match.theorem.term(tree, whole, body.ring)) for name, tree in pattern.roots.items()}
+    if None not in roots.values():
+        for signs in product((1, -1), repeat=len(roots)):
+            signed = {name: root * s for (name, root), s in zip(roots.items(), signs, strict=True) if root is not None}
+            yield replace(match, letters={**whole, **signed})
+
+
+def square_root(poly: Poly) -> Poly | None:
+    """A polynomial with this square, or None."""
+    if not poly:
+        return poly
+    unit, factors = poly.factors()
+    if unit < 0 or isqrt(unit) ** 2 != unit or any(multiplicity % 2 for _, multiplicity in factors):
+        return None
+    halves = (factor ** (multiplicity // 2) for factor, multiplicity in factors)
+    return prod(halves, start=poly.ring.constant(isqrt(unit)))
 
 
 def _assigned(
@@ -131,19 +173,17 @@ def _assigned(
 
 
 def _read_off(terms: Terms, of: Terms, known: Letters) -> Letters | None:
-    """The letters with which the polynomial ``of`` has these terms, as far as single letters tell."""
+    """The letters with which the polynomial ``of`` may have these terms, as far as single letters tell."""
     if not of.keys() <= terms.keys():
         return None
     zero = next(iter(of.values())) * 0
     letters = dict(known)
     for powers, term in terms.items():
-        value = of.get(powers, zero)
-        if term.term_count() != 1 or term.total_degree != 1:
-            continue
-        ((exponents, coefficient),) = term.terms()
-        name = term.ring.names[exponents.index(1)]
-        if abs(coefficient) != 1 or letters.setdefault(name, value * coefficient) != value * coefficient:
-            return None
+        if term.term_count() == 1 and term.total_degree == 1:
+            ((exponents, coefficient),) = term.terms()
+            name = term.ring.names[exponents.index(1)]
+            if abs(coefficient) == 1:
+                letters.setdefault(name, of.get(powers, zero) * coefficient)
     return letters
 
 
@@ -153,10 +193,12 @@ def closed_form(kind: StepKind) -> Rule:
     def rule(variables: tuple[str, ...], body: Formula, context: BlockContext) -> Found | None:
         if kind not in context.enabled:
             return None
-        for match in matches(kind.value, variables, body):
-            used = match.theorem
-            if _holds(match.instance(used.given), context):
-                return Found(kind, used.name, Leaf((), nnf(match.instance(used.answer))), match.evidence)
+        with suppress(Unable):  # a determinant is too large
+            for match in matches(kind.value, variables, body):
+                if _holds(match.formula("given"), context):
+                    answer = nnf(match.formula("answer"))
+                    if all(p.term_count() <= MOST_TERMS for p in polynomials(answer)):
+                        return Found(kind, match.theorem.name, Leaf((), answer), match.evidence)
         return None
 
     return rule
