@@ -73,6 +73,11 @@ class Answer:
         return self.reason or f"no checked evidence for: {', '.join(self.unchecked_steps) or 'any step'}"
 
     @property
+    def trusts(self) -> tuple[str, ...]:
+        """The theorems without proof, by name, on which the certificate rests (``qe.theorems``)."""
+        return () if self.certificate is None else self.certificate.trusts
+
+    @property
     def stats(self) -> Mapping[str, Any]:
         """What was done: figures by method, choices, switches, seconds."""
         return self.log.stats()
