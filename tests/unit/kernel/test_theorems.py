@@ -45,11 +45,10 @@ class Case:
         return RING.var(rng.choice("abcdefgh")) * rng.choice((1, 2, -1)) + rng.choice((0, 1, -3))
 
     def make_square(self, used: Theorem, name: str, tree: object) -> None:
-        """The radii become equal: the second condition is about the same ball, moved."""
-        zero, one = RING.constant(0), RING.constant(1)
-        a, b = RING.var("a"), RING.var("b")
-        self.letters |= dict.fromkeys(self.letters, zero) | {"c": one, "k": one, "b0": 2 * a, "e": a * a - b * b}
-        self.letters["m"] = -one
+        """The radii become b and 1, about a point on the first axis and the origin."""
+        a, b, f, g = (RING.var(name) for name in "abfg")
+        zero = dict.fromkeys(self.letters, RING.constant(0))
+        self.letters = {**zero, "c": f, "k": g, "b0": 2 * a * f, "e": f * (a * a - b * b), "m": -g}
         root = square_root(used.term(tree, self.letters, RING))  # type: ignore[arg-type]
         assert root is not None
         self.letters[name] = root
