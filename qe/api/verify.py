@@ -54,19 +54,20 @@ def checked(certificate: Certificate, budget: Budget | None = None) -> Verdict:
 
     budget = budget or Budget()
     try:
-        return kernel_verdict(_recent(certificate, budget), budget)
+        return kernel_verdict(recent(certificate, budget), budget)
     except CertificateRejected as error:
         return Verdict(False, error.step, error.reason)
     except Unable as error:
         return Verdict(False, "", str(error), decided=False)
 
 
-def _recent(certificate: Certificate, budget: Budget) -> Certificate:
+def recent(certificate: Certificate, budget: Budget) -> Certificate:
+    """The certificate in the language of this release, if it was read."""
     if not isinstance(certificate, Certificate) or certificate.digests is None:
         return certificate  # what was not read is of this release
-    from qe.proving.older import recent
+    from qe.proving import older
 
-    return recent(certificate, budget)
+    return older.recent(certificate, budget)
 
 
 def of_question(certificate: Certificate, asked: Formula) -> Verdict:

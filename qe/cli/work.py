@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import json
 import time
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
@@ -160,6 +160,7 @@ def _summary(answer: Answer, seconds: float) -> dict[str, Any]:
         "truth": answer.truth,
         "witness": _point(answer.witness),
         "guarantee": answer.guarantee.name.lower(),
+        "trusts": list(answer.trusts),
         "stats": plain(answer.stats),
         "seconds": round(seconds, 6),
     }
@@ -175,7 +176,7 @@ def convert(channel: Channel, source: Source, output: Format) -> Reply:
 def check(channel: Channel, text: str, asked: Source | None, seconds: float, as_json: bool = False) -> Reply:
     """``qe check``: exit status 4 when the certificate is rejected, 3 when that is not decided."""
     from qe.api.verify import checked as verify
-    from qe.api.verify import of_question
+    from qe.api.verify import of_question, recent
     from qe.certify.claims import claim_of, is_about, parts_of
     from qe.errors import CertificateRejected
     from qe.options import Budget
@@ -191,11 +192,12 @@ def check(channel: Channel, text: str, asked: Source | None, seconds: float, as_
         raise Unable(f"not decided: {verdict.reason}")
     if not verdict.accepted:
         raise CertificateRejected(verdict.step, verdict.reason)
-    took = time.perf_counter() - start
+    took, trusts = time.perf_counter() - start, recent(certificate, Budget(seconds)).trusts
     if as_json:
-        data = {"status": "accepted", "claims": list(claim_of(certificate).words), "seconds": round(took, 6)}
+        claims = list(claim_of(certificate).words)
+        data = {"status": "accepted", "claims": claims, "trusts": list(trusts), "seconds": round(took, 6)}
         return Reply(json.dumps(data, indent=2, ensure_ascii=False))
-    lines = [f"accepted ({took:.3f} s)", *claim_of(certificate).words]
+    lines = [f"accepted ({took:.3f} s)", *claim_of(certificate).words, *_rests(trusts)]
     if formula is not None:
         found = parts_of(certificate, formula)
         assert found is not None
@@ -242,7 +244,15 @@ def _story(answer: Answer, seconds: float) -> tuple[str, ...]:
         kind = "counterexample" if answer.truth is False else "witness"
         lines.append(f"{kind}: " + ", ".join(f"{quoted(name)} = {value}" for name, value in answer.witness.items()))
     lines.append(f"{answer.guarantee.value} in {seconds:.3f} s")
-    return (*lines, *answer.explanation.splitlines())
+    return (*lines, *_rests(answer.trusts), *answer.explanation.splitlines())
+
+
+def _rests(trusts: Sequence[str]) -> Iterator[str]:
+    """What has to be believed beside the kernel, a line each."""
+    from qe.kernel.statements import rows
+
+    for name in trusts:
+        yield f"rests on: {name}, by {rows()[name].data['axiom']}"
 
 
 def plain(value: object) -> object:

@@ -60,13 +60,13 @@ def patterns(family: str, body: Formula, variables: Sequence[str], conditions: i
     size = frozenset((len(variables), max(degrees, default=0)))
     for row in rows().values():
         if row.family == family and row.data.get("parameters", 0) <= parameters:
-            for pattern in (_pattern(row.name, words) for words in row.choices(size)):
-                if len(pattern.variables) == len(variables) and len(pattern.conditions) == conditions:
-                    yield pattern
+            for found in (pattern(row.name, words) for words in row.choices(size)):
+                if len(found.variables) == len(variables) and len(found.conditions) == conditions:
+                    yield found
 
 
 @cache
-def _pattern(name: str, words: tuple[str, ...]) -> Pattern:
+def pattern(name: str, words: tuple[str, ...]) -> Pattern:
     used = theorem(name, words)
     assert used is not None
     block = used.generic("block")
@@ -115,30 +115,30 @@ def matches(family: str, variables: Sequence[str], body: Formula) -> Iterator[Ma
     parts = [part for part in conjuncts(body) if isinstance(part, Atom)]
     if body.ring is None or len(parts) < len(conjuncts(body)):
         return
-    for pattern in patterns(family, body, variables, len(parts)):
-        if pattern.row.data.get("dense") and not all(set(variables) <= set(part.free) for part in parts):
+    for found in patterns(family, body, variables, len(parts)):
+        if found.row.data.get("dense") and not all(set(variables) <= set(part.free) for part in parts):
             continue
         for names in permutations(variables) if len(variables) < 3 else [tuple(variables)]:
             indices = [body.ring.index[name] for name in names]
-            for letters in _assigned(pattern.conditions, parts, indices, {}):
-                yield from _completed(pattern, letters, names, variables, body)
+            for letters in _assigned(found.conditions, parts, indices, {}):
+                yield from _completed(found, letters, names, variables, body)
 
 
 def _completed(
-    pattern: Pattern, letters: Letters, names: Sequence[str], variables: Sequence[str], body: Formula
+    found: Pattern, letters: Letters, names: Sequence[str], variables: Sequence[str], body: Formula
 ) -> Iterator[Match]:
     """The matches, with names for the variables that only the answer binds and square roots, if the block fits."""
     assert body.ring is not None
-    others = [v for v in pattern.theorem.variables if v not in pattern.variables]
+    others = [v for v in found.theorem.variables if v not in found.variables]
     if len(others) > len(variables):
         return
-    named = dict(zip((*pattern.variables, *others), (*names, *variables), strict=False))
-    whole = {name: letters.get(name, body.ring.constant(0)) for name in pattern.theorem.letters}
-    match = Match(pattern.theorem, whole, named, body.ring)
+    named = dict(zip((*found.variables, *others), (*names, *variables), strict=False))
+    whole = {name: letters.get(name, body.ring.constant(0)) for name in found.theorem.letters}
+    match = Match(found.theorem, whole, named, body.ring)
     block = match.formula("block")
     if not isinstance(block, Exists) or set(conjuncts(block.body)) != set(conjuncts(body)):
         return
-    roots = {name: square_root(match.theorem.term(tree, whole, body.ring)) for name, tree in pattern.roots.items()}
+    roots = {name: square_root(match.theorem.term(tree, whole, body.ring)) for name, tree in found.roots.items()}
     if None not in roots.values():
         for signs in product((1, -1), repeat=len(roots)):
             signed = {name: root * s for (name, root), s in zip(roots.items(), signs, strict=True) if root is not None}
@@ -152,8 +152,7 @@ def square_root(poly: Poly) -> Poly | None:
     unit, factors = poly.factors()
     if unit < 0 or isqrt(unit) ** 2 != unit or any(multiplicity % 2 for _, multiplicity in factors):
         return None
-    halves = (factor ** (multiplicity // 2) for factor, multiplicity in factors)
-    return prod(halves, start=poly.ring.constant(isqrt(unit)))
+    return prod((factor ** (times // 2) for factor, times in factors), start=poly.ring.constant(isqrt(unit)))
 
 
 def _assigned(

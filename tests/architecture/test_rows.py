@@ -28,6 +28,7 @@ ROWS = {
     "qe.proof": 3,
     "qe.reference": 3,
     "qe.certify": 4,
+    "qe.kernel": 4,
     "qe.simplify": 4,
     "qe.positivity": 4,
     "qe.rules": 5,
