@@ -157,33 +157,29 @@ def _arcs(along: SignsAlong, curve: int, low: Number, high: Number) -> Arcs:
     return Arcs(curve, low, high, sample, labels, found)
 
 
-def _junction(before: tuple[SignsAlong, Number], after: tuple[SignsAlong, Number], one: Arcs, other: Arcs, s: Number) -> Junction:
+def _junction(
+    before: tuple[SignsAlong, Number], after: tuple[SignsAlong, Number], one: Arcs, other: Arcs, s: Number
+) -> Junction:
     along, at = before
-    on_axis = along.has_no_square(at) and sign(along.plane.offset) == 0
-    empty = along.empty_sides(at)
-
-    def pairs(a: int, b: int) -> bool:
-        if on_axis:
-            return a * b == turn
-        return a == b or along.has_no_square(at)
-
-    turn = _turn(before, after) if on_axis else 1
+    vanishes, empty = along.has_no_square(at), along.empty_sides(at)
+    on_axis = vanishes and sign(along.plane.offset) == 0
+    turns = {_turn(before, after)} if on_axis else {1, -1} if vanishes else {1}
     passes = frozenset(
-        (a, b) for a in one.labels for b in other.labels if pairs(a[0], b[0]) and (a[1] == b[1] or a[0] in empty)
+        (a, b) for a in one.labels for b in other.labels if a[0] * b[0] in turns and (a[1] == b[1] or a[0] in empty)
     )
-    meets = bool(empty) or (along.has_no_square(at) and not on_axis)
-    return Junction(one.curve, s, passes, on_axis, meets)
+    return Junction(one.curve, s, passes, on_axis, bool(empty) or (vanishes and not on_axis))
 
 
 def _turn(before: tuple[SignsAlong, Number], after: tuple[SignsAlong, Number]) -> int:
     """1 or -1 if the direction of (x, y) is the same or the opposite one before and after the axis, else 0."""
     x, y, k = before[0].direction(before[1])
     if before == after:
-        return (-1) ** k
+        return -1 if k % 2 else 1
     u, v, _ = after[0].direction(after[1])
     a, b, c, d = (_read(p, s) for (_, s), p in ((before, x), (before, y), (after, u), (after, v)))
     here = before[0].along.place(Fraction(0))
-    return 0 if here.sign((a * d - b * c).top) else (-1) ** k * here.sign((a * c + b * d).top)
+    across, along = (here.sign(p.top) for p in (a * d - b * c, a * c + b * d))
+    return 0 if across else along if k % 2 == 0 else -along
 
 
 def _read(p: Ratio, s: Number) -> Ratio:

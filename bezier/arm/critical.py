@@ -38,6 +38,7 @@ class Reason(Enum):
 
     MERGE = "solutions meet"
     AXIS = "on the axis of the first joint"
+    ESCAPE = "a joint that slides would have to be infinitely long"
     FREE = "the second joint does not move the end effector"
     SINE = "two solutions share the sine of the last joint"
 
@@ -104,6 +105,8 @@ class AlongCurve:
         t = r.ring.index["t"]
         if len(r.coefficients) > 1:
             yield Reason.MERGE, reduced(r.equation.discriminant(t), field)
+        if r.degree is None:  # t is a length: where the leading coefficient vanishes a root has gone to infinity
+            yield Reason.ESCAPE, r.coefficients[-1]
         if r.axis is not None:
             yield Reason.AXIS, r.axis
         for reason, other in ((Reason.MERGE, r.square), (Reason.FREE, r.kappa)):

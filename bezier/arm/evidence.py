@@ -1,4 +1,4 @@
-"""Certificates about a path, which ``qe.verify`` checks: of all its continuous motions, and of kind "branch" for runs."""
+"""Certificates of kind "branch" for the runs of a path, and of all its motions, which ``qe.verify`` checks."""
 
 from __future__ import annotations
 

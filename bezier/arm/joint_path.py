@@ -104,17 +104,16 @@ def joint_path(arm: Arm, curves: Mapping[str, Bezier], note: Note = lambda: None
     branches: list[tuple[Branch, ...]] = []
     for found in studies:
         branches.append(tuple(_branches(found, branches[-1] if branches else (), note)))
+    runs, motions, undecided = tuple(_runs(branches)), None, "its arm is of another shape"
     try:
-        motions, undecided = continuous_motions(arm, curves, note), "the arm has no plane that turns about its first axis"
+        motions = continuous_motions(arm, curves, note)
     except Unable as error:
         if isinstance(error, BudgetExceeded):
             raise
-        motions, undecided = None, str(error)
-    runs = _runs(branches)
-    if motions is None:
-        return JointPath(arm, dict(curves), studies, tuple(branches), tuple(runs), None, undecided)
-    found = tuple(_numbered(runs, motions, len(listed)))
-    return JointPath(arm, dict(curves), studies, tuple(branches), found, motions)
+        undecided = str(error)
+    if motions is not None:
+        runs, undecided = tuple(_numbered(runs, motions, len(listed))), ""
+    return JointPath(arm, dict(curves), studies, tuple(branches), runs, motions, undecided)
 
 
 def _branches(found: Study, before: Sequence[Branch], note: Note) -> list[Branch]:
@@ -158,16 +157,20 @@ def _runs(branches: Sequence[tuple[Branch, ...]]) -> list[Run]:
 
 def _numbered(runs: Sequence[Run], motions: ContinuousMotions, curves: int) -> Iterator[Run]:
     """The runs with the numbers of their motions; others come behind all motions."""
-    numbers, free = {m.labels: m.number for m in motions.motions}, count(len(motions.motions) + 1)
+    numbers = {m.labels: m.number for m in motions.motions}
+    free = count(len(numbers) + 1)
     for run in runs:
-        number = numbers.get(tuple(_label(run, arcs) for arcs in motions.arcs)) if run.covers(curves) else None
+        labels = [_label(run, arcs) for arcs in motions.arcs] if run.covers(curves) else [None]
+        number = numbers.get(tuple(label for label in labels if label is not None))
         yield replace(run, number=next(free) if number is None else number)
 
 
 def _label(run: Run, arcs: Arcs) -> Label | None:
     branch = run.branch(arcs.curve)
+    if branch is None:
+        return None
     held = zip(arcs.labels, arcs.solutions, strict=True)
-    return next((n for n, s in held if branch is not None and branch.contains(arcs.sample, s)), None)
+    return next((label for label, solution in held if branch.contains(arcs.sample, solution)), None)
 
 
 def _follows(one: Branch, other: Branch) -> bool:

@@ -5,9 +5,9 @@ from __future__ import annotations
 from fractions import Fraction
 from math import ceil, floor
 
+from bezier.arm.arm_json import arm_json, curve_json
 from bezier.arm.continuous import ContinuousMotions
 from bezier.arm.critical import Number, S
-from bezier.arm.arm_json import arm_json, curve_json
 from bezier.arm.signs_along import SignsAlong
 from bezier.arm.square_roots import square_roots
 from qe.certify.verify import verify

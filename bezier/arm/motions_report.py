@@ -72,10 +72,10 @@ def in_words(found: JointPath) -> list[str]:
         lines += [f"  at {where}: {text}" for text in _passage(found.motions, k, junction)]
     shown = found.motions.motions[:MOST_SHOWN]
     for motion in shown:
-        places = (
-            f"({', '.join(f'{v:.6g}' for v in _position(motion, k, arcs))}) at {names[arcs.curve]} s = {_short(arcs.sample)}"
-            for k, arcs in enumerate(found.motions.arcs)
-        )
+        places = []
+        for k, arcs in enumerate(found.motions.arcs):
+            joints = ", ".join(f"{value:.6g}" for value in _position(motion, k, arcs))
+            places.append(f"({joints}) at {names[arcs.curve]} s = {_short(arcs.sample)}")
         lines.append(f"  motion {motion.number}: {', '.join(places)}")
     return lines + ([f"  and {count - len(shown)} more"] if count > len(shown) else [])
 

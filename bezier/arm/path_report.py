@@ -13,8 +13,8 @@ from bezier.curves.scalar import brief, described
 
 
 def to_json(found: JointPath) -> dict[str, Any]:
-    """The path as JSON data: parameters exactly and as decimals, one entry for each curve, the continuous motions, and the
-    runs."""
+    """The path as JSON data: parameters exactly and as decimals, an entry for each curve, the continuous motions, and
+    the runs."""
     return {
         "arm": found.arm.name,
         "reachable": found.is_reachable,

@@ -1,4 +1,4 @@
-"""One curve and an arm with a plane that turns: the signs of W and Q (``bezier.arm.vertical``), and where they vanish."""
+"""The signs of W and Q (``bezier.arm.vertical``) along one curve, and where they vanish."""
 
 from __future__ import annotations
 

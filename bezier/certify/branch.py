@@ -126,6 +126,7 @@ def _angle(entry: Entry) -> tuple[Dual, Dual]:
 
 
 def read_curve(entry: Entry) -> list[tuple[Fraction, ...]]:
+    """The control points of a curve in space."""
     points = [tuple(c.rational() for c in point.items()) for point in entry.items()]
     if not 1 <= len(points) <= MOST_POINTS or any(len(p) != 3 for p in points):
         raise entry.fail(f"expected 1 to {MOST_POINTS} points of three coordinates")

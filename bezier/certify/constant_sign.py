@@ -7,6 +7,7 @@ On [a, b] a polynomial lies between its smallest and its largest Bernstein coeff
 from __future__ import annotations
 
 from fractions import Fraction
+from itertools import pairwise
 from math import ceil, comb, floor
 
 from bezier.certify import square_roots as sr
@@ -62,7 +63,7 @@ def _halves(row: Ends) -> tuple[Ends, Ends]:
     """The coefficients on both halves: after k sums they are 2^k times as large."""
     left, right, k = [row[0]], [row[-1]], 0
     while len(row) > 1:
-        row, k = [(a + c, b + d) for (a, b), (c, d) in zip(row, row[1:], strict=False)], k + 1
+        row, k = [(a + c, b + d) for (a, b), (c, d) in pairwise(row)], k + 1
         left.append((row[0][0] >> k, -(-row[0][1] >> k)))
         right.append((row[-1][0] >> k, -(-row[-1][1] >> k)))
     return left, right[::-1]

@@ -66,16 +66,14 @@ class _Plane:
         (first, o), (second, b), (_, tip) = chain.constants[1:]
         axis = _column(first)
         radius = dot(tip[:2], tip[:2])
-        if chain.turns[2]:
-            inner, third = (ZERO, ZERO, tip[2]), _column(second)
-        else:
-            inner, third = tip, _column(second)
-        reach = tuple(x + dot(row, inner) for x, row in zip(b, second, strict=True))  # before the third joint moves
+        third = _column(second)
+        still = (ZERO, ZERO, tip[2]) if chain.turns[2] else tip  # what the third joint does not turn
+        reach = tuple(x + dot(row, still) for x, row in zip(b, second, strict=True))
         outer = tuple(dot(row, third) for row in first)
         size = rest = ZERO
         may_fold = False
         if chain.turns[1]:
-            normal, centre = axis, o
+            normal, centre = axis, tuple(o)
             flat = not (third[0] or third[1]) if chain.turns[2] else not third[2]
             base = tuple(x + n * reach[2] for x, n in zip(o, normal, strict=True))
             if chain.turns[2]:
@@ -272,7 +270,10 @@ def _place(along: _Along, entry: Entry) -> tuple[Fraction, Fraction, _Between]:
         return k
 
     vanishes, empty = order(along.w), frozenset[int]()
-    if along.quality is not None and along.norm is not None and order(along.norm):
+    meets = order(along.norm) if along.norm is not None else 0
+    if not vanishes and not meets:
+        raise entry.fail("neither W nor N vanishes there")
+    if along.quality is not None and meets:
         even, odd = along.quality
         if along.plane.may_fold and not constant_sign(_norm(along.distance, along.w), low, high):
             raise entry.fail("the second joint may be free in the interval")
@@ -310,10 +311,10 @@ def _joint(one: _Along, other: _Along, entry: Entry) -> _Between:
 def _direction(along: _Along, s: Fraction) -> tuple[Surd, Surd, int]:
     """The first derivatives of x and y that do not both vanish at s, and their order."""
     x, y, k = along.x, along.y, 0
-    while not ((a := sr.at(x, s)) or (b := sr.at(y, s))):
+    while not (sr.at(x, s) or sr.at(y, s)):
         x, y = (sr.trimmed([Surd.rational(i) * c for i, c in enumerate(p)][1:]) for p in (x, y))
         k += 1
-    return a, sr.at(y, s), k
+    return sr.at(x, s), sr.at(y, s), k
 
 
 def _plus(a: Split, b: Split) -> Split:

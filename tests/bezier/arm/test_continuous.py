@@ -10,6 +10,8 @@ from random import Random
 from typing import Any
 
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 import qe
 from bezier.arm.arm_json import arm_json
@@ -25,6 +27,8 @@ from bezier.arm.motions_report import in_words
 from bezier.arm.reader import load_arm, read_arm
 from bezier.arm.study import study
 from bezier.arm.vertical import vertical_arm
+from bezier.certify.constant_sign import constant_sign
+from bezier.certify.square_roots import Surd, times
 from bezier.curves.curve import Bezier
 from bezier.motion.timelaw import Law, TimeLaw
 from qe.errors import Unable
@@ -35,7 +39,8 @@ F = Fraction
 TURN = '[[row]]\njoint = "theta1"\nd = 100\n'
 TEXTS = {
     # upper arm 120, forearm 90 and 20 beside the first axis: the inner border is a cylinder and two spheres
-    "offset elbow": TURN + 'alpha = "pi/2"\n[[row]]\njoint = "theta2"\na = 120\nd = 20\n[[row]]\njoint = "theta3"\na = 90',
+    "offset elbow": TURN + 'alpha = "pi/2"\n[[row]]\njoint = "theta2"\na = 120\nd = 20\n'
+    '[[row]]\njoint = "theta3"\na = 90',
     # links of the same length: folded back, the second joint is free
     "equal links": TURN + 'alpha = "pi/2"\n[[row]]\njoint = "theta2"\na = 100\n[[row]]\njoint = "theta3"\na = 100',
     # a boom that turns and slides along a line that passes 15 from its shoulder: reaches 15 and more
@@ -73,7 +78,8 @@ BY_HAND: list[tuple[str, str, list[Points], int]] = [
     ("through the axis, aslant", E, [[(-50, -50, 100), (50, 50, 200)]], 4),
     ("ends on the axis: theta1 has a limit", E, [[(100, 0, 100), (0, 0, 100)]], 4),
     ("begins on the axis", E, [[(0, 0, 100), (0, 100, 100)]], 4),
-    ("a right angle on the axis: theta1 would jump", E, [[(-100, 0, 100), (0, 0, 100)], [(0, 0, 100), (0, 100, 100)]], 0),
+    ("a right angle on the axis: theta1 would jump", E,
+     [[(-100, 0, 100), (0, 0, 100)], [(0, 0, 100), (0, 100, 100)]], 0),
     ("half a right angle on the axis", E, [[(-100, 0, 100), (0, 0, 100)], [(0, 0, 100), (80, 80, 100)]], 0),
     ("two curves straight through the axis", E, [[(-100, 0, 100), (0, 0, 100)], [(0, 0, 100), (50, 0, 80)]], 4),
     ("to the axis and back: the same sign", E, [[(-100, 0, 100), (0, 0, 100)], [(0, 0, 100), (-50, 0, 80)]], 4),
@@ -105,7 +111,8 @@ BY_HAND: list[tuple[str, str, list[Points], int]] = [
     ("a parabola that touches the outer border", S, [[(-100, 110, 100), (0, 310, 100), (100, 110, 100)]], 8),
     ("one that stays inside", S, [[(-100, 110, 100), (0, 308, 100), (100, 110, 100)]], 4),
     ("one that leaves", S, [[(-100, 110, 100), (0, 312, 100), (100, 110, 100)]], 0),
-    ("a line that touches the outer border from outside: one point is reached", S, [[(-9, 210, 100), (9, 210, 100)]], 0),
+    ("a line that touches the outer border from outside: one point is reached", S,
+     [[(-9, 210, 100), (9, 210, 100)]], 0),
     ("touches with order four from outside", S,
      [[(-100, "3910/21", 100), (0, "4910/21", 100), (100, "3910/21", 100)]], 0),
     ("from the border inwards: two begin at one position", S, [[(210, 0, 100), (100, 0, 100)]], 4),
@@ -229,11 +236,11 @@ NEAR_THE_AXIS = curves_of([(-100, "1/10", 100), (100, "1/10", 100)])
 
 
 def test_no_motion_was_said_to_be_proved_below_four_solutions_for_every_s() -> None:
-    text, evidence = certify(Channel(), arm_of(E), NEAR_THE_AXIS, json=False)
+    text, evidence = certify(Channel(-1), arm_of(E), NEAR_THE_AXIS, json=False)
     assert "4 solutions for every s in (0, 1)" in text
     assert "4 continuous joint motions from start to goal (proved" in text and "accepted" in text
     assert qe.verify(qe.Certificate.from_json(evidence)).accepted
-    data = json.loads(certify(Channel(), arm_of(E), NEAR_THE_AXIS, json=True)[0])
+    data = json.loads(certify(Channel(-1), arm_of(E), NEAR_THE_AXIS, json=True)[0])
     assert data["motions"]["count"] == 4 and len(data["motions"]["listed"]) == 4 and data["certified"] is True
 
 
@@ -286,13 +293,32 @@ def test_an_arm_without_such_a_plane_has_as_many_motions_as_simple_solutions() -
     found = joint_path(arm, curves_of([(60, 60, 60), (61, 62, 63)]))
     assert found.motions is None and not certificates(found)[0][0].startswith("all")
     assert found.count == found.studies[0].stretches[0].count and found.count
-    out = joint_path(arm, curves_of([(60, 60, 60), (900, 0, 0)]))
+    out = joint_path(arm, curves_of([(300, 0, 0), (301, 0, 0)]))
     assert out.count == 0
 
 
 def test_a_whole_curve_on_the_axis_is_refused() -> None:
     with pytest.raises(Unable, match="on the axis"):
         motions_of(E, [(0, 0, 100), (0, 0, 150)])
+
+
+@settings(max_examples=60)
+@given(
+    st.lists(st.fractions(-3, 3, max_denominator=50), min_size=1, max_size=5),
+    st.tuples(st.fractions(-3, 3, max_denominator=50), st.fractions("1/1000", 2, max_denominator=1000)),
+    st.integers(-1, 1),
+)
+def test_a_constant_sign_is_proved_iff_there_is_no_zero(roots: list[F], at: tuple[F, F], shift: int) -> None:
+    """Factors s - a and s - a ± √2/3; the squares of others, which stay positive, do not matter."""
+    low, high = at[0], at[0] + at[1]
+    p, inside, side = [Surd.rational(2)], False, 1
+    for a in roots:
+        zero = Surd.rational(a) + Surd.of([(2, F(shift, 3))])
+        p = times(p, [-zero, Surd.rational(1)])
+        p = times(p, [Surd.rational(a * a + F(1, 10**6)), Surd.rational(-2 * a), Surd.rational(1)])
+        ends = [(Surd.rational(x) - zero).sign() for x in (low, high)]
+        inside, side = inside or ends[0] != ends[1] or 0 in ends, side * ends[0]
+    assert constant_sign(p, low, high) == (0 if inside else side)
 
 
 # --- forged certificates ----------------------------------------------------------------------------------------------
@@ -332,18 +358,19 @@ def test_false_numbers_are_rejected(case: str) -> None:
             for one in wrong:
                 assert not forged(payload, places=[*places[:i], [*curve[:k], one, *curve[k + 1 :]], *places[i + 1 :]])
             assert not forged(payload, places=[*places[:i], [*curve, place], *places[i + 1 :]])
-            if 0 < low and high < 1:
+            if low > 0 and high < 1:
                 assert not forged(payload, places=[*places[:i], [*curve[:k], *curve[k + 1 :]], *places[i + 1 :]])
 
 
 def test_a_certificate_of_another_arm_or_path_is_rejected() -> None:
     payload = motions_certificate(motions_of(E, [(-100, 0, 100), (100, 0, 100)])).payload
-    other = motions_certificate(motions_of(S, [(-100, 31, 100), (100, 31, 100)])).payload
-    assert not forged(payload, curves=other["curves"]) and not forged(payload, curves=[])
+    corner = motions_certificate(motions_of(E, [(20, 0, 166), (110, 0, 166)])).payload
+    assert not forged(payload, curves=corner["curves"]) and not forged(payload, curves=[])
     assert not forged(payload, curves=[[["-100", "1/1000000000", "100"], ["100", "0", "100"]]])
     curves: Any = payload["curves"]
     assert not forged(payload, curves=[*curves, curves[0]], places=[payload["places"], []])
-    assert not forged(payload, arm=arm_json(read_arm(TWISTED))) and not forged(payload, arm=arm_json(load_arm("six-joints")))
+    assert not forged(payload, arm=arm_json(read_arm(TWISTED)))
+    assert not forged(payload, arm=arm_json(load_arm("six-joints")))
 
 
 def test_the_touching_point_has_to_be_touched_exactly() -> None:
