@@ -166,7 +166,9 @@ def _runs(
 ) -> frozenset[int]:
     curve, s = at
     angles = [a for a in solution.angles if a is not None]
-    motions = frozenset[int]() if found.motions is None else found.motions.taken(curve, s, solution)
+    motions = frozenset[int]()
+    if found.motions is not None and len(found.whole_runs) < found.motions.count:  # else boxes tell, in less time
+        motions = found.motions.taken(curve, s, solution)
     if len(angles) < len(solution.angles):  # the axis: every motion passes there, or stops
         return motions if found.motions is not None else frozenset(run.number for run in found.runs)
     return motions | frozenset(

@@ -195,7 +195,7 @@ def test_a_joint_sequence_of_a_cylindrical_arm() -> None:
 
 
 def test_a_length_that_grows_beyond_all_bounds_ends_the_path() -> None:
-    """The hand slides along the lift's direction for one angle of the joint between: there the solution is at infinity."""
+    """The hand slides along the lift's direction for one angle between: there the solution is at infinity."""
     rows = '[[row]]\njoint = "{}"\nkind = "{}"\na = {}\nalpha = "pi/4"\n'
     lift = '[[row]]\njoint = "lift"\nkind = "prismatic"\n'
     text = lift + rows.format("theta2", "revolute", 10) + rows.format("out", "prismatic", 20)
