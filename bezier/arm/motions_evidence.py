@@ -12,13 +12,17 @@ from bezier.arm.signs_along import SignsAlong
 from bezier.arm.square_roots import square_roots
 from qe.certify.verify import verify
 from qe.errors import Unable
+from qe.exact.balls import precision
 from qe.exact.field import FieldElement, NumberField
 from qe.exact.ring import Poly
+from qe.exact.sample import Point
 from qe.proof.certificate import Certificate, Kind
 from qe.proof.entry import Json
 
 ATTEMPTS = (16, 40, 100, 250)
 """Binary places of the intervals around what is special: more where such places lie close together."""
+
+PRECISIONS = (128, 512, 2048)
 
 Coefficients = list[FieldElement]
 
@@ -59,7 +63,7 @@ def _factor(signs: SignsAlong, s: Number) -> Json:
     here = signs.along.place(s)
     quality = signs.quality
     norm = None if quality is None else quality.norm.top
-    if norm is not None and here.sign(signs.square) and here.sign(norm.derivative(S)):
+    if norm is not None and not signs.has_no_square(s) and _is_apparent(here, norm.derivative(S)):
         return None
     found = [field.rational(c) for c in s.minimal_polynomial]
     for p in (signs.square, norm, None if quality is None else quality.even.top):
@@ -67,6 +71,16 @@ def _factor(signs: SignsAlong, s: Number) -> Json:
             found = _common_factor(found, _coefficients(p, field))
             p = p.derivative(S)
     return _written(found)
+
+
+def _is_apparent(here: Point, p: Poly) -> bool:
+    """Whether balls show that p does not vanish: exact zero tests take long where degrees are high."""
+    reduced = here.reduce(p)
+    for bits in PRECISIONS:
+        with precision(bits):
+            if not here.enclose(reduced, bits).contains(0):
+                return True
+    return False
 
 
 def _coefficients(p: Poly, field: NumberField) -> Coefficients:

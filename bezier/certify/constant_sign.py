@@ -14,7 +14,9 @@ from bezier.certify import square_roots as sr
 from bezier.certify.square_roots import Polynomial, Surd
 
 BITS = (256, 1024)
-MOST_PARTS = 4000
+MOST_SUMS = 20_000_000
+"""Of the coefficients of all parts that are looked at."""
+
 Ends = list[tuple[int, int]]
 
 
@@ -48,12 +50,12 @@ def _enclosed(values: list[Surd], bits: int) -> Ends:
 
 
 def _is_nonzero(whole: Ends) -> bool:
-    parts, count = [whole], 0
+    parts, count, most = [whole], 0, 200 + MOST_SUMS // len(whole) ** 2
     while parts:
         part, count = parts.pop(), count + 1
         if all(low > 0 for low, _ in part) or all(high < 0 for _, high in part):
             continue
-        if any(low <= 0 <= high for low, high in (part[0], part[-1])) or count > MOST_PARTS:
+        if any(low <= 0 <= high for low, high in (part[0], part[-1])) or count > most:
             return False
         parts += _halves(part)
     return True
