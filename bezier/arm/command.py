@@ -10,7 +10,7 @@ from typing import Any
 
 from bezier.arm import path_report
 from bezier.arm.choices import Arc, Choice, Edge, spans
-from bezier.arm.evidence import certificates
+from bezier.arm.evidence import ALL, certificates
 from bezier.arm.inverse import MOST_BITS, Inverse, Solution, separated, solve
 from bezier.arm.inverse_evidence import inverse_certificate
 from bezier.arm.joint_path import joint_path
@@ -57,15 +57,17 @@ def certify(channel: Channel, arm: Arm, curves: Mapping[str, Bezier], *, json: b
     """``bezier certify-path``: what to print, and the certificates of the continuous joint motions as text, if there
     are any."""
     found = joint_path(arm, curves)
-    bundle = Certificate.bundle(certificates(found))
+    listed = certificates(found)
+    bundle = Certificate.bundle(listed)
     verdict = verify(bundle)
     if json:
         data = {"status": "solved", **path_report.to_json(found), "certified": verdict.accepted}
-        return json_text.dumps(data, indent=1, ensure_ascii=False), bundle.to_json() if found.runs else ""
+        return json_text.dumps(data, indent=1, ensure_ascii=False), bundle.to_json() if listed else ""
     told = "accepted" if verdict.accepted else f"REJECTED at {verdict.step}: {verdict.reason}"
-    told = told if found.runs else "none, as there is no joint motion along a part of the path"
+    told = told if listed else "none, as there is no joint motion along a part of the path"
+    told += "" if any(label == ALL for label, _ in listed) else "; none of the number of motions"
     lines = [*path_report.in_words(found), f"certificates of the joint motions: {told}"]
-    return "\n".join(lines), bundle.to_json() if found.runs else ""
+    return "\n".join(lines), bundle.to_json() if listed else ""
 
 
 def to_json(found: Inverse) -> dict[str, Any]:

@@ -1,24 +1,29 @@
-"""A path of several curves for an arm: what is proved about each curve, and the branches that run through all of it.
+"""A path of several curves for an arm: what is proved about each curve, its continuous motions, and the branches that
+run through all of it.
 
 A *run* is one continuous joint motion: branches of neighbouring curves that are proved to be joined. It begins at the
 start or where solutions come into being, and ends at the goal or where they meet and vanish or the arm is singular.
+Runs are what boxes hold, with bounds of the velocities; how many continuous motions there are is decided exactly
+(``bezier.arm.continuous``), also where boxes give up.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
-from itertools import pairwise
+from itertools import count, pairwise
 
+from bezier.arm.continuous import Arcs, ContinuousMotions, continuous_motions
 from bezier.arm.follow import ONE, ZERO, Branch, follow, joined, whole
 from bezier.arm.inverse import solve
 from bezier.arm.model import Arm
 from bezier.arm.study import Study, study
+from bezier.arm.vertical import Label
 from bezier.curves.curve import Bezier
 from bezier.curves.scalar import same
-from qe.errors import InputError
+from qe.errors import BudgetExceeded, InputError, Unable
 
 Note = Callable[[], None]
 
@@ -42,13 +47,33 @@ class Run:
 
 @dataclass(frozen=True, eq=False)
 class JointPath:
-    """The curves of a path by name, the study of each, and the runs."""
+    """The curves of a path by name, the study of each, and the runs.
+
+    ``motions``: all continuous motions, through singular places too; None where that is not decided, and ``undecided``
+    says why. Whole runs have the numbers of their motions.
+    """
 
     arm: Arm
     curves: Mapping[str, Bezier]
     studies: tuple[Study, ...]
     branches: tuple[tuple[Branch, ...], ...]
     runs: tuple[Run, ...] = field(default=())
+    motions: ContinuousMotions | None = None
+    undecided: str = ""
+
+    @cached_property
+    def count(self) -> int | None:
+        """The number of all continuous motions from start to goal, limits of the joints left aside; None where it is
+        not decided."""
+        if self.motions is not None:
+            return self.motions.count
+        if not self.is_reachable:
+            return 0
+        inside = [p for k, s in enumerate(self.studies) for p in s.specials if (k, p.s) != (0, ZERO)]
+        if any(p.reasons or p.inverse.count is None for p in inside[:-1]):
+            return None
+        # all solutions between start and goal are simple and none escapes: each is a continuous function of s
+        return self.studies[0].stretches[0].count
 
     @property
     def is_reachable(self) -> bool:
@@ -79,7 +104,16 @@ def joint_path(arm: Arm, curves: Mapping[str, Bezier], note: Note = lambda: None
     branches: list[tuple[Branch, ...]] = []
     for found in studies:
         branches.append(tuple(_branches(found, branches[-1] if branches else (), note)))
-    return JointPath(arm, dict(curves), studies, tuple(branches), tuple(_runs(branches)))
+    runs, motions, undecided = tuple(_runs(branches)), None, "its arm is of another shape"
+    try:
+        motions = continuous_motions(arm, curves, note)
+    except Unable as error:
+        if isinstance(error, BudgetExceeded):
+            raise
+        undecided = str(error)
+    if motions is not None:
+        runs, undecided = tuple(_numbered(runs, motions, len(listed))), ""
+    return JointPath(arm, dict(curves), studies, tuple(branches), runs, motions, undecided)
 
 
 def _branches(found: Study, before: Sequence[Branch], note: Note) -> list[Branch]:
@@ -119,6 +153,24 @@ def _runs(branches: Sequence[tuple[Branch, ...]]) -> list[Run]:
         closed += [run for run in still if run[-1][1].high != ONE]
         open_runs = [run for run in still if run[-1][1].high == ONE]
     return [Run(i, tuple(run)) for i, run in enumerate([*open_runs, *closed], start=1)]
+
+
+def _numbered(runs: Sequence[Run], motions: ContinuousMotions, curves: int) -> Iterator[Run]:
+    """The runs with the numbers of their motions; others come behind all motions."""
+    numbers = {m.labels: m.number for m in motions.motions}
+    free = count(len(numbers) + 1)
+    for run in runs:
+        labels = [_label(run, arcs) for arcs in motions.arcs] if run.covers(curves) else [None]
+        number = numbers.get(tuple(label for label in labels if label is not None))
+        yield replace(run, number=next(free) if number is None else number)
+
+
+def _label(run: Run, arcs: Arcs) -> Label | None:
+    branch = run.branch(arcs.curve)
+    if branch is None:
+        return None
+    held = zip(arcs.labels, arcs.solutions, strict=True)
+    return next((label for label, solution in held if branch.contains(arcs.sample, solution)), None)
 
 
 def _follows(one: Branch, other: Branch) -> bool:

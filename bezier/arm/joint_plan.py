@@ -74,6 +74,8 @@ def joint_plan(
             motion = joint_motion(path, run, law, duration, ends)
             if not motion.keeps_limits:
                 remarks.append(f"limits of the joints are not proved to be kept; {motion.enough} s are enough")
+        elif sequence.run is not None:
+            remarks.append(f"motion {sequence.run} goes where boxes do not: its velocities have no proved bounds")
     except Unable as error:
         remarks.append(str(error))
     return JointPlan(path, law, ends, duration, sequence, motion, tuple(remarks))

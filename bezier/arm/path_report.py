@@ -5,6 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import Any
 
+from bezier.arm import motions_report
 from bezier.arm.critical import Number, Reason
 from bezier.arm.joint_path import JointPath, Run
 from bezier.arm.study import Special, Study
@@ -12,13 +13,15 @@ from bezier.curves.scalar import brief, described
 
 
 def to_json(found: JointPath) -> dict[str, Any]:
-    """The path as JSON data: parameters exactly and as decimals, one entry for each curve, and the runs."""
+    """The path as JSON data: parameters exactly and as decimals, an entry for each curve, the continuous motions, and
+    the runs."""
     return {
         "arm": found.arm.name,
         "reachable": found.is_reachable,
         "curves": [
             {"name": name, **_study(studied)} for name, studied in zip(found.curves, found.studies, strict=True)
         ],
+        "motions": motions_report.to_json(found),
         "runs": [_run(found, run) for run in found.runs],
     }
 
@@ -66,17 +69,7 @@ def in_words(found: JointPath) -> list[str]:
         ]
         lines += [f"  at s = {_short(p.s)}: {_special(p)}" for p in studied.specials if p.reasons]
         lines += [f"  at s = {_short(s)}: {Reason.SINE.value} (nothing happens to the arm)" for s in studied.shared]
-    complete = len(found.whole_runs)
-    lines.append(f"{complete} continuous joint motion{'s' * (complete != 1)} from start to goal, proved by boxes")
-    for run in found.runs:
-        if run not in found.whole_runs:
-            first, last = run.parts[0], run.parts[-1]
-            names = list(found.curves)
-            begin, end = (
-                f"{names[k]} s = {float(s):.9g}" for k, s in ((first[0], first[1].low), (last[0], last[1].high))
-            )
-            lines.append(f"  motion {run.number} from {begin} to {end} only")
-    return lines
+    return lines + motions_report.in_words(found)
 
 
 def _verdict(found: Study) -> str:

@@ -125,7 +125,7 @@ def _layers(found: JointPath, samples: Sequence[Sample], note: Note) -> Iterator
         places = _places(found, sample)
         around = [a for other in solved[max(k - 1, 0) : k + 2] for s in other if (a := s.angles[0]) is not None]
         stands = [
-            Stand(angles, _runs(found, places, sample.s, solution))
+            Stand(angles, _runs(found, places, (sample.curve, sample.s), solution))
             for solution in solutions
             for angles in _offered(found.arm, solution, around)
         ]
@@ -159,12 +159,19 @@ def _places(found: JointPath, sample: Sample) -> list[tuple[int, Branch, tuple[f
 
 
 def _runs(
-    found: JointPath, places: Sequence[tuple[int, Branch, tuple[float, ...]]], s: Fraction, solution: Solution
+    found: JointPath,
+    places: Sequence[tuple[int, Branch, tuple[float, ...]]],
+    at: tuple[int, Fraction],
+    solution: Solution,
 ) -> frozenset[int]:
+    curve, s = at
     angles = [a for a in solution.angles if a is not None]
-    if len(angles) < len(solution.angles):
-        return frozenset(run.number for run in found.runs)  # the axis: every motion passes there, or stops
-    return frozenset(
+    motions = frozenset[int]()
+    if found.motions is not None and len(found.whole_runs) < found.motions.count:  # else boxes tell, in less time
+        motions = found.motions.taken(curve, s, solution)
+    if len(angles) < len(solution.angles):  # the axis: every motion passes there, or stops
+        return motions if found.motions is not None else frozenset(run.number for run in found.runs)
+    return motions | frozenset(
         number
         for number, branch, near in places
         if _distance(found.arm, angles, near) < FAR and branch.contains(s, solution)

@@ -48,7 +48,7 @@ def check_branch(payload: dict[str, Json], budget: Budget | None = None) -> None
     """Accept silently, or raise ``CertificateRejected`` naming the entry that fails."""
     arm, curves_entry, pieces_entry = Entry(payload, "payload").fields("arm", "curves", "pieces")
     rows = _Rows(arm)
-    curves = [_curve(entry) for entry in curves_entry.items()]
+    curves = [read_curve(entry) for entry in curves_entry.items()]
     pieces = [_piece(entry, len(curves)) for entry in pieces_entry.items()]
     if not pieces:
         raise pieces_entry.fail("expected at least one piece")
@@ -125,7 +125,8 @@ def _angle(entry: Entry) -> tuple[Dual, Dual]:
         return duals.number(values[1], DIRECTIONS), duals.number(values[0], DIRECTIONS)
 
 
-def _curve(entry: Entry) -> list[tuple[Fraction, ...]]:
+def read_curve(entry: Entry) -> list[tuple[Fraction, ...]]:
+    """The control points of a curve in space."""
     points = [tuple(c.rational() for c in point.items()) for point in entry.items()]
     if not 1 <= len(points) <= MOST_POINTS or any(len(p) != 3 for p in points):
         raise entry.fail(f"expected 1 to {MOST_POINTS} points of three coordinates")
@@ -152,7 +153,7 @@ def _image(rows: _Rows, points: list[tuple[Fraction, ...]], piece: _Piece) -> li
     box = [duals.around(r) for r in piece.radius]
     nothing = [duals.ball(Fraction(0))] * 4
     middle = (piece.low + piece.high) / 2
-    coefficients = [_powers([p[i] for p in points]) for i in range(3)]
+    coefficients = [powers([p[i] for p in points]) for i in range(3)]
 
     def f(sigma: Any, r: list[Any]) -> list[Dual]:
         step = duals.seed(sigma, SIGMA, DIRECTIONS)
@@ -169,7 +170,7 @@ def _image(rows: _Rows, points: list[tuple[Fraction, ...]], piece: _Piece) -> li
     return [duals.radius_above(x) for x in image]
 
 
-def _powers(values: list[Fraction]) -> list[Fraction]:
+def powers(values: list[Fraction]) -> list[Fraction]:
     """Coefficients of 1, s, s², … from Bernstein coefficients: c_k = C(n,k) Σ_j (-1)^(k-j) C(k,j) b_j."""
     n = len(values) - 1
     return [comb(n, k) * sum((-1) ** (k - j) * comb(k, j) * values[j] for j in range(k + 1)) for k in range(n + 1)]

@@ -139,7 +139,7 @@ def json_entries(plan: Plan) -> dict[str, Any]:
         "joints": {
             "arm": found.path.arm.name,
             "reachable": found.path.is_reachable,
-            "continuous_motions": len(found.path.whole_runs),
+            "continuous_motions": found.path.count,
             "run": None if found.sequence is None else found.sequence.run,
             "limits": {} if found.motion is None else found.motion.kept,
             "rounded": is_rounded(plan),

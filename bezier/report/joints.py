@@ -9,6 +9,7 @@ from bezier.arm import joint_plan as plans
 from bezier.arm.joint_plan import JointPlan
 from bezier.arm.model import Motion
 from bezier.arm.motion import JointMotion
+from bezier.arm.motions_report import number_in_words
 from bezier.report import html
 from bezier.report.first import scene_box
 from bezier.report.html import Card, Page, Section, Text, toned
@@ -89,8 +90,8 @@ def _cards(plan: JointPlan) -> list[Card]:
 
 
 def _motions(plan: JointPlan) -> str:
-    count, run = len(plan.path.whole_runs), plan.sequence.run if plan.sequence is not None else None
-    told = f"{count} continuous joint motions lead from start to goal"
+    run = plan.sequence.run if plan.sequence is not None else None
+    told = f"{number_in_words(plan.path)} from start to goal"
     return told + (f"; motion {run} has the least total change" if run else "")
 
 

@@ -227,7 +227,7 @@ def other_positions(rng: random.Random, data: Data) -> bool:
     point = [sum((Fraction(q) for q, _ in c), Fraction(0)) for c in payload["point"]]
     boxes = [box for root in payload["roots"] for box in root["solutions"]]
     try:
-        found = solve(read_arm(_toml(payload["arm"])), point)
+        found = solve(read_arm(toml_of(payload["arm"])), point)
     except QEError:
         return False
     if found.count is None or found.count != payload["count"] or found.count != len(boxes):
@@ -241,7 +241,8 @@ def _holds(box: Any, values: Vector) -> bool:
     return all(low - 1e-7 <= v <= high + 1e-7 for (low, high), v in zip(ends, values, strict=True))
 
 
-def _toml(arm: Data) -> str:
+def toml_of(arm: Data) -> str:
+    """The text of an arm as a certificate holds it."""
     return "\n".join(_lines(arm))
 
 
@@ -251,6 +252,7 @@ def _lines(arm: Data) -> Iterator[str]:
         yield "[[row]]"
         if row["joint"]:
             yield f'joint = "t{k}"'
+            yield f'kind = "{row["joint"]}"'
         for name in ("a", "d"):
             yield f'{name} = "{row[name]}"'
         for name in ("alpha", "theta"):

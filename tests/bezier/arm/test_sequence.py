@@ -123,7 +123,7 @@ def test_limits_of_angles_choose_the_branch() -> None:
 def test_across_the_axis_the_free_angle_goes_on() -> None:
     path = joint_path(ARM, {"line": Bezier.of([(-50, 0, 100), (50, 0, 100)])})
     found = joint_sequence(path, samples_of(WHOLE, QUINTIC, 21))
-    assert found.run is None and len(found.switches) == 1
+    assert found.run is not None and not found.switches
     assert np.abs(np.diff(np.array(found.angles), axis=0)).max() < 0.3
 
 

@@ -96,7 +96,8 @@ def test_wrong_numbers_of_parts(text: str, at: int, said: str) -> None:
 
 def test_offsets_of_sets_and_functions() -> None:
     found = text_parser().parse("x in (0, 1)")
-    assert found == s.Comparison([s.Number(0), s.Name("x", 0), s.Number(1)], [Relation.LT, Relation.LT], 2)
+    ends = ((Relation.GT, s.Number(0)), (Relation.LT, s.Number(1)))
+    assert found == s.Every([s.Comparison([s.Name("x", 0), end], [relation], 2) for relation, end in ends])
     assert text_parser("term").parse("1 + |x|") == s.Sum([s.Number(1), s.Apply("abs", [s.Name("x", 5)], 4)])
     assert text_parser("term").parse("∞") == s.Infinity(0)
 
