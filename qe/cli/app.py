@@ -233,6 +233,7 @@ def check(
     formula: Annotated[
         str | None, typer.Option("--formula", metavar="FORMULA|FILE", help="The question that it has to be about.")
     ] = None,
+    core: Annotated[bool, typer.Option("--core", help="Believe the kernel and the listed theorems alone.")] = False,
     timeout: Timeout = None,
     memory: Memory = None,
     json: Json = False,
@@ -250,7 +251,7 @@ def check(
         raise no_file(certificate)
     seconds = VERIFY_SECONDS if timeout is None else timeout
     asked = None if formula is None else read_source(formula, None)
-    work = partial(cli_work.check, text=source.text, asked=asked, seconds=remaining(seconds), as_json=json)
+    work = partial(cli_work.check, text=source.text, asked=asked, seconds=remaining(seconds), as_json=json, core=core)
     return deliver(limited(work, timeout=seconds, memory=memory, plain=True), {})
 
 

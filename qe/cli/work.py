@@ -173,7 +173,9 @@ def convert(channel: Channel, source: Source, output: Format) -> Reply:
     return Reply(formats.write(read_formula(channel, source), output.value).rstrip("\n"))
 
 
-def check(channel: Channel, text: str, asked: Source | None, seconds: float, as_json: bool = False) -> Reply:
+def check(
+    channel: Channel, text: str, asked: Source | None, seconds: float, *, as_json: bool = False, core: bool = False
+) -> Reply:
     """``qe check``: exit status 4 when the certificate is rejected, 3 when that is not decided."""
     from qe.api.verify import checked as verify
     from qe.api.verify import of_question, recent
@@ -185,7 +187,7 @@ def check(channel: Channel, text: str, asked: Source | None, seconds: float, as_
     start = time.perf_counter()
     formula = None if asked is None else read_formula(channel, asked)
     certificate = Certificate.from_json(text)
-    verdict = verify(certificate, Budget(seconds, listener=channel.event))
+    verdict = verify(certificate, Budget(seconds, listener=channel.event), core=core)
     if verdict.accepted and formula is not None:
         verdict = of_question(certificate, formula)
     if not verdict.decided:
@@ -252,7 +254,8 @@ def _rests(trusts: Sequence[str]) -> Iterator[str]:
     from qe.kernel.statements import rows
 
     for name in trusts:
-        yield f"rests on: {name}, by {rows()[name].data['axiom']}"
+        why = f"by {rows()[name].data['axiom']}" if name in rows() else "a rule of the expert ring"
+        yield f"rests on: {name}, {why}"
 
 
 def plain(value: object) -> object:

@@ -134,7 +134,7 @@ def test_what_is_given_has_to_be_known(name: str) -> None:
             if z3_decides(exists(wrong.free, wrong)):
                 assert objection(case.formula("block"), case.formula("answer"), case.evidence, rest)
                 refused += 1
-    assert refused
+    assert refused or not any(case.known for case in cases(name))
 
 
 @pytest.mark.parametrize("name", NAMES)
