@@ -10,8 +10,8 @@ on its side. ex x (p rel 0) is true for other relations.
 
 Evidence: ``low`` and ``high``, the places: [numerator, positive number] or null for the end of the line; ``rising``,
 1 or -1, the sign with which p goes from at most 0 to at least 0, or 0 where that is not known, at two terms, or with
-an odd degree at both ends (for other relations no place is a term, and ``rising`` says at which end); ``theory``, by
-which the signs are known.
+an odd degree at both ends (for other relations no place is a term, and ``rising`` says at which end, 0 at one of
+them); ``theory``, by which the signs are known.
 """
 
 from __future__ import annotations
@@ -72,8 +72,10 @@ def root_goals(claim: Claim, context: Context) -> list[Goal]:
         raise claim.fail("expected one comparison, and bounds that are the places")
     known = outside(context, block.variables)
     if part.relation is not Relation.EQ:
-        if not direction or bounds or places[0].term is not None or places[1].term is not None:
+        if bounds or places[0].term is not None or places[1].term is not None:
             raise claim.fail("expected one comparison and an end of the line")
+        if not direction:  # one of the two ends has the sign that is asked for
+            return [(*known, negation(sign)) for sign in _changes(part.poly, x, places, 0, claim)]
         side = places[0] if direction < 0 else places[1]
         return [(*known, negation(side.sign(part.poly, x, part.relation)))]
     goals: list[Goal] = [(*known, negation(sign)) for sign in _changes(part.poly, x, places, direction, claim)]

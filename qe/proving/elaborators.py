@@ -83,7 +83,7 @@ def square_alone(claim: Claim, context: Context, limits: Limits) -> list[Json]:
 
 def value_taken(claim: Claim, context: Context, limits: Limits) -> list[Json]:
     """A variable of which one comparison alone asks something: a value far out, or a root, meets it."""
-    variable, _ = only(claim, "variable", "theory")
+    variable = only(claim, "variable", optional=("theory",))[0]
     block, name, _ = claim.variable(variable)
     parts = conjuncts(block.body)
     part = next((f for f in parts if name in f.free), TRUE)
@@ -92,8 +92,8 @@ def value_taken(claim: Claim, context: Context, limits: Limits) -> list[Json]:
     middle = exists(rest, conj((inner, *others)))
     place = (*((0,) if rest else ()), *((0,) if others else ()))
     facts = replaced(middle, place, inner, TRUE, context, variable)[0]
-    directions = (0,) if isinstance(part, Atom) and part.relation is Relation.EQ else (1, -1)
-    for rising in directions:
+    is_odd = isinstance(part, Atom) and part.poly.degree(claim.ring.index[name]) % 2
+    for rising in (0,) if is_odd else (1, -1):
         evidence: dict[str, Json] = {"low": None, "high": None, "rising": rising, "theory": EMPTY}
         step = replace(claim, rule="root", before=inner, after=TRUE, evidence=Entry(evidence, claim.path))
         theory = refuting(root_goals(step, facts), claim.ring, limits)
@@ -138,7 +138,7 @@ def exchanged(claim: Claim, context: Context, limits: Limits) -> list[Json]:
 
 def scaled(claim: Claim, context: Context, limits: Limits) -> list[Json]:
     """The cases of the sign of a variable, in each of which the others are measured in powers of it."""
-    variable, weights, values, _ = only(claim, "variable", "weights", "values", "theory")
+    variable, weights, values, _ = only(claim, "variable", "weights", "values", optional=("theory",))
     (block, name, x), ring = claim.variable(variable), claim.ring
     powers = _moves(weights, name, claim)
     if any(power.denominator > 1 for power in powers.values()):
@@ -342,7 +342,7 @@ def constant(claim: Claim, context: Context, limits: Limits) -> list[Json]:
 
 def witness(claim: Claim, context: Context, limits: Limits) -> list[Json]:
     """Terms in the parameters that satisfy a block."""
-    equations, block = only(claim, "equations", "theory")[0], claim.block()
+    equations, block = only(claim, "equations", optional=("theory",))[0], claim.block()
     there: dict[str, Quotient] = {}
     for entry in equations.items():
         pivot = term(entry, block.variables, block.body, claim)

@@ -42,6 +42,8 @@ def refused(block: str, low: Any, high: Any, rising: int, given: str = "true") -
         ("ex x. x^2 + b*x = c and x >= 0 and x <= 1", ZERO, ONE, 1, "c >= 0 and 1 + b >= c"),
         ("ex x. x^5 + b = 0 and x >= a and x <= 1", A, ONE, 0, "a = -1 and b < 1 and b > -1"),
         ("ex x. x^2 > b", None, None, 1, "true"),
+        ("ex x. c*x^3 > b", None, None, 0, "c /= 0"),
+        ("ex x. c*x <= b", None, None, 0, "c /= 0"),
         ("ex x. c*x < b", None, None, -1, "c > 0"),
         ("ex x. c*x^2 + x /= b", None, None, 1, "c /= 0"),
     ],
@@ -61,6 +63,8 @@ def test_a_value_that_is_taken(block: str, low: Any, high: Any, rising: int, giv
         ("ex x. x^2 + b*x = c and x >= 0 and x <= 1", ZERO, ONE, 1, "c >= 0"),
         ("ex x. x = 0 and x >= 1 and x <= a", ONE, A, -1, "a <= 0"),  # the places change order
         ("ex x. c*x > b", None, None, 1, "c >= 0"),
+        ("ex x. c*x > b", None, None, 0, "c >= 0"),
+        ("ex x. c*x^2 > b", None, None, 0, "c /= 0"),
         ("ex x. x^2 < b", None, None, 1, "true"),
         ("ex x. x^2 = b and x >= 0", ["x", "1"], None, 1, "b >= 0"),
         ("ex x. x^2 = b and x >= 0", ["0", "-1"], None, 1, "b >= 0"),
