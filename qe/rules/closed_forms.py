@@ -67,6 +67,7 @@ def patterns(family: str, body: Formula, variables: Sequence[str], conditions: i
 
 @cache
 def pattern(name: str, words: tuple[str, ...]) -> Pattern:
+    """The pattern of a theorem."""
     used = theorem(name, words)
     assert used is not None
     block = used.generic("block")

@@ -87,8 +87,6 @@ ELSEWHERE = {
     "Boolean search": "certificates/test_boolean_search",
     "comprehensive Gröbner system": "certificates/test_counted_solutions",
     "point or multipliers": "certificates/test_derivation_rejected",
-    "cubic on an interval": "unit/rules/test_cubic_interval",
-    "square of a variable alone": "unit/rules/test_square_alone",
 }
 """Rules whose evidence is altered in a file of its own."""
 
