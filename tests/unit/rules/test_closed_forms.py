@@ -62,6 +62,10 @@ def steps_of(text: str | Formula, kind: StepKind) -> list[Step]:
         ),
         ("ex x, y. x^2 + y^2 = a and x^2 + y^2 <= b", "a - b <= 0 and a >= 0"),
         ("ex x, y. x^2 + y^2 > a and x^2 + y^2 <= b", "b >= 0 and a - b < 0"),
+        (
+            "a > 0 and ex t. t >= 0 and t <= a and u*t + p >= 0 and u*t + p <= 1",
+            "a > 0 and (p >= 0 or a*u + p >= 0) and (p - 1 <= 0 or a*u + p - 1 <= 0)",
+        ),
     ],
 )
 def test_the_condition_is_short(text: str, answer: str) -> None:
