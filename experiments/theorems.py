@@ -28,7 +28,7 @@ from qe.proof.certificate import Certificate
 from qe.reference import decide as reference_decides
 from qe.rules.closed_forms import pattern, square_root
 
-WITHOUT = ("cubic", "roots", "balls", "stability", "quadrics", "values", "critical")
+WITHOUT = ("cubic", "roots", "balls", "stability", "quadrics", "forms", "values", "critical")
 """The rules that the theorems justify, and the method that is slow here."""
 
 STORED = files("qe").joinpath("theorems", "proofs")

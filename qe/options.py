@@ -58,6 +58,7 @@ class Stage(Enum):
     ``BALLS``: whether two balls meet is a closed form, and a sphere seen along one direction a segment.
     ``STABILITY``: whether a polynomial given by its real and imaginary part has roots in a half-plane is another.
     ``QUADRICS``: whether one quadric lies in another is a question about one multiplier.
+    ``FORMS``: other closed forms, which are theorems of ``qe.theorems``.
     ``RANGES``: conditions that ranges of variables exclude are refuted.
     ``SAMPLES``: sentences of inequalities are tried at points. ``SEARCH``: sentences with many cases are
     searched by a SAT solver. ``SQUARES``: signs that sums of squares prove. ``MINISCOPING``: quantifiers are moved
@@ -88,6 +89,7 @@ class Stage(Enum):
     BALLS = "balls"
     STABILITY = "stability"
     QUADRICS = "quadrics"
+    FORMS = "forms"
     RANGES = "ranges"
     SAMPLES = "samples"
     SEARCH = "search"

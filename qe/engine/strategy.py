@@ -66,6 +66,7 @@ SWITCHED = {
     Stage.STABILITY: {StepKind.HALF_PLANE},
     Stage.QUADRICS: {StepKind.QUADRICS},
     Stage.CUBIC: {StepKind.CUBIC_INTERVAL},
+    Stage.FORMS: {StepKind.CLOSED_FORM},
     Stage.SQUARES: {StepKind.SQUARES},
     Stage.EXCHANGE: {StepKind.EXCHANGE},
     Stage.MINISCOPING: {StepKind.MINISCOPE},

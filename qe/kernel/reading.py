@@ -60,6 +60,7 @@ class Language:
 
 
 def parsed(text: str, marks: Mapping[str, str]) -> Tree:
+    """The tree of a text with words for its marks."""
     for mark, word in marks.items():
         text = text.replace(f"{{{mark}}}", word)
     text = re.sub(r"(?<![<>!=/])=(?!=)", "==", text.replace("/=", "!=").replace("^", "**"))

@@ -41,6 +41,7 @@ RULES: tuple[Rule, ...] = (
     closed_form(StepKind.HALF_PLANE),
     closed_form(StepKind.QUADRICS),
     closed_form(StepKind.CUBIC_INTERVAL),
+    closed_form(StepKind.CLOSED_FORM),
     linear_equation,
     known_signs,
     drop_what_can_be_met,

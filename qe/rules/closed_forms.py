@@ -28,6 +28,9 @@ from qe.rules.tree import Leaf
 MOST_TERMS = 2_000
 """With more terms in a polynomial an answer is of no use."""
 
+MOST_CONDITIONS = 8
+"""Longer conjunctions are not held against theorems: their conditions are tried in every order."""
+
 Letters = Mapping[str, Poly]
 Terms = Mapping[tuple[int, ...], Poly]
 """Polynomials in the letters or parameters, by the powers of the block's variables before which they stand."""
@@ -67,6 +70,7 @@ def patterns(family: str, body: Formula, variables: Sequence[str], conditions: i
 
 @cache
 def pattern(name: str, words: tuple[str, ...]) -> Pattern:
+    """The pattern of a theorem."""
     used = theorem(name, words)
     assert used is not None
     block = used.generic("block")
@@ -113,7 +117,7 @@ class Match:
 def matches(family: str, variables: Sequence[str], body: Formula) -> Iterator[Match]:
     """The theorems of a family of which ``exists variables. body`` is an instance, but for what is given."""
     parts = [part for part in conjuncts(body) if isinstance(part, Atom)]
-    if body.ring is None or len(parts) < len(conjuncts(body)):
+    if body.ring is None or len(parts) < len(conjuncts(body)) or len(parts) > MOST_CONDITIONS:
         return
     for found in patterns(family, body, variables, len(parts)):
         if found.row.data.get("dense") and not all(set(variables) <= set(part.free) for part in parts):

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import replace
+from collections.abc import Callable
 from fractions import Fraction
 
 import pytest
 
-import qe.rules.balls as balls
 import qe.rules.block as block
 import qe.rules.cases as cases
 import qe.rules.degree_shift as degree_shift
@@ -22,7 +20,7 @@ import qe.rules.zeros as zeros
 import qe.simplify.factors as factors
 from qe.api.input import read_formula
 from qe.formula.normal import nnf, rename_apart
-from qe.formula.syntax import FALSE, TRUE, Exists, Formula
+from qe.formula.syntax import FALSE, TRUE, Exists
 from qe.formula.traverse import conjuncts
 from qe.options import Budget, Options
 from qe.proof.derivation import moved
@@ -145,49 +143,10 @@ def any_pattern(m: pytest.MonkeyPatch) -> None:
     m.setattr(zeros, "truth_under", lambda formula, signs: False)
 
 
-def alone(m: pytest.MonkeyPatch) -> None:
-    m.setattr(block, "RULES", (balls.two_balls,))
-
-
-def real_or_not(m: pytest.MonkeyPatch) -> None:
-    """Nobody asks whether the balls have points."""
-    alone(m)
-    m.setattr(balls, "conj", lambda parts: list(parts)[-1])
-
-
-def closed_balls(m: pytest.MonkeyPatch) -> None:
-    """Open balls count as closed ones."""
-    alone(m)
-    real = balls.Ball.of
-
-    def of(part: Formula, indices: Sequence[int]) -> balls.Ball | None:
-        found = real(part, indices)
-        return found and replace(found, strict=False)
-
-    m.setattr(balls.Ball, "of", staticmethod(of))
-
-
-def known_radii(m: pytest.MonkeyPatch) -> None:
-    """The product of the radii counts as positive."""
-    alone(m)
-    m.setattr(balls, "disj", lambda parts: next(iter(parts)))
-
-
-def one_coordinate(m: pytest.MonkeyPatch) -> None:
-    """Of the distance only one coordinate counts."""
-    alone(m)
-    m.setattr(balls, "_length", lambda vector: vector[0] * vector[0])
-
-
-DISCS = "ex x, y. (x - a)^2 + (y - b)^2 {} r^2 and x^2 + y^2 {} s^2"
 CASES: dict[str, tuple[Patch, str, str]] = {
     "boundary": (one_case, "ex x. x^2 >= a and b*x /= 1", "boundary apart"),
     "negation": (negated, "not (ex x. x^3 > a and x < b)", "negation normal form"),
     "zeros": (any_pattern, "ex x, y. (x /= 0 or y /= 0) and x*y + a = 0", "conditions on zeros that follow"),
-    "empty balls": (real_or_not, "ex x, y. (x - a)^2 + (y - b)^2 <= r and x^2 + y^2 <= s", "two balls"),
-    "open balls": (closed_balls, DISCS.format("<", "<="), "two balls"),
-    "radii": (known_radii, DISCS.format("<=", "<="), "two balls"),
-    "distance": (one_coordinate, DISCS.format("<=", "<="), "two balls"),
     "sign": (known_sign, "ex x. a*x = b and x > c", "linear equation solved"),
     "guard": (no_guard, "ex x. a*x = b and x > c", "linear equation solved under a guard"),
     "no sign": (no_sign, "ex x. x^4 + a < 0 and x^2 + b > 0", "degree shift"),

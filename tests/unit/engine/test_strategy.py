@@ -133,7 +133,7 @@ def test_the_form_of_an_answer_does_not_depend_on_the_clock(name: str, monkeypat
 
 def test_a_certificate_is_looked_for_with_limited_work(monkeypatch: pytest.MonkeyPatch) -> None:
     """So many units, however long each takes: the answer stays, the certificate does not come."""
-    monkeypatch.delitem(RULES, "two balls")  # type: ignore[arg-type]  # else the steps are proved one by one
+    monkeypatch.delitem(RULES, "theorem")  # type: ignore[arg-type]  # else the steps are proved one by one
     question = QUESTIONS["critical"]
     given = qe.eliminate(question, check=True)
     assert given.guarantee is qe.Guarantee.CHECKED

@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import pytest
 
+import qe
 from experiments.theorems import accepted, instances, stored, tried
 from experiments.z3_oracle import decide as z3_decides
 from qe.certify.negation import negation
@@ -18,6 +19,7 @@ from qe.formula.syntax import FALSE, TRUE, Formula
 from qe.formula.traverse import conjuncts
 from qe.kernel.statements import Theorem, rows, theorem
 from qe.kernel.theorem import check_theorem
+from qe.proof.certificate import Kind
 from qe.proof.entry import Entry, Json, poly_to_text
 from qe.rules.closed_forms import matches, pattern, square_root
 from tests.unit.certify.claims import NO_LEMMAS, limits
@@ -198,7 +200,7 @@ def test_malformed_evidence_is_refused(name: str) -> None:
     letters, variables = evidence["letters"], evidence["variables"]
     assert isinstance(letters, dict) and isinstance(variables, dict)
     bound = case.used.bound["block"]
-    for change in (
+    changes: list[dict[str, Json]] = [
         {"theorem": f"{name}!"},
         {"theorem": None},
         {"letters": {letter: letters[letter] for letter in rest}},
@@ -209,7 +211,8 @@ def test_malformed_evidence_is_refused(name: str) -> None:
         {"variables": {**variables, bound[0]: "a"}} if "a" in before.free else {"variables": {}},
         {"variables": dict.fromkeys(variables, "x")} if len(bound) > 1 else {"variables": {}},
         {"more": 1},
-    ):
+    ]
+    for change in changes:
         assert objection(before, after, {**evidence, **change}, known)
 
 
@@ -244,3 +247,20 @@ def test_a_statement_that_is_none() -> None:
     assert used is not None
     with pytest.raises(InputError):
         replace(used, letters=()).generic("block")
+
+
+def test_an_answer_names_the_axioms_that_it_needs() -> None:
+    answer = qe.eliminate("ex x, y. x^2 + y^2 <= a and (x - b)^2 + y^2 <= 1", check=True)
+    assert answer.guarantee is qe.Guarantee.CHECKED and answer.trusts == ("two balls meet",)
+    assert answer.certificate is not None
+    again = qe.Certificate.from_json(answer.certificate.to_json())
+    assert qe.Certificate.bundle([("one", again), ("two", again)]).trusts == answer.trusts
+    assert qe.eliminate("ex x, y. x^2 + y^2 <= a and x*y > 1 and x < 0", check=True, without="balls").trusts == ()
+    for name in ("a parabola takes a value", "a line meets a box"):
+        assert "axiom" not in rows()[name].data  # proved: nothing to believe
+
+
+def test_a_step_of_a_former_release_needs_the_axioms_of_its_family() -> None:
+    step: Json = {"rule": "quadric in a quadric", "evidence": {"along": "x"}}
+    certificate = qe.Certificate(Kind.DERIVATION, {"steps": [step]})
+    assert certificate.trusts == tuple(n for n, row in rows().items() if row.family == "quadric in a quadric")
