@@ -1,4 +1,5 @@
-"""Primitives "steps", "converse" and "no exception": one step that is made of steps of its own.
+"""Primitives "steps", "converse" and "no exception": one step that is made of steps of its own. The first is also
+called "virtual substitution" and "equations taken apart".
 
 THEOREM (steps). Equivalence is transitive, and A <-> B iff not A <-> not B: the steps lead from A to B; for a
 universal block both sides are negated. THEOREM (converse). A <-> B iff B <-> A: the steps lead from B to A. THEOREM

@@ -1,4 +1,6 @@
 """Primitive "quantifiers": negations, names, places and order of quantifiers, with nothing said about what is compared.
+Steps are also called "renaming", "duality", "negation normal form", "nested blocks of one kind gathered", and
+"independent parts and miniscoping".
 
 THEOREM. With A, B for any formulas and v for variables: not ex v A iff all v not A, and De Morgan's laws; a bound
 variable may get another name that captures nothing; ex v A iff A, where no variable of v is free in A (R is not

@@ -26,7 +26,8 @@ def theorem_of(rule: str) -> tuple[str, ...]:
 def _checkers() -> tuple[tuple[str, tuple[str, ...]], ...]:
     """For every checker the first paragraph of its docstring, which names its rules, and its theorems."""
     found = []
-    for file in sorted(files("qe").joinpath("certify").iterdir(), key=lambda f: f.name):
+    checkers = (file for folder in ("kernel", "certify") for file in files("qe").joinpath(folder).iterdir())
+    for file in sorted(checkers, key=lambda f: f.name):
         if file.name.endswith(".py"):
             head, *more = _docstring(file.read_text("utf-8")).split("\n\n")
             found.append((" ".join(head.split()), tuple(part for text in more for part in _theorems(text))))

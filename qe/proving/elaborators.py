@@ -78,7 +78,7 @@ def square_alone(claim: Claim, context: Context, limits: Limits) -> list[Json]:
     solved = next(by_theorems(inner, (), claim, limits, place), None)
     if solved is None:
         raise claim.fail("not an instance of a theorem")
-    return [written("quantifiers", (), block, middle, (), {}), solved[0]]
+    return [*_regrouped(block, middle), solved[0]]
 
 
 def value_taken(claim: Claim, context: Context, limits: Limits) -> list[Json]:
@@ -99,7 +99,7 @@ def value_taken(claim: Claim, context: Context, limits: Limits) -> list[Json]:
         theory = refuting(root_goals(step, facts), claim.ring, limits)
         if theory is not None:
             taken = written("root", place, inner, TRUE, facts, {**evidence, "theory": theory})
-            return [written("quantifiers", (), block, middle, (), {}), taken]
+            return [*_regrouped(block, middle), taken]
     raise claim.fail("not shown that the value is taken")
 
 
@@ -269,6 +269,11 @@ def _along(ring: Ring, name: str, by: Fraction, variable: str) -> Quotient:
 
 
 _SIDE = {1: Relation.GT, 0: Relation.EQ, -1: Relation.LT}
+
+
+def _regrouped(before: Formula, after: Formula) -> list[Json]:
+    """A step that moves quantifiers, unless nothing moves."""
+    return [] if before == after else [written("quantifiers", (), before, after, (), {})]
 
 
 def _solved(equation: Atom, name: str) -> Json:
