@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pickle
+from dataclasses import replace
 from itertools import combinations
 
 import pytest
@@ -90,6 +91,13 @@ def test_a_factor_that_is_zero_over_a_curve_is_no_surprise(projection: Projectio
     order, kinds, operator = ("x", "y", "z", "w"), ("", "", "", "E"), OPERATORS[projection]
     made = decompose(read("x*w + y*z > 0 and w > 1"), order, kinds, budget=Budget(20), operator=operator)
     assert made.operator == operator.complete and made.nullified is (operator.otherwise is not None)
+
+
+def test_constraints_restrict_no_operator_without_a_side_condition() -> None:
+    """Lifting would take a constraint that is nullified for one that says something."""
+    for operator in OPERATORS.values():
+        with pytest.raises(ValueError, match="nullified"):
+            replace(operator, restricted=True, otherwise=None)
 
 
 @pytest.mark.parametrize("projection", Projection)

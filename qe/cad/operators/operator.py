@@ -58,6 +58,10 @@ class Operator:
     proof: Projection
     """The operator by whose theorem a table is recorded and checked: one whose factor lists these are as well."""
 
+    def __post_init__(self) -> None:
+        if self.restricted and self.otherwise is None:
+            raise ValueError("the theorems on equational constraints need that nothing is nullified")
+
     @property
     def complete(self) -> Operator:
         """The operator without side condition among this one and those that take over from it."""

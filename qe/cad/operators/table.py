@@ -10,4 +10,8 @@ from qe.cad.operators.mccallum import MCCALLUM
 from qe.cad.operators.operator import Operator
 from qe.options import Projection
 
-OPERATORS: Mapping[Projection, Operator] = {o.name: o for o in (BROWN_MCCALLUM, LAZARD, MCCALLUM)}
+OPERATORS: Mapping[Projection, Operator] = {
+    Projection.BROWN_MCCALLUM: BROWN_MCCALLUM,
+    Projection.LAZARD: LAZARD,
+    Projection.MCCALLUM: MCCALLUM,
+}
