@@ -185,6 +185,14 @@ def test_another_version_is_refused() -> None:
         Certificate.from_json(text)
 
 
+def test_an_operator_without_a_theorem_of_the_checker_is_refused() -> None:
+    """McCallum's tables are recorded under the theorem that proves them, never under his name."""
+    made = decompose(read(LENS[0]), ("x", "y"), ("", ""), budget=Budget(60), operator=OPERATORS[Projection.MCCALLUM])
+    assert made.operator.name is Projection.MCCALLUM and made.table.projection is Projection.BROWN_MCCALLUM
+    verdict = verify_json(replaced(_whole(LENS), ("payload", "projection"), "mccallum"))
+    assert not verdict.accepted and verdict.step == "payload.projection"
+
+
 def without_discriminants(operator: Operator) -> Operator:
     def of_one(f: Poly, variable: int) -> Iterator[Poly]:
         yield from (p for p in operator.of_one(f, variable) if p != discriminant(f, variable))

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import ast
 import pickle
 from dataclasses import replace
 from itertools import combinations
+from pathlib import Path
 
 import pytest
 
+import qe as qe_package
 from qe.cad.decompose import decompose
 from qe.cad.operators.operator import Operator
 from qe.cad.operators.table import OPERATORS
@@ -91,6 +94,25 @@ def test_a_factor_that_is_zero_over_a_curve_is_no_surprise(projection: Projectio
     order, kinds, operator = ("x", "y", "z", "w"), ("", "", "", "E"), OPERATORS[projection]
     made = decompose(read("x*w + y*z > 0 and w > 1"), order, kinds, budget=Budget(20), operator=operator)
     assert made.operator == operator.complete and made.nullified is (operator.otherwise is not None)
+
+
+def test_only_the_operators_and_the_checker_tell_them_apart() -> None:
+    """Whoever else compares one with another has missed what the value says."""
+    qe = Path(qe_package.__file__).parent
+    files = {path.relative_to(qe).as_posix() for path in qe.rglob("*.py") if _compares(ast.parse(path.read_text()))}
+    assert files == {"certify/closure.py"}
+
+
+def _compares(module: ast.Module) -> bool:
+    """Whether something is compared, or matched, with an operator or the name of one."""
+    for node in ast.walk(module):
+        if isinstance(node, ast.Compare | ast.MatchValue):
+            for part in ast.walk(node):
+                if isinstance(part, ast.Attribute) and ast.unparse(part.value) == "Projection":
+                    return True
+                if isinstance(part, ast.Name) and part.id in {p.name for p in Projection}:
+                    return True
+    return False
 
 
 def test_constraints_restrict_no_operator_without_a_side_condition() -> None:
