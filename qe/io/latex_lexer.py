@@ -9,11 +9,10 @@ from __future__ import annotations
 import re
 from collections.abc import Generator, Iterator
 
-from qe.io.building import SIGNS
-from qe.io.lalr import Token
 from qe.io.surface import FUNCTIONS
 from qe.io.text_errors import SyntaxFailure, way_out
-from qe.io.text_lexer import OPERAND_ENDS, Make, State
+from qe.io.text_lexer import OPERAND_ENDS, State
+from qe.io.tokens import SIGNS, Token
 from qe.spelling import NUMERALS, QUOTED, visible
 
 _COMMANDS = {
@@ -51,7 +50,6 @@ _SIGNS = {
     **SIGNS,
     "[": "LEFT",
     "]": "RIGHT",
-    ",": "COMMA",
     ".": "DOT",
     ":": "DOT",
     "|": "BAR",
@@ -95,14 +93,14 @@ def is_latex(text: str) -> bool:
     return _MARK.search(_BACKQUOTED.sub("", text) if "`" in text else text) is not None
 
 
-def tokens(text: str, token: Make) -> Iterator[Token]:
+def tokens(text: str) -> Iterator[Token]:
     """The tokens of a source. Raises ``SyntaxFailure`` where there is none."""
-    yield from _Source(text, token).between(0, len(text))
+    yield from _Source(text).between(0, len(text))
 
 
 class _Source:
-    def __init__(self, text: str, token: Make) -> None:
-        self.text, self.state = text, State(text, token)
+    def __init__(self, text: str) -> None:
+        self.text, self.state = text, State(text)
         self.sets: list[bool] = []  # of the braces that are open: whether they stand around arguments
         self.rows = False  # inside cases, whose rows hold together
 
@@ -121,7 +119,7 @@ class _Source:
         if kind == "COMMA" and self.state.header and not _NEXT.match(self.text, at + 1):
             kind = "DOT"
         self.state.note(kind)
-        yield self.state.token(kind, value, at)
+        yield Token(kind, value, at)
 
     def between(self, at: int, end: int) -> Iterator[Token]:
         """The tokens from one offset to another."""

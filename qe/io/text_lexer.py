@@ -8,13 +8,13 @@ else can be meant: a number directly in front of a name or a bracket.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 
 from qe.errors import InputError
-from qe.io.lalr import Token
 from qe.io.names import check_name
 from qe.io.surface import FUNCTIONS
 from qe.io.text_errors import SyntaxFailure, unknown_character
+from qe.io.tokens import Token
 from qe.spelling import QUOTED, WORD, unquoted
 
 _LIST = rf"(?:{WORD}|{QUOTED})"
@@ -128,12 +128,10 @@ _KINDS_OF_NUMBERS = {
 _NO_REALS = frozenset(("Z", "N", "Q", "C", "ℤ", "ℕ", "ℚ", "ℂ", "Integers", "Rationals", "Complexes", "Naturals"))
 _ALSO_REALS = frozenset(("R", "RR", "Real", "reals", "real"))
 
-Make = Callable[..., Token]
 
-
-def tokens(text: str, token: Make) -> Iterator[Token]:
+def tokens(text: str) -> Iterator[Token]:
     """The tokens of a text. Raises ``SyntaxFailure`` where there is none."""
-    state = State(text, token)
+    state = State(text)
     at, end, match = 0, len(text.rstrip("; \t\r\n")), _TOKEN.match
     if end and text[end - 1] == ".":
         end -= 1  # a full stop
@@ -222,8 +220,8 @@ class State:
     that are open, and whether there was a comparison since the last connective.
     """
 
-    def __init__(self, text: str, token: Make) -> None:
-        self.text, self.token, self.end = text, token, 0
+    def __init__(self, text: str) -> None:
+        self.text, self.end = text, 0
         self.last = ""
         self.header, self.spoken, self.bounded, self.quantifier = False, False, False, ""
         self.divided = False
@@ -262,7 +260,7 @@ class State:
                 raise SyntaxFailure(f"{shown} is ambiguous: a product without * after a division; {hint}", at)
             yield from self.put("TIMES", "*", at)
         self.note(kind)
-        yield self.token(kind, value, at)
+        yield Token(kind, value, at)
 
     def prefix(self, value: str, at: int) -> Iterator[Token]:
         """``(E x, y)``, as in front of a formula in brackets."""
@@ -276,7 +274,7 @@ class State:
             name = found[1]
             shown = "," if name is None else quoted_name(name, at) if name[0] == "`" else name
             self.note("NAME" if name else "COMMA")
-            yield self.token("NAME" if name else "COMMA", shown, at + found.start())
+            yield Token("NAME" if name else "COMMA", shown, at + found.start())
 
     def set_named(self, name: str, at: int) -> str:
         """The kind of a set that is named."""
@@ -345,4 +343,4 @@ class State:
             raise SyntaxFailure(message, at)
         self.bars[-1] += {"OPENBAR": 1, "CLOSEBAR": -1}.get(kind, 0)
         self.note(kind)
-        yield self.token(kind, "|", at)
+        yield Token(kind, "|", at)
