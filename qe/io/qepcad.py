@@ -15,29 +15,13 @@ from qe.exact.ring import Poly
 from qe.formula.normal import Quantifier, prenex
 from qe.formula.notation import Notation, polynomial, positive
 from qe.formula.syntax import Formula, Relation
+from qe.io import parser as p
 from qe.io import surface as s
 from qe.io.lowering import lower
 from qe.io.names import Renaming
-from qe.io.parser import (
-    BODY,
-    FORMULA,
-    INFIX,
-    JUXTAPOSED,
-    NOT,
-    PREFIX,
-    PRIMARY,
-    RELATION,
-    REPLIED,
-    SIMPLE,
-    TERM,
-    Infix,
-    Parser,
-    Prefix,
-    Waiting,
-    parsed,
-)
+from qe.io.parser import FORMULA, TERM, Infix, Parser, Prefix, Waiting, parsed
 from qe.io.text_errors import Failing, SyntaxFailure
-from qe.io.tokens import SIGNS, Token, matches
+from qe.io.tokens import SIGNS, Token, kinds, matches
 
 _SESSION = re.compile(
     r"\s*\[[^\]]*\]\s*\((?P<names>[^()]*)\)\s*(?P<free>[0-9]+)\s*(?P<formula>[^.]*)\.(?P<rest>.*)", re.DOTALL
@@ -50,20 +34,19 @@ _TOKEN = re.compile(
     r"|(?P<OPERATOR><==>|==>|<==|<=|>=|/=|/\\|\\/|[-+*/^()=<>~\[\]])"
 )
 _QUANTIFIER = re.compile(r"\s*\(\s*(?P<kind>[EAFGC]|X\s*[0-9]+)\s+(?P<name>[A-Za-z][A-Za-z0-9_]*'*)\s*\)")
-_KINDS = {
-    **dict.fromkeys(("=", "/=", "<", "<=", ">", ">="), "RELATION"),
-    **SIGNS,
-    "[": "BEGIN",
-    "]": "END",
-    "/\\": "AND",
-    "\\/": "OR",
-    "~": "NOT",
-    "==>": "IMPLIES",
-    "<==": "REPL",
-    "<==>": "IFF",
-    "TRUE": "TRUE",
-    "FALSE": "FALSE",
-}
+_KINDS = SIGNS | kinds(r"""
+RELATION = /= < <= > >=
+BEGIN [
+END ]
+AND /\
+OR \/
+NOT ~
+IMPLIES ==>
+REPL <==
+IFF <==>
+TRUE TRUE
+FALSE FALSE
+""")
 
 
 def read(text: str, *, source: str = "<text>") -> Formula:
@@ -120,7 +103,7 @@ class _Parser(Parser):
 
     def quantifier(self) -> None:
         kind, name = self.advance().text.split()
-        self.stack.append(Waiting(BODY, FORMULA, FORMULA, lambda body: s.Quantification(kind == "A", [name], body)))
+        self.stack.append(Waiting(p.BODY, FORMULA, FORMULA, lambda body: s.Quantification(kind == "A", [name], body)))
 
     def term_in_brackets(self) -> None:
         self.advance()
@@ -129,20 +112,20 @@ class _Parser(Parser):
     def formula_in_brackets(self) -> None:
         self.advance()
         self.open(FORMULA, "END")
+
     infix = {  # noqa: RUF012
-        **INFIX,
-        **REPLIED,
-        "ROOT": Infix(RELATION, RELATION, SIMPLE, TERM, FORMULA, _root_comparison),
-        **dict.fromkeys(("NAME", "NUMBER", "OPEN"), JUXTAPOSED),
+        **p.INFIX,
+        **p.REPLIED,
+        "ROOT": Infix(p.RELATION, p.RELATION, p.SIMPLE, TERM, FORMULA, _root_comparison),
+        **dict.fromkeys(("NAME", "NUMBER", "OPEN"), p.JUXTAPOSED),
     }
     prefix = {  # noqa: RUF012
-        **PREFIX,
-        "NAME": Prefix(TERM, PRIMARY, Parser.name),
-        "QUANTIFIER": Prefix(FORMULA, BODY, quantifier),
-        "OPEN": Prefix(TERM, PRIMARY, term_in_brackets),
-        "BEGIN": Prefix(FORMULA, NOT, formula_in_brackets),
+        **p.PREFIX,
+        "NAME": Prefix(TERM, p.PRIMARY, Parser.name),
+        "QUANTIFIER": Prefix(FORMULA, p.BODY, quantifier),
+        "OPEN": Prefix(TERM, p.PRIMARY, term_in_brackets),
+        "BEGIN": Prefix(FORMULA, p.NOT, formula_in_brackets),
     }
-
 
 
 def write(formula: Formula) -> str:

@@ -20,7 +20,7 @@ from qe.io.lowering import lower
 from qe.io.names import Renaming, check_name
 from qe.io.parser import FORMULA, INFIX, NOT, PREFIX, REPLIED, Parser, Prefix, parsed
 from qe.io.text_errors import Failing, SyntaxFailure
-from qe.io.tokens import END, SIGNS, Token, matches
+from qe.io.tokens import END, SIGNS, Token, kinds, matches
 
 _TOKEN = re.compile(
     r"(?P<SPACE>\s+|%[^\n]*)"
@@ -29,43 +29,20 @@ _TOKEN = re.compile(
     r"|(?P<OPERATOR>:=|<=|>=|<>|\*\*|[-+*/^()={},<>;$])"
 )
 _ASSIGNMENT = re.compile(r"(?:\s|%[^\n]*\n)*[A-Za-z!](?:[A-Za-z0-9_]|!.)*\s*:=")
-_WORDS = {
-    "and": "AND",
-    "or": "OR",
-    "not": "NOT",
-    "impl": "IMPLIES",
-    "repl": "REPL",
-    "equiv": "IFF",
-    "true": "TRUE",
-    "false": "FALSE",
-    "ex": "QUANTIFIER",
-    "all": "QUANTIFIER",
-    "neq": "RELATION",
-    "geq": "RELATION",
-    "leq": "RELATION",
-    "equal": "RELATION",
-    "lessp": "RELATION",
-    "greaterp": "RELATION",
-}
-_RELATIONS = {
-    "<>": "/=",
-    "neq": "/=",
-    "geq": ">=",
-    "leq": "<=",
-    "equal": "=",
-    "lessp": "<",
-    "greaterp": ">",
-}
-_KINDS = {
-    **dict.fromkeys(("=", "<>", "<", "<=", ">", ">="), "RELATION"),
-    **SIGNS,
-    "**": "POWER",
-    "{": "BEGIN",
-    "}": "END",
-    ":=": "ASSIGN",
-    ";": "STOP",
-    "$": "STOP",
-}
+_WORDS = kinds("""
+AND and
+OR or
+NOT not
+IMPLIES impl
+REPL repl
+IFF equiv
+TRUE true
+FALSE false
+QUANTIFIER ex all
+RELATION neq geq leq equal lessp greaterp
+""")
+_RELATIONS = kinds("/= <> neq\n>= geq\n<= leq\n= equal\n< lessp\n> greaterp")
+_KINDS = {**SIGNS, **kinds("RELATION = <> < <= > >=\nPOWER **\nBEGIN {\nEND }\nASSIGN :=\nSTOP ; $")}
 _CAPITAL = re.compile(r"[A-Z]")
 _PLAIN = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 _RESERVED = re.compile(

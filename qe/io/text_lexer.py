@@ -14,11 +14,64 @@ from qe.errors import InputError
 from qe.io.names import check_name
 from qe.io.surface import FUNCTIONS
 from qe.io.text_errors import SyntaxFailure, unknown_character
-from qe.io.tokens import Token
+from qe.io.tokens import Token, kinds
 from qe.spelling import QUOTED, WORD, unquoted
 
 _LIST = rf"(?:{WORD}|{QUOTED})"
 _PREFIXES = r"(?:(?:E|A|ex|all|exists|forall)\s+|[∃∀]\s*|[EA](?=[a-z][0-9]*\s*\)))"
+KEYWORDS = kinds("""
+QUANTIFIER ex exists Ex Exists EXISTS all forall All ForAll Forall FORALL
+AND and AND
+OR or OR
+NOT not NOT
+TRUE true True TRUE
+FALSE false False FALSE
+INFINITY oo infinity Infinity inf Inf
+IMPLIES implies
+IFF iff
+IN in
+REALS Reals ℝ
+IF if
+THEN then
+ELSE else
+""")
+_OPERATORS = kinds(r"""
+QUANTIFIER ∃ ∀ \[ForAll] \[Exists]
+RELATION = == /= =/= != =!= ~= <> ≠ < <= =< ≤ ⩽ > >= ≥ ⩾ \[Equal] \[NotEqual] \[LessEqual] \[GreaterEqual]
+PLUS +
+MINUS - −
+TIMES * · × ⋅
+OVER / ÷ ⁄ ∕
+POWER ^ **
+OPEN (
+CLOSE )
+LEFT [
+RIGHT ]
+BEGIN {
+END }
+COMMA ,
+DOT . :
+AND /\ ∧ & && \[And]
+OR \/ ∨ || \[Or]
+NOT ~ ¬ ! \[Not]
+IMPLIES -> ==> → ⇒ ⟹ ⟶ => \[Implies]
+IFF <-> <=> <==> ↔ ⇔ ⟺ ⟷ \[Equivalent]
+TRUE ⊤
+FALSE ⊥
+IN ∈ \[Element]
+INFINITY ∞ \[Infinity]
+RADICAL √ ∛
+UNION ∪
+COMMON ∩
+WITHOUT ∖
+BAR |
+""")
+_CALLS = kinds("""
+CONNECTIVE And Or Not Implies Equivalent Xor
+COMPARE Eq Equal Ne Unequal Lt Less Le LessEqual Gt Greater Ge GreaterEqual Inequality
+CHOICE If ITE ite
+ELEMENT Element
+""")
 _TOKEN = re.compile(
     rf"(?P<SPACE>\s+|\#[^\n]*|[Tt]here\s+(?=exists\b))"
     r"|(?P<NONE>∄)"
@@ -28,8 +81,7 @@ _TOKEN = re.compile(
     r"|(?P<THAT>such\s+that\b|s\.\s?t\.|with\b)"
     r"|(?P<NOTIN>not\s+in\b|∉)"
     rf"|(?P<QUANTIFIER>[EA](?=\s+{_LIST}\s*(?:,\s*{_LIST}\s*)*[.:]))\b"
-    r"|(?P<CALL>(?:And|Or|Not|Implies|Equivalent|Xor|Eq|Equal|Ne|Unequal|Lt|Less|Le|LessEqual|Gt|Greater|Ge|GreaterEqual"
-    r"|Inequality|Element|If|ITE|ite)(?=\s*[(\[]))\b"
+    rf"|(?P<CALL>(?:{'|'.join(_CALLS)})(?=\s*[(\[]))\b"
     rf"|(?P<NAME>{WORD})"
     r"|(?P<NUMBER>(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]+)?|[¼-¾⅐-⅞↉])"
     rf"|(?P<QUOTED>{QUOTED})"
@@ -37,73 +89,6 @@ _TOKEN = re.compile(
     r"|(?P<OPERATOR><==>|<->|<=>|==>|=>|->|=<|=/=|=!=|<=|>=|==|/=|!=|~=|<>|/\\|\\/|&&|\|\||\*\*|\\\[\w+\]"
     r"|[-+*/^()=<>~,.:∃∀∧∨¬→↔⇒⇔⟹⟺⟶⟷⊤⊥≤≥⩽⩾≠−·×⋅÷⁄∕∈∞√∛∪∩∖&|!{}]|\[|\])"
 )
-KEYWORDS = {
-    **dict.fromkeys(("ex", "exists", "Ex", "Exists", "EXISTS", "all", "forall", "All"), "QUANTIFIER"),
-    **dict.fromkeys(("ForAll", "Forall", "FORALL"), "QUANTIFIER"),
-    **dict.fromkeys(("and", "AND"), "AND"),
-    **dict.fromkeys(("or", "OR"), "OR"),
-    **dict.fromkeys(("not", "NOT"), "NOT"),
-    **dict.fromkeys(("true", "True", "TRUE"), "TRUE"),
-    **dict.fromkeys(("false", "False", "FALSE"), "FALSE"),
-    **dict.fromkeys(("oo", "infinity", "Infinity", "inf", "Inf"), "INFINITY"),
-    "implies": "IMPLIES",
-    "iff": "IFF",
-    "in": "IN",
-    **dict.fromkeys(("Reals", "ℝ"), "REALS"),
-    "if": "IF",
-    "then": "THEN",
-    "else": "ELSE",
-}
-_OPERATORS = {
-    **dict.fromkeys(("∃", "∀"), "QUANTIFIER"),
-    **dict.fromkeys(("=", "==", "/=", "=/=", "!=", "=!=", "~=", "<>", "≠"), "RELATION"),
-    **dict.fromkeys(("<", "<=", "=<", "≤", "⩽", ">", ">=", "≥", "⩾"), "RELATION"),
-    "+": "PLUS",
-    **dict.fromkeys(("-", "−"), "MINUS"),
-    **dict.fromkeys(("*", "·", "×", "⋅"), "TIMES"),
-    **dict.fromkeys(("/", "÷", "⁄", "∕"), "OVER"),
-    **dict.fromkeys(("^", "**"), "POWER"),
-    "(": "OPEN",
-    ")": "CLOSE",
-    "[": "LEFT",
-    "]": "RIGHT",
-    "{": "BEGIN",
-    "}": "END",
-    ",": "COMMA",
-    **dict.fromkeys((".", ":"), "DOT"),
-    **dict.fromkeys(("/\\", "∧", "&", "&&"), "AND"),
-    **dict.fromkeys(("\\/", "∨", "||"), "OR"),
-    **dict.fromkeys(("~", "¬", "!"), "NOT"),
-    **dict.fromkeys(("->", "==>", "→", "⇒", "⟹", "⟶", "=>"), "IMPLIES"),
-    **dict.fromkeys(("<->", "<=>", "<==>", "↔", "⇔", "⟺", "⟷"), "IFF"),
-    "⊤": "TRUE",
-    "⊥": "FALSE",
-    "∈": "IN",
-    "∞": "INFINITY",
-    **dict.fromkeys(("√", "∛"), "RADICAL"),
-    "∪": "UNION",
-    "∩": "COMMON",
-    "∖": "WITHOUT",
-    "|": "BAR",
-}
-_NAMED = {
-    **dict.fromkeys(("ForAll", "Exists"), "QUANTIFIER"),
-    **dict.fromkeys(("Equal", "NotEqual", "LessEqual", "GreaterEqual"), "RELATION"),
-    "And": "AND",
-    "Or": "OR",
-    "Not": "NOT",
-    "Implies": "IMPLIES",
-    "Equivalent": "IFF",
-    "Element": "IN",
-    "Infinity": "INFINITY",
-}
-_CALLS = {
-    **dict.fromkeys(("And", "Or", "Not", "Implies", "Equivalent", "Xor"), "CONNECTIVE"),
-    **dict.fromkeys(("Eq", "Equal", "Ne", "Unequal", "Lt", "Less", "Le", "LessEqual"), "COMPARE"),
-    **dict.fromkeys(("Gt", "Greater", "Ge", "GreaterEqual", "Inequality"), "COMPARE"),
-    **dict.fromkeys(("If", "ITE", "ite"), "CHOICE"),
-    "Element": "ELEMENT",
-}
 _RAISED = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
 OPERAND_ENDS = frozenset(("NAME", "NUMBER", "CLOSE", "RIGHT", "END", "CLOSEBAR", "INFINITY", "REALS", "TRUE", "FALSE"))
 """Tokens after which a term or a formula may be complete."""
@@ -193,12 +178,9 @@ def _number(value: str, state: State, text: str, at: int) -> str:
 
 
 def _operator(value: str, at: int) -> str:
-    if not value.startswith("\\["):
-        return _OPERATORS[value]
-    kind = _NAMED.get(value[2:-1])
-    if kind is None:
+    if value not in _OPERATORS:
         raise SyntaxFailure(f"unknown character {value}", at)
-    return kind
+    return _OPERATORS[value]
 
 
 def quoted_name(text: str, at: int) -> str:

@@ -11,7 +11,13 @@ from qe.io.text_errors import unknown_character
 END = "$END"
 """The kind of the token behind a text."""
 
-SIGNS = {"+": "PLUS", "-": "MINUS", "*": "TIMES", "/": "OVER", "^": "POWER", "(": "OPEN", ")": "CLOSE", ",": "COMMA"}
+
+def kinds(table: str) -> dict[str, str]:
+    """Kinds by spelling, from lines of a kind and its spellings."""
+    return {spelling: kind for line in table.splitlines() if line for kind, *row in [line.split()] for spelling in row}
+
+
+SIGNS = kinds("PLUS +\nMINUS -\nTIMES *\nOVER /\nPOWER ^\nOPEN (\nCLOSE )\nCOMMA ,")
 """The kinds of the signs that terms have in every format."""
 
 
