@@ -75,6 +75,8 @@ class Parser(ABC):
     ``token`` is the next token. Failures are raised as ``SyntaxFailure``.
     """
 
+    calls: ClassVar[dict[str, tuple[str, ...]]] = {"NAME": ("OPEN", "LEFT")}
+    """The brackets that make a call of the token in front of them."""
     infix: ClassVar[dict[str, Infix]]
     prefix: ClassVar[dict[str, Prefix]]
 
@@ -106,7 +108,7 @@ class Parser(ABC):
                 raise self.unexpected(self.following(value))
             while len(self.stack) > waiting:
                 value = self.stack.pop().make(value)
-            operator = self.infix.get(self.token.kind)
+            operator = self.operator(self.token.kind)
             if operator is not None:
                 value = self.joined(value, operator)
             elif waiting > 1:
@@ -133,7 +135,7 @@ class Parser(ABC):
 
     def waiting_on(self, value: Any, kind: str) -> int:
         """How many of the stack go on waiting if a token of this kind follows ``value``; 0 where it cannot follow."""
-        operator = self.infix.get(kind)
+        operator = self.operator(kind)
         limit = BODY if operator is None else operator.limit
         sort = TERM | SIMPLE if type(value) in _TERMS else FORMULA
         count = len(self.stack)
@@ -147,6 +149,11 @@ class Parser(ABC):
         else:
             fits = bool(operator.takes & sort and operator.gives & (last.wants | TERM))
         return count if fits else 0
+
+    def operator(self, kind: str) -> Infix | None:
+        """The infix operator that a token of this kind is; a product that is not written goes where it can."""
+        operator = self.infix.get(kind)
+        return None if operator is JUXTAPOSED and kind in self.stack[0].closing else operator
 
     def joined(self, left: Any, operator: Infix) -> Any:
         """Put an infix operator behind ``left``; the operand that comes after it."""
@@ -201,13 +208,9 @@ class Parser(ABC):
         except TermError as error:
             raise SyntaxFailure(str(error), at) from None
 
-    def name(self) -> s.Term:
-        _, text, at = self.advance()
-        return s.Name(text, at)
-
     def name_or_call(self) -> s.Term | None:
         token = self.advance()
-        if self.token.kind not in ("OPEN", "LEFT"):
+        if self.token.kind not in self.calls[token.kind]:
             return s.Name(token.text, token.at)
         self.open(TERM, CLOSES[self.advance().kind], lambda parts: applied(self.text, token, parts), many=True)
         return None
@@ -288,7 +291,7 @@ INFIX = {
     "POWER": Infix(POWER, POWER, SIMPLE, TERM, TERM, lambda left, right, token: s.Power(left, right, token.at)),
 }
 """The operators that all formats share; only implication goes to the right."""
-JUXTAPOSED = Infix(PRODUCT, PRODUCT, TERM, TERM, TERM, lambda left, right, _: s.Product(left, right, -1), written=False)
+JUXTAPOSED = INFIX["TIMES"]._replace(written=False)
 """A product without a sign."""
 REPLIED = {"REPL": Infix(IMPLIES, OR, FORMULA, FORMULA, FORMULA, lambda left, right, _: s.Implication(right, left))}
 """The implication that is written backwards."""

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from typing import ClassVar
 
 from qe.exact.ring import Poly
 from qe.formula.normal import Quantifier, prenex
@@ -113,6 +114,7 @@ class _Parser(Parser):
         self.advance()
         self.open(FORMULA, "END")
 
+    calls: ClassVar = {"NAME": ()}
     infix = {  # noqa: RUF012
         **p.INFIX,
         **p.REPLIED,
@@ -121,7 +123,6 @@ class _Parser(Parser):
     }
     prefix = {  # noqa: RUF012
         **p.PREFIX,
-        "NAME": Prefix(TERM, p.PRIMARY, Parser.name),
         "QUANTIFIER": Prefix(FORMULA, p.BODY, quantifier),
         "OPEN": Prefix(TERM, p.PRIMARY, term_in_brackets),
         "BEGIN": Prefix(FORMULA, p.NOT, formula_in_brackets),

@@ -98,6 +98,8 @@ def unexpected_token(text: str, kind: str, value: str, at: int, expected: Collec
         return SyntaxFailure("the text ends too early", len(before), wanted)
     if kind == "CLOSE" and "CLOSE" not in expected and _unmatched_opening(text[:at]) is None:
         return SyntaxFailure("unbalanced brackets: this ')' has no partner", at)
+    if value == "=>":
+        return SyntaxFailure("'=>' is not used here; write >= for a comparison or -> for an implication", at + 1)
     hint = _word_hint(before, kind, value, expected) or _hint(text, before, kind, value, at, expected)
     if hint:
         return SyntaxFailure(hint, at)

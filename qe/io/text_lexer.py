@@ -1,8 +1,7 @@
 """The tokens of the text syntax: what people type for the same thing becomes one token.
 
-Bars are told apart here: between a comparison and what follows it ``|`` means "or", in front of a term it opens an
-absolute value, and the next one on the same level of brackets closes it. A product without a sign is read where nothing
-else can be meant: a number directly in front of a name or a bracket.
+A product without a sign is read where nothing else can be meant: a number
+directly in front of a name or a bracket.
 """
 
 from __future__ import annotations
@@ -52,7 +51,7 @@ END }
 COMMA ,
 DOT . :
 AND /\ ∧ & && \[And]
-OR \/ ∨ || \[Or]
+OR \/ ∨ \[Or]
 NOT ~ ¬ ! \[Not]
 IMPLIES -> ==> → ⇒ ⟹ ⟶ => \[Implies]
 IFF <-> <=> <==> ↔ ⇔ ⟺ ⟷ \[Equivalent]
@@ -86,7 +85,7 @@ _TOKEN = re.compile(
     r"|(?P<NUMBER>(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]+)?|[¼-¾⅐-⅞↉])"
     rf"|(?P<QUOTED>{QUOTED})"
     r"|(?P<RAISED>⁻?[⁰¹²³⁴-⁹]+)"
-    r"|(?P<OPERATOR><==>|<->|<=>|==>|=>|->|=<|=/=|=!=|<=|>=|==|/=|!=|~=|<>|/\\|\\/|&&|\|\||\*\*|\\\[\w+\]"
+    r"|(?P<OPERATOR><==>|<->|<=>|==>|=>|->|=<|=/=|=!=|<=|>=|==|/=|!=|~=|<>|/\\|\\/|&&|\*\*|\\\[\w+\]"
     r"|[-+*/^()=<>~,.:∃∀∧∨¬→↔⇒⇔⟹⟺⟶⟷⊤⊥≤≥⩽⩾≠−·×⋅÷⁄∕∈∞√∛∪∩∖&|!{}]|\[|\])"
 )
 _RAISED = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
@@ -110,8 +109,6 @@ _KINDS_OF_NUMBERS = {
     **dict.fromkeys(("integer", "integers", "natural", "rational", "complex"), "all variables are real"),
 }
 """Words in front of the variables of a quantifier that would otherwise be taken for a variable."""
-_NO_REALS = frozenset(("Z", "N", "Q", "C", "ℤ", "ℕ", "ℚ", "ℂ", "Integers", "Rationals", "Complexes", "Naturals"))
-_ALSO_REALS = frozenset(("R", "RR", "Real", "reals", "real"))
 
 
 def tokens(text: str) -> Iterator[Token]:
@@ -198,8 +195,7 @@ class State:
 
     ``header``: inside a ``quantifier``, before its body, which may follow a comma where ``spoken``; ``bounded``: a
     condition stands behind the last of its variables; ``within``: the level of brackets at which the set ends that its
-    variables lie in. ``members``: the level inside ``Element[`` before its comma. For every level of brackets: the bars
-    that are open, and whether there was a comparison since the last connective.
+    variables lie in.
     """
 
     def __init__(self, text: str) -> None:
@@ -207,30 +203,18 @@ class State:
         self.last = ""
         self.header, self.spoken, self.bounded, self.quantifier = False, False, False, ""
         self.divided = False
-        self.bars, self.compared = [0], [False]
-        self.within, self.members = 0, 0
+        self.level, self.within = 1, 0
 
     def put(self, kind: str, value: str, at: int) -> Iterator[Token]:
         """The token, with the sign of a product in front of it where that is left out."""
-        if kind == "BAR" or (value == "||" and (self.last not in OPERAND_ENDS or self.bars[-1])):
-            for k in range(len(value)):
-                yield from self.bar(at + k)
-            return
-        if kind == "NAME" and self.last == "IN":
-            kind = self.set_named(value, at)
         if kind == "NAME" and self.header and value in _KINDS_OF_NUMBERS and _ANOTHER.match(self.text, at + len(value)):
             raise SyntaxFailure(_KINDS_OF_NUMBERS[value], at)
-        if kind == "NAME" and value in ("union", "Union") and self.last in ("CLOSE", "RIGHT", "END"):
-            kind = "UNION"
         if kind == "COMMA" and self.header:
             more = self.goes_on(at + 1)
             if self.bounded and (more or self.bounds_another(at + 1)):  # ∃ x > 0, y > 0: …
                 kind, value = "QUANTIFIER", self.quantifier
             elif self.spoken and not (more or self.bounds_another(at + 1)):
                 kind = "DOT"
-        if value == "=>" and not self.compared[-1]:
-            message = "'=>' is not used here; write >= for a comparison or -> for an implication"
-            raise SyntaxFailure(message, at + 1)
         if kind == "QUANTIFIER":
             self.spoken, self.quantifier, self.bounded = value not in _SHORT, value, False
         elif self.header and kind in ("RELATION", "IN"):
@@ -258,12 +242,6 @@ class State:
             self.note("NAME" if name else "COMMA")
             yield Token("NAME" if name else "COMMA", shown, at + found.start())
 
-    def set_named(self, name: str, at: int) -> str:
-        """The kind of a set that is named."""
-        if name in _NO_REALS:
-            raise SyntaxFailure(f"all variables are real, {name} cannot be asked for", at)
-        return "REALS" if name in _ALSO_REALS else "NAME"
-
     def goes_on(self, at: int) -> bool:
         """Whether another variable of the quantifier comes here, not its body."""
         found = _NEXT_NAME.match(self.text, at)
@@ -286,43 +264,14 @@ class State:
         if kind == "QUANTIFIER":
             self.header = True
         elif kind in ("DOT", "OPEN", "LEFT"):
-            self.header, self.within = False, len(self.bars) if self.header and last in ("IN", "UNION") else self.within
-        if kind == "ELEMENT":
-            self.members = len(self.bars) + 1
-        elif kind == "COMMA" and self.members == len(self.bars):
-            self.members = 0
+            self.header, self.within = False, self.level if self.header and last in ("IN", "UNION") else self.within
         if kind == "OVER":
             self.divided = True
         elif kind not in ("NAME", "NUMBER", "POWER", "CLOSE", "RIGHT"):
             self.divided = False
         if kind in ("OPEN", "LEFT", "BEGIN"):
-            self.bars.append(0)
-            self.compared.append(False)
+            self.level += 1
         elif kind in ("CLOSE", "RIGHT", "END"):
-            if len(self.bars) > 1:
-                self.bars.pop()
-                inner = self.compared.pop()
-                self.compared[-1] = self.compared[-1] or inner
-                if self.within == len(self.bars):  # the set that a quantifier ranges over is complete
-                    self.header, self.within = True, 0
-        elif kind in ("RELATION", "IN", "TRUE", "FALSE", "ELEMENT", "COMPARE"):
-            self.compared[-1] = True
-        elif kind in ("AND", "OR", "IMPLIES", "IFF", "DOT", "COMMA", "THEN", "ELSE"):
-            self.compared[-1] = False
-
-    def bar(self, at: int) -> Iterator[Token]:
-        """A bar opens or closes an absolute value, or means "or"; in ``Element[x | y, Reals]`` both are meant."""
-        if self.last not in OPERAND_ENDS:
-            kind = "OPENBAR"
-        elif self.bars[-1]:
-            kind = "CLOSEBAR"
-        elif self.compared[-1]:
-            kind = "OR"
-        elif self.members == len(self.bars):
-            kind = "ALSO"
-        else:
-            message = "this | can be neither 'or' nor the end of an absolute value; write a product as 2*|x|"
-            raise SyntaxFailure(message, at)
-        self.bars[-1] += {"OPENBAR": 1, "CLOSEBAR": -1}.get(kind, 0)
-        self.note(kind)
-        yield Token(kind, "|", at)
+            self.level -= 1
+            if self.within == self.level:  # the set that a quantifier ranges over is complete
+                self.header, self.within = True, 0

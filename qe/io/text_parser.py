@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from typing import Any, TypeAlias
+from itertools import chain
+from typing import Any, ClassVar, TypeAlias
 
 from qe.formula.relation import Relation
 from qe.io import parser, text_lexer
@@ -11,6 +12,7 @@ from qe.io import surface as s
 from qe.io.functions import RELATIONS
 from qe.io.parser import (
     BODY,
+    BRACKET,
     CLOSES,
     EITHER,
     ELSE,
@@ -29,15 +31,35 @@ from qe.io.tokens import Token
 
 _UNIVERSAL = frozenset(("all", "forall", "All", "A", "∀", "ForAll", "Forall", "FORALL", "\\[ForAll]"))
 
+_NO_REALS = frozenset(("Z", "N", "Q", "C", "ℤ", "ℕ", "ℚ", "ℂ", "Integers", "Rationals", "Complexes", "Naturals"))
+_ALSO_REALS = frozenset(("R", "RR", "Real", "reals", "real"))
+
 Within: TypeAlias = Callable[[s.Term, int], s.Node]
 """A set: the formula that a term, at an offset, is in it."""
 
 
 class TextParser(Parser):
-    """Reads a text, which may be LaTeX."""
+    """Reads a text that is not LaTeX."""
 
     def lexed(self, text: str) -> Iterator[Token]:
-        return latex_tokens(text) if is_latex(text) else text_lexer.tokens(text)
+        return text_lexer.tokens(text)
+
+    def waiting_on(self, value: Any, kind: str) -> int:
+        return super().waiting_on(value, kind if kind != "BAR" else self.bar(value))
+
+    def bar(self, value: Any) -> str:
+        """The kind of a bar behind an operand: it ends an absolute value, else means "or", as two of them do."""
+        at, bracket = self.token.at, next(waiting for waiting in reversed(self.stack) if waiting.level == BRACKET)
+        kind = next((kind for kind in ("CLOSEBAR", "ALSO") if kind in bracket.closing), "OR")
+        if kind == "OR":
+            if not super().waiting_on(value, kind):
+                message = "this | can be neither 'or' nor the end of an absolute value; write a product as 2*|x|"
+                raise SyntaxFailure(message, at)
+            behind = next(self.tokens)
+            if (behind.kind, behind.at) != ("BAR", at + 1):
+                self.tokens = chain((behind,), self.tokens)
+        self.token = Token(kind, "|", at)
+        return kind
 
     def joined(self, left: Any, operator: Infix) -> Any:
         if operator.level != RELATION or self.token.kind == "RELATION":
@@ -115,8 +137,8 @@ class TextParser(Parser):
     def set(self) -> Within:
         """Intersections, then from the left unions and differences."""
         value = self.intersection()
-        while self.token.kind in ("UNION", "WITHOUT"):
-            combine = _union if self.advance().kind == "UNION" else _difference
+        while self.token.kind in ("UNION", "WITHOUT") or self.token.text in ("union", "Union"):
+            combine = _difference if self.advance().kind == "WITHOUT" else _union
             value = combine(value, self.intersection())
         return value
 
@@ -128,6 +150,10 @@ class TextParser(Parser):
         return value
 
     def simple_set(self) -> Within:
+        if self.token.text in _NO_REALS:
+            raise SyntaxFailure(f"all variables are real, {self.token.text} cannot be asked for", self.token.at)
+        if self.token.text in _ALSO_REALS:
+            self.token = self.token._replace(kind="REALS")
         kind = self.take("OPEN", "LEFT", "BEGIN", "REALS").kind
         if kind == "REALS":
             return lambda term, at: s.Comparison([term, term], [Relation.EQ], at)
@@ -242,13 +268,25 @@ class TextParser(Parser):
         "IF": Prefix(EITHER, ELSE, cases),
         "CHOICE": Prefix(TERM, PRIMARY, cases_call),
         "INFINITY": Prefix(TERM, PRIMARY, infinity),
-        "OPENBAR": Prefix(TERM, PRIMARY, absolute),
+        **dict.fromkeys(("OPENBAR", "BAR"), Prefix(TERM, PRIMARY, absolute)),
         "RADICAL": Prefix(TERM, PRIMARY, radical),
     }
 
 
+def parser_of(text: str) -> type[TextParser]:
+    """The parser of a text, which may be LaTeX."""
+    return LatexParser if is_latex(text) else TextParser
+
+
 class LatexParser(TextParser):
     """Reads the same syntax in LaTeX."""
+
+    calls: ClassVar = {"NAME": ("LEFT",), "FUNCTION": ("OPEN", "LEFT")}
+    infix: ClassVar = {
+        **TextParser.infix,
+        **dict.fromkeys(("NAME", "NUMBER", "OPEN", "RADICAL", "OPENBAR", "FUNCTION"), parser.JUXTAPOSED),
+    }
+    prefix: ClassVar = {**TextParser.prefix, "FUNCTION": parser.PREFIX["NAME"]}
 
     def lexed(self, text: str) -> Iterator[Token]:
         return latex_tokens(text)

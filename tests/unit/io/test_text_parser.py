@@ -14,7 +14,7 @@ from qe.io import surface as s
 from qe.io.lowering import lower
 from qe.io.parser import TERM
 from qe.io.text_errors import SyntaxFailure
-from qe.io.text_parser import LatexParser, TextParser
+from qe.io.text_parser import LatexParser, TextParser, parser_of
 
 
 def read(text: str) -> Formula:
@@ -107,5 +107,20 @@ def test_offsets_of_sets_and_functions() -> None:
 def test_one_grammar_for_text_and_latex() -> None:
     latex = r"\forall x \colon x^{2} \geq 0 \land \frac{1}{2} > y"
     fail = lambda message, at: InputError(message)  # noqa: E731
-    assert lower(LatexParser(latex).whole(), fail) == lower(TextParser(latex).whole(), fail)
+    assert parser_of(latex) is LatexParser and parser_of("x > 0 | y > 0") is TextParser
     assert lower(LatexParser(latex).whole(), fail) == read("all x. x^2 >= 0 and 1/2 > y")
+
+
+@pytest.mark.parametrize(
+    ("text", "plain"),
+    [
+        ("x > 0 | y > 0", "x > 0 or y > 0"),
+        ("x > 0||y > 0", "x > 0 or y > 0"),
+        ("||x| - 1| > y", "abs(abs(x) - 1) > y"),
+        ("|x| > 0 || |y| > 0", "abs(x) > 0 or abs(y) > 0"),
+        ("(x > 0 | y > 0) & |x|*|y| < 1", "(x > 0 or y > 0) and abs(x)*abs(y) < 1"),
+        ("Element[x | y, Reals] | |x| > 1", "true or abs(x) > 1"),
+    ],
+)
+def test_bars(text: str, plain: str) -> None:
+    assert read(text) == read(plain)
