@@ -24,7 +24,7 @@ from qe.errors import (
     Unable,
 )
 from qe.later import provide
-from qe.options import Method, Stage
+from qe.options import Method, Projection, Stage
 from qe.sympy_form import written_by
 
 if TYPE_CHECKING:
@@ -129,6 +129,7 @@ __all__ = [
     "ParametricOptimum",
     "ParametricWitness",
     "ParseError",
+    "Projection",
     "QEError",
     "RealAlgebraic",
     "RealRootClassification",

@@ -34,10 +34,14 @@ class Method(Enum):
 
 
 class Projection(Enum):
-    """Projection operators of the cylindrical algebraic decomposition."""
+    """Projection operators of the cylindrical algebraic decomposition (``qe.cad.operators``).
+
+    Where one does not apply, Lazard's takes over.
+    """
 
     BROWN_MCCALLUM = "brown-mccallum"
     LAZARD = "lazard"
+    MCCALLUM = "mccallum"
 
 
 class Stage(Enum):
@@ -49,8 +53,8 @@ class Stage(Enum):
     ``EQUATIONS``: linear equations and Gröbner bases before anything else. ``SUBSTITUTION``: virtual substitution.
     ``CUBIC``: the same with roots of cubics, and the signs of cubics on intervals.
     ``CONSTRAINTS``: projection and lifting restricted by equational constraints. ``PARTIAL``: stacks are left as
-    soon as their truth is known. ``OPEN``: sectors only where all atoms are strict. ``MCCALLUM``: Brown–McCallum
-    projection before Lazard's. ``ORDER``: the variable order is chosen, not taken as written. ``SYMMETRY``: variables
+    soon as their truth is known. ``OPEN``: sectors only where all atoms are strict. ``MCCALLUM``: Brown–McCallum's
+    or McCallum's before Lazard. ``ORDER``: the variable order is chosen, not taken as written. ``SYMMETRY``: variables
     are taken from a block by translations, rotations and scalings that leave its truth alone. ``GATHERING``: nested
     blocks of one kind are prepared as one. ``DISTRIBUTION``: disjuncts with equations are solved apart. ``VALUES``:
     atoms that some value of a variable meets, whatever the rest is, are dropped, and squares of variables that one

@@ -13,7 +13,7 @@ from qe.api.input import AnyFormula, order_of, read_formula
 from qe.api.limits import cluster_of, limits_of, performed, reading
 from qe.errors import InputError, Unable
 from qe.formula.syntax import FALSE, Formula
-from qe.options import VERIFY_SECONDS, Budget, Cluster, Method, Options, Stage
+from qe.options import VERIFY_SECONDS, Budget, Cluster, Method, Options, Projection, Stage
 from qe.processes.execution import Budgets, Limits
 from qe.progress import Event, silent
 from qe.proof.answer import UNPROVED, Answer, Guarantee, Status
@@ -42,6 +42,7 @@ Order = Any
 def _options(
     method: str | Method,
     order: Order,
+    projection: str | Projection,
     root_atoms: bool,
     without: Iterable[str | Stage] | str | Stage,
     progress: Progress,
@@ -49,6 +50,7 @@ def _options(
     return Options(
         method=arguments.member(method, Method, "method"),
         order=arguments.names(order),
+        projection=arguments.member(projection, Projection, "projection"),
         root_atoms=arguments.flag(root_atoms, "root_atoms"),
         without=arguments.members(without, Stage, "without"),
         progress=arguments.listener(progress),
@@ -64,6 +66,7 @@ def eliminate(
     memory: int | None = None,
     method: str | Method = Method.AUTO,
     order: Order = None,
+    projection: str | Projection = Projection.BROWN_MCCALLUM,
     progress: Progress = silent,
     root_atoms: bool = False,
     without: Iterable[str | Stage] | str | Stage = (),
@@ -94,7 +97,8 @@ def eliminate(
     holds if it does for a choice of these values.
 
     ``explain``: how the answer was found is told on stderr; ``Answer.explanation`` holds the same text. ``without``:
-    stages of the engine to be left out (``qe.Stage``), to measure what they gain.
+    stages of the engine to be left out (``qe.Stage``), to measure what they gain. ``projection``: the operator by which
+    decompositions project (``qe.Projection``); the answers are equivalent.
 
     ``workers`` (processes on this machine) or ``cluster`` (the address of a Dask scheduler): the cells of long
     decompositions are lifted side by side; the answer and its certificate are the same as without. ``race``: methods
@@ -106,7 +110,7 @@ def eliminate(
     start = time.monotonic()
     explain, check = arguments.flag(explain, "explain"), arguments.flag(check, "check")
     limits = limits_of(timeout, memory, progress, process).begun(start)
-    options = _options(method, order, root_atoms, without, progress).with_(certify=check)
+    options = _options(method, order, projection, root_atoms, without, progress).with_(certify=check)
     helpers, racing = cluster_of(workers, cluster), arguments.members(race, Method, "race")
     if racing and (helpers is not None or options.method is not Method.AUTO or not limits.process):
         raise InputError("race: cannot go with method, workers, cluster or process=False")

@@ -18,7 +18,7 @@ import qe
 ROOT = Path(__file__).resolve().parents[2]
 FOLDERS = ("qe", "bezier", "experiments", "paper_repro", "tests", "examples")
 CODE = [p for folder in FOLDERS for p in sorted((ROOT / folder).rglob("*.py"))]
-TEXT = {".py", ".md", ".toml", ".txt", ".lark", ".html", ".j2", ".css", ".js", ".json", ".cfg", ""}
+TEXT = {".py", ".md", ".toml", ".txt", ".html", ".j2", ".css", ".js", ".json", ".cfg", ""}
 
 # The second reader of certificates is one file that can be taken elsewhere and read on its own.
 LONGER = {"qe/certify/plain.py": 1500}
