@@ -9,10 +9,11 @@ import pytest
 from qe.certify.registry import RULES as CHECKERS
 from qe.engine.strategy import STRATEGY
 from qe.io.text import read
+from qe.proving.elaborators import ELABORATORS
 from tests.attacks import attack
-from tests.attacks.campaign import Counts, campaign
+from tests.attacks.campaign import ATTACKED, Counts, campaign
 from tests.attacks.near_misses import CAPTURES, OTHERS, NearMiss
-from tests.attacks.rules import FORMER, METHODS, RULES
+from tests.attacks.rules import FORMER, METHODS, PRIMITIVES, RULES
 from tests.attacks.true_steps import taken_alone
 
 FIRED, CLAIMS = 1, 3
@@ -37,11 +38,12 @@ def checked(counts: Counts, fired: int, claims: int) -> None:
 
 
 def test_every_rule_has_an_attacker_and_every_method_its_questions() -> None:
-    assert {*RULES, *FORMER} == set(CHECKERS)
+    assert {*RULES, *FORMER, *PRIMITIVES} == set(ATTACKED)
+    assert {rule for rules in PRIMITIVES.values() for rule in rules} <= set(ELABORATORS)
     assert set(METHODS) == {attempt.load().name for attempt in STRATEGY}
 
 
-@pytest.mark.parametrize("rule", CHECKERS)
+@pytest.mark.parametrize("rule", ATTACKED)
 def test_it_fires_and_its_false_claims_are_refused(rule: str) -> None:
     checked(campaign(rule, 1, FIRED, CLAIMS), FIRED, CLAIMS)
 
@@ -52,7 +54,7 @@ def test_the_method_is_used(method: str) -> None:
 
 
 @pytest.mark.deep
-@pytest.mark.parametrize("rule", CHECKERS)
+@pytest.mark.parametrize("rule", ATTACKED)
 def test_it_fires_often_and_many_false_claims_are_refused(rule: str) -> None:
     counts = campaign(rule, 2, MANY_FIRED, MANY_CLAIMS)
     checked(counts, MANY_FIRED, MANY_CLAIMS)
