@@ -7,7 +7,7 @@ start or where solutions come into being, and ends at the goal or where they mee
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
 from itertools import pairwise
@@ -15,6 +15,7 @@ from itertools import pairwise
 from bezier.arm.follow import ONE, ZERO, Branch, follow, joined, whole
 from bezier.arm.inverse import solve
 from bezier.arm.model import Arm
+from bezier.arm.motion_limits import Excess, excesses, turns_of
 from bezier.arm.study import Study, study
 from bezier.curves.curve import Bezier
 from bezier.curves.scalar import same
@@ -25,10 +26,15 @@ Note = Callable[[], None]
 
 @dataclass(frozen=True, slots=True)
 class Run:
-    """One continuous joint motion: (index of the curve, branch), in order. ``number`` names it, from 1."""
+    """One continuous joint motion: (index of the curve, branch), in order. ``number`` names it, from 1.
+
+    ``turns``: full turns of each joint that are added to the branches. ``excesses``: where it is then beyond a limit.
+    """
 
     number: int
     parts: tuple[tuple[int, Branch], ...]
+    turns: tuple[int, ...] = ()
+    excesses: tuple[Excess, ...] = ()
 
     def branch(self, curve: int) -> Branch | None:
         """Its branch on a curve."""
@@ -52,13 +58,13 @@ class JointPath:
 
     @property
     def is_reachable(self) -> bool:
-        """Whether every point of the path can be reached, proved or refuted exactly."""
+        """Whether every point of the path can be reached within the limits, proved or refuted exactly."""
         return all(s.is_reachable for s in self.studies)
 
     @cached_property
     def whole_runs(self) -> tuple[Run, ...]:
-        """The runs from start to goal: continuous joint motions for the whole path."""
-        return tuple(run for run in self.runs if run.covers(len(self.curves)))
+        """The runs from start to goal within the limits: continuous joint motions for the whole path."""
+        return tuple(run for run in self.runs if run.covers(len(self.curves)) and not run.excesses)
 
 
 def joint_path(arm: Arm, curves: Mapping[str, Bezier], note: Note = lambda: None) -> JointPath:
@@ -79,7 +85,8 @@ def joint_path(arm: Arm, curves: Mapping[str, Bezier], note: Note = lambda: None
     branches: list[tuple[Branch, ...]] = []
     for found in studies:
         branches.append(tuple(_branches(found, branches[-1] if branches else (), note)))
-    return JointPath(arm, dict(curves), studies, tuple(branches), tuple(_runs(branches)))
+    runs = tuple(_limited(arm, studies, run) for run in _runs(branches))
+    return JointPath(arm, dict(curves), studies, tuple(branches), runs)
 
 
 def _branches(found: Study, before: Sequence[Branch], note: Note) -> list[Branch]:
@@ -119,6 +126,13 @@ def _runs(branches: Sequence[tuple[Branch, ...]]) -> list[Run]:
         closed += [run for run in still if run[-1][1].high != ONE]
         open_runs = [run for run in still if run[-1][1].high == ONE]
     return [Run(i, tuple(run)) for i, run in enumerate([*open_runs, *closed], start=1)]
+
+
+def _limited(arm: Arm, studies: Sequence[Study], run: Run) -> Run:
+    if all(joint.limits is None for joint in arm.joints):
+        return run
+    turns = turns_of(arm, run.parts)
+    return replace(run, turns=turns, excesses=excesses(arm, studies, run.parts, turns))
 
 
 def _follows(one: Branch, other: Branch) -> bool:

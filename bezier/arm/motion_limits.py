@@ -1,0 +1,85 @@
+"""Whether a continuous joint motion keeps the limits of the joints, exactly, and where it does not.
+
+Between neighbouring ``places`` of a curve (``bezier.arm.limit_places``) no solution passes a limit: so one rational
+parameter decides for all. Where a motion keeps a limit on both sides of a place it keeps it there, as limits are
+closed. An angle counts with its full turns: all of a motion may be some turns away from its branches.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from math import tau
+
+from bezier.arm.follow import Branch
+from bezier.arm.inverse import Solution, solve
+from bezier.arm.limit_places import Place, sample_between
+from bezier.arm.limits import length_side, side
+from bezier.arm.model import Arm, Joint, Motion
+from bezier.arm.study import Study
+
+Parts = Sequence[tuple[int, Branch]]
+
+
+@dataclass(frozen=True, slots=True)
+class Excess:
+    """``joint`` is beyond a limit for all s between two parameters of a curve, given by its index."""
+
+    curve: int
+    joint: Joint
+    limit: Fraction
+    low: Place
+    high: Place
+
+
+def turns_of(arm: Arm, parts: Parts) -> tuple[int, ...]:
+    """For each joint, by how many full turns its whole motion is best moved to lie between its limits."""
+    found = []
+    for k, joint in enumerate(arm.joints):
+        if joint.limits is None or joint.motion is Motion.PRISMATIC:
+            found.append(0)
+            continue
+        values = [v[k] for _, branch in parts for p in branch.pieces for v in (p.near(p.low), p.near(p.high))]
+        found.append(round((float(sum(joint.limits)) - max(values) - min(values)) / 2 / tau))
+    return tuple(found)
+
+
+def excesses(arm: Arm, studies: Sequence[Study], parts: Parts, turns: Sequence[int]) -> tuple[Excess, ...]:
+    """Where the motion, so many full turns added, is beyond a limit."""
+    found = list[Excess]()
+    for curve, branch in parts:
+        for low, high, broken in _judged(arm, studies[curve], branch, turns):
+            for joint, limit in broken:
+                same = (k for k, e in enumerate(found) if (e.curve, e.joint, e.limit, e.high) == (curve, joint, limit, low))
+                begin = next(same, None)
+                found.append(Excess(curve, joint, limit, low if begin is None else found.pop(begin).low, high))
+    return tuple(found)
+
+
+Judged = tuple[Place, Place, list[tuple[Joint, Fraction]]]
+
+
+def _judged(arm: Arm, study: Study, branch: Branch, turns: Sequence[int]) -> Iterator[Judged]:
+    """Every stretch that the branch takes a part of, with the limits that it breaks there."""
+    for part in study.within:
+        s = sample_between(part.low, part.high, (branch.low, branch.high))
+        if s is None:
+            continue
+        (solution,) = (x for x in solve(arm, study.curve.point(s)).solutions if branch.contains(s, x))
+        yield part.low, part.high, list(_broken(arm, solution, branch.at(s), turns))
+
+
+def _broken(
+    arm: Arm, solution: Solution, near: Sequence[float], turns: Sequence[int]
+) -> Iterator[tuple[Joint, Fraction]]:
+    for joint, known, value, close, more in zip(
+        arm.joints, solution.quotients, solution.values, near, turns, strict=True
+    ):
+        assert known is not None and value is not None, "a branch determines every joint"
+        around = round((close - float(value)) / tau) + more
+        for limit, wanted in zip(joint.limits or (), (1, -1), strict=False):
+            slides = joint.motion is Motion.PRISMATIC
+            here = length_side(solution.place, known[0], limit) if slides else side(solution.place, known, around, limit)
+            if here == -wanted:
+                yield joint, limit
