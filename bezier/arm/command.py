@@ -59,11 +59,16 @@ def certify(channel: Channel, arm: Arm, curves: Mapping[str, Bezier], *, json: b
     verdict = verify(bundle)
     if json:
         data = {"status": "solved", **path_report.to_json(found), "certified": verdict.accepted}
-        return json_text.dumps(data, indent=1, ensure_ascii=False), bundle.to_json() if found.runs else ""
+        return json_text.dumps(data, indent=1, ensure_ascii=False), bundle.to_json() if bundle.payload else ""
     told = "accepted" if verdict.accepted else f"REJECTED at {verdict.step}: {verdict.reason}"
-    told = told if found.runs else "none, as there is no joint motion along a part of the path"
+    certified = len(bundle.payload)
+    if verdict.accepted and certified < sum(not run.excesses for run in found.runs):
+        told += f", of {certified} of them: a joint comes closer to a limit than boxes tell"
+    if not certified:
+        within = " within the limits" if found.runs else ""
+        told = f"none, as there is no joint motion along a part of the path{within}"
     lines = [*path_report.in_words(found), f"certificates of the joint motions: {told}"]
-    return "\n".join(lines), bundle.to_json() if found.runs else ""
+    return "\n".join(lines), bundle.to_json() if bundle.payload else ""
 
 
 def to_json(found: Inverse) -> dict[str, Any]:
@@ -159,7 +164,7 @@ def in_words(found: Inverse) -> list[str]:
             not solution.allowed
         )
         lines.append(f"  {k}. " + ", ".join(parts) + (f"  [{'; '.join(notes)}]" if notes else ""))
-    return lines
+    return lines if found.allowed_count else [*lines, "no joint position is within the limits of the joints"]
 
 
 def _families(found: Inverse) -> str:

@@ -2,23 +2,27 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from fractions import Fraction
 
 from bezier.arm.arm_json import arm_json, curve_json
 from bezier.arm.joint_path import JointPath, Run
 from bezier.arm.limited_pieces import limited_pieces
 from bezier.arm.motion_chain import Piece
+from qe.errors import Unable
 from qe.proof.certificate import Certificate, Kind
 from qe.proof.entry import Json
 
 
 def certificates(found: JointPath) -> list[tuple[str, Certificate]]:
-    """A labelled certificate for every run that keeps the limits of the joints."""
-    return [
-        (f"motion {run.number}" + (", the whole path" if run.covers(len(found.curves)) else ""), _of(found, run))
-        for run in found.runs
-        if not run.excesses
-    ]
+    """A labelled certificate for every run that keeps the limits of the joints; none where a joint comes closer to one
+    than boxes tell."""
+    listed = []
+    for run in found.runs:
+        label = f"motion {run.number}" + (", the whole path" if run.covers(len(found.curves)) else "")
+        with suppress(Unable):
+            listed += [] if run.excesses else [(label, _of(found, run))]
+    return listed
 
 
 def _of(found: JointPath, run: Run) -> Certificate:

@@ -14,12 +14,13 @@ from itertools import pairwise
 
 from bezier.arm.follow import ONE, ZERO, Branch, follow, joined, whole
 from bezier.arm.inverse import solve
+from bezier.arm.limit_places import Near, ends_of
 from bezier.arm.model import Arm
 from bezier.arm.motion_limits import Excess, excesses, turns_of
 from bezier.arm.study import Study, study
 from bezier.curves.curve import Bezier
 from bezier.curves.scalar import same
-from qe.errors import InputError
+from qe.errors import InputError, Unable
 
 Note = Callable[[], None]
 
@@ -86,6 +87,8 @@ def joint_path(arm: Arm, curves: Mapping[str, Bezier], note: Note = lambda: None
     for found in studies:
         branches.append(tuple(_branches(found, branches[-1] if branches else (), note)))
     runs = tuple(_limited(arm, studies, run) for run in _runs(branches))
+    for k, found in enumerate(studies):
+        _check_joined(found, k, runs)
     return JointPath(arm, dict(curves), studies, tuple(branches), runs)
 
 
@@ -133,6 +136,17 @@ def _limited(arm: Arm, studies: Sequence[Study], run: Run) -> Run:
         return run
     turns = turns_of(arm, run.parts)
     return replace(run, turns=turns, excesses=excesses(arm, studies, run.parts, turns))
+
+
+def _check_joined(found: Study, curve: int, runs: Sequence[Run]) -> None:
+    """Where enclosures of several places are one, a motion through them has to show that there is a solution within
+    the limits in between, too. Raises ``Unable``."""
+    for one, other in pairwise(found.within):
+        if isinstance(one.high, Near) and one.high.is_joined and one.count and other.count:
+            low, high = ends_of(one.high)
+            through = [r for r in runs if (b := r.branch(curve)) is not None and b.low < low and high < b.high]
+            if all(any(e.curve == curve and one.high in (e.low, e.high) for e in r.excesses) for r in through):
+                raise Unable(f"near s = {float(low):.12g} it is not told which joint passes its limit first")
 
 
 def _follows(one: Branch, other: Branch) -> bool:

@@ -43,7 +43,13 @@ class JointPlan:
     @property
     def is_proved(self) -> bool:
         """Whether one continuous motion reaches the whole path and keeps all limits at all times."""
-        return self.path.is_reachable and self.motion is not None and self.motion.keeps_limits
+        return self.is_followed and self.motion is not None and self.motion.keeps_limits
+
+    @property
+    def is_followed(self) -> bool:
+        """Whether every point is reached, the samples by a sequence, and limits do not stop every motion on the way."""
+        stopped = any(run.excesses for run in self.path.runs) and not self.path.whole_runs
+        return self.path.is_reachable and self.sequence is not None and not stopped
 
 
 def joint_plan(
@@ -63,14 +69,17 @@ def joint_plan(
     ends = tuple(total / sum(sizes) for total in accumulate(sizes))
     path = joint_path(arm, curves, note)
     remarks: list[str] = []
+    if not path.whole_runs and any(run.excesses for run in path.runs):
+        remarks.append("no continuous motion from start to goal keeps the limits of the joints")
     if not path.is_reachable:
-        return JointPlan(path, law, ends, duration, None, None, ("the path leaves what the arm can reach",))
+        remarks.append("the path leaves what the arm can reach")
+        return JointPlan(path, law, ends, duration, None, None, tuple(remarks))
     sequence = motion = None
     try:
         sequence = joint_sequence(path, samples_of(ends, law, samples), note)
         remarks += [_switch(s.before.tau, s.after.tau, s.change) for s in sequence.switches]
         run = next((run for run in path.runs if run.number == sequence.run), None)
-        if run is not None:
+        if run is not None and not run.excesses:
             motion = joint_motion(path, run, law, duration, ends)
             if not motion.keeps_limits:
                 remarks.append(f"limits of the joints are not proved to be kept; {motion.enough} s are enough")

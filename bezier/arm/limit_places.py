@@ -18,7 +18,7 @@ from functools import partial
 
 from flint import arb, fmpq
 
-from bezier.arm.critical import S, AlongCurve, Number
+from bezier.arm.critical import AlongCurve, Number, S
 from bezier.arm.elimination import M, T
 from bezier.arm.model import Joint, Motion
 from bezier.arm.ratio import Ratio, constant, variable
@@ -35,10 +35,12 @@ ZERO, ONE = Fraction(0), Fraction(1)
 
 @dataclass(frozen=True, slots=True)
 class Near:
-    """A parameter between two rational numbers; its joint is at a limit of a rational number of radians there."""
+    """A parameter between two rational numbers; its joint is at a limit of a rational number of radians there.
+    ``is_joined``: or several such parameters, of different limits."""
 
     low: Fraction
     high: Fraction
+    is_joined: bool = False
 
     def __float__(self) -> float:
         return float(self.low)
@@ -100,7 +102,7 @@ def _joined(group: list[Item]) -> Place:
     limits = [k for *_, k in group]
     if -1 in limits or len(set(limits)) < len(limits):
         raise Unable(f"near s = {float(group[0][0]):.12g} places where joints are at limits are not told from others")
-    return Near(min(item[0] for item in group), max(item[1] for item in group))
+    return Near(min(item[0] for item in group), max(item[1] for item in group), is_joined=True)
 
 
 def _relation(along: AlongCurve, joint: int) -> Poly:

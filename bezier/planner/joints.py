@@ -43,11 +43,12 @@ def joints(channel: Channel, request: Request) -> tuple[str, int]:
     accepted = write(plan, request.folder)
     (request.folder / PAGE).write_text(render(plan, request.file), encoding="utf-8")
     data = {**plans.to_json(plan), "certified": accepted}
-    code = OK if plan.path.is_reachable and plan.sequence is not None else UNABLE
+    code = OK if plan.is_followed else UNABLE
     if request.json:
         return json.dumps(data, indent=1, ensure_ascii=False), code
     lines = plans.in_words(plan)
-    lines.append(f"certificates: {'accepted' if accepted else 'REJECTED'}; open {request.target / PAGE}")
+    told = "none" if all(run.excesses for run in plan.path.runs) else "accepted" if accepted else "REJECTED"
+    lines.append(f"certificates: {told}; open {request.target / PAGE}")
     return "\n".join(lines), code
 
 
