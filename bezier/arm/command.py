@@ -55,20 +55,20 @@ def certify(channel: Channel, arm: Arm, curves: Mapping[str, Bezier], *, json: b
     """``bezier certify-path``: what to print, and the certificates of the continuous joint motions as text, if there
     are any."""
     found = joint_path(arm, curves)
-    bundle = Certificate.bundle(certificates(found))
+    listed = certificates(found)
+    bundle = Certificate.bundle(listed)
     verdict = verify(bundle)
     if json:
         data = {"status": "solved", **path_report.to_json(found), "certified": verdict.accepted}
-        return json_text.dumps(data, indent=1, ensure_ascii=False), bundle.to_json() if bundle.payload else ""
+        return json_text.dumps(data, indent=1, ensure_ascii=False), bundle.to_json() if listed else ""
     told = "accepted" if verdict.accepted else f"REJECTED at {verdict.step}: {verdict.reason}"
-    certified = len(bundle.payload)
-    if verdict.accepted and certified < sum(not run.excesses for run in found.runs):
-        told += f", of {certified} of them: a joint comes closer to a limit than boxes tell"
-    if not certified:
+    if verdict.accepted and len(listed) < sum(not run.excesses for run in found.runs):
+        told += f", of {len(listed)} of them: a joint comes closer to a limit than boxes tell"
+    if not listed:
         within = " within the limits" if found.runs else ""
         told = f"none, as there is no joint motion along a part of the path{within}"
     lines = [*path_report.in_words(found), f"certificates of the joint motions: {told}"]
-    return "\n".join(lines), bundle.to_json() if bundle.payload else ""
+    return "\n".join(lines), bundle.to_json() if listed else ""
 
 
 def to_json(found: Inverse) -> dict[str, Any]:

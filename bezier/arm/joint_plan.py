@@ -72,7 +72,8 @@ def joint_plan(
     if not path.whole_runs and any(run.excesses for run in path.runs):
         remarks.append("no continuous motion from start to goal keeps the limits of the joints")
     if not path.is_reachable:
-        remarks.append("the path leaves what the arm can reach")
+        within = " within the limits of its joints" if any(s.within != s.stretches for s in path.studies) else ""
+        remarks.append(f"the path leaves what the arm can reach{within}")
         return JointPlan(path, law, ends, duration, None, None, tuple(remarks))
     sequence = motion = None
     try:

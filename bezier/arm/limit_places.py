@@ -16,18 +16,15 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
 
-from flint import arb, fmpq
-
 from bezier.arm.critical import AlongCurve, Number, S
 from bezier.arm.elimination import M, T
 from bezier.arm.model import Joint, Motion
 from bezier.arm.ratio import Ratio, constant, variable
 from bezier.certify.held_joint import Held, Rigid, slid, turned
 from qe.errors import Unable
-from qe.exact.ball_roots import certified_roots
-from qe.exact.balls import ends, precision
-from qe.exact.nearby import enclosed, rational_between
+from qe.exact.nearby import rational_between
 from qe.exact.ring import Poly, Ring
+from qe.exact.zeros_at_angle import zeros_at_angle
 
 BITS = (192, 1024, 4096)
 ZERO, ONE = Fraction(0), Fraction(1)
@@ -157,19 +154,10 @@ def _parted(p: Poly) -> tuple[Poly, Poly]:
 
 def _enclosed_zeros(along: AlongCurve, p: Poly, limit: Fraction, bits: int) -> list[Near]:
     """Intervals in [0, 1], each with one zero, of p at an angle."""
-    if p.degree(S) <= 0:
-        return []
-    working = 2 * bits
-    while working <= 4 * BITS[-1]:
-        with precision(working):
-            angle = arb(fmpq(limit.numerator, limit.denominator))
-            at = [along.arm.field.theta.ball(working), arb(0), angle.cos(), angle.sin()]
-            found = certified_roots([enclosed(c, at) for c in p.coefficients(S)], bits)
-            if found is not None:
-                near = [Near(*ends(x)) for x in found]
-                return [x for x in near if x.high >= 0 and x.low <= 1]
-        working *= 2
-    raise Unable(f"the places where a joint is at {limit} are not told apart")
+    found = zeros_at_angle(p, S, along.arm.field.theta, limit, bits)
+    if found is None:
+        raise Unable(f"the places where a joint is at {limit} are not told apart")
+    return [Near(low, high) for low, high in found if high >= 0 and low <= 1]
 
 
 def sample_between(low: Place, high: Place, within: tuple[Fraction, Fraction] = (ZERO, ONE)) -> Fraction | None:

@@ -134,7 +134,8 @@ def _angle(entry: Entry) -> tuple[Dual, Dual]:
         return duals.number(values[1], DIRECTIONS), duals.number(values[0], DIRECTIONS)
 
 
-def read_curve(entry: Entry) -> list[tuple[Fraction, ...]]:
+def read_curve(entry: Entry) -> Points:
+    """The control points of a curve in space."""
     points = [tuple(c.rational() for c in point.items()) for point in entry.items()]
     if not 1 <= len(points) <= MOST_POINTS or any(len(p) != 3 for p in points):
         raise entry.fail(f"expected 1 to {MOST_POINTS} points of three coordinates")

@@ -20,18 +20,15 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
-from itertools import pairwise
 from typing import Any
-
-from flint import arb, fmpq, fmpq_poly, fmpz_poly
 
 from bezier.certify import duals
 from bezier.certify import square_roots as sr
 from bezier.certify.arm_rows import Chain
-from bezier.certify.duals import Dual
 from bezier.certify.held_joint import Held, Rigid, slid, turned
 from bezier.certify.square_roots import ONE, ZERO, Polynomial, Surd
 from qe.exact.balls import precision
+from qe.exact.descartes import most_roots_between
 from qe.proof.entry import Entry
 
 PROBES = (-5, -2, -1, 1, 2, 3, 7)
@@ -105,7 +102,7 @@ class KeptLimits:
                 if not self._stands(part, limit):
                     return False
                 continue
-            inside = most_zeros_between(zeros, *part.ends)
+            inside = most_roots_between(zeros, *part.ends)
             if inside > 1:
                 return False
             clear = [min(side * (value - limit) for value in part.at_end(k)[part.joint]) > 0 for k in range(2)]
@@ -113,8 +110,8 @@ class KeptLimits:
                 return False
         return True
 
-    def _zeros_at(self, curve: int, joint: int, limit: Fraction) -> fmpz_poly:
-        """A polynomial without multiple roots that vanishes wherever the joint can be at its limit; 0 if that is
+    def _zeros_at(self, curve: int, joint: int, limit: Fraction) -> list[Fraction]:
+        """The coefficients of a polynomial that vanishes wherever the joint can be at its limit; none if that is
         everywhere."""
         point = [_Along(sr.trimmed([Surd.rational(c) for c in row])) for row in self._curves[curve]]
         value = Surd.rational(limit)
@@ -146,7 +143,9 @@ class KeptLimits:
         with precision(duals.BITS):
             value = duals.seed(duals.ball(middle) + duals.around(part.radius), 0, 1)
             parts = value.sine_cosine()[::-1] if turns else (value,)
-            relations = self._held(joint, parts, _dual).relations([duals.number(c, 1) for c in point])
+            relations = self._held(joint, parts, lambda c: duals.root_sum(c.terms, 1)).relations(
+                [duals.number(c, 1) for c in point]
+            )
             return any(
                 not relation.slope[0].contains(0)
                 for (relation, _), holds in zip(relations, zip(*listed, strict=True), strict=True)
@@ -154,33 +153,13 @@ class KeptLimits:
             )
 
 
-def most_zeros_between(p: fmpz_poly, low: Fraction, high: Fraction) -> int:
-    """A bound of the number of zeros in an open interval, exact if it is 0 or 1: Descartes' rule of signs for
-    p(low + (high - low)/(1 + x)) (1 + x)^n."""
-    start, width = fmpq_poly([_number(low)]), _number(high - low)
-    moved = fmpq_poly(p)(start + fmpq_poly([0, width])).coeffs()
-    moved = [*moved, *[0] * (p.degree() + 1 - len(moved))]
-    signs = [c > 0 for c in fmpq_poly(moved[::-1])(fmpq_poly([1, 1])).coeffs() if c != 0]
-    return sum(a != b for a, b in pairwise(signs))
-
-
-def _rational(p: Polynomial) -> fmpz_poly:
-    """The product of the conjugates over the rational numbers, without multiple roots."""
+def _rational(p: Polynomial) -> list[Fraction]:
+    """The product of the conjugates over the rational numbers."""
     while roots := [d for c in p for d, _ in c.terms if d > 1]:
         prime = next(k for k in range(2, roots[0] + 1) if roots[0] % k == 0)
         p = sr.times(p, [Surd(tuple((d, -q if d % prime == 0 else q) for d, q in c.terms)) for c in p])
-    numbers = fmpq_poly([_number(c.terms[0][1]) if c else 0 for c in p]).numer()
-    return numbers // numbers.gcd(numbers.derivative()) if p else fmpz_poly()
-
-
-def _number(value: Fraction) -> fmpq:
-    return fmpq(value.numerator, value.denominator)
+    return [c.terms[0][1] if c else Fraction(0) for c in p]
 
 
 def _circle(k: int) -> tuple[Surd, Surd]:
     return Surd.rational(Fraction(1 - k * k, 1 + k * k)), Surd.rational(Fraction(2 * k, 1 + k * k))
-
-
-def _dual(c: Surd) -> Dual:
-    value = sum((arb(d).sqrt() * duals.ball(q) for d, q in c.terms), arb(0))
-    return Dual(value, (arb(0),))
