@@ -252,9 +252,11 @@ def _story(answer: Answer, seconds: float) -> tuple[str, ...]:
 def _rests(trusts: Sequence[str]) -> Iterator[str]:
     """What has to be believed beside the kernel, a line each."""
     from qe.kernel.statements import rows
+    from qe.kernel.trusts import EXPERT
 
     for name in trusts:
-        why = f"by {rows()[name].data['axiom']}" if name in rows() else "a rule of the expert ring"
+        what = "a rule" if name in EXPERT else "a kind of certificate"
+        why = f"by {rows()[name].data['axiom']}" if name in rows() else f"{what} of the expert ring"
         yield f"rests on: {name}, {why}"
 
 

@@ -50,7 +50,7 @@ def expert_parts(certificate: Certificate) -> tuple[str, ...]:
 
 def _expert(certificate: Certificate) -> Iterator[str]:
     if certificate.kind.value not in CORE_KINDS:
-        yield f"kind {certificate.kind.value}"
+        yield certificate.kind.value
     if isinstance(certificate.payload, tuple):
         for member in certificate.payload:
             yield from _expert(member.certificate)
@@ -64,7 +64,7 @@ def _expert(certificate: Certificate) -> Iterator[str]:
             if isinstance(rule := node.get("rule"), str) and rule in EXPERT:
                 yield rule
             if isinstance(kind := node.get("kind"), str) and "payload" in node and kind not in CORE_KINDS:
-                yield f"kind {kind}"
+                yield kind
 
 
 def _names(certificate: Certificate) -> Iterator[str]:
