@@ -27,6 +27,7 @@ from qe.certify.roots_by_signs import check_roots_by_signs
 from qe.certify.roots_counted import check_roots_counted
 from qe.certify.rotation import check_rotation
 from qe.certify.sentence import check_sentence
+from qe.certify.shear import check_shear
 from qe.certify.sphere import check_sphere
 from qe.certify.step import Check
 from qe.certify.symmetry import check_scaling
@@ -66,6 +67,7 @@ RULES: Mapping[str, Check] = {
     "degree shift": check_degree_shift,
     "homogeneous scaling": check_scaling,
     "rotation of the axes": check_rotation,
+    "linear form as a variable": check_shear,
     "linear form named": check_named_form,
     "mirror images of a convex set": check_mirror,
     "nested blocks of one kind gathered": check_quantifiers,

@@ -53,14 +53,14 @@ def _quantified(kind: type[Exists | ForAll], names: Iterable[str], body: Formula
     if isinstance(body, cases):
         return (disj if is_exists else conj)(_quantified(kind, names, part) for part in body.args)
     block, parts = _opened(kind, set(names), body.args if isinstance(body, whole) else (body,), whole)
-    found: list[Formula] = []
-    for variables, members in _connected(block, parts):
-        inner = join(members)
-        if variables and isinstance(inner, cases):
-            found.append(_quantified(kind, variables, inner))
-        else:
-            found.append(quantify(sorted(variables), inner))
-    return join(found)
+    seen = [block & set(part.free) for part in parts]
+    alone = [mine.difference(*(seen[:k] + seen[k + 1 :])) for k, mine in enumerate(seen)]
+    inner = [
+        (_quantified(kind, mine, part) if isinstance(part, cases) else quantify(sorted(mine), part)) if mine else part
+        for part, mine in zip(parts, alone, strict=True)
+    ]
+    shared = block.difference(*alone)
+    return join(quantify(sorted(names), join(members)) for names, members in _connected(shared, inner))
 
 
 def _opened(

@@ -22,6 +22,7 @@ EXPERT = frozenset(
         "degenerate truth set",
         "homogeneous scaling",
         "infinity first",
+        "linear form as a variable",
         "linear form named",
         "mirror images of a convex set",
         "ranges that exclude each other",

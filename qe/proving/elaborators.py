@@ -22,7 +22,7 @@ from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj, disj, exists
 from qe.formula.normal import nnf
 from qe.formula.syntax import FALSE, TRUE, Atom, Exists, ForAll, Formula, Or, Relation
-from qe.formula.traverse import children, conjuncts, map_atoms, subformula, with_child
+from qe.formula.traverse import children, conjuncts, disjuncts, map_atoms, subformula, with_child
 from qe.kernel.root import root_goals
 from qe.kernel.terms import Quotient, at_terms, terms_goals
 from qe.kernel.theorem import theorem_goals
@@ -106,16 +106,18 @@ def value_taken(claim: Claim, context: Context, limits: Limits) -> list[Json]:
 def exchanged(claim: Claim, context: Context, limits: Limits) -> list[Json]:
     """The sum and the product of two variables in their place, which get two names that are free in the ring."""
     (listed,) = only(claim, "variables")
-    x, y = (entry.text() for entry in listed.items())
-    z, w = (name for name in FRESH if name in claim.ring.index)
+    names, fresh = [entry.text() for entry in listed.items()], [name for name in FRESH if name in claim.ring.index]
+    if len(names) != 2 or len(fresh) != 2 or not set(names) <= claim.ring.index.keys() - {*FRESH}:
+        raise listed.fail("expected two variables, and two names for their sum and product in the order")
+    (x, y), (z, w) = names, fresh
     (before, after), ring = existential(claim), claim.ring
     if not isinstance(before, Exists) or not isinstance(after, Exists):
         raise claim.fail("two blocks expected")
     one, other = ring.var(z), ring.var(w)
     by = {ring.index[x]: one + other, ring.index[y]: one * other}
-    names = {ring.index[x]: one, ring.index[y]: other}
+    apart_by = {ring.index[x]: one, ring.index[y]: other}
     apart = tuple({x: z, y: w}.get(v, v) for v in after.variables)
-    renamed = exists(apart, map_atoms(before.body, lambda a: atom(a.poly.compose(names), a.relation)))
+    renamed = exists(apart, map_atoms(before.body, lambda a: atom(a.poly.compose(apart_by), a.relation)))
     image = exists(apart, map_atoms(after.body, lambda a: atom(a.poly.compose(by), a.relation)))
     sums = [Atom((ring.var(v) - poly).normal()[1], Relation.EQ) for v, poly in ((x, one + other), (y, one * other))]
     solved = [_solved(equation, v) for v, equation in zip((x, y), sums, strict=True)]
@@ -150,7 +152,9 @@ def scaled(claim: Claim, context: Context, limits: Limits) -> list[Json]:
     steps = [simplified(block, current, context, claim, limits)]
     for s, case in kept:
         after = exists(rest, _at_number(block.body, x, s))
-        place = () if current == case else (current.args.index(case),)  # type: ignore[attr-defined]
+        if current == TRUE or case not in disjuncts(current):  # another case has settled it
+            continue
+        place = () if current == case else (disjuncts(current).index(case),)
         if s:
             times = {v: _times(ring, v, ring.gen(x) * s, power.numerator) for v, power in powers.items()}
             back = {v: _times(ring, v, ring.gen(x) * s, -power.numerator) for v, power in powers.items()}

@@ -13,6 +13,7 @@ from dataclasses import replace
 from qe.certify.derivation import limits_of
 from qe.certify.registry import RULES
 from qe.certify.step import Claim
+from qe.certify.verdict import CRASHES
 from qe.certify.verify import check_certificate
 from qe.errors import CertificateRejected
 from qe.exact.ring import Ring
@@ -77,9 +78,9 @@ class _Conversion:
         if isinstance(rule, str) and (elaborator := ELABORATORS.get(rule)) is not None:
             try:
                 found = self.step(Entry(found, path), elaborator)
-            except CertificateRejected:
+            except (CertificateRejected, *CRASHES) as error:
                 if rule not in RULES:  # else the step has a checker of its own
-                    raise
+                    raise CertificateRejected(path, f"{rule}: not understood ({error})") from error
         self.ring = outer
         return found
 

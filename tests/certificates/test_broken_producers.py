@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from fractions import Fraction
 
 import pytest
@@ -19,6 +20,7 @@ import qe.rules.translation as translation
 import qe.rules.zeros as zeros
 import qe.simplify.factors as factors
 from qe.api.input import read_formula
+from qe.exact.ring import Ring
 from qe.formula.normal import nnf, rename_apart
 from qe.formula.syntax import FALSE, TRUE, Exists
 from qe.formula.traverse import conjuncts
@@ -26,6 +28,7 @@ from qe.options import Budget, Options
 from qe.proof.derivation import moved
 from qe.proof.run_log import RunLog
 from qe.proof.step import Step
+from qe.proving.nested import names_within
 from qe.proving.prover import Prover
 from qe.rules.tree import Any
 
@@ -41,11 +44,14 @@ def unproved(text: str) -> set[str]:
 
 def accepted(step: Step) -> bool:
     """Whether evidence is found for a step, decompositions apart."""
-    ring = step.before.ring or step.after.ring
-    if ring is None:  # between constants
+    if step.before.ring is None and step.after.ring is None:  # between constants
         return step.before == step.after
-    prover = Prover(ring, Options(), Budget(20), tables=False)
-    return prover.evidence(step, tuple(conjuncts(step.context)) if step.context != TRUE else ()) is not None
+    ring = Ring.of(dict.fromkeys(names_within(step)))
+    before, after, context = (moved(f, ring) for f in (step.before, step.after, step.context))
+    known = tuple(conjuncts(context)) if context != TRUE else ()
+    prover = Prover(ring, Options(), Budget(20), tables=False, known=known)
+    prover.taken(replace(step, before=before, after=after, context=context, places=((),)), before)
+    return not prover.unchecked
 
 
 def known_sign(m: pytest.MonkeyPatch) -> None:
@@ -154,7 +160,7 @@ CASES: dict[str, tuple[Patch, str, str]] = {
     "exponents": (any_exponent, "ex x. x^5 + a < 0 and x^3 > c", "degree shift"),
     "weights": (any_weights, "ex x, y. x^2 + y > 1 and x*y < 2", "homogeneous scaling"),
     "values": (one_value, "ex x, y. x^3 + y^3 < 0 and x < y", "homogeneous scaling"),
-    "direction": (any_direction, "ex x, y. x^2 + y^2 < a", "translation of the origin"),
+    "direction": (any_direction, "ex x, y. x^2 + y^2 < a and x + y > 1", "translation of the origin"),
     "closed": (all_open, "ex x, y. x + y <= a and x*y >= a^2 and x - y /= a", "inequations that remove no interior"),
     "factors": (fewer_factors, "ex x. (x - a)*(x + a) = 0 and x > 1", "case split on factors"),
     "equations": (other_equations, "ex x, y. x^2 + y = a and x*y = 1 and x > y", "Groebner basis of the equations"),

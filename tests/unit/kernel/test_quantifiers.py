@@ -26,6 +26,7 @@ EQUIVALENT = [
     ("ex x. x > a and (ex y. y > x)", "ex x, y. x > a and y > x"),
     ("ex x. (ex y. y > x and (ex z. z > y)) and x > a", "ex x, y, z. y > x and z > y and x > a"),
     ("ex x. (ex y. y > x) and (ex z. z < x)", "ex x, y. y > x and (ex z. z < x)"),
+    ("ex x. x > a and (ex y. y > x or y^2 < x)", "ex x, y. x > a and (y > x or y^2 < x)"),
     ("ex x. x > a or (ex y. y > x)", "ex x, y. x > a or y > x"),
     ("all x. x > a or (all y. y > x)", "all x, y. x > a or y > x"),
     ("all x. x > a and x^2 < b", "(all x. x > a) and (all x. x^2 < b)"),

@@ -6,6 +6,7 @@ from typing import Any
 
 import pytest
 
+import qe
 from tests.unit.certify.claims import NO_LEMMAS, line, step
 from tests.unit.proving.elaborated import refused
 
@@ -178,3 +179,10 @@ def test_a_true_step_is_one_of_the_kernel(rule: str, before: str, after: str, ev
 @pytest.mark.parametrize(("rule", "before", "after", "evidence", "given"), FALSE_STEPS)
 def test_a_false_step_is_none(rule: str, before: str, after: str, evidence: Any, given: str) -> None:
     assert refused(rule, before, after, evidence, given)
+
+
+def test_a_case_that_settles_a_scaling_ends_it() -> None:
+    """The cases after one that is true were looked for in "true": AttributeError."""
+    evidence = {"variable": "x", "weights": [["x", "1"], ["y", "1"]], "values": [1, 0], "theory": NO_LEMMAS}
+    assert qe.eliminate("ex y, x. y^3 + 2*x^3 > 0 and y^2*x = 0", check=True).guarantee is qe.Guarantee.CHECKED
+    assert refused("homogeneous scaling", "ex x, y. x >= 0 and x + y > 0", "false", evidence)
