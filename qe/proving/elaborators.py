@@ -365,7 +365,10 @@ def sheared(claim: Claim, context: Context, limits: Limits) -> list[Json]:
     """m*x + n as the new x; where m may vanish, the case that it does stays as it is."""
     variable, form = only(claim, "variable", "form")
     (block, name, x), ring = claim.variable(variable), claim.ring
-    n, m = form.polynomial(ring).coefficients(x)
+    linear = form.polynomial(ring)
+    if linear.degree(x) != 1:
+        raise form.fail("expected a polynomial of degree 1 in the variable")
+    n, m = linear.coefficients(x)
     if m.is_constant and m.constant_value() < 0:
         m, n = -m, -n
     there, back = {name: (ring.gen(x) - n, m)}, {name: (m * ring.gen(x) + n, ring.constant(1))}

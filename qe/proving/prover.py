@@ -163,7 +163,11 @@ class Prover:
 
     def _at(self, place: Place, step: Step, current: Formula) -> Formula:
         if step.rule == REDUNDANT:
-            place, step = _part_dropped(place, step)
+            try:
+                place, step = _part_dropped(place, step)
+            except IndexError:  # there is no such part
+                self.unchecked.append(step.rule)
+                return step.after
         facts, changed = replaced(current, place, step.before, step.after, self.known, Entry(None, "place"))
         context = tuple(f for f in conjuncts(step.context) if f in facts)
         if clashes(changed, (name for fact in self.known for name in fact.free)):  # no checker would look at it

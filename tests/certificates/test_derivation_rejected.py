@@ -88,6 +88,7 @@ ELSEWHERE = {
     "comprehensive Gröbner system": "certificates/test_counted_solutions",
     "point or multipliers": "certificates/test_derivation_rejected",
     "homogeneous scaling": "unit/certify/test_symmetry",
+    "linear form as a variable": "unit/rules/test_shear",
 }
 """Rules whose evidence is altered in a file of its own."""
 
