@@ -21,7 +21,7 @@ CODE = [p for folder in FOLDERS for p in sorted((ROOT / folder).rglob("*.py"))]
 TEXT = {".py", ".md", ".toml", ".txt", ".html", ".j2", ".css", ".js", ".json", ".cfg", ""}
 
 # The second reader of certificates is one file that can be taken elsewhere and read on its own.
-LONGER = {"qe/certify/plain.py": 1500, "qe/proving/elaborators.py": 500}
+LONGER = {"qe/certify/plain.py": 1500, "qe/proving/elaborators.py": 500, "qe/proving/prover.py": 420}
 # Written in pieces, so that this file does not contain what it looks for.
 UNFINISHED = re.compile("|".join(("TO" + "DO", "FIX" + "ME", "Not" + "ImplementedError", "x" + "fail")))
 MACHINE_PATHS = re.compile("|".join(("/" + "work/", "/" + "root/", "/" + r"home/\w", r"\bC:" + r"\\Users")))
