@@ -42,6 +42,7 @@ REJECTED: dict[str, tuple[str, str, Terms, Terms]] = {
     "not invariant": ("ex x, y. x - y > 1 and x > 3", "ex y. -y > 1", {"x": "0"}, {"y": "-x + y"}),
     "denominator may vanish": ("ex x. a*x > 1 or b = 0", "ex x. x > 1 or b = 0", {"x": ("x", "a")}, {"x": "a*x"}),
     "sign of the denominator": ("ex x. x > b and a /= 0", "ex x. x > a*b and a /= 0", {"x": ("x", "a")}, {"x": "a*x"}),
+    "sign of a quotient": ("ex x. x > 0 and a*x = b and b > 0", "b > 0 and a /= 0", {"x": ("b", "a")}, {}),
     "not onto": ("ex x. x = a", "ex x. x^2 = a", {"x": "x^2"}, {"x": "x"}),
     "the variable is free outside": ("ex x. x = y", "ex y. y = y + 1 - 1", {"x": "y"}, {"y": "x"}),
     "captured inside": ("ex x. (ex y. x^2 - y = 1)", "ex z. (ex y. z^2 - y = 1)", {"x": "y"}, {"z": "x"}),
